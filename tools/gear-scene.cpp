@@ -29,7 +29,6 @@
 
 namespace {
 using namespace whine;
-
 ScenePlace place_in(const std::string& path) {
   return
       [path](const auto& sections, const std::string& words) { return scene_place(path, sections, words); };
@@ -57,6 +56,7 @@ void cut_system(const std::string& path, const std::string& stem, const std::str
   publish(output,
           system_fragment(path, stem, publish_bodies(home, folder, body_parameters_of(scene)),
                           layout.meshes.size() > scene.meshes.size(), scene.operation.frequency_to > 0));
+  for (const std::string& cost : costs(scene, layout.meshes.size())) tell("gear-scene: ", path, ": ", cost);
   for (const std::string& remark : motion_remarks(scene)) tell("gear-scene: ", remark);
   tell("gear-scene: ", path, ": ", layout.bodies.size(), " bodies, ", layout.meshes.size(), " meshes");
 }

@@ -1,4 +1,4 @@
-// gear-system-static: a system of elastic gears at rest over one mesh period.
+// gear-system-static: a system of elastic gears at rest over one mesh period, or over the hunting period of teeth that differ.
 //
 // Reads   params (the system as laid out, meshes, contact discretisation), body.h5 of every gear
 // Writes  system_static.h5   transmission error of each mesh, loads, load sharing, bearing forces, torques, certificate
@@ -47,6 +47,10 @@ void body(int argc, char** argv) {
   double most = 0;
   for (const whine::MatrixRM& force : result.bearing_force)
     most = std::max(most, force.rowwise().norm().maxCoeff());
+  if (result.hunting_periods > 1)
+    whine::tell("gear-system-static: teeth differ: ", result.hunting_periods,
+                " mesh periods, after which the same ones meet, of ", settings.contact.positions,
+                " positions each");
   whine::tell("gear-system-static: ", settings.layout.bodies.size(), " bodies, ", te.cols(),
               " meshes, mean transmission errors ", te.row(0).minCoeff() * 1e6, " to ",
               te.row(0).maxCoeff() * 1e6, " µm, shares of the load up to ",

@@ -22,13 +22,8 @@ SystemDynamics::SystemDynamics(const SystemModel& system, const SystemMotion& mo
       motion_(motion),
       coordinates_(coordinates_of(system, motion)),
       depth_(motion.damping.undamped_depth),
-      relaxation_(motion.fidelity.body == BodyModel::quasi_static ? 0 : motion.damping.rayleigh_stiffness) {
-  for (const GearMeshModel& mesh : system.mesh)
-    for (const FlankDeviation& flank : mesh.deviation)
-      if (flank.repeats() > 1)
-        fail(Failure::input,
-             "teeth of a gear differ from each other: systems in motion have teeth that are "
-             "all alike; remove its [gear.<name>.error] and [gear.<name>.crack]");
+      relaxation_(motion.fidelity.body == BodyModel::quasi_static ? 0 : motion.damping.rayleigh_stiffness),
+      hunting_(whine::hunting_periods(system)) {
   if (!(motion.axis_frequency > 0))
     fail(Failure::input, "the axis frequency is ", motion.axis_frequency,
          " rad/s; give that of axis_frequency()");
@@ -327,6 +322,7 @@ void SystemDynamics::resize(Period& period, int steps) const {
 
 bool SystemDynamics::integrate(State& state, Period& period, SystemEnergyBalance* balance) {
   if (steps_ == 0) fail(Failure::input, "a period is integrated at a speed; set it first");
+  put_gap(0, state.period);
   take(state, at(0));
   resize(period, steps_);
   forces_.row(0) = p_of_slot_;
@@ -335,6 +331,7 @@ bool SystemDynamics::integrate(State& state, Period& period, SystemEnergyBalance
   try {
     if (balance) record_of.start(at(0));
     for (i = 1; i <= steps_; ++i) {
+      put_gap(i * stride_, state.period);
       step(at(i));
       forces_.row(i) = p_of_slot_;
       require_range(at(i), p_.head(at(i).size()));
@@ -350,6 +347,7 @@ bool SystemDynamics::integrate(State& state, Period& period, SystemEnergyBalance
   state.v = v_;
   state.relaxed = relaxed_;
   state.p = p_of_slot_;
+  state.period = (state.period + 1) % hunting_;
   return true;
 }
 
@@ -373,7 +371,7 @@ bool SystemDynamics::integrate_fixed(int i, State& state, double seconds, int st
     fail_as(error, "in free motion at mesh phase ",
             static_cast<double>(i) / static_cast<double>(positions_.size() - 1), " ", error.what());
   }
-  state = {z_, v_, relaxed_, p_of_slot_};
+  state = {z_, v_, relaxed_, p_of_slot_, state.period};
   return true;
 }
 

@@ -11,12 +11,14 @@
 //
 // Pairs of a mesh are numbered by the mesh period of the system: a pair that is number i in one is i + 1 in the next. At the end
 // of a mesh period relaxed loads move on by one tooth, and doublets that turn with their gear turn back by one. A slot is
-// (mesh, pair). All that depends on the position is computed once for the steps of a period. A step takes no memory where at most
+// (mesh, pair). Where teeth differ, gaps are those of the mesh period of the hunting period in which a state is; all else is the same in
+// each. All that depends on the position is computed once for the steps of a period. A step takes no memory where at most
 // 64 pairs are in reach and no energy balance is kept.
 #pragma once
 #include <Eigen/Core>
 #include <array>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "dynamics/fixed_phase_motion.h"
@@ -31,13 +33,14 @@ class SystemDynamics {
  public:
   static constexpr int kFields = 12;  // of a flank, as of pairs
 
-  // Throws as coordinates_of(), and Error(input) for teeth that differ from each other, or without a positive axis_frequency.
+  // Throws as coordinates_of() and hunting_periods(), and Error(input) without a positive axis_frequency.
   SystemDynamics(const SystemModel& system, const SystemMotion& motion);
 
   struct State {
     Eigen::VectorXd z, v;     // (coordinate)
     Eigen::VectorXd relaxed;  // (body, slot, field): relaxed loads
     Eigen::VectorXd p;        // (slot) N
+    int period = 0;           // mesh periods since the start of a hunting period
   };
   // What one mesh period showed; sample i at phase i / steps, sample 0 that of its end.
   struct Period {
@@ -57,11 +60,11 @@ class SystemDynamics {
   };
 
   // corner_gap: [mesh] m, tip edges that are farther off are left out; steps: positions of a mesh period. Throws Error(input)
-  // if the positions take more than 12 GB, Error(numerical) if the fields leave more than 1e-3 of a residual flexibility.
+  // if the positions take more than 12 GB or the gaps of teeth that differ more than 2 GB, Error(numerical) if the fields leave more than 1e-3 of a residual flexibility.
   void set_positions(const std::vector<double>& corner_gap, int steps);
   // mesh frequency: Hz; steps per period must divide those of the positions.
   void set_speed(double mesh_frequency, int steps);
-  // Static equilibrium at phase i / positions, at rest. The same forces as those of SystemStatics.
+  // Static equilibrium at phase i / positions of the first mesh period, at rest. The same forces as those of SystemStatics.
   State rest(int i = 0);
   // Forces (slot) of equilibrium at phase i / positions; statics of this model.
   Eigen::VectorXd rest_forces(int i);
@@ -84,6 +87,7 @@ class SystemDynamics {
   int pairs() const { return last_ - first_ + 1; }  // of a mesh
   int relaxed_size() const { return relaxed_first_.back(); }
   int steps() const { return steps_; }
+  int hunting_periods() const { return hunting_; }  // see hunting_periods() of the system
   double mesh_frequency() const { return mesh_frequency_; }
   int most_contacts() const { return most_contacts_; }
   const Eigen::VectorXd& mean_load() const { return load_of_mesh_; }  // (mesh) N
@@ -130,7 +134,10 @@ class SystemDynamics {
   };
   SystemPosition positioned(int i) const;
   void require_range(const Position& position, const Eigen::Ref<const Eigen::VectorXd>& force) const;
+  void set_hunting_gaps(const std::vector<SystemPosition>& placed);
+  void put_gap(int position, int period);  // of its mesh period
   void find_slots(const std::vector<SystemPosition>& placed);
+  std::pair<int, int> largest_body() const;
   void couple();
   Position filled(const SystemPosition& at, int shift);
   void relate(Position& position, const SystemPosition& at) const;
@@ -165,8 +172,11 @@ class SystemDynamics {
   std::vector<std::array<Vec2, 2>> outward_;  // [mesh][side]
   std::vector<Position>
       positions_;  // (step + 1): the last one is the first one in the names of the period before
-  std::vector<double> corner_gap_;           // [mesh] m
-  int first_ = 0, last_ = 0;                 // pairs that may touch
+  std::vector<double> corner_gap_;  // [mesh] m
+  int hunting_ = 1;
+  std::vector<int> hunting_place_;   // (position + 1) of its gaps in each mesh period's part of hunting_gap_
+  std::vector<double> hunting_gap_;  // m: (mesh period, contact of all positions), of teeth that differ
+  int first_ = 0, last_ = 0;         // pairs that may touch
   std::vector<std::vector<int>> meshes_of_;  // [body]
   std::vector<int> relaxed_first_;           // (body + 1)
   std::vector<Eigen::MatrixXd> fields_;      // [body] (flank, field) V

@@ -57,13 +57,14 @@ State SystemPeriodMap::state(const VectorXd& y) const {
 VectorXd SystemPeriodMap::apply(const VectorXd& y) {
   State state = this->state(y);
   applied_ = left_last_ = false;
-  if (!dynamics_.integrate(state, period_)) {
-    left_zone_ = left_last_ = true;
-    fail_outside_range(
-        Failure::numerical, "at ", parameter(),
-        " Hz a mesh deflects beyond the tip edges that are looked at; lower the torque or raise the "
-        "damping");
-  }
+  for (int k = 0; k < dynamics_.hunting_periods(); ++k)
+    if (!dynamics_.integrate(state, period_)) {
+      left_zone_ = left_last_ = true;
+      fail_outside_range(
+          Failure::numerical, "at ", parameter(),
+          " Hz a mesh deflects beyond the tip edges that are looked at; lower the torque or raise the "
+          "damping");
+    }
   applied_ = true;
   return flat(state);
 }
@@ -78,22 +79,28 @@ MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
     fail(Failure::numerical, "the tangent at ", parameter(),
          " Hz is asked for before a period was integrated at this speed");
   SystemDynamics& of = dynamics_;
+  if (of.hunting_periods() > 1)
+    fail(Failure::input, "the period map of teeth that differ, of ", of.hunting_periods(),
+         " mesh periods, has no tangent; take teeth that are alike");
   const Index n = of.coordinates().size(), loads = of.relaxed_size(), slots = of.slots(),
-              many = directions.cols();
+              rigid = of.coordinates().rigid, many = directions.cols();
   const MatrixXd start = unit_.asDiagonal() * directions;
   MatrixXd z = start.topRows(n), v = start.middleRows(n, n), relaxed = start.middleRows(2 * n, loads),
            force = MatrixXd::Zero(n, many), load = MatrixXd::Zero(loads, many), p = start.bottomRows(slots);
-  const VectorXd ones = VectorXd::Ones(n);
   const auto spread = [&](const SystemDynamics::Position& position) {  // of p
     force.setZero();
     load.setZero();
     for (int k = 0; k < position.size(); ++k) {
       const SystemDynamics::Contact& contact = position.contact[static_cast<size_t>(k)];
       if (p.row(contact.slot).isZero(0)) continue;
-      force -= of.participation(position, k) * p.row(contact.slot);
-      for (size_t s = 0; s < 2; ++s)
+      force.topRows(rigid) -= position.rigid.col(k) * p.row(contact.slot);
+      for (size_t s = 0; s < 2; ++s) {
+        const SystemCoordinates::Share& own = of.coordinates().body[static_cast<size_t>(contact.body[s])];
+        force.middleRows(own.first, own.count) -=
+            position.elastic[s].col(k).head(own.count) * p.row(contact.slot);
         load.middleRows<SystemDynamics::kFields>(contact.load_at[s]) +=
             position.field[s].col(k) * p.row(contact.slot);
+      }
     }
   };
   spread(of.at(0));
@@ -112,8 +119,11 @@ MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
       const SystemDynamics::Contact& contact = position.contact[static_cast<size_t>(k)];
       const auto row = static_cast<Index>(a);
       tangent(row, row) += position.law[static_cast<size_t>(k)].at(of.forces()(i, contact.slot)).slope;
-      e.row(row) = -of.participation(position, k).transpose() * z;
+      e.row(row) = -position.rigid.col(k).transpose() * z.topRows(rigid);
       for (size_t s = 0; s < 2; ++s) {
+        const SystemCoordinates::Share& own = of.coordinates().body[static_cast<size_t>(contact.body[s])];
+        e.row(row) -=
+            position.elastic[s].col(k).head(own.count).transpose() * z.middleRows(own.first, own.count);
         const auto b = static_cast<size_t>(contact.body[s]);
         const Index first = of.relaxed_first_[b], count = of.relaxed_first_[b + 1] - first;
         e.row(row) += position.reading[s].col(k).head(count).transpose() * relaxed.middleRows(first, count);

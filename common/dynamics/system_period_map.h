@@ -1,4 +1,5 @@
-// The period map y -> P(y; f) of a system in motion, for periodic motions and orbits.
+// The period map y -> P(y; f) of a system in motion, for periodic motions and orbits: of a mesh period, and where teeth differ of a
+// hunting period, which begins with its first mesh period. The latter has no tangent.
 //
 // y: coordinates and velocities in the energy norm relative to rest, relaxed loads by the energy that each stores by itself (of those
 // that hardly move anything 1e-10 of the largest), contact forces relative to the largest of rest: as that of pairs.
@@ -21,7 +22,7 @@ class SystemPeriodMap : public PeriodMap {
   double parameter() const override { return dynamics_.mesh_frequency(); }
   // Throws ModelRangeError where a tip edge that was left out would touch: take_left_zone() says so.
   Eigen::VectorXd apply(const Eigen::VectorXd& y) override;
-  // Error(numerical) if nothing was applied at the present speed.
+  // Error(numerical) if nothing was applied at the present speed, Error(input) where teeth differ.
   Eigen::MatrixXd tangent() override;
   Eigen::MatrixXd tangent_times(const Eigen::MatrixXd& directions) override;
   std::vector<ContactEvent> events() const override;  // contact: the slot
@@ -39,6 +40,7 @@ class SystemPeriodMap : public PeriodMap {
   Eigen::VectorXd rest() const { return rest_; }
   Eigen::VectorXd flat(const SystemDynamics::State& state) const;
   SystemDynamics::State state(const Eigen::VectorXd& y) const;
+  // The mesh period integrated last.
   const SystemDynamics::Period& period() const { return period_; }
 
  private:

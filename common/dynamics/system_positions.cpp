@@ -142,18 +142,22 @@ void SystemDynamics::couple() {
   }
 }
 
+// Most coordinates and most relaxed loads of a body.
+std::pair<int, int> SystemDynamics::largest_body() const {
+  int most = 0, most_loads = 0;
+  for (size_t b = 0; b < system_.body.size(); ++b) {
+    most = std::max(most, coordinates_.body[b].count);
+    most_loads = std::max(most_loads, relaxed_first_[b + 1] - relaxed_first_[b]);
+  }
+  return {most, most_loads};
+}
+
 // shift: 1 at the end of the mesh period, whose teeth are then one further than where `at` has them.
 SystemDynamics::Position SystemDynamics::filled(const SystemPosition& at, int shift) {
   Position out;
   const auto n = static_cast<Index>(at.segment.size());
   const double phase = at.phase + shift;
-  const int bodies = static_cast<int>(system_.body.size());
-  int most = 0, most_loads = 0;
-  for (int b = 0; b < bodies; ++b) {
-    most = std::max(most, coordinates_.body[static_cast<size_t>(b)].count);
-    most_loads = std::max(
-        most_loads, relaxed_first_[static_cast<size_t>(b) + 1] - relaxed_first_[static_cast<size_t>(b)]);
-  }
+  const auto [most, most_loads] = largest_body();
   out.gap = at.gap;
   out.rigid = MatrixXd::Zero(coordinates_.rigid, n);
   out.drift = MatrixXd::Zero(coordinates_.rolling.cols(), n);
@@ -239,6 +243,44 @@ void SystemDynamics::relate(Position& position, const SystemPosition& at) const 
   position.relaxed = (0.5 * (position.relaxed + position.relaxed.transpose())).eval();
 }
 
+// Gaps of all mesh periods of a hunting period; at the end of one they are those at the start of the next.
+void SystemDynamics::set_hunting_gaps(const std::vector<SystemPosition>& placed) {
+  hunting_gap_.clear();
+  if (hunting_ == 1) return;
+  hunting_place_ = {0};
+  hunting_place_.reserve(placed.size() + 1);
+  for (const SystemPosition& at : placed) hunting_place_.push_back(hunting_place_.back() + at.strips());
+  const auto contacts = static_cast<size_t>(hunting_place_.back());
+  constexpr double kMostMemory = 2e9;  // bytes
+  const double memory = 8.0 * hunting_ * static_cast<double>(contacts);
+  if (memory > kMostMemory)
+    fail(Failure::input, "the same teeth meet again after ", hunting_, " mesh periods, whose gaps at ",
+         placed.size(), " positions each need ", memory * 1e-9, " GB, at most ", kMostMemory * 1e-9,
+         " are allowed; lower min_sample_rate_kHz and steps_per_period, or raise the lowest speed");
+  hunting_gap_.resize(contacts * static_cast<size_t>(hunting_));
+  double* to = hunting_gap_.data();
+  for (int period = 0; period < hunting_; ++period)
+    for (const SystemPosition& at : placed)
+      for (int m = 0; m < meshes(); ++m) {
+        const MeshPosition& position = at.mesh[static_cast<size_t>(m)];
+        Eigen::Map<VectorXd>(to, position.strips()) =
+            flank_gaps(system_.mesh[static_cast<size_t>(m)], position,
+                       mesh_instant(system_, m, at.phase, period).period);
+        to += position.strips();
+      }
+}
+
+void SystemDynamics::put_gap(int position, int period) {
+  if (hunting_ == 1) return;
+  const bool end = position + 1 == static_cast<int>(positions_.size());
+  const int place = end ? 0 : position, in = end ? (period + 1) % hunting_ : period;
+  VectorXd& gap = positions_[static_cast<size_t>(position)].gap;
+  gap = Eigen::Map<const VectorXd>(
+      &hunting_gap_[static_cast<size_t>(hunting_place_.back()) * static_cast<size_t>(in) +
+                    static_cast<size_t>(hunting_place_[static_cast<size_t>(place)])],
+      gap.size());
+}
+
 void SystemDynamics::set_positions(const std::vector<double>& corner_gap, int steps) {
   corner_gap_ = corner_gap;
   positions_.assign(static_cast<size_t>(steps) + 1, {});
@@ -246,21 +288,21 @@ void SystemDynamics::set_positions(const std::vector<double>& corner_gap, int st
   placed.reserve(static_cast<size_t>(steps));
   for (int i = 0; i < steps; ++i) placed.push_back(positioned(i));
   find_slots(placed);
-  couple();
   constexpr double kMostMemory = 12e9;  // bytes
-  const double numbers =
-      steps * static_cast<double>(most_contacts_) *
-      (2.0 * (coordinates_.size() + relaxed_size()) / static_cast<double>(system_.body.size()) +
-       3.0 * most_contacts_);
+  const auto [most, most_loads] = largest_body();
+  const double numbers = steps * static_cast<double>(most_contacts_) *
+                         (2.0 * (most + most_loads + kFields) + coordinates_.rigid + 3.0 * most_contacts_);
   if (8 * numbers > kMostMemory)
     fail(Failure::input, "the positions of ", steps, " steps of a mesh period need ", 8e-9 * numbers,
          " GB, at most ", 1e-9 * kMostMemory,
          " are allowed; lower min_sample_rate_kHz or modes, or raise the lowest speed");
+  couple();
   for (int i = 0; i < steps; ++i) {
     report_step("mesh positions", i, steps);
     positions_[static_cast<size_t>(i)] = filled(placed[static_cast<size_t>(i)], 0);
   }
   positions_.back() = filled(placed[0], 1);
+  set_hunting_gaps(placed);
   for (VectorXd* x : {&e_, &p_, &d_}) x->setZero(most_contacts_);
   steps_ = 0;
 }

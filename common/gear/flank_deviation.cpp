@@ -92,7 +92,7 @@ Vector2d MonotoneCubic::at(double x) const {
 }
 
 FlankDeviation::FlankDeviation(const ToothGeometry& gear, const FlankModification& m,
-                               const ToothErrors& errors)
+                               const ToothErrors& errors, FlankSide side)
     : form_(gear.form_roll_angle()),
       tip_(gear.tip_roll_angle()),
       middle_(0.5 * (form_ + tip_)),
@@ -130,15 +130,17 @@ FlankDeviation::FlankDeviation(const ToothGeometry& gear, const FlankModificatio
     base_radius_ = gear.base_radius();
     reference_roll_ = std::tan(design.pressure_angle);
     waves_ = errors.profile_form_waves;
-    tooth_angle_ = 2 * std::numbers::pi / design.teeth;
+    // Seen from behind, a trailing flank is a leading one, and teeth count the other way.
+    const double seen = side == FlankSide::leading ? 1 : -1;
+    tooth_angle_ = seen * 2 * std::numbers::pi / design.teeth;
     eccentricity_ = errors.eccentricity;
     eccentric_angle_ = 0.5 * std::numbers::pi + tooth_angle_ * errors.eccentric_tooth;
     const Vec2 normal = gear.flank_normal(0);
     normal_angle_ = std::atan2(normal.y(), normal.x());
-    const ToothDeviations d = tooth_deviations(design, errors);
+    const ToothDeviations d = tooth_deviations(design, errors, side);
     for (int i = 0; i < repeats_; ++i)
-      teeth_.push_back({-d.cumulative_pitch[i] * base_radius_ / gear.pitch_radius(), -d.profile_slope[i],
-                        -d.profile_form[i]});
+      teeth_.push_back({-seen * d.cumulative_pitch[i] * base_radius_ / gear.pitch_radius(),
+                        -d.profile_slope[i], -d.profile_form[i]});
   }
   if (none_) return;
   std::vector<double> places{form_, tip_};

@@ -39,8 +39,9 @@ class FlankDeviation {
   // Throws Error(input), by the keys of a scene, for a relief that does not start on the flank, points beyond it, more
   // taken off than half the tooth's thickness, and errors that tooth_deviations rejects. An eccentric toothing moves flanks by
   // its displacement e along their normals, to second order: what is left out is e^3 / rho^2, rho the radius of curvature.
+  // side: the flank that works; of tooth t it is the one whose pitch deviation tooth_deviations() has for t.
   FlankDeviation(const ToothGeometry& gear, const FlankModification& modification,
-                 const ToothErrors& errors = {});
+                 const ToothErrors& errors = {}, FlankSide side = FlankSide::leading);
 
   // True if nothing deviates on any tooth.
   bool none() const { return none_; }

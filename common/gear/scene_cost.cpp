@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "gear/tooth_errors.h"
 
 namespace whine {
 namespace {
@@ -68,6 +69,44 @@ std::vector<std::string> costs(const Scene& scene) {
         "body = \"full\" finds all modes by dense algebra: about a minute a gear for a thousand unknowns a "
         "sector, eight "
         "times that for twice as many");
+  return out;
+}
+
+std::vector<std::string> costs(const SystemScene& scene, size_t meshes) {
+  std::vector<std::string> out;
+  if (scene.rigid()) return out;
+  std::vector<int> teeth;
+  for (const SystemScene::Gear& gear : scene.gears)
+    if (!gear.errors.none()) teeth.push_back(gear.design.teeth);
+  const double periods = hunting_periods_of(teeth), of_meshes = static_cast<double>(meshes);
+  // At rest: 1 ms for a position of a mesh with 8 strips, where eight meshes share bodies; fewer take less.
+  constexpr double kPosition = 1e-3, kDefaultStrips = 8, kGrowth = 2.3, kFewestPositions = 16;
+  const double each = scene.contact.positions > 0 ? scene.contact.positions
+                                                  : std::clamp(16384 / periods, kFewestPositions, 128.0);
+  const bool on_strips = scene.fidelity.contact == ContactModel::strips;
+  const double strips = scene.contact.strips,
+               statics = kPosition * each * periods * of_meshes *
+                         (on_strips ? std::pow(strips / kDefaultStrips, kGrowth) : 0.1);
+  if (statics > kMinute)
+    out.push_back(text(
+        "the system at rest takes ", minutes(statics), ": ", each * periods, " positions of ", meshes,
+        " meshes",
+        periods > 1 ? text(" over the ", periods, " mesh periods after which the same teeth meet") : ""));
+  // In motion: a step takes 4 microseconds for each mesh; some 30 mesh periods a speed, and not less than eight hunting periods.
+  constexpr double kStep = 4e-6, kTransient = 30;
+  const Operation& speeds = scene.operation;
+  if (!(speeds.frequency_from > 0) || !(speeds.frequency_step > 0)) return out;
+  const double middle = 0.5 * (speeds.frequency_from + speeds.frequency_to),
+               count = std::floor((speeds.frequency_to - speeds.frequency_from) / speeds.frequency_step) + 1;
+  double steps = scene.time.steps_per_period;
+  while (steps * middle < scene.time.min_sample_rate) steps *= 2;
+  const double sweep = kStep * of_meshes * steps * std::max(kTransient, 8 * periods) * count;
+  if (sweep > 10 * kMinute)
+    out.push_back(
+        text("a sweep takes ", minutes(sweep), ": ", count, " speeds of ", steps,
+             " steps in a mesh period at its middle speed",
+             periods > 1 ? text(", over the ", periods, " mesh periods after which the same teeth meet") : "",
+             "; fewer speeds, a higher lowest one or a lower min_sample_rate_kHz take less"));
   return out;
 }
 

@@ -4,11 +4,14 @@
 #include <vector>
 
 #include "model/scene.h"
+#include "model/system_scene.h"
 
 namespace whine {
 
 // A line for each choice of a scene that makes a stage take more than a minute of CPU by the measured laws in the source; none
 // for an ordinary scene. A program that computes says how far it is (base/progress.h).
 std::vector<std::string> costs(const Scene& scene);
+// meshes: of the layout.
+std::vector<std::string> costs(const SystemScene& scene, size_t meshes);
 
 }  // namespace whine

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 #include <random>
+#include <string>
 
 #include "base/error.h"
 
@@ -58,7 +59,7 @@ double run_out(const std::vector<double>& cumulative, double pressure_angle) {
   return 2 * (2 / n) * std::abs(sum) * std::cos(pressure_angle);
 }
 
-ToothDeviations drawn(const GearDesign& design, int iso_class, double share, int seed) {
+ToothDeviations drawn(const GearDesign& design, int iso_class, double share, int seed, FlankSide flank) {
   const FlankTolerances limit = iso_1328_tolerances(design, iso_class);
   const int teeth = design.teeth;
   Draw draw(seed);
@@ -66,13 +67,20 @@ ToothDeviations drawn(const GearDesign& design, int iso_class, double share, int
   // Eccentric clamping turns once per revolution, the rest varies from tooth to tooth; in these shares both kinds come near
   // their limits.
   constexpr double kEccentric = 0.35, kScatter = 0.5;
-  const double phase = std::numbers::pi * draw();
-  for (int i = 0; i < teeth; ++i)
-    d.cumulative_pitch.push_back(kEccentric * limit.cumulative_pitch *
-                                     std::cos(2 * std::numbers::pi * i / teeth - phase) +
-                                 kScatter * limit.single_pitch * draw());
-  for (int i = 0; i < teeth; ++i) d.profile_slope.push_back(limit.profile_slope * draw());
-  for (int i = 0; i < teeth; ++i) d.profile_form.push_back(limit.profile_form * draw());
+  const double leading = std::numbers::pi * draw();
+  const auto take = [&](double phase) {
+    d = {};
+    for (int i = 0; i < teeth; ++i)
+      d.cumulative_pitch.push_back(kEccentric * limit.cumulative_pitch *
+                                       std::cos(2 * std::numbers::pi * i / teeth - phase) +
+                                   kScatter * limit.single_pitch * draw());
+    for (int i = 0; i < teeth; ++i) d.profile_slope.push_back(limit.profile_slope * draw());
+    for (int i = 0; i < teeth; ++i) d.profile_form.push_back(limit.profile_form * draw());
+  };
+  take(leading);
+  // A toothing that is displaced by e towards A moves flanks at the angle t along the circle by e sin(A - t) + e tan(alpha) cos(A - t),
+  // trailing ones by e sin(A - t) - e tan(alpha) cos(A - t).
+  if (flank == FlankSide::trailing) take(leading - 2 * design.pressure_angle);
 
   // Up to the share of what is used most; what is cut off below a nanometre keeps within it.
   const double pitch_use = std::max({largest_of(single_pitch(d.cumulative_pitch)) / limit.single_pitch,
@@ -118,7 +126,7 @@ std::vector<double> single_pitch(const std::vector<double>& cumulative) {
   return pitch;
 }
 
-ToothDeviations tooth_deviations(const GearDesign& design, const ToothErrors& errors) {
+ToothDeviations tooth_deviations(const GearDesign& design, const ToothErrors& errors, FlankSide flank) {
   const auto teeth = static_cast<size_t>(design.teeth);
   for (const auto& [key, list] : {std::pair{"single_pitch_um", &errors.single_pitch},
                                   std::pair{"cumulative_pitch_um", &errors.cumulative_pitch},
@@ -129,7 +137,7 @@ ToothDeviations tooth_deviations(const GearDesign& design, const ToothErrors& er
            " teeth; give one for each");
   ToothDeviations d;
   if (errors.iso_class != 0) {
-    d = drawn(design, errors.iso_class, errors.iso_share, errors.seed);
+    d = drawn(design, errors.iso_class, errors.iso_share, errors.seed, flank);
   } else {
     for (auto* list : {&d.cumulative_pitch, &d.profile_slope, &d.profile_form}) list->assign(teeth, 0.0);
   }
@@ -153,6 +161,27 @@ ToothDeviations tooth_deviations(const GearDesign& design, const ToothErrors& er
   add(errors.profile_slope, d.profile_slope);
   add(errors.profile_form, d.profile_form);
   return d;
+}
+
+int hunting_periods_of(std::vector<int> teeth) {
+  std::sort(teeth.begin(), teeth.end());
+  teeth.erase(std::unique(teeth.begin(), teeth.end()), teeth.end());
+  constexpr long kMostTold = 1000000000;  // eleven prime numbers of teeth have one beyond 64 bits
+  long periods = 1;
+  std::string numbers;
+  for (const int own : teeth) {
+    if (own == 1) continue;
+    numbers += text(numbers.empty() ? "" : ", ", own);
+    const long factor = std::max(1L, own / std::gcd(periods, static_cast<long>(own)));
+    periods = periods > kMostTold / factor ? kMostTold + 1 : periods * factor;
+  }
+  if (periods > kMostHuntingPeriods)
+    fail(Failure::input, "the same teeth meet again after ",
+         periods > kMostTold ? text("more than ", kMostTold) : text(periods),
+         " mesh periods, the least common multiple of the numbers of teeth of the gears whose teeth differ (",
+         numbers, "); a system is computed over ", kMostHuntingPeriods,
+         " at most: give errors to fewer gears, or to gears with a common divisor");
+  return static_cast<int>(periods);
 }
 
 }  // namespace whine

@@ -1,15 +1,17 @@
 // What a machine leaves on the driving flanks of a gear, tooth by tooth, as an inspection sheet has it: pitch, run-out,
 // slope and form of the profile; given, or drawn at random within a class of ISO 1328-1.
 //
-// Signs are those of inspection: positive where material stands. Flanks are counted as teeth are, counter-clockwise; the
-// driving flanks look that way on either gear, so that a positive cumulative pitch deviation brings a flank into contact
-// early.
+// Teeth are counted counter-clockwise, and a pitch deviation is a place along the reference circle in that direction, on either flank
+// of a tooth. The leading flank looks that way: there a positive one is material that stands, and brings the flank into contact early;
+// on the trailing flank it is material that is missing. Those of profiles are positive where material stands, on either flank. The
+// pair of a scene works with its leading flanks, a gear of several meshes with either.
 #pragma once
 #include <Eigen/Core>
 #include <vector>
 
 #include "gear/involute.h"
 #include "model/gear.h"
+#include "model/system.h"
 
 namespace whine {
 
@@ -37,13 +39,24 @@ struct ToothDeviations {
 
 // Throws Error(input), by the keys of a scene, for lists whose length is not the number of teeth, single pitch deviations
 // that do not close over a turn, and what iso_1328_tolerances rejects. Single deviations whose sum is round-off of printed
-// numbers (kClosure per tooth) are closed evenly: their sum is then 0. What is drawn depends on design, class, share and seed
+// numbers (kClosure per tooth) are closed evenly: their sum is then 0. What is drawn depends on design, class, share, seed and flank
 // alone, to 1 nm, so that it is the same on every machine.
-ToothDeviations tooth_deviations(const GearDesign& design, const ToothErrors& errors);
+//
+// Lists are those of both flanks. Of a class each flank has a draw of its own, but for the share of pitch that turns once per
+// revolution: that is a displacement of the whole toothing, whose wave on the trailing flank is behind by twice the pressure angle.
+ToothDeviations tooth_deviations(const GearDesign& design, const ToothErrors& errors,
+                                 FlankSide flank = FlankSide::leading);
 
 inline constexpr double kClosure = 0.01e-6;  // m
 
 // (tooth) m: pitch from the flank before (tooth - 1, of tooth 0 the last) to this one; they sum up to 0.
 std::vector<double> single_pitch(const std::vector<double>& cumulative);
+
+// Longest hunting period of a system, in mesh periods.
+inline constexpr int kMostHuntingPeriods = 4096;
+
+// Mesh periods after which the same teeth of a system meet again: the least common multiple of the numbers of teeth of the gears whose
+// teeth differ; 1 for none. Throws Error(input), with the number, above kMostHuntingPeriods.
+int hunting_periods_of(std::vector<int> teeth);
 
 }  // namespace whine

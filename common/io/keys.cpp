@@ -134,7 +134,7 @@ std::vector<Key> make_keys() {
      [](V& v) -> Slot { return &v.modification.points; }},
 
     {Part::error, "error", "single_pitch_um", kMicrometre, "", -1000, 1000, false, "",
-     "a number for each tooth: deviation of the pitch from the driving flank before (of tooth 0 the last) to this one, along the reference circle; they sum up to 0. Teeth count counter-clockwise on both gears, the driver turns so; tooth 0 of both is in mesh at phase 0. Positive, here and below: material stands, contact begins early",
+     "a number for each tooth: deviation of the pitch from the flank before (of tooth 0 the last) to this one, along the reference circle; they sum up to 0. Teeth count counter-clockwise on all gears, the driver turns so; tooth 0 of both gears of a pair is in mesh at phase 0. Positive, here and below: material stands, contact begins early; in a system, whose gears may work with either flank, a positive pitch is counter-clockwise on both, and every planet has the list of its gear",
      [](V& v) -> Slot { return ToothList{&v.errors.single_pitch}; }},
     {Part::error, "error", "cumulative_pitch_um", kMicrometre, "", -1000, 1000, false, "",
      "the same as place of each flank, along the reference circle; adds to single_pitch_um",
@@ -161,7 +161,7 @@ std::vector<Key> make_keys() {
      "share of the class's limits that the draw takes up: of pitch, and of profile, the limit that is used most just has it",
      [](V& v) -> Slot { return &v.errors.iso_share; }},
     {Part::error, "error", "seed", kNone, "1", 0, 2147483647, false, "",
-     "of the draw; two gears with one seed have errors of one kind",
+     "of the draw; two gears with one seed have errors of one kind; the planets of a gear have this seed and those that follow",
      [](V& v) -> Slot { return &v.errors.seed; }},
     {Part::error_file, "error", "file", kNone, "", 0, 0, false, "",
      "measured errors, path from the folder of the scene: a .toml with the lists above, or a .csv whose columns are named tooth and as those lists; keys given here besides override",

@@ -170,8 +170,7 @@ inline bool of_systems(Part part) {
 
 // Whether keys of a part are those of pairs, which scenes of systems reject; the table of keys says so.
 inline bool of_pairs(Part part) {
-  return part == Part::error || part == Part::error_file || part == Part::crack || part == Part::friction ||
-         part == Part::load;
+  return part == Part::crack || part == Part::friction || part == Part::load;
 }
 
 // What such sections hold of gear g of a mesh, into the values and back.

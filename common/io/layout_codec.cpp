@@ -1,7 +1,10 @@
 #include "io/layout_codec.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "io/codec.h"
+#include "io/keys.h"
 #include "io/variant.h"
 #include "system/rigid_system.h"
 
@@ -192,6 +195,38 @@ void describe_layout(Codec& c, System& layout) {
   require_indices(c, "/mesh/body_number", columns.side, columns.carrier.size());
   layout = system_of(columns);
   require_gears(c, layout);
+}
+
+void describe_errors(Codec& c, SystemStaticParameters& s) {
+  if (c.in()) s.errors.resize(s.layout.bodies.size());
+  bool differ = false;
+  for (size_t b = 0; !c.lists() && b < s.layout.bodies.size(); ++b) {
+    const std::string section = "error_" + s.layout.bodies[b].name;
+    if (!c.optional("/parameters/" + section + "/iso_class", s.has_errors(b))) continue;
+    differ = true;
+    KeyValues values;
+    if (b < s.errors.size()) values.errors = s.errors[b];
+    c.parameters(section, values, Part::error);
+    if (c.in()) s.errors[b] = values.errors;
+  }
+  if (!differ && !c.lists()) return;
+  MatrixRMi tooth(static_cast<Eigen::Index>(s.layout.meshes.size()), 2);
+  for (Eigen::Index m = 0; m < tooth.rows(); ++m)
+    for (Eigen::Index side = 0; side < 2; ++side)
+      tooth(m, side) = s.layout.meshes[static_cast<size_t>(m)].side[static_cast<size_t>(side)].first_tooth;
+  c.dataset(
+      {"/mesh/first_tooth",
+       "1",
+       "where teeth differ: tooth of each side in the reference pair of mesh period 0, counter-clockwise; in "
+       "mesh period k pair p is that of first_tooth + sense (p - k)",
+       "mesh_number side",
+       {-(1 << 20), 1 << 20}},
+      &tooth);
+  if (!c.in()) return;
+  for (Eigen::Index m = 0;
+       m < std::min<Eigen::Index>(tooth.rows(), static_cast<Eigen::Index>(s.layout.meshes.size())); ++m)
+    for (Eigen::Index side = 0; side < 2; ++side)
+      s.layout.meshes[static_cast<size_t>(m)].side[static_cast<size_t>(side)].first_tooth = tooth(m, side);
 }
 
 }  // namespace whine

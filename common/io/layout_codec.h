@@ -2,7 +2,7 @@
 //
 // Private to the layer io/.
 #pragma once
-#include "model/system.h"
+#include "model/system_stages.h"
 
 namespace whine {
 
@@ -11,5 +11,9 @@ class Codec;
 // /body/... and /mesh/...; of drives what is held. A reader rejects names, senses, teeth and places that no system has, and meshes
 // of what is not two gears. Flanks and tooth numbers of the sides are left out.
 void describe_layout(Codec& codec, System& layout);
+
+// [gear.<name>.error] of the bodies that have some, as parameters, and then the tooth numbers of the sides, by which each pair in
+// contact is one of two teeth.
+void describe_errors(Codec& codec, SystemStaticParameters& settings);
 
 }  // namespace whine

@@ -137,8 +137,9 @@ KeyValues keys_of(const SystemStaticArtifact& a, size_t g, const SystemSweepArti
   values.material = a.drawing[g].material;
   values.body = a.drawing[g].discretisation;
   values.modification = a.settings.modification(name);
-  for (size_t b = 0; b < a.settings.gear.size(); ++b)
+  for (size_t b = a.settings.gear.size(); b-- > 0;)  // of planets the first
     if (a.settings.gear[b] == name) {
+      if (a.settings.has_errors(b)) values.errors = a.settings.errors[b];
       values.bearing = a.settings.layout.bodies[b].bearing;
       values.total_inertia = a.settings.layout.bodies[b].inertia;
     }
@@ -168,6 +169,8 @@ SystemKeys scene_keys_of(const SystemStaticArtifact& a, const SystemSweepArtifac
         return gear.design.internal;
       case Part::bearing:
         return gear.bearing.elastic();
+      case Part::error:
+        return !gear.errors.none();
       case Part::modification:
         return std::any_of(of.begin(), of.end(),
                            [](const KeyValues& one) { return one.modification != FlankModification{}; });

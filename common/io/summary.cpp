@@ -75,26 +75,8 @@ void show_friction(SummaryLines& lines, const GearMeshSpec& mesh) {
 }
 
 void show_errors(SummaryLines& lines, const GearMeshSpec& mesh) {
-  const auto largest = [](const std::vector<double>& teeth) {
-    double most = 0;
-    for (const double deviation : teeth) most = std::max(most, std::abs(deviation));
-    return most * 1e6;
-  };
-  for (int g = 0; g < kSides; ++g) {
-    const ToothErrors& e = mesh.errors[g];
-    if (e.none()) continue;
-    std::string words;
-    const auto part = [&](const auto&... parts) { words += text(words.empty() ? "" : ", ", parts...); };
-    if (e.iso_class > 0)
-      part("class ", e.iso_class, " of ISO 1328-1, ", e.iso_share * 100, " % of its limits, seed ", e.seed);
-    if (e.eccentricity != 0)
-      part("eccentricity ", e.eccentricity * 1e6, " µm towards tooth ", e.eccentric_tooth);
-    for (const auto& [name, teeth] :
-         {std::pair{"single pitch", &e.single_pitch}, std::pair{"cumulative pitch", &e.cumulative_pitch},
-          std::pair{"profile slope", &e.profile_slope}, std::pair{"profile form", &e.profile_form}})
-      if (largest(*teeth) > 0) part(name, " up to ", largest(*teeth), " µm");
-    add(lines, text(kGearName[g], "'s teeth"), words);
-  }
+  for (int g = 0; g < kSides; ++g)
+    if (!mesh.errors[g].none()) add(lines, text(kGearName[g], "'s teeth"), words_of(mesh.errors[g]));
 }
 
 void show_gear(SummaryLines& lines, const GearDesign& gear, const BodyDiscretisation& body) {

@@ -1,6 +1,7 @@
 #include "io/summary_lines.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "io/modes_codec.h"
 #include "io/system_branch_codec.h"
@@ -21,10 +22,18 @@ void show(SummaryLines& lines, const ModesArtifact& a) {
     add(lines, "mode", a.natural_frequency[i], " Hz, ", a.type[static_cast<size_t>(i)]);
 }
 
+// Which gears have errors, and after which time the same teeth meet.
+void show_differing_teeth(SummaryLines& lines, const SystemStaticParameters& s, int periods) {
+  for (size_t b = 0; b < s.layout.bodies.size(); ++b)
+    if (s.has_errors(b)) add(lines, s.layout.bodies[b].name + "'s teeth", words_of(s.errors[b]));
+  if (periods > 1) add(lines, "hunting period", periods, " mesh periods, after which the same teeth meet");
+}
+
 void show(SummaryLines& lines, const SystemStaticArtifact& a) {
   const System& s = a.settings.layout;
-  add(lines, "model", "contact ", a.settings.fidelity.contact, ", ", a.mesh_phase.size(),
+  add(lines, "model", "contact ", a.settings.fidelity.contact, ", ", a.mesh_phase.size() / a.hunting_periods,
       " positions in a mesh period");
+  show_differing_teeth(lines, a.settings, a.hunting_periods);
   for (size_t b = 0; b < s.bodies.size(); ++b) {
     const auto column = static_cast<Eigen::Index>(b);
     double most = 0;
@@ -53,6 +62,7 @@ void show(SummaryLines& lines, const SystemSweepArtifact& a) {
   const System& s = a.settings.layout;
   add(lines, "operating point", a.direction, ", ", range_of(a.mesh_frequency));
   show_model(lines, a.settings);
+  show_differing_teeth(lines, a.settings, a.hunting_periods);
   if (a.mesh_frequency.size() == 0) return;
   Eigen::Index speed = 0, mesh = 0;
   const double peak = a.dte_rms.maxCoeff(&speed, &mesh);
@@ -95,6 +105,25 @@ void show(SummaryLines& lines, const SystemBranchArtifact& a) {
 }
 
 }  // namespace
+
+std::string words_of(const ToothErrors& e) {
+  const auto largest = [](const std::vector<double>& teeth) {
+    double most = 0;
+    for (const double deviation : teeth) most = std::max(most, std::abs(deviation));
+    return most * 1e6;
+  };
+  std::string words;
+  const auto part = [&](const auto&... parts) { words += text(words.empty() ? "" : ", ", parts...); };
+  if (e.iso_class > 0)
+    part("class ", e.iso_class, " of ISO 1328-1, ", e.iso_share * 100, " % of its limits, seed ", e.seed);
+  if (e.eccentricity != 0)
+    part("eccentricity ", e.eccentricity * 1e6, " µm towards tooth ", e.eccentric_tooth);
+  for (const auto& [name, teeth] :
+       {std::pair{"single pitch", &e.single_pitch}, std::pair{"cumulative pitch", &e.cumulative_pitch},
+        std::pair{"profile slope", &e.profile_slope}, std::pair{"profile form", &e.profile_form}})
+    if (largest(*teeth) > 0) part(name, " up to ", largest(*teeth), " µm");
+  return words;
+}
 
 bool summary_of_system(SummaryLines& lines, const std::string& path, const std::string& schema) {
   if (schema == "whine/modes") {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "model/gear.h"
 
 namespace whine {
 
@@ -29,6 +30,9 @@ inline std::string range_of(const Eigen::VectorXd& frequency) {
   return n == 0 ? "no speeds"
                 : text(n, " speeds, ", frequency[0], " to ", frequency[n - 1], " Hz mesh frequency");
 }
+
+// Class, eccentricity and the largest deviations of a gear's teeth.
+std::string words_of(const ToothErrors& errors);
 
 // Adds the lines of an artifact of a system of several meshes; false if the schema is of another kind. Errors as its reader.
 bool summary_of_system(SummaryLines& lines, const std::string& path, const std::string& schema);

@@ -1,6 +1,7 @@
 #include "io/system_branch_codec.h"
 
 #include "base/error.h"
+#include "io/branch_parts.h"
 #include "io/codec.h"
 #include "io/system_sweep_codec.h"
 
@@ -31,17 +32,7 @@ void describe_points(Codec& c, SystemBranchArtifact& a) {
              "RMS of the oscillating part of the force of each body on its bearing, pin or axis",
              "point body_number", kLoad},
             &a.bearing_force_rms);
-  c.dataset({"/floquet_multiplier", "1",
-             "multipliers over the orbit, largest modulus first: real and imaginary part",
-             "point multiplier part", kMultiplier},
-            &a.floquet_multiplier);
-  c.dataset({"/stable", "1", "1: all multipliers lie inside the unit circle", "point", kFlag}, &a.stable);
-  c.dataset({"/steps", "1", "time steps per mesh period", "point", kNumber}, &a.steps);
-  c.dataset({"/residual", "1", "relative change of the state over the orbit", "point", {0, 1e300}},
-            &a.residual);
-  c.dataset({"/segment_mismatch", "1", "relative change of the orbit where the number of steps changes",
-             "segment", kPositive},
-            &a.segment_mismatch);
+  describe_stability(c, a);
 }
 
 }  // namespace
@@ -50,20 +41,7 @@ void describe(Codec& c, SystemBranchArtifact& a) {
   describe_system_motion(c, a.settings, a.torque, a.axis_frequency);
   describe_time_steps(c, a.settings.time);
   describe_points(c, a);
-  c.dataset({"/fold_frequency", "Hz", "mesh frequency at which the branch turns", "fold", kFrequency},
-            &a.fold_frequency);
-  c.dataset({"/fold_smooth", "1", "1: a multiplier is 1 there; 0: at a kink, where contacts of a step change",
-             "fold", kFlag},
-            &a.fold_smooth);
-  c.dataset({"/fold_multiplier", "1", "real multiplier nearest to 1, before and after the fold", "fold side",
-             kMultiplier},
-            &a.fold_multiplier);
-  c.dataset({"/flip_frequency", "Hz", "mesh frequency at which a multiplier passes -1", "flip", kFrequency},
-            &a.flip_frequency);
-  c.dataset(
-      {"/torus_frequency", "Hz",
-       "mesh frequency at which the modulus of a complex pair of multipliers passes 1", "torus", kFrequency},
-      &a.torus_frequency);
+  describe_folds(c, a);
   c.dataset({"/end", "1", "why the branch was followed no further", ""}, &a.end);
 }
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <numeric>
 #include <set>
 
 #include "gear/system_layout.h"
+#include "gear/tooth_errors.h"
 #include "io/scene_sections.h"
 #include "io/variant.h"
 #include "system/system_rest.h"
@@ -25,33 +25,35 @@ std::vector<const toml::table*> list_of(const Source& source, const std::string&
   return out;
 }
 
-// Mesh periods after which the same teeth of all gears meet again, their least common multiple, in words: eleven prime numbers of
-// teeth have one beyond 64 bits.
-std::string hunting_words(const Scene& gears) {
-  constexpr long kMost = 1000000000;
-  long hunting = 1;
-  for (const SceneGear& own : gears.gears) {
-    const long teeth = own.design.teeth, factor = std::max(1L, teeth / std::gcd(hunting, teeth));
-    if (hunting > kMost / factor) return text("more than ", kMost);
-    hunting *= factor;
-  }
-  return text(hunting);
-}
-
-void reject_unlike_teeth(const Source& source, const toml::table& table, const SceneGear& gear, bool rigid,
-                         const std::string& hunting) {
+// What a gear of a system cannot have.
+void reject_sections(const Source& source, const toml::table& table, const SceneGear& gear, bool rigid) {
   for (const char* key : {"modification", "error", "crack"}) {
     const toml::node* node = table.get(key);
     if (node && rigid)
       source.reject(
           *node, text("[gear.", gear.name, ".", key, "]: a gear of a system with body = \"rigid\" has no '",
                       key, "', its mesh is one spring of stiffness_N_um; take the section out"));
-    if (node && key != std::string("modification"))
-      source.reject(*node, text("[gear.", gear.name, ".", key,
-                                "]: a gear of a system (several meshes, carriers or drives) has no '", key,
-                                "' so far: with it the same teeth meet again after ", hunting,
-                                " mesh periods, the least common multiple of the numbers of teeth, and a "
-                                "system at rest is computed over one; take the section out"));
+    if (node && key == std::string("crack"))
+      source.reject(*node, text("[gear.", gear.name,
+                                ".crack]: a gear of a system (several meshes, carriers or drives) has no "
+                                "'crack': the body of a cracked gear knows what forces on its leading flanks "
+                                "do to the crack, and gears of a system may work with the other ones; take "
+                                "the section out, or compute two of the gears as a pair"));
+  }
+}
+
+// The hunting period is checked at the last gear with errors, which makes it as long as it is.
+void check_hunting(const Source& source, const Scene& gears) {
+  std::vector<int> teeth;
+  for (const SceneGear& own : gears.gears) {
+    if (own.errors.none()) continue;
+    teeth.push_back(own.design.teeth);
+    try {
+      hunting_periods_of(teeth);
+    } catch (const Error& error) {
+      const toml::table& table = *source.section("gear")->get(own.name)->as_table();
+      source.reject(*table.get("error"), text("[gear.", own.name, ".error]: ", error.what()));
+    }
   }
 }
 
@@ -59,12 +61,12 @@ void take_gears(const Source& source, SystemScene& scene) {
   Scene gears;
   const bool rigid = scene.rigid();
   read_gears(source, gears, rigid);
-  const std::string hunting = hunting_words(gears);
+  check_hunting(source, gears);
   for (const SceneGear& own : gears.gears) {
     SystemScene::Gear gear;
     static_cast<SceneGear&>(gear) = own;
     const toml::table* table = source.section("gear")->get(own.name)->as_table();
-    reject_unlike_teeth(source, *table, own, rigid, hunting);
+    reject_sections(source, *table, own, rigid);
     if (!rigid) {
       scene.gears.push_back(gear);
       continue;

@@ -60,10 +60,13 @@ void describe_settings(Codec& c, SystemStaticArtifact& a) {
     describe_gear(c, "gear_" + gears[g], a.drawing[g]);
     describe_modification(c, gears[g], s);
   }
+  describe_errors(c, s);
 }
 
 void describe_motions(Codec& c, SystemStaticArtifact& a) {
-  c.dataset({"/mesh_phase", "1", "phase of the first mesh; 0: its reference pair at the pitch point",
+  c.dataset({"/mesh_phase", "1",
+             "phase of the first mesh; 0: its reference pair at the pitch point; from one mesh period to the "
+             "next, up to the hunting period, where teeth differ",
              "mesh_phase", kPhase},
             &a.mesh_phase);
   c.dataset({"/rotation", "m", "base radius times rotation in the body's sense; 0 of held bodies",
@@ -82,6 +85,12 @@ void describe_motions(Codec& c, SystemStaticArtifact& a) {
              "mean, then amplitudes of the harmonics of the mesh frequency", "harmonic mesh_number", kLength},
             &a.transmission_error_harmonic);
   c.numbers("harmonic", 0, "number of the harmonic of the mesh frequency; 0: the mean");
+  describe_hunting(c, a.hunting_periods);
+  if (!c.lists() && !(c.in() ? a.hunting_periods > 1 : a.transmission_error_order.size() > 0)) return;
+  c.dataset({"/transmission_error_order", "m",
+             "mean, then amplitudes of the harmonics of the hunting frequency", "order mesh_number", kLength},
+            &a.transmission_error_order);
+  c.numbers("order", 0, "number of the harmonic of the hunting frequency; 0: the mean");
 }
 
 void describe_loads(Codec& c, SystemStaticArtifact& a) {
@@ -121,6 +130,9 @@ void require_whole(const Codec& c, const SystemStaticArtifact& a) {
   const auto reject = [&](const auto&... words) { c.in()->file().reject(text(words...)); };
   const System& layout = a.settings.layout;
   if (a.mesh_phase.size() == 0) reject("dataset /mesh_phase holds no phase");
+  if (a.mesh_phase.size() % a.hunting_periods != 0)
+    reject("dataset /mesh_phase holds ", a.mesh_phase.size(),
+           " phases, not a multiple of /hunting_periods = ", a.hunting_periods);
   if (a.pair.size() == 0) reject("dataset /pair holds no pair");
   if (layout.meshes.empty()) reject("dataset /mesh/phase holds no mesh");
   if (a.settings.gear.size() != layout.bodies.size())

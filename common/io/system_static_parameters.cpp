@@ -11,6 +11,7 @@
 #include "io/section_reader.h"
 #include "io/stage_parameters_text.h"
 #include "io/system_layout_text.h"
+#include "system/system_rest.h"
 
 namespace whine {
 namespace {
@@ -24,6 +25,30 @@ std::string mesh_label(size_t number) {
 
 std::string modification_label(const std::string& gear) {
   return "modification_" + gear;
+}
+
+std::string error_label(const std::string& body) {
+  return "error_" + body;
+}
+
+// [body] Planets have the errors of their gear; what is drawn within a class differs from planet to planet by the seed.
+std::vector<ToothErrors> errors_of(const SystemScene& scene, const std::vector<std::string>& gear_of) {
+  std::vector<ToothErrors> out(gear_of.size());
+  for (size_t b = 0; b < gear_of.size(); ++b)
+    for (const SystemScene::Gear& gear : scene.gears)
+      if (gear.name == gear_of[b]) {
+        const auto before =
+            std::count(gear_of.begin(), gear_of.begin() + static_cast<std::ptrdiff_t>(b), gear.name);
+        out[b] = gear.errors;
+        out[b].seed = static_cast<int>((gear.errors.seed + static_cast<long>(before)) % (1L << 31));
+      }
+  return out;
+}
+
+// Of a period of which teeth that differ make `periods`: fewer positions each, as of pairs.
+int default_positions(int periods) {
+  constexpr int kMostInAll = 16384, kLeast = 16;
+  return std::clamp(kMostInAll / periods, kLeast, kPositions);
 }
 
 }  // namespace
@@ -44,7 +69,8 @@ SystemStaticParameters static_parameters_of(const SystemScene& scene, const Syst
   out.section = sections_of(out.mesh, out.gear, layout);
   out.fidelity = scene.fidelity;
   out.contact = scene.contact;
-  if (out.contact.positions == 0) out.contact.positions = kPositions;
+  out.errors = errors_of(scene, out.gear);
+  if (out.contact.positions == 0) out.contact.positions = default_positions(hunting_periods(out));
   for (const auto& [gear, settings] : body_parameters_of(scene))
     out.body.emplace_back(gear, body_hash(settings));
   return out;
@@ -67,6 +93,12 @@ std::string parameters_text(const char* stage, const SystemStaticParameters& p, 
     if (values.modification != FlankModification{})
       out.add("modification", modification_label(gear), values, {Part::modification});
   }
+  for (size_t b = 0; b < p.errors.size(); ++b)
+    if (p.has_errors(b)) {
+      values.errors = p.errors[b];
+      const std::string label = error_label(p.layout.bodies[b].name);
+      out.add("error", label, values, {Part::error});
+    }
   values.fidelity = p.fidelity;
   values.contact = p.contact;
   if (moving) {
@@ -163,6 +195,13 @@ SystemStaticParameters parameters_from(const Source& source, KeyValues& values, 
     SectionReader(source, Dialect::settings, section(label), "modification", label)
         .read(own, {Part::modification}, false);
     out.modify(gear, own.modification);
+  }
+  for (size_t b = 0; b < out.layout.bodies.size(); ++b) {
+    KeyValues own;
+    const std::string label = error_label(out.layout.bodies[b].name);
+    if (const toml::table* table = source.section(label))
+      SectionReader(source, Dialect::settings, *table, "error", label).read(own, {Part::error}, false);
+    out.errors.push_back(own.errors);
   }
   SectionReader(source, Dialect::settings, section("fidelity"), "fidelity", "fidelity")
       .read(values, moving ? Parts{Part::level, Part::contact_level} : Parts{Part::contact_level}, false);

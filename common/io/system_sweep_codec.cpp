@@ -34,15 +34,16 @@ void describe_meshes(Codec& c, SystemSweepArtifact& a) {
             &a.separation_fraction);
   c.dataset(
       {"/transmission_error", "m",
-       "dynamic transmission error of each mesh over the last mesh period, positive when the driver is ahead",
+       "dynamic transmission error of each mesh over the last mesh period, of teeth that differ the last "
+       "hunting "
+       "period, positive when the driver is ahead",
        std::string(kAxis) + " sample mesh_number", kLength, "r1 theta1 - r2 theta2, each in its own sense"},
       &a.transmission_error);
-  c.dataset(
-      {"/mesh_deflection", "m",
-       "what the flanks of each mesh close by over the last mesh period, the motion of the hubs included",
-       std::string(kAxis) + " sample mesh_number", kLength, "sum over both sides of (row on r) r"},
-      &a.mesh_deflection);
-  c.dataset({"/mesh_force", "N", "torque on the driving body over its base radius, over the last mesh period",
+  c.dataset({"/mesh_deflection", "m",
+             "what the flanks of each mesh close by over the same, the motion of the hubs included",
+             std::string(kAxis) + " sample mesh_number", kLength, "sum over both sides of (row on r) r"},
+            &a.mesh_deflection);
+  c.dataset({"/mesh_force", "N", "torque on the driving body over its base radius, over the same",
              std::string(kAxis) + " sample mesh_number", kForce},
             &a.mesh_force);
 }
@@ -61,12 +62,12 @@ void describe_bodies(Codec& c, SystemSweepArtifact& a) {
             &a.holding_torque);
   a.bearing_force.resize(c.lists() ? 1 : a.settings.layout.bodies.size());
   for (size_t b = 0; b < a.bearing_force.size(); ++b)
-    c.dataset(
-        {"/body/" + (c.lists() ? "<body>" : a.settings.layout.bodies[b].name) + "/bearing_force", "N",
-         "force of the body on its bearing or pin over the last mesh period; on a rigid axis the sum of its "
-         "contact forces; of a carrier the sum of its pins",
-         std::string(kAxis) + " sample xy", kForce},
-        &a.bearing_force[b]);
+    c.dataset({"/body/" + (c.lists() ? "<body>" : a.settings.layout.bodies[b].name) + "/bearing_force", "N",
+               "force of the body on its bearing or pin over the last mesh or hunting period; on a rigid "
+               "axis the sum of its "
+               "contact forces; of a carrier the sum of its pins",
+               std::string(kAxis) + " sample xy", kForce},
+              &a.bearing_force[b]);
 }
 
 void describe_solution(Codec& c, SystemSweepArtifact& a) {
@@ -137,6 +138,8 @@ void describe_time_steps(Codec& c, TimeDiscretisation& time) {
 
 void describe(Codec& c, SystemSweepArtifact& a) {
   describe_system_motion(c, a.settings, a.torque, a.axis_frequency);
+  describe_errors(c, a.settings);
+  describe_hunting(c, a.hunting_periods);
   describe_time_steps(c, a.settings.time);
   c.choice({"/parameters/operation/direction", "1", "direction in which the speeds are run through", ""},
            a.direction);

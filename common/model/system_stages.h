@@ -18,6 +18,10 @@ struct SystemStaticParameters {
   ContactDiscretisation contact;
   std::vector<std::pair<std::string, std::string>>
       body;  // gears, and hashes of the stage parameters of their bodies
+  std::vector<ToothErrors>
+      errors;  // [body] of its teeth; those of `mesh` are none. Fewer: the others have none
+
+  bool has_errors(size_t of_body) const { return of_body < errors.size() && !errors[of_body].none(); }
 
   // The gears, each once, in the order of the bodies.
   std::vector<std::string> gears() const {

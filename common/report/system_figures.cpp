@@ -22,7 +22,8 @@ struct Curve {
   Eigen::VectorXd values;  // (phase)
 };
 
-// One row of the figure: curves over the mesh period and their harmonics.
+// One row of the figure: curves over the mesh period, or over the hunting period of teeth that differ, and their harmonics of the mesh
+// frequency.
 void add_row(const SystemStaticArtifact& a, const std::string& quantity, const std::string& axis,
              const std::string& unit, std::vector<Curve> curves, Figure& figure) {
   if (curves.size() > kMostLines) {
@@ -36,20 +37,20 @@ void add_row(const SystemStaticArtifact& a, const std::string& quantity, const s
   labels.reserve(curves.size());
   of.reserve(curves.size());
   const Index n = a.mesh_phase.size();
-  const int count = resolved_harmonics(n, kShownHarmonics);
+  const int count = resolved_harmonics(n, kShownHarmonics, a.hunting_periods);
   double low = curves[0].values.minCoeff(), high = curves[0].values.maxCoeff(), most = 0;
   for (const Curve& curve : curves) {
     period.columns.push_back(text(quantity, " ", curve.name, " [", unit, "]"));
     spectrum.columns.push_back(text("amplitude ", curve.name, " [", unit, "]"));
     labels.push_back(short_name(curve.name));
-    of.push_back(harmonics(curve.values, count));
+    of.push_back(harmonics(curve.values, count, a.hunting_periods));
     low = std::min(low, curve.values.minCoeff());
     high = std::max(high, curve.values.maxCoeff());
     if (count > 0) most = std::max(most, of.back().amplitude.maxCoeff());
   }
-  // The first point again at phase 1, so that the period closes.
+  // The first point again at the end, so that the period closes.
   for (Index i = 0; i <= n; ++i) {
-    std::vector<double> row{i < n ? a.mesh_phase[i] : 1.0};
+    std::vector<double> row{i < n ? a.mesh_phase[i] : a.hunting_periods};
     for (const Curve& curve : curves) row.push_back(curve.values[i < n ? i : 0]);
     period.rows.push_back(row);
   }
@@ -80,6 +81,15 @@ std::string sharing_words(const SystemStaticArtifact& a) {
     out += text(out.empty() ? "load sharing factor (largest share times planets): " : ", ", of.name, " ",
                 fixed(of.factor, 3), " (by mean shares ", fixed(of.mean_factor, 3), ")");
   return out;
+}
+
+// The length of the axis of mesh phases, and why it is not 1.
+void add_hunting(const SystemStaticArtifact& a, Figure& figure) {
+  figure.numbers.emplace_back("periods", a.hunting_periods);
+  if (a.hunting_periods > 1)
+    figure.notes.push_back(
+        text("teeth differ: the same ones meet again after ", a.hunting_periods,
+             " mesh periods, over which all is drawn; harmonics are those of the mesh frequency"));
 }
 
 // The height of a picture grows with its notes, 24 pixels each.
@@ -139,8 +149,9 @@ Figure system_static_figure(const SystemStaticArtifact& a) {
   add_row(a, "transmission_error", "Transmission error", "µm", std::move(errors), figure);
   add_row(a, "mesh_force", "Mesh force", "N", std::move(forces), figure);
   add_row(a, "bearing_force", "Bearing force", "N", std::move(bearings), figure);
-  figure.numbers.emplace_back("harmonics",
-                              static_cast<double>(resolved_harmonics(a.mesh_phase.size(), kShownHarmonics)));
+  figure.numbers.emplace_back("harmonics", static_cast<double>(resolved_harmonics(
+                                               a.mesh_phase.size(), kShownHarmonics, a.hunting_periods)));
+  add_hunting(a, figure);
   finish_notes(1520, figure);
   return figure;
 }
@@ -148,7 +159,8 @@ Figure system_static_figure(const SystemStaticArtifact& a) {
 namespace {
 
 // Loads of the tooth pairs of one mesh that carry load, over a mesh period of its own from 0 to 1: pairs are numbered anew where
-// it begins, so that pair p at 1 is pair p + 1 at 0. Between positions of the statics the ends are interpolated.
+// it begins, so that pair p at 1 is pair p + 1 at 0. Between positions of the statics the ends are interpolated. Where teeth differ it is
+// the first whole one, and the next position is that behind its end.
 FigureBlock pair_loads(const SystemStaticArtifact& a, size_t m, const std::string& table) {
   const Index n = a.mesh_phase.size(), pairs = a.pair.size();
   const auto mesh = static_cast<Index>(m);
@@ -173,11 +185,17 @@ FigureBlock pair_loads(const SystemStaticArtifact& a, size_t m, const std::strin
   };
   std::vector<std::pair<double, size_t>> order;
   order.reserve(static_cast<size_t>(n));
+  constexpr double kRoundOff = 1e-9;  // a phase that it keeps below 1 is 0
+  const double ahead = a.settings.layout.meshes[m].phase;
   for (Index i = 0; i < n; ++i) {
-    const double own = a.mesh_phase[i] + a.settings.layout.meshes[m].phase, in_period = own - std::floor(own);
-    // A phase that round-off keeps below 1 is 0.
-    order.emplace_back(in_period > 1 - 1e-9 ? 0 : in_period, static_cast<size_t>(i));
+    const double own = a.mesh_phase[i] + ahead, part = own - std::floor(own),
+                 in_period = part > 1 - kRoundOff ? 0 : part;
+    if (a.hunting_periods > 1 && std::round(own - in_period) != std::ceil(ahead - kRoundOff)) continue;
+    order.emplace_back(in_period, static_cast<size_t>(i));
   }
+  if (order.empty())
+    fail(Failure::input, "figure: the phases of the system at rest hold no whole mesh period of ",
+         mesh_name(a.settings.layout, m), "; compute it again");
   std::sort(order.begin(), order.end());
   const double first = order.front().first, last = order.back().first;
   const size_t at_first = order.front().second, at_last = order.back().second;
@@ -207,7 +225,7 @@ FigureBlock shares_block(const SystemStaticArtifact& a, const LoadSharing& of, s
     shares.columns.push_back("share of the load " + mesh_name(a.settings.layout, of.meshes[i]) + " [%]");
   shares.rows.reserve(static_cast<size_t>(n) + 1);
   for (Index i = 0; i <= n; ++i) {
-    std::vector<double> values{i < n ? a.mesh_phase[i] : 1.0};
+    std::vector<double> values{i < n ? a.mesh_phase[i] : a.hunting_periods};
     values.reserve(shown + 1);
     for (size_t j = 0; j < shown; ++j)
       values.push_back(a.load_share(i < n ? i : 0, static_cast<Index>(of.meshes[j])) * kPercent);
@@ -268,6 +286,7 @@ Figure system_load_sharing_figure(const SystemStaticArtifact& a) {
   figure.numbers.insert(
       figure.numbers.end(),
       {{"rows", static_cast<double>(sharing.size())}, {"low", low - room}, {"high", high + room}});
+  add_hunting(a, figure);
   finish_notes(118 + 470 * static_cast<int>(sharing.size()), figure);
   return figure;
 }

@@ -118,7 +118,8 @@ std::string sweeps_table(const SystemReport& r) {
     const std::string loss =
         speeds_where(a, [&](Index i) { return a.separation_fraction.row(i).maxCoeff() > 0; });
     const std::string open = speeds_where(a, [&](Index i) { return a.period_multiple[i] == 0; });
-    const std::string several = speeds_where(a, [&](Index i) { return a.period_multiple[i] > 1; });
+    const std::string several =
+        speeds_where(a, [&](Index i) { return a.period_multiple[i] > a.hunting_periods; });
     rows.push_back({way_words_of(a),
                     text(a.mesh_frequency.size(), ", ", shown(a.mesh_frequency.minCoeff(), 6), " to ",
                          shown(a.mesh_frequency.maxCoeff(), 6)),

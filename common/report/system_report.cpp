@@ -130,6 +130,13 @@ std::string introduction(const SystemReport& r) {
     out += " The gears are rigid, with one spring for each mesh: natural modes alone are computed.";
     return html::paragraph(out);
   }
+  if (r.rest->hunting_periods > 1) {
+    std::string differ;
+    for (size_t b = 0; b < s.bodies.size(); ++b)
+      if (r.rest->settings.has_errors(b)) differ += text(differ.empty() ? "" : ", ", s.bodies[b].name);
+    out += text(" Teeth differ (", differ, "): the same ones meet again after ", r.rest->hunting_periods,
+                " mesh periods, over all of which loads and motions are computed.");
+  }
   for (const LoadSharing& of : load_sharing(*r.rest))
     out += text(" The load sharing factor of ", of.name, " is ", fixed(of.factor, 3), ".");
   double most = 0;
@@ -160,6 +167,10 @@ void require_sweeps(const SystemReport& r) {
     if (!one_system(layout, r.rest->settings.layout))
       fail(Failure::input,
            "report: system_sweep.h5 and system_static.h5 are of two systems; give artifacts of one scene");
+    if (a.hunting_periods != r.rest->hunting_periods)
+      fail(Failure::input, "report: the same teeth meet again after ", a.hunting_periods,
+           " mesh periods in system_sweep.h5 and after ", r.rest->hunting_periods,
+           " in system_static.h5; give artifacts of one scene");
     for (size_t j = 0; j < i; ++j)
       if (r.sweeps[j].direction == a.direction)
         fail(Failure::input, "report: two sweeps in the direction '", name_of(a.direction),

@@ -37,9 +37,11 @@ std::vector<GuideRow> rows_at_rest(bool planets) {
          text("The part of the load that each planet carries. Equal planets at equal spacing, or ",
               "opposite each other, have equal mean shares; over the mesh period shares vary where ",
               "phases differ."),
-         text("For gears without errors. An error of a pin's position of a few micrometres is as large ",
-              "as the deflection of a mesh (compare the mean STE) and then decides the sharing; the ",
-              "model has no such errors."),
+         text("Of teeth as the scene has them, exact unless it gives errors. An error of a pin's position of "
+              "a few ",
+              "micrometres is as large as the deflection of a mesh (compare the mean STE) and then decides "
+              "the ",
+              "sharing; the model has no such errors."),
          "A floating central gear (soft [[bearing]]) equalises; ISO 6336-1 has the mesh load factor "
          "K_gamma."});
   rows.push_back(

@@ -285,7 +285,10 @@ std::string mesh_tables(const SystemReport& r) {
                   "stiffness (N/µm)", "largest tooth load (N)", "largest pressure (MPa)"});
   return out +
          html::table(
-             text("The meshes at rest over the mesh period.",
+             text("The meshes at rest over ",
+                  r.rest->hunting_periods > 1 ? text("the ", r.rest->hunting_periods,
+                                                     " mesh periods after which the same teeth meet.")
+                                              : "the mesh period.",
                   shared ? " Share: of the load of the meshes of one [[mesh]]." : "",
                   " STE: static transmission error. Stiffness: mean, contact frozen, without bearings."),
              columns, rest, "small");

@@ -126,14 +126,13 @@ class Follower {
 
   // The orbit into which the system settles.
   void begin(double at, int steps) {
-    constexpr int kMostPeriods = 3000;
     SystemDynamics::State state = rig_.dynamics().rest();
     for (;;) {
       new_map(at, steps);
       PeriodicMotion motion;
       try {
-        motion =
-            find_periodic_motion(*map_, map_->flat(state), {settings_.time.periodicity, kMostPeriods, true});
+        motion = find_periodic_motion(*map_, map_->flat(state),
+                                      {settings_.time.periodicity, kMostSystemPeriods, true});
       } catch (const ModelRangeError&) {
         if (!map_->left_last()) throw;
         state = rig_.widen(state);
@@ -235,6 +234,7 @@ SystemBranchArtifact system_branch(const SystemSweepParameters& settings,
   if (!(settings.frequency_from > 0) || !(settings.frequency_to > settings.frequency_from))
     fail(Failure::input, "a branch needs speeds to go through: mesh_frequency_Hz is from ",
          settings.frequency_from, " to ", settings.frequency_to, " Hz");
+  require_like_teeth(settings, "a branch of a system");
   Follower follower(settings, bodies, plan.tolerance);
   const std::vector<Segment> segments = follower.follow(report);
   const auto meshes = static_cast<Index>(settings.layout.meshes.size()),

@@ -16,8 +16,10 @@ using Eigen::MatrixXd;
 
 namespace {
 
-constexpr int kRestPositions = 32;      // of the statics that come first
-constexpr double kBeyondStatics = 2.5;  // deflection that tip edges are looked for, over that of rest
+constexpr int kRestPositions = 32;  // of the statics that come first, in each mesh period
+constexpr int kMostRestPositions = 2048,
+              kFewestRestPositions = 4;  // in all of a hunting period; in a mesh period
+constexpr double kBeyondStatics = 2.5;   // deflection that tip edges are looked for, over that of rest
 constexpr int kMostWidenings = 5;
 
 }  // namespace
@@ -31,6 +33,16 @@ std::vector<Eigen::Matrix2Xd> bearing_forces(const System& layout, const SystemD
   return out;
 }
 
+void require_like_teeth(const SystemStaticParameters& settings, const std::string& stage) {
+  for (size_t b = 0; b < settings.errors.size(); ++b)
+    if (settings.has_errors(b))
+      fail(Failure::input, stage, " does not take teeth that differ: [gear.", settings.gear[b],
+           ".error] gives '", settings.layout.bodies[b].name,
+           "' deviations tooth by tooth; use a scene without this section, or a sweep, which covers the "
+           "hunting "
+           "period");
+}
+
 SystemRig::SystemRig(const SystemSweepParameters& settings, const std::vector<BodyArtifact>& bodies,
                      int positions)
     : system_(elastic_system(settings, bodies)), settings_(settings), positions_(positions) {
@@ -38,9 +50,11 @@ SystemRig::SystemRig(const SystemSweepParameters& settings, const std::vector<Bo
   const auto meshes = static_cast<Index>(system_.mesh.size());
   stiffness_ = MatrixXd::Zero(meshes, meshes);
   deflection_.assign(system_.mesh.size(), 0);
-  for (const SystemSolution& at :
-       rest_over_period(system_, ContactModel::line, settings.contact.strips, kRestPositions)) {
-    stiffness_ += at.mesh_stiffness / kRestPositions;
+  const std::vector<SystemSolution> rest = rest_over_period(
+      system_, ContactModel::line, settings.contact.strips,
+      std::clamp(kMostRestPositions / hunting_periods(system_), kFewestRestPositions, kRestPositions));
+  for (const SystemSolution& at : rest) {
+    stiffness_ += at.mesh_stiffness / static_cast<double>(rest.size());
     for (size_t m = 0; m < system_.mesh.size(); ++m)
       deflection_[m] = std::max(deflection_[m], at.deflection[m]);
   }

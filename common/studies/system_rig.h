@@ -2,6 +2,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "dynamics/system_dynamics.h"
@@ -12,6 +13,12 @@ namespace whine {
 
 // [body of the layout with its carriers] (xy, step) N: those of carriers are the sums of their pins.
 std::vector<Eigen::Matrix2Xd> bearing_forces(const System& layout, const SystemDynamics::Period& period);
+
+// Mesh periods per speed before a motion counts as not periodic, and so many hunting periods at least.
+inline constexpr int kMostSystemPeriods = 3000, kLeastSystemTurns = 100;
+
+// Throws Error(input) that names the gear and `stage` ("a branch"), which knows nothing of teeth that differ from each other.
+void require_like_teeth(const SystemStaticParameters& settings, const std::string& stage);
 
 class SystemRig {
  public:

@@ -11,6 +11,7 @@
 #include "orbits/recurrence.h"
 #include "studies/sweep.h"
 #include "studies/system_rig.h"
+#include "system/system_rest.h"
 
 namespace whine {
 
@@ -103,20 +104,21 @@ class Sweeper {
         state_(rig_.dynamics().rest()) {}
 
   const SystemRig& rig() const { return rig_; }
+  int hunting_periods() { return rig_.dynamics().hunting_periods(); }
 
   // The periodic motion at a speed, into row `row`.
   std::string run(double frequency, Index row, SystemSweepArtifact& out) {
-    constexpr int kMostPeriods = 3000;
     SystemDynamics::State start = state_;
+    const int hunting = hunting_periods(), most = std::max(kMostSystemPeriods / hunting, kLeastSystemTurns);
     for (;;) {
       SystemPeriodMap map(rig_.dynamics(), steps_at(settings_.time, frequency));
       map.set_parameter(frequency);
       try {
         PeriodicMotion motion;
         try {
-          motion = find_periodic_motion(map, map.flat(state_),
-                                        {settings_.time.periodicity, kMostPeriods,
-                                         settings_.time.steady_state == SteadyState::extrapolate});
+          motion = find_periodic_motion(
+              map, map.flat(state_),
+              {settings_.time.periodicity, most, settings_.time.steady_state == SteadyState::extrapolate});
         } catch (const ModelRangeError&) {
           // Of a proposal that was rejected before nothing is thrown: this is of the period integrated last.
           if (!map.left_last()) throw;
@@ -130,7 +132,7 @@ class Sweeper {
         }
         return motion.multiple == 1   ? ""
                : motion.multiple == 0 ? "not periodic"
-                                      : text(motion.multiple, " periods");
+                                      : text(motion.multiple * hunting, " periods");
       } catch (const Error& error) {
         fail_as(error, "at a mesh frequency of ", frequency, " Hz, ", error.what());
       }
@@ -140,7 +142,10 @@ class Sweeper {
  private:
   // False if contact leaves the tip edges that are looked at.
   bool record(const PeriodicMotion& motion, Index row, SystemSweepArtifact& out) {
-    const int periods = motion.multiple > 0 ? motion.multiple : Recurrence<VectorXd>::kMostMultiple;
+    const int hunting = hunting_periods();
+    const int periods = hunting * (motion.multiple > 0 ? motion.multiple
+                                   : hunting > 1       ? 1
+                                                       : Recurrence<VectorXd>::kMostMultiple);
     Recorded recorded(out, rig_.system().mesh.size(), settings_.layout.bodies.size());
     SystemEnergyBalance energy;
     double imbalance = 0;
@@ -151,10 +156,12 @@ class Sweeper {
     out.drift_force[row] = 0;
     out.holding_torque.row(row).setZero();
     std::vector<Eigen::Matrix2Xd> forces;
+    begin_samples(hunting, row, out);
     for (int n = 0; n < periods; ++n) {
       if (!rig_.dynamics().integrate(state_, period, &energy)) return false;
       forces = bearing_forces(settings_.layout, period);
       recorded.take(period, forces);
+      take_samples(period, forces, n % hunting, row, out);
       take(energy, row, out);
       take_holding(period, forces, static_cast<double>(periods), row, out);
       imbalance += energy.imbalance;
@@ -163,22 +170,34 @@ class Sweeper {
       out.least_force = std::min(out.least_force, period.least_force);
     }
     recorded.give(row, out);
-    out.periods[row] = motion.periods;
-    out.period_multiple[row] = motion.multiple;
+    out.periods[row] = motion.periods * hunting;
+    out.period_multiple[row] = motion.multiple * hunting;
     out.residual[row] = motion.residual;
     out.energy_imbalance[row] = imbalance / out.energy(row, kThroughputLine);
+    return true;
+  }
+
+  void begin_samples(int hunting, Index row, SystemSweepArtifact& out) const {
+    const auto at = static_cast<size_t>(row);
+    const Index samples = static_cast<Index>(hunting) * settings_.time.steps_per_period;
+    for (auto* x : {&out.transmission_error, &out.mesh_deflection, &out.mesh_force})
+      (*x)[at].setZero(samples, out.dte_rms.cols());
+    for (auto& of_body : out.bearing_force) of_body[at].setZero(samples, 2);
+  }
+
+  // Of mesh period k of a hunting period, which the last one that is recorded overwrites. Sample 0 is that of the period's end.
+  void take_samples(const SystemDynamics::Period& period, const std::vector<Eigen::Matrix2Xd>& forces, int k,
+                    Index row, SystemSweepArtifact& out) const {
     const Index samples = settings_.time.steps_per_period, stride = period.mesh_force.cols() / samples;
     const auto at = static_cast<size_t>(row);
-    const auto sampled = [&](const auto& of) -> MatrixRM {
-      MatrixRM rows(samples, of.rows());
-      for (Index i = 0; i < samples; ++i) rows.row(i) = of.col(i * stride).transpose();
-      return rows;
+    const auto put = [&](const auto& of, MatrixRM& rows) {
+      for (Index i = 1; i <= samples; ++i)
+        rows.row((k * samples + i) % rows.rows()) = of.col(i % samples * stride).transpose();
     };
-    out.transmission_error[at] = sampled(period.transmission_error);
-    out.mesh_deflection[at] = sampled(period.mesh_deflection);
-    out.mesh_force[at] = sampled(period.mesh_force);
-    for (size_t b = 0; b < forces.size(); ++b) out.bearing_force[b][at] = sampled(forces[b]);
-    return true;
+    put(period.transmission_error, out.transmission_error[at]);
+    put(period.mesh_deflection, out.mesh_deflection[at]);
+    put(period.mesh_force, out.mesh_force[at]);
+    for (size_t b = 0; b < forces.size(); ++b) put(forces[b], out.bearing_force[b][at]);
   }
 
   // Mean over the recorded periods of the torques that hold bodies; of a carrier -sum (P - C) x F of its pins, as at rest.
@@ -216,17 +235,37 @@ class Sweeper {
 
 }  // namespace
 
+namespace {
+
+// All samples are kept until the sweep is written.
+void require_memory(const SystemSweepParameters& settings, int hunting, size_t speeds) {
+  constexpr double kMostMemory = 4e9;  // bytes
+  const double memory = 8.0 * static_cast<double>(speeds) * hunting * settings.time.steps_per_period *
+                        (3.0 * static_cast<double>(settings.layout.meshes.size()) +
+                         2.0 * static_cast<double>(settings.layout.bodies.size()));
+  if (memory > kMostMemory)
+    fail(Failure::input,
+         hunting > 1 ? text("the same teeth meet again after ", hunting, " mesh periods; ") : "",
+         "the samples of ", speeds, " speeds need ", memory * 1e-9, " GB, at most ", kMostMemory * 1e-9,
+         " are allowed; give fewer mesh_frequency_Hz, or lower steps_per_period",
+         hunting > 1 ? ", or give errors to fewer gears" : "");
+}
+
+}  // namespace
+
 SystemSweepArtifact system_sweep(const SystemSweepParameters& settings,
                                  const std::vector<BodyArtifact>& bodies, Direction direction,
                                  const std::function<void(long, long, const std::string&)>& report) {
+  const std::vector<double> speeds = speeds_of(settings, direction);
+  require_memory(settings, whine::hunting_periods(settings), speeds.size());
   Sweeper sweeper(settings, bodies);
   const SystemRig& rig = sweeper.rig();
-  const std::vector<double> speeds = speeds_of(settings, direction);
   const auto n = static_cast<Index>(speeds.size()), meshes = static_cast<Index>(rig.system().mesh.size()),
              all = static_cast<Index>(settings.layout.bodies.size());
   SystemSweepArtifact out;
   out.settings = rig.used();
   out.direction = direction;
+  out.hunting_periods = sweeper.hunting_periods();
   out.torque.setZero(all);
   for (int b = 0; b < all; ++b) out.torque[b] = settings.layout.torque(b);
   out.axis_frequency = rig.motion().axis_frequency / (2 * std::numbers::pi);

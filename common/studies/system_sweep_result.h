@@ -35,6 +35,7 @@ struct SystemSweepArtifact {
   Direction direction = Direction::up;
   Eigen::VectorXd torque;          // (body) N m of its drive; 0 where none gives a torque
   double axis_frequency = 0;       // Hz, see axis_frequency(): of the rigid train on its mean stiffnesses
+  int hunting_periods = 1;         // mesh periods after which the same teeth meet, as far as teeth differ
   Eigen::VectorXd mesh_frequency;  // (speed) Hz
   // Over the recorded mesh periods: (speed, mesh)
   MatrixRM dte_rms, dte_mean;                // m: of the dynamic transmission error
@@ -43,7 +44,7 @@ struct SystemSweepArtifact {
   MatrixRM separation_fraction;              // 1: of the steps, without force
   MatrixRM holding_torque;  // (speed, body) N m: mean, of what holds the body; 0 of free ones
   MatrixRM bearing_force_max, bearing_force_rms;  // (speed, body) N: of its size; of the oscillating part
-  // Of the last mesh period
+  // Of the last mesh period; of teeth that differ the last hunting period
   std::vector<MatrixRM> transmission_error;          // [speed] (sample, mesh) m: of rotations
   std::vector<MatrixRM> mesh_deflection;             // [speed] (sample, mesh) m: with the motion of the hubs
   std::vector<MatrixRM> mesh_force;                  // [speed] (sample, mesh) N

@@ -25,8 +25,9 @@ GearMeshModel::GearMeshModel(const SideGears& gears, const GearMeshSpec& mesh, c
     : kinematics(gears[0].body().design, gears[1].body().design, mesh.centre_distance),
       gear(gears),
       corner(mesh.corner),
-      deviation{FlankDeviation(kinematics.gear(0), mesh.modification[0], mesh.errors[0]),
-                FlankDeviation(kinematics.gear(1), mesh.modification[1], mesh.errors[1])},
+      deviation{
+          FlankDeviation(kinematics.gear(0), mesh.modification[0], mesh.errors[0], placed.side[0].flank),
+          FlankDeviation(kinematics.gear(1), mesh.modification[1], mesh.errors[1], placed.side[1].flank)},
       bearing(mesh.bearing),
       friction(mesh.friction),
       layout(placed) {}

@@ -82,6 +82,14 @@ MeshInstant mesh_instant(const SystemModel& system, int m, double phase, int per
   return {ahead - whole, period + static_cast<int>(whole)};
 }
 
+int hunting_periods(const SystemModel& system) {
+  if (system.mesh.size() == 1) return hunting_periods(system.mesh[0]);
+  std::vector<int> teeth;
+  for (const GearMeshModel& mesh : system.mesh)
+    for (const FlankDeviation& flank : mesh.deviation) teeth.push_back(flank.repeats());
+  return hunting_periods_of(teeth);
+}
+
 namespace {
 
 // L = D + mu s T: moments about the axes and forces across the normal.
@@ -409,6 +417,37 @@ VectorXd first_guess(const SystemModel& system, const SystemPosition& position, 
   return least_norm(closing, deflection);
 }
 
+// Newton's method with a line search on the convex energy whose gradient is `unbalance`, which stand(x) sets together with the residual
+// and the stiffness; false if it does not come to 1e-12, or to 1e-10 where round-off allows no more, within `steps`.
+template <class Stand>
+bool balanced(const Stand& stand, VectorXd& x, const VectorXd& unbalance, const SystemEquilibrium& at,
+              int steps) {
+  constexpr int kCuts = 60;
+  stand(x);
+  int idle = 0;  // steps since the residual fell last
+  double best = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < steps; ++step) {
+    if (at.residual < 1e-12) return true;
+    idle = at.residual < best ? 0 : idle + 1;
+    best = std::min(best, at.residual);
+    if (at.residual < 1e-10 && idle > 1) return true;
+    // Bodies that carry nothing may roll freely: the least step is taken.
+    const VectorXd newton = -least_norm(at.stiffness, unbalance);
+    const double slope = newton.dot(unbalance);
+    // Along the step the slope of the energy grows monotonically; its root is where the energy is least.
+    VectorXd next = x + newton;
+    stand(next);
+    double part = 1;
+    for (int cut = 0; cut < kCuts && newton.dot(unbalance) > 0.5 * std::abs(slope); ++cut) {
+      part *= 0.5;
+      next = x + part * newton;
+      stand(next);
+    }
+    x = next;
+  }
+  return false;
+}
+
 }  // namespace
 
 SystemEquilibrium equilibrium(const SystemModel& system, const SystemPosition& position,
@@ -449,7 +488,6 @@ SystemEquilibrium equilibrium(const SystemModel& system, const SystemPosition& p
   }
 
   const double scale = mesh_loads(system).maxCoeff();
-  x = first_guess(system, position, compliance, free);
   VectorXd unbalance;
   const auto stand = [&](const VectorXd& at) {
     const StillContact held = contact.solve(position.gap - displacement * at, displacement, load, out.p);
@@ -460,29 +498,13 @@ SystemEquilibrium equilibrium(const SystemModel& system, const SystemPosition& p
       fail(Failure::numerical, "static equilibrium of the system: the compliance holds no number");
     out.residual = unbalance.cwiseAbs().maxCoeff() / scale;
   };
-  stand(x);
-  constexpr int kSteps = 200, kCuts = 60;
-  int idle = 0;  // steps since the residual fell last
-  double best = std::numeric_limits<double>::infinity();
-  for (int step = 0; step < kSteps; ++step) {
-    if (out.residual < 1e-12) return give();
-    idle = out.residual < best ? 0 : idle + 1;
-    best = std::min(best, out.residual);
-    if (out.residual < 1e-10 && idle > 1) return give();
-    // Bodies that carry nothing may roll freely: the least step is taken.
-    const VectorXd newton = -least_norm(out.stiffness, unbalance);
-    const double slope = newton.dot(unbalance);
-    // Along the step the slope of the convex energy grows monotonically; its root is where the energy is least.
-    VectorXd next = x + newton;
-    stand(next);
-    double part = 1;
-    for (int cut = 0; cut < kCuts && newton.dot(unbalance) > 0.5 * std::abs(slope); ++cut) {
-      part *= 0.5;
-      next = x + part * newton;
-      stand(next);
-    }
-    x = next;
-  }
+  // From where the bodies stood at the position before, if that is known; a mesh that does not touch there may leave a body free that
+  // carries load, which no step brings back.
+  constexpr int kNearSteps = 20, kSteps = 200;
+  const bool known = x.squaredNorm() > 0;
+  if (known && balanced(stand, x, unbalance, out, kNearSteps)) return give();
+  x = first_guess(system, position, compliance, free);
+  if (balanced(stand, x, unbalance, out, kSteps)) return give();
   fail(Failure::numerical, "static equilibrium of the system did not converge: residual ", out.residual,
        " of the largest mesh load ", scale, " N after ", kSteps, " steps");
 }

@@ -80,6 +80,11 @@ struct MeshInstant {
 };
 MeshInstant mesh_instant(const SystemModel& system, int m, double phase, int period);
 
+// Mesh periods after which the same teeth of all meshes meet, as far as teeth differ: the least common multiple of the numbers of teeth
+// of the gears that have errors or cracks; 1 if teeth are all alike. In each mesh period every gear turns by one tooth, those on
+// a carrier relative to it. Throws Error(input) above kMostHuntingPeriods.
+int hunting_periods(const SystemModel& system);
+
 // positions: of each mesh, at its mesh_instant.
 SystemPosition join(const SystemModel& system, double phase, int period, std::vector<MeshPosition> positions);
 
@@ -126,10 +131,10 @@ struct SystemEquilibrium {
   double transmission_error(const SystemModel& system, int m) const;
 };
 
-// Free bodies: those that no drive holds, one at least; start: (body) m. With one free body it is the monotone search of
-// equilibrium(); with more Newton's method with a line search on the convex energy whose gradient L^T p - f is, to 1e-12, or
-// to 1e-10 where round-off allows no more. laws: of lines, else empty. Throws Error(numerical) with the residual if that is
-// not reached.
+// Free bodies: those that no drive holds, one at least; start: (body) m, where they stood nearby; 0: not known. With one free body it is
+// the monotone search of equilibrium(); with more Newton's method with a line search on the convex energy whose gradient L^T p - f is,
+// to 1e-12, or to 1e-10 where round-off allows no more. laws: of lines, else empty. Throws Error(numerical) with the residual if that
+// is not reached.
 SystemEquilibrium equilibrium(const SystemModel& system, const SystemPosition& position,
                               const Eigen::MatrixXd& compliance, const Eigen::VectorXd& start,
                               ComplementaritySolver& solver);

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "gear/system_layout.h"
+#include "gear/tooth_errors.h"
 #include "signal/spectrum.h"
 #include "system/system_statics.h"
 
@@ -23,13 +24,26 @@ const BodyArtifact& body_of(const SystemStaticParameters& settings, const std::v
 
 }  // namespace
 
+int hunting_periods(const SystemStaticParameters& settings) {
+  std::vector<int> teeth;
+  for (size_t b = 0; b < settings.errors.size(); ++b)
+    if (settings.has_errors(b)) teeth.push_back(settings.layout.bodies[b].teeth);
+  return hunting_periods_of(teeth);
+}
+
 SystemModel elastic_system(const SystemStaticParameters& settings, const std::vector<BodyArtifact>& bodies) {
   const System layout = on_fixed_carriers(settings.layout);
   std::vector<BodyArtifact> of_body;
   for (size_t b = 0; b < layout.bodies.size(); ++b)
     of_body.push_back(body_of(settings, bodies, settings.gear[b]));
   std::vector<GearMeshSpec> specs;
-  for (const int section : settings.section) specs.push_back(settings.mesh[static_cast<size_t>(section)]);
+  specs.reserve(settings.section.size());
+  for (size_t m = 0; m < settings.section.size(); ++m) {
+    specs.push_back(settings.mesh[static_cast<size_t>(settings.section[m])]);
+    for (size_t s = 0; s < kSides; ++s)
+      if (const auto b = static_cast<size_t>(layout.meshes[m].side[s].body); settings.has_errors(b))
+        specs.back().errors[s] = settings.errors[b];
+  }
   return {layout, of_body, specs};
 }
 
@@ -127,14 +141,19 @@ void take_phase(const SystemModel& system, const SystemSolution& at, Index row, 
 }
 
 void take_harmonics(SystemStaticArtifact& out) {
-  constexpr int kMostHarmonics = 40;
-  const int count = resolved_harmonics(out.mesh_phase.size(), kMostHarmonics);
-  out.transmission_error_harmonic.resize(count + 1, out.transmission_error.cols());
-  for (Index m = 0; m < out.transmission_error.cols(); ++m) {
-    const Harmonics h = harmonics(Eigen::VectorXd(out.transmission_error.col(m)), count);
-    out.transmission_error_harmonic(0, m) = h.mean;
-    out.transmission_error_harmonic.col(m).tail(count) = h.amplitude;
-  }
+  constexpr int kMostHarmonics = 40, kMostOrders = 1 << 20;
+  const auto taken = [&](int most, int periods) {
+    const int count = resolved_harmonics(out.mesh_phase.size(), most, periods);
+    MatrixRM amplitude(count + 1, out.transmission_error.cols());
+    for (Index m = 0; m < out.transmission_error.cols(); ++m) {
+      const Harmonics h = harmonics(Eigen::VectorXd(out.transmission_error.col(m)), count, periods);
+      amplitude(0, m) = h.mean;
+      amplitude.col(m).tail(count) = h.amplitude;
+    }
+    return amplitude;
+  };
+  out.transmission_error_harmonic = taken(kMostHarmonics, out.hunting_periods);
+  if (out.hunting_periods > 1) out.transmission_error_order = taken(kMostOrders, 1);
 }
 
 }  // namespace
@@ -171,14 +190,31 @@ void check_at_rest(const SystemScene& scene, const System& layout) {
   if (!(balance.load.maxCoeff() > 0)) reject("drive", 0, kNoTorque);
 }
 
+namespace {
+
+// What is kept of each position until the result is written: loads and forces of the strips, and the result itself.
+void require_rows(const SystemModel& system, int periods, int positions) {
+  constexpr double kMostMemory = 4e9;  // bytes
+  const auto meshes = static_cast<double>(system.mesh.size()),
+             bodies = static_cast<double>(system.body.size());
+  constexpr double kOfMesh = 100, kOfBody = 20;  // numbers: strips of its pairs among them; places and forces
+  const double memory = 8.0 * positions * periods * (meshes * (kOfMesh + 2 * meshes) + bodies * kOfBody);
+  if (memory > kMostMemory)
+    fail(Failure::input,
+         periods > 1 ? text("the same teeth meet again after ", periods, " mesh periods; ") : "",
+         static_cast<double>(positions) * periods, " positions of ", system.mesh.size(), " meshes need ",
+         memory * 1e-9, " GB, at most ", kMostMemory * 1e-9,
+         " are allowed; lower positions in [discretisation]",
+         periods > 1 ? ", or give errors to fewer gears" : "");
+}
+
+}  // namespace
+
 SystemStaticArtifact system_at_rest(const SystemStaticParameters& settings,
                                     const std::vector<BodyArtifact>& bodies) {
   const SystemModel system = elastic_system(settings, bodies);
-  for (const GearMeshModel& mesh : system.mesh)
-    for (const FlankDeviation& flank : mesh.deviation)
-      if (flank.repeats() > 1)
-        fail(Failure::input,
-             "teeth of a gear differ from each other; a system at rest is computed over one mesh period");
+  const int periods = hunting_periods(system);
+  require_rows(system, periods, settings.contact.positions);
   const std::vector<SystemSolution> solutions = rest_over_period(
       system, settings.fidelity.contact, settings.contact.strips, settings.contact.positions);
   const auto phases = static_cast<Index>(solutions.size()),
@@ -186,6 +222,7 @@ SystemStaticArtifact system_at_rest(const SystemStaticParameters& settings,
              meshes = static_cast<Index>(system.mesh.size());
   SystemStaticArtifact out;
   out.settings = settings;
+  out.hunting_periods = periods;
   for (const auto& [gear, hash] : settings.body) out.drawing.push_back(body_of(settings, bodies, gear));
   take_masses(settings, bodies, out.settings.layout);
   out.contact_ratio.resize(meshes);
@@ -200,7 +237,7 @@ SystemStaticArtifact system_at_rest(const SystemStaticParameters& settings,
   out.bearing_force = out.translation;
   out.mesh_stiffness.assign(solutions.size(), MatrixRM::Zero(meshes, meshes));
   for (Index i = 0; i < phases; ++i) {
-    out.mesh_phase[i] = static_cast<double>(i) / static_cast<double>(phases);
+    out.mesh_phase[i] = static_cast<double>(i) / static_cast<double>(settings.contact.positions);
     take_phase(system, solutions[static_cast<size_t>(i)], i, out);
   }
   take_pairs(solutions, meshes, out);

@@ -14,6 +14,9 @@ namespace whine {
 // turn, meshes of different contact_plane, torques that are not balanced, that pull a mesh apart or that no mesh carries.
 void check_at_rest(const SystemScene& scene, const System& layout);
 
+// Mesh periods after which the same teeth meet, as hunting_periods() of the system.
+int hunting_periods(const SystemStaticParameters& settings);
+
 // The system that the settings describe, its carriers held; bodies: [gear] of settings.body. Bodies stand in the order of
 // settings.layout, whose carriers come last.
 SystemModel elastic_system(const SystemStaticParameters& settings, const std::vector<BodyArtifact>& bodies);
@@ -22,8 +25,8 @@ SystemModel elastic_system(const SystemStaticParameters& settings, const std::ve
 void take_masses(const SystemStaticParameters& settings, const std::vector<BodyArtifact>& bodies,
                  System& layout);
 
-// bodies: [gear] of settings.body. Throws Error(input) for a carrier that may turn, torques that are not balanced and what
-// SystemModel rejects, and what rest_over_period throws.
+// bodies: [gear] of settings.body. Throws Error(input) for a carrier that may turn, torques that are not balanced, more positions
+// than memory holds and what SystemModel and hunting_periods() reject, and what rest_over_period throws.
 //
 // What holds a carrier, T_c = -sum (P - C) x F over its planets, and its bearing force, sum F, F what a planet presses its pin
 // with, follow from the planets. Where all axes of a train but those of planets are one, sum of sense T over bodies that stand on the

@@ -109,23 +109,34 @@ std::string outside_zone(const SystemSolution& solution, double phase) {
 
 std::vector<SystemSolution> rest_over_period(const SystemModel& system, ContactModel contact, int strips,
                                              int positions) {
+  const int periods = hunting_periods(system), all = positions * periods;
   double widening = 1;
   for (int attempt = 0;; ++attempt, widening *= kWidening) {
     SystemStatics statics(system, contact, static_zones(system, strips, 1, widening));
-    std::vector<SystemSolution> out;
+    std::vector<SystemSolution> out(static_cast<size_t>(all));
     std::string beyond;
-    VectorXd start = VectorXd::Zero(static_cast<Eigen::Index>(system.body.size()));
-    for (int i = 0; i < positions && beyond.empty(); ++i) {
-      report_step("mesh positions", i, positions);
-      const double phase = static_cast<double>(i) / positions;
-      out.push_back(statics.solve(phase, 0, start));
-      start = out.back().equilibrium.x;
-      out.back().mesh_stiffness = statics.mesh_stiffness();
-      beyond = outside_zone(out.back(), phase);
+    bool widened = true;  // whether a wider range may do
+    std::vector<VectorXd> start(static_cast<size_t>(periods),
+                                VectorXd::Zero(static_cast<Eigen::Index>(system.body.size())));
+    // All mesh periods at one position after the other: all but the gaps is the same there.
+    for (int step = 0; step < all && beyond.empty(); ++step) {
+      report_step("mesh positions", step, all);
+      const int period = step % periods, position = step / periods;
+      const double phase = static_cast<double>(position) / positions;
+      VectorXd& from = start[static_cast<size_t>(period)];
+      if (position == 0 && period > 0) from = start[static_cast<size_t>(period) - 1];
+      SystemSolution& at =
+          out[static_cast<size_t>(period) * static_cast<size_t>(positions) + static_cast<size_t>(position)];
+      at = statics.solve(phase, period, from);
+      from = at.equilibrium.x;
+      at.mesh_stiffness = statics.mesh_stiffness();
+      beyond = outside_zone(at, phase + period);
+      widened = at.at_root.empty() || wants_more(at);
     }
     if (beyond.empty()) return out;
-    if (attempt == kWidenings || (!out.back().at_root.empty() && !wants_more(out.back())))
-      fail_outside_range(Failure::numerical, "contact leaves the flanks: ", beyond, "; lower the torque");
+    if (attempt == kWidenings || !widened)
+      fail_outside_range(Failure::numerical, "contact leaves the flanks: ", beyond, "; lower the torque",
+                         periods > 1 ? " or the errors of the teeth" : "");
   }
 }
 

@@ -25,7 +25,7 @@ struct SystemSolution {
   bool leaves_zone = false;                              // a wider range may do
   std::string
       at_root;  // body at the start of whose involute pressure stands, which no wider range helps; "": none
-  Eigen::MatrixXd mesh_stiffness;  // (mesh, mesh) N m-1, see SystemStatics; of a period alone
+  Eigen::MatrixXd mesh_stiffness;  // (mesh, mesh) N m-1, see SystemStatics; of rest_over_period alone
 };
 
 // One pair of a position that is loaded.
@@ -49,8 +49,8 @@ std::vector<CandidateZone> static_zones(const SystemModel& system, int strips, d
 // edge would leave the other's involute.
 std::string outside_zone(const SystemSolution& solution, double phase);
 
-// (position) over one mesh period, from phase 0 on; strips: across the contact width, of contact "strips". Throws as
-// static_transmission.
+// (mesh period, position) over the hunting period of hunting_periods(system) mesh periods, which is one where teeth are alike, from
+// phase 0 on; positions: of a mesh period; strips: across the contact width, of contact "strips". Throws as static_transmission.
 std::vector<SystemSolution> rest_over_period(const SystemModel& system, ContactModel contact, int strips,
                                              int positions);
 

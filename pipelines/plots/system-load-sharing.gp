@@ -1,6 +1,6 @@
 # How planets share the load at rest: of each [[mesh]] of planets the share of each over the mesh period (left), and the loads of the
 # tooth pairs of its first mesh (right).
-# Variables from gear-plot: tsv, heading, line1.., notes, height, rows, low, high (%) and, of each row k, first1.., labels1..,
+# Variables from gear-plot: tsv, heading, line1.., notes, height, periods, rows, low, high (%) and, of each row k, first1.., labels1..,
 # pairs1.. (with '|' between), curves1.., loads1.., equal1.. (%).
 set datafile separator tab
 set datafile commentschars "#"
@@ -18,8 +18,6 @@ set tics out nomirror
 of(i) = colour[(i - 1) % 6 + 1]
 dash(i) = i > 6 ? 2 : 1
 row = ((1 - lift) * height - 110) / rows
-set xrange [0:1]
-set xtics 0.2
 do for [k = 1:int(rows)] {
   labels = value(sprintf("labels%d", k))
   pairs = value(sprintf("pairs%d", k))
@@ -33,14 +31,18 @@ do for [k = 1:int(rows)] {
   set xlabel "Mesh phase (mesh periods)" offset 0, 0.3
   set ylabel "Share of the load (%)"
   set yrange [low : high]
+  set xrange [0:periods]
+  if (periods == 1) { set xtics 0.2 } else { set xtics autofreq }
   set key at graph 1.03, graph 1.0 left top Left reverse vertical samplen 2 spacing 1.2 font ",13" noenhanced
   plot equal with lines lt 1 lw 1.4 dt (18, 8) lc rgb "#444444" title "equal", \
-    for [i = 1:curves] tsv index sprintf("[share %d]", k) using 1:i + 1 with lines lt 1 dt dash(i) lw (2 + 0.7 * (curves - i)) lc rgb of(i) title word(labels, i)
+    for [i = 1:curves] tsv index sprintf("[share %d]", k) using 1:i + 1 with lines lt 1 dt dash(i) lw (periods > 1 ? 1.2 : 2 + 0.7 * (curves - i)) lc rgb of(i) title word(labels, i)
   set lmargin at screen 0.62
   set rmargin at screen 0.88
   set xlabel sprintf("Phase of %s (mesh periods)", value(sprintf("first%d", k))) offset 0, 0.3 noenhanced
   set ylabel sprintf("Tooth loads, %s (N)", value(sprintf("first%d", k))) noenhanced
   set yrange [0 : *]
+  set xrange [0:1]
+  set xtics 0.2
   plot for [p = 1:loads] tsv index sprintf("[loads %d]", k) using 1:p + 1 with lines lt 1 lw 2.6 lc rgb pair_colour[(p - 1) % 6 + 1] title part(pairs, p)
 }
 eval(below)

@@ -1,5 +1,5 @@
-# A system at rest: transmission errors, mesh forces, bearing forces, each over a mesh period (left) and its harmonics (right).
-# Variables from gear-plot: tsv, heading, line1.., height, harmonics and, of each row k, quantity1.., axis1.., unit1.., labels1.., curves1..,
+# A system at rest: transmission errors, mesh forces, bearing forces, each over a mesh period, of teeth that differ over the hunting period (left) and its harmonics (right).
+# Variables from gear-plot: tsv, heading, line1.., height, harmonics, periods and, of each row k, quantity1.., axis1.., unit1.., labels1.., curves1..,
 # low1.., high1.., most1..; notes, their number.
 set datafile separator tab
 set datafile commentschars "#"
@@ -25,16 +25,16 @@ do for [k = 1:3] {
   largest = value(sprintf("most%d", k))
   curves = int(value(sprintf("curves%d", k)))
   # Curves lie on each other where meshes are alike: what is drawn first shows on either side of what is drawn on it.
-  thick(i) = 2 + 0.8 * (curves - i)
+  thick(i) = periods > 1 ? 1.2 : 2 + 0.8 * (curves - i)
   set tmargin at screen 1 - (112.0 + row * (k - 1)) / height
   set bmargin at screen 1 - (row + 5.0 + row * (k - 1)) / height
   set lmargin at screen 0.1
   set rmargin at screen 0.50
   set xlabel "Mesh phase (mesh periods)" offset 0, 0.3
   set ylabel sprintf("%s (%s)", axis, unit)
-  set xrange [0:1]
+  set xrange [0:periods]
   set yrange [bottom : top]
-  set xtics 0.2
+  if (periods == 1) { set xtics 0.2 } else { set xtics autofreq }
   unset key
   drawn = ""
   do for [i = 1:curves] {

@@ -1,0 +1,538 @@
+// Systems whose teeth differ: both flanks of a tooth, the hunting period at rest and in motion, which planet meets which tooth.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+
+#include "base/error.h"
+#include "dynamics/system_dynamics.h"
+#include "gear/flank_deviation.h"
+#include "gear/system_layout.h"
+#include "gear/tooth_errors.h"
+#include "io/system_scene.h"
+#include "io/system_static_codec.h"
+#include "io/system_sweep_codec.h"
+#include "paper_pair.h"
+#include "planetary_train.h"
+#include "relative.h"
+#include "report/system_figures.h"
+#include "scene_file.h"
+#include "studies/system_branch.h"
+#include "studies/system_impact.h"
+#include "studies/system_sweep.h"
+#include "system/rigid_system.h"
+#include "system/system_rest.h"
+#include "system/system_statics.h"
+
+using namespace whine;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi, kMicro = 1e-6;
+
+// Module 2 mm: 30, 20 and 40 teeth in line, the second one on a bearing, the third one held. Each reduced once, coarsely.
+const std::array<int, 3> kTeeth{30, 20, 40};
+
+GearDesign line_gear(int teeth) {
+  GearDesign d = paper_gear(teeth, teeth * 1e-3 - 6e-3);
+  d.module = 2e-3;
+  d.face_width = 20e-3;
+  return d;
+}
+
+SystemScene line(ContactModel contact = ContactModel::line) {
+  SystemScene scene;
+  const std::array<std::string, 3> name{"a", "b", "c"};
+  for (size_t g = 0; g < 3; ++g) {
+    SystemScene::Gear gear;
+    gear.name = name[g];
+    gear.design = line_gear(kTeeth[g]);
+    gear.material = paper_steel();
+    if (g == 1) gear.bearing = {200e6, 300, 0};
+    scene.gears.push_back(gear);
+  }
+  for (size_t m = 0; m < 2; ++m) {
+    SystemScene::Mesh mesh;
+    mesh.spec.gear = {name[m], name[m + 1]};
+    mesh.spec.centre_distance = (kTeeth[m] + kTeeth[m + 1]) * 1e-3;
+    mesh.spec.corner.enabled = false;
+    mesh.direction = m == 0 ? 0.3 : 1.1;
+    scene.meshes.push_back(mesh);
+  }
+  scene.drives = {{"a", System::DriveKind::torque, 60, 0}, {"c", System::DriveKind::held, 0, 0}};
+  scene.fidelity = {BodyModel::modal, contact, Integrator::exact};
+  scene.contact = {4, 8};
+  scene.body.element_size = 1.5e-3;
+  scene.body.modes = 12;
+  scene.damping.rayleigh_stiffness = 3e-6;
+  scene.time.steps_per_period = 64;
+  scene.time.min_sample_rate = 1;
+  return scene;
+}
+
+const std::vector<BodyArtifact>& line_bodies() {
+  static const std::vector<BodyArtifact> bodies = [] {
+    std::vector<BodyArtifact> out;
+    const SystemScene scene = line();
+    for (const SystemScene::Gear& gear : scene.gears)
+      out.push_back(reduce(make_sector_mesh(gear.design, scene.body), gear.material, scene.body.modes));
+    return out;
+  }();
+  return bodies;
+}
+
+SystemStaticArtifact rest_of(const SystemScene& scene) {
+  return system_at_rest(static_parameters_of(scene, layout_of(scene)), line_bodies());
+}
+
+SystemSweepArtifact swept(const SystemScene& scene) {
+  return system_sweep(sweep_parameters_of(scene, layout_of(scene)), line_bodies(), Direction::up, no_report);
+}
+
+ToothErrors pitch(int teeth, double all, double first) {
+  ToothErrors errors;
+  errors.cumulative_pitch.assign(static_cast<size_t>(teeth), all);
+  errors.cumulative_pitch[0] += first;
+  return errors;
+}
+
+// Every kind of error, from tooth to tooth.
+ToothErrors mixed(int teeth) {
+  ToothErrors errors;
+  for (int i = 0; i < teeth; ++i) {
+    errors.cumulative_pitch.push_back(((i * 37) % 11 - 5) * kMicro);
+    errors.profile_slope.push_back(((i * 23) % 7 - 3) * kMicro);
+    errors.profile_form.push_back(((i * 17) % 5 - 2) * kMicro);
+  }
+  errors.eccentricity = 4 * kMicro;
+  errors.eccentric_tooth = 3.5;
+  return errors;
+}
+
+template <class Artifact>
+std::string bytes_of(const Artifact& a) {
+  const SceneFile place;
+  const std::string path = place.path("") + ".h5";
+  write(path, a, Provenance());
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream out;
+  out << in.rdbuf();
+  return out.str();
+}
+
+const FigureBlock& block(const Figure& figure, const std::string& name) {
+  for (const FigureBlock& b : figure.blocks)
+    if (b.name == name) return b;
+  FAIL("no block " << name);
+  return figure.blocks.front();
+}
+
+// Of the teeth that meet in a mesh at a row, those of one side, that carry load.
+std::vector<int> loaded_teeth(const SystemStaticArtifact& a, Index row, size_t m, size_t side) {
+  const System::Mesh& mesh = a.settings.layout.meshes[m];
+  const int before = static_cast<int>(std::floor(a.mesh_phase[row] + mesh.phase));
+  const int teeth = a.settings.layout.bodies[static_cast<size_t>(mesh.side[side].body)].teeth;
+  std::vector<int> out;
+  for (Index p = 0; p < a.pair.size(); ++p)
+    if (a.tooth_load[static_cast<size_t>(row)](static_cast<Index>(m), p) > 0) {
+      const int tooth = mesh.side[side].first_tooth + mesh.side[side].sense * (a.pair[p] - before);
+      out.push_back(((tooth % teeth) + teeth) % teeth);
+    }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "both flanks of an eccentric toothing: at the reference circle the pitch of a circle that is displaced") {
+  // A displacement by e towards A moves flanks at the angle t by e sin(A - t) along the circle, and by e cos(A - t) outwards, where
+  // teeth are thicker by tan(alpha) of it on either flank.
+  constexpr int kCount = 23;
+  GearDesign design = paper_gear(kCount, 10e-3);
+  const ToothGeometry gear(design);
+  const double e = 1e-6, towards = 2 * kPi * 5.3 / kCount, alpha = design.pressure_angle,
+               roll = std::tan(alpha);
+  const Vec2 point = gear.flank_point(roll);
+  const double half = std::atan2(point.y(), point.x()) - kPi / 2;  // from the middle of the tooth, leading
+  for (const FlankSide side : {FlankSide::leading, FlankSide::trailing}) {
+    const double sign = side == FlankSide::leading ? 1 : -1;
+    ToothErrors eccentric, list;
+    eccentric.eccentricity = e;
+    eccentric.eccentric_tooth = 5.3;
+    for (int i = 0; i < kCount; ++i) {
+      const double at = towards - 2 * kPi * i / kCount - sign * half;
+      list.cumulative_pitch.push_back(e * (std::sin(at) + sign * std::tan(alpha) * std::cos(at)));
+    }
+    const FlankDeviation one(gear, {}, eccentric, side), other(gear, {}, list, side);
+    for (int i = 0; i < kCount; ++i) CHECK(std::abs(one.at(roll, i) - other.at(roll, i)) < 1e-10);
+  }
+}
+
+TEST_CASE(
+    "errors drawn within a class: each flank has its own, the wave of one revolution is that of one "
+    "displacement") {
+  ToothErrors errors;
+  errors.iso_class = 6;
+  const GearDesign design = paper_gear(400);
+  const ToothDeviations leading = tooth_deviations(design, errors),
+                        trailing = tooth_deviations(design, errors, FlankSide::trailing);
+  CHECK(leading.profile_slope != trailing.profile_slope);
+  const auto wave = [](const std::vector<double>& places) {
+    std::complex<double> sum = 0;
+    for (size_t i = 0; i < places.size(); ++i)
+      sum +=
+          places[i] * std::polar(1.0, -2 * kPi * static_cast<double>(i) / static_cast<double>(places.size()));
+    return sum;
+  };
+  // Of 400 teeth scatter moves the wave by little.
+  CHECK(std::arg(wave(trailing.cumulative_pitch) / wave(leading.cumulative_pitch)) ==
+        relative(2 * design.pressure_angle, 0.1));
+  const FlankTolerances limit = iso_1328_tolerances(design, 6);
+  const auto [least, largest] =
+      std::minmax_element(trailing.cumulative_pitch.begin(), trailing.cumulative_pitch.end());
+  CHECK(*largest - *least <= limit.cumulative_pitch);
+}
+
+TEST_CASE("two gears as a system have the transmission errors of the pair with the same errors, at rest") {
+  for (const ContactModel contact : {ContactModel::line, ContactModel::strips}) {
+    CAPTURE(contact);
+    SystemScene scene = line(contact);
+    scene.gears.pop_back();
+    scene.meshes.pop_back();
+    scene.gears[1].bearing = {};
+    scene.meshes[0].spec.corner.enabled = true;
+    scene.drives[1].gear = "b";
+    scene.gears[0].errors = mixed(30);
+    scene.gears[1].errors = mixed(20);
+    const SystemStaticArtifact a = rest_of(scene);
+    StaticParameters settings;
+    settings.mesh = scene.meshes[0].spec;
+    settings.mesh.errors = {mixed(30), mixed(20)};
+    settings.fidelity.contact = contact;
+    settings.contact = scene.contact;
+    const StaticArtifact pair = static_transmission(line_bodies()[0], line_bodies()[1], settings, 60);
+    CHECK(a.hunting_periods == 60);
+    REQUIRE(a.mesh_phase.size() == pair.mesh_phase.size());
+    CHECK(a.mesh_phase == pair.mesh_phase);
+    CHECK(a.pair == pair.pair);
+    CHECK((a.transmission_error.col(0) - pair.transmission_error).cwiseAbs().maxCoeff() < 1e-12 * kMicro);
+    for (Index i = 0; i < a.mesh_phase.size(); ++i)
+      CHECK((a.tooth_load[static_cast<size_t>(i)].row(0) - pair.tooth_load.row(i)).norm() <
+            1e-9 * 60 / 30e-3);
+  }
+}
+
+TEST_CASE("two gears as a system move as the pair with the same errors, from tooth to tooth") {
+  GearMeshSpec spec = paper_statics(16).mesh;
+  spec.errors = {mixed(50), mixed(50)};
+  const BodyArtifact& body = paper_body(40e-3, 1.2e-3, 12);
+  SystemModel system(body, body, spec);
+  system.layout.drives = {{0, System::DriveKind::torque, 150}, {1, System::DriveKind::torque, -150}};
+  for (System::Body& of : system.layout.bodies) of.inertia = 0.0148;
+  SystemMotion motion;
+  motion.damping.rayleigh_stiffness = 7.7e-6;
+  motion.fidelity = {BodyModel::modal, ContactModel::line, Integrator::exact};
+  motion.axis_frequency = axis_frequency(system, 463e6 * Eigen::MatrixXd::Identity(1, 1));
+  SystemDynamics dynamics(system, motion);
+  constexpr int kSteps = 64;
+  dynamics.set_positions({80e-6}, kSteps);
+  CHECK(dynamics.hunting_periods() == 50);
+  SystemDynamics::State state = dynamics.rest();
+
+  const GearMeshModel model(body, body, spec);
+  RollingDynamics pair(model, paper_parameters(463e6, BodyModel::modal, ContactModel::line));
+  CandidateZone zone;
+  zone.corner_gap = 80e-6;
+  pair.set_zone(zone, kSteps);
+  RollingDynamics::State rolling = pair.rest();
+  SystemDynamics::Period a;
+  RollingDynamics::Period b;
+  dynamics.set_speed(1300, kSteps);
+  pair.set_speed(1300, kSteps);
+  double worst = 0, least = 1, most = 0;
+  SystemEnergyBalance energy;
+  for (int n = 0; n < 110; ++n) {
+    CHECK(state.period == n % 50);
+    REQUIRE(dynamics.integrate(state, a, &energy));
+    REQUIRE(pair.integrate(rolling, b));
+    CHECK(energy.imbalance < 1e-12 * energy.throughput);
+    if (n < 60) continue;
+    worst = std::max(worst,
+                     (a.transmission_error.row(0).transpose() - b.transmission_error).cwiseAbs().maxCoeff());
+    least = std::min(least, b.transmission_error.minCoeff());
+    most = std::max(most, b.transmission_error.maxCoeff());
+  }
+  // As without errors: residual fields of their own.
+  CHECK(worst < 1e-5 * (most - least));
+}
+
+TEST_CASE("an idler whose flanks stand all alike ahead is an idler that has turned: loads do not change") {
+  for (const ContactModel contact : {ContactModel::line, ContactModel::strips}) {
+    CAPTURE(contact);
+    const SystemStaticArtifact plain = rest_of(line(contact));
+    SystemScene scene = line(contact);
+    const double ahead = 3 * kMicro;
+    scene.gears[1].errors = pitch(20, ahead, 0);
+    const SystemStaticArtifact a = rest_of(scene);
+    CHECK(a.hunting_periods == 20);
+    REQUIRE(a.mesh_phase.size() == 20 * 8);
+    // The first mesh is closed by leading flanks that stand ahead, the second one opened by trailing ones.
+    const double turned = ahead * std::cos(20 * kPi / 180);
+    for (Index i = 0; i < a.mesh_phase.size(); ++i) {
+      CHECK(std::abs(a.transmission_error(i, 0) - plain.transmission_error(i % 8, 0) + turned) < 1e-12);
+      CHECK(std::abs(a.transmission_error(i, 1) - plain.transmission_error(i % 8, 1) - turned) < 1e-12);
+      CHECK(std::abs(a.rotation(i, 0) - plain.rotation(i % 8, 0)) < 1e-12);
+      CHECK((a.mesh_force.row(i) - plain.mesh_force.row(i % 8)).norm() < 1e-6 * plain.mesh_force(0, 0));
+    }
+  }
+}
+
+TEST_CASE(
+    "an error of one idler tooth: felt in both meshes where that tooth carries load, and nowhere else") {
+  const SystemStaticArtifact plain = rest_of(line());
+  SystemScene scene = line();
+  scene.gears[1].errors = pitch(20, 0, 3 * kMicro);
+  const SystemStaticArtifact a = rest_of(scene);
+  const size_t n = plain.tooth_load.size();
+  std::array<int, 2> met{};
+  std::array<double, 2> shift{};
+  for (size_t i = 0; i < a.tooth_load.size(); ++i)
+    for (size_t m = 0; m < 2; ++m) {
+      const auto row = static_cast<Index>(i), mesh = static_cast<Index>(m);
+      const std::vector<int> teeth = loaded_teeth(a, row, m, m == 0 ? 1 : 0);
+      const bool meets = std::find(teeth.begin(), teeth.end(), 0) != teeth.end();
+      const double change = a.tooth_load[i].row(mesh).cwiseAbs().maxCoeff() -
+                            plain.tooth_load[i % n].row(mesh).cwiseAbs().maxCoeff();
+      met[m] += meets;
+      if (meets) shift[m] = std::max(shift[m], std::abs(change));
+      // Teeth that stand back on the trailing flank may leave the contact, and then are not among those that carry load.
+      if (!meets && m == 0) CHECK(std::abs(change) < 1e-5 * plain.mesh_force(0, 0));
+      CHECK(a.mesh_force(row, mesh) == relative(plain.mesh_force(static_cast<Index>(i % n), mesh), 1e-9));
+    }
+  // One of 20 teeth, in contact for the contact ratio of a mesh period.
+  CHECK(met[0] >= 8);
+  CHECK(met[0] <= 17);
+  for (const double each : shift) CHECK(each > 0.1 * plain.mesh_force(0, 0));
+}
+
+TEST_CASE("a tooth of the sun that stands ahead: the planet that it meets carries more, all else balances") {
+  SystemScene scene = planetary_train(4);
+  scene.fidelity = {BodyModel::modal, ContactModel::line, Integrator::exact};
+  scene.contact = {4, 6};
+  std::vector<BodyArtifact> bodies;
+  BodyDiscretisation coarse;
+  coarse.element_size = 3e-3;
+  coarse.modes = 1;
+  const std::array stiffness{0.0, 3e8, 0.0};
+  for (size_t g = 0; g < 3; ++g) {
+    SystemScene::Gear& gear = scene.gears[g];
+    if (!gear.design.internal) gear.design.bore_radius = (0.5 * gear.design.teeth - 5) * gear.design.module;
+    gear.material = {206e9, 0.3, 7850, true};
+    gear.equivalent_mass = 0;
+    gear.bearing = {stiffness[g], 0, 0};
+    bodies.push_back(reduce(make_sector_mesh(gear.design, coarse), gear.material, 1));
+  }
+  scene.carriers[0].bearing = {};
+  scene.drives = {{"sun", System::DriveKind::torque, 300, 0},
+                  {"ring", System::DriveKind::held, 0, 0},
+                  {"carrier", System::DriveKind::held, 0, 0}};
+  const auto at_rest = [&] { return system_at_rest(static_parameters_of(scene, layout_of(scene)), bodies); };
+  const SystemStaticArtifact plain = at_rest();
+  scene.gears[0].errors = pitch(28, 0, 4 * kMicro);
+  const SystemStaticArtifact a = at_rest();
+  REQUIRE(a.hunting_periods == 28);
+  REQUIRE(a.mesh_phase.size() == 28 * 6);
+  const double force = 300 / ToothGeometry(scene.gears[0].design).base_radius();
+  std::array<int, 4> met{};
+  double most = 1;
+  for (Index i = 0; i < a.mesh_phase.size(); ++i) {
+    const auto row = static_cast<size_t>(i);
+    CHECK(a.mesh_force.row(i).head(4).sum() == relative(force, 1e-9));
+    CHECK(a.bearing_force[row].topRows(6).colwise().sum().norm() < 1e-9 * force);
+    double left = 0;
+    for (const Index b : {Index{0}, Index{5}, Index{6}})
+      left += a.settings.layout.bodies[static_cast<size_t>(b)].sense * a.torque(i, b);
+    CHECK(std::abs(left) < 1e-8 * 300);
+    int planets = 0;
+    for (size_t m = 0; m < 4; ++m) {
+      const std::vector<int> teeth = loaded_teeth(a, i, m, 0);
+      if (std::find(teeth.begin(), teeth.end(), 0) == teeth.end()) continue;
+      ++planets;
+      ++met[m];
+      // Of two planets opposite each other, which share alike with exact teeth.
+      CHECK(plain.load_share(i % 6, static_cast<Index>(m)) ==
+            relative(plain.load_share(i % 6, static_cast<Index>((m + 2) % 4)), 1e-9));
+      const double more =
+          a.load_share(i, static_cast<Index>(m)) / a.load_share(i, static_cast<Index>((m + 2) % 4));
+      CHECK(more > 1);
+      most = std::max(most, more);
+    }
+    CHECK(planets <= 1);
+    if (planets == 0) CHECK((a.load_share.row(i) - plain.load_share.row(i % 6)).cwiseAbs().maxCoeff() < 1e-9);
+  }
+  CHECK(most > 1.05);
+  // The figure: shares over the hunting period, tooth loads of the first mesh over its first whole mesh period.
+  const Figure figure = system_load_sharing_figure(a);
+  const FigureBlock &shares = block(figure, "share 1"), &loads = block(figure, "loads 1");
+  CHECK(shares.rows.size() == 28 * 6 + 1);
+  CHECK(shares.rows.back()[0] == 28);
+  CHECK(loads.rows.front()[0] == 0);
+  CHECK(loads.rows.back()[0] == 1);
+  for (size_t i = 0; i < loads.rows.size(); ++i) {
+    if (i > 0) CHECK(loads.rows[i][0] > loads.rows[i - 1][0]);
+    double sum = 0;
+    for (size_t c = 1; c < loads.rows[i].size(); ++c) sum += loads.rows[i][c];
+    CHECK(sum > 0.9 * a.mesh_force.col(0).minCoeff());
+    CHECK(sum < 1.1 * a.mesh_force.col(0).maxCoeff());
+  }
+  // Each planet meets it once in a turn of the sun, for the contact ratio of mesh periods.
+  for (const int each : met) {
+    CHECK(each >= 6);
+    CHECK(each <= 12);
+  }
+}
+
+TEST_CASE(
+    "a hunting period of teeth that do not differ repeats the mesh period in motion; the same bytes again") {
+  SystemScene scene = line();
+  scene.operation.frequency_from = scene.operation.frequency_to = 1500;
+  scene.operation.frequency_step = 100;
+  scene.time.periodicity = 1e-9;
+  const SystemSweepArtifact plain = swept(scene);
+  CHECK(plain.hunting_periods == 1);
+  scene.gears[1].errors = pitch(20, 0, 1e-30);
+  const SystemSweepArtifact a = swept(scene);
+  CHECK(a.hunting_periods == 20);
+  CHECK(a.period_multiple[0] == 20);
+  CHECK(a.periods[0] % 20 == 0);
+  REQUIRE(a.transmission_error[0].rows() == 20 * 64);
+  for (Index i = 0; i < 20 * 64; ++i) {
+    CHECK((a.transmission_error[0].row(i) - plain.transmission_error[0].row(i % 64)).norm() < 1e-7 * kMicro);
+    CHECK((a.bearing_force[1][0].row(i) - plain.bearing_force[1][0].row(i % 64)).norm() < 1e-2);
+  }
+  CHECK(a.dte_rms(0, 1) == relative(plain.dte_rms(0, 1), 1e-7));
+
+  scene.gears[1].errors = mixed(20);
+  const SystemSweepArtifact differ = swept(scene);
+  CHECK(differ.energy_imbalance.cwiseAbs().maxCoeff() < 1e-9);
+  CHECK(differ.least_gap > -1e-13);
+  CHECK(differ.dte_rms(0, 0) > 1.5 * plain.dte_rms(0, 0));
+  CHECK(bytes_of(differ) == bytes_of(swept(scene)));
+  CHECK(bytes_of(rest_of(scene)) == bytes_of(rest_of(scene)));
+}
+
+TEST_CASE("slow motion of teeth that differ follows their statics over the hunting period") {
+  SystemScene scene = line();
+  scene.gears[1].errors = mixed(20);
+  scene.contact.positions = 64;
+  for (SystemScene::Mesh& mesh : scene.meshes)
+    mesh.spec.corner.enabled = true;  // without, pairs come at once
+  const SystemStaticArtifact rest = rest_of(scene);
+  scene.time.steps_per_period = 256;
+  scene.operation.frequency_step = 10;
+  std::array<double, 2> off{};
+  for (size_t k = 0; k < 2; ++k) {
+    scene.operation.frequency_from = scene.operation.frequency_to = k == 0 ? 20 : 10;
+    const SystemSweepArtifact slow = swept(scene);
+    REQUIRE(slow.transmission_error[0].rows() == 20 * 256);
+    for (Index i = 0; i < rest.mesh_phase.size(); ++i)
+      off[k] = std::max(
+          off[k],
+          (slow.transmission_error[0].row(4 * i) - rest.transmission_error.row(i)).cwiseAbs().maxCoeff());
+  }
+  const double range = rest.transmission_error.col(0).maxCoeff() - rest.transmission_error.col(0).minCoeff();
+  CHECK(off[0] < 0.005 * range);
+  CHECK(off[1] < 0.005 * range);
+}
+
+TEST_CASE(
+    "errors of a system: written, read, as parameters and in artifacts; planets have draws of their own") {
+  SystemScene scene = line();
+  scene.gears[1].errors = mixed(20);
+  scene.operation.frequency_from = 1000;
+  scene.operation.frequency_to = 2000;
+  scene.operation.frequency_step = 500;
+  const SceneFile file;
+  const SystemSweepParameters sweep = sweep_parameters_of(scene, layout_of(scene));
+  const std::string path = file.path(system_sweep_parameters(sweep), "sweep.toml");
+  const SystemSweepParameters again = read_system_sweep_parameters(path);
+  REQUIRE(again.errors.size() == 3);
+  CHECK(again.errors[0].none());
+  CHECK(again.errors[1].cumulative_pitch == sweep.errors[1].cumulative_pitch);
+  CHECK(again.errors[1].eccentric_tooth == 3.5);
+  CHECK(hunting_periods(again) == 20);
+  CHECK(system_sweep_parameters(again) == system_sweep_parameters(sweep));
+
+  const SystemStaticArtifact rest = rest_of(scene);
+  const std::string h5 = file.path("") + ".h5";
+  write(h5, rest, Provenance());
+  const SystemStaticArtifact read = read_system_static(h5);
+  CHECK(read.hunting_periods == 20);
+  CHECK(read.transmission_error_order == rest.transmission_error_order);
+  CHECK(read.settings.errors[1].profile_slope == rest.settings.errors[1].profile_slope);
+  for (size_t m = 0; m < 2; ++m)
+    for (size_t s = 0; s < 2; ++s)
+      CHECK(read.settings.layout.meshes[m].side[s].first_tooth ==
+            rest.settings.layout.meshes[m].side[s].first_tooth);
+  const Figure figure = system_static_figure(read);
+  CHECK(block(figure, "transmission_error").rows.size() == 20 * 8 + 1);
+  CHECK(block(figure, "transmission_error").rows.back()[0] == 20);
+  CHECK(block(figure, "transmission_error harmonics").rows[0][1] * kMicro ==
+        relative(rest.transmission_error_harmonic(1, 0), 1e-9));
+  // Orders of the mesh frequency are its harmonics.
+  CHECK(read.transmission_error_order(20, 0) == relative(read.transmission_error_harmonic(1, 0), 1e-9));
+
+  SystemScene train = planetary_train(3);
+  train.fidelity.body = BodyModel::modal;
+  train.gears[1].errors.iso_class = 6;
+  train.gears[1].errors.seed = 2147483647;
+  const SystemStaticParameters drawn = static_parameters_of(train, layout_of(train));
+  CHECK(drawn.errors[0].none());
+  CHECK(drawn.errors[1].seed == 2147483647);
+  CHECK(drawn.errors[2].seed == 0);
+  CHECK(drawn.errors[3].seed == 1);
+  CHECK(hunting_periods(drawn) == 36);
+}
+
+TEST_CASE(
+    "errors of a system that are rejected: too long a hunting period, memory, and stages of one mesh "
+    "period") {
+  const auto said = [](const auto& f) {
+    try {
+      f();
+    } catch (const Error& error) {
+      return error.kind() == Failure::input ? std::string(error.what()) : std::string();
+    }
+    return std::string();
+  };
+  CHECK(hunting_periods_of({}) == 1);
+  CHECK(hunting_periods_of({27, 1, 35, 27}) == 945);
+  CHECK(contains(
+      said([] {
+        hunting_periods_of({27, 35, 99});
+      }),
+      "after 10395 mesh periods, the least common multiple of the numbers of teeth of the gears whose "
+      "teeth differ (27, 35, 99); a system is computed over 4096 at most"));
+  SystemScene scene = line();
+  scene.gears[1].errors = mixed(20);
+  scene.operation.frequency_from = 1000;
+  scene.operation.frequency_to = 2000;
+  scene.operation.frequency_step = 500;
+  SystemSweepParameters settings = sweep_parameters_of(scene, layout_of(scene));
+  CHECK(contains(said([&] { system_branch(settings, line_bodies(), no_report, {}); }),
+                 "a branch of a system does not take teeth that differ: [gear.b.error]"));
+  CHECK(contains(said([&] { system_impact(settings, line_bodies(), {}, no_report); }),
+                 "a ring-down of a system does not take teeth that differ"));
+  settings.contact.positions = 1 << 20;
+  CHECK(contains(said([&] { system_at_rest(settings, line_bodies()); }),
+                 "lower positions in [discretisation]"));
+  settings.frequency_step = 1e-5;
+  CHECK(contains(said([&] { system_sweep(settings, line_bodies(), Direction::up, no_report); }),
+                 "the same teeth meet again after 20 mesh periods; the samples of"));
+}
