@@ -76,6 +76,11 @@ void body(int argc, char** argv) {
     whine::tell("gear-static: error budget at ", torque, " N m (", errors.refinement.entry,
                 "): mean stiffness to ", errors.refinement.mean_stiffness_change.cwiseAbs().sum() * 100,
                 " % in all -> ", output);
+    const whine::RootConvergence root = whine::convergence(errors.root);
+    for (int g = 0; g < whine::kSides && root.order.rows() > 0; ++g)
+      whine::tell("gear-static: largest root stress of ", errors.mesh.gear[g], " changes by ",
+                  root.change(0, g) * 100, " and ", root.change(1, g) * 100,
+                  " % with elements of half the size, twice; order ", root.order(0, g));
     if (!errors.choice_missing.empty())
       whine::tell("gear-static: warning: no other choice to compare with: ", errors.choice_missing);
     return;

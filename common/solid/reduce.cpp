@@ -308,10 +308,10 @@ void store_compliance(const Reduction& r, const FlankLoads& loads, Harmonics& ha
 
 // m: size of the elements on the root that its stress is read from, 0: those of the mesh will do. Where the tangent turns by more
 // than 0.4 from one element to the next the root of a deep tooth is 2 % off with the load low on the flank.
-double element_for_root_stress(const MeshArtifact& mesh) {
+double element_for_root_stress(const MeshArtifact& mesh, double root_share) {
   constexpr double kSharp = 0.25, kTurn = 0.4;  // modules, rad
   const double radius = least_root_radius(ToothGeometry(mesh.design));
-  const double element = kTurn * radius;
+  const double element = root_share * kTurn * radius;
   return radius < kSharp * mesh.design.module && element < mesh.discretisation.element_size ? element : 0;
 }
 
@@ -371,7 +371,8 @@ double least_eigenvalue(const Reduction& r, const std::vector<Eigen::MatrixXcd>&
 
 }  // namespace
 
-BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int modes, int flank_points) {
+BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int modes, int flank_points,
+                    double root_share) {
   check_options(mesh, material, modes);
   const FlankTable table(ToothGeometry(mesh.design), flank_points);
   const Eigen::VectorXd& xi = table.points();
@@ -393,7 +394,7 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
   Fields fields(mesh, body);
   store_modes(r, kept, fields, body);
   store_compliance(r, loads, harmonics, body);
-  if (const double element = element_for_root_stress(mesh); element > 0)
+  if (const double element = element_for_root_stress(mesh, root_share); element > 0)
     store_finer_root_stress(mesh, material, element, body);
   else
     store_root_stress(r, loads, harmonics.root_stress, body);

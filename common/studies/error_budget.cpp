@@ -70,22 +70,30 @@ struct Alternatives {
   Outcome with(const StaticParameters& other, double zone_factor = 1) const {
     return outcome(static_transmission(driver, driven, other, torque, zone_factor));
   }
-  // Bodies of another discretisation, with `finer` times the points of the flank table.
-  Outcome of_bodies(const std::function<void(BodyDiscretisation&)>& change, int finer = 1) const {
+  // Bodies of another discretisation, with `finer` times the points of the flank table, elements of sharp roots `root_share`
+  // times as large.
+  Outcome of_bodies(const std::function<void(BodyDiscretisation&)>& change, int finer = 1,
+                    double root_share = 1) const {
     constexpr int kModes = 1;  // statics ask for none
     const auto again = [&](const BodyArtifact& body) {
       BodyDiscretisation other = body.discretisation;
       change(other);
       return reduce(make_sector_mesh(body.design, other), body.material, kModes,
-                    finer * static_cast<int>(body.flank_position.size()));
+                    finer * static_cast<int>(body.flank_position.size()), root_share);
     };
     const bool alike = driver.compliance == driven.compliance;  // one body serves both gears
     const BodyArtifact first = again(driver);
     return outcome(static_transmission(first, alike ? first : again(driven), settings, torque));
   }
+  // Of all elements, those of sharp roots with them.
+  Outcome of_elements(double share) const {
+    return of_bodies([share](BodyDiscretisation& body) { body.element_size *= share; }, 1, share);
+  }
 };
 
-NamedOutcomes refinements(const Alternatives& pair) {
+constexpr double kCoarser = 2, kFiner = 0.5;  // element sizes over the present one
+
+NamedOutcomes refinements(const Alternatives& pair, const Outcome& of_finer_elements) {
   NamedOutcomes refined;
   if (pair.strips()) {
     StaticParameters finer = pair.settings;
@@ -97,8 +105,7 @@ NamedOutcomes refinements(const Alternatives& pair) {
   refined.emplace_back(from_to("flank table", flank_points, 2 * flank_points, " points"),
                        pair.of_bodies([](BodyDiscretisation&) {}, 2));
   const double element = pair.driver.discretisation.element_size * 1e3;
-  refined.emplace_back(from_to("elements", element, 0.5 * element, " mm"),
-                       pair.of_bodies([](BodyDiscretisation& body) { body.element_size *= 0.5; }));
+  refined.emplace_back(from_to("elements", element, kFiner * element, " mm"), of_finer_elements);
   if (pair.driver.discretisation.element_order == 1 || pair.driven.discretisation.element_order == 1)
     refined.emplace_back(from_to("order", 1, 2),
                          pair.of_bodies([](BodyDiscretisation& body) { body.element_order = 2; }));
@@ -137,6 +144,18 @@ NamedOutcomes other_choices(const Alternatives& pair, std::string& missing) {
   return chosen;
 }
 
+// With elements of twice, once and half the size; none without root stress.
+RootRefinement root_levels(const Alternatives& pair, const Outcome& present, const Outcome& finer) {
+  RootRefinement out;
+  if (present.root_stress.size() == 0) return out;
+  const Outcome coarser = pair.of_elements(kCoarser);
+  out.element_size = Eigen::Vector3d(kCoarser, 1, kFiner) * pair.driver.discretisation.element_size;
+  out.stress.resize(3, present.root_stress.size());
+  out.stress << coarser.root_stress.transpose(), present.root_stress.transpose(),
+      finer.root_stress.transpose();
+  return out;
+}
+
 }  // namespace
 
 ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact& driven,
@@ -147,7 +166,9 @@ ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact&
   ErrorBudgetArtifact budget;
   static_cast<PairParameters&>(budget) = base;
   budget.torque = torque;
-  budget.refinement = changes(refinements(pair), reference);
+  const Outcome finer = pair.of_elements(kFiner);
+  budget.refinement = changes(refinements(pair, finer), reference);
+  budget.root = root_levels(pair, reference, finer);
   budget.choice = changes(other_choices(pair, budget.choice_missing), reference);
   return budget;
 }
