@@ -237,24 +237,33 @@ TEST_CASE("root stress: the order of convergence is the power of the element siz
   CHECK(convergence({}).change.rows() == 0);
 }
 
-TEST_CASE("root stress: a deep root whose elements are refined with all others converges") {
+TEST_CASE("root stress: it converges with the elements on the root, by more than order 1.5") {
   GearDesign deep = paper_gear(50, 60e-3);
   deep.dedendum = 1.75;
   deep.rack_tip_radius = 0.0636;
-  RootRefinement root;
-  root.element_size = Eigen::Vector3d(1.6e-3, 0.8e-3, 0.4e-3);
-  root.stress.resize(3, 2);
-  for (int k = 0; k < 3; ++k) {
-    BodyDiscretisation discretisation;
-    discretisation.element_size = root.element_size[k];
-    const BodyArtifact body = reduce(make_sector_mesh(deep, discretisation), paper_steel(), 0, kFlankPoints,
-                                     root.element_size[k] / root.element_size[1]);
-    root.stress.row(k) << largest(body, 0.5), largest(body, 0.9);
+  for (const GearDesign& design : {paper_gear(), deep}) {
+    CAPTURE(design.dedendum);
+    Coarse gear = made(design, 0.8e-3);
+    RootRefinement root;
+    root.element_size.resize(4);
+    root.stress.resize(4, 2);
+    for (int k = 0; k < 4; ++k) {
+      if (k > 0) root.element_size[k] = refine_root_stress(gear.mesh, std::pow(0.5, k), gear.body);
+      root.stress.row(k) << largest(gear.body, 0.5), largest(gear.body, 0.9);
+    }
+    root.element_size[0] = 2 * root.element_size[1];
+    const RootConvergence found = convergence(root);
+    MESSAGE("changes (%), under forces at 0.5 and 0.9 of the flank:\n"
+            << 100 * found.change << "\norders:\n"
+            << found.order);
+    CHECK(found.change.row(0).cwiseAbs().maxCoeff() < 0.03);
+    CHECK(found.change.row(2).cwiseAbs().maxCoeff() < 1e-3);
+    CHECK(found.order.minCoeff() > 1.5);
+    // Of the body nothing else has changed.
+    CHECK(gear.body.compliance == made(design, 0.8e-3).body.compliance);
   }
-  const RootConvergence found = convergence(root);
-  MESSAGE("changes " << found.change.row(1) << ", orders " << found.order.row(0));
-  CHECK(found.change.row(1).cwiseAbs().maxCoeff() < 0.01);
-  CHECK(found.order.minCoeff() > 1.5);
+  Coarse gear = coarse();
+  CHECK_THROWS_AS(refine_root_stress(gear.mesh, 1, gear.body), Error);
 }
 
 TEST_CASE("root stress at rest: histories, their maximum, and Y_F Y_S of ISO 6336-3") {
@@ -368,7 +377,7 @@ TEST_CASE(
   CHECK(largest_of(kPeriods)[0] == held_load(force, kSteps, kPeriods));
   CHECK(largest_of(kPeriods)[0] == 3200);
   CHECK(largest_of(HeldPeaks::kNever)[0] == held_load(force, kSteps));
-  CHECK(largest_of(kPeriods)[2] > 1.4 * HeldPeaks(model, kSteps).of(periods[1])[2]);
+  CHECK(largest_of(kPeriods)[2] > 1.1 * HeldPeaks(model, kSteps).of(periods[1])[2]);
   // A motion of one period meets its own start.
   CHECK(HeldPeaks(model, kSteps).of(periods[0])[0] == 2200);
   CHECK(HeldPeaks(model, kSteps).of(periods[0], 0, HeldPeaks::kNever)[0] == 300);
@@ -426,9 +435,9 @@ TEST_CASE(
   CHECK(edges > 2);
   CHECK(r.flank_pressure_held[0] >= r.flank_pressure.maxCoeff() * (1 - 1e-3));
   CHECK(r.flank_pressure_held[0] == relative(r.flank_pressure.maxCoeff(), 0.02));
-  // Loads over edges fall away from the path: windows that move find more than those that stand still.
+  // Windows over three samples against places of two, where the load goes to 0 within some of them.
   const double there = r.edge_load_there.maxCoeff();
-  CHECK(std::max(r.edge_load[0][0], r.edge_load[1][0]) >= there * (1 - 1e-3));
+  CHECK(std::max(r.edge_load[0][0], r.edge_load[1][0]) > 0.9 * there);
   CHECK(std::max(r.edge_load[0][0], r.edge_load[1][0]) <= up.tooth_load[0].maxCoeff());
   CHECK(r.loss_factor[0] == relative(s.loss_factor, 2e-3));
   for (size_t g = 0; g < kSides; ++g) {

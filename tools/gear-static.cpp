@@ -77,10 +77,13 @@ void body(int argc, char** argv) {
                 "): mean stiffness to ", errors.refinement.mean_stiffness_change.cwiseAbs().sum() * 100,
                 " % in all -> ", output);
     const whine::RootConvergence root = whine::convergence(errors.root);
-    for (int g = 0; g < whine::kSides && root.order.rows() > 0; ++g)
-      whine::tell("gear-static: largest root stress of ", errors.mesh.gear[g], " changes by ",
-                  root.change(0, g) * 100, " and ", root.change(1, g) * 100,
-                  " % with elements of half the size, twice; order ", root.order(0, g));
+    if (const long last = root.order.rows() - 1; last >= 0)
+      for (int g = 0; g < whine::kSides; ++g)
+        whine::tell("gear-static: largest root stress of ", errors.mesh.gear[g], " changes by ",
+                    100 * root.change.col(g).transpose(),
+                    " % as the elements on the root are halved; "
+                    "last order ",
+                    root.order(last, g));
     if (!errors.choice_missing.empty())
       whine::tell("gear-static: warning: no other choice to compare with: ", errors.choice_missing);
     return;

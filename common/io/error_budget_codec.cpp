@@ -45,12 +45,13 @@ void describe(Codec& c, ErrorBudgetArtifact& a) {
     c.dataset({"/choice/missing", "1", "other choices that could not be computed, and why", ""},
               &a.choice_missing);
   if (c.optional("/root/element_size", a.root.element_size.size() > 0)) {
-    c.dataset({"/root/element_size", "m", "element size of the driver, those of sharp roots in proportion",
+    c.dataset({"/root/element_size", "m",
+               "size of the elements on the root of the driver; those of the driven gear in proportion",
                "root/level", kSize},
               &a.root.element_size);
-    c.dataset(
-        {"/root/stress", "Pa", "largest root stress with elements of that size", "root/level gear", kSigned},
-        &a.root.stress);
+    c.dataset({"/root/stress", "Pa", "largest root stress at rest with elements of that size on the roots",
+               "root/level gear", kSigned},
+              &a.root.stress);
   }
 }
 

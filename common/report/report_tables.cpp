@@ -160,9 +160,10 @@ std::string root_refinement_table(const ErrorBudgetArtifact& b) {
     }
   return html::table(
       "Largest root stress at rest at " + torque_words(b.torque) +
-          ", with the elements of the roots refined together with all others. Order: p, if the error "
-          "goes with the power p of the element size.",
-      {"gear", "element (mm)", "root stress (MPa)", "change (%)", "order"}, rows);
+          ", with smaller elements on the roots, all else as it is. Order: p, if the error goes with the "
+          "power p of the "
+          "element size.",
+      {"gear", "element on the driver's root (mm)", "root stress (MPa)", "change (%)", "order"}, rows);
 }
 
 }  // namespace

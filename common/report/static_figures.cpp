@@ -326,14 +326,16 @@ Figure error_budget_figure(const ErrorBudgetArtifact& budget) {
       "contact = ", budget.fidelity.contact, ", near field by ", budget.gear[0].discretisation.near_field,
       "; beyond the line what another choice changes, which is no error of this one"));
   if (const RootConvergence root = convergence(budget.root); root.order.rows() > 0) {
-    std::string words = "root stress with the elements of the roots refined as well:";
+    std::string words = "root stress with smaller elements on the roots:";
     FigureBlock block{"roots", {"element [mm]"}, {}, "roots", "largest root stress"};
     for (int g = 0; g < kSides; ++g) {
       const Eigen::Index last = root.change.rows() - 1;
       const double order = root.order(last - 1, g);
-      words += text(g ? "; " : " ", budget.mesh.gear[g], " ", shown(root.change(last, g) * kPercent, 2),
-                    " % from ", shown(budget.root.element_size[last] * 1e3, 4), " to ",
-                    shown(budget.root.element_size[last + 1] * 1e3, 4), " mm",
+      // What the finest still changes the result by, and the last order.
+      words += text(g ? "; " : " ", budget.mesh.gear[g], " ",
+                    shown((budget.root.stress(last + 1, g) / budget.root.stress(0, g) - 1) * kPercent, 2),
+                    " % from ", shown(budget.root.element_size[0] * 1e3, 3), " to ",
+                    shown(budget.root.element_size[last + 1] * 1e3, 3), " mm",
                     std::isfinite(order) ? ", order " + fixed(order, 1) : "");
       block.columns.push_back(text("stress of ", budget.mesh.gear[g], " [MPa]"));
     }

@@ -34,11 +34,14 @@ constexpr int kOffsets = 3;
 // flank of tooth -d by X_d, and by reciprocity X_d = X_d^T.
 //
 // modes: elastic modes of the whole gear to keep, 0 or more, or kAllModes; the first torsional zero-diameter mode is always
-// among them. The near field is that of mesh.discretisation. root_share: 1, above 0: size of the elements on a sharp root over the
-// size that they have by its radius (solid/README.md, root stress); they refine with element_size only if it does with them.
-// Throws Error(input) for a matching depth whose points are not all inside the tooth and for kAllModes of a mesh that is too fine
-// for dense algebra, Error(numerical) if a factorisation, an eigensolution or a table does not pass its check.
+// among them. The near field is that of mesh.discretisation. Throws Error(input) for a matching depth whose points are
+// not all inside the tooth and for kAllModes of a mesh that is too fine for dense algebra, Error(numerical) if a
+// factorisation, an eigensolution or a table does not pass its check.
 BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int modes,
-                    int flank_points = kFlankPoints, double root_share = 1);
+                    int flank_points = kFlankPoints);
+
+// Reads the root stress of a body anew, from `mesh` with elements on the root that are `share` (0 to 1, neither) times as large as those
+// that reduce() reads it from. All else of the body stays. Returns their size (m). Throws as reduce(), Error(input) for another share.
+double refine_root_stress(const MeshArtifact& mesh, double share, BodyArtifact& body);
 
 }  // namespace whine

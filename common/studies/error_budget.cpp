@@ -70,30 +70,34 @@ struct Alternatives {
   Outcome with(const StaticParameters& other, double zone_factor = 1) const {
     return outcome(static_transmission(driver, driven, other, torque, zone_factor));
   }
-  // Bodies of another discretisation, with `finer` times the points of the flank table, elements of sharp roots `root_share`
-  // times as large.
-  Outcome of_bodies(const std::function<void(BodyDiscretisation&)>& change, int finer = 1,
-                    double root_share = 1) const {
+  // Bodies of another discretisation, with `finer` times the points of the flank table.
+  Outcome of_bodies(const std::function<void(BodyDiscretisation&)>& change, int finer = 1) const {
     constexpr int kModes = 1;  // statics ask for none
     const auto again = [&](const BodyArtifact& body) {
       BodyDiscretisation other = body.discretisation;
       change(other);
       return reduce(make_sector_mesh(body.design, other), body.material, kModes,
-                    finer * static_cast<int>(body.flank_position.size()), root_share);
+                    finer * static_cast<int>(body.flank_position.size()));
     };
     const bool alike = driver.compliance == driven.compliance;  // one body serves both gears
     const BodyArtifact first = again(driver);
     return outcome(static_transmission(first, alike ? first : again(driven), settings, torque));
   }
-  // Of all elements, those of sharp roots with them.
-  Outcome of_elements(double share) const {
-    return of_bodies([share](BodyDiscretisation& body) { body.element_size *= share; }, 1, share);
+  // (gear) Pa: largest root stress with elements on the roots that are `share` times as large; size (m) becomes the driver's.
+  VectorXd with_root_elements(double share, double& size) const {
+    const auto again = [share, &size](const BodyArtifact& body) {
+      BodyArtifact finer = body;
+      size = refine_root_stress(make_sector_mesh(body.design, body.discretisation), share, finer);
+      return finer;
+    };
+    const bool alike = driver.compliance == driven.compliance;
+    const BodyArtifact second = again(driven);  // the driver last: it leaves its size
+    const BodyArtifact first = alike ? second : again(driver);
+    return static_transmission(first, second, settings, torque).root_stress_max;
   }
 };
 
-constexpr double kCoarser = 2, kFiner = 0.5;  // element sizes over the present one
-
-NamedOutcomes refinements(const Alternatives& pair, const Outcome& of_finer_elements) {
+NamedOutcomes refinements(const Alternatives& pair) {
   NamedOutcomes refined;
   if (pair.strips()) {
     StaticParameters finer = pair.settings;
@@ -105,7 +109,8 @@ NamedOutcomes refinements(const Alternatives& pair, const Outcome& of_finer_elem
   refined.emplace_back(from_to("flank table", flank_points, 2 * flank_points, " points"),
                        pair.of_bodies([](BodyDiscretisation&) {}, 2));
   const double element = pair.driver.discretisation.element_size * 1e3;
-  refined.emplace_back(from_to("elements", element, kFiner * element, " mm"), of_finer_elements);
+  refined.emplace_back(from_to("elements", element, 0.5 * element, " mm"),
+                       pair.of_bodies([](BodyDiscretisation& body) { body.element_size *= 0.5; }));
   if (pair.driver.discretisation.element_order == 1 || pair.driven.discretisation.element_order == 1)
     refined.emplace_back(from_to("order", 1, 2),
                          pair.of_bodies([](BodyDiscretisation& body) { body.element_order = 2; }));
@@ -144,15 +149,17 @@ NamedOutcomes other_choices(const Alternatives& pair, std::string& missing) {
   return chosen;
 }
 
-// With elements of twice, once and half the size; none without root stress.
-RootRefinement root_levels(const Alternatives& pair, const Outcome& present, const Outcome& finer) {
+// With the elements on the roots once, half, a quarter and an eighth as large; none without root stress.
+RootRefinement root_levels(const Alternatives& pair, const Outcome& present) {
+  constexpr int kLevels = 4;
   RootRefinement out;
   if (present.root_stress.size() == 0) return out;
-  const Outcome coarser = pair.of_elements(kCoarser);
-  out.element_size = Eigen::Vector3d(kCoarser, 1, kFiner) * pair.driver.discretisation.element_size;
-  out.stress.resize(3, present.root_stress.size());
-  out.stress << coarser.root_stress.transpose(), present.root_stress.transpose(),
-      finer.root_stress.transpose();
+  out.element_size.resize(kLevels);
+  out.stress.resize(kLevels, present.root_stress.size());
+  out.stress.row(0) = present.root_stress.transpose();
+  for (int k = 1; k < kLevels; ++k)
+    out.stress.row(k) = pair.with_root_elements(std::pow(0.5, k), out.element_size[k]).transpose();
+  out.element_size[0] = 2 * out.element_size[1];
   return out;
 }
 
@@ -166,9 +173,8 @@ ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact&
   ErrorBudgetArtifact budget;
   static_cast<PairParameters&>(budget) = base;
   budget.torque = torque;
-  const Outcome finer = pair.of_elements(kFiner);
-  budget.refinement = changes(refinements(pair, finer), reference);
-  budget.root = root_levels(pair, reference, finer);
+  budget.refinement = changes(refinements(pair), reference);
+  budget.root = root_levels(pair, reference);
   budget.choice = changes(other_choices(pair, budget.choice_missing), reference);
   return budget;
 }

@@ -20,9 +20,9 @@ struct StaticChanges {
   Eigen::VectorXd root_stress_change = {};
 };
 
-// Largest root stress at rest with elements of several sizes, on the roots as everywhere; from coarse to fine.
+// Largest root stress at rest, read from meshes with elements of several sizes on the roots; from coarse, those of the result, to fine.
 struct RootRefinement {
-  Eigen::VectorXd element_size;  // (level) m, of the driver; empty: not known
+  Eigen::VectorXd element_size;  // (level) m, on the root of the driver; empty: not known
   MatrixRM stress;               // (level, gear) Pa
 };
 
@@ -40,7 +40,7 @@ struct ErrorBudgetArtifact : PairParameters {
   StaticChanges refinement;  // discretisations: their changes are errors and add up
   StaticChanges choice;      // models that could be chosen instead: for information, no errors and in no sum
   std::string choice_missing;  // which of them could not be computed, and why; "" if all were
-  RootRefinement root;  // the elements and those of sharp roots together, at twice, once and half the size
+  RootRefinement root;         // elements on the roots once, half, a quarter and an eighth as large
 };
 
 }  // namespace whine
