@@ -221,13 +221,14 @@ out/$1/report/index.html out/$1/report/results.tsv &: $(report_inputs) out/$1/pa
 	$(B)/bin/gear-report --output out/$1/report/index.html $(report_inputs)
 endef
 
-# What the teeth suffer, of the first torque.
+# What the teeth suffer at one torque: that of its figures, the first of SCENE or the paper's.
 teeth_shows = root-stress $(if $(filter yes,$(BRANCHES)),root-stress-branches) flank-pressure load-sharing tooth-loads error-budget
-teeth_inputs = $(call report_artifacts,$1,$(firstword $(SCENE_$1_TORQUES))) $(patsubst %,out/$1/report/%.png,$(teeth_shows))
-define teeth_rule # scene
-out/$1/teeth/index.html: $(teeth_inputs) out/$1/params/title.txt $(B)/scenes/$1.mk $(call id,gear-report) | $(B)/bin/gear-report $(with_deps)
-	$(B)/bin/gear-report --teeth --output out/$1/teeth/index.html $(teeth_inputs)
+teeth_inputs = $(call report_artifacts,$1,$3) $(patsubst %,$2/%.png,$(teeth_shows))
+define teeth_rule # scene, folder of its figures, torque, folder of the page
+$4/index.html: $(call teeth_inputs,$1,$2,$3) out/$1/params/title.txt $(B)/scenes/$1.mk $(call id,gear-report) | $(B)/bin/gear-report $(with_deps)
+	$(B)/bin/gear-report --teeth --output $4/index.html $(call teeth_inputs,$1,$2,$3)
 endef
+teeth_page := out/$(if $(SCENE),$(basename $(notdir $(SCENE))),figures)/teeth/index.html
 
 # The fragment of a scene says its torques: a report depends on the list, too, not only on what stands at each.
 define figure_rules # scene; needs its fragment
@@ -247,7 +248,8 @@ $(if $(filter export,$(goals)),$(if $(filter $1,$(own_scene)),$(eval $(call expo
   $(eval $(call plan_rule,$(export_plan_file),$(export_plan)))))
 $(if $(filter runup,$(goals)),$(if $(filter $1,$(own_scene)),$(eval $(call figure_rule,runup-$(WAY),$(runup_figure),$(call inputs_runup,$1)))))
 $(eval $(call report_rule,$1))
-$(eval $(call teeth_rule,$1))
+$(eval $(call teeth_rule,$1,out/$1/report,$(firstword $(SCENE_$1_TORQUES)),out/$1/teeth))
+$(if $(filter $(paper_scene),$1),$(eval $(call teeth_rule,$1,out/figures,$(paper_torques_root-stress),out/figures/teeth)))
 $(eval $(call table_rule,out/$1/report/table1,$(call inputs_table1,$1,$(SCENE_$1_TORQUES)),,$(B)/scenes/$1.mk))
 endef
 
@@ -262,7 +264,7 @@ report: out/$$(own_scene)/report/index.html ## figures, tables and one HTML page
 export: $(if $(filter export,$(goals)),$$(export_file)) ## results of SCENE as custom attributes of a copy of the REXS model that it was imported from: MODEL=stage.rexs STAGE=12 (id or name; where it has several)
 	$(call stands,export: $(export_file))
 $(figures): %: $(foreach e,tsv svg png,$(figure_folder)/%.$e)
-teeth: out/$$(own_scene)/teeth/index.html ## what the teeth of SCENE (default: the paper's) suffer, on one page, out/<scene>/teeth/index.html: root stress, flank pressure, dynamic factors, losses beside ISO 6336, at its first torque; BRANCHES=yes
+teeth: $(teeth_page) ## what the teeth of a pair suffer, on one page, out/figures/teeth/index.html (SCENE: out/<scene>/teeth/index.html): root stress, flank pressure, dynamic factors, losses beside ISO 6336, 150 N m (SCENE: its first torque); BRANCHES=yes
 	$(call stands,teeth: open $< in a browser)
 figures: $(if $(SCENE),$(report_figures),$(paper_figures)) $(figure_folder)/table1.txt ## all figures and tables of the paper that are there so far, or all of SCENE
 fig01: ## the finite element mesh of the pair

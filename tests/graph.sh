@@ -296,6 +296,9 @@ expect "a cracked tooth: gears at rest only" "gear-mesh*1 gear-plot*2 gear-reduc
 make_ -n SCENE=mine/graded.toml teeth
 grep -q 'teeth: SCENE=mine/graded.toml has teeth that differ.*make SCENE=mine/graded.toml tooth-loads sidebands' "$log" && ok "make teeth says what there is of teeth that differ" ||
   wrong "make teeth says what there is of teeth that differ" "$(tail -n 1 "$log")"
+make_ -n teeth
+grep -q 'gear-report --teeth --output out/figures/teeth/index.html out/parker2000/T150/static.h5 .*out/figures/root-stress.png' "$log" && ! grep -q 'T100/up' "$log" && ok "make teeth is at the torque of the figures that it shows" ||
+  wrong "make teeth is at the torque of the figures that it shows" "$(grep -e --teeth "$log" | tail -n 1) $(tail -n 1 "$log")"
 make_ -n SCENE=mine/cracked.toml teeth
 grep -q 'teeth: SCENE=mine/cracked.toml has teeth that are cracked.*make SCENE=mine/cracked.toml crack' "$log" && ok "make teeth says what there is of a cracked tooth" ||
   wrong "make teeth says what there is of a cracked tooth" "$(tail -n 1 "$log")"

@@ -73,6 +73,24 @@ for case in 'fzg 200 33.829 50.743 3.2e-4 1.6e-3' 'nasa 71.8 41.769 41.769 3.1e-
     "$(awk "BEGIN { print 1.02 * $rigid }")" "$(awk "BEGIN { print 1.25 * $rigid }")"
 done
 
+# --- what the teeth suffer, on a page of its own
+if make $sanitize SCENE=fzg.toml teeth > "$log" 2>&1; then ok "make teeth of fzg runs"; else wrong "make teeth of fzg runs" "$(tail -n 1 "$log")"; fi
+missing=
+for figure in root-stress flank-pressure load-sharing tooth-loads error-budget; do
+  grep -q "<figure id=\"$figure\">" out/fzg/teeth/index.html || missing+=" $figure"
+  grep -q '200 N m' "out/fzg/report/$figure.tsv" || missing+=" torque-of-$figure"
+done
+[ -z "$missing" ] && ok "the page of the teeth has its figures, which say their torque" || wrong "the page of the teeth has its figures, which say their torque" "missing:$missing"
+said=$(sed 's/base64,[^"]*//; s/<[^>]*>/ /g' out/fzg/teeth/index.html | tr -s ' \n' ' ')
+# Y_F and Y_S as published for these gears; sigma_F0 is proportional to the torque, sigma_H0 to its root: 271.19, 263.17, 1228.89 MPa at 300 N m on the wheel.
+for number in 'What the teeth suffer at 200 N m' 'form factor Y_F, ISO 6336-3 1 1.689 1.583' 'stress correction factor Y_S 1 1.851 1.917' 'sigma_F0 MPa 271.2 263.2' 'sigma_H0, ISO 6336-2 MPa 1228.9 1228.9'; do
+  grep -q -F "$number" <<< "$said" && ok "teeth of fzg-c: $number" || wrong "teeth of fzg-c: $number" "$(grep -o "${number%% [0-9]*}.\{40\}" <<< "$said" | head -1)"
+done
+grep -q -E 'pressure inside the flanks rising [0-9.]+ MPa [0-9]+ – –' <<< "$said" && grep -q -E 'mesh force rising [0-9.]+ N [0-9]+ [0-9.]+ [0-9.]+' <<< "$said" && ok "K_v stands beside forces, not beside pressures" ||
+  wrong "K_v stands beside forces, not beside pressures" "$(grep -o 'pressure inside the flanks rising.\{40\}' <<< "$said")"
+found=$(grep -l -e '{' -e driver -e driven out/fzg/report/root-stress.tsv out/fzg/report/flank-pressure.tsv)
+[ -z "$found" ] && grep -q 'root_stress_pinion' out/fzg/report/root-stress.tsv && ok "stresses and pressures are named by the scene's gears, without markup" || wrong "stresses and pressures are named by the scene's gears, without markup" "$found"
+
 # --- nothing twice, the same bytes, what is left out
 make -n $sanitize SCENE=fzg.toml report > "$log" 2>&1
 found=$(grep -v -E '^make|/id/' "$log" | head -2) # ids of programs that were linked anew with the same bytes are looked at every time

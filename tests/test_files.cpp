@@ -297,6 +297,7 @@ ErrorBudgetArtifact small_budget() {
               {},
               odd_matrix(2, 5, 2e-2)};
   a.refinement.root_stress_change = odd_vector(3, 7e-3);
+  a.root = {odd_vector(3, 1e-3).cwiseAbs(), odd_matrix(3, 2, 1e8)};
   return a;
 }
 
@@ -431,6 +432,8 @@ ResponseArtifact small_response() {
   a.pair_phase = odd_vector(3, 0.5);
   a.flank_roll = odd_matrix(3, 2, 0.3);
   a.flank_pressure = odd_matrix(2, 3, 1e9).cwiseAbs();
+  a.edge_load_there = odd_matrix(2, 3, 700).cwiseAbs();
+  a.flank_pressure_held = odd_vector(2, 1.1e9).cwiseAbs();
   a.edge_load = {odd_vector(2, 900).cwiseAbs(), odd_vector(2, 800).cwiseAbs()};
   a.loss_factor = odd_vector(2, 0.1).cwiseAbs();
   a.mesh_force_max = odd_vector(2, 7e3);
@@ -987,14 +990,18 @@ TEST_CASE("error_budget.h5 gives back every value bit by bit, errors and choices
   CHECK(a.torque == b.torque);
   CHECK(same_changes(a.refinement, b.refinement));
   CHECK(same_changes(a.choice, b.choice));
+  CHECK(a.root.element_size == b.root.element_size);
+  CHECK(a.root.stress == b.root.stress);
   CHECK(b.choice_missing == "");
 
   a.choice = {"", Eigen::VectorXd(0), Eigen::VectorXd(0), {}, MatrixRM(0, 5)};
   a.choice_missing = "matching at 1 mm: leaves the tooth";
+  a.root = {};
   write("error_budget.h5", a, kMade);
   const ErrorBudgetArtifact c = read_error_budget("error_budget.h5");
   CHECK(same_changes(a.choice, c.choice));
   CHECK(c.choice_missing == a.choice_missing);
+  CHECK(c.root.element_size.size() == 0);
   a.choice.peak_to_peak_change.resize(1);
   CHECK(caught([&] { write("x.h5", a, kMade); }).says("peak_to_peak_change"));
 }
@@ -1224,6 +1231,8 @@ TEST_CASE("response.h5 gives back every value bit by bit") {
   CHECK(a.pair_phase == b.pair_phase);
   CHECK(a.flank_roll == b.flank_roll);
   CHECK(a.flank_pressure == b.flank_pressure);
+  CHECK(a.edge_load_there == b.edge_load_there);
+  CHECK(a.flank_pressure_held == b.flank_pressure_held);
   CHECK(a.edge_load == b.edge_load);
   CHECK(a.loss_factor == b.loss_factor);
   CHECK(a.separation_fraction == b.separation_fraction);
@@ -1953,12 +1962,18 @@ TEST_CASE("the summary names the key numbers in an engineer's units") {
   ErrorBudgetArtifact budget = small_budget();
   budget.refinement.mean_stiffness_change = Eigen::VectorXd{{1e-4, -2e-4, 3e-4}};
   budget.choice.mean_stiffness_change = Eigen::VectorXd{{0.5, 0.25}};
+  budget.root = {Eigen::Vector3d(8e-4, 4e-4, 2e-4), MatrixRM::Constant(3, 2, 1e8)};
+  budget.root.stress.col(0) << 96e6, 99e6, 100e6;
   write("error_budget.h5", budget, kMade);
   all = "";
   for (const auto& [name, words] : summary("error_budget.h5", "whine/error_budget"))
     all += name + ": " + words + "\n";
   CHECK(all.find("sum: 0.06 % of the mean stiffness") != std::string::npos);
   CHECK(all.find("or contact strips: mean stiffness 25 %") != std::string::npos);
+  CHECK(all.find("root stress of pinion: 3 % from 0.8 to 0.4 mm, 1 % from 0.4 to 0.2 mm, order 1.58") !=
+        std::string::npos);
+  CHECK(all.find("root stress of wheel: 0 % from 0.8 to 0.4 mm, 0 % from 0.4 to 0.2 mm") !=
+        std::string::npos);
   write("impact.h5", small_impact(), kMade);
   write("sweep.h5", small_sweep(), kMade);
   write("response.h5", small_response(), kMade);

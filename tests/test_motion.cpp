@@ -158,6 +158,16 @@ TEST_CASE("error budget: every discretisation below 0.1 % of the mean stiffness,
   CHECK(errors.harmonic_change.cwiseAbs().maxCoeff() < 3e-3);
   REQUIRE(errors.root_stress_change.size() == 5);
   CHECK(errors.root_stress_change.cwiseAbs().maxCoeff() < 0.02);
+  // Root stress with elements of 0.8, 0.4, 0.2 and 0.1 mm on the roots.
+  REQUIRE(budget.root.element_size.size() == 4);
+  CHECK(budget.root.element_size[0] == relative(0.8e-3, 1e-12));
+  CHECK(budget.root.stress(0, 0) ==
+        static_transmission(body, body, paper_statics(128), 150).root_stress_max[0]);
+  const RootConvergence root = convergence(budget.root);
+  MESSAGE("changes of the root stress: " << root.change.col(0).transpose() << "; order "
+                                         << root.order.col(0).transpose());
+  CHECK(root.change.row(2).cwiseAbs().maxCoeff() < 0.01);
+  CHECK(root.order.minCoeff() > 1.5);
   REQUIRE(budget.choice.root_stress_change.size() == 3);
   // Choices are what a body and stage parameters made that way answer.
   CHECK(budget.fidelity.contact == ContactModel::strips);

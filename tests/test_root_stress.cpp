@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -13,10 +14,14 @@
 #include "paper_pair.h"
 #include "relative.h"
 #include "report/flank_pressure_figure.h"
+#include "report/iso_comparison.h"
 #include "report/root_stress_figure.h"
+#include "signal/branches.h"
 #include "signal/response.h"
 #include "solid/loaded_gear.h"
 #include "solid/root_stress.h"
+#include "studies/error_budget_result.h"
+#include "studies/held_peaks.h"
 #include "studies/sweep.h"
 #include "studies/sweep_losses.h"
 #include "studies/sweep_pressure.h"
@@ -214,6 +219,53 @@ TEST_CASE("root stress: elements of 0.8 mm against 0.4 mm") {
   }
 }
 
+TEST_CASE("root stress: the order of convergence is the power of the element size that the error goes with") {
+  for (const double power : {1.0, 2.0, 3.5}) {
+    RootRefinement root;
+    root.element_size = Eigen::Vector4d(8e-4, 4e-4, 2e-4, 1e-4);
+    root.stress.resize(4, 2);
+    for (int k = 0; k < 4; ++k)
+      root.stress.row(k) << 100e6 + 3e6 * std::pow(root.element_size[k] * 1e3, power), 80e6;
+    const RootConvergence found = convergence(root);
+    REQUIRE(found.order.rows() == 2);
+    CHECK(found.order.col(0).minCoeff() == relative(power, 1e-6));
+    CHECK(found.order.col(0).maxCoeff() == relative(power, 1e-6));
+    CHECK(found.change(2, 0) < 0);
+    CHECK(found.change(0, 1) == 0);
+    CHECK(std::isnan(found.order(0, 1)));
+  }
+  CHECK(convergence({}).change.rows() == 0);
+}
+
+TEST_CASE("root stress: it converges with the elements on the root, by more than order 1.5") {
+  GearDesign deep = paper_gear(50, 60e-3);
+  deep.dedendum = 1.75;
+  deep.rack_tip_radius = 0.0636;
+  for (const GearDesign& design : {paper_gear(), deep}) {
+    CAPTURE(design.dedendum);
+    Coarse gear = made(design, 0.8e-3);
+    RootRefinement root;
+    root.element_size.resize(4);
+    root.stress.resize(4, 2);
+    for (int k = 0; k < 4; ++k) {
+      if (k > 0) root.element_size[k] = refine_root_stress(gear.mesh, std::pow(0.5, k), gear.body);
+      root.stress.row(k) << largest(gear.body, 0.5), largest(gear.body, 0.9);
+    }
+    root.element_size[0] = 2 * root.element_size[1];
+    const RootConvergence found = convergence(root);
+    MESSAGE("changes (%), under forces at 0.5 and 0.9 of the flank:\n"
+            << 100 * found.change << "\norders:\n"
+            << found.order);
+    CHECK(found.change.row(0).cwiseAbs().maxCoeff() < 0.03);
+    CHECK(found.change.row(2).cwiseAbs().maxCoeff() < 1e-3);
+    CHECK(found.order.minCoeff() > 1.5);
+    // Of the body nothing else has changed.
+    CHECK(gear.body.compliance == made(design, 0.8e-3).body.compliance);
+  }
+  Coarse gear = coarse();
+  CHECK_THROWS_AS(refine_root_stress(gear.mesh, 1, gear.body), Error);
+}
+
 TEST_CASE("root stress at rest: histories, their maximum, and Y_F Y_S of ISO 6336-3") {
   const BodyArtifact& body = coarse().body;
   const StaticArtifact s = static_transmission(body, body, paper_statics(32), 150);
@@ -296,6 +348,46 @@ TEST_CASE(
 }
 
 TEST_CASE(
+    "root stress: what is held across the start of a mesh period counts, in motions of one and of several "
+    "periods and in those that never repeat") {
+  const BodyArtifact& body = coarse().body;
+  const StaticParameters settings = paper_statics(32);
+  const GearMeshModel model(body, body, settings.mesh);
+  constexpr int kSteps = 128, kPeriods = 3;
+  // A load that stands for two samples on either side of each start of a period, highest across that of period 1.
+  const auto period = [&](double before, double after) {
+    RollingDynamics::Period out;
+    out.pair_load = Eigen::MatrixXd::Constant(3, kSteps, 100);
+    out.pair_load.row(1).head(2).setConstant(after);
+    out.pair_load.row(1).tail(2).setConstant(before);
+    return out;
+  };
+  const std::array periods{period(3000, 2000), period(1500, 3000), period(2000, 1500)};
+  const auto largest_of = [&](int repeats) {
+    HeldPeaks peaks(model, kSteps);
+    Eigen::VectorXd most = Eigen::VectorXd::Zero(4);
+    for (int k = 0; k < kPeriods; ++k)
+      most = most.cwiseMax(peaks.of(periods[static_cast<size_t>(k)], k, repeats));
+    return most;
+  };
+  MatrixRM force(kPeriods * kSteps, 1);
+  for (int k = 0; k < kPeriods; ++k)
+    force.middleRows(k * kSteps, kSteps) =
+        periods[static_cast<size_t>(k)].pair_load.colwise().sum().transpose();
+  CHECK(largest_of(kPeriods)[0] == held_load(force, kSteps, kPeriods));
+  CHECK(largest_of(kPeriods)[0] == 3200);
+  CHECK(largest_of(HeldPeaks::kNever)[0] == held_load(force, kSteps));
+  CHECK(largest_of(kPeriods)[2] > 1.1 * HeldPeaks(model, kSteps).of(periods[1])[2]);
+  // A motion of one period meets its own start.
+  CHECK(HeldPeaks(model, kSteps).of(periods[0])[0] == 2200);
+  CHECK(HeldPeaks(model, kSteps).of(periods[0], 0, HeldPeaks::kNever)[0] == 300);
+  // Last and first period of three.
+  HeldPeaks once(model, kSteps);
+  for (int k = 0; k + 1 < kPeriods; ++k) once.of(periods[static_cast<size_t>(k)], k, kPeriods);
+  CHECK(once.of(periods[2], 2, kPeriods)[0] == 2200);
+}
+
+TEST_CASE(
     "root stress in motion: crawling gears have that at rest, held values are no larger, the figure shows "
     "both") {
   const BodyArtifact& body = paper_body(40e-3, 0.8e-3);
@@ -328,6 +420,25 @@ TEST_CASE(
   // Tip edges touch with corner contact only.
   CHECK(r.edge_load[0][0] > 0);
   CHECK(r.edge_load[1][0] > 0);
+  // A place has a pressure, or a load over an edge, or neither: then no pair holds load there. Held values over speed are no less
+  // than those of places, whose windows stand still.
+  const std::array<double, 2> path{pair.path_start() / pair.base_pitch(),
+                                   pair.path_end() / pair.base_pitch()};
+  int edges = 0;
+  for (Eigen::Index k = 0; k < r.pair_phase.size(); ++k) {
+    const double pressure = r.flank_pressure(0, k), edge = r.edge_load_there(0, k);
+    CHECK((pressure == 0 || edge == 0));
+    if (r.pair_phase[k] > path[0] + 0.05 && r.pair_phase[k] < path[1] - 0.05) CHECK(pressure > 0);
+    if (r.pair_phase[k] < path[0] || r.pair_phase[k] > path[1]) CHECK(pressure == 0);
+    edges += edge > 0;
+  }
+  CHECK(edges > 2);
+  CHECK(r.flank_pressure_held[0] >= r.flank_pressure.maxCoeff() * (1 - 1e-3));
+  CHECK(r.flank_pressure_held[0] == relative(r.flank_pressure.maxCoeff(), 0.02));
+  // Windows over three samples against places of two, where the load goes to 0 within some of them.
+  const double there = r.edge_load_there.maxCoeff();
+  CHECK(std::max(r.edge_load[0][0], r.edge_load[1][0]) > 0.9 * there);
+  CHECK(std::max(r.edge_load[0][0], r.edge_load[1][0]) <= up.tooth_load[0].maxCoeff());
   CHECK(r.loss_factor[0] == relative(s.loss_factor, 2e-3));
   for (size_t g = 0; g < kSides; ++g) {
     CHECK(r.root_stress_held[g][0] <= r.root_stress_max[g][0]);
@@ -361,6 +472,24 @@ TEST_CASE(
   for (size_t column = 3; column < 7; ++column) CHECK(speed.rows[0][column] == relative(1, 0.02));
   CHECK(block("cycle 1").rows.size() == static_cast<size_t>(s.root_stress[0].size()));
   CHECK(block("iso").rows.front()[1] >= 1);
+  // Gears by the scene's names, no raw markup.
+  CHECK(speed.columns[1] == "root_stress_pinion [MPa]");
+  CHECK(rest.columns[2] == "root_stress_wheel [MPa]");
+  CHECK(figure.title.find("150 N m") != std::string::npos);
+  for (const std::string& note : figure.notes) CHECK(note.find('{') == std::string::npos);
+  // One comparison with the standard, which the page shows as well.
+  const IsoComparison iso = iso_comparison(s, r.inertia);
+  CHECK(iso.missing == "");
+  const double force = 150 / pair.gear(0).pitch_radius();
+  for (int g = 0; g < kSides; ++g)
+    CHECK(*iso.root_stress[static_cast<size_t>(g)] == iso_6336_root_stress(pair, g, force));
+  CHECK(rest.rows[0][3] == relative(*iso.root_stress[0] * 1e-6, 1e-12));
+  CHECK(block("iso").rows.front()[1] == *iso.dynamic_factor(block("iso").rows.front()[0]));
+  StaticArtifact high = s;
+  high.contact_ratio = 0.9;
+  const IsoComparison none = iso_comparison(high, r.inertia);
+  CHECK(none.missing == "K_v");
+  CHECK(!none.dynamic_factor(1000));
 
   const auto without = [&](const auto& take) {
     ResponseArtifact lacking = r;

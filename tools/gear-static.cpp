@@ -76,6 +76,14 @@ void body(int argc, char** argv) {
     whine::tell("gear-static: error budget at ", torque, " N m (", errors.refinement.entry,
                 "): mean stiffness to ", errors.refinement.mean_stiffness_change.cwiseAbs().sum() * 100,
                 " % in all -> ", output);
+    const whine::RootConvergence root = whine::convergence(errors.root);
+    if (const long last = root.order.rows() - 1; last >= 0)
+      for (int g = 0; g < whine::kSides; ++g)
+        whine::tell("gear-static: largest root stress of ", errors.mesh.gear[g], " changes by ",
+                    100 * root.change.col(g).transpose(),
+                    " % as the elements on the root are halved; "
+                    "last order ",
+                    root.order(last, g));
     if (!errors.choice_missing.empty())
       whine::tell("gear-static: warning: no other choice to compare with: ", errors.choice_missing);
     return;

@@ -47,10 +47,12 @@ class RollingPeriodMap : public PeriodMap {
   }
   std::vector<ContactEvent> events() const override;
   Eigen::VectorXd observable() const override { return period_.transmission_error; }
-  // What peaks() are of a period.
-  using Measure = std::function<Eigen::VectorXd(const RollingDynamics::Period&)>;
+  // What peaks() are of a period, with its number and those of the orbit.
+  using Measure = std::function<Eigen::VectorXd(const RollingDynamics::Period&, int, int)>;
   void measure(Measure of) { measure_ = std::move(of); }
-  Eigen::VectorXd peaks() override { return measure_ ? measure_(period_) : Eigen::VectorXd(); }
+  Eigen::VectorXd peaks(int number, int periods) override {
+    return measure_ ? measure_(period_, number, periods) : Eigen::VectorXd();
+  }
 
   // The same period cut at the end of step `cut` (0 to steps - 1): its tangent as if the first steps were those of the period
   // after it. Of an orbit all have the same multipliers.

@@ -28,7 +28,9 @@ class SystemPeriodMap : public PeriodMap {
   std::vector<ContactEvent> events() const override;  // contact: the slot
   Eigen::VectorXd observable() const override;        // transmission error of the first mesh
   // What `measure` gives of a period; empty without.
-  Eigen::VectorXd peaks() override { return measure_ ? measure_(period_) : Eigen::VectorXd(); }
+  Eigen::VectorXd peaks(int /*number*/, int /*periods*/) override {
+    return measure_ ? measure_(period_) : Eigen::VectorXd();
+  }
   using Measure = std::function<Eigen::VectorXd(const SystemDynamics::Period&)>;
   void measure(Measure of) { measure_ = std::move(of); }
 

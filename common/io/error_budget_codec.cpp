@@ -7,7 +7,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"error_budget", 3};
+constexpr Schema kSchema{"error_budget", 4};
 
 void describe_changes(Codec& c, const std::string& group, StaticChanges& a, const std::string& what) {
   const std::string axis = group.substr(1) + "/change";  // `entry` names them in one text
@@ -44,6 +44,15 @@ void describe(Codec& c, ErrorBudgetArtifact& a) {
   if (c.optional("/choice/missing", !a.choice_missing.empty()))
     c.dataset({"/choice/missing", "1", "other choices that could not be computed, and why", ""},
               &a.choice_missing);
+  if (c.optional("/root/element_size", a.root.element_size.size() > 0)) {
+    c.dataset({"/root/element_size", "m",
+               "size of the elements on the root of the driver; those of the driven gear in proportion",
+               "root/level", kSize},
+              &a.root.element_size);
+    c.dataset({"/root/stress", "Pa", "largest root stress at rest with elements of that size on the roots",
+               "root/level gear", kSigned},
+              &a.root.stress);
+  }
 }
 
 void write(const std::string& path, const ErrorBudgetArtifact& a, const Provenance& provenance) {

@@ -8,7 +8,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"response", 5};
+constexpr Schema kSchema{"response", 6};
 
 void describe_bearings(Codec& c, ResponseArtifact& a, int g) {
   if (!c.optional(of_body(c, a.mesh, g, "bearing_force_max"), a.bearing_force_max[g].size() > 0)) return;
@@ -33,14 +33,30 @@ void describe_pressure(Codec& c, ResponseArtifact& a) {
             &a.flank_roll);
   c.dataset({"/flank_pressure", "Pa",
              "largest pressure over the mesh periods at a place of the flanks, by Hertz's law of the load "
-             "that a pair holds there; 0: no load, or a tip edge is touched, where pressure is singular",
+             "that a pair holds "
+             "there inside its flanks; 0: it holds none, or over a tip edge, where pressure is singular: see "
+             "edge_load_there",
              "mesh_frequency pair_phase", kPressure, "sqrt(F E* / (pi b R))"},
             &a.flank_pressure);
+  c.dataset({"/edge_load_there", "N",
+             "largest load over the mesh periods that a pair holds at a place of the flanks over a tip edge; "
+             "0: it holds "
+             "none, or inside its flanks: see flank_pressure",
+             "mesh_frequency pair_phase", kLoad},
+            &a.edge_load_there);
+  c.dataset({"/flank_pressure_held", "Pa",
+             "largest pressure that a pair holds inside its flanks for 1/64 of a mesh period; 0: no pair "
+             "holds load "
+             "there",
+             "mesh_frequency", kPressure},
+            &a.flank_pressure_held);
   for (int g = 0; g < (c.lists() ? 1 : kSides); ++g)
-    c.dataset({of_body(c, a.mesh, g, "edge_load"), "N",
-               "largest load that a pair holds over the tip edge of the gear, for 1/64 of a mesh period",
-               "mesh_frequency", kLoad},
-              &a.edge_load[static_cast<size_t>(g)]);
+    c.dataset(
+        {of_body(c, a.mesh, g, "edge_load"), "N",
+         "largest load that a pair holds over the tip edge of the gear for 1/64 of a mesh period; 0: no pair "
+         "does",
+         "mesh_frequency", kLoad},
+        &a.edge_load[static_cast<size_t>(g)]);
 }
 
 }  // namespace

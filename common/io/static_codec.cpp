@@ -43,7 +43,9 @@ void describe_curves(Codec& c, StaticArtifact& a) {
            "mesh_phase xy", kForce},
           &a.bearing_force[g]);
   c.dataset({"/contact_pressure", "Pa",
-             "largest contact pressure of each pair inside its flanks; 0 where a corner or nothing touches",
+             "largest contact pressure of each pair inside its flanks; 0 where nothing touches (tooth_load "
+             "is 0) and where a "
+             "tip edge does (tooth_load is not), whose pressure is singular",
              "mesh_phase pair", kPressure},
             &a.contact_pressure);
   c.dataset({"/contact_half_width", "m",

@@ -4,8 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
+#include <utility>
 
 #include "base/error.h"
+#include "report/figure_words.h"
 #include "report/response_figures.h"
 #include "system/flank_pressure.h"
 
@@ -25,41 +28,38 @@ void require_inputs(const StaticArtifact& s, const std::vector<ResponseArtifact>
     if (r.torque != s.torque)
       fail(Failure::input, "flank-pressure: a response.h5 of ", r.torque, " N m; static.h5 is of ", s.torque,
            " N m; give both of one torque");
-    if (r.flank_pressure.size() == 0)
+    if (r.flank_pressure.size() == 0 || r.flank_pressure_held.size() != r.mesh_frequency.size())
       fail(Failure::input, "flank-pressure: the response.h5 of the sweep ", r.direction,
            " holds no flank pressure, which lumped models do not have");
   }
 }
 
 FigureBlock map_block(const ResponseArtifact& r) {
-  FigureBlock block{
-      text("map ", r.direction),
-      {"roll_driver [deg]", "roll_driven [deg]", "pair_phase [1]", "mesh_frequency [Hz]", "pressure [MPa]"},
-      {},
-      "",
-      ""};
-  block.table = "map";
-  block.curve = name_of(r.direction);
+  FigureBlock block{text("map ", r.direction),
+                    {"roll_" + r.mesh.gear[0] + " [deg]", "roll_" + r.mesh.gear[1] + " [deg]",
+                     "pair_phase [1]", "mesh_frequency [Hz]", "pressure [MPa]", "load over a tip edge [N]"},
+                    {},
+                    "map",
+                    name_of(r.direction)};
   for (Index f = 0; f < r.mesh_frequency.size(); ++f)
     for (Index k = 0; k < r.pair_phase.size(); ++k)
       block.rows.push_back({r.flank_roll(k, 0) * kDegrees, r.flank_roll(k, 1) * kDegrees, r.pair_phase[k],
-                            r.mesh_frequency[f], r.flank_pressure(f, k) * kMegapascal});
+                            r.mesh_frequency[f], r.flank_pressure(f, k) * kMegapascal,
+                            r.edge_load_there(f, k)});
   return block;
 }
 
 FigureBlock speed_block(const ResponseArtifact& r) {
   FigureBlock block{text("speed ", r.direction),
-                    {"mesh_frequency [Hz]", "pressure [MPa]", "roll_driver [deg]", "edge_load_driver [N]",
-                     "edge_load_driven [N]"},
+                    {"mesh_frequency [Hz]", "pressure [MPa]", "edge_load_" + r.mesh.gear[0] + " [N]",
+                     "edge_load_" + r.mesh.gear[1] + " [N]"},
                     {},
                     "speed",
                     name_of(r.direction)};
   const std::vector<bool> broken = broken_after(r);
   for (Index f = 0; f < r.mesh_frequency.size(); ++f) {
-    Index top = 0;
-    const double most = r.flank_pressure.row(f).maxCoeff(&top);
-    block.rows.push_back({r.mesh_frequency[f], most * kMegapascal, r.flank_roll(top, 0) * kDegrees,
-                          r.edge_load[0][f], r.edge_load[1][f]});
+    block.rows.push_back(
+        {r.mesh_frequency[f], r.flank_pressure_held[f] * kMegapascal, r.edge_load[0][f], r.edge_load[1][f]});
     if (broken[static_cast<size_t>(f)]) block.rows.emplace_back();
   }
   return block;
@@ -77,7 +77,8 @@ double difference(const ResponseArtifact& up, const ResponseArtifact& down) {
     off = std::max(
         off, (up.flank_pressure.row(f) - down.flank_pressure.row(speeds - 1 - f)).cwiseAbs().maxCoeff());
   }
-  return off / std::max(up.flank_pressure.maxCoeff(), down.flank_pressure.maxCoeff());
+  const double most = std::max(up.flank_pressure.maxCoeff(), down.flank_pressure.maxCoeff());
+  return most > 0 ? off / most : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -89,7 +90,7 @@ Figure flank_pressure_figure(const StaticArtifact& s, const std::vector<Response
   constexpr double kAlike = 0.01;
   const bool both = difference(up, down) > kAlike;
   Figure figure;
-  figure.title = "Flank pressure, " + torque_words(s.torque);
+  figure.title = "Flank pressure (MPa) and loads over tip edges (N), " + torque_words(s.torque);
   figure.height = both ? 1200 : 900;
   const FlankPressure rest = flank_pressure(s);
   figure.blocks.push_back(map_block(up));
@@ -97,26 +98,30 @@ Figure flank_pressure_figure(const StaticArtifact& s, const std::vector<Response
   double largest = 0, edge = 0;
   for (const ResponseArtifact* r : {&up, &down}) {
     figure.blocks.push_back(speed_block(*r));
-    largest = std::max(largest, r->flank_pressure.maxCoeff());
+    largest = std::max({largest, r->flank_pressure.maxCoeff(), r->flank_pressure_held.maxCoeff()});
     for (const Eigen::VectorXd& load : r->edge_load) edge = std::max(edge, load.maxCoeff());
   }
-  figure.notes = {
-      "Hertz's law of the least load of a pair over 1/64 of a mesh period at each place of the flanks; "
-      "largest "
-      "over the mesh periods" +
+  const std::string all[] = {
+      "pressure inside the flanks, by Hertz's law of the load that a pair holds for 1/64 of a mesh period; "
+      "largest over the "
+      "mesh periods" +
           (rest.smooth > 0 ? "; at rest, by strips, " + shown(rest.smooth * kMegapascal, 4) + " MPa" : ""),
-      text("a tip edge on a flank is a singular contact: it has no largest pressure, so its load is stated (",
-           both ? "d" : "c", "), and the map is white there, as without load"),
+      text("grey: the load is held over a tip edge, whose pressure on a flank is singular; it is stated as a "
+           "load (",
+           both ? "d" : "c", "); white: no load is held"),
       both ? "the map of falling speed differs from that of rising speed"
            : "falling speed has the same map within 1 % of the largest pressure"};
+  for (const std::string& note : all)
+    for (std::string& line : in_lines(note)) figure.notes.push_back(std::move(line));
+  add_lines(figure.notes.size(), figure);
   const auto step = [](const Eigen::VectorXd& x) { return x.size() > 1 ? std::abs(x[1] - x[0]) : 0.0; };
-  figure.words = {{"labels", text("'", s.mesh.gear[0], "' '", s.mesh.gear[1], "'")}};
+  figure.words.emplace_back("labels", quoted_labels({s.mesh.gear[0], s.mesh.gear[1]}));
   figure.numbers = {{"both", both ? 1.0 : 0.0},
                     {"roll_from", up.flank_roll.col(0).minCoeff() * kDegrees},
                     {"roll_to", up.flank_roll.col(0).maxCoeff() * kDegrees},
                     {"roll_step", step(up.flank_roll.col(0)) * kDegrees},
                     {"speed_step", step(up.mesh_frequency)},
-                    {"pressure_max", largest * kMegapascal},
+                    {"pressure_max", largest > 0 ? largest * kMegapascal : 1},
                     {"pressure_rest", rest.smooth * kMegapascal},
                     {"edge_max", edge},
                     {"frequency_from", up.mesh_frequency.minCoeff()},

@@ -105,9 +105,9 @@ constexpr Row kRows[] = {
      "as at rest: the inertia of the body, kept modes included, adds none.",
      "Raise element_order or lower element_mm if its line is above 1 %."},
     {Needs::motion, "flank-pressure", "Flank pressure",
-     "Hertz's pressure of the load that a pair holds at each place of the flanks. Over a tip edge the "
-     "pressure "
-     "is singular: the load stands there instead.",
+     "Hertz's pressure of the load that a pair holds inside its flanks for 1/64 of a mesh period. Over a tip "
+     "edge the pressure is singular: the load is stated there, apart, and the map is grey; it is white where "
+     "no load is held.",
      "Half of the relative error of the tooth load; strips at rest are within 2.1 % of it. Edges are sharp "
      "here "
      "and round in metal.",

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "base/error.h"
-#include "gear/iso6336.h"
-#include "gear/iso6336_strength.h"
+#include "gear/pair.h"
+#include "report/figure_words.h"
+#include "report/iso_comparison.h"
 #include "report/response_figures.h"
 #include "system/flank_pressure.h"
 
@@ -58,14 +59,21 @@ struct AtRest {
   Eigen::VectorXd root_stress;
 };
 
+// Of the motions at one torque: speed, stresses and factors.
+std::vector<std::string> motion_columns(const PairParameters& pair) {
+  const auto &driver = pair.mesh.gear[0], &driven = pair.mesh.gear[1];
+  return {"mesh_frequency [Hz]",
+          "root_stress_" + driver + " [MPa]",
+          "root_stress_" + driven + " [MPa]",
+          "factor_mesh_force [1]",
+          "factor_tooth_load [1]",
+          "factor_root_stress_" + driver + " [1]",
+          "factor_root_stress_" + driven + " [1]"};
+}
+
 FigureBlock speed_block(const ResponseArtifact& r, const AtRest& rest) {
-  FigureBlock block{text("speed ", r.direction),
-                    {"mesh_frequency [Hz]", "root_stress_driver [MPa]", "root_stress_driven [MPa]",
-                     "factor_mesh_force [1]", "factor_tooth_load [1]", "factor_root_stress_driver [1]",
-                     "factor_root_stress_driven [1]", "loss_factor [1]"},
-                    {},
-                    "speed",
-                    name_of(r.direction)};
+  FigureBlock block{text("speed ", r.direction), motion_columns(r), {}, "speed", name_of(r.direction)};
+  block.columns.emplace_back("loss_factor [1]");
   const std::vector<bool> broken = broken_after(r);
   for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i) {
     const double a = r.root_stress_held[0][i], b = r.root_stress_held[1][i];
@@ -84,11 +92,8 @@ FigureBlock branch_block(const BranchArtifact& b, const StaticArtifact& s, const
          " N m; give both of one torque");
   if (b.root_stress_held[0].size() == 0 || b.root_stress_held[1].size() == 0)
     fail(Failure::input, "root-stress: branch.h5 holds no root stress; make it anew");
-  FigureBlock block{"branch",
-                    {"mesh_frequency [Hz]", "root_stress_driver [MPa]", "root_stress_driven [MPa]",
-                     "factor_mesh_force [1]", "factor_tooth_load [1]", "factor_root_stress_driver [1]",
-                     "factor_root_stress_driven [1]", "stable [1]", "part [1]"},
-                    {}};
+  FigureBlock block{"branch", motion_columns(b), {}};
+  for (const char* column : {"stable [1]", "part [1]"}) block.columns.emplace_back(column);
   for (Eigen::Index i = 0; i < b.mesh_frequency.size(); ++i) {
     if (i > 0 && b.part[i] != b.part[i - 1]) block.rows.emplace_back();
     const double first = b.root_stress_held[0][i], second = b.root_stress_held[1][i];
@@ -100,45 +105,10 @@ FigureBlock branch_block(const BranchArtifact& b, const StaticArtifact& s, const
   return block;
 }
 
-// What the formulas of the standard say; none where they cannot say it, `missing` says why.
-struct IsoValues {
-  std::optional<double> root[kSides], pressure, loss;  // Pa, Pa, 1
-  bool root_in_range = true;
-  std::string missing, why;
-};
-
-IsoValues iso_values(const StaticArtifact& s, const GearPair& pair) {
-  IsoValues out;
-  const double force = s.torque / pair.gear(0).pitch_radius();
-  const auto take = [&](std::optional<double>& into, const char* name,
-                        const std::function<double()>& formula) {
-    try {
-      into = formula();
-    } catch (const Error& error) {
-      if (error.kind() != Failure::input && error.kind() != Failure::numerical) throw;
-      if (out.missing.find(name) == std::string::npos)
-        out.missing += text(out.missing.empty() ? "" : ", ", name);
-      if (out.why.empty()) out.why = error.what();
-    }
-  };
-  if (!pair.internal()) {
-    for (int g = 0; g < kSides; ++g)
-      take(out.root[g], "sigma_{F0}", [&] {
-        out.root_in_range = out.root_in_range && iso_6336_root(pair, g).in_range;
-        return iso_6336_root_stress(pair, g, force);
-      });
-    take(out.pressure, "sigma_{H0}", [&] {
-      return iso_6336_flank_pressure(pair, {s.gear[0].material, s.gear[1].material}, force);
-    });
-  }
-  take(out.loss, "loss factor of rigid teeth", [&] { return loss_factor_of_rigid_teeth(pair); });
-  return out;
-}
-
 // Columns that are not known are left out.
-FigureBlock rest_block(const StaticArtifact& s, const IsoValues& iso) {
+FigureBlock rest_block(const StaticArtifact& s, const IsoComparison& iso) {
   FigureBlock block{"rest", {}, {{}}};
-  const auto add = [&](const char* column, std::optional<double> value) {
+  const auto add = [&](const std::string& column, std::optional<double> value) {
     if (!value) return;
     block.columns.emplace_back(column);
     block.rows[0].push_back(*value);
@@ -148,79 +118,74 @@ FigureBlock rest_block(const StaticArtifact& s, const IsoValues& iso) {
   };
   const double pressure = flank_pressure(s).smooth;
   add("torque [N m]", s.torque);
-  add("root_stress_driver [MPa]", s.root_stress_max[0] * kMegapascal);
-  add("root_stress_driven [MPa]", s.root_stress_max[1] * kMegapascal);
-  add("sigma_F0_driver [MPa]", megapascal(iso.root[0]));
-  add("sigma_F0_driven [MPa]", megapascal(iso.root[1]));
-  add("sigma_H0 [MPa]", megapascal(iso.pressure));
+  for (int g = 0; g < kSides; ++g)
+    add("root_stress_" + s.mesh.gear[g] + " [MPa]", s.root_stress_max[g] * kMegapascal);
+  for (int g = 0; g < kSides; ++g)
+    add("sigma_F0_" + s.mesh.gear[g] + " [MPa]", megapascal(iso.root_stress[static_cast<size_t>(g)]));
+  add("sigma_H0 [MPa]", megapascal(iso.flank_pressure));
   if (pressure > 0) add("contact_pressure [MPa]", pressure * kMegapascal);
   add("loss_factor [1]", s.loss_factor);
-  add("loss_factor_rigid [1]", iso.loss);
+  add("loss_factor_rigid [1]", iso.loss_factor);
   return block;
 }
 
-// K_v of exact gears over mesh frequency; the relief is the smaller one of the two gears' tips. In `resonance` the mesh
-// frequency (Hz) at which N = 1, in `in_range` whether the stiffness formula is tested for such gears.
-FigureBlock dynamic_factor_block(const StaticArtifact& s, const ResponseArtifact& r, double& resonance,
-                                 bool& in_range) {
+// K_v over the speeds of a sweep.
+FigureBlock dynamic_factor_block(const IsoComparison& iso, const ResponseArtifact& r) {
   FigureBlock block{"iso", {"mesh_frequency [Hz]", "K_v [1]"}, {}, "iso", ""};
-  const IsoStiffness iso = iso_6336_stiffness(s.gear[0].design, s.gear[0].material, s.gear[1].design,
-                                              s.gear[1].material, s.torque, s.contact_ratio);
-  in_range = iso.in_range;
-  double inverse_mass = 0;  // kg-1
-  for (int g = 0; g < kSides; ++g) {
-    const double base = ToothGeometry(s.gear[g].design).base_radius();
-    inverse_mass += base * base / r.inertia[g];
-  }
-  resonance = std::sqrt(iso.mesh * s.face_width() * inverse_mass) / (2 * std::numbers::pi);
-  IsoDynamics gears;
-  gears.contact_ratio = s.contact_ratio;
-  gears.line_load = iso.line_load;
-  gears.single_stiffness = iso.single;
-  gears.relief = std::min(s.mesh.modification[0].tip.amount, s.mesh.modification[1].tip.amount);
   constexpr int kPoints = 400;
   const double from = r.mesh_frequency.minCoeff(), to = r.mesh_frequency.maxCoeff();
   for (int i = 0; i <= kPoints; ++i) {
     const double f = from + (to - from) * i / kPoints;
-    block.rows.push_back({f, iso_6336_dynamic_factor(gears, f / resonance)});
+    if (const auto factor = iso.dynamic_factor(f)) block.rows.push_back({f, *factor});
   }
   return block;
 }
 
+// One line each for a picture's width.
+std::vector<std::string> notes_of(const StaticArtifact& s, const IsoComparison& iso, bool branches) {
+  std::string at_rest, by_iso;
+  for (int g = 0; g < kSides; ++g) {
+    at_rest +=
+        text(g ? "; " : "", s.mesh.gear[g], " ", shown(s.root_stress_max[g] * kMegapascal, 4),
+             " MPa at a tangent of ", fixed(s.root_stress_angle[g] * 180 / std::numbers::pi, 0), " deg");
+    if (const auto& stress = iso.root_stress[static_cast<size_t>(g)])
+      by_iso += text(by_iso.empty() ? "" : "; ", s.mesh.gear[g], " ", shown(*stress * kMegapascal, 4),
+                     " MPa, ratio ", shown(s.root_stress_max[g] / *stress, 3));
+  }
+  std::vector<std::string> all{"largest tension along the root beside the loaded flank; at rest: " + at_rest,
+                               "in motion held for 1/64 of a mesh period; root stress in motion is that of "
+                               "the tooth loads as at rest: the "
+                               "inertia of the body, kept modes included, adds none"};
+  if (branches)
+    all.emplace_back(
+        "thin lines: stable orbits of the branch, which a sweep may pass by; dots: unstable ones");
+  if (!by_iso.empty())
+    all.push_back("sigma_F0 of ISO 6336-3, method B, at the outer point of single contact: " + by_iso);
+  if (!iso.beyond.empty())
+    all.push_back("outside of the range that ISO 6336 gives for its formulas: " + iso.beyond);
+  if (!iso.missing.empty()) all.push_back("left out: " + iso.missing + " (" + iso.why + ")");
+  std::vector<std::string> lines;
+  for (const std::string& note : all)
+    for (std::string& line : in_lines(note)) lines.push_back(std::move(line));
+  return lines;
+}
+
 }  // namespace
 
-// NOLINTNEXTLINE(readability-function-size): blocks and notes of one figure
 Figure root_stress_figure(const StaticArtifact& s, const std::vector<ResponseArtifact>& sweeps,
                           const std::vector<BranchArtifact>& branches) {
   require_inputs(s, sweeps);
+  if (branches.size() > 1)
+    fail(Failure::input, "root-stress: ", branches.size(), " branch.h5 given, one at most");
   const GearPair pair(s);
   const AtRest rest{s.torque / pair.gear(0).base_radius(), s.tooth_load.maxCoeff(), s.contact_ratio,
                     s.root_stress_max};
-  const IsoValues iso = iso_values(s, pair);
-  // K_v has formulas for contact ratios above 2, too.
-  const bool factors = !pair.internal() && s.contact_ratio >= 1;
+  const IsoComparison iso = iso_comparison(s, sweeps[0].inertia);
   Figure figure;
-  figure.title = "Root stress, " + torque_words(s.torque);
+  figure.title = "Root stress (MPa) and dynamic factors, " + torque_words(s.torque);
   figure.height = 1300;
-  double resonance = 0, high = 0, factor = 1;
-  std::string static_words, iso_words;
-  for (int g = 0; g < kSides; ++g) {
-    figure.blocks.push_back(cycle_block(s, g));
-    static_words +=
-        text(g ? "; " : "", s.mesh.gear[g], " ", shown(s.root_stress_max[g] * kMegapascal, 4),
-             " MPa at a tangent of ", fixed(s.root_stress_angle[g] * 180 / std::numbers::pi, 0), " deg");
-    if (iso.root[g])
-      iso_words +=
-          text(iso_words.empty() ? "" : "; ", s.mesh.gear[g], " ", shown(*iso.root[g] * kMegapascal, 4),
-               " MPa, ratio ", shown(s.root_stress_max[g] / *iso.root[g], 3));
-  }
-  figure.notes = {"largest tension along the root beside the loaded flank; at rest: " + static_words,
-                  "in motion held for 1/64 of a mesh period; root stress in motion is that of the tooth "
-                  "loads as at rest: the "
-                  "inertia of the body, kept modes included, adds none"};
-  if (!iso_words.empty())
-    figure.notes.push_back("sigma_{F0} of ISO 6336-3, method B, at the outer point of single contact: " +
-                           iso_words);
+  double high = 0, factor = 1;
+  for (int g = 0; g < kSides; ++g) figure.blocks.push_back(cycle_block(s, g));
   const auto add_motions = [&](FigureBlock block) {
     for (const auto& row : block.rows)
       if (!row.empty()) {
@@ -230,25 +195,15 @@ Figure root_stress_figure(const StaticArtifact& s, const std::vector<ResponseArt
     figure.blocks.push_back(std::move(block));
   };
   for (const ResponseArtifact& r : sweeps) add_motions(speed_block(r, rest));
-  if (branches.size() > 1)
-    fail(Failure::input, "root-stress: ", branches.size(), " branch.h5 given, one at most");
   for (const BranchArtifact& b : branches) add_motions(branch_block(b, s, rest));
-  bool stiffness_in_range = true;
-  if (factors) figure.blocks.push_back(dynamic_factor_block(s, sweeps[0], resonance, stiffness_in_range));
-  std::string beyond;
-  if (!iso.root_in_range) beyond = "Y_S (1 <= q_s < 8)";
-  if (!stiffness_in_range)
-    beyond += text(beyond.empty() ? "" : " and ",
-                   "c' in K_v (-0.5 <= x_1 + x_2 <= 2, contact ratio 1.2 to 1.9; here ",
-                   shown(s.contact_ratio, 3), ")");
-  if (!beyond.empty())
-    figure.notes.push_back("outside of the range that ISO 6336 gives for its formulas: " + beyond);
-  if (!iso.missing.empty()) figure.notes.push_back("left out: " + iso.missing + " (" + iso.why + ")");
+  if (iso.resonance) figure.blocks.push_back(dynamic_factor_block(iso, sweeps[0]));
   figure.blocks.push_back(rest_block(s, iso));
-  figure.words = {{"labels", text("'", s.mesh.gear[0], "' '", s.mesh.gear[1], "'")}};
-  figure.numbers = {{"iso", factors ? 1.0 : 0.0},
-                    {"iso_driver", iso.root[0].value_or(0) * kMegapascal},
-                    {"iso_driven", iso.root[1].value_or(0) * kMegapascal},
+  figure.notes = notes_of(s, iso, !branches.empty());
+  add_lines(figure.notes.size(), figure);
+  figure.words.emplace_back("labels", quoted_labels({s.mesh.gear[0], s.mesh.gear[1]}));
+  figure.numbers = {{"iso", iso.resonance ? 1.0 : 0.0},
+                    {"iso_driver", iso.root_stress[0].value_or(0) * kMegapascal},
+                    {"iso_driven", iso.root_stress[1].value_or(0) * kMegapascal},
                     {"path_start", pair.path_start() / pair.base_pitch()},
                     {"path_end", pair.path_end() / pair.base_pitch()},
                     {"stress_max", high},
@@ -256,7 +211,7 @@ Figure root_stress_figure(const StaticArtifact& s, const std::vector<ResponseArt
                     {"branches", static_cast<double>(branches.size())},
                     {"frequency_from", sweeps[0].mesh_frequency.minCoeff()},
                     {"frequency_to", sweeps[0].mesh_frequency.maxCoeff()},
-                    {"resonance", factors ? resonance : 0},
+                    {"resonance", iso.resonance.value_or(0)},
                     {"notes", static_cast<double>(figure.notes.size())},
                     {"natural_frequency", sweeps[0].natural_frequency}};
   return figure;

@@ -325,6 +325,26 @@ Figure error_budget_figure(const ErrorBudgetArtifact& budget) {
   figure.notes.push_back(text(
       "contact = ", budget.fidelity.contact, ", near field by ", budget.gear[0].discretisation.near_field,
       "; beyond the line what another choice changes, which is no error of this one"));
+  if (const RootConvergence root = convergence(budget.root); root.order.rows() > 0) {
+    std::string words = "root stress with smaller elements on the roots:";
+    FigureBlock block{"roots", {"element [mm]"}, {}, "roots", "largest root stress"};
+    for (int g = 0; g < kSides; ++g) {
+      const Eigen::Index last = root.change.rows() - 1;
+      const double order = root.order(last - 1, g);
+      // What the finest still changes the result by, and the last order.
+      words += text(g ? "; " : " ", budget.mesh.gear[g], " ",
+                    shown((budget.root.stress(last + 1, g) / budget.root.stress(0, g) - 1) * kPercent, 2),
+                    " % from ", shown(budget.root.element_size[0] * 1e3, 3), " to ",
+                    shown(budget.root.element_size[last + 1] * 1e3, 3), " mm",
+                    std::isfinite(order) ? ", order " + fixed(order, 1) : "");
+      block.columns.push_back(text("stress of ", budget.mesh.gear[g], " [MPa]"));
+    }
+    for (Eigen::Index k = 0; k < budget.root.stress.rows(); ++k)
+      block.rows.push_back({budget.root.element_size[k] * 1e3, budget.root.stress(k, 0) * 1e-6,
+                            budget.root.stress(k, 1) * 1e-6});
+    figure.blocks.push_back(block);
+    figure.notes.push_back(words);
+  }
   for (const auto& [name, labels, count, changes] :
        {std::tuple{"changes", "labels", "entries", &budget.refinement},
         std::tuple{"choices", "choice_labels", "choices", &budget.choice}}) {
@@ -368,6 +388,7 @@ Figure error_budget_figure(const ErrorBudgetArtifact& budget) {
       figure.numbers.insert(figure.numbers.end(), {{"bars_each", 7 + (pressure ? 1 : 0) + (stress ? 1 : 0)},
                                                    {"pressure", pressure}});
   }
+  figure.numbers.emplace_back("notes", static_cast<double>(figure.notes.size()));
   return figure;
 }
 

@@ -92,7 +92,7 @@ std::optional<Branches> widest(const VectorXd& speed, const VectorXd& up, const 
 }  // namespace
 
 double held_load(const Eigen::Ref<const MatrixRM>& load, int samples, int multiple) {
-  const Eigen::Index window = (samples + 63) / 64 + 1;
+  const Eigen::Index window = held_samples(samples);
   const Eigen::Index rows =
       multiple > 0 ? std::min(load.rows(), static_cast<Eigen::Index>(multiple) * samples) : load.rows();
   double held = 0;

@@ -25,6 +25,11 @@ struct BranchPoint {
 // begin; not for loads of pairs, which go on in another column there. 0: it does not repeat.
 double held_load(const Eigen::Ref<const MatrixRM>& load, int samples, int multiple = 0);
 
+// Samples in a row that it looks at.
+constexpr int held_samples(int samples) {
+  return (samples + 63) / 64 + 1;
+}
+
 struct MapSpeeds {
   double from = 0, to = 0;    // Hz; 0: 0.57 and 1.2 of the natural frequency
   double step = 50;           // Hz

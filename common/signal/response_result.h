@@ -36,10 +36,11 @@ struct ResponseArtifact : MotionParameters {
   // there, in mesh periods from the pitch point: (place) 1; (place, gear) rad
   Eigen::VectorXd pair_phase;
   MatrixRM flank_roll;
-  MatrixRM
-      flank_pressure;  // (speed, place) Pa, largest over the mesh periods; 0: no load, or a tip edge is touched
-  std::array<Eigen::VectorXd, 2>
-      edge_load;  // [gear] (speed) N: largest that a pair carries over the gear's tip edge
+  // (speed, place) Pa, N: largest over the mesh periods; one of the two is 0, and both where no load is held
+  MatrixRM flank_pressure, edge_load_there;
+  Eigen::VectorXd
+      flank_pressure_held;  // (speed) Pa: held inside the flanks for 1/64 of a mesh period; 0: never
+  std::array<Eigen::VectorXd, 2> edge_load;  // [gear] (speed) N: held over the gear's tip edge; 0: never
   FrictionLosses friction;
   Eigen::VectorXd separation_fraction;         // (speed) share of the period without force
   Eigen::VectorXd separations_per_period;      // (speed) 1

@@ -306,13 +306,13 @@ void store_compliance(const Reduction& r, const FlankLoads& loads, Harmonics& ha
   }
 }
 
-// m: size of the elements on the root that its stress is read from, 0: those of the mesh will do. Where the tangent turns by more
+// m: size of the elements on the root that its stress is read from: that of the mesh, or less. Where the tangent turns by more
 // than 0.4 from one element to the next the root of a deep tooth is 2 % off with the load low on the flank.
 double element_for_root_stress(const MeshArtifact& mesh) {
   constexpr double kSharp = 0.25, kTurn = 0.4;  // modules, rad
-  const double radius = least_root_radius(ToothGeometry(mesh.design));
-  const double element = kTurn * radius;
-  return radius < kSharp * mesh.design.module && element < mesh.discretisation.element_size ? element : 0;
+  const double radius = least_root_radius(ToothGeometry(mesh.design)),
+               size = mesh.discretisation.element_size;
+  return radius < kSharp * mesh.design.module ? std::min(kTurn * radius, size) : size;
 }
 
 void store_root_stress(const Reduction& r, const FlankLoads& loads,
@@ -320,6 +320,7 @@ void store_root_stress(const Reduction& r, const FlankLoads& loads,
   const RootPoints at = root_points(ToothGeometry(r.mesh.design));
   body.root_arc_length = at.arc_length;
   body.root_angle = at.angle;
+  body.root_stress.clear();
   for (int d = -body.offsets; d <= body.offsets; ++d) {
     Eigen::MatrixXd table = r.offset_sum(
         d, [&](int n) -> const Eigen::MatrixXcd& { return of_harmonic[static_cast<size_t>(n)]; });
@@ -393,7 +394,7 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
   Fields fields(mesh, body);
   store_modes(r, kept, fields, body);
   store_compliance(r, loads, harmonics, body);
-  if (const double element = element_for_root_stress(mesh); element > 0)
+  if (const double element = element_for_root_stress(mesh); element < mesh.discretisation.element_size)
     store_finer_root_stress(mesh, material, element, body);
   else
     store_root_stress(r, loads, harmonics.root_stress, body);
@@ -407,6 +408,15 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
     return u;
   });
   return body;
+}
+
+double refine_root_stress(const MeshArtifact& mesh, double share, BodyArtifact& body) {
+  if (!(share > 0 && share < 1))
+    fail(Failure::input, "elements on the root of ", share,
+         " times their size; give a share between 0 and 1");
+  const double element = share * element_for_root_stress(mesh);
+  store_finer_root_stress(mesh, body.material, element, body);
+  return element;
 }
 
 }  // namespace whine

@@ -40,4 +40,8 @@ constexpr int kOffsets = 3;
 BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int modes,
                     int flank_points = kFlankPoints);
 
+// Reads the root stress of a body anew, from `mesh` with elements on the root that are `share` (0 to 1, neither) times as large as those
+// that reduce() reads it from. All else of the body stays. Returns their size (m). Throws as reduce(), Error(input) for another share.
+double refine_root_stress(const MeshArtifact& mesh, double share, BodyArtifact& body);
+
 }  // namespace whine

@@ -83,6 +83,18 @@ struct Alternatives {
     const BodyArtifact first = again(driver);
     return outcome(static_transmission(first, alike ? first : again(driven), settings, torque));
   }
+  // (gear) Pa: largest root stress with elements on the roots that are `share` times as large; size (m) becomes the driver's.
+  VectorXd with_root_elements(double share, double& size) const {
+    const auto again = [share, &size](const BodyArtifact& body) {
+      BodyArtifact finer = body;
+      size = refine_root_stress(make_sector_mesh(body.design, body.discretisation), share, finer);
+      return finer;
+    };
+    const bool alike = driver.compliance == driven.compliance;
+    const BodyArtifact second = again(driven);  // the driver last: it leaves its size
+    const BodyArtifact first = alike ? second : again(driver);
+    return static_transmission(first, second, settings, torque).root_stress_max;
+  }
 };
 
 NamedOutcomes refinements(const Alternatives& pair) {
@@ -137,6 +149,20 @@ NamedOutcomes other_choices(const Alternatives& pair, std::string& missing) {
   return chosen;
 }
 
+// With the elements on the roots once, half, a quarter and an eighth as large; none without root stress.
+RootRefinement root_levels(const Alternatives& pair, const Outcome& present) {
+  constexpr int kLevels = 4;
+  RootRefinement out;
+  if (present.root_stress.size() == 0) return out;
+  out.element_size.resize(kLevels);
+  out.stress.resize(kLevels, present.root_stress.size());
+  out.stress.row(0) = present.root_stress.transpose();
+  for (int k = 1; k < kLevels; ++k)
+    out.stress.row(k) = pair.with_root_elements(std::pow(0.5, k), out.element_size[k]).transpose();
+  out.element_size[0] = 2 * out.element_size[1];
+  return out;
+}
+
 }  // namespace
 
 ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact& driven,
@@ -148,6 +174,7 @@ ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact&
   static_cast<PairParameters&>(budget) = base;
   budget.torque = torque;
   budget.refinement = changes(refinements(pair), reference);
+  budget.root = root_levels(pair, reference);
   budget.choice = changes(other_choices(pair, budget.choice_missing), reference);
   return budget;
 }

@@ -20,12 +20,27 @@ struct StaticChanges {
   Eigen::VectorXd root_stress_change = {};
 };
 
+// Largest root stress at rest, read from meshes with elements of several sizes on the roots; from coarse, those of the result, to fine.
+struct RootRefinement {
+  Eigen::VectorXd element_size;  // (level) m, on the root of the driver; empty: not known
+  MatrixRM stress;               // (level, gear) Pa
+};
+
+// What refining changes, as the error of its elements would: c h^p leaves change(k) / change(k + 1) = (h_k / h_(k+1))^p.
+struct RootConvergence {
+  MatrixRM change;  // (level - 1, gear) 1: of the stress, from one level to the next, over that of the last
+  MatrixRM order;   // (level - 2, gear) 1: p; NaN where a change is 0
+};
+// Both without rows for fewer than two levels.
+RootConvergence convergence(const RootRefinement& root);
+
 // error_budget.h5
 struct ErrorBudgetArtifact : PairParameters {
   double torque = 0;         // N m on the driver
   StaticChanges refinement;  // discretisations: their changes are errors and add up
   StaticChanges choice;      // models that could be chosen instead: for information, no errors and in no sum
   std::string choice_missing;  // which of them could not be computed, and why; "" if all were
+  RootRefinement root;         // elements on the roots once, half, a quarter and an eighth as large
 };
 
 }  // namespace whine

@@ -25,7 +25,7 @@ std::vector<double> phases_of(int samples) {
 HeldPeaks::HeldPeaks(const GearMeshModel& model, int steps)
     : roots_(model, phases_of(samples_of(steps))), samples_(samples_of(steps)) {}
 
-Eigen::VectorXd HeldPeaks::of(const RollingDynamics::Period& period) {
+Eigen::VectorXd HeldPeaks::of(const RollingDynamics::Period& period, int number, int periods) {
   const Eigen::Index pairs = period.pair_load.rows(), stride = period.pair_load.cols() / samples_;
   const int reach = static_cast<int>(pairs) / 2;
   pair_ = Eigen::VectorXi::LinSpaced(pairs, -reach, reach);
@@ -37,10 +37,18 @@ Eigen::VectorXd HeldPeaks::of(const RollingDynamics::Period& period) {
     for (int g = 0; root_stress() && g < kSides; ++g)
       along_(n, 1 + g) = roots_.largest(g, static_cast<size_t>(n), pair_, load_.row(n).transpose()).stress;
   }
+  const Eigen::Index seam = held_samples(samples_) - 1;
+  if (number == 0) first_ = along_.topRows(seam);
+  const Eigen::Index before = number > 0 ? seam : 0, after = number + 1 == periods ? seam : 0;
+  joined_.resize(before + samples_ + after, along_.cols());
+  if (before > 0) joined_.topRows(before) = last_;
+  joined_.middleRows(before, samples_) = along_;
+  if (after > 0) joined_.bottomRows(after) = first_;
+  last_ = along_.bottomRows(seam);
   Eigen::VectorXd out(along_.cols() + 1);
-  out[0] = held_load(along_.col(0), samples_, 1);
+  out[0] = held_load(joined_.col(0), samples_);
   out[1] = held_load(load_, samples_);
-  for (Eigen::Index k = 1; k < along_.cols(); ++k) out[k + 1] = held_load(along_.col(k), samples_, 1);
+  for (Eigen::Index k = 1; k < along_.cols(); ++k) out[k + 1] = held_load(joined_.col(k), samples_);
   return out;
 }
 

@@ -16,9 +16,11 @@ class HeldPeaks {
   // of two.
   HeldPeaks(const GearMeshModel& model, int steps);
   bool root_stress() const { return roots_.known(); }
-  // (2, or 4 with root stress) N, N, Pa, Pa: mesh force, load of one pair, root stress of driver and driven gear. The period is
-  // taken to repeat, as that of an orbit of one period does.
-  Eigen::VectorXd of(const RollingDynamics::Period& period);
+  // (2, or 4 with root stress) N, N, Pa, Pa: mesh force, load of one pair, root stress of driver and driven gear, in mesh period
+  // `number`, from 0, of a motion that repeats after `periods`, or never: kNever. Periods are given in their order: what is held
+  // across the start of one counts with it, and across the end of the last with that. The load of one pair is not followed there.
+  static constexpr int kNever = 0;
+  Eigen::VectorXd of(const RollingDynamics::Period& period, int number = 0, int periods = 1);
 
  private:
   RootStresses roots_;
@@ -26,6 +28,8 @@ class HeldPeaks {
   Eigen::VectorXi pair_;
   MatrixRM load_;   // (sample, pair) N
   MatrixRM along_;  // (sample, quantity) of all pairs together
+  MatrixRM first_, last_,
+      joined_;  // (sample, quantity) start of period 0, end of the period before, all that is looked at
 };
 
 }  // namespace whine

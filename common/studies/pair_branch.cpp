@@ -47,7 +47,9 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
   BranchFollower follower(dynamics, model, statics, stage_settings, BranchFollower::Look::close,
                           plan.tolerance);
   HeldPeaks peaks(model, stage_settings.time.steps_per_period);
-  follower.measure([&peaks](const RollingDynamics::Period& period) { return peaks.of(period); });
+  follower.measure([&peaks](const RollingDynamics::Period& period, int number, int periods) {
+    return peaks.of(period, number, periods);
+  });
   std::vector<BranchSegment> segments =
       plan.sweep ? follower.follow_from_sweep(*plan.sweep, plan.at, report) : follower.follow(report);
   follower.follow_flips(segments, plan.most_periods, report);

@@ -1,12 +1,14 @@
 #include "studies/sweep_pressure.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "contact/half_plane_strip.h"
 #include "gear/pair.h"
+#include "signal/branches.h"
 
 namespace whine {
 namespace {
@@ -32,6 +34,32 @@ double held_at(const Place& place, const MatrixRM& load, int steps) {
         held,
         load.col(place.column).segment(period * steps + place.first, place.last - place.first).minCoeff());
   return held;
+}
+
+// Material and faces of the pair as Hertz's law has them, and where its contacts end.
+struct Hertz {
+  const GearPair& gears;
+  double modulus;  // Pa: E*
+  double width;    // m
+
+  double pressure(double load, double curvature) const {
+    return std::sqrt(load * modulus / (std::numbers::pi * width * curvature));
+  }
+  // Over whose tip edge a pair carries its load (N, above 0): 0 the driver's, 1 the driven gear's; -1: it touches inside its flanks.
+  int edge(const PairContact& contact, double curvature, double load) const {
+    if (contact.corner) return contact.tip_gear;
+    const double half = std::sqrt(4 * load * curvature / (std::numbers::pi * width * modulus));
+    for (int g = 0; g < kSides; ++g)
+      if (gears.tip_distance(contact, g) < half) return g;
+    return -1;
+  }
+};
+
+Hertz hertz_of(const SweepArtifact& s, const GearPair& gears) {
+  double compliance = 0;  // Pa-1: 2 / (pi E*)
+  for (const BodyParameters& gear : s.gear)
+    compliance += HalfPlaneSurface(in_contact_plane(gear.material, s.mesh.contact_plane), 1.0).coefficient();
+  return {gears, 2 / (std::numbers::pi * compliance), s.face_width()};
 }
 
 // The places of the path of contact, and those beyond it at which a pair carries load.
@@ -61,44 +89,77 @@ std::vector<Place> places_of(const SweepArtifact& s, const GearPair& gears) {
   return out;
 }
 
+// Pressure and load over either edge at every sample, each held for 1/64 of a mesh period, wherever that begins.
+void add_held(const SweepArtifact& s, const Hertz& hertz, ResponseArtifact& r) {
+  struct Touch {
+    PairContact contact;
+    double curvature = 0;  // m; 0: no pair carries load there, and some have no contact to be asked for
+  };
+  const int steps = s.time.steps_per_period;
+  std::vector<Touch> touch;  // (pair, step)
+  touch.reserve(static_cast<size_t>(s.pair.size()) * static_cast<size_t>(steps));
+  for (Index pair = 0; pair < s.pair.size(); ++pair)
+    for (int n = 0; n < steps; ++n) {
+      Touch at;
+      const bool loaded = std::any_of(s.tooth_load.begin(), s.tooth_load.end(), [&](const MatrixRM& load) {
+        for (Index i = n; i < load.rows(); i += steps)
+          if (load(i, pair) > 0) return true;
+        return false;
+      });
+      if (loaded) at.contact = hertz.gears.contact(s.pair[pair] + static_cast<double>(n) / steps);
+      if (loaded && at.contact.on_flank) at.curvature = hertz.gears.relative_curvature_radius(at.contact);
+      touch.push_back(std::move(at));
+    }
+  const Index speeds = s.mesh_frequency.size();
+  r.flank_pressure_held.resize(speeds);
+  for (Eigen::VectorXd& load : r.edge_load) load.resize(speeds);
+  MatrixRM pressure;
+  std::array<MatrixRM, kSides> over_edge;
+  for (Index f = 0; f < speeds; ++f) {
+    const MatrixRM& load = s.tooth_load[static_cast<size_t>(f)];
+    pressure.setZero(load.rows(), load.cols());
+    for (MatrixRM& edge : over_edge) edge.setZero(load.rows(), load.cols());
+    for (Index pair = 0; pair < load.cols(); ++pair)
+      for (Index n = 0; n < load.rows(); ++n) {
+        const Touch& at = touch[static_cast<size_t>(pair * steps + n % steps)];
+        if (!(load(n, pair) > 0 && at.curvature > 0)) continue;
+        const int edge = hertz.edge(at.contact, at.curvature, load(n, pair));
+        if (edge < 0)
+          pressure(n, pair) = hertz.pressure(load(n, pair), at.curvature);
+        else
+          over_edge[static_cast<size_t>(edge)](n, pair) = load(n, pair);
+      }
+    r.flank_pressure_held[f] = held_load(pressure, steps);
+    for (size_t g = 0; g < kSides; ++g) r.edge_load[g][f] = held_load(over_edge[g], steps);
+  }
+}
+
 }  // namespace
 
 void add_flank_pressure(const SweepArtifact& s, ResponseArtifact& r) {
   if (s.root_stress[0].size() == 0 && s.model != "finite elements") return;
   const GearPair gears(s);
+  const Hertz hertz = hertz_of(s, gears);
   const std::vector<Place> places = places_of(s, gears);
-  double compliance = 0;  // Pa-1: 2 / (pi E*)
-  for (const BodyParameters& gear : s.gear)
-    compliance += HalfPlaneSurface(in_contact_plane(gear.material, s.mesh.contact_plane), 1.0).coefficient();
-  const double modulus = 2 / (std::numbers::pi * compliance), width = s.face_width();
-  const Index speeds = s.mesh_frequency.size();
-  const auto inside = static_cast<Index>(
-      std::count_if(places.begin(), places.end(), [](const Place& p) { return !p.contact.corner; }));
-  r.pair_phase.resize(inside);
-  r.flank_roll.resize(inside, kSides);
-  r.flank_pressure = MatrixRM::Zero(speeds, inside);
-  for (Eigen::VectorXd& load : r.edge_load) load.setZero(speeds);
-  Index column = 0;
-  for (const Place& place : places) {
-    if (!place.contact.corner) {
-      r.pair_phase[column] = place.phase;
-      for (int g = 0; g < kSides; ++g) r.flank_roll(column, g) = place.contact.roll[static_cast<size_t>(g)];
-    }
+  const Index speeds = s.mesh_frequency.size(), count = static_cast<Index>(places.size());
+  r.pair_phase.resize(count);
+  r.flank_roll.resize(count, kSides);
+  r.flank_pressure = MatrixRM::Zero(speeds, count);
+  r.edge_load_there = MatrixRM::Zero(speeds, count);
+  for (Index k = 0; k < count; ++k) {
+    const Place& place = places[static_cast<size_t>(k)];
+    r.pair_phase[k] = place.phase;
+    for (int g = 0; g < kSides; ++g) r.flank_roll(k, g) = place.contact.roll[static_cast<size_t>(g)];
     for (Index f = 0; f < speeds; ++f) {
       const double load = held_at(place, s.tooth_load[static_cast<size_t>(f)], s.time.steps_per_period);
       if (!(load > 0)) continue;
-      int edge = place.contact.corner ? place.contact.tip_gear : -1;
-      const double half = std::sqrt(4 * load * place.curvature / (std::numbers::pi * width * modulus));
-      for (int g = 0; g < kSides && edge < 0; ++g)
-        if (gears.tip_distance(place.contact, g) < half) edge = g;
-      if (edge < 0)
-        r.flank_pressure(f, column) =
-            std::sqrt(load * modulus / (std::numbers::pi * width * place.curvature));
+      if (hertz.edge(place.contact, place.curvature, load) < 0)
+        r.flank_pressure(f, k) = hertz.pressure(load, place.curvature);
       else
-        r.edge_load[static_cast<size_t>(edge)][f] = std::max(r.edge_load[static_cast<size_t>(edge)][f], load);
+        r.edge_load_there(f, k) = load;
     }
-    if (!place.contact.corner) ++column;
   }
+  add_held(s, hertz, r);
 }
 
 }  // namespace whine

@@ -2,14 +2,17 @@
 //
 //   p_H = sqrt(F E* / (pi b R)),   a = sqrt(4 F R / (pi b E*))
 // F the load of a pair, b the face width, R the relative radius of curvature at the nominal touching point, E* of both materials
-// in the plane state of the contact, a the half width. A pair passes each place of the flanks once in a mesh period; places are
-// 1/64 of a mesh period wide. The load of a place is the least of the samples there (4 of 256 steps, 2 of 128), so that spikes of
-// single samples, whose height depends on the time step, do not count; it differs by some per cent from loads held for 1/64 of a
-// period wherever that begins (signal's held loads). With 64 steps or fewer it is a single sample.
+// in the plane state of the contact, a the half width.
 //
-// No pressure is stated where there is none: a tip edge is sharp in this model, and the pressure of an edge on a flank is
-// singular. Of pairs that touch at a tip edge off the line of action, and of contacts that reach a tip edge (the half width
+// Flanks and tip edges are apart. A tip edge is sharp in this model, and the pressure of an edge on a flank is singular: no pressure is
+// stated there. Of pairs that touch at a tip edge off the line of action, and of contacts that reach a tip edge (the half width
 // is beyond its distance), the load is stated instead, by the gear whose edge it is.
+//
+// Over speed: the largest that a pair holds for 1/64 of a mesh period, wherever that begins, inside its flanks (pressure) and over either
+// edge (load), as held_load() of signal/branches.h. Over the flanks: a pair passes each place once in a mesh period; places are 1/64 of
+// a mesh period wide, and the load of a place is the least of the samples there (4 of 256 steps, 2 of 128; one of 64 steps or fewer). So
+// spikes of single samples, whose height depends on the time step, do not count. At each place and speed there is a pressure, or a load
+// over an edge, or neither: then no load is held there.
 // Assumptions: reliefs change the load, not R; a ridge at the start of a linear relief is not resolved.
 #pragma once
 #include "signal/response_result.h"
@@ -17,7 +20,7 @@
 
 namespace whine {
 
-// Fills pair_phase, flank_roll, flank_pressure and edge_load; of lumped models nothing.
+// Fills pair_phase, flank_roll, flank_pressure, edge_load_there, flank_pressure_held and edge_load; of lumped models nothing.
 void add_flank_pressure(const SweepArtifact& sweep, ResponseArtifact& response);
 
 }  // namespace whine

@@ -1,9 +1,10 @@
 # Root stress of both gears while a tooth passes through the mesh (a), the largest over speed (b), dynamic factors beside K_v (c).
-# Variables from gear-plot: tsv, heading, note1, note2, ..., notes, height, labels, iso, iso_driver, iso_driven, path_start, path_end,
+# Variables from gear-plot: tsv, heading, line1, line2, ..., notes, height, labels, iso, iso_driver, iso_driven, path_start, path_end,
 # stress_max, factor_max, frequency_from, frequency_to, resonance, natural_frequency, branches; iso: 0 without K_v, iso_driver, iso_driven: 0
 # without sigma_F0, resonance: Hz at which N = 1.
 set datafile separator tab
 set datafile commentschars "#"
+foot_name = "line%d"
 lift = room(notes)
 
 array colour[2] = ["#0072b2", "#d55e00"]
@@ -55,8 +56,9 @@ do for [g = 1:2] {
   drawn = drawn . sprintf('tsv index "[speed down]" using 1:%d with lines lt 1 lw %g dt (10, 5) lc rgb "%s" notitle, ', g + 1, width[g], colour[g]) \
     . sprintf('tsv index "[speed up]" using 1:%d with lines lt 1 lw %g lc rgb "%s" title word(labels, %d), ', g + 1, width[g], colour[g], g)
 }
-# Unstable orbits; the stable ones lie on the sweeps.
+# Orbits of the branch: stable ones, which a sweep may pass by, and unstable ones.
 if (branches > 0) {
+  do for [g = 1:2] { drawn = drawn . sprintf('tsv index "[branch]" using 1:($8 == 1 ? column(%d) : NaN) with lines lt 1 lw 0.8 lc rgb "%s" notitle, ', g + 1, colour[g]) }
   do for [g = 1:2] { drawn = drawn . sprintf('tsv index "[branch]" using 1:($8 == 0 ? column(%d) : NaN) with lines lt 1 lw %g dt (2, 4) lc rgb "%s" notitle, ', g + 1, width[g], colour[g]) }
   drawn = drawn . 'keyentry with lines lt 1 lw 2.6 dt (2, 4) lc rgb "#505050" title "dots: unstable orbits", '
 }
@@ -65,13 +67,13 @@ eval("plot " . drawn . 'keyentry with lines lt 1 lw 2.6 dt (10, 5) lc rgb "#5050
 set tmargin at screen 0.27 + 0.5 * lift
 set bmargin at screen 0.082 + 0.8 * lift
 set yrange [0 : 1.08 * factor_max]
-set ylabel "Dynamic factor"
+set ylabel "Dynamic factor (1)"
 set label 1 "{/:Bold (c)} the same over the largest at rest; root stress is quasi-static in the tooth loads"
 if (iso == 1 && resonance > frequency_from && resonance < frequency_to) {
   set arrow from resonance, graph 0 to resonance, graph 1 nohead back lw 1.2 dt (4, 4) lc rgb "#aa4499"
   set label 12 "N = 1" at resonance, graph 1.0 offset 0, -0.7 left tc rgb "#aa4499" font ",13"
 }
-array what[4] = ["mesh force (over T / r_b)", "tooth load", "root stress, driver", "root stress, driven gear"]
+array what[4] = ["mesh force (over T / r_b)", "tooth load", "root stress, " . word(labels, 1), "root stress, " . word(labels, 2)]
 array shade[4] = ["#444444", "#009e73", "#0072b2", "#d55e00"]
 array heavy[4] = [2.2, 2.2, 4.4, 1.6]
 drawn = ''
@@ -80,6 +82,7 @@ do for [k = 1:4] {
     . sprintf('tsv index "[speed up]" using 1:%d with lines lt 1 lw %g lc rgb "%s" title what[%d], ', k + 3, heavy[k], shade[k], k)
 }
 if (branches > 0) {
+  do for [k = 1:4] { drawn = drawn . sprintf('tsv index "[branch]" using 1:($8 == 1 ? column(%d) : NaN) with lines lt 1 lw 0.8 lc rgb "%s" notitle, ', k + 3, shade[k]) }
   do for [k = 1:4] { drawn = drawn . sprintf('tsv index "[branch]" using 1:($8 == 0 ? column(%d) : NaN) with lines lt 1 lw %g dt (2, 4) lc rgb "%s" notitle, ', k + 3, heavy[k], shade[k]) }
 }
 if (iso == 1) { drawn = drawn . 'tsv index "[iso]" using 1:2 with lines lt 1 lw 2.2 dt (4, 4) lc rgb "#aa4499" title "K_v, ISO 6336-1 method B", ' }

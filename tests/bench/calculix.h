@@ -52,6 +52,8 @@ struct CalculixPosition {
   // [gear] Pa: tangential stress at the nodes of the root beside the loaded flank of tooth 0, from the flank on; empty unless
   // roots are asked for
   std::array<std::vector<double>, 2> root_stress;
+  std::array<std::vector<double>, 2>
+      root_parameter;  // [gear] 1: of these nodes, t of ToothGeometry::root_point
 };
 
 class CalculixPair {
@@ -96,6 +98,7 @@ class CalculixPair {
     result.usage = wait_for(child, "ccx in " + folder);
     result.torque = read_torque(folder + "/pair.dat", meshes);
     if (root_ > 0) result.root_stress = read_root_stress(folder + "/pair.frd", meshes);
+    for (std::size_t g = 0; g < 2; ++g) result.root_parameter[g] = meshes[g].root_parameter;
     fs::remove_all(folder);
     return result;
   }
@@ -107,6 +110,7 @@ class CalculixPair {
     std::vector<std::size_t> bore;
     std::vector<std::pair<std::size_t, int>> contact;  // element (from 0), side (from 1) on flanks in reach
     std::vector<std::pair<std::size_t, Vec2>> root;    // node, tangent, from the flank on; of tooth 0
+    std::vector<double> root_parameter;                // 1: of the nodes of `root`
     Vec2 centre;
   };
 
@@ -286,6 +290,7 @@ class CalculixPair {
       for (const auto& [k, tag] : along) {
         const Vec2 tangent = on_root(std::min(k + 1, kSteps)) - on_root(std::max(k - 1, 0));
         mesh.root.emplace_back(tag, tangent.normalized());
+        mesh.root_parameter.push_back(double(k) / kSteps);
       }
     }
     gmsh::finalize();
