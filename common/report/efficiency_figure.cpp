@@ -57,6 +57,27 @@ std::optional<double> rigid_loss_factor(const GearPair& pair) {
   return {};
 }
 
+// Where Schlenk's formula is beyond its tests.
+std::vector<std::string> beyond_schlenk(const GearPair& pair, const std::vector<StaticArtifact>& statics,
+                                        const Eigen::VectorXd& mesh_frequency) {
+  std::vector<std::string> out;
+  const auto add = [&](const char* which, const auto&... words) {
+    out.push_back(text(words..., ", where the tests of Schlenk's formula ", which));
+  };
+  const double per_frequency = pitch_line_speed(pair, 1), slow = kSchlenkSpeeds[0] / per_frequency,
+               fast = kSchlenkSpeeds[1] / per_frequency;  // Hz
+  if (mesh_frequency.minCoeff() < slow)
+    add("begin", "below ", fixed(slow, 0), " Hz the coefficient is that at ", kSchlenkSpeeds[0], " m/s");
+  if (mesh_frequency.maxCoeff() > fast)
+    add("end", "above ", fixed(fast, 0), " Hz the coefficient is that at ", kSchlenkSpeeds[1], " m/s");
+  std::string light;
+  for (const StaticArtifact& s : statics)
+    if (line_load(pair, s.face_width(), s.torque) < kSchlenkLoad)
+      light += text(light.empty() ? "" : ", ", torque_words(s.torque));
+  if (!light.empty()) add("begin", "at ", light, " the coefficient is that of ", kSchlenkLoad, " N/mm");
+  return out;
+}
+
 }  // namespace
 
 Figure efficiency_figure(const std::vector<StaticArtifact>& statics,
@@ -119,10 +140,10 @@ Figure efficiency_figure(const std::vector<StaticArtifact>& statics,
                   text("loss factor H_V at rest, without the coefficient: ", factors,
                        rigid ? text("; of rigid teeth ", fixed(*rigid, 4)) : "")};
   const ResponseArtifact& up = sweep_at(sweeps, first.torque, Direction::up);
-  const double fast = kSchlenkSpeeds[1] / pitch_line_speed(pair, 1);  // Hz
-  if (first.mesh.friction.law == FrictionLaw::schlenk && up.mesh_frequency.maxCoeff() > fast)
-    figure.notes.push_back(text("above ", fixed(fast, 0), " Hz the coefficient is that at ",
-                                kSchlenkSpeeds[1], " m/s, where the tests of Schlenk's formula end"));
+  if (first.mesh.friction.law == FrictionLaw::schlenk) {
+    const std::vector<std::string> beyond = beyond_schlenk(pair, statics, up.mesh_frequency);
+    figure.notes.insert(figure.notes.end(), beyond.begin(), beyond.end());
+  }
   figure.shafts = shafts_of(first);
   figure.words = {{"labels", labels},
                   {"gears", text("'", first.mesh.gear[0], "' '", first.mesh.gear[1], "'")}};
