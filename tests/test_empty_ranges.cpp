@@ -63,18 +63,54 @@ TEST_CASE("figures: at one speed and without vibration, of a constant stiffness,
   CHECK(drawn(mesh_stiffness_figure({flat_statics()}), "fig13"));
 }
 
-TEST_CASE("figures: losses at one speed, the same at rest, are drawn") {
+namespace {
+
+StaticArtifact flat_losses() {
   StaticArtifact s = flat_statics();
   s.mesh.friction.coefficient = s.friction_coefficient = 0.05;
   s.efficiency = 0.995;
   s.loss_factor = 0.1;
   s.friction_loss = s.friction_moment[0] = s.friction_moment[1] = VectorXd::Zero(s.mesh_phase.size());
+  return s;
+}
+
+std::vector<ResponseArtifact> losses_at(double mesh_frequency) {
   std::vector<ResponseArtifact> sweeps{at_one_speed(Direction::up), at_one_speed(Direction::down)};
   for (ResponseArtifact& r : sweeps) {
+    r.mesh_frequency[0] = mesh_frequency;
     r.friction.coefficient = VectorXd::Constant(1, 0.05);
     r.friction.power = VectorXd::Constant(1, 190);
     r.friction.efficiency = VectorXd::Constant(1, 0.995);
     r.loss_factor = VectorXd::Constant(1, 0.1);
   }
-  CHECK(drawn(efficiency_figure({s}, sweeps), "efficiency"));
+  return sweeps;
+}
+
+}  // namespace
+
+TEST_CASE("figures: losses at one speed, the same at rest, are drawn") {
+  CHECK(drawn(efficiency_figure({flat_losses()}, losses_at(2000)), "efficiency"));
+}
+
+TEST_CASE("figures: losses say where Schlenk's formula is beyond its tests") {
+  StaticArtifact s = flat_losses();
+  const auto notes = [&](double mesh_frequency) {
+    std::string all;
+    for (const std::string& note : efficiency_figure({s}, losses_at(mesh_frequency)).notes)
+      all += note + "; ";
+    return all;
+  };
+  const auto holds = [](const std::string& all, const std::string& words) {
+    return all.find(words) != std::string::npos;
+  };
+  CHECK(!holds(notes(2000), "Schlenk"));
+  s.mesh.friction.law = FrictionLaw::schlenk;
+  // 50 teeth and 75 mm: 1 m/s at 106 Hz, 50 m/s at 5305 Hz; 84 N/mm under 150 N m.
+  CHECK(holds(notes(100), "below 1 m/s on the pitch line, a mesh frequency of 106 Hz,"));
+  CHECK(!holds(notes(110), "m/s on"));
+  CHECK(!holds(notes(5300), "m/s on"));
+  CHECK(holds(notes(5310), "above 50 m/s on the pitch line, a mesh frequency of 5305 Hz,"));
+  CHECK(holds(notes(2000), "at 150 N m the coefficient is that of 150 N/mm"));
+  s.gear[0].design.face_width = 10e-3;
+  CHECK(!holds(notes(2000), "N/mm"));
 }
