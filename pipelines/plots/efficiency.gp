@@ -11,7 +11,7 @@ set border 3 lw 1.6
 set tics out nomirror font ",14"
 set mxtics 5
 set grid lt 1 lc rgb "#e4e4e4" lw 1
-set lmargin at screen 0.09
+set lmargin at screen 0.12
 set rmargin at screen 0.78
 set key at graph 1.01, graph 0.98 left top Left reverse vertical samplen 2 spacing 1.2 font ",13" noenhanced
 
