@@ -356,19 +356,31 @@ TEST_CASE("friction: without it nothing changes, and static.h5 keeps it") {
   CHECK(read.efficiency == with.efficiency);
   CHECK(read.friction_coupling == with.friction_coupling);
   CHECK(read.mesh.friction.coefficient == 0.05);
+  // A mesh with friction and a file without its losses do not go together.
+  StaticArtifact torn = stored;
+  torn.friction_loss.resize(0);
+  CHECK_THROWS_WITH_AS(write(path, torn, Provenance()), doctest::Contains("/friction_loss"), Error);
+  torn = stored;
+  torn.mesh.friction = {};
+  write(path, torn, Provenance());
+  CHECK(read_static(path).friction_loss.size() == 0);
+  std::filesystem::remove(path);
   // What is left out is said, and where Schlenk's formula ends.
   const auto said = [](const std::vector<Remark>& remarks) {
     std::string all;
     for (const Remark& remark : remarks) all += remark.words + "; ";
     return all;
   };
-  CHECK(friction_remarks(without, 100, 1000).empty());
-  CHECK(contains(said(remarks(with)), "that it bends the teeth is left out"));
+  CHECK(friction_remarks(without, 150, 100, 1000).empty());
+  CHECK(contains(said(remarks(with)), "it bends no teeth here"));
   StaticArtifact schlenk = with;
   schlenk.mesh.friction.law = FrictionLaw::schlenk;
-  CHECK(!contains(said(friction_remarks(schlenk, 1000, 4000)), "m/s"));
-  CHECK(contains(said(friction_remarks(schlenk, 50, 4000)), "tests of Schlenk's formula begin"));
-  CHECK(contains(said(friction_remarks(schlenk, 1000, 7500)), "tests of Schlenk's formula end"));
+  CHECK(said(friction_remarks(schlenk, 400, 1000, 4000)).find("m/s") == std::string::npos);
+  CHECK(contains(said(friction_remarks(schlenk, 400, 50, 4000)), "tests of Schlenk's formula begin"));
+  CHECK(contains(said(friction_remarks(schlenk, 400, 1000, 7500)), "tests of Schlenk's formula end"));
+  const double least = kSchlenkLoad * 1e3 * GearPair(with).gear(0).base_radius() * with.face_width();
+  CHECK(said(friction_remarks(schlenk, 1.001 * least, 1000, 4000)).find("N/mm") == std::string::npos);
+  CHECK(contains(said(friction_remarks(schlenk, 0.5 * least, 1000, 4000)), "the line load is 75 N/mm"));
 }
 
 TEST_CASE("friction: the section of a scene, and what it is rejected with") {

@@ -10,6 +10,7 @@
 #include "base/dense.h"
 #include "contact/friction.h"
 #include "dynamics/period_map.h"
+#include "friction_motion.h"
 #include "paper_pair.h"
 #include "relative.h"
 #include "signal/response.h"
@@ -35,44 +36,13 @@ StaticParameters with_friction(double coefficient, ContactModel contact, bool be
   return settings;
 }
 
-// The paper's pair at 150 N m on coarse elements, from rest, on a candidate zone that holds the motion.
-struct Rig {
-  Rig(double coefficient, ContactModel contact, BodyModel body = BodyModel::modal, bool bearings = false,
-      double eta = 4e-6)
-      : statics(static_transmission(coarse_body(), coarse_body(),
-                                    with_friction(coefficient, contact, bearings), 150)),
-        model(coarse_body(), coarse_body(), statics.mesh),
-        dynamics(model, [&] {
-          ImpactParameters settings;
-          settings.inertia = {0.0148, 0.0148};
-          settings.damping.rayleigh_stiffness = eta;
-          settings.fidelity.body = body;
-          settings.fidelity.contact = contact;
-          return dynamic_parameters(statics, statics.mean_stiffness, settings);
-        }()) {}
-
-  void start(double frequency, int steps, int periods) {
-    for (double wide = 1; wide < 50; wide *= 1.6) {
-      dynamics.set_zone(candidate_zone(model, statics, MotionBounds(model, statics, wide)), steps);
-      state = dynamics.rest();
-      dynamics.set_speed(frequency, steps);
-      int done = 0;
-      while (done < periods && dynamics.integrate(state, period)) ++done;
-      if (done == periods) return;
-    }
-    FAIL("no candidate zone holds the motion");
-  }
-
-  StaticArtifact statics;
-  GearMeshModel model;
-  RollingDynamics dynamics;
-  RollingDynamics::State state;
-  RollingDynamics::Period period;
-};
-
-double left_over(const EnergyBalance& l) {
-  return l.storage() + l.modal_damping + l.relaxation_damping + l.friction - l.torque - l.rolling -
-         l.friction_rolling - l.switching - l.cutting - l.dropped + l.averaging;
+// The paper's pair at 150 N m on coarse elements.
+FrictionMotion motion_of(double coefficient, ContactModel contact, BodyModel body = BodyModel::modal,
+                         bool bearings = false, double eta = 4e-6) {
+  return FrictionMotion(
+      coarse_body(), coarse_body(),
+      static_transmission(coarse_body(), coarse_body(), with_friction(coefficient, contact, bearings), 150),
+      {0.0148, 0.0148}, body, eta);
 }
 
 }  // namespace
@@ -81,7 +51,7 @@ TEST_CASE(
     "friction in motion: the energy balance closes with what friction takes, where contact is lost, too") {
   for (const auto contact : {ContactModel::strips, ContactModel::line})
     for (const bool bearings : {false, true}) {
-      Rig rig(kFriction, contact, BodyModel::modal, bearings);
+      FrictionMotion rig = motion_of(kFriction, contact, BodyModel::modal, bearings);
       rig.start(2900, 128, 40);
       EnergyBalance balance;
       double least = 1, loads = 0;
@@ -109,7 +79,7 @@ TEST_CASE(
   for (const auto contact : {ContactModel::strips, ContactModel::line}) {
     constexpr int kSteps = 128;
     constexpr double kFrequency = 2500;
-    Rig rig(kFriction, contact, BodyModel::rigid, false, 0);
+    FrictionMotion rig = motion_of(kFriction, contact, BodyModel::rigid, false, 0);
     rig.start(kFrequency, kSteps, 30);
     const GearPair& pair = rig.model.kinematics;
     EnergyBalance balance;
@@ -200,7 +170,7 @@ double check_problem(const RollingDynamics::ContactProblem& problem, const Vecto
 TEST_CASE(
     "friction in motion: recorded problems of steps hold as a whole, at speeds with and without contact "
     "loss") {
-  Rig rig(0.1, ContactModel::strips, BodyModel::modal, true);
+  FrictionMotion rig = motion_of(0.1, ContactModel::strips, BodyModel::modal, true);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(0.8, 1.2);
   int problems = 0, parted = 0;
@@ -228,7 +198,7 @@ TEST_CASE(
 
 TEST_CASE("friction in motion: the tangent of the period map is that of central differences") {
   for (const auto contact : {ContactModel::strips, ContactModel::line}) {
-    Rig rig(0.1, contact, BodyModel::modal, true, 7.7e-6);
+    FrictionMotion rig = motion_of(0.1, contact, BodyModel::modal, true, 7.7e-6);
     rig.start(1100, 64, 6);
     RollingPeriodMap map(rig.dynamics, 64);
     map.set_parameter(1100);
@@ -304,7 +274,7 @@ TEST_CASE("friction in motion: with Schlenk's formula the energy balance closes 
 
 TEST_CASE("friction in motion: losses over mu tend to a limit of first order") {
   const auto loss = [](double mu) {
-    Rig rig(mu, ContactModel::line, BodyModel::lagged, false, 7.7e-6);
+    FrictionMotion rig = motion_of(mu, ContactModel::line, BodyModel::lagged, false, 7.7e-6);
     rig.start(2000, 64, 60);
     EnergyBalance balance;
     REQUIRE(rig.dynamics.integrate(rig.state, rig.period, &balance));

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include <unistd.h>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -306,6 +307,16 @@ TEST_CASE("no figure of a study stands against a seed, as long as anything else 
   CHECK(study.figure_keys == std::vector<std::string>{"damping.rayleigh_stiffness_s"});
   CHECK(study.figure_colour.empty());
   CHECK(study_of(seeds).figure_keys.size() == 2);
+}
+
+TEST_CASE("the study of tolerances draws the errors of both gears") {
+  const Study study = read_study("data/studies/tolerances.toml");
+  CHECK(study.variants >= 30);
+  for (const std::string gear : {"pinion", "wheel"})
+    for (const std::string key : {"iso_share", "seed"}) {
+      const std::string name = "gear." + gear + ".error." + key;
+      CHECK(std::any_of(study.keys.begin(), study.keys.end(), [&](const auto& k) { return k.name == name; }));
+    }
 }
 
 TEST_CASE("what is gathered of a study comes back from its artifact") {

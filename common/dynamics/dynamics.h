@@ -118,7 +118,8 @@ class RollingDynamics {
   // Integrates one mesh period and renames teeth, so that the state can be compared with the one before.
   // False if contact leaves the candidate zone; the state is then undefined. With an energy balance a step of strips costs
   // three times as much, one of lines seven times. Throws Error(input) for a state of other gears or modes, or with an energy
-  // balance of another zone; Error(numerical), with the mesh phase, if the contact of a step has no certified solution or a line carries more than Hertz's law or its flanks hold.
+  // balance of another zone; Error(numerical), with the mesh phase, if the contact of a step has no certified solution or a line
+  // carries more than Hertz's law or its flanks hold.
   bool integrate(State& state, Period& period, EnergyBalance* energy_balance = nullptr);
   // The contact problem of each step of a period of strips integrated from `state`: what integrate() hands to its solver.
   struct ContactProblem {

@@ -39,7 +39,8 @@ RingDown ring_down(const FixedPhaseMesh& mesh, double torque_step, double step, 
 // strips feel. Throws Error(numerical) if the contact has no stiffness, or if they are not found.
 Eigen::VectorXcd frozen_roots(const FixedPhaseMesh& mesh, const std::vector<int>& touching);
 
-// Lowest oscillating eigenvalue of the pair in static equilibrium with its contact frozen, see frozen_roots(). Throws Error(numerical) if none oscillates, or if the contact has no stiffness.
+// Lowest oscillating eigenvalue of the pair in static equilibrium with its contact frozen, see frozen_roots(). Throws
+// Error(numerical) if none oscillates, or if the contact has no stiffness.
 DampedRoot frozen_root(const FixedPhaseMesh& mesh);
 
 // The pair at the phase amid each contact state, fewest loaded pairs first, without Rayleigh stiffness damping.

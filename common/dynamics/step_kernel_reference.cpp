@@ -13,8 +13,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-// Eq. 18, d = A p + e >= 0, p >= 0, p . d = 0 of an A that is positive definite, or nearly so with friction: all strips of wrong sign change sides, after some rounds of
-// that the first of them alone, with which no set comes back (Murty, Opsearch 5 (1968) 23).
+// Eq. 18, d = A p + e >= 0, p >= 0, p . d = 0 of an A that is positive definite, or nearly so with friction: all strips of wrong
+// sign change sides, after some rounds of that the first of them alone, with which no set comes back (Murty, Opsearch 5 (1968) 23).
 VectorXd strip_forces(const MatrixXd& a, const VectorXd& e) {
   constexpr int kRounds = 30, kMostPivots = 100000;
   std::vector<bool> carries(static_cast<size_t>(e.size()));

@@ -71,8 +71,9 @@ struct SystemCoordinates {
                                 const Eigen::RowVectorXd& weights, const Vec2& outward) const;
 };
 
-// Throws Error(input) for body = "full", "rigid", contact other than "line", Newmark's method, a gear without a mode that a freedom needs, inertias and masses
-// below those of the body, and internal gears on elastic bearings; Error(numerical) if modes cannot be found.
+// Throws Error(input) for body = "full", "rigid", contact other than "line", Newmark's method, a gear without a mode that a freedom
+// needs, inertias and masses below those of the body, and internal gears on elastic bearings; Error(numerical) if modes cannot be
+// found.
 SystemCoordinates coordinates_of(const SystemModel& system, const SystemMotion& motion);
 
 }  // namespace whine

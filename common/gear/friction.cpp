@@ -32,6 +32,10 @@ double pitch_line_speed(const GearPair& pair, double mesh_frequency) {
          std::cos(pair.working_pressure_angle());
 }
 
+double line_load(const GearPair& pair, double face_width, double torque) {
+  return torque / pair.gear(0).base_radius() / face_width * 1e-3;
+}
+
 double friction_coefficient(const GearPair& pair, double face_width, const Friction& friction, double torque,
                             double mesh_frequency) {
   if (friction.law == FrictionLaw::constant) return friction.coefficient;
@@ -44,13 +48,12 @@ double friction_coefficient(const GearPair& pair, double face_width, const Frict
          "Schlenk's coefficient of friction needs a viscosity and a roughness above 0, given are ",
          friction.viscosity * 1e3, " mPa s and ", friction.roughness * 1e6,
          " µm; set viscosity_mPas and roughness_um in [friction]");
-  constexpr double kLeastLoad = 150;  // N mm-1
   const double speed =
       std::clamp(pitch_line_speed(pair, mesh_frequency), kSchlenkSpeeds[0], kSchlenkSpeeds[1]);
-  const double line_load = std::max(kLeastLoad, torque / pair.gear(0).base_radius() / face_width * 1e-3),
+  const double load = std::max(kSchlenkLoad, line_load(pair, face_width, torque)),
                sum_of_speeds = 2 * speed * std::sin(pair.working_pressure_angle()),  // m s-1
       curvature = pair.relative_curvature_radius(0.0) * 1e3;                         // mm
-  const double coefficient = 0.048 * std::pow(line_load / (sum_of_speeds * curvature), 0.2) *
+  const double coefficient = 0.048 * std::pow(load / (sum_of_speeds * curvature), 0.2) *
                              std::pow(friction.viscosity * 1e3, -0.05) *
                              std::pow(friction.roughness * 1e6, 0.25) * friction.lubricant_factor;
   constexpr double kMost = 0.3;  // as of a coefficient that a scene gives

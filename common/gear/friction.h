@@ -40,6 +40,9 @@ double friction_coefficient(const GearPair& pair, double face_width, const Frict
 // m s-1: pitch-line speeds that Schlenk's formula is fit to, and v_t of a pair at a mesh frequency (Hz).
 inline constexpr double kSchlenkSpeeds[] = {1, 50};
 double pitch_line_speed(const GearPair& pair, double mesh_frequency);
+// N mm-1: least line load of the formula, and that of a pair, F_bt / b.
+inline constexpr double kSchlenkLoad = 150;
+double line_load(const GearPair& pair, double face_width, double torque);
 
 // "coefficient 0.05, smoothed over 1 % of the speed of the pitch line"
 std::string in_words(const Friction& friction);

@@ -30,7 +30,8 @@ std::vector<int> sections_of(const std::vector<GearMeshSpec>& meshes, const std:
 System on_fixed_carriers(const System& layout);
 
 // A line for each two external gears that do not mesh and whose tip circles overlap, and for each that stands through a ring: they run
-// into each other unless they lie side by side. Planets among themselves are left out, which layout_of() checks. design: [body] nullptr: not known, of carriers.
+// into each other unless they lie side by side. Planets among themselves are left out, which layout_of() checks. design: [body]
+// nullptr: not known, of carriers.
 std::vector<std::string> colliding_gears(const System& layout, const std::vector<const GearDesign*>& design);
 
 // Whether a body is an internal gear: in its meshes both sides turn in one sense, and it has more teeth.

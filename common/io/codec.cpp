@@ -355,9 +355,9 @@ void describe_backlash(Codec& c, double& margin) {
     margin = std::numeric_limits<double>::infinity();
 }
 
-void describe_friction(Codec& c, FrictionLosses& friction) {
+void describe_friction(Codec& c, const GearMeshSpec& mesh, FrictionLosses& friction) {
   constexpr Range kPower{-1e12, 1e12};  // W
-  if (!c.optional("/friction_power", friction.power.size() > 0)) return;
+  if (!c.lists() && !mesh.friction.acts()) return;
   const char* const axis = "mesh_frequency";
   c.dataset({"/friction_coefficient", "1", "coefficient of friction", axis, kShare}, &friction.coefficient);
   c.dataset({"/friction_power", "W", "mean power that friction takes, the vibration in the sliding speed",

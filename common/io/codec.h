@@ -181,9 +181,9 @@ void describe_backlash(Codec& codec, double& margin);
 
 // How well the contact conditions hold, worst over all steps: m, N, contact solutions by the slower method.
 void describe_certificate(Codec& codec, double& least_gap, double& least_force, int& fallbacks);
-// Losses, left out of pairs without friction;
-// mesh periods of a hunting period, left out where all teeth are alike: 1.
-void describe_friction(Codec& c, FrictionLosses& friction);
+// Losses of a mesh with friction; nothing of one without, that is of a file without /parameters/friction.
+void describe_friction(Codec& c, const GearMeshSpec& mesh, FrictionLosses& friction);
+// Mesh periods of a hunting period, left out where all teeth are alike: 1.
 void describe_hunting(Codec& codec, int& periods);
 void describe_natural_frequency(Codec& codec, double& frequency);
 

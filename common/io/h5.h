@@ -1,6 +1,7 @@
 // A thin layer over HDF5: labelled datasets in, checked datasets out. Files are built and read in memory, so
 // that the file system sees one write of the whole (io/publish.h) and a full disk cannot leave HDF5 half
-// way; records of any length are written to a staged file on disk. Identical calls give identical bytes: no object times, no addresses, no padding that is not cleared.
+// way; records of any length are written to a staged file on disk. Identical calls give identical bytes: no object times, no
+// addresses, no padding that is not cleared.
 //
 // HDF5's own types stay in h5.cpp; this is private to the layer io/.
 #pragma once

@@ -120,7 +120,7 @@ void describe(Codec& c, ResponseArtifact& a) {
                kPositive},
               &a.loss_factor);
   describe_pressure(c, a);
-  describe_friction(c, a.friction);
+  describe_friction(c, a.mesh, a.friction);
   c.dataset({"/separation_fraction", "1", "share of the period without force", axis, kShare},
             &a.separation_fraction);
   c.dataset({"/separations_per_period", "1", "losses of contact per mesh period", axis, kPositive},

@@ -85,7 +85,7 @@ constexpr Range kLost{0, 1e7};  // N m
 
 // Left out of flanks without friction.
 void describe_friction(Codec& c, StaticArtifact& a) {
-  if (!c.optional("/friction_loss", a.friction_loss.size() > 0)) return;
+  if (!c.lists() && !a.mesh.friction.acts()) return;
   c.dataset({"/friction_coefficient", "1", "coefficient of friction", "", kShare}, &a.friction_coefficient);
   c.dataset({"/certificate/friction_coupling", "m",
              "largest change of a gap by what friction of the last forces moves, over all positions", "",
@@ -97,8 +97,7 @@ void describe_friction(Codec& c, StaticArtifact& a) {
   for (int g = 0; g < (c.lists() ? 1 : 2); ++g)
     c.dataset({of_body(c, a.mesh, g, "friction_moment"), "N m",
                "moment of friction about the axis of the gear, positive where it has the sense of the moment "
-               "of the normal force, "
-               "which brakes the driver and drives the driven gear",
+               "of the normal force, which brakes the driver and drives the driven gear",
                "mesh_phase", kMoment, "sum of mu s F t"},
               &a.friction_moment[g]);
   c.dataset({"/efficiency",

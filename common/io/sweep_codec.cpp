@@ -85,8 +85,8 @@ void describe_speed_by_speed(Codec& c, SweepArtifact& a) {
     c.column({text("/energy/", kEnergyLines[i].name), "J",
               text(kEnergyLines[i].meaning, ", over the stored periods"), axis, kEnergy},
              a.energy, i, kLines);
-  describe_friction(c, a.friction);
-  if (c.lists() || a.friction.power.size() > 0) {
+  describe_friction(c, a.mesh, a.friction);
+  if (c.lists() || a.mesh.friction.acts()) {
     c.dataset({"/energy/friction_rolling", "J",
                "work of the prescribed rolling against friction, over the stored periods", axis, kEnergy},
               &a.friction_rolling);

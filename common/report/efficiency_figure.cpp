@@ -48,6 +48,15 @@ FigureBlock speed_block(const std::string& name, const ResponseArtifact& r, cons
   return block;
 }
 
+// Drawn only: the efficiency at rest is the same on all branches, so that its curve has no gap where a sweep jumps.
+FigureBlock unbroken_rest(const std::string& name, const FigureBlock& speeds) {
+  FigureBlock block{name, {speeds.columns.front(), speeds.columns.back()}, {}, "", "", true};
+  block.rows.reserve(speeds.rows.size());
+  for (const std::vector<double>& row : speeds.rows)
+    if (!row.empty()) block.rows.push_back({row.front(), row.back()});
+  return block;
+}
+
 std::optional<double> rigid_loss_factor(const GearPair& pair) {
   try {
     return loss_factor_of_rigid_teeth(pair);
@@ -55,6 +64,29 @@ std::optional<double> rigid_loss_factor(const GearPair& pair) {
     if (error.kind() != Failure::input && error.kind() != Failure::numerical) throw;
   }
   return {};
+}
+
+// Where Schlenk's formula is beyond its tests.
+std::vector<std::string> beyond_schlenk(const GearPair& pair, const std::vector<StaticArtifact>& statics,
+                                        const Eigen::VectorXd& mesh_frequency) {
+  std::vector<std::string> out;
+  const double per_frequency = pitch_line_speed(pair, 1);
+  const auto say = [&](const char* beyond, double speed, const char* which) {
+    out.push_back(text(beyond, speed, " m/s on the pitch line, a mesh frequency of ",
+                       fixed(speed / per_frequency, 0), " Hz, the coefficient is that at ", speed,
+                       " m/s, where the tests of Schlenk's formula ", which));
+  };
+  if (mesh_frequency.minCoeff() * per_frequency < kSchlenkSpeeds[0])
+    say("below ", kSchlenkSpeeds[0], "begin");
+  if (mesh_frequency.maxCoeff() * per_frequency > kSchlenkSpeeds[1]) say("above ", kSchlenkSpeeds[1], "end");
+  std::string light;
+  for (const StaticArtifact& s : statics)
+    if (line_load(pair, s.face_width(), s.torque) < kSchlenkLoad)
+      light += text(light.empty() ? "" : ", ", torque_words(s.torque));
+  if (!light.empty())
+    out.push_back(text("at ", light, " the coefficient is that of ", kSchlenkLoad,
+                       " N/mm, where the tests of Schlenk's formula begin"));
+  return out;
 }
 
 }  // namespace
@@ -94,6 +126,7 @@ Figure efficiency_figure(const std::vector<StaticArtifact>& statics,
         power = std::max(power, row[2]);
       }
     }
+    figure.blocks.push_back(unbroken_rest(text(t + 1, " rest"), figure.blocks.back()));
     rest.rows.push_back({s.torque, s.friction_coefficient, s.efficiency * 100, s.loss_factor});
     if (rigid) rest.rows.back().push_back(*rigid);
     at_rest += text(t ? ", " : "", fixed(s.efficiency * 100, 3), " % at ", torque_words(s.torque),
@@ -115,14 +148,18 @@ Figure efficiency_figure(const std::vector<StaticArtifact>& statics,
   figure.blocks.push_back(cycle);
   figure.blocks.push_back(rest);
   figure.notes = {"friction between the flanks alone: " + in_words(first.mesh.friction),
-                  "at rest (kinematics): " + at_rest,
+                  text("at rest (kinematics",
+                       first.mesh.friction.law == FrictionLaw::schlenk
+                           ? text(", coefficient at ", shown(first.mesh.friction.static_frequency, 6), " Hz")
+                           : "",
+                       "): ", at_rest),
                   text("loss factor H_V at rest, without the coefficient: ", factors,
                        rigid ? text("; of rigid teeth ", fixed(*rigid, 4)) : "")};
   const ResponseArtifact& up = sweep_at(sweeps, first.torque, Direction::up);
-  const double fast = kSchlenkSpeeds[1] / pitch_line_speed(pair, 1);  // Hz
-  if (first.mesh.friction.law == FrictionLaw::schlenk && up.mesh_frequency.maxCoeff() > fast)
-    figure.notes.push_back(text("above ", fixed(fast, 0), " Hz the coefficient is that at ",
-                                kSchlenkSpeeds[1], " m/s, where the tests of Schlenk's formula end"));
+  if (first.mesh.friction.law == FrictionLaw::schlenk) {
+    const std::vector<std::string> beyond = beyond_schlenk(pair, statics, up.mesh_frequency);
+    figure.notes.insert(figure.notes.end(), beyond.begin(), beyond.end());
+  }
   figure.shafts = shafts_of(first);
   figure.words = {{"labels", labels},
                   {"gears", text("'", first.mesh.gear[0], "' '", first.mesh.gear[1], "'")}};

@@ -12,7 +12,8 @@ namespace whine {
 Figure system_picture(const SystemStaticArtifact& at_rest);
 Figure system_picture(const ModesArtifact& modes);
 
-// "sun (27 teeth) 400.0 N m, ring (99 teeth) -1466.7 N m held": bodies on the ground, torques that are not 0. torque: (body) N m, mean; empty: not known.
+// "sun (27 teeth) 400.0 N m, ring (99 teeth) -1466.7 N m held": bodies on the ground, torques that are not 0. torque: (body) N m,
+// mean; empty: not known.
 std::string bodies_words(const System& system, const Eigen::VectorXd& torque);
 
 }  // namespace whine

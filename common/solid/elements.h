@@ -55,8 +55,8 @@ Eigen::Vector2d reference_node(int k);
 Eigen::Vector3d element_strain(const Eigen::MatrixX2d& nodes, const Eigen::MatrixX2d& displacement, double a,
                                double b);
 
-// K and M of Eq. 1, of one element. nodes: (4 or 9, 2) m. Results (2 node, 2 node) N m-1 and kg. Throw Error(numerical) where the Jacobian is
-// not positive.
+// K and M of Eq. 1, of one element. nodes: (4 or 9, 2) m. Results (2 node, 2 node) N m-1 and kg. Throw Error(numerical) where the
+// Jacobian is not positive.
 Eigen::MatrixXd element_stiffness(const Eigen::MatrixX2d& nodes, const Material& material, double thickness);
 Eigen::MatrixXd element_mass(const Eigen::MatrixX2d& nodes, double density, double thickness);
 

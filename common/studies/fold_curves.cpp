@@ -136,7 +136,8 @@ class Family {
   std::unique_ptr<PairAt> current_;
 };
 
-// Of a branch: neighbours between which it is unstable, in the order of the arc, as states of a zone of a level. `end` names a last fold without another.
+// Of a branch: neighbours between which it is unstable, in the order of the arc, as states of a zone of a level. `end` names a last
+// fold without another.
 std::vector<std::pair<Fold, Fold>> pairs_of(const std::vector<BranchSegment>& segments, double value,
                                             int level, Family& family, std::string& end) {
   std::vector<std::pair<Fold, Fold>> pairs;

@@ -13,9 +13,9 @@ namespace whine {
 inline constexpr double kShownMotion =
     0.05;  // largest displacement over half of the longer side of the drawing's box
 
-// Fills modes.view; without gears it stays empty. design: [body] drawing of each gear; nullptr where it is not known, of carriers and rigid gears: of these the
-// teeth are drawn with straight sides on the working pitch circle of their first mesh. Point data "mode_03_planet_1650.21_Hz"; cell
-// data: number of the body, and 0 for a central gear, 1 for a planet, 2 for a carrier.
+// Fills modes.view; without gears it stays empty. design: [body] drawing of each gear; nullptr where it is not known, of carriers
+// and rigid gears: of these the teeth are drawn with straight sides on the working pitch circle of their first mesh. Point data
+// "mode_03_planet_1650.21_Hz"; cell data: number of the body, and 0 for a central gear, 1 for a planet, 2 for a carrier.
 void add_mode_view(ModesArtifact& modes, const std::vector<const GearDesign*>& design);
 
 }  // namespace whine

@@ -17,14 +17,14 @@ namespace whine {
 inline constexpr double kFreeMotion = 1e-11;
 
 // All modes. Without the symmetry modes are typed by the share of kinetic energy of the central members in translation and in
-// rotation, either nothing (below 1e-8: round-off) or not. Of a pair of equal frequencies the first is turned so that the coordinate that moves most in the pair is at rest in the second;
-// signs make that coordinate positive. Throws as rigid_system, and Error(numerical) if the eigenproblem is not solved.
-// mesh_stiffness: see rigid_system.
+// rotation, either nothing (below 1e-8: round-off) or not. Of a pair of equal frequencies the first is turned so that the
+// coordinate that moves most in the pair is at rest in the second; signs make that coordinate positive. Throws as rigid_system, and
+// Error(numerical) if the eigenproblem is not solved. mesh_stiffness: see rigid_system.
 ModesArtifact natural_modes(const System& layout, const Eigen::MatrixXd& mesh_stiffness = {});
 
 // Of elastic gears that do not vibrate themselves: M of the gears as rigid bodies, and the frozen stiffness of contact and
-// bodies that their statics have, averaged over the mesh period (modes) and at each phase (frozen_frequency). Planets whose meshes differ, in their mean by tenths
-// of a per cent where phases differ, have the types of planets with equal meshes. Throws as above.
+// bodies that their statics have, averaged over the mesh period (modes) and at each phase (frozen_frequency). Planets whose meshes
+// differ, in their mean by tenths of a per cent where phases differ, have the types of planets with equal meshes. Throws as above.
 ModesArtifact elastic_modes(const SystemStaticArtifact& at_rest);
 
 }  // namespace whine

@@ -228,20 +228,19 @@ std::vector<Remark> remarks(const StaticArtifact& s) {
     add(true, "the contact pressure of ", std::round(pressure * 1e-7) / 100, kBeyondSteel);
   for (const std::vector<Remark>& more :
        {pressure_remarks(s), body_remarks(s),
-        friction_remarks(s, s.mesh.friction.static_frequency, s.mesh.friction.static_frequency)})
+        friction_remarks(s, s.torque, s.mesh.friction.static_frequency, s.mesh.friction.static_frequency)})
     out.insert(out.end(), more.begin(), more.end());
   return out;
 }
 
-std::vector<Remark> friction_remarks(const PairParameters& pair, double from, double to) {
+std::vector<Remark> friction_remarks(const PairParameters& pair, double torque, double from, double to) {
   std::vector<Remark> out;
   if (!pair.mesh.friction.acts()) return out;
   out.push_back(remark(
       false,
-      "friction acts by its moments and forces on the hubs; that it bends the teeth is left out, which "
-      "changes the "
-      "transmission error about as much with the opposite sign (common/system/README.md, Friction at rest). "
-      "Losses do not depend on it to first order"));
+      "friction acts by its moments and forces on the hubs; it bends no teeth here, which may change the "
+      "transmission error as much as it does (common/system/README.md, Friction at rest). Losses do not "
+      "depend on that to first order"));
   if (pair.mesh.friction.law == FrictionLaw::constant) return out;
   const GearPair gears(pair);
   if (gears.internal())
@@ -249,6 +248,10 @@ std::vector<Remark> friction_remarks(const PairParameters& pair, double from, do
         remark(true,
                "Schlenk's formula is fit to tests of external gears; of an internal pair its coefficient of "
                "friction is an extrapolation. Give a number in [friction]: law = \"constant\""));
+  if (const double load = line_load(gears, pair.face_width(), torque); load < kSchlenkLoad)
+    out.push_back(remark(false, "the coefficient of friction is that of ", kSchlenkLoad,
+                         " N/mm, where the tests of Schlenk's formula begin: the line load is ",
+                         shown_number(load), " N/mm"));
   const double per_frequency = pitch_line_speed(gears, 1), slow = kSchlenkSpeeds[0] / per_frequency,
                fast = kSchlenkSpeeds[1] / per_frequency;
   if (from < slow)

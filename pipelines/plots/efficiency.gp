@@ -11,7 +11,7 @@ set border 3 lw 1.6
 set tics out nomirror font ",14"
 set mxtics 5
 set grid lt 1 lc rgb "#e4e4e4" lw 1
-set lmargin at screen 0.09
+set lmargin at screen 0.12
 set rmargin at screen 0.78
 set key at graph 1.01, graph 0.98 left top Left reverse vertical samplen 2 spacing 1.2 font ",13" noenhanced
 
@@ -34,7 +34,7 @@ drawn = ''
 do for [t = 1:curves] {
   drawn = drawn . sprintf('tsv index "[%d down]" using 1:2 with lines lt 1 lw 2 dt (10, 5) lc rgb "%s" notitle, ', t, colour[t]) \
     . sprintf('tsv index "[%d up]" using 1:2 with lines lt 1 lw 2 lc rgb "%s" title word(labels, %d), ', t, colour[t], t) \
-    . sprintf('tsv index "[%d up]" using 1:6 with lines lt 1 lw 2.2 dt (3, 4) lc rgb "%s" notitle, ', t, colour[t])
+    . sprintf('tsv index "[%d rest]" using 1:2 with lines lt 1 lw 2.2 dt (3, 4) lc rgb "%s" notitle, ', t, colour[t])
 }
 eval("plot " . drawn . 'keyentry with lines lt 1 lw 2 dt (10, 5) lc rgb "#505050" title "dashed: falling"')
 
