@@ -137,8 +137,9 @@ for scene in train differ; do
 done
 between "equal planets of exact teeth: load sharing factor near 1" "$(quantity train sun-planet 'load sharing factor')" 1 1.1
 between "a sun with errors: less equal" "$(quantity differ sun-planet 'load sharing factor')" "$(awk "BEGIN { print 1.02 * $(quantity train sun-planet 'load sharing factor') }")" 4
-sed 's/<[^>]*>/ /g' out/differ/report/index.html | tr -s ' ' | grep -q 'Teeth differ (sun): the same ones meet again after 27 mesh periods' && ok "the page says how long teeth take to meet again" ||
-  wrong "the page says how long teeth take to meet again" "it does not"
+said=$(sed 's/<[^>]*>/ /g' out/differ/report/index.html | tr -s ' ')
+grep -q 'Teeth differ (sun): the same ones meet again after 27 mesh periods' <<< "$said" && ok "the page says after how many mesh periods the same teeth meet" ||
+  wrong "the page says after how many mesh periods the same teeth meet" "$(grep -o 'Teeth differ.\{60\}' <<< "$said" | head -1)"
 
 # --- the page in a browser
 browser=$(command -v chromium || command -v chromium-browser || true)

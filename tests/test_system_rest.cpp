@@ -317,11 +317,13 @@ TEST_CASE(
   };
   CHECK(said("").empty());
   CHECK(said("[gear.sun.modification]\ncrowning_um = 5\n").empty());
-  CHECK(
-      said("[gear.sun.error]\niso_class = 5\n").find("the same teeth meet again after 10395 mesh periods") !=
-      std::string::npos);
-  CHECK(said("[gear.sun.crack]\ntooth = 1\ndepth_mm = 0.5\n")
+  CHECK(said("[gear.sun.error]\niso_class = 5\n[gear.planet.error]\niso_class = 5\n").empty());
+  CHECK(said("[gear.sun.error]\niso_class = 5\n[gear.ring.error]\niso_class = "
+             "5\n[gear.planet.error]\niso_class = "
+             "5\n")
             .find("the same teeth meet again after 10395 mesh periods") != std::string::npos);
+  CHECK(said("[gear.sun.crack]\ntooth = 1\ndepth_mm = 0.5\n").find("or compute two of the gears as a pair") !=
+        std::string::npos);
   CHECK(said("[[bearing]]\ngear = \"carrier\"\nstiffness_N_um = 5.0\n").find("whose axis is rigid") !=
         std::string::npos);
   CHECK(said("[fidelity]\ncontact = \"line\"\n").empty());

@@ -76,6 +76,7 @@ SlowTangent slow_tangent(int size, const SlowTangent& nearby, const VectorXd& al
   Index count = nearby.empty() ? std::min(kSlowDirections, size) : nearby.basis.cols();
   t.basis = orthonormal(also, nearby.image, size, count);
   double residual = 0;
+  int waited = 0;  // iterations since it grew
   for (int i = 0; i < kMost; ++i) {
     t.image = times(t.basis);
     // Of the eigenvectors, each weighted by a power of its multiplier.
@@ -85,7 +86,15 @@ SlowTangent slow_tangent(int size, const SlowTangent& nearby, const VectorXd& al
     const VectorXcd values = t.multipliers();
     const bool wide = count == size || std::abs(values[count - 1]) < kForgotten;
     if (wide && !(residual > tolerance)) return t;
-    if (!wide && residual < 0.1) count = std::min<Index>(count + kSlowDirections, size);
+    // Of many multipliers of about one modulus a subspace takes in some directions and leaves others out: it does not settle, and the
+    // least of its own multipliers says nothing.
+    constexpr double kSettled = 0.1;
+    constexpr int kPatience = 5;
+    const bool unsettled = ++waited >= kPatience && !(residual < kSettled);
+    if ((!wide && residual < kSettled) || unsettled) {
+      count = std::min<Index>(count + kSlowDirections, size);
+      waited = 0;
+    }
     t.basis = orthonormal(also, t.image, size, count);
   }
   fail(Failure::numerical, "the directions of the largest multipliers were not found in ", kMost,

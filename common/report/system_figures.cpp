@@ -83,13 +83,12 @@ std::string sharing_words(const SystemStaticArtifact& a) {
   return out;
 }
 
-// The length of the axis of mesh phases, and why it is not 1.
-void add_hunting(const SystemStaticArtifact& a, Figure& figure) {
+// The length of the axis of mesh phases, and why it is not 1. more: of the same note.
+void add_hunting(const SystemStaticArtifact& a, const char* more, Figure& figure) {
   figure.numbers.emplace_back("periods", a.hunting_periods);
   if (a.hunting_periods > 1)
     figure.notes.push_back(
-        text("teeth differ: the same ones meet again after ", a.hunting_periods,
-             " mesh periods, over which all is drawn; harmonics are those of the mesh frequency"));
+        text("teeth differ: the same ones meet again after ", a.hunting_periods, " mesh periods, ", more));
 }
 
 // The height of a picture grows with its notes, 24 pixels each.
@@ -151,7 +150,7 @@ Figure system_static_figure(const SystemStaticArtifact& a) {
   add_row(a, "bearing_force", "Bearing force", "N", std::move(bearings), figure);
   figure.numbers.emplace_back("harmonics", static_cast<double>(resolved_harmonics(
                                                a.mesh_phase.size(), kShownHarmonics, a.hunting_periods)));
-  add_hunting(a, figure);
+  add_hunting(a, "over which all is drawn; harmonics are those of the mesh frequency", figure);
   finish_notes(1520, figure);
   return figure;
 }
@@ -286,7 +285,7 @@ Figure system_load_sharing_figure(const SystemStaticArtifact& a) {
   figure.numbers.insert(
       figure.numbers.end(),
       {{"rows", static_cast<double>(sharing.size())}, {"low", low - room}, {"high", high + room}});
-  add_hunting(a, figure);
+  add_hunting(a, "over which shares are drawn; tooth loads are those of one of them", figure);
   finish_notes(118 + 470 * static_cast<int>(sharing.size()), figure);
   return figure;
 }
