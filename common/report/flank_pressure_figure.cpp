@@ -53,7 +53,7 @@ FigureBlock map_block(const ResponseArtifact& r, const GearPair& pair) {
     for (Index k = 0; k < r.pair_phase.size(); ++k)
       block.rows.push_back({r.flank_roll(k, 0) * kDegrees, r.flank_roll(k, 1) * kDegrees, r.pair_phase[k],
                             r.mesh_frequency[f], r.flank_pressure(f, k) * kMegapascal,
-                            r.edge_load_there(f, k)});
+                            r.edge_load_there(f, k), nominal_roll(pair, r.pair_phase[k])});
   return block;
 }
 
@@ -115,16 +115,15 @@ Figure flank_pressure_figure(const StaticArtifact& s, const std::vector<Response
       "largest over the "
       "mesh periods" +
           (rest.smooth > 0 ? "; at rest, by strips, " + shown(rest.smooth * kMegapascal, 4) + " MPa" : ""),
-      text("grey: the load is held over a tip edge, whose pressure on a flank is singular; it is stated as a "
-           "load (",
-           both ? "d" : "c",
-           "); white: no load is held; "
-           "grey lines: ends of the line of action"),
+      text("grey: held over a tip edge, whose pressure is singular and stated as a load (", both ? "d" : "c",
+           "); white: no load is held; grey lines: ends of the line of action"),
       both ? "the map of falling speed differs from that of rising speed"
            : "falling speed has the same map within 1 % of the largest pressure"};
   for (const std::string& note : all)
     for (std::string& line : in_lines(note)) figure.notes.push_back(std::move(line));
   add_lines(figure.notes.size(), figure);
+  constexpr int kLine = 24, kUsual = 3;
+  figure.height += kLine * std::max(0, static_cast<int>(figure.notes.size()) - kUsual);
   const Eigen::VectorXd roll =
       up.pair_phase.unaryExpr([&](double phase) { return nominal_roll(pair, phase); });
   const Index last = roll.size() - 1;
