@@ -39,7 +39,7 @@ do for [r = 1:rows] {
   set arrow 6 from path_to, graph 0 to path_to, graph 1 nohead front lt 1 lw 1.2 lc rgb "#505050"
   map = r == 1 ? "[map up]" : "[map down]"
   plot tsv index map using 7:($6 > 0 ? $4 : NaN):(half_wide):(half_tall) with boxxyerror fs solid 1 noborder lc rgb "#9a9a9a" notitle, \
-    tsv index map using 7:4:(half_wide):(half_tall):($5 > 0 ? $5 : NaN) with boxxyerror fs solid 1 noborder lc palette notitle
+    tsv index map using 7:($5 > 0 ? $4 : NaN):(half_wide):(half_tall):5 with boxxyerror fs solid 1 noborder lc palette notitle
   unset colorbox
 }
 
