@@ -997,8 +997,8 @@ TEST_CASE("error_budget.h5 gives back every value bit by bit, errors and choices
   a.choice = {"", Eigen::VectorXd(0), Eigen::VectorXd(0), {}, MatrixRM(0, 5)};
   a.choice_missing = "matching at 1 mm: leaves the tooth";
   a.root = {};
-  write("error_budget.h5", a, kMade);
-  const ErrorBudgetArtifact c = read_error_budget("error_budget.h5");
+  write("without.h5", a, kMade);
+  const ErrorBudgetArtifact c = read_error_budget("without.h5");
   CHECK(same_changes(a.choice, c.choice));
   CHECK(c.choice_missing == a.choice_missing);
   CHECK(c.root.element_size.size() == 0);

@@ -454,6 +454,8 @@ TEST_CASE(
                                                      }()});
   CHECK(pressures.blocks.size() == 3);  // one map: falling speed has the same
   CHECK(pressures.blocks[0].rows.size() == static_cast<size_t>(r.pair_phase.size()));
+  for (const FigureBlock& b : pressures.blocks)
+    for (const auto& row : b.rows) CHECK((row.empty() || row.size() == b.columns.size()));
 
   ResponseArtifact back = r;
   back.direction = Direction::down;

@@ -50,7 +50,7 @@ void describe(Codec& c, ErrorBudgetArtifact& a) {
                "root/level", kSize},
               &a.root.element_size);
     c.dataset({"/root/stress", "Pa", "largest root stress at rest with elements of that size on the roots",
-               "root/level gear", kSigned},
+               "root/level gear", kStress},
               &a.root.stress);
   }
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "gear/pair.h"
 #include "report/figure_words.h"
 #include "report/response_figures.h"
 #include "system/flank_pressure.h"
@@ -34,10 +35,17 @@ void require_inputs(const StaticArtifact& s, const std::vector<ResponseArtifact>
   }
 }
 
-FigureBlock map_block(const ResponseArtifact& r) {
+// deg: of the driver where a pair at this phase would touch on the line of action, so that places beyond its ends, where tip edges
+// touch, stand apart.
+double nominal_roll(const GearPair& pair, double phase) {
+  return pair.nominal_roll(0, phase * pair.base_pitch()) * kDegrees;
+}
+
+FigureBlock map_block(const ResponseArtifact& r, const GearPair& pair) {
   FigureBlock block{text("map ", r.direction),
                     {"roll_" + r.mesh.gear[0] + " [deg]", "roll_" + r.mesh.gear[1] + " [deg]",
-                     "pair_phase [1]", "mesh_frequency [Hz]", "pressure [MPa]", "load over a tip edge [N]"},
+                     "pair_phase [1]", "mesh_frequency [Hz]", "pressure [MPa]", "load over a tip edge [N]",
+                     "roll_" + r.mesh.gear[0] + " on the line of action [deg]"},
                     {},
                     "map",
                     name_of(r.direction)};
@@ -45,7 +53,7 @@ FigureBlock map_block(const ResponseArtifact& r) {
     for (Index k = 0; k < r.pair_phase.size(); ++k)
       block.rows.push_back({r.flank_roll(k, 0) * kDegrees, r.flank_roll(k, 1) * kDegrees, r.pair_phase[k],
                             r.mesh_frequency[f], r.flank_pressure(f, k) * kMegapascal,
-                            r.edge_load_there(f, k)});
+                            r.edge_load_there(f, k), nominal_roll(pair, r.pair_phase[k])});
   return block;
 }
 
@@ -93,8 +101,9 @@ Figure flank_pressure_figure(const StaticArtifact& s, const std::vector<Response
   figure.title = "Flank pressure (MPa) and loads over tip edges (N), " + torque_words(s.torque);
   figure.height = both ? 1200 : 900;
   const FlankPressure rest = flank_pressure(s);
-  figure.blocks.push_back(map_block(up));
-  if (both) figure.blocks.push_back(map_block(down));
+  const GearPair pair(s);
+  figure.blocks.push_back(map_block(up, pair));
+  if (both) figure.blocks.push_back(map_block(down, pair));
   double largest = 0, edge = 0;
   for (const ResponseArtifact* r : {&up, &down}) {
     figure.blocks.push_back(speed_block(*r));
@@ -106,28 +115,37 @@ Figure flank_pressure_figure(const StaticArtifact& s, const std::vector<Response
       "largest over the "
       "mesh periods" +
           (rest.smooth > 0 ? "; at rest, by strips, " + shown(rest.smooth * kMegapascal, 4) + " MPa" : ""),
-      text("grey: the load is held over a tip edge, whose pressure on a flank is singular; it is stated as a "
-           "load (",
-           both ? "d" : "c", "); white: no load is held"),
+      text("grey: held over a tip edge, whose pressure is singular and stated as a load (", both ? "d" : "c",
+           "); white: no load is held; grey lines: ends of the line of action"),
       both ? "the map of falling speed differs from that of rising speed"
            : "falling speed has the same map within 1 % of the largest pressure"};
   for (const std::string& note : all)
     for (std::string& line : in_lines(note)) figure.notes.push_back(std::move(line));
   add_lines(figure.notes.size(), figure);
-  const auto step = [](const Eigen::VectorXd& x) { return x.size() > 1 ? std::abs(x[1] - x[0]) : 0.0; };
+  constexpr int kLine = 24, kUsual = 3;
+  figure.height += kLine * std::max(0, static_cast<int>(figure.notes.size()) - kUsual);
+  const Eigen::VectorXd roll =
+      up.pair_phase.unaryExpr([&](double phase) { return nominal_roll(pair, phase); });
+  const Index last = roll.size() - 1;
+  // Between places side by side; beyond the line of action some may be left out.
+  const double step = last > 0 ? (roll.tail(last) - roll.head(last)).minCoeff() : 1;
   figure.words.emplace_back("labels", quoted_labels({s.mesh.gear[0], s.mesh.gear[1]}));
-  figure.numbers = {{"both", both ? 1.0 : 0.0},
-                    {"roll_from", up.flank_roll.col(0).minCoeff() * kDegrees},
-                    {"roll_to", up.flank_roll.col(0).maxCoeff() * kDegrees},
-                    {"roll_step", step(up.flank_roll.col(0)) * kDegrees},
-                    {"speed_step", step(up.mesh_frequency)},
-                    {"pressure_max", largest > 0 ? largest * kMegapascal : 1},
-                    {"pressure_rest", rest.smooth * kMegapascal},
-                    {"edge_max", edge},
-                    {"frequency_from", up.mesh_frequency.minCoeff()},
-                    {"frequency_to", up.mesh_frequency.maxCoeff()},
-                    {"notes", static_cast<double>(figure.notes.size())},
-                    {"natural_frequency", up.natural_frequency}};
+  figure.numbers = {
+      {"both", both ? 1.0 : 0.0},
+      {"roll_from", roll[0]},
+      {"roll_to", roll[last]},
+      {"roll_step", step},
+      {"path_from", nominal_roll(pair, pair.path_start() / pair.base_pitch())},
+      {"path_to", nominal_roll(pair, pair.path_end() / pair.base_pitch())},
+      {"speed_step",
+       up.mesh_frequency.size() > 1 ? std::abs(up.mesh_frequency[1] - up.mesh_frequency[0]) : 0},
+      {"pressure_max", largest > 0 ? largest * kMegapascal : 1},
+      {"pressure_rest", rest.smooth * kMegapascal},
+      {"edge_max", edge},
+      {"frequency_from", up.mesh_frequency.minCoeff()},
+      {"frequency_to", up.mesh_frequency.maxCoeff()},
+      {"notes", static_cast<double>(figure.notes.size())},
+      {"natural_frequency", up.natural_frequency}};
   return figure;
 }
 

@@ -221,13 +221,15 @@ const std::vector<Explained>& explained() {
              "load and root stress at a speed, each held for 1/64 of a mesh period, over T / r_b or over the "
              "largest at rest; K_v is what ISO 6336-1, method B, says of gears without deviations.")},
       {"root-stress-branches", "motion", "Root stress along the branch",
-       plain("The same with the unstable orbits of the branch, dotted: no sweep finds them.")},
+       plain("The same with the orbits of the branch: thin lines where they are stable, dots where they are "
+             "not and no "
+             "sweep finds them.")},
       {"flank-pressure", "motion", "Flank pressure over speed",
-       plain("Largest pressure at each place of the flanks, by Hertz's law of the load that a pair holds "
-             "there for about 1/64 of a mesh period, against roll angle and speed; white where no load is, "
-             "or a "
-             "tip edge. Where a tip edge runs on a flank the pressure is "
-             "singular, so the load that the edge carries stands beside it.")},
+       plain(
+           "Largest pressure at each place of the flanks, by Hertz's law of the load that a pair holds there "
+           "inside its flanks for 1/64 of a mesh period, against roll angle and speed. Where a tip edge runs "
+           "on a flank the pressure is singular: the map is grey, and the load that the edge carries stands "
+           "beside it. White: no load is held.")},
       {"efficiency", "motion", "Losses by friction", of_losses},
       {"bearing-forces", "motion", "Forces on the bearings", of_bearings},
       {"error-budget", "errors", "Error budget", of_budget}};

@@ -1,6 +1,6 @@
 # Flank pressure over roll angle and speed as colours, rising speed (a) and, where it differs, falling speed (b); beside them the
 # largest over the flank and what tip edges carry, over speed.
-# Variables from gear-plot: tsv, heading, line1, line2, ..., notes, height, labels, both, roll_from, roll_to, roll_step, speed_step,
+# Variables from gear-plot: tsv, heading, line1, line2, ..., notes, height, labels, both, roll_from, roll_to, roll_step, path_from, path_to, speed_step,
 # pressure_max, pressure_rest, edge_max, frequency_from, frequency_to, natural_frequency; pressure_rest: 0 if none is stated.
 set datafile separator tab
 set datafile commentschars "#"
@@ -35,12 +35,16 @@ do for [r = 1:rows] {
   set xlabel (r == rows ? "Roll angle of " . word(labels, 1) . " (deg)" : "") offset 0, 0.3 noenhanced
   set ylabel "Mesh frequency (Hz)" offset 1
   set label 1 (r == 1 ? "{/:Bold (a)} speed rising" : "{/:Bold (b)} speed falling") at graph 0, graph 1 offset 0, 0.8 font ",14"
+  set arrow 5 from path_from, graph 0 to path_from, graph 1 nohead front lt 1 lw 1.2 lc rgb "#505050"
+  set arrow 6 from path_to, graph 0 to path_to, graph 1 nohead front lt 1 lw 1.2 lc rgb "#505050"
   map = r == 1 ? "[map up]" : "[map down]"
-  plot tsv index map using 1:($6 > 0 ? $4 : NaN):(half_wide):(half_tall) with boxxyerror fs solid 1 noborder lc rgb "#9a9a9a" notitle, \
-    tsv index map using 1:4:(half_wide):(half_tall):($5 > 0 ? $5 : NaN) with boxxyerror fs solid 1 noborder lc palette notitle
+  plot tsv index map using 7:($6 > 0 ? $4 : NaN):(half_wide):(half_tall) with boxxyerror fs solid 1 noborder lc rgb "#9a9a9a" notitle, \
+    tsv index map using 7:($5 > 0 ? $4 : NaN):(half_wide):(half_tall):5 with boxxyerror fs solid 1 noborder lc palette notitle
   unset colorbox
 }
 
+unset arrow 5
+unset arrow 6
 # Half as tall each, whatever the number of maps.
 upper = top(1)
 lower = foot(rows)
@@ -60,7 +64,7 @@ set tmargin at screen upper
 set bmargin at screen middle + gap
 set yrange [0 : 1.25 * pressure_max]
 set ylabel "Largest pressure (MPa)" offset 0.6
-set label 1 (both == 1 ? "{/:Bold (c)}" : "{/:Bold (b)}") . " largest inside the flanks, held for 1/64 of a period"
+set label 1 (both == 1 ? "{/:Bold (c)}" : "{/:Bold (b)}") . " largest inside the flanks"
 plot tsv index "[speed up]" using 1:($2 > 0 ? $2 : NaN) with lines lt 1 lw 2.6 lc rgb "#0072b2" title "rising", \
   tsv index "[speed down]" using 1:($2 > 0 ? $2 : NaN) with lines lt 1 lw 1.8 dt (10, 5) lc rgb "#d55e00" title "falling", \
   pressure_rest > 0 ? pressure_rest : NaN with lines lt 1 lw 1.4 dt (4, 4) lc rgb "#505050" title "at rest"
@@ -71,7 +75,7 @@ set bmargin at screen lower
 set yrange [0 : edge_max > 0 ? 1.4 * edge_max : 1]
 set key left top at graph 0.02, graph 0.98
 set ylabel "Load over a tip edge (N)" offset 0.6
-set label 1 (both == 1 ? "{/:Bold (d)}" : "{/:Bold (c)}") . " load of a pair over a tip edge, held as long"
+set label 1 (both == 1 ? "{/:Bold (d)}" : "{/:Bold (c)}") . " load of a pair over a tip edge"
 array colour[2] = ["#0072b2", "#d55e00"]
 array width[2] = [3.6, 1.6]
 plot for [g = 1:2] tsv index "[speed up]" using 1:(column(g + 2)) with lines lt 1 lw width[g] lc rgb colour[g] title "edge of " . word(labels, g), \

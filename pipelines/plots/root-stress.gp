@@ -68,6 +68,7 @@ set tmargin at screen 0.27 + 0.5 * lift
 set bmargin at screen 0.082 + 0.8 * lift
 set yrange [0 : 1.08 * factor_max]
 set ylabel "Dynamic factor (1)"
+unset label 11
 set label 1 "{/:Bold (c)} the same over the largest at rest; root stress is quasi-static in the tooth loads"
 if (iso == 1 && resonance > frequency_from && resonance < frequency_to) {
   set arrow from resonance, graph 0 to resonance, graph 1 nohead back lw 1.2 dt (4, 4) lc rgb "#aa4499"
