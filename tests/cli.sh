@@ -305,7 +305,7 @@ if "${line_static[@]}" --next-level > said 2>&1 && grep -q ' 8 strips change, el
 budget=("$bin/gear-static" --params out/scene/params/static.toml "${pair[@]}" --torque 100 --error-budget --output budget.h5)
 if "${budget[@]}" > said 2>&1 && "$bin/gear-inspect" budget.h5 > said 2>&1 && grep -q '^ *or contact line ' said &&
   grep -q '^ *or matching at 1 mm ' said && "$bin/gear-plot" error-budget --plots "$plots" --output budget budget.h5 > said 2>&1 &&
-  grep -q '>matching<' budget.svg && grep -q '>at 1 mm<' budget.svg && grep -q -P '^curve\terror .*\tmean_stiffness .%.' budget.tsv && grep -q -P '^strips 8 to 16\t1\t' budget.tsv; then ok "gear-static --error-budget, with the other choices apart, and its figure"; else
+  grep -q '>matching<' budget.svg && grep -q '>at 1 mm<' budget.svg && grep -q -P '^curve\terror .*\tmean_stiffness .%.' budget.tsv && grep -q -P '^strips 8 to 16\t1\t' budget.tsv && [ "$(grep -c '^largest root stress' budget-roots.tsv)" = 4 ]; then ok "gear-static --error-budget, with the other choices apart, and its figure"; else
   wrong "gear-static --error-budget, with the other choices apart, and its figure" "$(head -n 1 said)"; fi
 rm -f budget.*
 rejected "the next model level of the last one" 3 'last model level' "${at_torque[@]}" 100 --next-level

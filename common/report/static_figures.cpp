@@ -11,6 +11,7 @@
 #include "dynamics/impact_result.h"
 #include "gear/pair.h"
 #include "lumped/stiffness.h"
+#include "report/figure_words.h"
 #include "signal/response_result.h"
 #include "signal/spectrum.h"
 #include "studies/error_budget_result.h"
@@ -316,18 +317,13 @@ Figure crack_figure(const StaticArtifact& s) {
   return figure;
 }
 
-Figure error_budget_figure(const ErrorBudgetArtifact& budget) {
-  Figure figure;
-  figure.title = text("Error budget of the static transmission error, ", shown(budget.torque, 6), " N m");
-  figure.notes.push_back(
-      text("each discretisation alone twice as fine; sum of the changes of the mean stiffness ",
-           shown(budget.refinement.mean_stiffness_change.cwiseAbs().sum() * kPercent, 3), " %"));
-  figure.notes.push_back(text(
-      "contact = ", budget.fidelity.contact, ", near field by ", budget.gear[0].discretisation.near_field,
-      "; beyond the line what another choice changes, which is no error of this one"));
+namespace {
+
+// Root stress with elements of several sizes on the roots, and a note of what they change in all; no rows without it.
+FigureBlock root_levels(const ErrorBudgetArtifact& budget, std::vector<std::string>& notes) {
+  FigureBlock roots{"roots", {"element [mm]"}, {}, "roots", "largest root stress"};
   if (const RootConvergence root = convergence(budget.root); root.order.rows() > 0) {
     std::string words = "root stress with smaller elements on the roots:";
-    FigureBlock block{"roots", {"element [mm]"}, {}, "roots", "largest root stress"};
     for (int g = 0; g < kSides; ++g) {
       const Eigen::Index last = root.change.rows() - 1;
       const double order = root.order(last - 1, g);
@@ -337,14 +333,28 @@ Figure error_budget_figure(const ErrorBudgetArtifact& budget) {
                     " % from ", shown(budget.root.element_size[0] * 1e3, 3), " to ",
                     shown(budget.root.element_size[last + 1] * 1e3, 3), " mm",
                     std::isfinite(order) ? ", order " + fixed(order, 1) : "");
-      block.columns.push_back(text("stress of ", budget.mesh.gear[g], " [MPa]"));
+      roots.columns.push_back(text("stress of ", budget.mesh.gear[g], " [MPa]"));
     }
     for (Eigen::Index k = 0; k < budget.root.stress.rows(); ++k)
-      block.rows.push_back({budget.root.element_size[k] * 1e3, budget.root.stress(k, 0) * 1e-6,
+      roots.rows.push_back({budget.root.element_size[k] * 1e3, budget.root.stress(k, 0) * 1e-6,
                             budget.root.stress(k, 1) * 1e-6});
-    figure.blocks.push_back(block);
-    figure.notes.push_back(words);
+    notes.push_back(words);
   }
+  return roots;
+}
+
+}  // namespace
+
+Figure error_budget_figure(const ErrorBudgetArtifact& budget) {
+  Figure figure;
+  figure.title = text("Error budget of the static transmission error, ", shown(budget.torque, 6), " N m");
+  figure.notes.push_back(
+      text("each discretisation alone twice as fine; sum of the changes of the mean stiffness ",
+           shown(budget.refinement.mean_stiffness_change.cwiseAbs().sum() * kPercent, 3), " %"));
+  figure.notes.push_back(text(
+      "contact = ", budget.fidelity.contact, ", near field by ", budget.gear[0].discretisation.near_field,
+      "; beyond the line what another choice changes, which is no error of this one"));
+  const FigureBlock roots = root_levels(budget, figure.notes);
   for (const auto& [name, labels, count, changes] :
        {std::tuple{"changes", "labels", "entries", &budget.refinement},
         std::tuple{"choices", "choice_labels", "choices", &budget.choice}}) {
@@ -388,6 +398,8 @@ Figure error_budget_figure(const ErrorBudgetArtifact& budget) {
       figure.numbers.insert(figure.numbers.end(), {{"bars_each", 7 + (pressure ? 1 : 0) + (stress ? 1 : 0)},
                                                    {"pressure", pressure}});
   }
+  if (!roots.rows.empty()) figure.blocks.push_back(roots);
+  add_lines(figure.notes.size(), figure);
   figure.numbers.emplace_back("notes", static_cast<double>(figure.notes.size()));
   return figure;
 }

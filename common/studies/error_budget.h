@@ -11,8 +11,8 @@ namespace whine {
 // The bodies are meshed and reduced again where an entry needs it. Entries: strips (twice as many), flank table (twice
 // the points), elements (half the size, but on sharp roots, whose elements follow their radius), order (only for first-order
 // elements: second), search range twice as wide (how far from the touching point contact is looked for), positions (twice as
-// many). The pressure is that of contacts clear of ridges (system/flank_pressure.h). The largest root stress stands apart as well, with elements on the roots once,
-// half, a quarter and an eighth as large, for its error and its order of convergence.
+// many). The pressure is that of contacts clear of ridges (system/flank_pressure.h). The largest root stress stands apart as
+// well, with elements on the roots once, half, a quarter and an eighth as large, for its error and its order of convergence.
 // One contact line per pair has neither strips nor a search range. Choices, of which none is an error of the other: the other
 // near field (matching at the body's matching_depth, or subtraction) and the other model level of contact; one that cannot be
 // computed stands in choice_missing with its reason.

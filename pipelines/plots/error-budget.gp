@@ -1,9 +1,10 @@
 # Error budget: changes of the static answer when one discretisation is refined alone, as bars on a logarithmic scale;
 # beyond a line those by another choice of the model.
-# Variables from gear-plot: tsv, heading, note1, note2, ..., notes, labels, entries, choice_labels, choices, bars_each, pressure (1: budgets that
+# Variables from gear-plot: tsv, heading, line1, line2, ..., notes, labels, entries, choice_labels, choices, bars_each, pressure (1: budgets that
 # know of pressure).
 set datafile separator tab
 set datafile commentschars "#"
+foot_name = "line%d"
 lift = room(notes)
 set title heading offset 0, -0.2
 set lmargin screen 0.1
