@@ -80,6 +80,7 @@ const std::vector<BodyArtifact>& line_bodies() {
   static const std::vector<BodyArtifact> bodies = [] {
     std::vector<BodyArtifact> out;
     const SystemScene scene = line();
+    out.reserve(scene.gears.size());
     for (const SystemScene::Gear& gear : scene.gears)
       out.push_back(reduce(make_sector_mesh(gear.design, scene.body), gear.material, scene.body.modes));
     return out;

@@ -85,6 +85,7 @@ MeshInstant mesh_instant(const SystemModel& system, int m, double phase, int per
 int hunting_periods(const SystemModel& system) {
   if (system.mesh.size() == 1) return hunting_periods(system.mesh[0]);
   std::vector<int> teeth;
+  teeth.reserve(kSides * system.mesh.size());
   for (const GearMeshModel& mesh : system.mesh)
     for (const FlankDeviation& flank : mesh.deviation) teeth.push_back(flank.repeats());
   return hunting_periods_of(teeth);
