@@ -371,16 +371,17 @@ TEST_CASE("friction: without it nothing changes, and static.h5 keeps it") {
     for (const Remark& remark : remarks) all += remark.words + "; ";
     return all;
   };
-  CHECK(friction_remarks(without, 150, 100, 1000).empty());
+  CHECK(friction_remarks(without, 150).empty());
   CHECK(contains(said(remarks(with)), "it bends no teeth here"));
   StaticArtifact schlenk = with;
   schlenk.mesh.friction.law = FrictionLaw::schlenk;
-  CHECK(said(friction_remarks(schlenk, 400, 1000, 4000)).find("m/s") == std::string::npos);
-  CHECK(contains(said(friction_remarks(schlenk, 400, 50, 4000)), "tests of Schlenk's formula begin"));
-  CHECK(contains(said(friction_remarks(schlenk, 400, 1000, 7500)), "tests of Schlenk's formula end"));
+  CHECK(schlenk_speed_remarks(with, 1, 1e5).empty());
+  CHECK(said(schlenk_speed_remarks(schlenk, 1000, 4000)).find("m/s") == std::string::npos);
+  CHECK(contains(said(schlenk_speed_remarks(schlenk, 50, 4000)), "tests of Schlenk's formula begin"));
+  CHECK(contains(said(schlenk_speed_remarks(schlenk, 1000, 7500)), "tests of Schlenk's formula end"));
   const double least = kSchlenkLoad * 1e3 * GearPair(with).gear(0).base_radius() * with.face_width();
-  CHECK(said(friction_remarks(schlenk, 1.001 * least, 1000, 4000)).find("N/mm") == std::string::npos);
-  CHECK(contains(said(friction_remarks(schlenk, 0.5 * least, 1000, 4000)), "the line load is 75 N/mm"));
+  CHECK(said(friction_remarks(schlenk, 1.001 * least)).find("N/mm") == std::string::npos);
+  CHECK(contains(said(friction_remarks(schlenk, 0.5 * least)), "the line load is 75 N/mm"));
 }
 
 TEST_CASE("friction: the section of a scene, and what it is rejected with") {

@@ -38,6 +38,16 @@ Figure some_figure() {
 
 }  // namespace
 
+TEST_CASE("numbers of tables: what rounds to 0 has no sign") {
+  CHECK(fixed(-4e-5, 4) == "0.0000");
+  CHECK(fixed(-6e-5, 4) == "-0.0001");
+  CHECK(fixed(-0.0, 1) == "0.0");
+  CHECK(fixed(-10.04, 1) == "-10.0");
+  CHECK(fixed(-0.2, 0) == "0");
+  CHECK(rounded(-0.004, 2) == "0");
+  CHECK(rounded(-0.006, 2) == "-0.01");
+}
+
 TEST_CASE("plot data: blocks stand two empty lines apart under their names; what is not finite is rejected") {
   Figure figure;
   figure.title = "Title";

@@ -21,12 +21,15 @@ std::string shown(double value, int digits) {
 std::string fixed(double value, int decimals) {
   char buffer[64];
   std::snprintf(buffer, sizeof buffer, "%.*f", decimals, value);
-  return buffer;
+  const std::string out = buffer;
+  return std::signbit(value) && std::isfinite(value) && out.find_first_of("123456789") == std::string::npos
+             ? out.substr(1)
+             : out;
 }
 
 std::string rounded(double value, int decimals) {
   const double scale = std::pow(10, decimals);
-  return text(std::round(value * scale) / scale);
+  return text(std::round(value * scale) / scale + 0.0);  // no -0
 }
 
 std::string letter_of(size_t i) {

@@ -56,6 +56,7 @@ struct Figure {
 
 // %.<digits>g, %.<decimals>f: text() would show ten digits.
 std::string shown(double value, int digits);
+// What rounds to 0 has no sign.
 std::string fixed(double value, int decimals);
 // To these decimals, without zeros at the end.
 std::string rounded(double value, int decimals);

@@ -325,7 +325,7 @@ std::vector<Remark> remarks(const SweepArtifact& s, const StaticArtifact& static
     out = setup_remarks(statics, s.inertia, s.damping, s.fidelity);
     if (s.mesh_frequency.size() > 0) {
       const std::vector<Remark> more =
-          friction_remarks(s, s.torque, s.mesh_frequency.minCoeff(), s.mesh_frequency.maxCoeff());
+          schlenk_speed_remarks(s, s.mesh_frequency.minCoeff(), s.mesh_frequency.maxCoeff());
       out.insert(out.end(), more.begin(), more.end());
     }
   }

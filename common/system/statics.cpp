@@ -227,13 +227,28 @@ std::vector<Remark> remarks(const StaticArtifact& s) {
   if (pressure > kHardenedSteelPressure)
     add(true, "the contact pressure of ", std::round(pressure * 1e-7) / 100, kBeyondSteel);
   for (const std::vector<Remark>& more :
-       {pressure_remarks(s), body_remarks(s),
-        friction_remarks(s, s.torque, s.mesh.friction.static_frequency, s.mesh.friction.static_frequency)})
+       {pressure_remarks(s), body_remarks(s), friction_remarks(s, s.torque)})
     out.insert(out.end(), more.begin(), more.end());
   return out;
 }
 
-std::vector<Remark> friction_remarks(const PairParameters& pair, double torque, double from, double to) {
+std::vector<Remark> schlenk_speed_remarks(const PairParameters& pair, double from, double to) {
+  std::vector<Remark> out;
+  if (pair.mesh.friction.law != FrictionLaw::schlenk) return out;
+  const double per_frequency = pitch_line_speed(GearPair(pair), 1), slow = kSchlenkSpeeds[0] / per_frequency,
+               fast = kSchlenkSpeeds[1] / per_frequency;
+  if (from < slow)
+    out.push_back(remark(false, "below ", shown_number(slow), " Hz the coefficient of friction is that at ",
+                         kSchlenkSpeeds[0],
+                         " m/s on the pitch line, where the tests of Schlenk's formula begin"));
+  if (to > fast)
+    out.push_back(remark(false, "above ", shown_number(fast), " Hz the coefficient of friction is that at ",
+                         kSchlenkSpeeds[1],
+                         " m/s on the pitch line, where the tests of Schlenk's formula end"));
+  return out;
+}
+
+std::vector<Remark> friction_remarks(const PairParameters& pair, double torque) {
   std::vector<Remark> out;
   if (!pair.mesh.friction.acts()) return out;
   out.push_back(remark(
@@ -241,7 +256,7 @@ std::vector<Remark> friction_remarks(const PairParameters& pair, double torque, 
       "friction acts by its moments and forces on the hubs; it bends no teeth here, which may change the "
       "transmission error as much as it does (common/system/README.md, Friction at rest). Losses do not "
       "depend on that to first order"));
-  if (pair.mesh.friction.law == FrictionLaw::constant) return out;
+  if (pair.mesh.friction.law != FrictionLaw::schlenk) return out;
   const GearPair gears(pair);
   if (gears.internal())
     out.push_back(
@@ -252,16 +267,9 @@ std::vector<Remark> friction_remarks(const PairParameters& pair, double torque, 
     out.push_back(remark(false, "the coefficient of friction is that of ", kSchlenkLoad,
                          " N/mm, where the tests of Schlenk's formula begin: the line load is ",
                          shown_number(load), " N/mm"));
-  const double per_frequency = pitch_line_speed(gears, 1), slow = kSchlenkSpeeds[0] / per_frequency,
-               fast = kSchlenkSpeeds[1] / per_frequency;
-  if (from < slow)
-    out.push_back(remark(false, "below ", shown_number(slow), " Hz the coefficient of friction is that at ",
-                         kSchlenkSpeeds[0],
-                         " m/s on the pitch line, where the tests of Schlenk's formula begin"));
-  if (to > fast)
-    out.push_back(remark(false, "above ", shown_number(fast), " Hz the coefficient of friction is that at ",
-                         kSchlenkSpeeds[1],
-                         " m/s on the pitch line, where the tests of Schlenk's formula end"));
+  const double frequency = pair.mesh.friction.static_frequency;
+  const std::vector<Remark> of_speed = schlenk_speed_remarks(pair, frequency, frequency);
+  out.insert(out.end(), of_speed.begin(), of_speed.end());
   return out;
 }
 

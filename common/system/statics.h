@@ -42,9 +42,10 @@ inline constexpr const char* kBeyondSteel =
 // Of the statics: teeth that differ, no corner contact, backlash used up, a pressure that no steel carries.
 std::vector<Remark> remarks(const StaticArtifact& statics);
 
-// Of a pair with friction under a torque (N m, on the driver) between mesh frequencies (Hz): what is left out of it, and where
-// Schlenk's formula is beyond what it is fit to.
-std::vector<Remark> friction_remarks(const PairParameters& pair, double torque, double from, double to);
+// Of a pair with friction under a torque (N m, on the driver): what is left out of it, and where Schlenk's formula is beyond what it
+// is fit to. Of its speeds between mesh frequencies (Hz) alone; nothing of a constant coefficient.
+std::vector<Remark> friction_remarks(const PairParameters& pair, double torque);
+std::vector<Remark> schlenk_speed_remarks(const PairParameters& pair, double from, double to);
 
 // Of all pairs in reach at a mesh phase (0 to 1) of a mesh period, with the strips of `statics`, whose contact may also be
 // lines: the equilibrium is solved again. Throws as static_transmission, and Error(input) for a phase or a period that is
