@@ -415,7 +415,7 @@ TEST_CASE(
   pressed.contact_pressure(0, pair) = 1.6e9;
   const std::vector<Remark> said = remarks(pressed);
   CHECK(std::any_of(said.begin(), said.end(), [](const Remark& r) {
-    return r.warning && r.words.find("of 1.6 GPa is more than") != std::string::npos;
+    return r.warning && r.words.find("of 1.6 GPa is above") != std::string::npos;
   }));
   content.sweeps[0].response.tooth_load_max *= 20;
   CHECK(report_html(content).find("hardened steel") != std::string::npos);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "gear/body_inertia.h"
+#include "gear/numbers.h"
 #include "gear/scene_geometry.h"
 #include "io/scene_keys.h"
 #include "io/study.h"
@@ -86,6 +87,37 @@ TEST_CASE(
   // 0: as drawn.
   scene.gears[1].total_inertia = 0;
   CHECK(scene_warnings(scene, where).size() == 1);
+  // A damping ratio in place of the time: 314 times critical at 2000 Hz.
+  scene.operation.frequency_to = 2000;
+  scene.damping.rayleigh_stiffness = 7.7e-6;
+  CHECK(scene_warnings(scene, where).size() == 1);
+  scene.damping.rayleigh_stiffness = 0.05;
+  REQUIRE(scene_warnings(scene, where).size() == 2);
+  CHECK(scene_warnings(scene, where)[1].find("314.159 times its critical damping; `make calibrate") !=
+        std::string::npos);
+  CHECK(section == "damping");
+}
+
+TEST_CASE("torques are told as they were read: a decimal comma makes two of one") {
+  CHECK(torques_in_words({1624, 77}) == "torques 1624, 77 N m");
+  CHECK(torques_in_words({62.5}) == "torque 62.5 N m");
+  CHECK(torques_in_words({1, 2, 3, 4, 5, 6, 7, 8, 9}) == "torques 1, 2, 3, 4, 5, 6, 7, 8, ... N m");
+}
+
+TEST_CASE("a face too wide for plane stress is warned of, by gear") {
+  StaticArtifact s = at_rest(40e-3);
+  const auto of_face = [&] {
+    std::string all;
+    for (const Remark& remark : body_remarks(s))
+      if (remark.words.find("plane = ") != std::string::npos) all += remark.words + "; ";
+    return all;
+  };
+  for (auto& gear : s.gear) gear.material.plane_stress = true;
+  s.gear[1].design.face_width = 10.1 * s.gear[1].design.module;
+  CHECK(of_face().find("the face of wheel is 10.1 modules wide") == 0);
+  CHECK(of_face().find("pinion") == std::string::npos);
+  s.gear[1].material.plane_stress = false;
+  CHECK(of_face().empty());
 }
 
 TEST_CASE("the keys of a result hold the tip and root diameters that addendum and dedendum gave") {

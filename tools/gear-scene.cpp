@@ -8,14 +8,14 @@
 //            <out>/bodies/<hash>/body.toml               one per distinct gear
 //            <out>/<scene>/<gear> -> ../bodies/<hash>    relative links
 //            --output                                    make fragment: gears, bodies, torques of the scene
-//            --variant: a scene with the changes of --set, and nothing else; --keys: prints the table of scene keys
-// Equations  none; units to SI as the key table says
+//            --variant: a scene with the changes of --set, and nothing else; --keys: prints the table of scene keys, units to SI
 #include <filesystem>
 #include <iostream>
 #include <vector>
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "gear/numbers.h"
 #include "gear/scene_cost.h"
 #include "gear/scene_geometry.h"
 #include "io/fit.h"
@@ -95,7 +95,7 @@ void cut_pair(const std::string& path, const std::string& stem, const std::strin
   for (const std::string& warning : scene_warnings(scene, where)) tell("gear-scene: warning: ", warning);
   for (const std::string& cost : costs(scene)) tell("gear-scene: ", path, ": ", cost);
   tell("gear-scene: ", path, ": ", scene.gears.size(), " gears, ", different(bodies).size(),
-       (different(bodies).size() == 1 ? " body, " : " bodies, "), scene.operation.torques.size(), " torques");
+       (different(bodies).size() == 1 ? " body, " : " bodies, "), torques_in_words(scene.operation.torques));
 }
 
 void body(int argc, char** argv) {

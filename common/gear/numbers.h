@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdio>
 #include <string>
+#include <vector>
 
 namespace whine {
 
@@ -15,6 +16,15 @@ inline std::string shown_number(double value) {
 // "3.5 mm" of 0.0035.
 inline std::string millimetres(double metres) {
   return shown_number(metres * 1e3) + " mm";
+}
+
+// "torques 100, 62.5 N m", the first eight.
+inline std::string torques_in_words(const std::vector<double>& torques) {
+  constexpr size_t kShown = 8;
+  std::string out = torques.size() == 1 ? "torque " : "torques ";
+  for (size_t i = 0; i < torques.size() && i < kShown; ++i)
+    out += (i > 0 ? ", " : "") + shown_number(torques[i]);
+  return out + (torques.size() > kShown ? ", ..." : "") + " N m";
 }
 
 }  // namespace whine

@@ -1,6 +1,7 @@
 #include "gear/scene_geometry.h"
 
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "base/error.h"
@@ -97,6 +98,15 @@ std::vector<std::string> scene_warnings(const Scene& scene, const ScenePlace& wh
     for (const std::string& words : {thin_rim(gear.design, gear.name),
                                      flywheel(gear.design, gear.material, gear.total_inertia, gear.name)})
       if (!words.empty()) out.push_back(where({"gear." + gear.name}, words) + ": " + words);
+  const double eta = scene.damping.rayleigh_stiffness, highest = scene.operation.frequency_to,
+               ratio = std::numbers::pi * highest * eta;
+  if (ratio > 1) {
+    const std::string words =
+        text("rayleigh_stiffness_s = ", eta, " is a time and damps a vibration at ", highest, " Hz with ",
+             shown_number(ratio),
+             " times its critical damping; `make calibrate DAMPING=0.05` finds the one for a ratio");
+    out.push_back(where({"damping"}, words) + ": " + words);
+  }
   return out;
 }
 

@@ -194,7 +194,8 @@ std::string teeth_html(const ReportContent& c) {
   return html::page(title,
                     "<p class=\"scene\">What the teeth suffer at " + torque_words(c.statics[0].torque) +
                         ": scene <code>" + html::escaped(file) + "</code></p>\n",
-                    section("rest", "At rest", as_html(tables[0]) + figures_of(c, "rest")) +
+                    section("remarks", "Warnings and remarks", remarks_list(c)) +
+                        section("rest", "At rest", as_html(tables[0]) + figures_of(c, "rest")) +
                         section("motion", "In motion", as_html(tables[1]) + figures_of(c, "motion")) +
                         section("errors", "What the errors are",
                                 figures_of(c, "errors") + (c.budget ? budget_table(*c.budget) : "")) +

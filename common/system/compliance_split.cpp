@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "contact/hertz_line.h"
+#include "gear/numbers.h"
 #include "gear/pair.h"
 #include "gear/scene_geometry.h"
 
@@ -59,6 +60,15 @@ std::vector<Remark> body_remarks(const StaticArtifact& s) {
   for (int g = 0; g < kSides; ++g) {
     const std::string words = thin_rim(s.gear[g].design, s.mesh.gear[g]);
     if (!words.empty()) out.push_back(remark(true, words));
+  }
+  constexpr double kWide = 10;  // modules: more than six tooth thicknesses
+  for (int g = 0; g < kSides; ++g) {
+    const GearDesign& design = s.gear[g].design;
+    if (!s.gear[g].material.plane_stress || design.face_width <= kWide * design.module) continue;
+    out.push_back(remark(true, "the face of ", s.mesh.gear[g], " is ",
+                         shown_number(design.face_width / design.module),
+                         " modules wide and plane = \"stress\" is for faces up to about 8: plane = "
+                         "\"strain\" is right for it, 10 % stiffer"));
   }
   const ComplianceSplit split = compliance_split(s);
   if (!(split.body_share() > kMuch)) return out;
