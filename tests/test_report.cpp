@@ -411,6 +411,21 @@ TEST_CASE(
   CHECK(std::stod(table.substr(at + name.size())) == relative(s.contact_pressure(0, pair) * 1e-6, 5e-3));
 
   CHECK(report_html(content).find("hardened steel") == std::string::npos);
+  // A jump between speeds that stand wide apart, and between near ones.
+  ResponseArtifact& swept = content.sweeps[0].response;
+  const Eigen::VectorXd speeds = swept.mesh_frequency;
+  REQUIRE(speeds.size() > 1);
+  const double step = std::abs(speeds[1] - speeds[0]), jump = 0.5 * (speeds[0] + speeds[1]);
+  swept.jump_frequency = swept.jump_width = Eigen::VectorXd::Constant(1, jump);
+  CHECK((report_html(content).find("a sweep may leave a branch before its end") != std::string::npos) ==
+        (step > 0.02 * jump));
+  swept.mesh_frequency = jump + (speeds.array() - speeds.mean()) * 0.03 * jump / step;
+  CHECK(report_html(content).find(" % of the speed: with steps above 2 % a sweep may leave a branch") !=
+        std::string::npos);
+  swept.mesh_frequency = jump + (speeds.array() - speeds.mean()) * 0.015 * jump / step;
+  CHECK(report_html(content).find("a sweep may leave a branch") == std::string::npos);
+  swept.mesh_frequency = speeds;
+  swept.jump_frequency = swept.jump_width = Eigen::VectorXd(0);
   StaticArtifact pressed = s;
   pressed.contact_pressure(0, pair) = 1.6e9;
   const std::vector<Remark> said = remarks(pressed);
