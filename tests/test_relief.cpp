@@ -237,6 +237,52 @@ TEST_CASE(
   }
 }
 
+TEST_CASE(
+    "flanks that begin near the base circle: their points are found on them, and reliefs have bounded gaps") {
+  // 16 and 24 teeth: the pinion's involute begins 0.046 rad from its base circle, where the roll angle grows with the root of the length.
+  GearDesign pinion = paper_gear(16, 10e-3), wheel = paper_gear(24, 15e-3);
+  for (GearDesign* gear : {&pinion, &wheel}) {
+    gear->module = 4.5e-3;
+    gear->face_width = 14e-3;
+    gear->rack_tip_radius = 0.38;
+  }
+  pinion.profile_shift = 0.1817;
+  pinion.addendum = 0.98052;
+  wheel.profile_shift = 0.1715;
+  wheel.addendum = 0.97961;
+  FlankModification relieved = tip_relief(20, 0);
+  relieved.tip.start_roll = 0;
+  relieved.tip.length = 3e-3;
+  for (const bool turned : {false, true}) {
+    const GearDesign &first = turned ? wheel : pinion, &second = turned ? pinion : wheel;
+    const GearPair pair(first, second, 91.5e-3);
+    const FlankDeviation driver(pair.gear(0), relieved), driven(pair.gear(1), relieved);
+    const PairDeviation flanks{{&driver, &driven}, {}};
+    int corners = 0;
+    double worst = 0;
+    for (double phase = -1.1; phase < 1.1; phase += 0.001) {
+      const double path = phase * pair.base_pitch();
+      if (pair.nominal_roll(0, path) <= 0 || pair.nominal_roll(1, path) <= 0) continue;
+      const PairContact contact = pair.contact(phase);
+      if (!contact.on_flank || !(contact.x_max > contact.x_min)) continue;
+      corners += contact.corner;
+      for (int i = 0; i <= 20; ++i) {
+        const FlankGap place = pair.gap_at(contact, contact.x_min + i * (contact.x_max - contact.x_min) / 20);
+        for (int g = 0; g < kSides; ++g) {
+          const double roll = place.roll[static_cast<size_t>(g)];
+          worst =
+              std::max({worst, pair.gear(g).form_roll_angle() - roll, roll - pair.gear(g).tip_roll_angle()});
+        }
+      }
+      const double x = pair.nearest(contact, flanks), gap = pair.gap_at(contact, x, flanks);
+      const bool bounded = gap > contact.gap - 1e-12 && gap < contact.gap + 41e-6;
+      if (!bounded) CHECK_MESSAGE(bounded, phase, ": ", gap, " for ", contact.gap);
+    }
+    CHECK(corners > 100);
+    CHECK(worst < 1e-9);
+  }
+}
+
 TEST_CASE("statics of a relieved pair under a vanishing load have its unloaded transmission error") {
   StaticParameters settings = paper_statics(24);
   struct Case {

@@ -230,7 +230,9 @@ PairContact GearPair::contact(double phase) const {
 
 double GearPair::roll_at(int g, const PairContact& c, double x) const {
   const double rb = gear_[g].base_radius(), sign = along_[static_cast<size_t>(g)];
-  double roll = c.roll[g] + sign * x / (rb * c.roll[g]);
+  // An involute has the length rb roll^2 / 2 from its base circle: near it a step along the tangent would leave the flank.
+  const double squared = c.roll[g] * c.roll[g] + 2 * sign * x / rb;
+  double roll = std::sqrt(std::max(squared, 1e-4 * c.roll[g] * c.roll[g]));
   for (int i = 0; i < 50; ++i) {
     const double d = roll - c.nominal[g];
     const Vec2 place = rotated(flank_in_nominal_frame(g, c.nominal[g], roll) - c.origin, c.tilt);
