@@ -330,3 +330,18 @@ TEST_CASE("gears that run into each other without a mesh are named, planets and 
       CHECK(found[0].starts_with("'gear' has no mesh with the ring 'ring' and stands through it"));
   }
 }
+
+TEST_CASE("a thin rim of a gear of a train is warned of, with its place; shipped trains have none") {
+  const auto where = [](const std::vector<std::string>& sections, const std::string&) {
+    return "x.toml: " + sections.front();
+  };
+  SystemScene scene = read_system_scene("data/scenes/oh58-planetary.toml");
+  CHECK(scene_warnings(scene, where).empty());
+  for (SystemScene::Gear& gear : scene.gears)
+    if (gear.design.internal)
+      gear.design.rim_outer_radius = ToothGeometry(gear.design).root_radius() + 0.5e-3;
+  const std::vector<std::string> said = scene_warnings(scene, where);
+  REQUIRE(said.size() == 1);
+  CHECK(said[0].find("x.toml: gear.ring: between the outside of the rim and the root circle of [gear.ring] "
+                     "are 0.5 mm") == 0);
+}

@@ -56,6 +56,7 @@ void cut_system(const std::string& path, const std::string& stem, const std::str
   publish(output,
           system_fragment(path, stem, publish_bodies(home, folder, body_parameters_of(scene)),
                           layout.meshes.size() > scene.meshes.size(), scene.operation.frequency_to > 0));
+  for (const std::string& said : scene_warnings(scene, place_in(path))) tell("gear-scene: warning: ", said);
   for (const std::string& cost : costs(scene, layout.meshes.size())) tell("gear-scene: ", path, ": ", cost);
   for (const std::string& remark : motion_remarks(scene)) tell("gear-scene: ", remark);
   tell("gear-scene: ", path, ": ", layout.bodies.size(), " bodies, ", layout.meshes.size(), " meshes");
@@ -89,7 +90,6 @@ void cut_pair(const std::string& path, const std::string& stem, const std::strin
       {"lumped_map.toml", lumped_parameters(scene, false)},
       {"title.txt", scene.title + "\n"}};
   for (const auto& [file, content] : parameters) publish_if_changed(home + "/params/" + file, content);
-
   // 3. The fragment, always written.
   publish(output, scene_fragment(scene, path, stem, bodies));
   for (const std::string& warning : scene_warnings(scene, where)) tell("gear-scene: warning: ", warning);

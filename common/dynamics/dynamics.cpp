@@ -94,7 +94,8 @@ MatrixXd relaxed_fields(const std::vector<MatrixXd>& tables, int g, int most, in
     if (!(rest <= kMostRemainder * whole))
       fail(Failure::numerical, "the ", fixed.cols(), " residual fields of the ", g ? "driven gear" : "driver",
            " leave ", rest / whole, " of a tooth's residual flexibility instantaneous (between teeth ",
-           offset, " apart), above ", kMostRemainder, "; rebuild body.h5 with more modes or finer elements");
+           offset, " apart), above ", kMostRemainder,
+           "; raise modes in [fidelity] or lower element_mm in [discretisation] of the scene");
   }
   return fields;
 }

@@ -45,7 +45,7 @@ MatrixXd fields_of(const MatrixXd& own, const std::vector<MatrixXd>& others, int
   if (!(worst <= kMostRemainder))
     fail(Failure::numerical, "the ", v.cols(), " residual fields of '", name, "' leave ", worst,
          " of a tooth's residual flexibility instantaneous, above ", kMostRemainder,
-         "; rebuild body.h5 with more modes or finer elements");
+         "; raise modes in [fidelity] or lower element_mm in [discretisation] of the scene");
   return v;
 }
 

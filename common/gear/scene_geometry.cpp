@@ -110,4 +110,12 @@ std::vector<std::string> scene_warnings(const Scene& scene, const ScenePlace& wh
   return out;
 }
 
+std::vector<std::string> scene_warnings(const SystemScene& scene, const ScenePlace& where) {
+  std::vector<std::string> out;
+  for (const SystemScene::Gear& gear : scene.gears)
+    if (const std::string words = scene.rigid() ? "" : thin_rim(gear.design, gear.name); !words.empty())
+      out.push_back(where({"gear." + gear.name}, words) + ": " + words);
+  return out;
+}
+
 }  // namespace whine

@@ -78,7 +78,7 @@ const std::vector<GuideRow>& rows_of_modes_and_motion() {
             "frequency is as good as stiffness and inertias. Contact is of lines. Unstable motions and ",
             "those that no sweep enters are left out."),
        "Measure the damping, or compute with half and twice of it. Finer: steps_per_period, "
-       "element_size_mm."},
+       "element_mm."},
       {"system-sweep", "Contact loss, dynamic factor",
        text("Part of the time in which no pair of teeth of a mesh touches. Dynamic factor: largest mesh ",
             "force over the mean one at rest; with contact loss teeth meet again with impact."),
