@@ -9,7 +9,7 @@ compared_here := $(if $(filter compare,$(goals)),$(compared))
 # $(call common,torques of the first,scenes): those that all have
 common = $(foreach t,$1,$(if $(filter-out $(foreach s,$2,$(if $(filter $t,$(SCENE_$s_TORQUES)),$s)),$2),,$t))
 compared_torques := $(strip $(if $(compared_here),$(call common,$(SCENE_$(firstword $(compared_here))_TORQUES),$(compared_here))))
-$(foreach s,$(compared_here),$(if $(SCENE_$s_SYSTEM),$(error SCENES: $s is a system of several meshes$(,) which has no sweeps to compare)))
+$(foreach s,$(compared_here),$(if $(SCENE_$s_SYSTEM),$(error SCENES: $s is a system of several meshes$(,) and compare sets pairs side by side; `make SCENE=... report` of each makes their own pages)))
 # While fragments are made, which are empty at first, nothing is known of their torques.
 compared_known := $(if $(compared_here),$(if $(strip $(foreach s,$(compared_here),$(if $(SCENE_$s_TORQUES),,$s))),,yes))
 $(if $(compared_known),$(if $(compared_torques),,\

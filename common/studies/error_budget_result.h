@@ -26,6 +26,9 @@ struct RootRefinement {
   MatrixRM stress;               // (level, gear) Pa
 };
 
+// Of the stress: smaller changes go with where the elements lie, and have no order worth a word.
+inline constexpr double kOrderlessChange = 2e-4;
+
 // What refining changes, as the error of its elements would: c h^p leaves change(k) / change(k + 1) = (h_k / h_(k+1))^p.
 struct RootConvergence {
   MatrixRM change;  // (level - 1, gear) 1: of the stress, from one level to the next, over that of the last
