@@ -156,7 +156,8 @@ std::string root_refinement_table(const ErrorBudgetArtifact& b) {
       rows.push_back({b.mesh.gear[g], shown(b.root.element_size[k] * 1e3, 4),
                       fixed(b.root.stress(k, g) * 1e-6, 2),
                       changes ? fixed(found.change(k - 1, g) * kPercent, 3) : "–",
-                      k > 1 && std::isfinite(order) && std::abs(found.change(k - 1, g)) > kOrderlessChange
+                      k > 1 && std::isfinite(order) &&
+                              found.change.col(g).segment(k - 2, 2).cwiseAbs().minCoeff() > kOrderlessChange
                           ? fixed(order, 1)
                           : "–"});
     }
