@@ -189,8 +189,6 @@ class Locator {
       if (turns &&
           std::max(std::abs(b.value_low), std::abs(b.value_high)) * arc < settings_.fold_location * parameter)
         break;
-      // No nearer to a kink than tangents are of one side.
-      constexpr double kClear = 100;
       if (arc < settings_.location * arc_before) break;
       if (!b.low.point.slow.whole() && arc < kClear * Curve::kParameterSideStep * parameter) break;
       const bool halve = i > 1 && c - a > 0.5 * two_before;
@@ -219,6 +217,17 @@ class Locator {
                std::abs(b.value_high - b.value_low) < 1e-3 * whole;
     return b;
   }
+  // The ends of a bracket around a kink, of an arc from `low` to `high`, moved away until the steps of a tangent stay on one side of
+  // it: an end may have come nearer to it than them, and then has multipliers of the other side.
+  std::pair<BranchPosition, BranchPosition> clear_of_kink(const Between& low, const Between& high,
+                                                          const Bracket& b) {
+    const double arc = (high.point.u - low.point.u).norm() / (high.share - low.share),
+                 away = kClear * Curve::kParameterSideStep * low.point.u[curve_.size() - 1] / arc;
+    std::optional<Between> before, after;
+    if (b.low.share - away > low.share) before = find(low, b.low, b.low.share - away, true);
+    if (b.high.share + away < high.share) after = find(b.high, high, b.high.share + away, true);
+    return {(before ? *before : b.low).position, (after ? *after : b.high).position};
+  }
   // Where the sequence of contacts of `low` ends, by bisection.
   Bracket change(const Between& low, const Between& high) {
     Bracket b{low, high, -1, 1};
@@ -232,6 +241,7 @@ class Locator {
   }
 
  private:
+  static constexpr double kClear = 100;  // steps of a tangent, nearer than which a kink may be in it
   // On the arc between two points. The sequence of contacts needs no tangent.
   std::optional<Between> find(const Between& low, const Between& high, double share, bool tangent) {
     constexpr double kEven = 0.5;  // ratio of the tangents' parameter components
@@ -302,7 +312,8 @@ void look_between(Curve& curve, const CurvePoint& from, const CurvePoint& to, co
   const auto add = [&](Special kind, const Locator::Test& test) {
     const Locator::Bracket bracket = locator.between(low, high, test, kind == Special::fold);
     const BranchPosition &l = bracket.low.position, &h = bracket.high.position;
-    found.push_back(special_at(kind, bracket.low_is_nearer() ? l : h, l, h, after_point));
+    const auto [before, after] = bracket.smooth ? std::pair(l, h) : locator.clear_of_kink(low, high, bracket);
+    found.push_back(special_at(kind, bracket.low_is_nearer() ? l : h, before, after, after_point));
     found.back().smooth = bracket.smooth;
     found.back().width = std::abs(h.parameter - l.parameter);
   };
