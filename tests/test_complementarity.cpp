@@ -447,6 +447,28 @@ TEST_CASE("complementarity: what has no solution is rejected with its numbers") 
   CHECK(says(MatrixXd::Identity(3, 3), VectorXd{{-1, -1}}).find("3 x 3") != std::string::npos);
 }
 
+TEST_CASE("complementarity: a problem that fails leaves nothing to the next one with its set") {
+  ComplementaritySolver solver;
+  ActiveSet active;
+  VectorXd p(3), d(3);
+  const MatrixXd good{{2, 1, 0}, {1, 2, 1}, {0, 1, 2}}, bad{{2, 0, 0}, {0, 1, 2}, {0, 2, 1}};
+  const VectorXd gaps{{-1, -1, -3}};
+  // The last strip is the first to touch: the set that is half made is not in order.
+  CHECK_THROWS_AS(solver.solve(bad, gaps, active, p, d), Error);
+  solver.solve(good, gaps, active, p, d);
+  CHECK((good * p + gaps).cwiseMin(p).cwiseAbs().maxCoeff() < 1e-15);
+  // Gaps that are no numbers, from a set that is known.
+  CHECK_THROWS_AS(solver.solve(good, VectorXd::Constant(3, std::nan("")), active, p, d), Error);
+  solver.solve(good, gaps, active, p, d);
+  CHECK((good * p + gaps).cwiseMin(p).cwiseAbs().maxCoeff() < 1e-15);
+  // A set on which a compliance cannot be factorised.
+  active.strips = {0, 1, 2};
+  active.forget();
+  CHECK_THROWS_AS(solver.solve(bad, gaps, active, p, d), Error);
+  solver.solve(good, gaps, active, p, d);
+  CHECK((good * p + gaps).cwiseMin(p).cwiseAbs().maxCoeff() < 1e-15);
+}
+
 TEST_CASE("compliance in parts: product, matrix and columns are those of the matrix put together") {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> force(0, 1);

@@ -139,7 +139,7 @@ Certificate ComplementaritySolver::certified(const Certificate& certificate, con
 }
 
 Certificate ComplementaritySolver::solve(const StripCompliance& a, const Vector& e, ActiveSet& active,
-                                         Result p, Result d, double* nodes) {
+                                         Result p, Result d, double* nodes) try {
   const int n = a.size();
   if (a.strips % kLanes != 0)
     fail(Failure::numerical, "a contact problem has pairs of ", a.strips, " strips, no multiple of ", kLanes);
@@ -209,6 +209,9 @@ Certificate ComplementaritySolver::solve(const StripCompliance& a, const Vector&
     dot_columns(nodes + j * StripCompliance::kPairNodes, a.interpolation[j], a.strips,
                 StripCompliance::kPairNodes, p.data() + j * a.strips, a.strips);
   return certificate;
+} catch (...) {
+  active.restart();
+  throw;
 }
 
 // The kept set once more. If it is not right beyond doubt, false, and the strips of wrong sign in wrong_.
@@ -267,7 +270,7 @@ bool ComplementaritySolver::repeat(const StripCompliance& a, const Vector& e, co
 }
 
 Certificate ComplementaritySolver::solve(const Matrix& a, const Vector& e, ActiveSet& active, Result p,
-                                         Result d) {
+                                         Result d) try {
   const int n = static_cast<int>(e.size());
   if (a.rows() != n || a.cols() != n || p.size() != n || d.size() != n)
     fail(Failure::numerical, "a contact problem of ", n, " gaps has a compliance of ", a.rows(), " x ",
@@ -340,6 +343,9 @@ Certificate ComplementaritySolver::solve(const Matrix& a, const Vector& e, Activ
   invert(active.inverse);
   active.known = true;
   return certified(certificate, a, active);
+} catch (...) {
+  active.restart();
+  throw;
 }
 
 // min 1/2 p'Ap + e'p, p >= 0: the objective falls with every outer step, so no set returns.

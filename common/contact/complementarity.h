@@ -62,6 +62,11 @@ struct ActiveSet {
   int updates = 0;       // strips that came or went since the inverse was computed from A
   double least_diagonal = 0, largest_diagonal = 0;  // bounds of A's diagonal on them, as `inverse`
   void forget() { known = false; }
+  // Nothing of a problem that failed: its set, of gaps beyond all sense or half made, would fail the next one as well.
+  void restart() {
+    strips.clear();
+    known = shifted = false;
+  }
 };
 
 // What a solve reached. A solution is returned only if all bounds hold (tolerances in solve).

@@ -171,12 +171,15 @@ class Locator {
     Between low, high;
     double value_low, value_high;
     bool smooth = false;  // the test passes through zero
+    // The nearest points that were found on either side, of a kink those from which the steps of a tangent do not reach beyond it.
+    BranchPosition before = {}, after = {};
     bool low_is_nearer() const { return std::abs(value_low) < std::abs(value_high); }
   };
   // Regula falsi (Illinois), bisection where that does not halve the interval in two steps. turns: the test is the turn of the
   // branch, so that what it leaves of the parameter is bounded.
   Bracket between(const Between& low, const Between& high, const Test& test, bool turns) {
     Bracket b{low, high, test(low.position), test(high.position)};
+    std::vector<Between> lows{low}, highs{high};
     const double whole = std::abs(b.value_high - b.value_low), width = high.share - low.share;
     double fa = b.value_low, fc = b.value_high, two_before = width, before = width;
     int last_side = 0;
@@ -200,11 +203,13 @@ class Locator {
       if (!here) break;
       const double value = test(here->position);
       if ((value < 0) == (b.value_low < 0)) {
+        lows.push_back(*here);
         b.low = std::move(*here);
         fa = b.value_low = value;
         if (last_side < 0) fc *= 0.5;
         last_side = -1;
       } else {
+        highs.push_back(*here);
         b.high = std::move(*here);
         fc = b.value_high = value;
         if (last_side > 0) fa *= 0.5;
@@ -215,18 +220,12 @@ class Locator {
     }
     b.smooth = std::min(std::abs(b.value_low), std::abs(b.value_high)) < 1e-6 * whole ||
                std::abs(b.value_high - b.value_low) < 1e-3 * whole;
+    const double reach =
+        b.smooth ? 0
+                 : kClear * Curve::kParameterSideStep * low.point.u[curve_.size() - 1] * width / arc_before;
+    b.before = last_beyond(lows, b.low.share, reach);
+    b.after = last_beyond(highs, b.high.share, reach);
     return b;
-  }
-  // The ends of a bracket around a kink, of an arc from `low` to `high`, moved away until the steps of a tangent stay on one side of
-  // it: an end may have come nearer to it than them, and then has multipliers of the other side.
-  std::pair<BranchPosition, BranchPosition> clear_of_kink(const Between& low, const Between& high,
-                                                          const Bracket& b) {
-    const double arc = (high.point.u - low.point.u).norm() / (high.share - low.share),
-                 away = kClear * Curve::kParameterSideStep * low.point.u[curve_.size() - 1] / arc;
-    std::optional<Between> before, after;
-    if (b.low.share - away > low.share) before = find(low, b.low, b.low.share - away, true);
-    if (b.high.share + away < high.share) after = find(b.high, high, b.high.share + away, true);
-    return {(before ? *before : b.low).position, (after ? *after : b.high).position};
   }
   // Where the sequence of contacts of `low` ends, by bisection.
   Bracket change(const Between& low, const Between& high) {
@@ -242,6 +241,11 @@ class Locator {
 
  private:
   static constexpr double kClear = 100;  // steps of a tangent, nearer than which a kink may be in it
+  static BranchPosition last_beyond(const std::vector<Between>& found, double end, double reach) {
+    const auto clear = std::find_if(found.rbegin(), found.rend(),
+                                    [&](const Between& p) { return std::abs(p.share - end) >= reach; });
+    return (clear == found.rend() ? found.front() : *clear).position;
+  }
   // On the arc between two points. The sequence of contacts needs no tangent.
   std::optional<Between> find(const Between& low, const Between& high, double share, bool tangent) {
     constexpr double kEven = 0.5;  // ratio of the tangents' parameter components
@@ -312,8 +316,8 @@ void look_between(Curve& curve, const CurvePoint& from, const CurvePoint& to, co
   const auto add = [&](Special kind, const Locator::Test& test) {
     const Locator::Bracket bracket = locator.between(low, high, test, kind == Special::fold);
     const BranchPosition &l = bracket.low.position, &h = bracket.high.position;
-    const auto [before, after] = bracket.smooth ? std::pair(l, h) : locator.clear_of_kink(low, high, bracket);
-    found.push_back(special_at(kind, bracket.low_is_nearer() ? l : h, before, after, after_point));
+    found.push_back(
+        special_at(kind, bracket.low_is_nearer() ? l : h, bracket.before, bracket.after, after_point));
     found.back().smooth = bracket.smooth;
     found.back().width = std::abs(h.parameter - l.parameter);
   };
