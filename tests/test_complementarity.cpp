@@ -180,11 +180,14 @@ TEST_CASE(
   const VectorXd e{{-1, -2}};
   VectorXd p(2), d(2);
   ComplementaritySolver solver;
-  ActiveSet both;
-  both.strips = {0, 1};
-  for (int again = 0; again < 2; ++again)  // the second time with the kept inverse of the shifted block
+  for (const bool kept : {false, true}) {  // with the kept inverse of the shifted block, or from the set alone
+    ActiveSet both;
+    both.strips = {0, 1};
+    if (kept) ComplementaritySolver(Singular::shift).solve(a, e, both, p, d);
+    CHECK(both.known == kept);
     CHECK_THROWS_WITH_AS(solver.solve(a, e, both, p, d),
                          doctest::Contains("the 2 strips that touch is singular to round-off"), Error);
+  }
   // One of them alone carries it as well: the set that block pivoting finds needs no shift.
   ActiveSet one;
   one.strips = {1};
