@@ -659,14 +659,14 @@ if [ "$(contents)" = "$kept" ]; then ok "the next run makes the same artifact an
   wrong "the next run makes the same artifact and removes what killed runs left" "$(find out -name '*.tmp*' | tr '\n' ' ')"; fi
 # A limit on the size of files stands for a full disk: the write fails half-way with an error, as on a full one.
 for name in gear-mesh gear-reduce gear-static gear-loaded gear-impact gear-sweep gear-orbit gear-folds gear-lumped gear-spectra gear-modes gear-system-static gear-system-sweep gear-system-impact gear-system-orbit gear-plot; do
-  before=$(untouched)
+  before=$(contents)
   (ulimit -f 8; trap '' XFSZ; exec ${whole[$name]}) > /dev/null 2> said
   status=$?
   leftover=$(find . -name '*.tmp*' | head -n 1)
   lines=$(wc -l < said)
   if [ $status != 4 ] || [ "$lines" != 1 ] || ! grep -q "^$name: error: " said; then wrong "$name on a full disk" "status $status: $(head -n 2 said | tr '\n' '|')"
   elif [ -n "$leftover" ]; then wrong "$name on a full disk" "leaves $leftover"
-  elif [ "$(untouched)" != "$before" ]; then wrong "$name on a full disk" "files have changed"
+  elif [ "$(contents)" != "$before" ]; then wrong "$name on a full disk" "files have changed"
   else ok "$name on a full disk says so, and what was there stays"; fi
 done
 touch file
