@@ -6,11 +6,10 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/units.h"
 
 namespace whine {
 namespace {
-
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 // rad: of the root curve's tangent against the centre line.
 double tangent_angle(const ToothGeometry& gear, double t) {
@@ -60,9 +59,9 @@ Slit crack_slit(const ToothGeometry& gear) {
   double low = 1e-4, high = gear.root_corner() - 1e-4;
   const double first = tangent_angle(gear, low), last = tangent_angle(gear, high);
   if (!(crack.start > first && crack.start < last))
-    fail(Failure::input, "crack: start_deg = ", crack.start * kDegrees,
-         " is not on the fillet of this tooth, whose tangent makes ", first * kDegrees, " to ",
-         last * kDegrees, " deg with the centre line");
+    fail(Failure::input, "crack: start_deg = ", crack.start * kInDegrees,
+         " is not on the fillet of this tooth, whose tangent makes ", first * kInDegrees, " to ",
+         last * kInDegrees, " deg with the centre line");
   for (int i = 0; i < 60; ++i) {
     const double t = 0.5 * (low + high);
     (tangent_angle(gear, t) < crack.start ? low : high) = t;
@@ -84,14 +83,14 @@ Slit crack_slit(const ToothGeometry& gear) {
   }
   const std::string where = outside(gear, slit.mouth + beyond * direction);
   if (inside < step)
-    fail(Failure::input, "crack: angle_deg = ", crack.angle * kDegrees,
-         " does not lead into the tooth at start_deg = ", crack.start * kDegrees,
-         "; 90 - start_deg = ", 90 - crack.start * kDegrees, " is square to the fillet");
+    fail(Failure::input, "crack: angle_deg = ", crack.angle * kInDegrees,
+         " does not lead into the tooth at start_deg = ", crack.start * kInDegrees,
+         "; 90 - start_deg = ", 90 - crack.start * kInDegrees, " is square to the fillet");
   const double longest = inside - 0.25 * module;
   if (crack.depth > longest)
     fail(Failure::input, "crack: depth_mm = ", crack.depth * 1e3, " is ",
          crack.depth >= inside ? "longer than the tooth: " : "too long: ", "at angle_deg = ",
-         crack.angle * kDegrees, " the slit comes to ", where, " after ", inside * 1e3,
+         crack.angle * kInDegrees, " the slit comes to ", where, " after ", inside * 1e3,
          " mm, and a quarter of a module must be left; at most ", longest * 1e3, " mm");
   slit.tip = slit.mouth + crack.depth * direction;
   return slit;

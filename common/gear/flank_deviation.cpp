@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "gear/flank_kink.h"
 
 namespace whine {
@@ -13,10 +14,8 @@ using Eigen::Vector2d;
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 std::string degrees(double roll) {
-  return text(roll / kDegree, " deg");
+  return text(roll / kOneDegree, " deg");
 }
 
 // rad: where a relief starts. end: "tip" or "root"; `towards`: its end on the flank.
@@ -40,7 +39,7 @@ double start_of(const ToothGeometry& gear, const Relief& relief, const std::stri
     return towards + (towards == gear.largest_roll_angle() ? -1 : 1) * relief.length / rb;
   }
   if (!(relief.start_roll >= gear.least_roll_angle() && relief.start_roll <= gear.largest_roll_angle()))
-    fail(Failure::input, end, "_relief_start_deg = ", relief.start_roll / kDegree,
+    fail(Failure::input, end, "_relief_start_deg = ", relief.start_roll / kOneDegree,
          " does not lie on the involute, which goes from roll angle ", from, "; start the relief on it");
   return relief.start_roll;
 }
@@ -109,7 +108,7 @@ FlankDeviation::FlankDeviation(const ToothGeometry& gear, const FlankModificatio
       fail(Failure::input, part.end == tip_ ? "tip" : "root", "_relief_um = ", part.amount * 1e6,
            " starts at the very end of the involute, ", degrees(part.end), "; start it before");
   if (!m.points.empty()) {
-    constexpr double kRounding = 0.01 * kDegree;  // of tables that are printed
+    constexpr double kRounding = 0.01 * kOneDegree;  // of tables that are printed
     for (const auto& [roll, removed] : m.points)
       if (roll < gear.least_roll_angle() - kRounding || roll > gear.largest_roll_angle() + kRounding)
         fail(Failure::input, "points: the roll angle ", degrees(roll),

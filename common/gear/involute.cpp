@@ -1,18 +1,14 @@
 #include "gear/involute.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "gear/numbers.h"
 
 namespace whine {
 
 namespace {
-constexpr double kPi = std::numbers::pi;
-double involute_function(double angle) {
-  return std::tan(angle) - angle;
-}
 Vec2 polar(double r, double angle) {
   return {r * std::cos(angle), r * std::sin(angle)};
 }

@@ -23,6 +23,11 @@ namespace whine {
 
 using Vec2 = Eigen::Vector2d;
 
+// inv alpha.
+inline double involute_function(double angle) {
+  return std::tan(angle) - angle;
+}
+
 class ToothGeometry {
  public:
   // Throws Error(input) for a gear that cannot exist: undercut into the flank, tip thickness below zero, bore

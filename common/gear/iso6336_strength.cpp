@@ -2,20 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/error.h"
+#include "base/units.h"
 
 namespace whine {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-double involute_function(double angle) {
-  return std::tan(angle) - angle;
-}
-
-void require_external(const GearPair& pair) {
+void require_external_pair(const GearPair& pair) {
   if (pair.internal())
     fail(Failure::input,
          "the formulas of ISO 6336-3, method B, are used here for external gears only, and gear ",
@@ -37,7 +31,7 @@ double outer_single_contact(const GearPair& pair, int g) {
 }  // namespace
 
 IsoRoot iso_6336_root(const GearPair& pair, int g) {
-  require_external(pair);
+  require_external_pair(pair);
   require_two_pairs(pair, "the root stress of ISO 6336-3, method B,");
   const ToothGeometry& tooth = pair.gear(g);
   const GearDesign& d = tooth.design();
@@ -87,7 +81,7 @@ double iso_6336_root_stress(const GearPair& pair, int g, double tangential_force
 
 double iso_6336_flank_pressure(const GearPair& pair, const std::array<Material, 2>& material,
                                double tangential_force) {
-  require_external(pair);
+  require_external_pair(pair);
   require_two_pairs(pair, "the flank pressure of ISO 6336-2");
   const int pinion = pair.gear(0).design().teeth <= pair.gear(1).design().teeth ? 0 : 1;
   const GearDesign &d1 = pair.gear(pinion).design(), &d2 = pair.gear(1 - pinion).design();

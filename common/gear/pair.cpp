@@ -7,13 +7,13 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "gear/internal_mesh.h"
 #include "gear/numbers.h"
 
 namespace whine {
 
 namespace {
-constexpr double kPi = std::numbers::pi;
 
 Vec2 rotated(const Vec2& v, double tilt) {  // components of v along tangent (cos, -sin) and normal (sin, cos)
   return {v.x() * std::cos(tilt) - v.y() * std::sin(tilt), v.x() * std::sin(tilt) + v.y() * std::cos(tilt)};

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/error.h"
+#include "base/units.h"
 
 namespace whine {
 namespace {
-
-constexpr double kPi = std::numbers::pi, kDegrees = 180 / kPi;
 
 template <class... Parts>
 [[noreturn]] void reject(const char* section, size_t number, const Parts&... parts) {
@@ -140,7 +138,7 @@ class Layout {
     for (double& position : positions_[c]) {
       const double step = (position - first) * steps / (2 * kPi), whole = nearest_step(step);
       const double assembled = first + whole * 2 * kPi / steps;
-      nearest += text(nearest.empty() ? "" : ", ", std::round(assembled * kDegrees * 1e4) / 1e4);
+      nearest += text(nearest.empty() ? "" : ", ", std::round(assembled * kInDegrees * 1e4) / 1e4);
       fits = fits && std::abs(step - whole) <= (carrier.planets > 0 ? 1e-9 : kPositionDigits);
       position = assembled;
     }

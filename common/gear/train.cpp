@@ -1,14 +1,12 @@
 #include "gear/train.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "base/error.h"
+#include "base/units.h"
 
 namespace whine {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // rad, counter-clockwise from tooth 0: of its flank where that meets the pitch circle of a mesh.
 double flank_angle(const GearPair& pair, int side, FlankSide flank) {
