@@ -17,7 +17,7 @@ bool of_other_kind(const BranchMotion& a, const BranchMotion& b) {
   return a.multiple > 0 && b.multiple > 0 && a.multiple != b.multiple;
 }
 
-double level(const BranchMotion& m) {
+double motion_level(const BranchMotion& m) {
   return std::log(std::max(m.rms, std::numeric_limits<double>::min()));
 }
 
@@ -26,11 +26,11 @@ double level(const BranchMotion& m) {
 double departure(const BranchMotion* before, const BranchMotion& a, const BranchMotion& b,
                  const BranchMotion* after) {
   if (of_other_kind(a, b)) return std::numeric_limits<double>::infinity();
-  const double width = b.mesh_frequency - a.mesh_frequency, change = level(b) - level(a);
+  const double width = b.mesh_frequency - a.mesh_frequency, change = motion_level(b) - motion_level(a);
   const auto predicted = [&](const BranchMotion& c, const BranchMotion& d) {
     return of_other_kind(c, d) || c.mesh_frequency == d.mesh_frequency
                ? 0
-               : (level(d) - level(c)) / (d.mesh_frequency - c.mesh_frequency) * width;
+               : (motion_level(d) - motion_level(c)) / (d.mesh_frequency - c.mesh_frequency) * width;
   };
   const double on = before ? predicted(*before, a) : 0;
   if (!after) return std::abs(change - on);
@@ -55,7 +55,7 @@ bool is_smooth(const std::vector<BranchMotion>& sweep, size_t i) {
     if (of_other_kind(a, b) ||
         !(std::abs(b.mesh_frequency - a.mesh_frequency - step) < 1e-6 * std::abs(step)))
       return false;
-    change[k] = level(b) - level(a);
+    change[k] = motion_level(b) - motion_level(a);
   }
   // As in departure().
   const double most = 2 * std::abs(change[2]), on = (4 * change[1] - change[0]) / 3,
@@ -66,7 +66,7 @@ bool is_smooth(const std::vector<BranchMotion>& sweep, size_t i) {
 // Hz: where the branch of three motions folds back, if they point to one: the speed as a quadratic of the level has its
 // end ahead.
 std::optional<double> fold_ahead(const BranchMotion& a, const BranchMotion& b, const BranchMotion& c) {
-  const double step = level(c) - level(b), before = level(b) - level(a);
+  const double step = motion_level(c) - motion_level(b), before = motion_level(b) - motion_level(a);
   if (!(step * before > 0)) return std::nullopt;
   const double rate = (c.mesh_frequency - b.mesh_frequency) / step,
                bend = (rate - (b.mesh_frequency - a.mesh_frequency) / before) / (step + before);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "signal/spectrum.h"
 
 namespace whine {
@@ -14,8 +15,6 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 using Ref = Eigen::Ref<const VectorXd>;
-
-constexpr double kTwoPi = 2 * std::numbers::pi;
 
 double hann(double share) {  // 0 to 1 over the window
   return 0.5 - 0.5 * std::cos(kTwoPi * share);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "signal/spectrum.h"
 
 namespace whine {
@@ -14,8 +15,6 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 namespace {
-
-constexpr double kTwoPi = 2 * std::numbers::pi;
 
 void require_record(const Eigen::Ref<const VectorXd>& record) {
   if (record.size() < 2) fail(Failure::input, "sound: ", record.size(), " samples; two are the least");

@@ -29,12 +29,12 @@ Edge edge_of(int a, int b) {
 }
 
 // A side of an element, counter-clockwise around it.
-struct Side {
+struct DirectedSide {
   int from = 0, to = 0, middle = -1;
 };
 
-std::vector<Side> sides(const MeshArtifact& mesh, Index e) {
-  std::vector<Side> four(4);
+std::vector<DirectedSide> sides(const MeshArtifact& mesh, Index e) {
+  std::vector<DirectedSide> four(4);
   for (int k = 0; k < 4; ++k)
     four[static_cast<size_t>(k)] = {mesh.element_node(e, k), mesh.element_node(e, (k + 1) % 4),
                                     mesh.element_node.cols() == 9 ? mesh.element_node(e, 4 + k) : -1};
@@ -69,26 +69,26 @@ std::vector<double> graded_places(double length, const Size& size) {
 
 // The elements that give way, and the loop of sides around them.
 struct Hole {
-  std::vector<char> taken;  // (element)
-  std::vector<Side> loop;   // counter-clockwise; starts where the cracked side's root curve begins
-  size_t root_sides = 0;    // the first so many lie on that root curve, from the flank to the tooth space
+  std::vector<char> taken;         // (element)
+  std::vector<DirectedSide> loop;  // counter-clockwise; starts where the cracked side's root curve begins
+  size_t root_sides = 0;  // the first so many lie on that root curve, from the flank to the tooth space
 };
 
 Hole find_hole(const MeshArtifact& mesh, const Slit& slit, double reach) {
   std::map<Edge, int> owners;
   for (Index e = 0; e < mesh.element_node.rows(); ++e)
-    for (const Side& side : sides(mesh, e)) ++owners[edge_of(side.from, side.to)];
+    for (const DirectedSide& side : sides(mesh, e)) ++owners[edge_of(side.from, side.to)];
   const std::set<int> flank(mesh.flank_node.begin(), mesh.flank_node.end()),
       bore(mesh.bore_node.begin(), mesh.bore_node.end());
   std::set<int> edge;
   for (Index i = 0; i < mesh.side_node.size(); ++i) edge.insert(mesh.side_node.data()[i]);
   const double form = mesh.node_position.row(mesh.flank_node[0]).norm();
   const auto at = [&](int node) -> Vec2 { return mesh.node_position.row(node); };
-  const auto both_in = [](const Side& s, const std::set<int>& set) {
+  const auto both_in = [](const DirectedSide& s, const std::set<int>& set) {
     return set.contains(s.from) && set.contains(s.to);
   };
-  const auto on_boundary = [&](const Side& s) { return owners.at(edge_of(s.from, s.to)) == 1; };
-  const auto on_root = [&](const Side& s) {
+  const auto on_boundary = [&](const DirectedSide& s) { return owners.at(edge_of(s.from, s.to)) == 1; };
+  const auto on_root = [&](const DirectedSide& s) {
     const Vec2 middle = 0.5 * (at(s.from) + at(s.to));
     return on_boundary(s) && middle.x() < 0 && middle.norm() < form && !both_in(s, flank) &&
            !both_in(s, edge) && !both_in(s, bore);
@@ -96,13 +96,13 @@ Hole find_hole(const MeshArtifact& mesh, const Slit& slit, double reach) {
 
   Hole hole;
   hole.taken.assign(static_cast<size_t>(mesh.element_node.rows()), 0);
-  std::map<int, Side> next;  // by the node where the side starts
+  std::map<int, DirectedSide> next;  // by the node where the side starts
   std::map<Edge, int> taken_owners;
   for (Index e = 0; e < mesh.element_node.rows(); ++e) {
     double distance = std::numeric_limits<double>::infinity();
     Vec2 centre = Vec2::Zero();
     bool other_boundary = false;
-    for (const Side& side : sides(mesh, e)) {
+    for (const DirectedSide& side : sides(mesh, e)) {
       distance = std::min(distance, distance_to_segment(at(side.from), slit.mouth, slit.tip));
       centre += 0.25 * at(side.from);
       other_boundary = other_boundary || (on_boundary(side) && !on_root(side));
@@ -110,16 +110,16 @@ Hole find_hole(const MeshArtifact& mesh, const Slit& slit, double reach) {
     distance = std::min(distance, distance_to_segment(centre, slit.mouth, slit.tip));
     if (distance > reach || other_boundary) continue;
     hole.taken[static_cast<size_t>(e)] = 1;
-    for (const Side& side : sides(mesh, e)) ++taken_owners[edge_of(side.from, side.to)];
+    for (const DirectedSide& side : sides(mesh, e)) ++taken_owners[edge_of(side.from, side.to)];
   }
   for (Index e = 0; e < mesh.element_node.rows(); ++e) {
     if (!hole.taken[static_cast<size_t>(e)]) continue;
-    for (const Side& side : sides(mesh, e))
+    for (const DirectedSide& side : sides(mesh, e))
       if (taken_owners.at(edge_of(side.from, side.to)) == 1 && !next.emplace(side.from, side).second)
         fail(Failure::numerical, "the elements around the crack do not form one patch; change element_mm");
   }
   // Counter-clockwise around the material the root curve of the leading flank runs from the tip to the tooth space.
-  std::vector<const Side*> first;
+  std::vector<const DirectedSide*> first;
   for (const auto& [node, side] : next)
     if (on_root(side)) {
       const auto before =
@@ -129,7 +129,7 @@ Hole find_hole(const MeshArtifact& mesh, const Slit& slit, double reach) {
   if (first.size() != 1)
     fail(Failure::numerical, "the elements around the crack meet the fillet ", first.size(),
          " times, once is needed; change element_mm");
-  Side side = *first[0];
+  DirectedSide side = *first[0];
   for (size_t i = 0; i < next.size(); ++i) {
     hole.loop.push_back(side);
     if (on_root(side)) ++hole.root_sides;
@@ -317,7 +317,7 @@ Polygon polygon_of(const ToothGeometry& tooth, const Slit& slit, const Hole& hol
   const MeshArtifact& sector = mesh.sector;
   const double h = sector.discretisation.element_size;
   const auto root = [&tooth](double t) { return tooth.root_point(t); };
-  const auto length_of = [&](const Side& s) -> double {
+  const auto length_of = [&](const DirectedSide& s) -> double {
     return (sector.node_position.row(s.from) - sector.node_position.row(s.to)).norm();
   };
   const auto root_parameter = [&](int node) {

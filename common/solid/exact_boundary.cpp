@@ -4,14 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <tuple>
 #include <utility>
 
+#include "base/units.h"
+
 namespace whine {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // How far the middle of each element side lies off its chord. The bulge of a curved boundary is handed on
 // from layer to layer, fading out, because a thin element with one curved and one straight long side would be

@@ -3,26 +3,24 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <set>
 #include <utility>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "solid/half_plane.h"
 
 namespace whine {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // A side of an element on the boundary of the tooth region, node order counter-clockwise around the region.
-struct Side {
+struct RegionSide {
   std::vector<int> node;  // 2, or 3: start, end, middle
   bool cut = false;       // borders on the rest of the gear; otherwise free
   bool flank = false;     // on the driving flank
 };
 
-std::vector<Side> sides_of_tooth_region(const MeshArtifact& mesh) {
+std::vector<RegionSide> sides_of_tooth_region(const MeshArtifact& mesh) {
   const std::set<int> flank(mesh.flank_node.begin(), mesh.flank_node.end());
   std::set<int> edge;
   for (Eigen::Index i = 0; i < mesh.side_node.size(); ++i) edge.insert(mesh.side_node.data()[i]);
@@ -39,11 +37,11 @@ std::vector<Side> sides_of_tooth_region(const MeshArtifact& mesh) {
       auto& [tooth, rest] = count[std::minmax(node[0], node[1])];
       ++(mesh.element_region[e] == 1 ? tooth : rest);
     }
-  std::vector<Side> sides;
+  std::vector<RegionSide> sides;
   for (Eigen::Index e = 0; e < mesh.element_node.rows(); ++e) {
     if (mesh.element_region[e] != 1) continue;
     for (int k = 0; k < 4; ++k) {
-      Side side{element_side(e, k)};
+      RegionSide side{element_side(e, k)};
       if (side.node[0] == side.node[1]) continue;
       const auto [tooth, rest] = count.at(std::minmax(side.node[0], side.node[1]));
       if (tooth == 2) continue;
@@ -67,7 +65,7 @@ class TractionIntegral {
       roll_[mesh.flank_node[i]] = mesh.flank_roll_angle[i];
   }
 
-  void add(const Side& side, const Vec2& load, const LineLoadField& field,
+  void add(const RegionSide& side, const Vec2& load, const LineLoadField& field,
            Eigen::Ref<Eigen::VectorXd> force) const {
     add(side, load, field, -1, 1, 0, force);
   }
@@ -76,7 +74,7 @@ class TractionIntegral {
   struct Place {
     Vec2 point, outward;  // outward: times the length per unit of a
   };
-  Place place(const Side& side, double a) const {
+  Place place(const RegionSide& side, double a) const {
     const size_t n = side.node.size();
     if (side.flank) {  // the exact involute: the half-plane's traction next to the load knows the difference
       const double from = roll_.at(side.node[0]), to = roll_.at(side.node[1]);
@@ -93,8 +91,8 @@ class TractionIntegral {
     }
     return {point, {along.y(), -along.x()}};
   }
-  void add(const Side& side, const Vec2& load, const LineLoadField& field, double from, double to, int depth,
-           Eigen::Ref<Eigen::VectorXd> force) const {
+  void add(const RegionSide& side, const Vec2& load, const LineLoadField& field, double from, double to,
+           int depth, Eigen::Ref<Eigen::VectorXd> force) const {
     const Vec2 start = place(side, from).point, end = place(side, to).point,
                middle = place(side, 0.5 * (from + to)).point;
     const double length = (end - start).norm();
@@ -273,7 +271,7 @@ FlankLoads make_flank_loads(const MeshArtifact& mesh, const Material& material, 
   const double thickness = mesh.design.face_width;
   const Eigen::Index nodes = mesh.node_position.rows(), loads = xi.size();
 
-  const std::vector<Side> sides = sides_of_tooth_region(mesh);
+  const std::vector<RegionSide> sides = sides_of_tooth_region(mesh);
   std::vector<char> in_region(static_cast<size_t>(mesh.element_node.rows()));
   std::vector<char> holds_rest(static_cast<size_t>(nodes), 0);  // nodes where the unknown is w
   std::vector<char> on_cut(static_cast<size_t>(nodes), 0);
@@ -283,7 +281,7 @@ FlankLoads make_flank_loads(const MeshArtifact& mesh, const Material& material, 
       for (Eigen::Index k = 0; k < mesh.element_node.cols(); ++k)
         holds_rest[static_cast<size_t>(mesh.element_node(e, k))] = 1;
   }
-  for (const Side& side : sides)
+  for (const RegionSide& side : sides)
     if (side.cut)
       for (int node : side.node) {
         on_cut[static_cast<size_t>(node)] = 1;
@@ -299,7 +297,7 @@ FlankLoads make_flank_loads(const MeshArtifact& mesh, const Material& material, 
     const Vec2 load = tooth.flank_point(xi[j]);
     const LineLoadField field(load, tooth.flank_normal(xi[j]), moduli, thickness, kReferenceDepth);
     Eigen::VectorXd traction = Eigen::VectorXd::Zero(2 * nodes), cut = Eigen::VectorXd::Zero(2 * nodes);
-    for (const Side& side : sides) integral.add(side, load, field, traction);
+    for (const RegionSide& side : sides) integral.add(side, load, field, traction);
     for (Eigen::Index i = 0; i < nodes; ++i) {
       const Vec2 p = mesh.node_position.row(i);
       if (on_cut[static_cast<size_t>(i)]) cut.segment<2>(2 * i) = field.displacement(p);

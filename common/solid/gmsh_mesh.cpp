@@ -5,16 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <string>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "solid/sector_plan.h"
 
 namespace whine {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kGmshScale = 1e3;  // gmsh works in millimetres: its tolerances are meant for numbers near 1
 
 // A gmsh session with nothing read from the user's settings and nothing printed.

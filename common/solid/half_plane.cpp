@@ -1,13 +1,10 @@
 #include "solid/half_plane.h"
 
 #include <cmath>
-#include <numbers>
+
+#include "base/units.h"
 
 namespace whine {
-
-namespace {
-constexpr double kPi = std::numbers::pi;
-}
 
 double flat_surface_displacement(double x, const PlaneModuli& moduli, double thickness, double depth) {
   const double nu = moduli.poisson_ratio;

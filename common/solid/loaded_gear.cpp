@@ -6,9 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "solid/half_plane.h"
 #include "solid/reduce.h"
 
@@ -21,7 +21,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 using Complex = std::complex<double>;
 
 // What presses on one tooth, and the half-planes' field of all of it.

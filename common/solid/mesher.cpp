@@ -6,11 +6,11 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <numbers>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "gear/involute.h"
 #include "solid/crack.h"
 #include "solid/elements.h"
@@ -18,8 +18,6 @@
 
 namespace whine {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 using Elements = std::vector<std::array<int, 9>>;  // of four nodes the first four
 

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <numbers>
 
 #include "base/dense.h"
 #include "base/error.h"
 #include "base/progress.h"
+#include "base/units.h"
 #include "solid/crack.h"
 #include "solid/flank_table.h"
 #include "solid/mesher.h"
@@ -20,7 +20,6 @@
 namespace whine {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kDrawnModes = 16;  // modes shown in ParaView; each costs megabytes
 // Unknowns of a harmonic for every mode: ten seconds and 0.2 GB a harmonic at the limit, growing as cube and square.
 constexpr int kMostDense = 1500;

@@ -2,15 +2,14 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "base/error.h"
+#include "base/units.h"
 
 namespace whine {
 
 namespace {
-constexpr double kPi = std::numbers::pi;
 using Complex = std::complex<double>;
 }  // namespace
 

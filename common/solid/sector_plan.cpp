@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "base/units.h"
 
 namespace whine {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 // q such that first (1 + q + ... + q^(n-1)) = length; at least 1, so `first` is an upper limit.
 double growth_ratio(double first, double length, int n) {
