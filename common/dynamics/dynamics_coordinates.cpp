@@ -7,17 +7,12 @@
 
 #include "base/dense.h"
 #include "base/error.h"
+#include "base/units.h"
 
 namespace whine {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-namespace {
-
-constexpr double kTwoPi = 2 * std::numbers::pi;
-
-}  // namespace
 
 RollingDynamics::RollingDynamics(const GearMeshModel& model, const DynamicParameters& parameters)
     : model_(model),

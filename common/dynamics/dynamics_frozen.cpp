@@ -4,10 +4,10 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/dense.h"
 #include "base/error.h"
+#include "base/units.h"
 
 namespace whine {
 
@@ -16,7 +16,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kTwoPi = 2 * std::numbers::pi;
 constexpr double kCounts = 0.1;  // share of the largest energy that makes a mode count, as in fit_decay
 
 }  // namespace

@@ -26,7 +26,7 @@ constexpr int kSteps = 512, kSamples = 32, kOscillations = 8;
 // RMS of what no damped exponentials explain, over the RMS of the decay. Where contact stays as it is, the pair is linear and leaves
 // 5e-9, as many exponentials as its samples show; below this bound the damping ratio is that of the eigenvalue to 3e-5 of itself,
 // above it round-off in the samples (a torque step below 1e-9) moves it.
-constexpr double kMostResidual = 1e-5;
+constexpr double kMostFitResidual = 1e-5;
 // Where a strip opens or closes, the decay is no sum of exponentials; 80 of them fit it to 1e-7 with ratios that are meaningless. Of
 // 30000 such decays (100 to 300 N m, 1e-6 to 0.5 of it let go) those that this many fit to the same bound had the damping ratio
 // of the eigenvalue within 0.5 %, the others were up to 31 % off.
@@ -280,7 +280,7 @@ class FixedPhasePair {
         trace.contact_changes > 0
             ? fit_decay(trace.transmission_error, step_ * kSteps / kSamples, mesh.near, kMostExponentials)
             : fit_decay(trace.transmission_error, step_ * kSteps / kSamples, mesh.near);
-    if (!(fit.residual <= kMostResidual)) fail_unresolved(mesh, trace, fit);
+    if (!(fit.residual <= kMostFitResidual)) fail_unresolved(mesh, trace, fit);
     return {std::move(trace), fit};
   }
 
@@ -288,8 +288,8 @@ class FixedPhasePair {
                                     const Decay& fit) const {
     const std::string found =
         text("at mesh phase ", mesh.phase, " ", fit.exponentials, " damped exponentials leave ", fit.residual,
-             " of the decay, above ", kMostResidual, ", and its damping ratio is not certain (the fit's is ",
-             fit.root.damping_ratio, "): ");
+             " of the decay, above ", kMostFitResidual,
+             ", and its damping ratio is not certain (the fit's is ", fit.root.damping_ratio, "): ");
     if (trace.contact_changes > 0)
       fail(Failure::numerical, found, "contact comes and goes in it, strips open or close in ",
            trace.contact_changes, " of its steps; take a torque step smaller than ", plan_.torque_step);

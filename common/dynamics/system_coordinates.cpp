@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/dense.h"
 #include "base/error.h"
+#include "base/units.h"
 #include "system/rigid_system.h"
 
 namespace whine {
@@ -16,7 +16,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kTwoPi = 2 * std::numbers::pi;
 constexpr double kNull = 1e-12;  // of the largest: squared approach of a rolling
 
 std::vector<int> free_of(const SystemModel& system) {
@@ -46,7 +45,7 @@ MatrixXd approaches(const SystemModel& system, const std::vector<int>& free) {
   return out;
 }
 
-const System::Body& placed(const SystemModel& system, int b) {
+const System::Body& placed_body(const SystemModel& system, int b) {
   return system.layout.bodies[static_cast<size_t>(b)];
 }
 
@@ -98,7 +97,7 @@ class Builder {
     out_.rolling = MatrixXd::Zero(bodies, static_cast<Index>(null.size()));
     for (size_t i = 0; i < free.size(); ++i) {
       const int b = free[i];
-      const double unit = 1 / std::sqrt(placed(system_, b).inertia);
+      const double unit = 1 / std::sqrt(placed_body(system_, b).inertia);
       const auto row = static_cast<Index>(i);
       for (size_t c = 0; c < kept.size(); ++c)
         out_.rotation(b, static_cast<Index>(c)) = unit * eigen.vectors(row, kept[c]);
@@ -118,7 +117,7 @@ class Builder {
   // Columns of the body's modes that move by themselves.
   std::vector<int> kept_of(int b) const {
     const BodyArtifact& body = system_.body[static_cast<size_t>(b)]->body();
-    const bool turns = !system_.layout.held(b), sways = placed(system_, b).bearing.elastic();
+    const bool turns = !system_.layout.held(b), sways = placed_body(system_, b).bearing.elastic();
     int torsional = -1, swaying = -1;
     for (int i = static_cast<int>(body.eigenfrequency.size()) - 1; i >= 0; --i) {
       if (body.nodal_diameter[i] == 0 &&
@@ -127,10 +126,10 @@ class Builder {
       if (body.nodal_diameter[i] == 1) swaying = i;
     }
     if ((turns && torsional < 0) || (sways && swaying < 0))
-      fail(Failure::input, "the body of '", placed(system_, b).name, "' holds ", body.eigenfrequency.size(),
-           " modes and none of them has ", turns && torsional < 0 ? "zero" : "one",
-           " nodal diameters, as a gear that ", turns && torsional < 0 ? "turns" : "stands on a bearing",
-           " needs; raise modes in [fidelity]");
+      fail(Failure::input, "the body of '", placed_body(system_, b).name, "' holds ",
+           body.eigenfrequency.size(), " modes and none of them has ",
+           turns && torsional < 0 ? "zero" : "one", " nodal diameters, as a gear that ",
+           turns && torsional < 0 ? "turns" : "stands on a bearing", " needs; raise modes in [fidelity]");
     std::vector<int> out;
     for (int i = 0; i < body.eigenfrequency.size(); ++i) {
       const bool first =
@@ -147,7 +146,7 @@ class Builder {
     SystemCoordinates::Share share;
     share.first = static_cast<int>(frequency_.size());
     share.kept = kept_of(b);
-    const bool turns = !system_.layout.held(b), sways = placed(system_, b).bearing.elastic();
+    const bool turns = !system_.layout.held(b), sways = placed_body(system_, b).bearing.elastic();
     std::vector<Index> torsional, swaying, others;  // rows of `columns`
     for (size_t i = 0; i < share.kept.size(); ++i) {
       const int diameters = body.nodal_diameter[share.kept[i]];
@@ -168,7 +167,7 @@ class Builder {
       const double w = kTwoPi * body.eigenfrequency[column];
       share.columns(others[i], here - share.first) = 1;
       // Shape on tooth t: Re((q_c - i q_s) exp(i a t) phi); teeth are renamed t + sense.
-      const double turn = -placed(system_, b).sense * gear.tooth_angle(column);
+      const double turn = -placed_body(system_, b).sense * gear.tooth_angle(column);
       if (partner == column + 1)
         out_.turns.push_back({here, here + 1, std::cos(turn), std::sin(turn)});
       else if (partner == column && body.nodal_diameter[column] > 0)
@@ -180,7 +179,7 @@ class Builder {
 
   void add_torsion(int b, const std::vector<Index>& rows, SystemCoordinates::Share& share) {
     const BodyArtifact& body = system_.body[static_cast<size_t>(b)]->body();
-    const System::Body& at = placed(system_, b);
+    const System::Body& at = placed_body(system_, b);
     const auto k = static_cast<Index>(rows.size());
     MatrixXd mass = MatrixXd::Identity(k + 1, k + 1), stiffness = MatrixXd::Zero(k + 1, k + 1);
     mass(0, 0) = at.inertia;
@@ -205,7 +204,7 @@ class Builder {
 
   void add_sway(int b, const std::vector<Index>& rows, SystemCoordinates::Share& share) {
     const BodyArtifact& body = system_.body[static_cast<size_t>(b)]->body();
-    const System::Body& at = placed(system_, b);
+    const System::Body& at = placed_body(system_, b);
     const Bearing& bearing = at.bearing;
     const double own_mass = bearing.mass > 0 ? bearing.mass : body.mass;
     if (body.design.internal)
@@ -270,7 +269,7 @@ VectorXd SystemCoordinates::participation(const SystemModel& system, int b, cons
   const Share& own = body[static_cast<size_t>(b)];
   const ElasticGear& gear = *system.body[static_cast<size_t>(b)];
   const BodyArtifact& modes = gear.body();
-  const System::Body& at = placed(system, b);
+  const System::Body& at = placed_body(system, b);
   const Eigen::RowVectorXd shape =
       weights * (flank.side == FlankSide::leading ? modes.flank_mode : modes.back_flank_mode);
   VectorXd on(static_cast<Index>(own.kept.size()));

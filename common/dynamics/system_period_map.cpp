@@ -12,10 +12,9 @@ namespace whine {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using State = SystemDynamics::State;
 
 SystemPeriodMap::SystemPeriodMap(SystemDynamics& dynamics, int steps) : dynamics_(dynamics), steps_(steps) {
-  const State rest = dynamics.rest();
+  const SystemDynamics::State rest = dynamics.rest();
   const Index n = rest.z.size(), loads = rest.relaxed.size(), slots = rest.p.size();
   const double scale = std::sqrt(2 * dynamics.energy(rest));
   unit_.resize(2 * n + loads + slots);
@@ -40,13 +39,13 @@ void SystemPeriodMap::set_parameter(double mesh_frequency) {
   applied_ = false;
 }
 
-VectorXd SystemPeriodMap::flat(const State& state) const {
+VectorXd SystemPeriodMap::flat(const SystemDynamics::State& state) const {
   VectorXd y(unit_.size());
   y << state.z, state.v, state.relaxed, state.p;
   return y.cwiseQuotient(unit_);
 }
 
-State SystemPeriodMap::state(const VectorXd& y) const {
+SystemDynamics::State SystemPeriodMap::state(const VectorXd& y) const {
   if (y.size() != unit_.size())
     fail(Failure::numerical, "a state of ", y.size(), " numbers does not fit positions with ", unit_.size());
   const VectorXd own = y.cwiseProduct(unit_);
@@ -55,7 +54,7 @@ State SystemPeriodMap::state(const VectorXd& y) const {
 }
 
 VectorXd SystemPeriodMap::apply(const VectorXd& y) {
-  State state = this->state(y);
+  SystemDynamics::State state = this->state(y);
   applied_ = left_last_ = false;
   for (int k = 0; k < dynamics_.hunting_periods(); ++k)
     if (!dynamics_.integrate(state, period_)) {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "gear/pair.h"
 #include "gear/system_layout.h"
 #include "gear/tooth_contour.h"
@@ -15,8 +15,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kPi = std::numbers::pi;
-constexpr int kFlankPoints = 6;
+constexpr int kOutlineFlankPoints = 6;
 
 // Contour of the teeth and the other edge of the body, point by point at one angle each; closed.
 struct Outline {
@@ -24,7 +23,7 @@ struct Outline {
 };
 
 Outline outline_of(const GearDesign& design) {
-  Outline out{gear_contour(ToothGeometry(design), kFlankPoints), {}};
+  Outline out{gear_contour(ToothGeometry(design), kOutlineFlankPoints), {}};
   out.edge.reserve(out.teeth.size());
   for (const Vec2& p : out.teeth) out.edge.push_back(p.normalized() * design.held_radius());
   return out;

@@ -5,11 +5,11 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <numeric>
 
 #include "base/dense.h"
 #include "base/error.h"
+#include "base/units.h"
 
 namespace whine {
 
@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi, kAtRest = 1e-8;
+constexpr double kAtRest = 1e-8;
 
 // [planet] of the only carrier, by angle about its axis; empty if there is none or more than one.
 std::vector<int> planets_of(const System& layout) {
