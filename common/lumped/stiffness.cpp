@@ -13,7 +13,7 @@
 namespace whine {
 namespace {
 
-constexpr double kFarthest =
+constexpr double kFarthestDeflection =
     6;  // gaps up to this many times the largest static transmission error have a spring
 
 double wrapped(double phase) {
@@ -156,7 +156,7 @@ class PairGap {
         pair_(pair),
         deviation_{{pair.gear(0), s.mesh.modification[0]}, {pair.gear(1), s.mesh.modification[1]}},
         flanks_{{&deviation_[0], &deviation_[1]}, {}},
-        farthest_(kFarthest * s.transmission_error.maxCoeff()) {}
+        farthest_(kFarthestDeflection * s.transmission_error.maxCoeff()) {}
   PairGap(const PairGap&) = delete;
   PairGap& operator=(const PairGap&) = delete;
 

@@ -21,9 +21,9 @@ using Matrix = LumpedOscillator::Matrix;
 
 namespace {
 
-constexpr double kClose = 1e-2;      // change per period from which Newton's method is tried
-constexpr double kFarthest = 0.1;    // that it may lead away
-constexpr double kRoundOff = 1e-13;  // of the state
+constexpr double kClose = 1e-2;         // change per period from which Newton's method is tried
+constexpr double kFarthestStart = 0.1;  // that it may lead away
+constexpr double kRoundOff = 1e-13;     // of the state
 constexpr int kLongestPause = 64;    // periods of plain integration after a Newton's method that led nowhere
 constexpr int kFollowPeriods = 500;  // where a branch is followed, before it counts as ended
 constexpr double kFinest = 1e-7;     // Hz: steps of that are halved down to this
@@ -33,7 +33,7 @@ double modulus(const Matrix& m) {
   return root > 0 ? std::abs(half) + std::sqrt(root) : std::sqrt(det);
 }
 
-State image(LumpedOscillator& oscillator, State y, int multiple, Matrix* derivative) {
+State image_after(LumpedOscillator& oscillator, State y, int multiple, Matrix* derivative) {
   if (derivative) derivative->setIdentity();
   for (int i = 0; i < multiple; ++i) oscillator.integrate(y, derivative);
   return y;
@@ -138,9 +138,10 @@ LumpedOrbit find_periodic_orbit(LumpedOscillator& oscillator, const State& start
     if (!found) return std::nullopt;
     const double rho = modulus(tried.monodromy), moved = away(tried.start, y);
     for (int d = 1; d < m; ++d)
-      if (m % d == 0 && away(image(oscillator, tried.start, d, nullptr), tried.start) < 1e-6)
+      if (m % d == 0 && away(image_after(oscillator, tried.start, d, nullptr), tried.start) < 1e-6)
         return std::nullopt;
-    if (!(rho < 1 && moved < kFarthest && moved * (1 - rho) < 10 * change + kRoundOff)) return std::nullopt;
+    if (!(rho < 1 && moved < kFarthestStart && moved * (1 - rho) < 10 * change + kRoundOff))
+      return std::nullopt;
     return tried;
   };
   for (int n = 1; n <= most_periods; ++n) {
@@ -161,7 +162,7 @@ LumpedOrbit find_periodic_orbit(LumpedOscillator& oscillator, const State& start
         orbit.start = y;
         orbit.multiple = m;
         orbit.residual = change;
-        image(oscillator, y, m, &orbit.monodromy);
+        image_after(oscillator, y, m, &orbit.monodromy);
         record(oscillator, orbit);
         return orbit;
       }

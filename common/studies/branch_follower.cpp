@@ -27,8 +27,6 @@ BranchSettings segment_speeds(const TimeDiscretisation& time, double from, doubl
 
 namespace {
 
-constexpr int kMostSegments = 64;
-
 BranchSettings branch_settings(const SweepParameters& stage_settings, int steps, bool at_folds,
                                double tolerance) {
   BranchSettings settings =

@@ -14,6 +14,9 @@
 
 namespace whine {
 
+inline constexpr int kKeptMultipliers = 8;  // of each orbit of a branch
+inline constexpr int kMostSegments = 64;    // of a branch
+
 // The speeds (Hz) between which a branch of [from, to] has this number of steps per period, and the scale of all of it.
 BranchSettings segment_speeds(const TimeDiscretisation& time, double from, double to, int steps);
 

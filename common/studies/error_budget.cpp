@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int kHarmonics = 5;
+constexpr int kJudgedHarmonics = 5;
 
 struct Outcome {
   double mean_stiffness, peak_to_peak, pressure;
@@ -29,7 +29,8 @@ using NamedOutcomes = std::vector<std::pair<std::string, Outcome>>;
 
 Outcome outcome(const StaticArtifact& s) {
   return {s.mean_stiffness, s.transmission_error.maxCoeff() - s.transmission_error.minCoeff(),
-          flank_pressure(s).smooth, harmonics(s.transmission_error, kHarmonics).amplitude, s.root_stress_max};
+          flank_pressure(s).smooth, harmonics(s.transmission_error, kJudgedHarmonics).amplitude,
+          s.root_stress_max};
 }
 
 StaticChanges changes(const NamedOutcomes& others, const Outcome& reference) {
@@ -37,7 +38,7 @@ StaticChanges changes(const NamedOutcomes& others, const Outcome& reference) {
   StaticChanges result;
   result.mean_stiffness_change.resize(count);
   result.peak_to_peak_change.resize(count);
-  result.harmonic_change.resize(count, kHarmonics);
+  result.harmonic_change.resize(count, kJudgedHarmonics);
   if (reference.pressure > 0) result.pressure_change.resize(count);
   if (reference.root_stress.size() > 0) result.root_stress_change.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {

@@ -24,7 +24,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int kStatePhases = 128;
 constexpr int kWiderZones = 1;  // than the branch needed, for folds with larger motions
 
 // The pair with one value of the quantity.

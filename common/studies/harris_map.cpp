@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kDepth = 1e-3;  // m: statics do not depend on it
-constexpr int kHarmonics = 3;
+constexpr int kMappedHarmonics = 3;
 // Ranges of torque and of relief that share their strips: strips that suit the least load of a range are many under the
 // largest, and wide reliefs want wide candidate zones.
 constexpr double kTorqueRange = 3, kReliefRange = 2;
@@ -356,8 +356,8 @@ void MapOfStarts::fill(Eigen::Index start,
         if (relief_ends_[std::min(range_of(map_.relief[r]), relief_ends_.size() - 1)] != end) continue;
         fill_in(range, first, map_.relief[r], [&](Eigen::Index t, const auto& error) {
           map_.peak_to_peak[start](t, r) = peak_to_peak(error);
-          const Harmonics h = harmonics(error, kHarmonics);
-          for (int n = 0; n < kHarmonics; ++n) map_.harmonic[n][start](t, r) = h.amplitude[n];
+          const Harmonics h = harmonics(error, kMappedHarmonics);
+          for (int n = 0; n < kMappedHarmonics; ++n) map_.harmonic[n][start](t, r) = h.amplitude[n];
         });
       }
       const double optimum = map_.optimum_relief[start];  // it has a curve over all torques

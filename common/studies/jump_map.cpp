@@ -30,12 +30,6 @@ double rayleigh_stiffness_for(double ratio, const FixedPhaseMesh& mesh, BodyMode
        " with two pairs in contact; ask for less, or lower undamped_depth_mm");
 }
 
-namespace {
-
-constexpr int kStatePhases = 128;
-
-}  // namespace
-
 JumpMapArtifact jump_map(const BodyArtifact& driver, const BodyArtifact& driven,
                          const StaticParameters& statics, double torque, const SweepParameters& settings,
                          const JumpMapPlan& plan,

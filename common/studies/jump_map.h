@@ -12,6 +12,9 @@
 
 namespace whine {
 
+inline constexpr int kStatePhases =
+    128;  // over the mesh period, at which states with fixed contact are looked at
+
 struct JumpMapPlan : MapSpeeds {
   // Cases: first these Rayleigh stiffness factors (s) as they are, then those factors that give these damping ratios with
   // two pairs in contact and the contact frozen.

@@ -17,8 +17,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int kMultipliers = 8;  // that are kept of each orbit
-
 Eigen::VectorXd frequencies(const std::vector<SpecialPoint>& all, Special kind) {
   std::vector<double> found;
   for (const SpecialPoint& p : all)
@@ -92,8 +90,8 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
       a.steps[i] = s.steps;
       a.period_multiple[i] = s.multiple;
       a.part[i] = s.part;
-      MatrixRM rows = MatrixRM::Zero(kMultipliers, 2);
-      for (Eigen::Index k = 0; k < std::min<Eigen::Index>(kMultipliers, p.multipliers.size()); ++k)
+      MatrixRM rows = MatrixRM::Zero(kKeptMultipliers, 2);
+      for (Eigen::Index k = 0; k < std::min<Eigen::Index>(kKeptMultipliers, p.multipliers.size()); ++k)
         rows.row(k) << p.multipliers[k].real(), p.multipliers[k].imag();
       a.floquet_multiplier.push_back(rows);
       ++i;

@@ -191,7 +191,7 @@ Orbit run_on(Sweeper& sweeper, const std::vector<BranchMotion>& motions,
 }
 
 // How the branch of the motion i - 1 of a sweep is followed; reached: the states at the end of speeds.
-BranchContinuation follow_branch(Sweeper& sweeper, const std::vector<BranchMotion>& motions, size_t i,
+BranchContinuation follow_motion(Sweeper& sweeper, const std::vector<BranchMotion>& motions, size_t i,
                                  const std::vector<RollingDynamics::State>& reached, bool integrate) {
   struct Run {
     Orbit orbit;
@@ -528,7 +528,7 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
   for (size_t i = 1; i < motions.size(); ++i)
     if (may_break(motions, i)) {
       const auto follower = [&] {
-        BranchContinuation follow = follow_branch(sweeper, motions, i, reached, integrate);
+        BranchContinuation follow = follow_motion(sweeper, motions, i, reached, integrate);
         follow.finest = jump_width;
         return follow;
       };

@@ -21,9 +21,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr int kMultipliers = 8;  // that are kept of each orbit
-constexpr int kMostSegments = 64;
-
 struct Segment {
   OrbitBranch branch;
   int steps = 0;  // per period
@@ -184,8 +181,8 @@ void store_point(const BranchPosition& p, int steps, Index i, SystemBranchArtifa
     at += meshes;
   }
   a.bearing_force_rms.row(i) = p.peaks.tail(p.peaks.size() - at).transpose();
-  MatrixRM rows = MatrixRM::Zero(kMultipliers, 2);
-  for (Index k = 0; k < std::min<Index>(kMultipliers, p.multipliers.size()); ++k)
+  MatrixRM rows = MatrixRM::Zero(kKeptMultipliers, 2);
+  for (Index k = 0; k < std::min<Index>(kKeptMultipliers, p.multipliers.size()); ++k)
     rows.row(k) << p.multipliers[k].real(), p.multipliers[k].imag();
   a.floquet_multiplier[static_cast<size_t>(i)] = rows;
   a.stable[i] = p.stable() ? 1 : 0;

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <numbers>
 #include <numeric>
 
 #include "base/error.h"
 #include "base/model_range.h"
+#include "base/units.h"
 #include "dynamics/impact.h"
 #include "studies/system_rig.h"
 #include "system/natural_modes.h"
@@ -20,7 +20,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-constexpr double kTwoPi = 2 * std::numbers::pi;
 // Per oscillation of the mode: the averaged force lengthens it by (2 pi / steps)^2 / 12, 5e-5 here.
 constexpr int kSteps = 256, kSamples = 32, kOscillations = 8;
 constexpr int kMostExponentials = 12;  // where contact changes, as of pairs (dynamics/impact.cpp)

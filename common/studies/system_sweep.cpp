@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-std::vector<double> speeds_of(const SystemSweepParameters& p, Direction direction) {
+std::vector<double> system_speeds(const SystemSweepParameters& p, Direction direction) {
   const long count =
       std::lround(std::floor((p.frequency_to - p.frequency_from) / p.frequency_step + 1e-9)) + 1;
   std::vector<double> out;
@@ -96,9 +96,9 @@ class Recorded {
 };
 
 // The system from speed to speed.
-class Sweeper {
+class SystemSweeper {
  public:
-  Sweeper(const SystemSweepParameters& settings, const std::vector<BodyArtifact>& bodies)
+  SystemSweeper(const SystemSweepParameters& settings, const std::vector<BodyArtifact>& bodies)
       : settings_(settings),
         rig_(settings, bodies, steps_at(settings.time, settings.frequency_from)),
         state_(rig_.dynamics().rest()) {}
@@ -238,7 +238,7 @@ class Sweeper {
 namespace {
 
 // All samples are kept until the sweep is written.
-void require_memory(const SystemSweepParameters& settings, int hunting, size_t speeds) {
+void require_memory_for(const SystemSweepParameters& settings, int hunting, size_t speeds) {
   constexpr double kMostMemory = 4e9;  // bytes
   const double memory = 8.0 * static_cast<double>(speeds) * hunting * settings.time.steps_per_period *
                         (3.0 * static_cast<double>(settings.layout.meshes.size()) +
@@ -256,9 +256,9 @@ void require_memory(const SystemSweepParameters& settings, int hunting, size_t s
 SystemSweepArtifact system_sweep(const SystemSweepParameters& settings,
                                  const std::vector<BodyArtifact>& bodies, Direction direction,
                                  const std::function<void(long, long, const std::string&)>& report) {
-  const std::vector<double> speeds = speeds_of(settings, direction);
-  require_memory(settings, whine::hunting_periods(settings), speeds.size());
-  Sweeper sweeper(settings, bodies);
+  const std::vector<double> speeds = system_speeds(settings, direction);
+  require_memory_for(settings, whine::hunting_periods(settings), speeds.size());
+  SystemSweeper sweeper(settings, bodies);
   const SystemRig& rig = sweeper.rig();
   const auto n = static_cast<Index>(speeds.size()), meshes = static_cast<Index>(rig.system().mesh.size()),
              all = static_cast<Index>(settings.layout.bodies.size());
