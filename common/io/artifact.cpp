@@ -123,7 +123,7 @@ Origin read_origin(const std::string& path) {
 namespace {
 
 // hashes: of files that were read before, by path.
-void require_fresh(const std::string& artifact, std::map<std::string, std::string>& hashes) {
+void require_fresh_inputs(const std::string& artifact, std::map<std::string, std::string>& hashes) {
   const Origin origin = read_origin(artifact);
   if (const std::string wrong = misplaced(artifact, origin); !wrong.empty())
     fail(Failure::input, artifact, ": ", wrong, "; ", rebuild_advice(artifact));
@@ -142,7 +142,7 @@ void require_fresh(const std::string& artifact, std::map<std::string, std::strin
 
 void require_fresh(const std::string& artifact) {
   std::map<std::string, std::string> none;
-  require_fresh(artifact, none);
+  require_fresh_inputs(artifact, none);
 }
 
 Provenance made_by(int argc, char** argv, std::vector<std::string> inputs) {
@@ -160,7 +160,7 @@ Provenance made_by(int argc, char** argv, std::vector<std::string> inputs) {
       if (artifact || std::filesystem::exists(path)) {
         const std::string bytes = read_bytes(path, artifact ? rebuild_advice(path) : "");
         hash->second = sha256(bytes);
-        if (is_hdf5(bytes)) require_fresh(path, known_inputs);
+        if (is_hdf5(bytes)) require_fresh_inputs(path, known_inputs);
       }
     }
     out.sha256.push_back(hash->second);

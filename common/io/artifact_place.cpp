@@ -12,15 +12,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Parts = std::vector<std::string>;
+using PathParts = std::vector<std::string>;
 
-Parts parts_of(const std::string& path) {
-  Parts parts;
+PathParts parts_of(const std::string& path) {
+  PathParts parts;
   for (const fs::path& part : fs::path(path)) parts.push_back(part.string());
   return parts;
 }
 
-bool below_out(const Parts& parts) {
+bool below_out(const PathParts& parts) {
   return parts.size() > 2 && parts[0] == "out";
 }
 
@@ -33,7 +33,7 @@ std::string without_link(const fs::path& path) {
 }
 
 // "" for a path that does not lead below the working folder.
-std::string place_of(const std::string& path) {
+std::string place_below_out(const std::string& path) {
   const std::string place = fs::path(recorded_path(path)).lexically_normal().generic_string();
   return below_out(parts_of(place)) ? without_link(place) : "";
 }
@@ -50,7 +50,7 @@ std::string output_of(const std::string& command) {
 }
 
 // Schema that a file of this name has, "" for other names.
-std::string schema_named(const Parts& place) {
+std::string schema_named(const PathParts& place) {
   const std::string& name = place.back();
   const std::string stem = name.substr(0, name.rfind('.'));
   if (place[1] == "studies") return stem == "study" ? "whine/study" : "whine/variant";
@@ -72,7 +72,7 @@ std::string short_torque(double torque) {
 }
 
 // Of what lies in out/<scene>/T<torque>/...
-std::string wrong_operation(const Parts& place, const Origin& origin) {
+std::string wrong_operation(const PathParts& place, const Origin& origin) {
   if (place.size() < 4 || place[2].size() < 2 || place[2][0] != 'T') return "";
   const std::string torque = short_torque(origin.torque);
   if (origin.has_torque && place[2] != "T" + torque)
@@ -92,9 +92,9 @@ std::string wrong_operation(const Parts& place, const Origin& origin) {
 }  // namespace
 
 std::string misplaced(const std::string& path, const Origin& origin) {
-  const std::string place = place_of(path);
+  const std::string place = place_below_out(path);
   if (place.empty()) return "";
-  const Parts parts = parts_of(place);
+  const PathParts parts = parts_of(place);
   if (const std::string schema = schema_named(parts); !schema.empty() && schema != origin.schema)
     return text("is '", origin.schema, "', but its name is that of '", schema, "'");
   if (const std::string wrong = wrong_operation(parts, origin); !wrong.empty()) return wrong;
@@ -107,11 +107,11 @@ std::string misplaced(const std::string& path, const Origin& origin) {
     if (!hash.empty() && input.role == "params" && input.sha256.compare(0, hash.size(), hash) != 0)
       return text("is of the stage parameters ", input.sha256.substr(0, hash.size()), ", but lies at ",
                   place);
-    const Parts from = parts_of(fs::path(input.path).lexically_normal().generic_string());
+    const PathParts from = parts_of(fs::path(input.path).lexically_normal().generic_string());
     if (below_out(from) && !body && from[1] != "bodies" && parts[1] != "studies" && from[1] != parts[1])
       return text("was made from ", input.path, ", but lies in out/", parts[1]);
   }
-  const std::string written = place_of(output_of(origin.command));
+  const std::string written = place_below_out(output_of(origin.command));
   if (!written.empty() && !body && written != place)
     return text("was written to ", written, ", but lies at ", place);
   return "";

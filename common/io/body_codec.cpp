@@ -9,7 +9,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"body", 5};
+constexpr Schema kBodySchema{"body", 5};
 
 void describe_compliance(Codec& c, BodyArtifact& a) {
   const std::string at = "/compliance/";
@@ -128,13 +128,13 @@ void describe(Codec& c, BodyArtifact& a) {
 }
 
 void write(const std::string& path, const BodyArtifact& a, const Provenance& provenance) {
-  write_artifact(path, kSchema, "Reduced body of a gear on a rigid hub: " + gear_title(a.design), a,
+  write_artifact(path, kBodySchema, "Reduced body of a gear on a rigid hub: " + gear_title(a.design), a,
                  provenance);
   link_for_paraview(path);
 }
 
 BodyArtifact read_body(const std::string& path) {
-  return read_artifact<BodyArtifact>(path, kSchema);
+  return read_artifact<BodyArtifact>(path, kBodySchema);
 }
 
 }  // namespace whine

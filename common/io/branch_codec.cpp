@@ -8,7 +8,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"branch", 3};
+constexpr Schema kBranchSchema{"branch", 3};
 
 void describe_points(Codec& c, BranchArtifact& a) {
   c.dataset({"/mesh_frequency", "Hz", "mesh frequency along the branch", "point", kSpeed}, &a.mesh_frequency);
@@ -60,11 +60,12 @@ void describe(Codec& c, BranchArtifact& a) {
 }
 
 void write(const std::string& path, const BranchArtifact& a, const Provenance& provenance) {
-  write_artifact(path, kSchema, "Branch of periodic orbits: " + pair_title(a.mesh, a.torque), a, provenance);
+  write_artifact(path, kBranchSchema, "Branch of periodic orbits: " + pair_title(a.mesh, a.torque), a,
+                 provenance);
 }
 
 BranchArtifact read_branch(const std::string& path) {
-  return read_artifact<BranchArtifact>(path, kSchema);
+  return read_artifact<BranchArtifact>(path, kBranchSchema);
 }
 
 }  // namespace whine

@@ -68,20 +68,21 @@ std::vector<Eigen::Index> shape_of(const std::vector<std::string>& values) {
 
 // --- writing; shape: what is known of it
 
-using Shape = std::vector<Eigen::Index>;
+using AxisLengths = std::vector<Eigen::Index>;
 
 template <class T>
-void put(ArtifactWriter& out, const Dataset& d, const Shape&, const T& value) {
+void put(ArtifactWriter& out, const Dataset& d, const AxisLengths&, const T& value) {
   out.put(d.name, value, label(d));
 }
-void put(ArtifactWriter& out, const Dataset& d, const Shape&, const Eigen::Vector2d& value) {
+void put(ArtifactWriter& out, const Dataset& d, const AxisLengths&, const Eigen::Vector2d& value) {
   out.put(d.name, Eigen::VectorXd(value), label(d));
 }
-void put(ArtifactWriter& out, const Dataset& d, const Shape&, const std::vector<std::string>& value) {
+void put(ArtifactWriter& out, const Dataset& d, const AxisLengths&, const std::vector<std::string>& value) {
   out.file().put(d.name, value, label(d));
 }
-void put(ArtifactWriter& out, const Dataset& d, const Shape& known, const std::vector<MatrixRM>& value) {
-  Shape shape = shape_of(value);
+void put(ArtifactWriter& out, const Dataset& d, const AxisLengths& known,
+         const std::vector<MatrixRM>& value) {
+  AxisLengths shape = shape_of(value);
   for (std::size_t i = 0; i < shape.size(); ++i)
     if (shape[i] < 0) shape[i] = std::max<Eigen::Index>(0, known[i]);
   std::vector<double> all;
@@ -97,31 +98,32 @@ void put(ArtifactWriter& out, const Dataset& d, const Shape& known, const std::v
 
 // --- reading
 
-void take(const ArtifactReader& in, const Dataset& d, const Shape&, double& value) {
+void take(const ArtifactReader& in, const Dataset& d, const AxisLengths&, double& value) {
   value = in.number(d.name, d.range);
 }
-void take(const ArtifactReader& in, const Dataset& d, const Shape&, int& value) {
+void take(const ArtifactReader& in, const Dataset& d, const AxisLengths&, int& value) {
   value = in.whole(d.name, d.range);
 }
-void take(const ArtifactReader& in, const Dataset& d, const Shape&, std::string& value) {
+void take(const ArtifactReader& in, const Dataset& d, const AxisLengths&, std::string& value) {
   value = in.word(d.name);
 }
-void take(const ArtifactReader& in, const Dataset& d, const Shape& shape, Eigen::VectorXd& value) {
+void take(const ArtifactReader& in, const Dataset& d, const AxisLengths& shape, Eigen::VectorXd& value) {
   value = in.vector(d.name, d.range, shape[0]);
 }
-void take(const ArtifactReader& in, const Dataset& d, const Shape& shape, Eigen::VectorXi& value) {
+void take(const ArtifactReader& in, const Dataset& d, const AxisLengths& shape, Eigen::VectorXi& value) {
   value = in.whole_vector(d.name, d.range, shape[0]);
 }
-void take(const ArtifactReader& in, const Dataset& d, const Shape&, Eigen::Vector2d& value) {
+void take(const ArtifactReader& in, const Dataset& d, const AxisLengths&, Eigen::Vector2d& value) {
   value = in.vector(d.name, d.range, 2);
 }
-void take(const ArtifactReader& in, const Dataset& d, const Shape& shape, MatrixRM& value) {
+void take(const ArtifactReader& in, const Dataset& d, const AxisLengths& shape, MatrixRM& value) {
   value = in.matrix(d.name, d.range, shape[0], shape[1]);
 }
-void take(const ArtifactReader& in, const Dataset& d, const Shape& shape, MatrixRMi& value) {
+void take(const ArtifactReader& in, const Dataset& d, const AxisLengths& shape, MatrixRMi& value) {
   value = in.whole_matrix(d.name, d.range, shape[0], shape[1]);
 }
-void take(const ArtifactReader& in, const Dataset& d, const Shape& shape, std::vector<MatrixRM>& value) {
+void take(const ArtifactReader& in, const Dataset& d, const AxisLengths& shape,
+          std::vector<MatrixRM>& value) {
   const std::vector<double> all = in.doubles(d.name, d.range, shape);
   const h5::Shape found = in.file().shape(d.name);
   const auto rows = static_cast<Eigen::Index>(found[1]), columns = static_cast<Eigen::Index>(found[2]);
@@ -129,7 +131,8 @@ void take(const ArtifactReader& in, const Dataset& d, const Shape& shape, std::v
   for (std::size_t i = 0; i < found[0]; ++i)
     value.push_back(Eigen::Map<const MatrixRM>(all.data() + i * found[1] * found[2], rows, columns));
 }
-void take(const ArtifactReader& in, const Dataset& d, const Shape& shape, std::vector<std::string>& value) {
+void take(const ArtifactReader& in, const Dataset& d, const AxisLengths& shape,
+          std::vector<std::string>& value) {
   in.require_shape(d.name, shape);
   value = in.file().strings(d.name);
 }

@@ -7,7 +7,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"error_budget", 4};
+constexpr Schema kErrorBudgetSchema{"error_budget", 4};
 
 void describe_changes(Codec& c, const std::string& group, StaticChanges& a, const std::string& what) {
   const std::string axis = group.substr(1) + "/change";  // `entry` names them in one text
@@ -56,13 +56,13 @@ void describe(Codec& c, ErrorBudgetArtifact& a) {
 }
 
 void write(const std::string& path, const ErrorBudgetArtifact& a, const Provenance& provenance) {
-  write_artifact(path, kSchema,
+  write_artifact(path, kErrorBudgetSchema,
                  "Error budget of the static transmission error: " + pair_title(a.mesh, a.torque), a,
                  provenance);
 }
 
 ErrorBudgetArtifact read_error_budget(const std::string& path) {
-  return read_artifact<ErrorBudgetArtifact>(path, kSchema);
+  return read_artifact<ErrorBudgetArtifact>(path, kErrorBudgetSchema);
 }
 
 }  // namespace whine

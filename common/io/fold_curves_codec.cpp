@@ -7,7 +7,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"fold_curves", 1};
+constexpr Schema kFoldCurvesSchema{"fold_curves", 1};
 
 }  // namespace
 
@@ -48,12 +48,12 @@ void describe(Codec& c, FoldCurvesArtifact& a) {
 }
 
 void write(const std::string& path, const FoldCurvesArtifact& a, const Provenance& provenance) {
-  write_artifact(path, kSchema, "Folds over " + name_of(a.quantity) + ": " + pair_title(a.mesh, a.torque), a,
-                 provenance);
+  write_artifact(path, kFoldCurvesSchema,
+                 "Folds over " + name_of(a.quantity) + ": " + pair_title(a.mesh, a.torque), a, provenance);
 }
 
 FoldCurvesArtifact read_fold_curves(const std::string& path) {
-  return read_artifact<FoldCurvesArtifact>(path, kSchema);
+  return read_artifact<FoldCurvesArtifact>(path, kFoldCurvesSchema);
 }
 
 }  // namespace whine

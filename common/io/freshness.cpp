@@ -14,7 +14,7 @@ namespace {
 
 // The scene that the stage parameters out/<scene>/params/... were written from; empty if it is not known, or not there any
 // more.
-std::string scene_of(const std::string& settings) {
+std::string scene_of_settings(const std::string& settings) {
   const std::filesystem::path folder = std::filesystem::path(settings).parent_path();
   if (folder.filename() != "params") return "";
   const std::filesystem::path home = folder.parent_path();
@@ -27,7 +27,7 @@ std::string scene_of(const std::string& settings) {
 // Whether stage parameters, whose file is what it was, are what its scene says today, in words; clears fresh if not.
 std::string against_scene(const std::string& artifact, const InputRecord& input, std::string scene,
                           bool& fresh) {
-  if (scene.empty()) scene = scene_of(input.path);
+  if (scene.empty()) scene = scene_of_settings(input.path);
   const auto today = [&] {
     if (is_system_scene(scene)) return system_parameters_for(scene, input.path);
     return parameters_for(read_scene(scene), input.path);

@@ -56,6 +56,8 @@ void list_in_header(hid_t group_creation) {
   check(H5Pset_link_phase_change(group_creation, 65535, 0), "select how groups list their members");
 }
 
+}  // namespace
+
 // The bytes of a file that is made in memory. H5Fget_file_image clears a mark in the superblock and leaves its checksum as
 // it was (1.10), so they are taken where HDF5 gives its memory back.
 struct Image {
@@ -80,8 +82,6 @@ struct Image {
   static void* same(void* self) { return self; }
   static herr_t keep(void*) { return 0; }
 };
-
-}  // namespace
 
 struct Writer::Impl {
   hid_t file = -1;

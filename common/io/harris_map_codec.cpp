@@ -8,7 +8,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"harris_map", 1};
+constexpr Schema kHarrisMapSchema{"harris_map", 1};
 const char* const kCube = "relief_length torque relief";
 
 void describe_axes(Codec& c, HarrisMapArtifact& a) {
@@ -73,12 +73,12 @@ void describe(Codec& c, HarrisMapArtifact& a) {
 }
 
 void write(const std::string& path, const HarrisMapArtifact& a, const Provenance& provenance) {
-  write_artifact(path, kSchema, text("Harris map: ", a.mesh.gear[0], " drives ", a.mesh.gear[1]), a,
+  write_artifact(path, kHarrisMapSchema, text("Harris map: ", a.mesh.gear[0], " drives ", a.mesh.gear[1]), a,
                  provenance);
 }
 
 HarrisMapArtifact read_harris_map(const std::string& path) {
-  return read_artifact<HarrisMapArtifact>(path, kSchema);
+  return read_artifact<HarrisMapArtifact>(path, kHarrisMapSchema);
 }
 
 }  // namespace whine

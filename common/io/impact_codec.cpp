@@ -8,7 +8,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"impact", 1};
+constexpr Schema kImpactSchema{"impact", 1};
 
 const char* const kDecayFrequency =
     "frequency Im s / 2 pi of the decaying transmission error (damped natural frequency)";
@@ -87,11 +87,11 @@ void describe(Codec& c, ImpactArtifact& a) {
 }
 
 void write(const std::string& path, const ImpactArtifact& a, const Provenance& provenance) {
-  write_artifact(path, kSchema, "Ring-down: " + pair_title(a.mesh, a.torque), a, provenance);
+  write_artifact(path, kImpactSchema, "Ring-down: " + pair_title(a.mesh, a.torque), a, provenance);
 }
 
 ImpactArtifact read_impact(const std::string& path) {
-  return read_artifact<ImpactArtifact>(path, kSchema);
+  return read_artifact<ImpactArtifact>(path, kImpactSchema);
 }
 
 }  // namespace whine

@@ -8,7 +8,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"jump_map", 1};
+constexpr Schema kJumpMapSchema{"jump_map", 1};
 
 void describe_pair_at_rest(Codec& c, JumpMapArtifact& a) {
   c.dataset({"/mean_stiffness", "N m-1", "mean of the secant stiffness over a mesh period", "", kStiff},
@@ -126,11 +126,12 @@ void describe(Codec& c, JumpMapArtifact& a) {
 void write(const std::string& path, const JumpMapArtifact& a, const Provenance& provenance) {
   if (!(a.load_frequency > 0) && a.tooth_load.size() + a.held_load_there.size() + a.dte_rms_there.size() > 0)
     fail(Failure::numerical, "result tooth_load has ", a.tooth_load.rows(), " rows, expected 0");
-  write_artifact(path, kSchema, "Jumps against damping: " + pair_title(a.mesh, a.torque), a, provenance);
+  write_artifact(path, kJumpMapSchema, "Jumps against damping: " + pair_title(a.mesh, a.torque), a,
+                 provenance);
 }
 
 JumpMapArtifact read_jump_map(const std::string& path) {
-  return read_artifact<JumpMapArtifact>(path, kSchema);
+  return read_artifact<JumpMapArtifact>(path, kJumpMapSchema);
 }
 
 }  // namespace whine

@@ -25,7 +25,7 @@ constexpr Unit kGigapascal{"_GPa", "Pa", 1e9};
 constexpr Unit kDensity{"_kgm3", "kg m-3"};
 constexpr Unit kPerSecond{"_per_s", "s-1"};
 constexpr Unit kSecond{"_s", "s"};
-constexpr Unit kHertz{"_Hz", "Hz"};
+constexpr Unit kHertzUnit{"_Hz", "Hz"};
 constexpr Unit kKilohertz{"_kHz", "Hz", 1000};
 constexpr Unit kNewtonSecondPerMetre{"_Ns_m", "N s m-1"};
 constexpr Unit kMillipascalSecond{"_mPas", "Pa s", 1, 1000};
@@ -242,7 +242,7 @@ std::vector<Key> make_keys() {
     {Part::friction, "friction", "lubricant_factor", kNone, "1.0", 0.1, 10, false, "",
      "of law = \"schlenk\": X_L, 1 for mineral oils",
      [](V& v) -> Slot { return &v.mesh.friction.lubricant_factor; }},
-    {Part::friction, "friction", "static_frequency_Hz", kHertz, "0.0", 0, 1e6, false, "",
+    {Part::friction, "friction", "static_frequency_Hz", kHertzUnit, "0.0", 0, 1e6, false, "",
      "of law = \"schlenk\", which requires it: mesh frequency at which the coefficient of the pair at rest is taken",
      [](V& v) -> Slot { return &v.mesh.friction.static_frequency; }},
 
@@ -263,7 +263,7 @@ std::vector<Key> make_keys() {
      "torque on the driver: a number or a list; the first sets the bearing dampers",
      [](V& v) -> Slot { return &v.operation.torques; },
      "without load nothing presses the teeth together; a small torque shows them as good as unloaded"},
-    {Part::operation, "operation", "mesh_frequency_Hz", kHertz, nullptr, 1, 1e6, false, "",
+    {Part::operation, "operation", "mesh_frequency_Hz", kHertzUnit, nullptr, 1, 1e6, false, "",
      "speeds of a sweep: { from = , to = , step = }",
      [](V& v) -> Slot {
        return RangeSlot{&v.operation.frequency_from, &v.operation.frequency_to, &v.operation.frequency_step};
@@ -317,7 +317,7 @@ std::vector<Key> make_keys() {
   // clang-format on
 }
 
-constexpr const char* kAngle = "_largest_angle";
+constexpr const char* kLargestAngle = "_largest_angle";
 
 }  // namespace
 
@@ -430,7 +430,7 @@ std::vector<Parameter> parameters_of(const KeyValues& values, Part part) {
           {name, "1", "1: a tip edge may touch a flank off the line of action", (*corner)->enabled ? 1 : 0});
       if (std::isfinite((*corner)->largest_angle)) {
         out.push_back(
-            {name + kAngle, "rad", "largest angle between the two normals", (*corner)->largest_angle});
+            {name + kLargestAngle, "rad", "largest angle between the two normals", (*corner)->largest_angle});
       }
     } else if (const auto* range = std::get_if<RangeSlot>(&slot)) {
       add(name + "_from", *range->from);
@@ -511,9 +511,10 @@ void set_parameters(KeyValues& values, Part part, const ParameterSource& source)
       *plane->stress = one_of(key.choices, source, name) == "stress";
     } else if (const auto* corner = std::get_if<CornerRule*>(&slot)) {
       (*corner)->enabled = source.whole(name) != 0;
-      (*corner)->largest_angle = source.has(name + kAngle)
-                                     ? in_range(key, source, name + kAngle, source.number(name + kAngle))
-                                     : std::numeric_limits<double>::infinity();
+      (*corner)->largest_angle =
+          source.has(name + kLargestAngle)
+              ? in_range(key, source, name + kLargestAngle, source.number(name + kLargestAngle))
+              : std::numeric_limits<double>::infinity();
     } else if (const auto* range = std::get_if<RangeSlot>(&slot)) {
       *range->from = source.number(name + "_from");
       *range->to = source.number(name + "_to");

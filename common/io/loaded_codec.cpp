@@ -8,7 +8,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"loaded", 1};
+constexpr Schema kLoadedSchema{"loaded", 1};
 
 void describe_strips(Codec& c, LoadedArtifact& a) {
   const std::string at = "/strip/";
@@ -30,7 +30,7 @@ void describe_strips(Codec& c, LoadedArtifact& a) {
             &a.strip_deflection);
 }
 
-void describe_certificate(Codec& c, LoadedArtifact& a) {
+void describe_loaded_certificate(Codec& c, LoadedArtifact& a) {
   const std::string at = "/certificate/";
   c.dataset({at + "hub_torque", "N m", "moment that holds the hub, by the elements about the bore", "gear",
              kMoment},
@@ -70,19 +70,19 @@ void describe(Codec& c, LoadedArtifact& a) {
              "pair gear", kStress},
             &a.root_stress);
   describe_strips(c, a);
-  describe_certificate(c, a);
+  describe_loaded_certificate(c, a);
   if (c.out() && a.vtk_point.rows() > 0)
     put_vtk(c.out()->file(),
             {a.vtk_point, a.vtk_cell, {}, {}, a.vtk_line, a.vtk_point_data, a.vtk_cell_data, true});
 }
 
 void write(const std::string& path, const LoadedArtifact& a, const Provenance& provenance) {
-  write_artifact(path, kSchema, "Loaded gears: " + pair_title(a.mesh, a.torque), a, provenance);
+  write_artifact(path, kLoadedSchema, "Loaded gears: " + pair_title(a.mesh, a.torque), a, provenance);
   link_for_paraview(path);
 }
 
 LoadedArtifact read_loaded(const std::string& path) {
-  return read_artifact<LoadedArtifact>(path, kSchema);
+  return read_artifact<LoadedArtifact>(path, kLoadedSchema);
 }
 
 }  // namespace whine

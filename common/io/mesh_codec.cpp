@@ -8,7 +8,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"mesh", 1};
+constexpr Schema kMeshSchema{"mesh", 1};
 
 // The two sectors of a mesh share no axes: names of the second one's are its own.
 void describe_sector(Codec& file, const std::string& group, MeshArtifact& a) {
@@ -67,13 +67,13 @@ void describe(Codec& c, MeshArtifact& a) {
 }
 
 void write(const std::string& path, const MeshArtifact& a, const Provenance& provenance) {
-  write_artifact(path, kSchema, "Finite-element mesh of one tooth sector: " + gear_title(a.design), a,
+  write_artifact(path, kMeshSchema, "Finite-element mesh of one tooth sector: " + gear_title(a.design), a,
                  provenance);
   link_for_paraview(path);
 }
 
 MeshArtifact read_mesh(const std::string& path) {
-  return read_artifact<MeshArtifact>(path, kSchema);
+  return read_artifact<MeshArtifact>(path, kMeshSchema);
 }
 
 }  // namespace whine

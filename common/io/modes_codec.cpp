@@ -10,7 +10,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"modes", 1};
+constexpr Schema kModesSchema{"modes", 1};
 
 }  // namespace
 
@@ -71,14 +71,14 @@ void describe(Codec& c, ModesArtifact& a) {
 
 void write(const std::string& path, const ModesArtifact& a, const Provenance& provenance) {
   write_artifact(
-      path, kSchema,
+      path, kModesSchema,
       text("Natural modes: ", a.layout.bodies.size(), " bodies, ", a.layout.meshes.size(), " meshes"), a,
       provenance);
   if (a.view.point.rows() > 0) link_for_paraview(path);
 }
 
 ModesArtifact read_modes(const std::string& path) {
-  return read_artifact<ModesArtifact>(path, kSchema);
+  return read_artifact<ModesArtifact>(path, kModesSchema);
 }
 
 }  // namespace whine

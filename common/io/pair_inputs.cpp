@@ -11,7 +11,7 @@ namespace whine {
 namespace {
 
 // Gears that are alike share a file, which is read once.
-PairBodies read_bodies(const std::vector<std::string>& paths) {
+PairBodies read_both(const std::vector<std::string>& paths) {
   PairBodies body{read_body(paths[0]), {}};
   body[1] = paths[1] == paths[0] ? body[0] : read_body(paths[1]);
   return body;
@@ -21,7 +21,7 @@ PairBodies read_bodies(const std::vector<std::string>& paths) {
 
 PairBodies read_bodies(const NamedFiles& files, const StaticParameters& settings) {
   const std::vector<std::string> paths = files.of(settings.mesh);
-  PairBodies body = read_bodies(paths);
+  PairBodies body = read_both(paths);
   for (size_t g = 0; g < kSides; ++g)
     require_body(body[g], settings.body[g], settings.mesh.gear[g], paths[g]);
   return body;
@@ -43,7 +43,7 @@ PairInputs read_pair_inputs(const NamedFiles& files, const std::string& statics,
     fail(Failure::input, reference, " is at ", inputs.at_reference.torque,
          " N m, but the scene's first torque, which sets the bearing dampers, is ", settings.reference_torque,
          " N m; give the static.h5 of that torque");
-  inputs.body = read_bodies(paths);
+  inputs.body = read_both(paths);
   as_drawn(settings, {inputs.body[0].inertia, inputs.body[1].inertia});
   return inputs;
 }

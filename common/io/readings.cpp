@@ -8,6 +8,7 @@
 #include <random>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "io/publish.h"
 #include "io/suggestion.h"
 #include "io/toml.h"
@@ -28,7 +29,6 @@ double angle_of(const CornerRule& rule) {
 namespace {
 
 constexpr int kMostReadings = 1000;
-constexpr double kDegree = std::numbers::pi / 180;
 using Words = std::vector<std::string>;
 
 class PlanFile {
@@ -140,7 +140,7 @@ ReadingPlan read_reading_plan(const std::string& path) {
       file.reject(item.source().begin.line,
                   "'corner_contact' holds something else than true, false or an "
                   "angle above 0 and up to 90 degrees");
-    return corner_of(degrees * kDegree);
+    return corner_of(degrees * kOneDegree);
   });
   plan.inertia_from = file.words(draws, "inertia_from", {"one", "two", "mean", "table", "mass"});
   plan.damped_state = file.words(draws, "damped_state", {"one", "two", "mean"});

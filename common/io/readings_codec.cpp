@@ -8,7 +8,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"readings", 1};
+constexpr Schema kReadingsSchema{"readings", 1};
 
 // Every number of a reading, once: what is written and what is read walk this list.
 struct NumberOf {
@@ -136,11 +136,11 @@ void describe(Codec& c, ReadingsArtifact& a) {
 }
 
 void write(const std::string& path, const ReadingsArtifact& a, const Provenance& provenance) {
-  write_artifact(path, kSchema, "Readings of P2000: " + a.title, a, provenance);
+  write_artifact(path, kReadingsSchema, "Readings of P2000: " + a.title, a, provenance);
 }
 
 ReadingsArtifact read_readings(const std::string& path) {
-  return read_artifact<ReadingsArtifact>(path, kSchema);
+  return read_artifact<ReadingsArtifact>(path, kReadingsSchema);
 }
 
 }  // namespace whine

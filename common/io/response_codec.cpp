@@ -8,7 +8,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"response", 6};
+constexpr Schema kResponseSchema{"response", 6};
 
 void describe_bearings(Codec& c, ResponseArtifact& a, int g) {
   if (!c.optional(of_body(c, a.mesh, g, "bearing_force_max"), a.bearing_force_max[g].size() > 0)) return;
@@ -137,12 +137,12 @@ void describe(Codec& c, ResponseArtifact& a) {
 }
 
 void write(const std::string& path, const ResponseArtifact& a, const Provenance& provenance) {
-  write_artifact(path, kSchema, text("Response, sweep ", a.direction, ": ", pair_title(a.mesh, a.torque)), a,
-                 provenance);
+  write_artifact(path, kResponseSchema,
+                 text("Response, sweep ", a.direction, ": ", pair_title(a.mesh, a.torque)), a, provenance);
 }
 
 ResponseArtifact read_response(const std::string& path) {
-  return read_artifact<ResponseArtifact>(path, kSchema);
+  return read_artifact<ResponseArtifact>(path, kResponseSchema);
 }
 
 }  // namespace whine

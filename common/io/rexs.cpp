@@ -16,7 +16,8 @@
 namespace whine {
 namespace {
 
-void add(const std::string& path, std::map<int, RexsComponent>& components, RexsComponent component) {
+void add_component(const std::string& path, std::map<int, RexsComponent>& components,
+                   RexsComponent component) {
   const int id = component.id;
   if (!components.emplace(id, std::move(component)).second)
     reject_rexs(path, text("two components have the id ", id));
@@ -53,7 +54,7 @@ void read_xml(const std::string& bytes, RexsModel& model) {
                 text("its XML begins with <", document.document_element().name(), ">, not <model>"));
   model.version = root.attribute("version").value();
   for (const pugi::xml_node& node : root.child("components").children("component"))
-    add(model.path, model.components, component_of(model.path, node));
+    add_component(model.path, model.components, component_of(model.path, node));
   for (const pugi::xml_node& node : root.child("relations").children("relation")) {
     RexsRelation relation{node.attribute("type").value(), {}};
     for (const pugi::xml_node& ref : node.children("ref"))
@@ -64,7 +65,7 @@ void read_xml(const std::string& bytes, RexsModel& model) {
   for (const pugi::xml_node& node : root.child("load_spectrum").children("load_case")) {
     model.load_cases.emplace_back();
     for (const pugi::xml_node& part : node.children("component"))
-      add(model.path, model.load_cases.back(), component_of(model.path, part));
+      add_component(model.path, model.load_cases.back(), component_of(model.path, part));
   }
 }
 
@@ -97,7 +98,7 @@ void read_json(const std::string& bytes, RexsModel& model) {
   const Json::Value& root = document["model"];
   model.version = word_of(root["version"]);
   for (const Json::Value& node : root["components"])
-    add(model.path, model.components, component_of(model.path, node));
+    add_component(model.path, model.components, component_of(model.path, node));
   for (const Json::Value& node : root["relations"]) {
     RexsRelation relation{word_of(node["type"]), {}};
     for (const Json::Value& ref : node["refs"])
@@ -108,7 +109,7 @@ void read_json(const std::string& bytes, RexsModel& model) {
   for (const Json::Value& node : root["load_spectrum"]["load_cases"]) {
     model.load_cases.emplace_back();
     for (const Json::Value& part : node["components"])
-      add(model.path, model.load_cases.back(), component_of(model.path, part));
+      add_component(model.path, model.load_cases.back(), component_of(model.path, part));
   }
 }
 

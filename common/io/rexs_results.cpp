@@ -7,12 +7,12 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <pugixml.hpp>
 #include <sstream>
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "base/units.h"
 #include "io/publish.h"
 #include "io/rexs_archive.h"
 #include "io/rexs_json.h"
@@ -21,11 +21,10 @@
 namespace whine {
 namespace {
 
-constexpr RexsUnit kNumber{"", RexsDimension::number, 1}, kMetre{"m", RexsDimension::length, 1},
-    kRadian{"rad", RexsDimension::angle, 1};
+constexpr RexsUnit kRexsMetre{"m", RexsDimension::length, 1}, kRexsRadian{"rad", RexsDimension::angle, 1};
 
 // Nine digits: fewer than round-off has, so that other machines write the same.
-std::string digits(const std::string& path, const RexsResult& result, double value) {
+std::string nine_digits(const std::string& path, const RexsResult& result, double value) {
   if (!std::isfinite(value))
     fail(Failure::numerical, path, ": the result ", result.name, " is no finite number");
   char buffer[40];
@@ -41,14 +40,14 @@ void require_stage_of(const RexsModel& model, const std::string& wanted, const R
   std::array<double, 2> teeth, module, angle, shift;
   for (int g : {0, 1}) {
     const auto at = static_cast<size_t>(g);
-    teeth[at] = stage.required(&stage.gear(g), stage.gear(g), "number_of_teeth", kNumber).value;
-    module[at] = stage.required(&stage.gear(g), stage.gear(g), "normal_module", kMetre).value;
+    teeth[at] = stage.required(&stage.gear(g), stage.gear(g), "number_of_teeth", kRexsNumber).value;
+    module[at] = stage.required(&stage.gear(g), stage.gear(g), "normal_module", kRexsMetre).value;
   }
-  const double distance = stage.required(&stage.stage(), stage.stage(), "center_distance", kMetre).value;
+  const double distance = stage.required(&stage.stage(), stage.stage(), "center_distance", kRexsMetre).value;
   for (int g : {0, 1}) {
     const auto at = static_cast<size_t>(g);
-    angle[at] = stage.of_flanks(g, "normal_pressure_angle", kRadian).value;
-    shift[at] = stage.of_flanks(g, "addendum_modification_coefficient", kNumber).value;
+    angle[at] = stage.of_flanks(g, "normal_pressure_angle", kRexsRadian).value;
+    shift[at] = stage.of_flanks(g, "addendum_modification_coefficient", kRexsNumber).value;
   }
   const auto fits = [&](size_t first, size_t second) {
     for (const auto& [g, of_pair] : {std::pair{first, size_t{0}}, std::pair{second, size_t{1}}})
@@ -58,11 +57,10 @@ void require_stage_of(const RexsModel& model, const std::string& wanted, const R
         return false;
     return true;
   };
-  constexpr double kDegrees = 180 / std::numbers::pi;
   const auto words = [](const auto& z, const auto& m, double a, const auto& alpha, const auto& x) {
     return text(z[0], " and ", z[1], " teeth of module ", 1e3 * m[0],
                 m[1] == m[0] ? "" : text(" and ", 1e3 * m[1]), " mm at ", 1e3 * a, " mm, pressure angles ",
-                kDegrees * alpha[0], " and ", kDegrees * alpha[1], " deg, profile shifts ", x[0], " and ",
+                kInDegrees * alpha[0], " and ", kInDegrees * alpha[1], " deg, profile shifts ", x[0], " and ",
                 x[1]);
   };
   if (!(fits(0, 1) || fits(1, 0)) || !same(distance, pair.centre_distance))
@@ -113,10 +111,10 @@ void add_result(const std::string& path, pugi::xml_node component, const RexsRes
   if (!result.word.empty()) {
     put(node, result.word);
   } else if (!result.list) {
-    put(node, digits(path, result, result.values.at(0)));
+    put(node, nine_digits(path, result, result.values.at(0)));
   } else {
     pugi::xml_node array = node.append_child("array");
-    for (const double value : result.values) put(array.append_child("c"), digits(path, result, value));
+    for (const double value : result.values) put(array.append_child("c"), nine_digits(path, result, value));
   }
 }
 
@@ -175,9 +173,11 @@ std::string json_result(const std::string& path, const RexsResult& result) {
       ", \"unit\": ", Json::valueToQuotedString(result.unit.empty() ? "none" : result.unit.c_str()), ", ");
   if (!result.word.empty())
     return out + "\"string\": " + Json::valueToQuotedString(result.word.c_str()) + "}";
-  if (!result.list) return out + "\"floating_point\": " + digits(path, result, result.values.at(0)) + "}";
+  if (!result.list)
+    return out + "\"floating_point\": " + nine_digits(path, result, result.values.at(0)) + "}";
   std::string list;
-  for (const double value : result.values) list += (list.empty() ? "" : ", ") + digits(path, result, value);
+  for (const double value : result.values)
+    list += (list.empty() ? "" : ", ") + nine_digits(path, result, value);
   return out + "\"floating_point_array\": [" + list + "]}";
 }
 

@@ -4,27 +4,26 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <set>
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "base/units.h"
 #include "io/rexs_stage.h"
 
 namespace whine {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // What keys of a scene are in.
-constexpr RexsUnit kNumber{"", RexsDimension::number, 1}, kMicrometre{"mum", RexsDimension::length, 1e-6},
-    kMillimetre{"mm", RexsDimension::length, 1e-3}, kDegree{"deg", RexsDimension::angle, kPi / 180},
-    kGigapascal{"GPa", RexsDimension::pressure, 1e9}, kDensity{"kg/m^3", RexsDimension::density, 1},
-    kNewtonMetre{"Nm", RexsDimension::moment, 1}, kPerMinute{"1/min", RexsDimension::frequency, 1.0 / 60};
+constexpr RexsUnit kRexsMicrometre{"mum", RexsDimension::length, 1e-6},
+    kRexsMillimetre{"mm", RexsDimension::length, 1e-3}, kRexsDegree{"deg", RexsDimension::angle, kPi / 180},
+    kRexsGigapascal{"GPa", RexsDimension::pressure, 1e9}, kRexsDensity{"kg/m^3", RexsDimension::density, 1},
+    kRexsNewtonMetre{"Nm", RexsDimension::moment, 1},
+    kRexsPerMinute{"1/min", RexsDimension::frequency, 1.0 / 60};
 
 // All digits, and no more.
-std::string digits(double value) {
+std::string all_digits(double value) {
   char buffer[40];
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
   const std::string word(buffer, end);
@@ -41,7 +40,7 @@ class Writer {
     start.resize(std::max<size_t>(start.size() + 1, 34), ' ');
     line(start + "# " + remark);
   }
-  void value(const std::string& key, const RexsNumber& n) { value(key, digits(n.value), n.origin); }
+  void value(const std::string& key, const RexsNumber& n) { value(key, all_digits(n.value), n.origin); }
   void whole(const std::string& key, const RexsNumber& n) {
     value(key, std::to_string(std::lround(n.value)), n.origin);
   }
@@ -79,11 +78,11 @@ void check_spur(RexsStage& stage, int side) {
   if (gear.type != "cylindrical_gear")
     fail(Failure::input, stage.path(), ": ", quoted_name(gear),
          " is no cylindrical_gear; only external spur gears are imported");
-  const std::optional<RexsNumber> helix = stage.number(&gear, "helix_angle_reference_diameter", kDegree);
+  const std::optional<RexsNumber> helix = stage.number(&gear, "helix_angle_reference_diameter", kRexsDegree);
   if (helix && helix->value != 0)
     fail(Failure::input, stage.path(), ": ", quoted_name(stage.stage()), " is helical (", helix->value,
          " degrees at ", quoted_name(gear), "); only spur gears are imported");
-  const RexsNumber teeth = stage.required(&gear, gear, "number_of_teeth", kNumber);
+  const RexsNumber teeth = stage.required(&gear, gear, "number_of_teeth", kRexsNumber);
   if (teeth.value < 0)
     fail(Failure::input, stage.path(), ": ", quoted_name(gear), " is internal (", teeth.value,
          " teeth); only external spur gears are imported");
@@ -103,16 +102,16 @@ void write_heights(RexsStage& stage, int side, const std::string& of, Writer& ou
   for (const Height& h :
        {Height{"tip_diameter", "addendum", "dedendum_coefficient_reference_profile", "1.0"},
         Height{"root_diameter", "dedendum", "addendum_coefficient_reference_profile", "1.25"}}) {
-    if (const auto diameter = stage.number(&gear, h.diameter, kMillimetre))
+    if (const auto diameter = stage.number(&gear, h.diameter, kRexsMillimetre))
       out.value(std::string(h.diameter) + "_mm", *diameter);
-    else if (const auto coefficient = stage.number(tool, h.coefficient, kNumber))
+    else if (const auto coefficient = stage.number(tool, h.coefficient, kRexsNumber))
       out.value(h.key, *coefficient);
     else
       out.assumed(h.key, of, h.standard, "ISO 53, profile A");
   }
   std::optional<RexsNumber> radius;
   for (const char* name : {"tip_corner_radius_factor_reference_profile", "tip_radius_factor"})
-    if (!radius) radius = stage.number(tool, name, kNumber);
+    if (!radius) radius = stage.number(tool, name, kRexsNumber);
   if (radius)
     out.value("rack_tip_radius", *radius);
   else
@@ -124,7 +123,7 @@ void write_thinning(RexsStage& stage, int side, const std::string& of, double mo
                     double angle_deg, Writer& out) {
   const RexsComponent* settings =
       stage.beside(stage.gear(side).id, "cylindrical_gear_manufacturing_settings");
-  const auto generated = stage.number(settings, "generated_addendum_modification_coefficient", kNumber);
+  const auto generated = stage.number(settings, "generated_addendum_modification_coefficient", kRexsNumber);
   if (generated)
     out.value(
         "tooth_thinning_mm",
@@ -191,8 +190,8 @@ void write_modifications(RexsStage& stage, int side, const std::string& name, Wr
       written.insert(kind);
     };
     if (tip || root) {
-      const auto depth = stage.number(c, kind + "_depth", kMicrometre);
-      const auto datum = stage.number(c, kind + "_datum_diameter", kMillimetre);
+      const auto depth = stage.number(c, kind + "_depth", kRexsMicrometre);
+      const auto datum = stage.number(c, kind + "_datum_diameter", kRexsMillimetre);
       if (!depth || !datum) {
         skip(": a relief needs " + kind + "_depth and " + kind + "_datum_diameter");
         continue;
@@ -207,8 +206,8 @@ void write_modifications(RexsStage& stage, int side, const std::string& name, Wr
         out.assumed(kind + "_shape", "gear." + name + ".modification.", "\"linear\"",
                     shape.empty() ? "the model says none" : "the model says " + printable(shape, 40));
     } else if (kind == "profile_crowning") {
-      const auto at_tip = stage.number(c, "profile_crowning_at_tip", kMicrometre),
-                 at_root = stage.number(c, "profile_crowning_at_root", kMicrometre);
+      const auto at_tip = stage.number(c, "profile_crowning_at_tip", kRexsMicrometre),
+                 at_root = stage.number(c, "profile_crowning_at_root", kRexsMicrometre);
       if (!at_tip || !at_root || std::abs(at_tip->value - at_root->value) > 1e-9) {
         skip(": a scene has one crowning, the same at tip and root");
         continue;
@@ -224,7 +223,7 @@ void write_modifications(RexsStage& stage, int side, const std::string& name, Wr
 void write_errors(RexsStage& stage, int side, const std::string& name, Writer& out) {
   for (const char* attribute :
        {"global_tolerance_class_iso_1328_2013", "tolerance_class_according_to_iso_1328_2013"}) {
-    const auto iso = stage.number(&stage.gear(side), attribute, kNumber);
+    const auto iso = stage.number(&stage.gear(side), attribute, kRexsNumber);
     if (!iso || iso->value < 1) continue;
     out.section("# [gear." + name + ".error]   # without the # teeth differ: sweeps over many mesh periods");
     out.line("# iso_class = " + std::to_string(std::lround(iso->value)) + "   # " + iso->origin);
@@ -242,9 +241,9 @@ std::string write_material(RexsStage& stage, int side, const std::string& plane,
     RexsUnit unit;
     const char* steel;
   };
-  for (const Constant& c : {Constant{"youngs_modulus_GPa", "elastic_modulus", kGigapascal, "206.0"},
-                            Constant{"poisson_ratio", "poisson_ratio", kNumber, "0.3"},
-                            Constant{"density_kgm3", "density", kDensity, "7850.0"}}) {
+  for (const Constant& c : {Constant{"youngs_modulus_GPa", "elastic_modulus", kRexsGigapascal, "206.0"},
+                            Constant{"poisson_ratio", "poisson_ratio", kRexsNumber, "0.3"},
+                            Constant{"density_kgm3", "density", kRexsDensity, "7850.0"}}) {
     if (const auto found = stage.number(material, c.attribute, c.unit))
       out.value(c.key, *found);
     else
@@ -257,16 +256,16 @@ std::string write_material(RexsStage& stage, int side, const std::string& plane,
 void write_load(RexsStage& stage, double teeth, Writer& out) {
   out.section("[operation]");
   const RexsComponent* shaft = stage.beside(stage.gear(0).id, "shaft");
-  std::optional<RexsNumber> torque = stage.number(stage.stage_gear_data(0), "torque", kNewtonMetre);
-  if (!torque) torque = stage.number(&stage.gear(0), "torque_acting_on_shaft_u", kNewtonMetre);
+  std::optional<RexsNumber> torque = stage.number(stage.stage_gear_data(0), "torque", kRexsNewtonMetre);
+  if (!torque) torque = stage.number(&stage.gear(0), "torque_acting_on_shaft_u", kRexsNewtonMetre);
   if (!torque && shaft)
-    torque = stage.number(stage.beside(shaft->id, "external_load"), "torque_around_u_axis", kNewtonMetre);
+    torque = stage.number(stage.beside(shaft->id, "external_load"), "torque_around_u_axis", kRexsNewtonMetre);
   if (torque && torque->value != 0)
     out.value("torque_Nm", {std::abs(torque->value), torque->origin});
   else
     out.assumed("torque_Nm", "operation.", "100.0", "the model has no torque of the driver");
-  std::optional<RexsNumber> speed = stage.number(&stage.gear(0), "rotational_speed", kPerMinute);
-  if (!speed) speed = stage.number(shaft, "rotational_speed", kPerMinute);
+  std::optional<RexsNumber> speed = stage.number(&stage.gear(0), "rotational_speed", kRexsPerMinute);
+  if (!speed) speed = stage.number(shaft, "rotational_speed", kRexsPerMinute);
   if (speed && speed->value != 0) {
     // From a fifth of the operating speed to half beyond it, in steps of a hundredth.
     const double mesh = std::max(10.0, std::round(std::abs(speed->value) / 60 * teeth)),
@@ -291,10 +290,10 @@ Written write_gear(RexsStage& stage, int side, const std::string& name, const st
   const RexsComponent& gear = stage.gear(side);
   const std::string of = "gear." + name + ".";
   out.section("[gear." + name + "]   # " + quoted_name(gear));
-  const RexsNumber teeth = stage.required(&gear, gear, "number_of_teeth", kNumber),
-                   module = stage.required(&gear, gear, "normal_module", kMillimetre),
-                   angle = stage.of_flanks(side, "normal_pressure_angle", kDegree),
-                   shift = stage.of_flanks(side, "addendum_modification_coefficient", kNumber);
+  const RexsNumber teeth = stage.required(&gear, gear, "number_of_teeth", kRexsNumber),
+                   module = stage.required(&gear, gear, "normal_module", kRexsMillimetre),
+                   angle = stage.of_flanks(side, "normal_pressure_angle", kRexsDegree),
+                   shift = stage.of_flanks(side, "addendum_modification_coefficient", kRexsNumber);
   if (teeth.value != std::round(teeth.value) || teeth.value > 1e6)
     fail(Failure::input, stage.path(), ": ", teeth.origin, " = ", teeth.value, " is no number of teeth");
   out.whole("teeth", teeth);
@@ -303,12 +302,12 @@ Written write_gear(RexsStage& stage, int side, const std::string& name, const st
   out.value("profile_shift", shift);
   write_heights(stage, side, of, out);
   write_thinning(stage, side, of, module.value, shift.value, angle.value, out);
-  out.value("face_width_mm", stage.required(&gear, gear, "face_width", kMillimetre));
-  const auto bore = stage.number(&gear, "inner_diameter", kMillimetre);
+  out.value("face_width_mm", stage.required(&gear, gear, "face_width", kRexsMillimetre));
+  const auto bore = stage.number(&gear, "inner_diameter", kRexsMillimetre);
   if (bore && bore->value > 0)
     out.value("bore_radius_mm", {bore->value / 2, bore->origin});
   else
-    out.assumed("bore_radius_mm", of, digits(std::round(0.3 * module.value * teeth.value * 10) / 20),
+    out.assumed("bore_radius_mm", of, all_digits(std::round(0.3 * module.value * teeth.value * 10) / 20),
                 "0.3 of the reference diameter; it decides how much the body twists");
   out.assumed("total_inertia_kgm2", of, "0.0", "as drawn, from bore to tip; add shaft and coupling");
   out.value("material", "\"" + material + "\"", "below");
@@ -333,8 +332,8 @@ RexsScene scene_of_rexs(const RexsModel& model, const std::string& wanted, int l
   for (int side : {0, 1}) {
     const auto s = static_cast<size_t>(side);
     const RexsComponent& gear = stage.gear(side);
-    const double width = stage.required(&gear, gear, "face_width", kMillimetre).value,
-                 module = stage.required(&gear, gear, "normal_module", kMillimetre).value;
+    const double width = stage.required(&gear, gear, "face_width", kRexsMillimetre).value,
+                 module = stage.required(&gear, gear, "normal_module", kRexsMillimetre).value;
     const bool shared = side == 1 && first_material == stage.beside(gear.id, "material");
     material[s] = shared
                       ? material[0]
@@ -354,7 +353,7 @@ RexsScene scene_of_rexs(const RexsModel& model, const std::string& wanted, int l
     out.assumed("driver", "mesh.", "\"" + name[0] + "\"", stage.driver_assumed());
   out.value("driven", "\"" + name[1] + "\"", quoted_name(stage.gear(1)));
   out.value("centre_distance_mm",
-            stage.required(&stage.stage(), stage.stage(), "center_distance", kMillimetre));
+            stage.required(&stage.stage(), stage.stage(), "center_distance", kRexsMillimetre));
   out.section("[damping]");
   out.assumed("rayleigh_stiffness_s", "damping.", "3.0e-6", "make calibrate DAMPING=0.05 finds it");
   write_load(stage, written[0].teeth, out);

@@ -3,17 +3,16 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <string_view>
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "base/units.h"
 #include "io/rexs_results.h"
 
 namespace whine {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr std::string_view kBlanks = " \t\n\r";
 constexpr const char* kOfLoad = "load case, ";
 

@@ -20,6 +20,7 @@ struct RexsUnit {
   RexsDimension dimension;
   double si;
 };
+inline constexpr RexsUnit kRexsNumber{"", RexsDimension::number, 1};
 
 struct RexsNumber {
   double value;        // in the unit that was asked for

@@ -9,7 +9,7 @@ namespace {
 using namespace ranges;
 using Eigen::Index;
 
-constexpr Schema kSchema{"runup", 2};
+constexpr Schema kRunupSchema{"runup", 2};
 
 void describe_head(Codec& c, RunupArtifact& a) {
   describe_pair(c, a);
@@ -102,7 +102,8 @@ void describe(Codec& c, RunupArtifact& a) {
 
 struct RunupFile::Open {
   Open(const std::string& path, const std::string& title, const Provenance& provenance)
-      : out(ArtifactWriter::on_disk(path, kSchema.kind, kSchema.version, title, provenance)), codec(out) {}
+      : out(ArtifactWriter::on_disk(path, kRunupSchema.kind, kRunupSchema.version, title, provenance)),
+        codec(out) {}
   ArtifactWriter out;
   Codec codec;
   GearMeshSpec mesh;
@@ -159,7 +160,7 @@ void RunupFile::end(const RunupArtifact& tail) {
 }
 
 RunupArtifact read_runup(const std::string& path) {
-  return read_artifact<RunupArtifact>(path, kSchema);
+  return read_artifact<RunupArtifact>(path, kRunupSchema);
 }
 
 }  // namespace whine

@@ -46,7 +46,8 @@ std::vector<std::pair<std::string, const toml::table*>> named_sections(const Sou
   return out;
 }
 
-std::vector<std::string> names_of(const std::vector<std::pair<std::string, const toml::table*>>& sections) {
+std::vector<std::string> section_names(
+    const std::vector<std::pair<std::string, const toml::table*>>& sections) {
   std::vector<std::string> names;
   names.reserve(sections.size());
   for (const auto& section : sections) names.push_back(section.first);
@@ -271,7 +272,7 @@ void read_gears(const Source& source, Scene& scene, bool rigid) {
     }
     return nullptr;
   };
-  const auto names = names_of(gears);
+  const auto names = section_names(gears);
   for (const auto& [name, table] : gears) {
     // These would be mixed up with the folders of parameters, reports and torques beside the gear's own.
     const bool torque_like =
@@ -321,7 +322,7 @@ void read_gears(const Source& source, Scene& scene, bool rigid) {
       source.reject(key ? *key : static_cast<const toml::node&>(*table),
                     text("'material' in [gear.", name, "] = '", values.material_name,
                          "' names no [material.<name>] section",
-                         advice_for(values.material_name, names_of(materials))));
+                         advice_for(values.material_name, section_names(materials))));
     }
     scene.gears.push_back({name, values.design, material.at(values.material_name), values.total_inertia,
                            values.modification, values.errors});
@@ -437,7 +438,7 @@ bool plain_name(const std::string& name) {
 
 namespace {
 
-Scene scene_of(const Source& source) {
+Scene scene_from(const Source& source) {
   if (source.is_stage_parameters())
     source.reject(
         "holds stage parameters, which gear-scene wrote from a scene for one stage; give the scene itself");
@@ -499,11 +500,11 @@ Scene scene_of(const Source& source) {
 }  // namespace
 
 Scene read_scene(const std::string& path) {
-  return scene_of(Source(path));
+  return scene_from(Source(path));
 }
 
 Scene read_variant_of(const std::string& path, const std::string& variant) {
-  return scene_of(Source(path, variant, false));
+  return scene_from(Source(path, variant, false));
 }
 
 }  // namespace whine

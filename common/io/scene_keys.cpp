@@ -12,7 +12,7 @@ namespace whine {
 namespace {
 
 // m: d_a = m (z + 2 x + 2 h_a), d_f = m (z + 2 x - 2 h_f); of an internal gear, whose tips lie inside, with the other signs.
-void take_diameters(KeyValues& values) {
+void diameters_as_heights(KeyValues& values) {
   const GearDesign& gear = values.design;
   const double outwards = gear.internal ? -1 : 1, middle = gear.teeth + outwards * 2 * gear.profile_shift;
   values.tip_diameter = gear.module * (middle + outwards * 2 * gear.addendum);
@@ -31,7 +31,7 @@ KeyValues keys_of(const Artifact& a, int g) {
     values.damping = a.damping;
   }
   values.design = a.gear[g].design;
-  take_diameters(values);
+  diameters_as_heights(values);
   values.material = a.gear[g].material;
   values.body = a.gear[g].discretisation;
   take_gear(values, a.mesh, g);
@@ -133,7 +133,7 @@ KeyValues keys_of(const SystemStaticArtifact& a, size_t g, const SystemSweepArti
   KeyValues values;
   const std::string& name = a.settings.body[g].first;
   values.design = a.drawing[g].design;
-  take_diameters(values);
+  diameters_as_heights(values);
   values.material = a.drawing[g].material;
   values.body = a.drawing[g].discretisation;
   values.modification = a.settings.modification(name);

@@ -34,7 +34,8 @@ const toml::table* section_of(const toml::table& root, const std::string& name) 
   return table;
 }
 
-toml::source_index line_of(const toml::table& root, const std::string& section, const std::string& words) {
+toml::source_index line_that_names(const toml::table& root, const std::string& section,
+                                   const std::string& words) {
   std::vector<const toml::table*> places{section_of(root, section)};
   if (section.starts_with("gear.")) {
     const size_t end = section.find('.', 5);
@@ -59,7 +60,7 @@ std::string scene_place(const std::string& path, const std::vector<std::string>&
   try {
     const toml::table root = parse_toml(read_bytes(path));
     for (const std::string& section : sections)
-      if (const auto line = line_of(root, section, words)) return text(path, ":", line);
+      if (const auto line = line_that_names(root, section, words)) return text(path, ":", line);
     const toml::table* first = sections.empty() ? nullptr : section_of(root, sections.front());
     if (first && first->source().begin) return text(path, ":", first->source().begin.line);
   } catch (const toml::parse_error&) {

@@ -243,7 +243,7 @@ BodyParameters read_body_parameters(const std::string& path) {
 
 namespace {
 
-StaticParameters read_static(const Source& source) {
+StaticParameters static_from(const Source& source) {
   KeyValues values;
   read_parameter_section(source, "mesh", "mesh", {Part::mesh}, values);
   if (source.section("mesh")->contains("contact_plane"))
@@ -272,7 +272,7 @@ void read_inertia(const Source& source, ImpactParameters& out) {
   }
 }
 
-ImpactParameters read_impact(const Source& source) {
+ImpactParameters impact_from(const Source& source) {
   KeyValues values;
   ImpactParameters out;
   read_inertia(source, out);
@@ -295,7 +295,7 @@ void read_speeds(const Source& source, SweepParameters& out) {
 
 SweepParameters read_motion(const Source& source) {
   SweepParameters out;
-  static_cast<ImpactParameters&>(out) = read_impact(source);
+  static_cast<ImpactParameters&>(out) = impact_from(source);
   KeyValues values;
   read_parameter_section(source, "discretisation", "discretisation", {Part::time}, values);
   out.time = values.time;
@@ -305,7 +305,7 @@ SweepParameters read_motion(const Source& source) {
 }  // namespace
 
 StaticParameters read_static_parameters(const std::string& path) {
-  return read_static(stage_parameters_source(path, "params/static.toml", kStaticStage));
+  return static_from(stage_parameters_source(path, "params/static.toml", kStaticStage));
 }
 
 VariantParameters read_variant_parameters(const std::string& path) {
@@ -313,7 +313,7 @@ VariantParameters read_variant_parameters(const std::string& path) {
   KeyValues values;
   read_parameter_section(source, "operation", kVariant, {Part::load}, values);
   VariantParameters out;
-  out.statics = read_static(source);
+  out.statics = static_from(source);
   out.torque = values.operation.torques.front();
   const std::string words = (*source.section(kVariant))["directions"].value_or(std::string());
   const auto directions = choices_in<Direction>(words);
@@ -326,7 +326,7 @@ VariantParameters read_variant_parameters(const std::string& path) {
 }
 
 ImpactParameters read_impact_parameters(const std::string& path) {
-  return read_impact(stage_parameters_source(path, "params/impact.toml", kImpactStage));
+  return impact_from(stage_parameters_source(path, "params/impact.toml", kImpactStage));
 }
 
 SweepParameters read_map_parameters(const std::string& path) {

@@ -8,7 +8,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"static", 5};
+constexpr Schema kStaticSchema{"static", 5};
 
 void describe_curves(Codec& c, StaticArtifact& a) {
   const char* const without = a.mesh.on_bearings() ? ", without the bearings" : "";
@@ -84,7 +84,7 @@ void describe_root_stress(Codec& c, StaticArtifact& a) {
 constexpr Range kLost{0, 1e7};  // N m
 
 // Left out of flanks without friction.
-void describe_friction(Codec& c, StaticArtifact& a) {
+void describe_static_friction(Codec& c, StaticArtifact& a) {
   if (!c.lists() && !a.mesh.friction.acts()) return;
   c.dataset({"/friction_coefficient", "1", "coefficient of friction", "", kShare}, &a.friction_coefficient);
   c.dataset({"/certificate/friction_coupling", "m",
@@ -118,7 +118,7 @@ void describe(Codec& c, StaticArtifact& a) {
             &a.contact_ratio);
   describe_curves(c, a);
   describe_root_stress(c, a);
-  describe_friction(c, a);
+  describe_static_friction(c, a);
   c.dataset({"/transmission_error_harmonic", "m",
              "mean, then amplitudes of the harmonics of the mesh frequency", "harmonic", kLength},
             &a.transmission_error_harmonic);
@@ -149,11 +149,12 @@ void describe(Codec& c, StaticArtifact& a) {
 }
 
 void write(const std::string& path, const StaticArtifact& a, const Provenance& provenance) {
-  write_artifact(path, kSchema, "Static transmission error: " + pair_title(a.mesh, a.torque), a, provenance);
+  write_artifact(path, kStaticSchema, "Static transmission error: " + pair_title(a.mesh, a.torque), a,
+                 provenance);
 }
 
 StaticArtifact read_static(const std::string& path) {
-  return read_artifact<StaticArtifact>(path, kSchema);
+  return read_artifact<StaticArtifact>(path, kStaticSchema);
 }
 
 }  // namespace whine

@@ -16,6 +16,7 @@
 #include "base/key_error.h"
 #include "io/keys.h"
 #include "io/publish.h"
+#include "io/section_reader.h"
 #include "io/suggestion.h"
 #include "io/toml.h"
 #include "io/variant.h"
@@ -27,12 +28,6 @@ using Words = std::vector<std::string>;
 
 constexpr int kMostPanels = 4;
 constexpr const char* kTorque = "torque_Nm";
-
-std::string joined(const Words& words, const std::string& between = ", ") {
-  std::string out;
-  for (const std::string& word : words) out += (out.empty() ? "" : between) + word;
-  return out;
-}
 
 bool among(const std::string& word, const Words& words) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -376,7 +371,7 @@ void read_figure(const StudyFile& file, Study& study) {
 }
 
 // Uniform in (0, 1), of seed, variant, key and attempt alone. Not std::uniform_real_distribution, which is the library's.
-double draw(int seed, long index, const std::string& key, int attempt) {
+double uniform_draw(int seed, long index, const std::string& key, int attempt) {
   std::uint64_t name = 1469598103934665603u;  // FNV-1a
   for (const unsigned char c : key) name = (name ^ c) * 1099511628211u;
   std::seed_seq sequence{std::uint64_t(seed), std::uint64_t(index), name & 0xffffffffu, name >> 32,
@@ -390,19 +385,19 @@ std::string drawn_value(const StudyPlan& study, const VariedKey& key, long index
   constexpr int kDigits = 6;
   if (!key.values.empty()) {
     const auto count = key.values.size();
-    return key.values[std::min(count - 1,
-                               static_cast<size_t>(draw(study.seed, index, key.name, 0) * double(count)))];
+    return key.values[std::min(
+        count - 1, static_cast<size_t>(uniform_draw(study.seed, index, key.name, 0) * double(count)))];
   }
   if (!key.normal) {
-    const double u = draw(study.seed, index, key.name, 0);
+    const double u = uniform_draw(study.seed, index, key.name, 0);
     if (key.whole)
       return rounded_text(std::min(std::floor(key.first + u * (key.second - key.first + 1)), key.second), 0,
                           true);
     return rounded_text(key.first + u * (key.second - key.first), kDigits, false);
   }
   for (int attempt = 0; attempt < 10000; attempt += 2) {
-    const double radius = std::sqrt(-2 * std::log(draw(study.seed, index, key.name, attempt))),
-                 angle = 2 * std::numbers::pi * draw(study.seed, index, key.name, attempt + 1);
+    const double radius = std::sqrt(-2 * std::log(uniform_draw(study.seed, index, key.name, attempt))),
+                 angle = 2 * std::numbers::pi * uniform_draw(study.seed, index, key.name, attempt + 1);
     const std::string value =
         rounded_text(key.first + key.second * radius * std::cos(angle), kDigits, key.whole);
     const double number = std::strtod(value.c_str(), nullptr);

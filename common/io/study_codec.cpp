@@ -13,7 +13,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"study", 2};
+constexpr Schema kStudySchema{"study", 2};
 
 // The dataset of a key: its place without dots, its name without the unit.
 std::string dataset_of(const VariedKey& key) {
@@ -116,11 +116,11 @@ void describe(Codec& c, StudyArtifact& a) {
 void write(const std::string& path, const StudyArtifact& a, const Provenance& provenance) {
   if (a.quantity.rows() != static_cast<Eigen::Index>(a.variants.size()))
     fail(Failure::numerical, "result has ", a.quantity.rows(), " rows, expected ", a.variants.size());
-  write_artifact(path, kSchema, "Study: " + a.plan.title, a, provenance);
+  write_artifact(path, kStudySchema, "Study: " + a.plan.title, a, provenance);
 }
 
 StudyArtifact read_study_artifact(const std::string& path) {
-  return read_artifact<StudyArtifact>(path, kSchema);
+  return read_artifact<StudyArtifact>(path, kStudySchema);
 }
 
 }  // namespace whine

@@ -86,7 +86,8 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 }
 
 // The first of those at the least distance; the distance of no word is `least`.
-std::string nearest(const std::string& word, const std::vector<std::string>& known, std::ptrdiff_t& least) {
+std::string nearest_within(const std::string& word, const std::vector<std::string>& known,
+                           std::ptrdiff_t& least) {
   std::string best;
   least = static_cast<std::ptrdiff_t>(word.size() / 2 + 2);
   for (const auto& candidate : known) {
@@ -160,7 +161,7 @@ std::string without_decimal_comma(const std::string& word) {
 
 std::string nearest(const std::string& word, const std::vector<std::string>& known) {
   std::ptrdiff_t least = 0;
-  return nearest(word, known, least);
+  return nearest_within(word, known, least);
 }
 
 const Key* meant_key(const std::string& word, std::string& note) {
@@ -179,7 +180,7 @@ std::string advice_on_key(const std::string& word, const std::string& section,
   for (const Key& key : scene_keys())
     if (word == key.name) return text("; it belongs into ", section_words(key));
   std::ptrdiff_t here = 0, anywhere = 0;
-  const std::string near = nearest(word, known, here);
+  const std::string near = nearest_within(word, known, here);
   if (const Synonym* synonym = synonym_of(word)) {
     const Key* key = key_called(synonym->key);
     if (!key) return text(": ", synonym->note);
@@ -189,7 +190,7 @@ std::string advice_on_key(const std::string& word, const std::string& section,
   }
   std::vector<std::string> all;
   for (const Key& key : scene_keys()) all.push_back(key.name);
-  const std::string elsewhere = nearest(word, all, anywhere);
+  const std::string elsewhere = nearest_within(word, all, anywhere);
   const Key* key = key_called(elsewhere);
   if (key && key->section != section && (near.empty() || anywhere < here))
     return text("; did you mean '", elsewhere, "' of ", section_words(*key), "?");

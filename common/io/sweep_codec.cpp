@@ -8,7 +8,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"sweep", 5};
+constexpr Schema kSweepSchema{"sweep", 5};
 
 // Left out of finite element sweeps, which have no such part.
 void describe_lumped(Codec& c, std::string& model, LumpedParameters& a) {
@@ -128,14 +128,14 @@ void describe(Codec& c, SweepArtifact& a) {
 
 void write(const std::string& path, const SweepArtifact& a, const Provenance& provenance) {
   const bool lumped = a.lumped.cell_end.size() > 0;
-  write_artifact(path, kSchema,
+  write_artifact(path, kSweepSchema,
                  text("Sweep ", a.direction, lumped ? ", lumped model " + a.model : "", ": ",
                       pair_title(a.mesh, a.torque)),
                  a, provenance);
 }
 
 SweepArtifact read_sweep(const std::string& path) {
-  return read_artifact<SweepArtifact>(path, kSchema);
+  return read_artifact<SweepArtifact>(path, kSweepSchema);
 }
 
 }  // namespace whine

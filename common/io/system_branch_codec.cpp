@@ -10,7 +10,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"system_branch", 1};
+constexpr Schema kSystemBranchSchema{"system_branch", 1};
 
 void describe_points(Codec& c, SystemBranchArtifact& a) {
   const char* const of_mesh = "point mesh_number";
@@ -46,14 +46,14 @@ void describe(Codec& c, SystemBranchArtifact& a) {
 }
 
 void write(const std::string& path, const SystemBranchArtifact& a, const Provenance& provenance) {
-  write_artifact(path, kSchema,
+  write_artifact(path, kSystemBranchSchema,
                  text("Branch of periodic orbits of a system: ", a.settings.layout.bodies.size(), " bodies, ",
                       a.settings.layout.meshes.size(), " meshes"),
                  a, provenance);
 }
 
 SystemBranchArtifact read_system_branch(const std::string& path) {
-  return read_artifact<SystemBranchArtifact>(path, kSchema);
+  return read_artifact<SystemBranchArtifact>(path, kSystemBranchSchema);
 }
 
 }  // namespace whine

@@ -9,7 +9,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"system_impact", 1};
+constexpr Schema kSystemImpactSchema{"system_impact", 1};
 constexpr Range kRatio{-1, 1};
 
 }  // namespace
@@ -58,14 +58,14 @@ void describe(Codec& c, SystemImpactArtifact& a) {
 }
 
 void write(const std::string& path, const SystemImpactArtifact& a, const Provenance& provenance) {
-  write_artifact(path, kSchema,
+  write_artifact(path, kSystemImpactSchema,
                  text("Ring-down of a system: ", a.settings.layout.bodies.size(), " bodies, ",
                       a.settings.layout.meshes.size(), " meshes"),
                  a, provenance);
 }
 
 SystemImpactArtifact read_system_impact(const std::string& path) {
-  return read_artifact<SystemImpactArtifact>(path, kSchema);
+  return read_artifact<SystemImpactArtifact>(path, kSystemImpactSchema);
 }
 
 }  // namespace whine

@@ -15,7 +15,7 @@
 namespace whine {
 namespace {
 
-constexpr const char* kStage = "the modes of a system";
+constexpr const char* kModesStage = "the modes of a system";
 
 // One key of a table of stage parameters: what is written is what is read.
 class Table {
@@ -85,28 +85,28 @@ class Table {
   std::string label_;
 };
 
-constexpr double kAny = 1e30, kMetres = 1e3, kStiff = 1e15, kAngle = 1e6;
+constexpr double kAnyNumber = 1e30, kFarthest = 1e3, kStiffest = 1e15, kMostTurn = 1e6;
 constexpr int kMostTeeth = 2000, kMost = 1000;
 
-void describe(Table& t, System::Body& body) {
+void describe_table(Table& t, System::Body& body) {
   t.word("name", body.name);
   bool carrier = body.kind == System::BodyKind::carrier;
   t.flag("is_carrier", carrier);
   body.kind = carrier ? System::BodyKind::carrier : System::BodyKind::gear;
   t.whole("teeth", body.teeth, 0, kMostTeeth);
   t.whole("sense", body.sense, -1, 1);
-  t.number("angle", body.angle, -kAngle, kAngle);
-  t.number("x", body.centre[0], -kMetres, kMetres);
-  t.number("y", body.centre[1], -kMetres, kMetres);
-  t.number("radius", body.radius, 0, kMetres);
-  t.number("inertia", body.inertia, 0, kAny);
+  t.number("angle", body.angle, -kMostTurn, kMostTurn);
+  t.number("x", body.centre[0], -kFarthest, kFarthest);
+  t.number("y", body.centre[1], -kFarthest, kFarthest);
+  t.number("radius", body.radius, 0, kFarthest);
+  t.number("inertia", body.inertia, 0, kAnyNumber);
   t.whole("stands_on", body.on, System::kGround, kMost);
-  t.number("bearing_stiffness", body.bearing.stiffness, 0, kStiff);
-  t.number("bearing_damping", body.bearing.damping, 0, kAny);
-  t.number("bearing_mass", body.bearing.mass, 0, kAny);
+  t.number("bearing_stiffness", body.bearing.stiffness, 0, kStiffest);
+  t.number("bearing_damping", body.bearing.damping, 0, kAnyNumber);
+  t.number("bearing_mass", body.bearing.mass, 0, kAnyNumber);
 }
 
-void describe(Table& t, System::Mesh& mesh) {
+void describe_table(Table& t, System::Mesh& mesh) {
   for (size_t s = 0; s < 2; ++s) {
     const std::string side = s == 0 ? "driver" : "driven";
     System::Side& own = mesh.side[s];
@@ -117,19 +117,19 @@ void describe(Table& t, System::Mesh& mesh) {
     t.flag((side + "_trailing").c_str(), trailing);
     own.flank = trailing ? FlankSide::trailing : FlankSide::leading;
   }
-  t.number("centre_distance", mesh.centre_distance, 0, kMetres);
-  t.number("direction", mesh.direction, -kAngle, kAngle);
+  t.number("centre_distance", mesh.centre_distance, 0, kFarthest);
+  t.number("direction", mesh.direction, -kMostTurn, kMostTurn);
   t.number("phase", mesh.phase, 0, 1);
   t.number("pressure_angle", mesh.pressure_angle, 0, 1.5);
   t.flag("ring_drives", mesh.ring_drives);
-  t.number("stiffness", mesh.stiffness, 0, kStiff);
+  t.number("stiffness", mesh.stiffness, 0, kStiffest);
 }
 
-void describe(Table& t, System::Drive& drive) {
+void describe_table(Table& t, System::Drive& drive) {
   t.whole("body", drive.body, 0, kMost);
   t.choice("kind", drive.kind);
-  t.number("torque", drive.torque, -kAny, kAny);
-  t.number("stiffness", drive.stiffness, 0, kStiff);
+  t.number("torque", drive.torque, -kAnyNumber, kAnyNumber);
+  t.number("stiffness", drive.stiffness, 0, kStiffest);
 }
 
 template <class Item>
@@ -137,7 +137,7 @@ void write_list(std::ostringstream& out, const char* name, const std::vector<Ite
   for (Item item : list) {
     out << "\n[[" << name << "]]\n";
     Table table(out);
-    describe(table, item);
+    describe_table(table, item);
   }
 }
 
@@ -150,7 +150,7 @@ void read_list(const Source& source, const char* name, std::vector<Item>& list) 
     source.reject(*node, text("'", name, "' must be a list of at most ", kMost, " sections"));
   for (const toml::node& item : *tables) {
     Table table(source, *item.as_table(), name);
-    describe(table, list.emplace_back());
+    describe_table(table, list.emplace_back());
   }
 }
 
@@ -165,7 +165,7 @@ std::string layout_text(const System& layout) {
 }
 
 std::string system_parameters(const System& layout) {
-  return std::string(kStageParametersStart) + kStage + kStageParametersEnd + "\n" + layout_text(layout);
+  return std::string(kStageParametersStart) + kModesStage + kStageParametersEnd + "\n" + layout_text(layout);
 }
 
 System layout_from(const Source& source) {
@@ -205,7 +205,7 @@ System layout_from(const Source& source) {
 System read_system_parameters(const std::string& path) {
   const Source source(path,
                       "stage parameters are out/<scene>/params/system.toml, made with: make modes SCENE=...");
-  if (!source.is_stage_parameters() || source.stage_of() != kStage)
+  if (!source.is_stage_parameters() || source.stage_of() != kModesStage)
     source.reject("is not what the modes of a system depend on: give out/<scene>/params/system.toml");
   return layout_from(source);
 }

@@ -12,7 +12,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"system_static", 1};
+constexpr Schema kSystemStaticSchema{"system_static", 1};
 
 // [gear.<name>.modification], of gears that have one.
 void describe_modification(Codec& c, const std::string& gear, SystemStaticParameters& s) {
@@ -174,14 +174,14 @@ void describe(Codec& c, SystemStaticArtifact& a) {
 }
 
 void write(const std::string& path, const SystemStaticArtifact& a, const Provenance& provenance) {
-  write_artifact(path, kSchema,
+  write_artifact(path, kSystemStaticSchema,
                  text("System at rest: ", a.settings.layout.bodies.size(), " bodies, ",
                       a.settings.layout.meshes.size(), " meshes"),
                  a, provenance);
 }
 
 SystemStaticArtifact read_system_static(const std::string& path) {
-  return read_artifact<SystemStaticArtifact>(path, kSchema);
+  return read_artifact<SystemStaticArtifact>(path, kSystemStaticSchema);
 }
 
 }  // namespace whine

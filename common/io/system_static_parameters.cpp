@@ -16,7 +16,8 @@
 namespace whine {
 namespace {
 
-constexpr const char *kStage = "the statics of a system", *kSweepStage = "a sweep of a system";
+constexpr const char *kSystemStaticStage = "the statics of a system",
+                     *kSystemSweepStage = "a sweep of a system";
 constexpr int kPositions = 128;  // where the scene leaves them open
 
 std::string mesh_label(size_t number) {
@@ -118,7 +119,7 @@ std::string parameters_text(const char* stage, const SystemStaticParameters& p, 
 }  // namespace
 
 std::string system_static_parameters(const SystemStaticParameters& p) {
-  return parameters_text(kStage, p, {}, false);
+  return parameters_text(kSystemStaticStage, p, {}, false);
 }
 
 SystemSweepParameters sweep_parameters_of(const SystemScene& scene, const System& layout) {
@@ -139,7 +140,7 @@ std::string system_sweep_parameters(const SystemSweepParameters& p) {
   values.operation.frequency_to = p.frequency_to;
   values.operation.frequency_step = p.frequency_step;
   values.time = p.time;
-  return parameters_text(kSweepStage, p, values, true);
+  return parameters_text(kSystemSweepStage, p, values, true);
 }
 
 std::vector<std::pair<std::string, std::string>> elastic_parameters(const SystemScene& scene,
@@ -236,7 +237,7 @@ SystemStaticParameters read_system_static_parameters(const std::string& path) {
   const Source source(path,
                       "stage parameters are out/<scene>/params/system_static.toml, made with: make "
                       "system-static SCENE=...");
-  if (!source.is_stage_parameters() || source.stage_of() != kStage)
+  if (!source.is_stage_parameters() || source.stage_of() != kSystemStaticStage)
     source.reject(
         "is not what the statics of a system depend on: give out/<scene>/params/system_static.toml");
   KeyValues values;
@@ -247,7 +248,7 @@ SystemSweepParameters read_system_sweep_parameters(const std::string& path) {
   const Source source(path,
                       "stage parameters are out/<scene>/params/system_sweep.toml, made with: make "
                       "system-sweep SCENE=...");
-  if (!source.is_stage_parameters() || source.stage_of() != kSweepStage)
+  if (!source.is_stage_parameters() || source.stage_of() != kSystemSweepStage)
     source.reject("is not what a sweep of a system depends on: give out/<scene>/params/system_sweep.toml");
   KeyValues values;
   SystemSweepParameters out;

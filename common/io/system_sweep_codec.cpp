@@ -10,7 +10,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"system_sweep", 2};
+constexpr Schema kSystemSweepSchema{"system_sweep", 2};
 constexpr const char* kAxis = "mesh_frequency";
 
 void describe_meshes(Codec& c, SystemSweepArtifact& a) {
@@ -155,14 +155,14 @@ void describe(Codec& c, SystemSweepArtifact& a) {
 }
 
 void write(const std::string& path, const SystemSweepArtifact& a, const Provenance& provenance) {
-  write_artifact(path, kSchema,
+  write_artifact(path, kSystemSweepSchema,
                  text("Sweep ", a.direction, " of a system: ", a.settings.layout.bodies.size(), " bodies, ",
                       a.settings.layout.meshes.size(), " meshes"),
                  a, provenance);
 }
 
 SystemSweepArtifact read_system_sweep(const std::string& path) {
-  return read_artifact<SystemSweepArtifact>(path, kSchema);
+  return read_artifact<SystemSweepArtifact>(path, kSystemSweepSchema);
 }
 
 }  // namespace whine

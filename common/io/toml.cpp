@@ -76,7 +76,7 @@ Stray stray(const std::string& bytes) {
 }
 
 // The n-th line, from 1.
-std::string line_of(const std::string& bytes, unsigned n) {
+std::string nth_line(const std::string& bytes, unsigned n) {
   std::size_t begin = 0;
   for (unsigned line = 1; line < n && begin != std::string::npos; ++line) {
     begin = bytes.find('\n', begin);
@@ -94,7 +94,7 @@ toml::table parse_toml(const std::string& bytes, std::size_t most) {
   try {
     return toml::parse(std::string_view(bytes));
   } catch (const toml::parse_error& error) {
-    const std::string advice = decimal_comma_advice(line_of(bytes, error.source().begin.line));
+    const std::string advice = decimal_comma_advice(nth_line(bytes, error.source().begin.line));
     if (advice.empty()) throw;
     throw toml::parse_error((std::string(error.description()) + advice).c_str(), error.source().begin);
   }

@@ -9,7 +9,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSchema{"variant", 2};
+constexpr Schema kVariantSchema{"variant", 2};
 
 }  // namespace
 
@@ -45,11 +45,11 @@ void describe(Codec& c, VariantArtifact& a) {
 }
 
 void write(const std::string& path, const VariantArtifact& a, const Provenance& provenance) {
-  write_artifact(path, kSchema, "Variant of a study: " + pair_title(a.mesh, a.torque), a, provenance);
+  write_artifact(path, kVariantSchema, "Variant of a study: " + pair_title(a.mesh, a.torque), a, provenance);
 }
 
 VariantArtifact read_variant(const std::string& path) {
-  return read_artifact<VariantArtifact>(path, kSchema);
+  return read_artifact<VariantArtifact>(path, kVariantSchema);
 }
 
 }  // namespace whine
