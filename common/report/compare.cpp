@@ -16,7 +16,6 @@
 namespace whine {
 namespace {
 
-constexpr const char* kNone = "–";
 constexpr const char* kStar = " *";  // behind a value of a motion beyond the backlash
 
 // Nothing for what is no single number, such as a list of jumps.
@@ -46,7 +45,7 @@ class Rows {
       return r.torque == torque && r.quantity == quantity && r.unit == unit;
     });
     if (row == rows_.end()) {
-      rows_.push_back({torque, quantity, unit, std::vector<std::string>(designs_, kNone), {}});
+      rows_.push_back({torque, quantity, unit, std::vector<std::string>(designs_, html::kNoValue), {}});
       row = rows_.end() - 1;
     }
     row->value[design] = value;
@@ -97,8 +96,8 @@ void require_designs(const std::vector<Design>& designs) {
         "compare: the designs have no torque in common; give each of the scenes one torque_Nm of the others");
 }
 
-std::string table_of(const std::vector<Design>& designs, const std::vector<Difference>& rows,
-                     const std::string& caption, bool of_scene) {
+std::string differences_table(const std::vector<Design>& designs, const std::vector<Difference>& rows,
+                              const std::string& caption, bool of_scene) {
   if (rows.empty()) return html::paragraph("Nothing differs.");
   std::vector<std::string> head{of_scene ? "key" : "quantity", "unit"};
   if (!of_scene) head.insert(head.begin(), "torque (N m)");
@@ -112,8 +111,8 @@ std::string table_of(const std::vector<Design>& designs, const std::vector<Diffe
       head.push_back((designs.size() == 2 ? "change" : designs[d].name + " against first") + " (%)");
   html::Rows cells;
   for (const Difference& row : rows) {
-    std::vector<std::string> line{row.quantity, row.unit == "1" ? kNone : row.unit};
-    if (!of_scene) line.insert(line.begin(), row.torque.empty() ? kNone : row.torque);
+    std::vector<std::string> line{row.quantity, row.unit == "1" ? html::kNoValue : row.unit};
+    if (!of_scene) line.insert(line.begin(), row.torque.empty() ? html::kNoValue : row.torque);
     line.insert(line.end(), row.value.begin(), row.value.end());
     for (size_t d = 0; d < row.change.size(); ++d)
       if (changed(d)) line.push_back(row.change[d]);
@@ -122,7 +121,7 @@ std::string table_of(const std::vector<Design>& designs, const std::vector<Diffe
   return html::table(caption, head, cells);
 }
 
-std::string picture_html(const ReportPicture& picture) {
+std::string compared_picture(const ReportPicture& picture) {
   const bool rest = picture.name.starts_with("compare-rest");
   const char* title = rest ? "At rest" : "In motion";
   const char* words =
@@ -169,7 +168,7 @@ std::vector<Difference> scene_differences(const std::vector<Design>& designs) {
   std::erase_if(out, [](const Difference& row) {
     return std::all_of(row.value.begin(), row.value.end(), [](const std::string& value) {
       double number = 0;
-      return value == kNone || (is_number(value, number) && number == 0);
+      return value == html::kNoValue || (is_number(value, number) && number == 0);
     });
   });
   return out;
@@ -211,18 +210,19 @@ std::string compare_html(const std::vector<Design>& designs, const std::vector<R
   });
   std::string inside =
       "<section id=\"differences\">\n<h2>Differences</h2>\n" +
-      table_of(designs, found,
-               "Results that differ, at the torques that all designs have, then geometry; change against the "
-               "first design. compare.tsv holds the same.",
-               false) +
+      differences_table(
+          designs, found,
+          "Results that differ, at the torques that all designs have, then geometry; change against the "
+          "first design. compare.tsv holds the same.",
+          false) +
       (starred ? html::paragraph(
                      "* At this speed the motion is larger than the backlash; contact of back flanks is not "
                      "modelled.")
                : "") +
-      table_of(designs, scene_differences(designs),
-               "Keys of the scenes that differ; of driver / driven gear where these differ.", true) +
+      differences_table(designs, scene_differences(designs),
+                        "Keys of the scenes that differ; of driver / driven gear where these differ.", true) +
       "</section>\n<section id=\"figures\">\n<h2>On common axes</h2>\n";
-  for (const ReportPicture& picture : pictures) inside += picture_html(picture);
+  for (const ReportPicture& picture : pictures) inside += compared_picture(picture);
   inside += "</section>\n";
   for (const Design& d : designs)
     inside += "<section>\n<h2>" + html::escaped(d.name) + "</h2>\n" + remarks_list(d.content) +

@@ -14,20 +14,20 @@ namespace {
 using Eigen::Index;
 
 // What messages call the two artifacts.
-const char* kind_of(const StaticArtifact&) {
+const char* artifact_kind(const StaticArtifact&) {
   return "static.h5";
 }
-const char* kind_of(const ResponseArtifact&) {
+const char* artifact_kind(const ResponseArtifact&) {
   return "response.h5";
 }
 
 template <class Artifact>
-void require_designs(const std::vector<OfDesign<Artifact>>& all, size_t designs) {
+void require_all_designs(const std::vector<OfDesign<Artifact>>& all, size_t designs) {
   if (designs < 2 || designs > kMostCurves)
     fail(Failure::input, "figure: ", designs, " designs given; two to ", kMostCurves, " can be compared");
   for (const auto& one : all)
     if (one.artifact.torque != all[0].artifact.torque)
-      fail(Failure::input, "figure: the ", kind_of(one.artifact), " of ", one.design, " is at ",
+      fail(Failure::input, "figure: the ", artifact_kind(one.artifact), " of ", one.design, " is at ",
            torque_words(one.artifact.torque), ", that of ", all[0].design, " at ",
            torque_words(all[0].artifact.torque), "; designs are compared at one torque");
 }
@@ -35,7 +35,7 @@ void require_designs(const std::vector<OfDesign<Artifact>>& all, size_t designs)
 }  // namespace
 
 Figure compared_rest_figure(const std::vector<OfDesign<StaticArtifact>>& designs) {
-  require_designs(designs, designs.size());
+  require_all_designs(designs, designs.size());
   Figure figure;
   figure.title = "Designs at rest, " + torque_words(designs.at(0).artifact.torque);
   std::vector<std::string> names;
@@ -85,7 +85,7 @@ Figure compared_motion_figure(const std::vector<OfDesign<ResponseArtifact>>& swe
   std::vector<std::string> names;
   for (const auto& [name, r] : sweeps)
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  require_designs(sweeps, names.size());
+  require_all_designs(sweeps, names.size());
   Figure figure;
   figure.title = "Designs in motion, " + torque_words(sweeps.at(0).artifact.torque);
   double from = std::numeric_limits<double>::infinity(), to = 0, rms = 0, order = 0, load = 0;

@@ -30,7 +30,7 @@ const ResponseArtifact& sweep_at(const std::vector<ResponseArtifact>& sweeps, do
 }
 
 // rest: of the same torque. Its loss goes with the coefficient at each speed: what a motion without vibration would lose.
-FigureBlock speed_block(const std::string& name, const ResponseArtifact& r, const StaticArtifact& rest) {
+FigureBlock efficiency_block(const std::string& name, const ResponseArtifact& r, const StaticArtifact& rest) {
   FigureBlock block{name,
                     {"mesh_frequency [Hz]", "efficiency [%]", "friction_power [W]",
                      "friction_coefficient [1]", "loss_factor [1]", "efficiency_without_vibration [%]"},
@@ -118,7 +118,7 @@ Figure efficiency_figure(const std::vector<StaticArtifact>& statics,
     labels += text(t ? " '" : "'", torque_words(s.torque), "'");
     for (const Direction direction : {Direction::up, Direction::down}) {
       figure.blocks.push_back(
-          speed_block(text(t + 1, " ", direction), sweep_at(sweeps, s.torque, direction), s));
+          efficiency_block(text(t + 1, " ", direction), sweep_at(sweeps, s.torque, direction), s));
       for (const std::vector<double>& row : figure.blocks.back().rows) {
         if (row.empty()) continue;
         least = std::min({least, row[1], row[5]});

@@ -14,7 +14,7 @@ using Eigen::Index;
 using Value = std::optional<double>;
 
 // Units of REXS.
-constexpr const char *kNone = "none", *kMicrometre = "mum", *kHertz = "Hz", *kPerMinute = "1 / min",
+constexpr const char *kNoUnit = "none", *kMicrometre = "mum", *kHertz = "Hz", *kPerMinute = "1 / min",
                      *kNewton = "N";
 
 class Collector {
@@ -39,7 +39,7 @@ class Collector {
   const ReportContent& content_;
 };
 
-void add_statics(Collector& all) {
+void export_statics(Collector& all) {
   using S = const StaticArtifact&;
   all.add("mesh_stiffness_mean", "N / mm", [](S s) { return Value(s.mean_stiffness * 1e-3); });
   all.add("mesh_stiffness_mean_per_face_width", "N / (mm mum)",
@@ -56,7 +56,7 @@ void add_statics(Collector& all) {
   all.add("static_tooth_load_max", kNewton, [](S s) { return Value(s.tooth_load.maxCoeff()); });
 }
 
-void add_ring_down(const ReportContent& c, Collector& all) {
+void export_ring_down(const ReportContent& c, Collector& all) {
   for (const auto& [name, state] :
        {std::pair{"one_pair", ContactState::one}, std::pair{"two_pairs", ContactState::two}}) {
     const auto at = [&c, wanted = state](const StaticArtifact& s, auto member, double scale) {
@@ -71,7 +71,7 @@ void add_ring_down(const ReportContent& c, Collector& all) {
   }
 }
 
-void add_motion(const ReportContent& c, Direction direction, Collector& all) {
+void export_motion(const ReportContent& c, Direction direction, Collector& all) {
   const std::string way = direction == Direction::up ? "_speed_rising" : "_speed_falling";
   const auto add = [&](const std::string& name, const char* unit, const auto& value) {
     all.add(name + way, unit, [&](const StaticArtifact& s) {
@@ -89,7 +89,7 @@ void add_motion(const ReportContent& c, Direction direction, Collector& all) {
   add("resonance_mesh_frequency", kHertz, resonance);
   add("resonance_driver_rpm", kPerMinute, [&](R r) { return 60 * resonance(r) / r.gear[0].design.teeth; });
   add("dynamic_tooth_load_max", kNewton, [](R r) { return r.tooth_load_max.maxCoeff(); });
-  all.add("speeds_beyond_backlash" + way, kNone, [&](const StaticArtifact& s) {
+  all.add("speeds_beyond_backlash" + way, kNoUnit, [&](const StaticArtifact& s) {
     const ReportSweep* sweep = sweep_of(c, s.torque, direction);
     if (!sweep) return Value();
     double count = 0;
@@ -130,11 +130,11 @@ RexsPair exported_pair(const ReportContent& c) {
 
 std::vector<RexsResult> exported_results(const ReportContent& c) {
   Collector all(c);
-  all.out.push_back({"version", kNone, {}, false, kVersion});
-  all.out.push_back({"scene", kNone, {}, false, c.scene});
-  all.out.push_back({"contact_ratio", kNone, {GearPair(c.statics.at(0)).contact_ratio()}});
+  all.out.push_back({"version", kNoUnit, {}, false, kVersion});
+  all.out.push_back({"scene", kNoUnit, {}, false, c.scene});
+  all.out.push_back({"contact_ratio", kNoUnit, {GearPair(c.statics.at(0)).contact_ratio()}});
   all.add("torque", "N m", [](const StaticArtifact& s) { return Value(s.torque); });
-  add_statics(all);
+  export_statics(all);
   all.add("critical_mesh_frequency", kHertz, [&](const StaticArtifact& s) {
     for (const ReportSweep& sweep : c.sweeps)
       if (sweep.response.torque == s.torque) return Value(sweep.response.natural_frequency);
@@ -146,8 +146,8 @@ std::vector<RexsResult> exported_results(const ReportContent& c) {
         return Value(60 * sweep.response.natural_frequency / s.gear[0].design.teeth);
     return Value();
   });
-  add_ring_down(c, all);
-  for (const Direction direction : {Direction::up, Direction::down}) add_motion(c, direction, all);
+  export_ring_down(c, all);
+  for (const Direction direction : {Direction::up, Direction::down}) export_motion(c, direction, all);
   return all.out;
 }
 

@@ -18,6 +18,7 @@ inline constexpr double kMega = 1e-6;  // N m-1 -> 1e6 N m-1
 inline constexpr double kPercent = 100;
 inline constexpr int kShownHarmonics = 10;
 inline constexpr size_t kMostCurves = 6;  // colours, dashes and marks of the templates
+inline constexpr size_t kMostLines = 12;  // colours and dashes of those of systems
 
 struct FigureBlock {
   std::string name;                       // gnuplot finds it by `index "[name]"`

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <utility>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "gear/pair.h"
 #include "report/figure_words.h"
 #include "report/response_figures.h"
@@ -18,10 +18,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kMegapascal = 1e-6;  // Pa -> MPa
-constexpr double kDegrees = 180 / std::numbers::pi;
-
-void require_inputs(const StaticArtifact& s, const std::vector<ResponseArtifact>& sweeps) {
+void require_pressures(const StaticArtifact& s, const std::vector<ResponseArtifact>& sweeps) {
   if (sweeps.size() != 2 || sweeps[0].direction == sweeps[1].direction)
     fail(Failure::input, "flank-pressure: it needs two response.h5 beside static.h5, up and down; ",
          sweeps.size(), " given");
@@ -38,7 +35,7 @@ void require_inputs(const StaticArtifact& s, const std::vector<ResponseArtifact>
 // deg: of the driver where a pair at this phase would touch on the line of action, so that places beyond its ends, where tip edges
 // touch, stand apart.
 double nominal_roll(const GearPair& pair, double phase) {
-  return pair.nominal_roll(0, phase * pair.base_pitch()) * kDegrees;
+  return pair.nominal_roll(0, phase * pair.base_pitch()) * kInDegrees;
 }
 
 FigureBlock map_block(const ResponseArtifact& r, const GearPair& pair) {
@@ -51,13 +48,13 @@ FigureBlock map_block(const ResponseArtifact& r, const GearPair& pair) {
                     name_of(r.direction)};
   for (Index f = 0; f < r.mesh_frequency.size(); ++f)
     for (Index k = 0; k < r.pair_phase.size(); ++k)
-      block.rows.push_back({r.flank_roll(k, 0) * kDegrees, r.flank_roll(k, 1) * kDegrees, r.pair_phase[k],
-                            r.mesh_frequency[f], r.flank_pressure(f, k) * kMegapascal,
+      block.rows.push_back({r.flank_roll(k, 0) * kInDegrees, r.flank_roll(k, 1) * kInDegrees, r.pair_phase[k],
+                            r.mesh_frequency[f], r.flank_pressure(f, k) * kInMegapascals,
                             r.edge_load_there(f, k), nominal_roll(pair, r.pair_phase[k])});
   return block;
 }
 
-FigureBlock speed_block(const ResponseArtifact& r) {
+FigureBlock pressure_block(const ResponseArtifact& r) {
   FigureBlock block{text("speed ", r.direction),
                     {"mesh_frequency [Hz]", "pressure [MPa]", "edge_load_" + r.mesh.gear[0] + " [N]",
                      "edge_load_" + r.mesh.gear[1] + " [N]"},
@@ -66,8 +63,8 @@ FigureBlock speed_block(const ResponseArtifact& r) {
                     name_of(r.direction)};
   const std::vector<bool> broken = broken_after(r);
   for (Index f = 0; f < r.mesh_frequency.size(); ++f) {
-    block.rows.push_back(
-        {r.mesh_frequency[f], r.flank_pressure_held[f] * kMegapascal, r.edge_load[0][f], r.edge_load[1][f]});
+    block.rows.push_back({r.mesh_frequency[f], r.flank_pressure_held[f] * kInMegapascals, r.edge_load[0][f],
+                          r.edge_load[1][f]});
     if (broken[static_cast<size_t>(f)]) block.rows.emplace_back();
   }
   return block;
@@ -92,7 +89,7 @@ double difference(const ResponseArtifact& up, const ResponseArtifact& down) {
 }  // namespace
 
 Figure flank_pressure_figure(const StaticArtifact& s, const std::vector<ResponseArtifact>& given) {
-  require_inputs(s, given);
+  require_pressures(s, given);
   const bool in_order = given[0].direction == Direction::up;
   const ResponseArtifact &up = given[in_order ? 0 : 1], &down = given[in_order ? 1 : 0];
   constexpr double kAlike = 0.01;
@@ -106,7 +103,7 @@ Figure flank_pressure_figure(const StaticArtifact& s, const std::vector<Response
   if (both) figure.blocks.push_back(map_block(down, pair));
   double largest = 0, edge = 0;
   for (const ResponseArtifact* r : {&up, &down}) {
-    figure.blocks.push_back(speed_block(*r));
+    figure.blocks.push_back(pressure_block(*r));
     largest = std::max({largest, r->flank_pressure.maxCoeff(), r->flank_pressure_held.maxCoeff()});
     for (const Eigen::VectorXd& load : r->edge_load) edge = std::max(edge, load.maxCoeff());
   }
@@ -114,7 +111,7 @@ Figure flank_pressure_figure(const StaticArtifact& s, const std::vector<Response
       "pressure inside the flanks, by Hertz's law of the load that a pair holds for 1/64 of a mesh period; "
       "largest over the "
       "mesh periods" +
-          (rest.smooth > 0 ? "; at rest, by strips, " + shown(rest.smooth * kMegapascal, 4) + " MPa" : ""),
+          (rest.smooth > 0 ? "; at rest, by strips, " + shown(rest.smooth * kInMegapascals, 4) + " MPa" : ""),
       text("grey: held over a tip edge, whose pressure is singular and stated as a load (", both ? "d" : "c",
            "); white: no load is held; grey lines: ends of the line of action"),
       both ? "the map of falling speed differs from that of rising speed"
@@ -139,8 +136,8 @@ Figure flank_pressure_figure(const StaticArtifact& s, const std::vector<Response
       {"path_to", nominal_roll(pair, pair.path_end() / pair.base_pitch())},
       {"speed_step",
        up.mesh_frequency.size() > 1 ? std::abs(up.mesh_frequency[1] - up.mesh_frequency[0]) : 0},
-      {"pressure_max", largest > 0 ? largest * kMegapascal : 1},
-      {"pressure_rest", rest.smooth * kMegapascal},
+      {"pressure_max", largest > 0 ? largest * kInMegapascals : 1},
+      {"pressure_rest", rest.smooth * kInMegapascals},
       {"edge_max", edge},
       {"frequency_from", up.mesh_frequency.minCoeff()},
       {"frequency_to", up.mesh_frequency.maxCoeff()},

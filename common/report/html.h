@@ -7,6 +7,8 @@ namespace whine::html {
 
 using Rows = std::vector<std::vector<std::string>>;
 
+inline constexpr const char* kNoValue = "–";  // a cell that has none
+
 // Words without marks.
 std::string escaped(const std::string& words);
 

@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Index;
 
-bool elastic(const JumpMapArtifact& a) {
+bool is_elastic(const JumpMapArtifact& a) {
   return a.model == "finite elements";
 }
 
@@ -23,7 +23,7 @@ std::string base_model(const JumpMapArtifact& a) {
 }
 
 std::string panel_name(const JumpMapArtifact& a) {
-  if (!elastic(a)) return base_model(a) + (a.model == base_model(a) ? "" : ", damper in contact");
+  if (!is_elastic(a)) return base_model(a) + (a.model == base_model(a) ? "" : ", damper in contact");
   const CornerRule& corner = a.mesh.corner;
   const std::string rule =
       !corner.enabled ? "no corner contact"
@@ -113,7 +113,7 @@ std::vector<double> edges(const std::vector<double>& middle) {
 
 using Panel = std::pair<std::string, std::vector<const JumpMapArtifact*>>;
 
-std::vector<Panel> panels_of(const std::vector<JumpMapArtifact>& maps) {
+std::vector<Panel> map_panels(const std::vector<JumpMapArtifact>& maps) {
   std::vector<Panel> panels;
   for (const JumpMapArtifact& a : maps) {
     if (a.damping_ratio.size() != maps[0].damping_ratio.size() ||
@@ -229,7 +229,7 @@ bool same_corner(const JumpMapArtifact& a, const JumpMapArtifact& b) {
   return x.enabled == y.enabled && (!x.enabled || x.largest_angle == y.largest_angle);
 }
 
-std::string joined(const std::vector<std::string>& words, const std::string& between) {
+std::string joined_or_none(const std::vector<std::string>& words, const std::string& between) {
   std::string all;
   for (const std::string& word : words) all += (all.empty() ? "" : between) + word;
   return all.empty() ? "none" : all;
@@ -359,7 +359,7 @@ SecondModel second_model_of(const Panel& panel, const JumpMapArtifact& first, In
 std::vector<std::string> lumped_notes(const std::vector<JumpMapArtifact>& maps,
                                       const std::vector<Panel>& panels, Index at, double ratio,
                                       const JumpMapArtifact& reference) {
-  const bool beside = elastic(*panels[0].second[0]), paper = pair_of_paper(maps[0]);
+  const bool beside = is_elastic(*panels[0].second[0]), paper = pair_of_paper(maps[0]);
   const std::string percent = text(rounded(ratio * 100, 2), " %");
   const bool second_model =
       paper && at_torque(panels[0], 100) && at_torque(panels[0], 200) && at_torque(panels[0], 300);
@@ -383,16 +383,16 @@ std::vector<std::string> lumped_notes(const std::vector<JumpMapArtifact>& maps,
                    rounded(alike(panels[0], panel, two_branches), 0), " %");
     if (second_model) {
       const SecondModel found = second_model_of(panel, maps[0], at);
-      said += text("; (c) ", joined(found.ratios, ", "), found.ratios.empty() ? "" : " %");
+      said += text("; (c) ", joined_or_none(found.ratios, ", "), found.ratios.empty() ? "" : " %");
       if (found.low) low.push_back(panel.first);
     }
     notes.push_back(said);
   }
-  notes.push_back(text("at ", percent, " two branches at every torque: ", joined(jumping, "; "),
-                       "; contact lost at every torque: ", joined(losing, "; ")));
+  notes.push_back(text("at ", percent, " two branches at every torque: ", joined_or_none(jumping, "; "),
+                       "; contact lost at every torque: ", joined_or_none(losing, "; ")));
   if (second_model)
-    notes.push_back(
-        text("at ", percent, " lost at low torque only, kept at 200 and 300 N m: ", joined(low, "; ")));
+    notes.push_back(text("at ", percent,
+                         " lost at low torque only, kept at 200 and 300 N m: ", joined_or_none(low, "; ")));
   notes.push_back(
       "(a) (first harmonic / mean of the stiffness) / damping ratio: lowest that loses contact / highest "
       "that "
@@ -438,7 +438,7 @@ FigureBlock cusps_of(const std::string& block_name, const JumpMapArtifact& panel
 Figure jump_map_figure(std::vector<JumpMapArtifact> maps, const std::vector<FoldCurvesArtifact>& curves) {
   if (maps.empty()) fail(Failure::input, "a map of jumps needs one artifact at least");
   require_ascending(maps);
-  const std::vector<Panel> panels = panels_of(maps);
+  const std::vector<Panel> panels = map_panels(maps);
   const bool paper = pair_of_paper(maps[0]);
   Figure figure;
   figure.title = "Jumps, contact loss and tooth loads of the primary resonance";
@@ -475,16 +475,16 @@ Figure jump_map_figure(std::vector<JumpMapArtifact> maps, const std::vector<Fold
 }
 
 Figure lumped_jump_map_figure(std::vector<JumpMapArtifact> maps) {
-  const auto lumped = std::find_if(maps.begin(), maps.end(), [](const auto& a) { return !elastic(a); });
+  const auto lumped = std::find_if(maps.begin(), maps.end(), [](const auto& a) { return !is_elastic(a); });
   if (lumped == maps.end())
     fail(Failure::input, "a map of lumped models needs one of their artifacts at least");
   // The elastic pair beside them has the corner rule of the statics that they are made from.
   const JumpMapArtifact reference = *lumped;
-  std::erase_if(maps, [&](const JumpMapArtifact& a) { return elastic(a) && !same_corner(a, reference); });
-  std::stable_partition(maps.begin(), maps.end(), elastic);
+  std::erase_if(maps, [&](const JumpMapArtifact& a) { return is_elastic(a) && !same_corner(a, reference); });
+  std::stable_partition(maps.begin(), maps.end(), is_elastic);
   require_ascending(maps);
-  std::vector<Panel> panels = panels_of(maps);
-  if (elastic(*panels[0].second[0])) panels[0].first = "elastic pair, " + panels[0].first;
+  std::vector<Panel> panels = map_panels(maps);
+  if (is_elastic(*panels[0].second[0])) panels[0].first = "elastic pair, " + panels[0].first;
 
   Figure figure;
   figure.title = "Jumps and contact loss of lumped models";

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "gear/system_layout.h"
 
 namespace whine {
@@ -13,8 +13,7 @@ using Eigen::Index;
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr int kPoints = 72, kColumns = 5;
+constexpr int kOutlinePoints = 72, kColumns = 5;
 
 // Colours of the template: 0 central gears, 1 planets, 2 carriers.
 double colour_of(const System::Body& body) {
@@ -41,8 +40,8 @@ void draw_body(const System& s, int b, const Eigen::RowVector3d& motion, double 
     }
     return;
   }
-  for (int i = 0; i <= kPoints; ++i)
-    point(radius * std::cos(2 * kPi * i / kPoints), radius * std::sin(2 * kPi * i / kPoints));
+  for (int i = 0; i <= kOutlinePoints; ++i)
+    point(radius * std::cos(2 * kPi * i / kOutlinePoints), radius * std::sin(2 * kPi * i / kOutlinePoints));
   rows.emplace_back();
   // Of a gear with teeth inside the mark stands outside of the others.
   const bool ring = is_ring(s, b);
@@ -55,12 +54,12 @@ void draw_body(const System& s, int b, const Eigen::RowVector3d& motion, double 
 // Share of the train's radius by which the largest displacement is drawn.
 constexpr double kDrawn = 0.13;
 
-struct Extent {
+struct SystemExtent {
   double left = 1e30, right = -1e30, low = 1e30, high = -1e30;  // mm
 };
 
-Extent extent_of(const System& s) {
-  Extent e;
+SystemExtent system_extent(const System& s) {
+  SystemExtent e;
   for (int b = 0; b < static_cast<int>(s.bodies.size()); ++b) {
     const auto& centre = s.bodies[static_cast<size_t>(b)].centre;
     const double r = working_radius(s, b);
@@ -92,7 +91,7 @@ Figure modes_figure(const ModesArtifact& a) {
   figure.title = elastic ? "Natural modes of a system with the mean stiffness of its elastic gears"
                          : "Natural modes of a system of rigid bodies";
   figure.blocks = {frequency_block(a)};
-  const Extent e = extent_of(s);
+  const SystemExtent e = system_extent(s);
   const double size = 0.5 * std::max(e.right - e.left, e.high - e.low) / kMilli;
   FigureBlock rest{"rest", {"x [mm]", "y [mm]", "colour"}, {}};
   rest.drawing = true;

@@ -102,7 +102,7 @@ void set_motion_title(Figure& figure, const std::string& what, const std::vector
 // Shown of tooth loads: mesh periods about the middle one, teeth from two before tooth i to three after it.
 constexpr int kFirstPeriod = -1, kPeriods = 3, kFirstTooth = -2, kLastTooth = 3;
 
-double static_force(const SweepArtifact& s) {
+double force_at_rest(const SweepArtifact& s) {
   return s.torque / ToothGeometry(s.gear[0].design).base_radius();
 }
 
@@ -153,7 +153,7 @@ double add_tooth_loads(Figure& figure, const std::string& letter, const Motion& 
   const Separations apart = separations(force);
   const double most = loads.topRows(force.size()).maxCoeff();
   std::string result = text("largest tooth load ", fixed(most, 0),
-                            " N = ", fixed(most / static_force(*m.sweep), 2), " T / r_b; ");
+                            " N = ", fixed(most / force_at_rest(*m.sweep), 2), " T / r_b; ");
   result += apart.intervals == 0
                 ? "contact is never lost"
                 : text("contact lost ", shown(static_cast<double>(apart.intervals) / m.periods, 3),
@@ -165,14 +165,14 @@ double add_tooth_loads(Figure& figure, const std::string& letter, const Motion& 
 
 void add_load_axes(Figure& figure, const SweepArtifact& sweep, double largest) {
   figure.numbers.emplace_back("largest", largest);
-  figure.numbers.emplace_back("static_force", static_force(sweep));
+  figure.numbers.emplace_back("static_force", force_at_rest(sweep));
   figure.numbers.emplace_back("phase_from", kFirstPeriod);
   figure.numbers.emplace_back("phase_to", kFirstPeriod + kPeriods);
   figure.numbers.emplace_back("first_tooth", kFirstTooth);
   figure.numbers.emplace_back("last_tooth", kLastTooth);
 }
 
-constexpr Eigen::Index kOrders = 5;  // that a waterfall shows
+constexpr Eigen::Index kWaterfallOrders = 5;  // that a waterfall shows
 
 // Of each `group` neighbouring speeds the spectrum of the one with the largest RMS, up to `end` (Hz).
 FigureBlock spectra_block(const SweepArtifact& sweep, const ResponseArtifact& r, Eigen::Index group,
@@ -353,7 +353,7 @@ Figure waterfall_figure(const std::vector<SweepArtifact>& sweeps) {
   figure.height = shown.size() == 1 ? 1000 : 1760;
 
   double slowest = std::numeric_limits<double>::infinity(), fastest = 0, end = 0;
-  Eigen::Index group = 1, known = kOrders;
+  Eigen::Index group = 1, known = kWaterfallOrders;
   for (const SweepArtifact* sweep : shown) {
     slowest = std::min(slowest, sweep->mesh_frequency.minCoeff());
     fastest = std::max(fastest, sweep->mesh_frequency.maxCoeff());

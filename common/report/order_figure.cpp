@@ -10,7 +10,7 @@
 namespace whine {
 namespace {
 
-constexpr Eigen::Index kOrders = 5;
+constexpr Eigen::Index kOrderCuts = 5;
 
 }  // namespace
 
@@ -23,7 +23,7 @@ Figure order_figure(const std::vector<ResponseArtifact>& sweeps) {
                   "orders of the mesh frequency; f_n: mean natural frequency over the mesh period, contact "
                   "frozen under the static load"};
   const Eigen::Index orders =
-      std::min({kOrders, curve.up->dte_harmonic.cols(), curve.down->dte_harmonic.cols()});
+      std::min({kOrderCuts, curve.up->dte_harmonic.cols(), curve.down->dte_harmonic.cols()});
   double from = std::numeric_limits<double>::infinity(), to = 0, largest = 0;
   for (const ResponseArtifact* r : {curve.up, curve.down}) {
     FigureBlock block{

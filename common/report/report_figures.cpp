@@ -166,66 +166,74 @@ std::string of_budget(const ReportContent& c) {
               " % at most.");
 }
 
-struct Explained {
+struct ExplainedFigure {
   const char *name, *section, *title;
   std::function<std::string(const ReportContent&)> words;
 };
 
-std::function<std::string(const ReportContent&)> plain(const char* words) {
+std::function<std::string(const ReportContent&)> same_words(const char* words) {
   return [words](const ReportContent&) { return std::string(words); };
 }
 
-const std::vector<Explained>& explained() {
-  static const std::vector<Explained> all{
+const std::vector<ExplainedFigure>& explained_figures() {
+  static const std::vector<ExplainedFigure> all{
       {"fig01", "gears", "Mesh of the pair",
-       plain("Finite element mesh of the pair and of the teeth in mesh. Flanks are exact involutes in the "
-             "contact; the mesh carries their bending.")},
+       same_words(
+           "Finite element mesh of the pair and of the teeth in mesh. Flanks are exact involutes in the "
+           "contact; the mesh carries their bending.")},
       {"profile-chart", "gears", "Profile charts",
-       plain("Profile charts of the driving flanks as an inspection sheet shows them: material against roll "
-             "angle, the tip to the right.")},
+       same_words(
+           "Profile charts of the driving flanks as an inspection sheet shows them: material against roll "
+           "angle, the tip to the right.")},
       {"fig03", "rest", "Contact zone",
-       plain("Contact zone of the reference pair at the pitch point: strips, gap and pressure, beside "
-             "Hertz's.")},
+       same_words("Contact zone of the reference pair at the pitch point: strips, gap and pressure, beside "
+                  "Hertz's.")},
       {"fig12", "rest", "Static transmission error", of_transmission_error},
       {"fig13", "rest", "Mesh stiffness", of_stiffness},
       {"load-sharing", "rest", "Load sharing", of_load_sharing},
       {"sidebands", "rest", "Sidebands",
-       plain("Teeth that differ: transmission error over the period after which the same teeth meet, and the "
-             "shafts' orders and sidebands at rest and in motion.")},
+       same_words(
+           "Teeth that differ: transmission error over the period after which the same teeth meet, and the "
+           "shafts' orders and sidebands at rest and in motion.")},
       {"crack", "rest", "The cracked tooth",
-       plain("The mark of the cracked tooth in the static transmission error, and its orders.")},
+       same_words("The mark of the cracked tooth in the static transmission error, and its orders.")},
       {"fig05", "motion", "Vibration over speed", of_response},
       {"fig07", "motion", "Vibration over speed", of_response},
       {"fig05-branches", "motion", "Branches of periodic motions",
-       plain("The same with all orbits of the branch: stable ones as a thin line, also where no sweep was on "
-             "them, unstable ones dashed, and the folds at which stable branches end. A sweep jumps at a "
-             "fold; where it jumps without one it has "
-             "left the basin of a branch that goes on.")},
+       same_words(
+           "The same with all orbits of the branch: stable ones as a thin line, also where no sweep was on "
+           "them, unstable ones dashed, and the folds at which stable branches end. A sweep jumps at a "
+           "fold; where it jumps without one it has "
+           "left the basin of a branch that goes on.")},
       {"multipliers", "motion", "Floquet multipliers",
-       plain("Floquet multipliers along the branch in the complex plane: a small disturbance of the motion "
-             "is multiplied by them in each mesh period. Inside the unit circle it decays. A branch folds "
-             "at 1; at -1 its period doubles.")},
+       same_words(
+           "Floquet multipliers along the branch in the complex plane: a small disturbance of the motion "
+           "is multiplied by them in each mesh period. Inside the unit circle it decays. A branch folds "
+           "at 1; at -1 its period doubles.")},
       {"fig14-elastic", "motion", "RMS and mean over speed",
-       plain("RMS and mean of the dynamic transmission error against speed.")},
+       same_words("RMS and mean of the dynamic transmission error against speed.")},
       {"waterfall", "motion", "Spectra over speed", of_waterfall},
       {"order-cuts", "motion", "Order cuts",
-       plain("Order cuts: amplitudes of the first orders of the mesh frequency in the dynamic transmission "
-             "error "
-             "against speed, rising and falling. Where the two differ there are two motions, and the order "
-             "that is "
-             "heard depends on where the speed came from.")},
+       same_words(
+           "Order cuts: amplitudes of the first orders of the mesh frequency in the dynamic transmission "
+           "error "
+           "against speed, rising and falling. Where the two differ there are two motions, and the order "
+           "that is "
+           "heard depends on where the speed came from.")},
       {"tooth-loads", "motion", "Tooth loads in motion", of_tooth_loads},
       {"root-stress", "motion", "Root stress and dynamic factors",
-       plain("Largest tension along the roots beside the loaded flanks: while a tooth passes through the "
-             "mesh at rest (a), and over speed (b). Dynamic factors (c) are the largest mesh force, tooth "
-             "load and root stress at a speed, each held for 1/64 of a mesh period, over T / r_b or over the "
-             "largest at rest; K_v is what ISO 6336-1, method B, says of gears without deviations.")},
+       same_words(
+           "Largest tension along the roots beside the loaded flanks: while a tooth passes through the "
+           "mesh at rest (a), and over speed (b). Dynamic factors (c) are the largest mesh force, tooth "
+           "load and root stress at a speed, each held for 1/64 of a mesh period, over T / r_b or over the "
+           "largest at rest; K_v is what ISO 6336-1, method B, says of gears without deviations.")},
       {"root-stress-branches", "motion", "Root stress along the branch",
-       plain("The same with the orbits of the branch: thin lines where they are stable, dots where they are "
-             "not and no "
-             "sweep finds them.")},
+       same_words(
+           "The same with the orbits of the branch: thin lines where they are stable, dots where they are "
+           "not and no "
+           "sweep finds them.")},
       {"flank-pressure", "motion", "Flank pressure over speed",
-       plain(
+       same_words(
            "Largest pressure at each place of the flanks, by Hertz's law of the load that a pair holds there "
            "inside its flanks for 1/64 of a mesh period, against roll angle and speed. Where a tip edge runs "
            "on a flank the pressure is singular: the map is grey, and the load that the edge carries stands "
@@ -242,7 +250,7 @@ bool of_paper(const GearDesign& g) {
 
 // By its name, which is that of its files: numbers of the page would be taken for those of P2000's figures. Of P2000's own gears the
 // caption says which figure of it shows the same.
-std::string figure(const ReportContent& c, const ReportPicture& picture, const Explained& kind) {
+std::string figure(const ReportContent& c, const ReportPicture& picture, const ExplainedFigure& kind) {
   std::string words = html::escaped(kind.words(c));
   if (const std::string paper = paper_figure(picture.name);
       !paper.empty() && of_paper(c.statics[0].gear[0].design) && of_paper(c.statics[0].gear[1].design))
@@ -255,13 +263,13 @@ std::string figure(const ReportContent& c, const ReportPicture& picture, const E
 
 std::vector<std::string> report_figures() {
   std::vector<std::string> names;
-  for (const Explained& kind : explained()) names.push_back(kind.name);
+  for (const ExplainedFigure& kind : explained_figures()) names.push_back(kind.name);
   return names;
 }
 
 std::string figures_of(const ReportContent& c, const std::string& section) {
   std::string out;
-  for (const Explained& kind : explained())
+  for (const ExplainedFigure& kind : explained_figures())
     for (const ReportPicture& picture : c.pictures)
       if (section == kind.section && picture.name == kind.name) out += figure(c, picture, kind);
   return out;

@@ -14,7 +14,7 @@ namespace {
 // What is needed for a row to stand on the page.
 enum class Needs { nothing, rest, ring_down, motion, budget };
 
-struct Row {
+struct PairGuideRow {
   Needs needs;
   const char* figures;  // names, blank between; one of them must be there, "": none is needed
   const char* what;
@@ -24,7 +24,7 @@ struct Row {
 };
 
 // Percentages are those of tests/README.md, "Discretisation error of the statics" and "What the settings cost and buy".
-constexpr Row kRows[] = {
+constexpr PairGuideRow kRows[] = {
     {Needs::nothing, "", "Contact ratio, diameters, angles",
      "Geometry of the gears as drawn: exact involutes at the given centre distance. SAP is where the active "
      "profile starts; between the diameters at B and D one pair alone is in contact.",
@@ -150,7 +150,7 @@ bool has_picture(const ReportContent& c, const std::string& names) {
 }  // namespace
 
 std::string guide_to_numbers(const ReportContent& c) {
-  const auto there = [&](const Row& row) {
+  const auto there = [&](const PairGuideRow& row) {
     const bool only_a_picture = !*row.next && *row.figures;
     if (only_a_picture) return has_picture(c, row.figures);
     switch (row.needs) {
@@ -179,7 +179,7 @@ std::string guide_to_numbers(const ReportContent& c) {
                 shown(c.budget->refinement.harmonic_change.col(0).cwiseAbs().sum() * kPercent, 2),
                 " % of its first harmonic: more digits than these have no meaning.</p>\n");
   std::vector<GuideRow> rows;
-  for (const Row& row : kRows)
+  for (const PairGuideRow& row : kRows)
     if (there(row)) rows.push_back({row.figures, row.what, row.reading, row.trust, row.next});
   return out + guide_table(
                    "Numerical errors are those that the defaults leave on the pair of P2000; your own pair's "

@@ -78,7 +78,7 @@ FigureBlock fold_block(const std::string& name, const BranchArtifact& b) {
 }
 
 // " 1241, 1410" of a block of jumps; after the sixth only how many more there are.
-std::string listed(const FigureBlock& jumps) {
+std::string listed_jumps(const FigureBlock& jumps) {
   constexpr size_t kMostListed = 6;
   std::string list;
   for (size_t j = 0; j < std::min(jumps.rows.size(), kMostListed); ++j)
@@ -147,7 +147,7 @@ std::string add_curve(Figure& figure, const std::string& letter, size_t c, const
   for (const ResponseArtifact* r : {curve.up, curve.down}) {
     figure.blocks.push_back(response_block(text(name, r->direction), *r));
     figure.blocks.push_back(jump_block(text(name, "jumps ", r->direction), *r));
-    const std::string at = listed(figure.blocks.back());
+    const std::string at = listed_jumps(figure.blocks.back());
     if (!at.empty())
       found += (found.empty() ? " " : ", ") +
                std::string(r->direction == Direction::up ? "rising" : "falling") + at;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "gear/pair.h"
 #include "report/figure_words.h"
 #include "report/iso_comparison.h"
@@ -17,9 +18,7 @@
 namespace whine {
 namespace {
 
-constexpr double kMegapascal = 1e-6;  // Pa -> MPa
-
-void require_inputs(const StaticArtifact& s, const std::vector<ResponseArtifact>& sweeps) {
+void require_root_stresses(const StaticArtifact& s, const std::vector<ResponseArtifact>& sweeps) {
   if (s.root_stress_max.size() != kSides || s.root_stress[0].size() == 0 || s.root_stress[1].size() == 0)
     fail(Failure::input, "root-stress: static.h5 holds no root stress; a pair with a cracked tooth has none");
   if (sweeps.size() != 2 || sweeps[0].direction == sweeps[1].direction)
@@ -49,7 +48,7 @@ FigureBlock cycle_block(const StaticArtifact& s, int g) {
   for (Eigen::Index i = 0; i < std::min<Eigen::Index>(s.contact.positions, stress.rows());
        ++i)  // the first of the hunting periods
     for (Eigen::Index k = 0; k < stress.cols(); ++k)
-      block.rows.push_back({s.mesh_phase[i] + s.pair[k], stress(i, k) * kMegapascal});
+      block.rows.push_back({s.mesh_phase[i] + s.pair[k], stress(i, k) * kInMegapascals});
   std::sort(block.rows.begin(), block.rows.end());
   return block;
 }
@@ -71,13 +70,13 @@ std::vector<std::string> motion_columns(const PairParameters& pair) {
           "factor_root_stress_" + driven + " [1]"};
 }
 
-FigureBlock speed_block(const ResponseArtifact& r, const AtRest& rest) {
+FigureBlock stress_block(const ResponseArtifact& r, const AtRest& rest) {
   FigureBlock block{text("speed ", r.direction), motion_columns(r), {}, "speed", name_of(r.direction)};
   block.columns.emplace_back("loss_factor [1]");
   const std::vector<bool> broken = broken_after(r);
   for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i) {
     const double a = r.root_stress_held[0][i], b = r.root_stress_held[1][i];
-    block.rows.push_back({r.mesh_frequency[i], a * kMegapascal, b * kMegapascal,
+    block.rows.push_back({r.mesh_frequency[i], a * kInMegapascals, b * kInMegapascals,
                           r.mesh_force_held[i] / rest.mesh_force, r.tooth_load_held[i] / rest.tooth_load,
                           a / rest.root_stress[0], b / rest.root_stress[1], r.loss_factor[i]});
     if (broken[static_cast<size_t>(i)]) block.rows.emplace_back();
@@ -97,7 +96,7 @@ FigureBlock branch_block(const BranchArtifact& b, const StaticArtifact& s, const
   for (Eigen::Index i = 0; i < b.mesh_frequency.size(); ++i) {
     if (i > 0 && b.part[i] != b.part[i - 1]) block.rows.emplace_back();
     const double first = b.root_stress_held[0][i], second = b.root_stress_held[1][i];
-    block.rows.push_back({b.mesh_frequency[i], first * kMegapascal, second * kMegapascal,
+    block.rows.push_back({b.mesh_frequency[i], first * kInMegapascals, second * kInMegapascals,
                           b.mesh_force_held[i] / rest.mesh_force, b.tooth_load_held[i] / rest.tooth_load,
                           first / rest.root_stress[0], second / rest.root_stress[1],
                           static_cast<double>(b.stable[i]), static_cast<double>(b.part[i])});
@@ -114,16 +113,16 @@ FigureBlock rest_block(const StaticArtifact& s, const IsoComparison& iso) {
     block.rows[0].push_back(*value);
   };
   const auto megapascal = [](std::optional<double> value) {
-    return value ? std::optional<double>(*value * kMegapascal) : value;
+    return value ? std::optional<double>(*value * kInMegapascals) : value;
   };
   const double pressure = flank_pressure(s).smooth;
   add("torque [N m]", s.torque);
   for (int g = 0; g < kSides; ++g)
-    add("root_stress_" + s.mesh.gear[g] + " [MPa]", s.root_stress_max[g] * kMegapascal);
+    add("root_stress_" + s.mesh.gear[g] + " [MPa]", s.root_stress_max[g] * kInMegapascals);
   for (int g = 0; g < kSides; ++g)
     add("sigma_F0_" + s.mesh.gear[g] + " [MPa]", megapascal(iso.root_stress[static_cast<size_t>(g)]));
   add("sigma_H0 [MPa]", megapascal(iso.flank_pressure));
-  if (pressure > 0) add("contact_pressure [MPa]", pressure * kMegapascal);
+  if (pressure > 0) add("contact_pressure [MPa]", pressure * kInMegapascals);
   add("loss_factor [1]", s.loss_factor);
   add("loss_factor_rigid [1]", iso.loss_factor);
   return block;
@@ -146,10 +145,10 @@ std::vector<std::string> notes_of(const StaticArtifact& s, const IsoComparison& 
   std::string at_rest, by_iso;
   for (int g = 0; g < kSides; ++g) {
     at_rest +=
-        text(g ? "; " : "", s.mesh.gear[g], " ", shown(s.root_stress_max[g] * kMegapascal, 4),
+        text(g ? "; " : "", s.mesh.gear[g], " ", shown(s.root_stress_max[g] * kInMegapascals, 4),
              " MPa at a tangent of ", fixed(s.root_stress_angle[g] * 180 / std::numbers::pi, 0), " deg");
     if (const auto& stress = iso.root_stress[static_cast<size_t>(g)])
-      by_iso += text(by_iso.empty() ? "" : "; ", s.mesh.gear[g], " ", shown(*stress * kMegapascal, 4),
+      by_iso += text(by_iso.empty() ? "" : "; ", s.mesh.gear[g], " ", shown(*stress * kInMegapascals, 4),
                      " MPa, ratio ", shown(s.root_stress_max[g] / *stress, 3));
   }
   std::vector<std::string> all{"largest tension along the root beside the loaded flank; at rest: " + at_rest,
@@ -174,7 +173,7 @@ std::vector<std::string> notes_of(const StaticArtifact& s, const IsoComparison& 
 
 Figure root_stress_figure(const StaticArtifact& s, const std::vector<ResponseArtifact>& sweeps,
                           const std::vector<BranchArtifact>& branches) {
-  require_inputs(s, sweeps);
+  require_root_stresses(s, sweeps);
   if (branches.size() > 1)
     fail(Failure::input, "root-stress: ", branches.size(), " branch.h5 given, one at most");
   const GearPair pair(s);
@@ -194,7 +193,7 @@ Figure root_stress_figure(const StaticArtifact& s, const std::vector<ResponseArt
       }
     figure.blocks.push_back(std::move(block));
   };
-  for (const ResponseArtifact& r : sweeps) add_motions(speed_block(r, rest));
+  for (const ResponseArtifact& r : sweeps) add_motions(stress_block(r, rest));
   for (const BranchArtifact& b : branches) add_motions(branch_block(b, s, rest));
   if (iso.resonance) figure.blocks.push_back(dynamic_factor_block(iso, sweeps[0]));
   figure.blocks.push_back(rest_block(s, iso));
@@ -202,8 +201,8 @@ Figure root_stress_figure(const StaticArtifact& s, const std::vector<ResponseArt
   add_lines(figure.notes.size(), figure);
   figure.words.emplace_back("labels", quoted_labels({s.mesh.gear[0], s.mesh.gear[1]}));
   figure.numbers = {{"iso", iso.resonance ? 1.0 : 0.0},
-                    {"iso_driver", iso.root_stress[0].value_or(0) * kMegapascal},
-                    {"iso_driven", iso.root_stress[1].value_or(0) * kMegapascal},
+                    {"iso_driver", iso.root_stress[0].value_or(0) * kInMegapascals},
+                    {"iso_driven", iso.root_stress[1].value_or(0) * kInMegapascals},
                     {"path_start", pair.path_start() / pair.base_pitch()},
                     {"path_end", pair.path_end() / pair.base_pitch()},
                     {"stress_max", high},

@@ -13,14 +13,14 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr int kOrders = 4;
-constexpr Index kSlices = 400, kBands = 300, kPoints = 1200;
+constexpr int kRunupOrders = 4;
+constexpr Index kSlices = 400, kBands = 300, kMostPoints = 1200;
 constexpr double kHighest = 5.0 / 12;  // of the sample rate: what the record holds undamped
 
 // Spectrogram in dB re 1 N, RMS: of the bins of a band the one of largest amplitude, so that no line falls between two bands.
 FigureBlock spectrogram_block(const RunupArtifact& a, Figure& figure) {
   const double top = std::max(a.ramp.from, a.ramp.to);
-  const double most = std::min((kOrders + 0.5) * top, kHighest * a.sample_rate);
+  const double most = std::min((kRunupOrders + 0.5) * top, kHighest * a.sample_rate);
   // The middle order moves twice as fast as the first.
   Index length = spectrogram_length(a.sample_rate, 2 * a.mesh_acceleration);
   // No longer than half the record, no finer than what is drawn, or rays would be hairs.
@@ -57,13 +57,13 @@ FigureBlock spectrogram_block(const RunupArtifact& a, Figure& figure) {
 FigureBlock order_block(const RunupArtifact& a, Figure& figure) {
   const VectorXd phase = a.samples.time.unaryExpr([&](double t) { return a.mesh_phase(t); });
   const int width = order_width(0.5 * (a.ramp.from + a.ramp.to), a.mesh_acceleration);
-  const int orders =
-      std::clamp(static_cast<int>(kHighest * a.sample_rate / std::max(a.ramp.from, a.ramp.to)), 1, kOrders);
+  const int orders = std::clamp(static_cast<int>(kHighest * a.sample_rate / std::max(a.ramp.from, a.ramp.to)),
+                                1, kRunupOrders);
   const OrderCuts cuts = order_cuts(a.samples.transmission_error, phase, orders, width);
   FigureBlock block{"orders", {"time [s]", "mesh_frequency [Hz]"}, {}};
   for (int n = 1; n <= orders; ++n) block.columns.push_back(text("order_", n, " [µm]"));
   double largest = 0;
-  const Index stride = std::max<Index>(1, cuts.phase.size() / (4 * kPoints));
+  const Index stride = std::max<Index>(1, cuts.phase.size() / (4 * kMostPoints));
   for (Index c = 0; c < cuts.phase.size(); c += stride) {
     const double squared = a.ramp.from * a.ramp.from + 2 * a.mesh_acceleration * cuts.phase[c];
     const double f = std::sqrt(squared);
@@ -80,11 +80,11 @@ FigureBlock order_block(const RunupArtifact& a, Figure& figure) {
 }
 
 // Extremes of groups of mesh periods, so that what is short remains.
-FigureBlock period_block(const RunupArtifact& a, double mean_force, Figure& figure) {
+FigureBlock runup_period_block(const RunupArtifact& a, double mean_force, Figure& figure) {
   figure.numbers.emplace_back("largest_load", a.periods.tooth_load_max.maxCoeff() / mean_force);
   FigureBlock block{
       "periods", {"mesh_frequency [Hz]", "tooth_load_max [mean mesh force]", "separation_fraction [%]"}, {}};
-  const Index periods = a.periods.size(), stride = std::max<Index>(1, periods / kPoints);
+  const Index periods = a.periods.size(), stride = std::max<Index>(1, periods / kMostPoints);
   for (Index k = 0; k < periods; k += stride) {
     const Index n = std::min(stride, periods - k);
     block.rows.push_back({a.periods.mesh_frequency.segment(k, n).mean(),
@@ -102,7 +102,7 @@ Figure runup_figure(const RunupArtifact& a, const std::vector<ResponseArtifact>&
   figure.title = text("Run-", a.direction, " at ", a.ramp.rate, " rpm/s, ", torque_words(a.torque));
   figure.blocks.push_back(spectrogram_block(a, figure));
   figure.blocks.push_back(order_block(a, figure));
-  figure.blocks.push_back(period_block(a, a.samples.mesh_force.mean(), figure));
+  figure.blocks.push_back(runup_period_block(a, a.samples.mesh_force.mean(), figure));
   const double low = std::min(a.ramp.from, a.ramp.to), high = std::max(a.ramp.from, a.ramp.to);
   double largest = 0;
   int drawn = 0;
@@ -137,7 +137,7 @@ Figure runup_figure(const RunupArtifact& a, const std::vector<ResponseArtifact>&
         std::pair{"notes", static_cast<double>(figure.notes.size())}})
     figure.numbers.emplace_back(name, value);
   figure.shafts = shafts_of(a);
-  for (int n = 1; n <= kOrders; ++n) figure.levels.push_back({text("order_", n, " [µm]"), true});
+  for (int n = 1; n <= kRunupOrders; ++n) figure.levels.push_back({text("order_", n, " [µm]"), true});
   figure.height = 1500;
   return figure;
 }

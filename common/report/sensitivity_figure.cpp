@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Index;
 
-struct Row {
+struct VariantRow {
   std::string label, key;
   const JumpMapArtifact* map;
 };
@@ -23,9 +23,10 @@ double load(const JumpMapArtifact& a, Index c) {
 }
 
 // One for each variant; those of the key that moves the end of the upper branch most in the last case come first.
-std::vector<Row> rows_of(const JumpMapArtifact& base, const std::vector<JumpMapArtifact>& variants) {
+std::vector<VariantRow> variant_rows(const JumpMapArtifact& base,
+                                     const std::vector<JumpMapArtifact>& variants) {
   const Index cases = base.damping_ratio.size(), shown = cases - 1;
-  std::vector<Row> rows;
+  std::vector<VariantRow> rows;
   for (const JumpMapArtifact& v : variants) {
     if (v.torque != base.torque || v.damping_ratio.size() != cases)
       fail(Failure::input, "a variant at ", v.torque, " N m with ", v.damping_ratio.size(),
@@ -44,15 +45,15 @@ std::vector<Row> rows_of(const JumpMapArtifact& base, const std::vector<JumpMapA
            1e-6 * std::abs(v.mean_stiffness - base.mean_stiffness);
   };
   std::map<std::string, double> of_key;
-  for (const Row& row : rows) of_key[row.key] = std::max(of_key[row.key], effect(*row.map));
-  std::stable_sort(rows.begin(), rows.end(), [&](const Row& a, const Row& b) {
+  for (const VariantRow& row : rows) of_key[row.key] = std::max(of_key[row.key], effect(*row.map));
+  std::stable_sort(rows.begin(), rows.end(), [&](const VariantRow& a, const VariantRow& b) {
     return of_key[a.key] != of_key[b.key] ? of_key[a.key] > of_key[b.key] : a.key < b.key;
   });
   return rows;
 }
 
 // What each variant changes in case c, and its own numbers.
-FigureBlock changes_block(const JumpMapArtifact& base, const std::vector<Row>& rows, Index c) {
+FigureBlock changes_block(const JumpMapArtifact& base, const std::vector<VariantRow>& rows, Index c) {
   const bool shown = c == base.damping_ratio.size() - 1;
   FigureBlock block{
       shown ? "changes" : text("changes at eta ", rounded(base.rayleigh_stiffness[c] * 1e6, 3), "e-6 s"),
@@ -86,7 +87,7 @@ Figure sensitivity_figure(const JumpMapArtifact& base, const std::vector<JumpMap
   if (variants.empty())
     fail(Failure::input, "sensitivity needs the map of one variant at least beside the base's");
   const Index cases = base.damping_ratio.size(), shown = cases - 1;
-  const std::vector<Row> rows = rows_of(base, variants);
+  const std::vector<VariantRow> rows = variant_rows(base, variants);
   Figure figure;
   figure.title = text("What inputs are worth at ", base.torque, " N m, ",
                       rounded(base.damping_ratio[shown] * 100, 2), " % damping with two pairs in contact");

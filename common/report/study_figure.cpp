@@ -374,8 +374,8 @@ struct DrawnAnswer {
 };
 
 // Row r and column c from 1: the answer against key k.
-void add_panel(const StudyArtifact& a, const Axis& axis, const Colours& colours, const DrawnAnswer& quantity,
-               size_t k, size_t r, size_t c, Figure& figure) {
+void add_answer_panel(const StudyArtifact& a, const Axis& axis, const Colours& colours,
+                      const DrawnAnswer& quantity, size_t k, size_t r, size_t c, Figure& figure) {
   // What the pair does at rest does not depend on how its motion ends.
   const bool of_motion = quantity.name.ends_with("_up") || quantity.name.ends_with("_down");
   FigureBlock panel{
@@ -503,7 +503,7 @@ Figure study_figure(const StudyArtifact& a) {
       if (a.rejection[v].empty() && !absent(quantity.name, quantity.value[v])) quantity.drawn.push_back(v);
     }
     for (size_t c = 0; c < columns.size(); ++c)
-      add_panel(a, axes[columns[c]], colours, quantity, columns[c], r + 1, c + 1, figure);
+      add_answer_panel(a, axes[columns[c]], colours, quantity, columns[c], r + 1, c + 1, figure);
     if (a.plan.random) add_spread(quantity, r + 1, figure);
   }
   figure.numbers.emplace_back("rows", static_cast<double>(quantities.rows.size()));

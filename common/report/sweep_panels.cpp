@@ -13,7 +13,7 @@ namespace whine {
 namespace {
 
 template <class Artifact>
-auto gears_of(const Artifact& s) {
+auto gears_with_model(const Artifact& s) {
   const auto of_gear = [](const GearDesign& g) {
     return std::tuple(g.teeth, g.module, g.profile_shift, g.face_width, g.held_radius());
   };
@@ -26,7 +26,7 @@ auto gears_of(const Artifact& s) {
 // All that two sweeps must share to be one experiment, besides the torque.
 template <class Sweep>
 auto choices_of(const Sweep& s, const LumpedParameters& lumped) {
-  return std::tuple(s.model, gears_of(s), s.fidelity.body, s.fidelity.contact, s.fidelity.integrator,
+  return std::tuple(s.model, gears_with_model(s), s.fidelity.body, s.fidelity.contact, s.fidelity.integrator,
                     lumped.mass, lumped.damping_ratio, lumped.damper_acts);
 }
 
@@ -103,7 +103,7 @@ std::string operating_words(const ChoicePanel<Sweep>& panel, const Background& b
     once(torques, shown(s.torque, 6));
     const auto found =
         std::find_if(background.impacts.begin(), background.impacts.end(), [&](const ImpactArtifact& impact) {
-          return impact.torque == s.torque && gears_of(impact) == gears_of(s) &&
+          return impact.torque == s.torque && gears_with_model(impact) == gears_with_model(s) &&
                  impact.mesh.modification == s.mesh.modification && impact.state_phase.size() > 0;
         });
     if (!elastic(s) || found == background.impacts.end()) continue;
@@ -150,7 +150,7 @@ const BranchArtifact* branch_of(const ResponseArtifact& r, const Background& bac
   if (!elastic(r)) return nullptr;
   const auto found =
       std::find_if(background.branches.begin(), background.branches.end(), [&](const BranchArtifact& b) {
-        return b.torque == r.torque && gears_of(b) == gears_of(r) &&
+        return b.torque == r.torque && gears_with_model(b) == gears_with_model(r) &&
                b.mesh.modification == r.mesh.modification && b.fidelity.body == r.fidelity.body &&
                b.fidelity.contact == r.fidelity.contact && b.fidelity.integrator == r.fidelity.integrator;
       });

@@ -14,7 +14,7 @@ namespace {
 constexpr size_t kMostMeshes = 8;  // colours and dashes of the template
 
 // Where stability changes the curve of the other kind begins with the last point of this one.
-FigureBlock branch_block(const SystemBranchArtifact& b, size_t meshes, bool stable) {
+FigureBlock system_branch_block(const SystemBranchArtifact& b, size_t meshes, bool stable) {
   FigureBlock block{stable ? "stable" : "unstable",
                     {"mesh_frequency [Hz]", "largest multiplier"},
                     {},
@@ -58,8 +58,8 @@ Figure system_branch_figure(const SystemBranchArtifact& b, const std::vector<Sys
   double most = b.dte_rms.leftCols(static_cast<Index>(meshes)).maxCoeff(), up = 0, down = 0;
   double from = b.mesh_frequency.minCoeff(), to = b.mesh_frequency.maxCoeff();
   const bool unstable = b.stable.minCoeff() == 0, stable = b.stable.maxCoeff() == 1;
-  if (stable) figure.blocks.push_back(branch_block(b, meshes, true));
-  if (unstable) figure.blocks.push_back(branch_block(b, meshes, false));
+  if (stable) figure.blocks.push_back(system_branch_block(b, meshes, true));
+  if (unstable) figure.blocks.push_back(system_branch_block(b, meshes, false));
   for (const SystemSweepArtifact& sweep : sweeps) {
     if (sweep.settings.layout.meshes.size() != s.meshes.size())
       fail(Failure::input, "figure: the branch is of ", s.meshes.size(), " meshes and a sweep of ",

@@ -15,9 +15,7 @@ using Eigen::Index;
 
 namespace {
 
-constexpr size_t kMostLines = 12;  // colours and dashes of the template
-
-struct Curve {
+struct DrawnCurve {
   std::string name;
   Eigen::VectorXd values;  // (phase)
 };
@@ -25,7 +23,7 @@ struct Curve {
 // One row of the figure: curves over the mesh period, or over the hunting period of teeth that differ, and their harmonics of the mesh
 // frequency.
 void add_row(const SystemStaticArtifact& a, const std::string& quantity, const std::string& axis,
-             const std::string& unit, std::vector<Curve> curves, Figure& figure) {
+             const std::string& unit, std::vector<DrawnCurve> curves, Figure& figure) {
   if (curves.size() > kMostLines) {
     figure.notes.push_back(text(axis, ": the first ", kMostLines, " of ", curves.size(), " curves"));
     curves.resize(kMostLines);
@@ -39,7 +37,7 @@ void add_row(const SystemStaticArtifact& a, const std::string& quantity, const s
   const Index n = a.mesh_phase.size();
   const int count = resolved_harmonics(n, kShownHarmonics, a.hunting_periods);
   double low = curves[0].values.minCoeff(), high = curves[0].values.maxCoeff(), most = 0;
-  for (const Curve& curve : curves) {
+  for (const DrawnCurve& curve : curves) {
     period.columns.push_back(text(quantity, " ", curve.name, " [", unit, "]"));
     spectrum.columns.push_back(text("amplitude ", curve.name, " [", unit, "]"));
     labels.push_back(short_name(curve.name));
@@ -51,7 +49,7 @@ void add_row(const SystemStaticArtifact& a, const std::string& quantity, const s
   // The first point again at the end, so that the period closes.
   for (Index i = 0; i <= n; ++i) {
     std::vector<double> row{i < n ? a.mesh_phase[i] : a.hunting_periods};
-    for (const Curve& curve : curves) row.push_back(curve.values[i < n ? i : 0]);
+    for (const DrawnCurve& curve : curves) row.push_back(curve.values[i < n ? i : 0]);
     period.rows.push_back(row);
   }
   for (int k = 1; k <= count; ++k) {
@@ -131,7 +129,7 @@ Figure system_static_figure(const SystemStaticArtifact& a) {
       "transmission error along the line of action, with the displacements of the bearings; mesh force: "
       "torque on the driving gear over its base radius");
   figure.notes.emplace_back("bearing force: its magnitude; on a rigid axis the sum of the contact forces");
-  std::vector<Curve> errors, forces, bearings;
+  std::vector<DrawnCurve> errors, forces, bearings;
   errors.reserve(s.meshes.size());
   forces.reserve(s.meshes.size());
   bearings.reserve(s.bodies.size());

@@ -65,13 +65,6 @@ std::string factor_words(const SystemReport& r, size_t m, const Peak& force) {
   return at_rest > 0 ? fixed(force.value / at_rest, 2) : "";
 }
 
-// One of several meshes of a [[mesh]], which share its load.
-bool shares_load(const SystemReport& r, size_t m) {
-  if (!r.rest) return false;
-  const std::vector<int>& section = r.rest->settings.section;
-  return std::count(section.begin(), section.end(), section[m]) > 1;
-}
-
 std::string meshes_table(const SystemReport& r) {
   html::Rows rows;
   for (const SystemSweepArtifact& a : r.sweeps)
@@ -83,7 +76,7 @@ std::string meshes_table(const SystemReport& r) {
       rows.push_back({mesh_name(a.settings.layout, m), way_words_of(a), significant(error.value * kMicro, 4),
                       shown(error.at, 6), fixed(force.value, 0), shown(force.at, 6),
                       factor.empty() ? "–" : factor, fixed(tooth.value, 0),
-                      shares_load(r, m) ? fixed(share.value * kPercent, 1) : "–",
+                      r.rest && shares_load(*r.rest, m) ? fixed(share.value * kPercent, 1) : "–",
                       fixed(loss.value * kPercent, 1), loss.value > 0 ? shown(loss.at, 6) : "–"});
     }
   return html::table(
@@ -194,7 +187,7 @@ std::vector<SystemNumber> motion_numbers(const SystemReport& r) {
       if (const std::string factor = factor_words(r, m, force); !factor.empty())
         add(name, "dynamic factor, largest", "1", factor, force);
       add(name, "tooth load in motion, largest", "N", fixed(tooth.value, 1), tooth);
-      if (shares_load(r, m))
+      if (r.rest && shares_load(*r.rest, m))
         add(name, "share of the load in motion, largest", "%", fixed(share.value * kPercent, 2), share);
       add(name, "time without contact, largest", "%", fixed(loss.value * kPercent, 2), loss);
     }

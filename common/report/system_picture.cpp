@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "gear/pair.h"
 #include "gear/system_layout.h"
 #include "gear/tooth_contour.h"
@@ -16,8 +16,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kPi = std::numbers::pi;
-constexpr int kFlankPoints = 10, kCirclePoints = 180;
+constexpr int kPictureFlankPoints = 10, kCirclePoints = 180;
 constexpr size_t kMostCloseUps = 3;
 constexpr double kSmallTorque = 10;  // N m: torques below it are shown with three digits
 
@@ -47,7 +46,7 @@ Vec2 pitch_point(const System& s, const System::Mesh& mesh) {
 }
 
 // m: of all that is drawn of a gear.
-double outer_radius(const Train& t, int b) {
+double drawn_radius(const Train& t, int b) {
   if (const GearDesign* design = t.design[static_cast<size_t>(b)])
     return design->internal ? design->rim_outer_radius : ToothGeometry(*design).tip_radius();
   double out = 0;
@@ -79,12 +78,12 @@ struct Blocks {
   }
 };
 
-void add(FigureBlock& block, const Vec2& p) {
+void add_point(FigureBlock& block, const Vec2& p) {
   block.rows.push_back({p.x() * kMilli, p.y() * kMilli});
 }
 
 void add_closed(FigureBlock& block, const std::vector<Vec2>& contour, const Placement& at) {
-  for (const Vec2& p : contour) add(block, at(p));
+  for (const Vec2& p : contour) add_point(block, at(p));
   block.rows.emplace_back();
 }
 
@@ -98,7 +97,7 @@ void add_arrow(Blocks& out, const System::Body& body, double r) {
     const double angle = (kFrom + (kTo - kFrom) * (body.sense > 0 ? i : kSteps - i) / kSteps) * kPi / 180;
     arc.push_back(centre_of(body) + r * Vec2(std::cos(angle), std::sin(angle)));
   }
-  for (const Vec2& p : arc) add(out.arcs, p);
+  for (const Vec2& p : arc) add_point(out.arcs, p);
   out.arcs.rows.emplace_back();
   const Vec2 from = arc[kSteps - 1] * kMilli, way = (arc[kSteps] - arc[kSteps - 1]) * kMilli;
   out.heads.rows.push_back({from.x(), from.y(), way.x(), way.y()});
@@ -110,7 +109,7 @@ void add_gear(const Train& t, int b, Blocks& out) {
   const bool second = t.second[static_cast<size_t>(b)];
   if (const GearDesign* design = t.design[static_cast<size_t>(b)]) {
     const ToothGeometry tooth(*design);
-    const std::vector<Vec2> contour = gear_contour(tooth, kFlankPoints);
+    const std::vector<Vec2> contour = gear_contour(tooth, kPictureFlankPoints);
     const auto held = circle_contour(design->held_radius(), kCirclePoints);
     // The body of a ring lies between two areas.
     FigureBlock &rim = second ? out.second_rim : out.rim, &hollow = second ? out.second_hollow : out.hollow,
@@ -132,8 +131,8 @@ void add_gear(const Train& t, int b, Blocks& out) {
   for (int j = 0; j < body.teeth; ++j) {
     const double angle = 0.5 * kPi + 2 * kPi * j / body.teeth;
     const Vec2 towards(std::cos(angle), std::sin(angle));
-    add(circles, at((radius - tick) * towards));
-    add(circles, at((radius + tick) * towards));
+    add_point(circles, at((radius - tick) * towards));
+    add_point(circles, at((radius + tick) * towards));
     circles.rows.emplace_back();
   }
   add_arrow(out, body, (is_ring(t.layout, b) ? 1.07 : 0.75) * radius);
@@ -142,8 +141,8 @@ void add_gear(const Train& t, int b, Blocks& out) {
 void add_carrier(const System& s, int b, Blocks& out) {
   for (const System::Body& planet : s.bodies) {
     if (planet.on != b) continue;
-    add(out.carrier, centre_of(body_of(s, b)));
-    add(out.carrier, centre_of(planet));
+    add_point(out.carrier, centre_of(body_of(s, b)));
+    add_point(out.carrier, centre_of(planet));
     out.carrier.rows.emplace_back();
   }
 }
@@ -159,8 +158,8 @@ void add_path(const Train& t, const System::Mesh& mesh, Blocks& out) {
     from = pair.path_start();
     to = pair.path_end();
   }
-  add(out.paths, at + from * along);
-  add(out.paths, at + to * along);
+  add_point(out.paths, at + from * along);
+  add_point(out.paths, at + to * along);
   out.paths.rows.emplace_back();
 }
 
@@ -173,7 +172,7 @@ Box extent_of(const Train& t) {
   for (int b = 0; b < static_cast<int>(t.layout.bodies.size()); ++b) {
     const System::Body& body = body_of(t.layout, b);
     if (body.kind == System::BodyKind::carrier) continue;
-    const double r = (is_ring(t.layout, b) ? 1.1 : 1.04) * outer_radius(t, b);
+    const double r = (is_ring(t.layout, b) ? 1.1 : 1.04) * drawn_radius(t, b);
     e.left = std::min(e.left, (body.centre[0] - r) * kMilli);
     e.right = std::max(e.right, (body.centre[0] + r) * kMilli);
     e.low = std::min(e.low, (body.centre[1] - r) * kMilli);
@@ -195,7 +194,7 @@ void add_labels(const Train& t, Figure& figure) {
     if (ring) {
       const GearDesign* design = t.design[static_cast<size_t>(b)];
       const double r = design ? 0.5 * (design->rim_outer_radius + ToothGeometry(*design).root_radius())
-                              : 1.04 * outer_radius(t, b);
+                              : 1.04 * drawn_radius(t, b);
       x += r * std::cos(1.25 * kPi);
       y += r * std::sin(1.25 * kPi);
     }
@@ -285,7 +284,7 @@ FigureBlock bodies_block(const System& s) {
 }
 
 // Gears in mesh have the two colours in turn.
-std::vector<bool> colours_of(const System& s) {
+std::vector<bool> second_colours(const System& s) {
   std::vector<bool> second(s.bodies.size(), false);
   for (const System::Mesh& mesh : s.meshes)
     second[static_cast<size_t>(mesh.side[1].body)] = !second[static_cast<size_t>(mesh.side[0].body)];
@@ -293,7 +292,7 @@ std::vector<bool> colours_of(const System& s) {
 }
 
 Figure picture_of(Train t, const Eigen::VectorXd& torque) {
-  t.second = colours_of(t.layout);
+  t.second = second_colours(t.layout);
   Figure figure;
   figure.title = "A system of gears";
   Blocks blocks;

@@ -86,14 +86,14 @@ std::string of_sweep(const SystemReport& r) {
       motion_words(r));
 }
 
-struct Explained {
+struct ExplainedSystemFigure {
   const char *name, *section, *title;
   std::function<std::string(const SystemReport&)> words;
 };
 
 // A figure of another stage is a row here, its words above, and its name in pipelines/systems.mk.
-const std::vector<Explained>& explained() {
-  static const std::vector<Explained> all{
+const std::vector<ExplainedSystemFigure>& explained_system_figures() {
+  static const std::vector<ExplainedSystemFigure> all{
       {"system", "gears", "The system", of_picture},
       {"system-static", "rest", "The system at rest", of_rest},
       {"load-sharing", "rest", "Load sharing among planets", of_sharing},
@@ -106,14 +106,14 @@ const std::vector<Explained>& explained() {
 
 std::string figures_in(const SystemReport& r, const std::string& section) {
   std::string out;
-  for (const Explained& kind : explained())
+  for (const ExplainedSystemFigure& kind : explained_system_figures())
     for (const ReportPicture& picture : r.pictures)
       if (section == kind.section && picture.name == kind.name)
         out += picture_html(picture, kind.title, html::escaped(kind.words(r)));
   return out;
 }
 
-std::string introduction(const SystemReport& r) {
+std::string system_introduction(const SystemReport& r) {
   const System& s = layout_of(r);
   const Eigen::VectorXd torque =
       r.rest ? Eigen::VectorXd(r.rest->torque.colwise().mean().transpose()) : Eigen::VectorXd();
@@ -186,7 +186,7 @@ void require_sweeps(const SystemReport& r) {
   }
 }
 
-void require_whole(const SystemReport& r) {
+void require_whole_system(const SystemReport& r) {
   if (!r.modes)
     fail(Failure::input, "report: no modes.h5 given; the report of a system needs that of its scene");
   if (r.rest && !one_system(r.rest->settings.layout, r.modes->layout))
@@ -217,13 +217,13 @@ bool has_planets(const System& system) {
 
 std::vector<std::string> system_report_figures() {
   std::vector<std::string> names;
-  names.reserve(explained().size());
-  for (const Explained& kind : explained()) names.emplace_back(kind.name);
+  names.reserve(explained_system_figures().size());
+  for (const ExplainedSystemFigure& kind : explained_system_figures()) names.emplace_back(kind.name);
   return names;
 }
 
 std::string system_report_tsv(const SystemReport& r) {
-  require_whole(r);
+  require_whole_system(r);
   std::string out = "# " + r.scene + "\npart\tquantity\tvalue\tunit\tremark\n";
   for (const SystemNumber& n : system_numbers(r))
     out += text(n.part, "\t", n.quantity, "\t", n.value, "\t", n.unit, "\t", n.remark, "\n");
@@ -231,12 +231,12 @@ std::string system_report_tsv(const SystemReport& r) {
 }
 
 std::string system_report_html(const SystemReport& r) {
-  require_whole(r);
+  require_whole_system(r);
   std::vector<ReportSection> sections;
   const auto add = [&](const char* id, const char* heading, const std::string& inside) {
     if (!inside.empty()) sections.push_back({id, heading, inside});
   };
-  add("results", "Results", introduction(r) + figures_in(r, "gears"));
+  add("results", "Results", system_introduction(r) + figures_in(r, "gears"));
   add("remarks", "Warnings and remarks", system_remarks(r));
   add("guide", "What the numbers mean", system_guide(r));
   add("gears", "Gears and bodies", gear_tables(r));

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "gear/pair.h"
 #include "gear/system_layout.h"
 #include "io/scene_keys.h"
@@ -17,11 +18,15 @@
 #include "system/statics.h"
 
 namespace whine {
+
+bool shares_load(const SystemStaticArtifact& a, size_t m) {
+  const std::vector<int>& section = a.settings.section;
+  return std::count(section.begin(), section.end(), section[m]) > 1;
+}
+
 namespace {
 
 using Eigen::Index;
-
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 const GearDesign& design_of(const SystemStaticArtifact& a, const System::Side& side) {
   const BodyParameters* drawing = drawing_of(a, side.body);
@@ -109,12 +114,6 @@ std::string held_words(const SystemReport& r, size_t b) {
   return torque > 0 ? "driven" : torque < 0 ? "loaded" : "free";
 }
 
-// One of several meshes of a [[mesh]], which share its load.
-bool shares_load(const SystemStaticArtifact& a, size_t m) {
-  const std::vector<int>& section = a.settings.section;
-  return std::count(section.begin(), section.end(), section[m]) > 1;
-}
-
 // Without the sign of what rounds to 0.
 std::string plain(double value, int decimals) {
   return fixed(std::abs(value) < 0.5 * std::pow(10, -decimals) ? 0 : value, decimals);
@@ -198,7 +197,7 @@ std::string drawings_table(const SystemStaticArtifact& a) {
   all("teeth", "–", [](G g) { return text(g.design().teeth); });
   all("module", "mm", [](G g) { return shown(g.design().module * kMilli, 7); });
   all("pressure angle of the rack", "deg",
-      [](G g) { return shown(g.design().pressure_angle * kDegrees, 6); });
+      [](G g) { return shown(g.design().pressure_angle * kInDegrees, 6); });
   all("profile shift", "modules", [](G g) { return shown(g.design().profile_shift, 6); });
   all("base diameter", "mm", [&](G g) { return mm(2 * g.base_radius()); });
   all("reference diameter", "mm", [&](G g) { return mm(2 * g.pitch_radius()); });
@@ -247,7 +246,7 @@ std::string mesh_tables(const SystemReport& r) {
     const System::Mesh& mesh = s.meshes[m];
     const auto c = static_cast<Index>(m);
     geometry.push_back({mesh_name(s, m), fixed(mesh.centre_distance * kMilli, 3),
-                        fixed(mesh.pressure_angle * kDegrees, 3), fixed(mesh.phase, 4)});
+                        fixed(mesh.pressure_angle * kInDegrees, 3), fixed(mesh.phase, 4)});
     if (!r.rest) {
       geometry.back().push_back(shown(mesh.stiffness * 1e-6, 5));
       continue;

@@ -14,6 +14,9 @@ struct SystemNumber {
 // What results.tsv holds: of each mesh, each body, each mode and each sweep.
 std::vector<SystemNumber> system_numbers(const SystemReport& r);
 
+// Whether it is one of several meshes of a [[mesh]], which share its load.
+bool shares_load(const SystemStaticArtifact& a, size_t m);
+
 // Tables as HTML; "" where there is nothing to say. gear_tables: of elastic gears their drawings, of rigid ones what is known.
 std::string gear_tables(const SystemReport& r);
 std::string mesh_tables(const SystemReport& r);  // data of the meshes, and what they do at rest

@@ -14,8 +14,6 @@ using Eigen::Index;
 
 namespace {
 
-constexpr size_t kMostLines = 12;  // colours and dashes of the template
-
 struct Quantity {
   const char *name, *axis, *unit;
   double scale;
@@ -29,7 +27,7 @@ constexpr Quantity kQuantities[] = {
     {"bearing_force_rms", "Bearing force, oscillating (RMS)", "N", 1, &SystemSweepArtifact::bearing_force_rms,
      true}};
 
-std::vector<std::string> names_of(const System& s, bool bodies) {
+std::vector<std::string> curve_names(const System& s, bool bodies) {
   std::vector<std::string> out;
   if (!bodies)
     for (size_t m = 0; m < s.meshes.size(); ++m) out.push_back(mesh_name(s, m));
@@ -39,7 +37,7 @@ std::vector<std::string> names_of(const System& s, bool bodies) {
 }
 
 FigureBlock block_of(const Quantity& q, const SystemSweepArtifact& a, size_t curves) {
-  const std::vector<std::string> names = names_of(a.settings.layout, q.of_bodies);
+  const std::vector<std::string> names = curve_names(a.settings.layout, q.of_bodies);
   const std::string way = name_of(a.direction);
   FigureBlock block{text(q.name, " ", way), {"mesh_frequency [Hz]"}, {}, text(q.name, "_", way)};
   for (size_t i = 0; i < curves; ++i) block.columns.push_back(text(q.name, " ", names[i], " [", q.unit, "]"));
@@ -81,7 +79,7 @@ Figure system_sweep_figure(const std::vector<SystemSweepArtifact>& sweeps) {
   int row_number = 0;
   double from = a.mesh_frequency.minCoeff(), to = a.mesh_frequency.maxCoeff();
   for (const Quantity& q : kQuantities) {
-    std::vector<std::string> names = names_of(s, q.of_bodies);
+    std::vector<std::string> names = curve_names(s, q.of_bodies);
     if (names.size() > kMostLines)
       figure.notes.push_back(text(q.axis, ": the first ", kMostLines, " of ", names.size(), " curves"));
     const size_t curves = std::min(names.size(), kMostLines);

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <optional>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "gear/pair.h"
 #include "report/figures.h"
 #include "report/html.h"
@@ -22,11 +22,8 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double kMegapascal = 1e-6, kDegrees = 180 / std::numbers::pi;
-constexpr const char* kNone = "–";
-
 std::string megapascal(double stress) {
-  return fixed(stress * kMegapascal, 1);
+  return fixed(stress * kInMegapascals, 1);
 }
 
 // [gear] N: largest load at rest of a pair that touches over the gear's tip edge, where no pressure is stated.
@@ -48,7 +45,7 @@ std::array<double, kSides> edge_load_at_rest(const StaticArtifact& s) {
 
 // A value of the standard's formulas, or a dash where they have none.
 std::string or_dash(const std::optional<double>& value, int decimals, double scale = 1) {
-  return value ? fixed(*value * scale, decimals) : kNone;
+  return value ? fixed(*value * scale, decimals) : html::kNoValue;
 }
 
 WordTable at_rest(const StaticArtifact& s, const IsoComparison& iso) {
@@ -64,16 +61,16 @@ WordTable at_rest(const StaticArtifact& s, const IsoComparison& iso) {
   const auto of = [](size_t g) { return static_cast<Index>(g); };
   both("largest root stress", "MPa", [&](size_t g) { return megapascal(s.root_stress_max[of(g)]); });
   both("where: tangent against the tooth's centre line", "deg",
-       [&](size_t g) { return fixed(s.root_stress_angle[of(g)] * kDegrees, 0); });
+       [&](size_t g) { return fixed(s.root_stress_angle[of(g)] * kInDegrees, 0); });
   both("when: phase of the pair, from the pitch point", "mesh periods",
        [&](size_t g) { return fixed(s.root_stress_phase[of(g)], 3); });
   both("form factor Y_F, ISO 6336-3", "1",
-       [&](size_t g) { return iso.root[g] ? fixed(iso.root[g]->form, 3) : kNone; });
+       [&](size_t g) { return iso.root[g] ? fixed(iso.root[g]->form, 3) : html::kNoValue; });
   both("stress correction factor Y_S", "1",
-       [&](size_t g) { return iso.root[g] ? fixed(iso.root[g]->stress_correction, 3) : kNone; });
-  both("sigma_F0", "MPa", [&](size_t g) { return or_dash(iso.root_stress[g], 1, kMegapascal); });
+       [&](size_t g) { return iso.root[g] ? fixed(iso.root[g]->stress_correction, 3) : html::kNoValue; });
+  both("sigma_F0", "MPa", [&](size_t g) { return or_dash(iso.root_stress[g], 1, kInMegapascals); });
   both("root stress over sigma_F0", "1", [&](size_t g) {
-    return iso.root_stress[g] ? fixed(s.root_stress_max[of(g)] / *iso.root_stress[g], 3) : kNone;
+    return iso.root_stress[g] ? fixed(s.root_stress_max[of(g)] / *iso.root_stress[g], 3) : html::kNoValue;
   });
   const FlankPressure pressure = flank_pressure(s);
   const std::array<double, kSides> edges = edge_load_at_rest(s);
@@ -81,8 +78,8 @@ WordTable at_rest(const StaticArtifact& s, const IsoComparison& iso) {
     out.rows.push_back({what, unit, value, value});
   };
   alike("largest pressure inside the flanks", "MPa",
-        pressure.smooth > 0 ? megapascal(pressure.smooth) : kNone);
-  alike("sigma_H0, ISO 6336-2", "MPa", or_dash(iso.flank_pressure, 1, kMegapascal));
+        pressure.smooth > 0 ? megapascal(pressure.smooth) : html::kNoValue);
+  alike("sigma_H0, ISO 6336-2", "MPa", or_dash(iso.flank_pressure, 1, kInMegapascals));
   both("largest load over the gear's tip edge", "N",
        [&](size_t g) { return edges[g] > 0 ? fixed(edges[g], 0) : std::string("none"); });
   alike("loss factor H_V", "1", fixed(s.loss_factor, 4));
@@ -112,20 +109,21 @@ WordTable in_motion(const StaticArtifact& s, const GearPair& pair, const IsoComp
       const bool compared = factor == Factor::of_rest && rest > 0;
       out.rows.push_back({what, d == 0 ? "rising" : "falling",
                           most > 0 ? fixed(most * scale, scale == 1 ? 0 : 1) + unit : "none",
-                          most > 0 ? fixed(speed, 0) : kNone, compared ? fixed(most / rest, 2) : kNone,
-                          compared ? or_dash(iso.dynamic_factor(speed), 2) : kNone});
+                          most > 0 ? fixed(speed, 0) : html::kNoValue,
+                          compared ? fixed(most / rest, 2) : html::kNoValue,
+                          compared ? or_dash(iso.dynamic_factor(speed), 2) : html::kNoValue});
     };
     for (size_t g = 0; g < kSides; ++g)
-      add("root stress of " + s.mesh.gear[g], r.root_stress_held[g], kMegapascal, " MPa", Factor::of_rest,
+      add("root stress of " + s.mesh.gear[g], r.root_stress_held[g], kInMegapascals, " MPa", Factor::of_rest,
           s.root_stress_max[static_cast<Index>(g)]);
     add("mesh force", r.mesh_force_held, 1, " N", Factor::of_rest, force);
     add("load of a pair of teeth", r.tooth_load_held, 1, " N", Factor::of_rest, s.tooth_load.maxCoeff());
-    add("pressure inside the flanks", r.flank_pressure_held, kMegapascal, " MPa", Factor::none);
+    add("pressure inside the flanks", r.flank_pressure_held, kInMegapascals, " MPa", Factor::none);
     for (size_t g = 0; g < kSides; ++g)
       add("load over the tip edge of " + s.mesh.gear[g], r.edge_load[g], 1, " N", Factor::none);
     out.rows.push_back({"loss factor H_V, least to largest", d == 0 ? "rising" : "falling",
                         fixed(r.loss_factor.minCoeff(), 4) + " to " + fixed(r.loss_factor.maxCoeff(), 4),
-                        kNone, kNone, kNone});
+                        html::kNoValue, html::kNoValue, html::kNoValue});
   }
   return out;
 }
