@@ -19,15 +19,15 @@ double stiffening(const SceneResults& s, int torque) {
 }
 
 // One printed number that the text lets one read in several ways: the reading that is nearest to it.
-struct Reading {
+struct Candidate {
   std::string name;
   double value;  // in the unit of the claim
 };
-Finding nearest_reading(const std::vector<Reading>& readings, double printed, const std::string& unit,
+Finding nearest_reading(const std::vector<Candidate>& readings, double printed, const std::string& unit,
                         const std::string& note) {
-  const Reading* best = nullptr;
+  const Candidate* best = nullptr;
   std::string words;
-  for (const Reading& r : readings) {
+  for (const Candidate& r : readings) {
     if (std::isnan(r.value)) continue;
     if (!best || std::abs(r.value - printed) < std::abs(best->value - printed)) best = &r;
     words += text(words.empty() ? "" : ", ", r.name, " ", digits(r.value), " ", unit);
@@ -110,7 +110,7 @@ Finding table_frequency(const SceneResults& s, int torque, ContactState state) {
 
 Finding damping(const SceneResults& s) {
   const ImpactArtifact& i = s.ring_down(kFigureTorque);
-  std::vector<Reading> readings;
+  std::vector<Candidate> readings;
   for (const auto& [state, words] : {std::pair{ContactState::one, "one pair in mesh"},
                                      {ContactState::two, "two pairs in mesh"},
                                      {ContactState::mean, "mean over the cycle"}})

@@ -7,6 +7,7 @@
 #include "dynamics/impact_result.h"
 #include "paper/claims.h"
 #include "paper/results.h"
+#include "report/figures.h"
 #include "signal/branches.h"
 #include "signal/response.h"
 #include "signal/static_result.h"
@@ -16,8 +17,6 @@ namespace whine::paper {
 using Eigen::Index;
 
 inline constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-inline constexpr double kMicro = 1e6;  // m -> micrometre
-inline constexpr double kMega = 1e-6;  // N m-1 -> 1e6 N m-1
 
 // P2000 gives two speeds for one pair of branches: those of captions and those of its text.
 inline constexpr double kPrimary = 2400, kPrimaryText = 2500;      // Hz: captions of Figs 8 and 10; text

@@ -33,11 +33,11 @@ constexpr int kLeastBore = 20;      // steps
 
 const auto kNoReport = [](auto&&...) {};
 
-std::string folder(int torque, const std::string& rest) {
+std::string path_at(int torque, const std::string& rest) {
   return text("T", torque, "/", rest);
 }
 
-StaticParameters static_parameters_of(const Scene& scene, const CornerRule& corner, ContactModel contact) {
+StaticParameters statics_of_reading(const Scene& scene, const CornerRule& corner, ContactModel contact) {
   StaticParameters settings;
   settings.mesh = scene.mesh;
   settings.mesh.corner = corner;
@@ -124,8 +124,7 @@ const BodyArtifact& BoreFamily::body(double bore) {
 
 double BoreFamily::mean_stiffness(int steps, const CornerRule& corner) {
   const BodyArtifact& gear = body(steps * kBoreStep);
-  return static_transmission(gear, gear, static_parameters_of(scene_, corner, ContactModel::line),
-                             kTorques[0])
+  return static_transmission(gear, gear, statics_of_reading(scene_, corner, ContactModel::line), kTorques[0])
       .mean_stiffness;
 }
 
@@ -167,10 +166,10 @@ PaperPair::PaperPair(BoreFamily& family, double bore, const Scene& scene, const 
       level_(level),
       time_(scene.time) {
   for (int torque : kSweptTorques) {
-    pair_.statics[folder(torque, "static.h5")] = with_harmonics(static_transmission(
-        body_, body_, static_parameters_of(scene, choices.corner, ContactModel::strips), torque));
-    rest_[torque] = static_transmission(body_, body_,
-                                        static_parameters_of(scene, choices.corner, level_.contact), torque);
+    pair_.statics[path_at(torque, "static.h5")] = with_harmonics(static_transmission(
+        body_, body_, statics_of_reading(scene, choices.corner, ContactModel::strips), torque));
+    rest_[torque] =
+        static_transmission(body_, body_, statics_of_reading(scene, choices.corner, level_.contact), torque);
   }
   add_lumped(scene);
 }
@@ -188,7 +187,7 @@ void PaperPair::add_lumped(const Scene& scene) {
       o.model = model;
       o.direction = direction;
       const SweepArtifact sweep = lumped_sweep(pair_.at_rest(torque), springs, numbers, o, kNoReport);
-      const std::string place = folder(torque, text(model, "/", direction, "/"));
+      const std::string place = path_at(torque, text(model, "/", direction, "/"));
       pair_.responses[place + "response.h5"] = response(sweep);
       if (torque == kFigureTorque && model == "rectangular") pair_.sweeps[place + "sweep.h5"] = sweep;
     }
@@ -318,7 +317,7 @@ Reading PaperPair::judge(Reading out) const {
 
   SceneResults results = pair_;
   for (int torque : {100, 150, 200, 300})
-    results.impacts[folder(torque, "impact.h5")] =
+    results.impacts[path_at(torque, "impact.h5")] =
         frozen_impact(body_, body_, pair_.at_rest(torque), bearing_stiffness, at_phase, kFixedPhases);
   SweepParameters settings;
   static_cast<ImpactParameters&>(settings) = at_phase;
@@ -333,7 +332,7 @@ Reading PaperPair::judge(Reading out) const {
     for (const Direction direction : {Direction::up, Direction::down}) {
       SweepArtifact motion =
           sweep(body_, body_, rest_.at(torque), bearing_stiffness, settings, direction, kNoReport);
-      const std::string place = folder(torque, text(direction, "/"));
+      const std::string place = path_at(torque, text(direction, "/"));
       results.responses[place + "response.h5"] = response(motion);
       if (torque == kFigureTorque) results.sweeps[place + "sweep.h5"] = std::move(motion);
     }

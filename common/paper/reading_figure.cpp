@@ -3,19 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "base/error.h"
+#include "base/units.h"
 
 namespace whine {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 // Four kinds of corner rule can be told apart in one panel.
 int kind_of(const CornerRule& rule) {
   if (!rule.enabled) return 0;
-  return rule.largest_angle <= 0.5 * kDegree ? 1 : rule.largest_angle <= 5 * kDegree ? 2 : 3;
+  return rule.largest_angle <= 0.5 * kOneDegree ? 1 : rule.largest_angle <= 5 * kOneDegree ? 2 : 3;
 }
 constexpr const char* kKinds[] = {"none", "to 0.5° at most", "to 0.5 ... 5°", "any angle"};
 

@@ -28,7 +28,7 @@ const Artifact& look_up(const std::map<std::string, Artifact>& from, const Scene
   return found->second;
 }
 
-std::string folder(int torque, const std::string& model, Direction direction) {
+std::string motion_folder(int torque, const std::string& model, Direction direction) {
   return text("T", torque, "/", model.empty() ? "" : model + "/", direction, "/");
 }
 
@@ -43,12 +43,12 @@ const ImpactArtifact& SceneResults::ring_down(int torque) const {
 }
 
 const SweepArtifact& SceneResults::sweep(int torque, Direction direction, const std::string& model) const {
-  return look_up(sweeps, *this, folder(torque, model, direction) + "sweep.h5");
+  return look_up(sweeps, *this, motion_folder(torque, model, direction) + "sweep.h5");
 }
 
 Branches SceneResults::branches(int torque, const std::string& model) const {
-  return {look_up(responses, *this, folder(torque, model, Direction::up) + "response.h5"),
-          look_up(responses, *this, folder(torque, model, Direction::down) + "response.h5")};
+  return {look_up(responses, *this, motion_folder(torque, model, Direction::up) + "response.h5"),
+          look_up(responses, *this, motion_folder(torque, model, Direction::down) + "response.h5")};
 }
 
 std::vector<std::string> scorecard_files() {
@@ -56,16 +56,16 @@ std::vector<std::string> scorecard_files() {
   for (int torque : kSweptTorques) {
     files.push_back(text("T", torque, "/static.h5"));
     for (const Direction direction : {Direction::up, Direction::down})
-      files.push_back(folder(torque, "", direction) + "response.h5");
+      files.push_back(motion_folder(torque, "", direction) + "response.h5");
   }
   for (int torque : {100, 150, 200, 300}) files.push_back(text("T", torque, "/impact.h5"));
   for (const Direction direction : {Direction::up, Direction::down}) {
-    files.push_back(folder(kFigureTorque, "", direction) + "sweep.h5");
+    files.push_back(motion_folder(kFigureTorque, "", direction) + "sweep.h5");
     for (int torque : {100, 150, 200, 300})
-      files.push_back(folder(torque, "rectangular", direction) + "response.h5");
-    for (int torque : kTorques) files.push_back(folder(torque, "secant", direction) + "response.h5");
+      files.push_back(motion_folder(torque, "rectangular", direction) + "response.h5");
+    for (int torque : kTorques) files.push_back(motion_folder(torque, "secant", direction) + "response.h5");
   }
-  files.push_back(folder(kFigureTorque, "rectangular", Direction::up) + "sweep.h5");
+  files.push_back(motion_folder(kFigureTorque, "rectangular", Direction::up) + "sweep.h5");
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -74,7 +74,7 @@ namespace {
 
 // What all artifacts of a scene share.
 template <class Artifact>
-auto gears_of(const Artifact& a) {
+auto gears_made_of(const Artifact& a) {
   const auto of = [](const GearDesign& g) {
     return std::tuple(g.teeth, g.module, g.pressure_angle, g.profile_shift, g.addendum, g.face_width,
                       g.bore_radius);
@@ -102,7 +102,7 @@ struct SceneReader {
     require_operation(file, a);
     const std::string& path = paths.at(file);
     const bool lumped = a.model != "finite elements";
-    const std::string found = folder(static_cast<int>(a.torque), lumped ? a.model : "", a.direction);
+    const std::string found = motion_folder(static_cast<int>(a.torque), lumped ? a.model : "", a.direction);
     if (file.rfind(found, 0) != 0)
       fail(Failure::input, path, ": is the sweep ", a.direction, " of ", a.model, ", not that of its path; ",
            rebuild_advice(path));
@@ -126,7 +126,7 @@ struct SceneReader {
     const StaticArtifact& first = results.at_rest(kTorques[0]);
     const auto same_gears = [&](const auto& artifacts) {
       for (const auto& [file, a] : artifacts)
-        if (gears_of(a) != gears_of(first))
+        if (gears_made_of(a) != gears_made_of(first))
           fail(Failure::input, paths.at(file), ": is of other gears, another material or corner rule than ",
                paths.at(text("T", kTorques[0], "/static.h5")), "; give results of one scene");
     };

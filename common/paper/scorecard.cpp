@@ -88,7 +88,7 @@ Scorecard score(const std::vector<Claim>& claims, const std::vector<SceneResults
 
 namespace {
 
-const char* words_of(Verdict v) {
+const char* verdict_in_words(Verdict v) {
   switch (v) {
     case Verdict::agrees:
       return "agrees";
@@ -167,7 +167,7 @@ size_t width(const std::string& utf8) {
       std::count_if(utf8.begin(), utf8.end(), [](char b) { return (b & 0xC0) != 0x80; }));
 }
 
-std::string padded(const std::string& words, size_t to) {
+std::string padded_words(const std::string& words, size_t to) {
   return words + std::string(to > width(words) ? to - width(words) : 0, ' ');
 }
 
@@ -212,7 +212,7 @@ std::string scorecard_tsv(const Scorecard& card, const std::vector<std::string>&
     for (size_t i = 0; i < row.findings.size(); ++i) {
       const Finding& f = row.findings[i];
       out += "\t" + exact(f.value) + "\t" + deviation_text(c, f) + "\t" + f.reading + "\t" +
-             words_of(verdict(card, row, i)) + "\t" + f.note;
+             verdict_in_words(verdict(card, row, i)) + "\t" + f.note;
     }
     out += "\t" + row.sources + "\n";
   }
@@ -230,7 +230,7 @@ std::string scorecard_markdown(const Scorecard& card) {
     out += claim_cells(row.claim);
     for (size_t i = 0; i < row.findings.size(); ++i) {
       const std::string found = found_text(row.claim, row.findings[i]);
-      out += " " + found + (found.empty() ? "" : ": ") + words_of(verdict(card, row, i)) + " |";
+      out += " " + found + (found.empty() ? "" : ": ") + verdict_in_words(verdict(card, row, i)) + " |";
     }
     out +=
         " " + notes_text(card, row) + " | " + (row.sources.empty() ? "" : "`" + row.sources + "`") + " |\n";
@@ -248,7 +248,7 @@ std::string scorecard_text(const Scorecard& card) {
     cells.push_back({row.claim.id, row.claim.place, printed_text(row.claim)});
     for (size_t i = 0; i < row.findings.size(); ++i) {
       cells.back().push_back(found_text(row.claim, row.findings[i]));
-      cells.back().push_back(words_of(verdict(card, row, i)));
+      cells.back().push_back(verdict_in_words(verdict(card, row, i)));
     }
   }
   std::vector<size_t> widths(cells[0].size(), 0);
@@ -259,7 +259,8 @@ std::string scorecard_text(const Scorecard& card) {
   home = card.scenes.size() > 1 ? "{" + home + "}" : home;
   for (size_t r = 0; r < cells.size(); ++r) {
     std::string line;
-    for (size_t i = 0; i < cells[r].size(); ++i) line += (i ? "  " : "") + padded(cells[r][i], widths[i]);
+    for (size_t i = 0; i < cells[r].size(); ++i)
+      line += (i ? "  " : "") + padded_words(cells[r][i], widths[i]);
     line.erase(line.find_last_not_of(' ') + 1);
     out += line + "\n";
     if (r == 0) continue;
