@@ -326,16 +326,13 @@ FigureBlock root_levels(const ErrorBudgetArtifact& budget, std::vector<std::stri
     std::string words = "root stress with smaller elements on the roots:";
     for (int g = 0; g < kSides; ++g) {
       const Eigen::Index last = root.change.rows() - 1;
-      const double order = root.order(last - 1, g);
+      const double order = order_worth_a_word(root, last - 1, g);
       // What the finest still changes the result by, and the last order.
-      words +=
-          text(g ? "; " : " ", budget.mesh.gear[g], " ",
-               shown((budget.root.stress(last + 1, g) / budget.root.stress(0, g) - 1) * kPercent, 2),
-               " % from ", shown(budget.root.element_size[0] * 1e3, 3), " to ",
-               shown(budget.root.element_size[last + 1] * 1e3, 3), " mm",
-               std::isfinite(order) && root.change.col(g).tail(2).cwiseAbs().minCoeff() > kOrderlessChange
-                   ? ", order " + fixed(order, 1)
-                   : "");
+      words += text(g ? "; " : " ", budget.mesh.gear[g], " ",
+                    shown((budget.root.stress(last + 1, g) / budget.root.stress(0, g) - 1) * kPercent, 2),
+                    " % from ", shown(budget.root.element_size[0] * 1e3, 3), " to ",
+                    shown(budget.root.element_size[last + 1] * 1e3, 3), " mm",
+                    std::isfinite(order) ? ", order " + fixed(order, 1) : "");
       roots.columns.push_back(text("stress of ", budget.mesh.gear[g], " [MPa]"));
     }
     for (Eigen::Index k = 0; k < budget.root.stress.rows(); ++k)
