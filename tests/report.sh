@@ -145,6 +145,9 @@ grep -q -E 'pressure inside the flanks rising [0-9.]+ MPa [0-9]+ – –' <<< "$
 found=$(grep -l -e '{' -e driver -e driven out/fzg/report/root-stress*.tsv out/fzg/report/flank-pressure*.tsv)
 [ -z "$found" ] && grep -q 'root_stress_pinion' out/fzg/report/root-stress-speed.tsv && ok "stresses and pressures are named by the scene's gears, without markup" || wrong "stresses and pressures are named by the scene's gears, without markup" "$found"
 
+apart=$(awk '/rotate\(270\)/ { split($0, place, /[(,]/); x = place[2] } />Pressure \(MPa\)</ { colours = x } />Load over a tip edge/ { print x - colours }' out/fzg/report/flank-pressure.svg)
+between "flank-pressure: the names of the colours and of the loads beside them stand apart" "$apart" 90 400
+
 # --- the page in a browser
 browser=$(command -v chromium || command -v chromium-browser || true)
 if [ -z "$browser" ]; then

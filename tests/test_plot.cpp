@@ -646,6 +646,14 @@ TEST_CASE("error budget: choices stand apart from the errors and in no sum") {
   };
   CHECK(word("labels") == "'strips' 'flank table' ");
   CHECK(word("choice_labels") == "'matching|at 1 mm' ");
+  const auto top = [](const Figure& drawn) {
+    for (const auto& [key, value] : drawn.numbers)
+      if (key == "top") return value;
+    return 0.0;
+  };
+  CHECK(top(figure) == 10);  // %
+  budget.choice.peak_to_peak_change[0] = 0.224;
+  CHECK(top(error_budget_figure(budget)) == 100);  // no bar is cut off
   budget.choice = {"", Eigen::VectorXd(0), Eigen::VectorXd(0), {}, MatrixRM(0, 5)};
   CHECK(block(error_budget_figure(budget), "choices").rows.empty());
 }

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -425,6 +426,46 @@ TEST_CASE("a study's figure shows words of the study and runs none of them") {
   CHECK(svg.find("5 % of _it_") != std::string::npos);
   CHECK(svg.find("system(") != std::string::npos);
   CHECK(!std::filesystem::exists(mark));
+}
+
+TEST_CASE("a study's figure of many keys: numbers below an axis stand apart") {
+  StudyArtifact a;
+  a.plan = study_of(kDamping +
+                    "[[vary]]\nkey = 'operation.torque_Nm'\nvalues = [100, 200, 300, 400]\n"
+                    "[[vary]]\nkey = 'damping.bearing_ratio'\nvalues = [0.2, 0.4, 0.7, 1.0]\n"
+                    "[[vary]]\nkey = 'damping.rayleigh_mass_per_s'\nvalues = [0.2, 0.4, 0.7, 1.0]\n");
+  const char* levels[4][4] = {{"3.4e-06", "100", "0.2", "0.7"},
+                              {"3.9e-06", "200", "0.4", "1"},
+                              {"4.4e-06", "300", "0.7", "0.2"},
+                              {"5e-06", "400", "1", "0.4"}};
+  for (const auto& level : levels)
+    a.variants.push_back({std::string("ab") + level[1], {level[0], level[1], level[2], level[3]}});
+  a.rejection.resize(4);
+  a.unsteady = Eigen::VectorXi::Zero(4);
+  a.quantity = MatrixRM::Random(4, static_cast<Eigen::Index>(a.plan.quantities.size()));
+  const Figure figure = study_figure(a);
+  const Written table(plot_data(figure), "study.tsv");
+  const std::string svg = draw(figure, table.path, "pipelines/plots/study.gp", Picture::svg);
+  // Texts about a middle: numbers of axes and names.
+  std::map<std::string, std::vector<double>> by_height;
+  const std::string before = "<g transform=\"translate(";
+  for (size_t at = svg.find(before); at != std::string::npos; at = svg.find(before, at + 1)) {
+    const std::string head = svg.substr(at + before.size(), svg.find('>', at) - at - before.size());
+    if (head.find("middle") == std::string::npos || head.find("rotate") != std::string::npos) continue;
+    if (head.find("font-size=\"16.00\"") == std::string::npos) continue;  // those of numbers
+    const size_t comma = head.find(',');
+    by_height[head.substr(comma, head.find(')') - comma)].push_back(std::stod(head));
+  }
+  constexpr double kApart = 40;
+  int axes = 0;
+  for (auto& [height, places] : by_height) {
+    CAPTURE(height);
+    std::sort(places.begin(), places.end());
+    if (places.size() < 9) continue;  // of notes
+    ++axes;
+    for (size_t i = 1; i < places.size(); ++i) CHECK(places[i] - places[i - 1] > kApart);
+  }
+  CHECK(axes > 0);
 }
 
 TEST_CASE("rank correlation: known values, ties, what does not vary") {

@@ -89,7 +89,8 @@ TEST_CASE(
     "Harris map: the best relief follows the cusp between the reliefs of the map; its table is one for all "
     "maps") {
   HarrisMapArtifact map;
-  map.torque = Eigen::VectorXd::LinSpaced(8, 50, 160);
+  map.torque =
+      Eigen::VectorXd::LinSpaced(12, 20, 160);  // the best relief of 20 N m is beside an end of the grid
   map.relief = Eigen::VectorXd::LinSpaced(30, 0, 15e-6);
   map.relieved = Relieved::both;
   map.shape = ReliefShape::linear;
@@ -114,9 +115,22 @@ TEST_CASE(
   REQUIRE(found.size() == 4);
   CHECK(
       found[0].text.find("\nrelief [µm]\ttorque [N m]\tpeak to peak [µm]\tharmonic 1 [µm]\tharmonic 2 [µm]\t"
-                         "harmonic 3 [µm]\n0\t50\t") != std::string::npos);
+                         "harmonic 3 [µm]\n0\t20\t") != std::string::npos);
   CHECK(std::count(found[0].text.begin(), found[0].text.end(), '\n') ==
         static_cast<std::ptrdiff_t>(figure.notes.size() + 2) + map.torque.size() * map.relief.size());
+  // Beside numbers of five digits there is room for the name of the axis.
+  map.torque *= 100;
+  map.design_torque *= 100;
+  const Figure large = harris_map_figure(map);
+  const auto table = std::filesystem::temp_directory_path() / text("whine-harris-", getpid(), ".tsv");
+  std::ofstream(table) << plot_data(large);
+  const std::string picture = draw(large, table, "pipelines/plots/harris-map.gp", Picture::svg);
+  std::filesystem::remove(table);
+  const size_t label = picture.find(">Torque (N m)<"), place = picture.rfind("translate(", label);
+  REQUIRE(label != std::string::npos);
+  REQUIRE(place != std::string::npos);
+  constexpr double kHeightOfLetters = 24;
+  CHECK(std::stod(picture.substr(place + 10)) > kHeightOfLetters);
 }
 
 TEST_CASE(

@@ -7,6 +7,8 @@
 // for information those by the other near field and the other contact.
 // With --next-level: beside static.h5, in words, what contact = "strips" would change in the result of contact = "line".
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -39,6 +41,20 @@ void tell_change(const std::string& where, const whine::StaticDifference& change
               " positions): transmission error by ", change.error_largest * 100, " % at most, ",
               change.error_rms * 100, " % RMS; pair loads by ", change.load_largest * 100, " % at most, ",
               change.load_rms * 100, " % RMS of the load");
+}
+
+// What each halving of the elements on the root changes, and the order at last where it is worth a word.
+void tell_root_stress(const std::array<std::string, whine::kSides>& gears,
+                      const whine::RootConvergence& root) {
+  for (int g = 0; g < whine::kSides; ++g) {
+    std::string changes;
+    for (Eigen::Index k = 0; k < root.change.rows(); ++k)
+      changes += whine::text(k > 0 ? ", " : "", std::round(1e5 * root.change(k, g)) / 1e3 + 0.0);
+    const double order = whine::order_worth_a_word(root, root.order.rows() - 1, g);
+    whine::tell("gear-static: largest root stress of ", gears[static_cast<size_t>(g)], " changes by ",
+                changes, " % each time the elements on the root are halved",
+                std::isfinite(order) ? whine::text("; order at last ", std::round(10 * order) / 10) : "");
+  }
 }
 
 void body(int argc, char** argv) {
@@ -77,13 +93,7 @@ void body(int argc, char** argv) {
                 "): mean stiffness to ", errors.refinement.mean_stiffness_change.cwiseAbs().sum() * 100,
                 " % in all -> ", output);
     const whine::RootConvergence root = whine::convergence(errors.root);
-    if (const long last = root.order.rows() - 1; last >= 0)
-      for (int g = 0; g < whine::kSides; ++g)
-        whine::tell("gear-static: largest root stress of ", errors.mesh.gear[g], " changes by ",
-                    100 * root.change.col(g).transpose(),
-                    " % as the elements on the root are halved; "
-                    "last order ",
-                    root.order(last, g));
+    if (root.order.rows() > 0) tell_root_stress(errors.mesh.gear, root);
     if (!errors.choice_missing.empty())
       whine::tell("gear-static: warning: no other choice to compare with: ", errors.choice_missing);
     return;

@@ -13,16 +13,17 @@ using Eigen::Index;
 namespace {
 
 // The relief at which lines through the values on either side of the least one meet, as in a cusp: on the grid of the map the
-// best relief would go in steps, and about its least value a map is flat. That of the least value where they do not meet near
-// it.
+// best relief would go in steps, and about its least value a map is flat. Beside an end of the grid, where torques are small and
+// the flat is narrow, the lines are of the places that are there. That of the least value where they do not meet near it.
 double relief_at_cusp(const Eigen::VectorXd& relief, const Eigen::RowVectorXd& value) {
-  constexpr Index kNear = 3, kFar = 4;  // places from the least value
+  constexpr Index kFar = 4;  // places from the least value; the line goes through that and the one before
   Index r = 0;
   value.minCoeff(&r);
-  if (r < kFar || r + kFar >= relief.size()) return relief[r];
-  const Index low = r - kNear, high = r + kNear;
-  const double falling = (value[low] - value[r - kFar]) / (relief[low] - relief[r - kFar]),
-               rising = (value[r + kFar] - value[high]) / (relief[r + kFar] - relief[high]);
+  const Index below = std::min(kFar, r), above = std::min(kFar, relief.size() - 1 - r);
+  if (below < 1 || above < 2) return relief[r];
+  const Index low = r - below + 1, high = r + above - 1;
+  const double falling = (value[low] - value[low - 1]) / (relief[low] - relief[low - 1]),
+               rising = (value[high + 1] - value[high]) / (relief[high + 1] - relief[high]);
   if (!(falling < 0 && rising > 0)) return relief[r];
   const double at =
       (value[high] - value[low] + falling * relief[low] - rising * relief[high]) / (falling - rising);

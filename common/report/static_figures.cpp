@@ -210,11 +210,14 @@ Figure load_sharing_figure(const std::vector<StaticArtifact>& statics) {
 
 namespace {
 
-// The end of a logarithmic axis above all amplitudes of a block, a power of ten; 1 if there are none.
+// The end of a logarithmic axis above all amplitudes, of a block, too: a power of ten; 1 if there are none.
+double decade_above(double largest) {
+  return largest > 0 ? std::pow(10, std::floor(std::log10(largest)) + 1) : 1;
+}
 double decade_above(const FigureBlock& block) {
   double largest = 0;
   for (const auto& row : block.rows) largest = std::max(largest, row[1]);
-  return largest > 0 ? std::pow(10, std::floor(std::log10(largest)) + 1) : 1;
+  return decade_above(largest);
 }
 
 }  // namespace
@@ -326,16 +329,13 @@ FigureBlock root_levels(const ErrorBudgetArtifact& budget, std::vector<std::stri
     std::string words = "root stress with smaller elements on the roots:";
     for (int g = 0; g < kSides; ++g) {
       const Eigen::Index last = root.change.rows() - 1;
-      const double order = root.order(last - 1, g);
+      const double order = order_worth_a_word(root, last - 1, g);
       // What the finest still changes the result by, and the last order.
-      words +=
-          text(g ? "; " : " ", budget.mesh.gear[g], " ",
-               shown((budget.root.stress(last + 1, g) / budget.root.stress(0, g) - 1) * kPercent, 2),
-               " % from ", shown(budget.root.element_size[0] * 1e3, 3), " to ",
-               shown(budget.root.element_size[last + 1] * 1e3, 3), " mm",
-               std::isfinite(order) && root.change.col(g).tail(2).cwiseAbs().minCoeff() > kOrderlessChange
-                   ? ", order " + fixed(order, 1)
-                   : "");
+      words += text(g ? "; " : " ", budget.mesh.gear[g], " ",
+                    shown((budget.root.stress(last + 1, g) / budget.root.stress(0, g) - 1) * kPercent, 2),
+                    " % from ", shown(budget.root.element_size[0] * 1e3, 3), " to ",
+                    shown(budget.root.element_size[last + 1] * 1e3, 3), " mm",
+                    std::isfinite(order) ? ", order " + fixed(order, 1) : "");
       roots.columns.push_back(text("stress of ", budget.mesh.gear[g], " [MPa]"));
     }
     for (Eigen::Index k = 0; k < budget.root.stress.rows(); ++k)
@@ -358,6 +358,7 @@ Figure error_budget_figure(const ErrorBudgetArtifact& budget) {
       "contact = ", budget.fidelity.contact, ", near field by ", budget.gear[0].discretisation.near_field,
       "; beyond the line what another choice changes, which is no error of this one"));
   const FigureBlock roots = root_levels(budget, figure.notes);
+  double largest = 1;  // %
   for (const auto& [name, labels, count, changes] :
        {std::tuple{"changes", "labels", "entries", &budget.refinement},
         std::tuple{"choices", "choice_labels", "choices", &budget.choice}}) {
@@ -377,6 +378,7 @@ Figure error_budget_figure(const ErrorBudgetArtifact& budget) {
       if (pressure) row.push_back(std::abs(changes->pressure_change[i]) * kPercent);
       if (stress) row.push_back(std::abs(changes->root_stress_change[i]) * kPercent);
       block.rows.push_back(row);
+      largest = std::max(largest, *std::max_element(row.begin() + 1, row.end()));
       const size_t comma = rest.find(", ");
       std::string label = rest.substr(0, comma);
       // The same numbers under the name of what is changed, and with their signs.
@@ -404,6 +406,7 @@ Figure error_budget_figure(const ErrorBudgetArtifact& budget) {
   if (!roots.rows.empty()) figure.blocks.push_back(roots);
   add_lines(figure.notes.size(), figure);
   figure.numbers.emplace_back("notes", static_cast<double>(figure.notes.size()));
+  figure.numbers.emplace_back("top", decade_above(largest));
   return figure;
 }
 

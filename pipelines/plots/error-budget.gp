@@ -1,7 +1,7 @@
 # Error budget: changes of the static answer when one discretisation is refined alone, as bars on a logarithmic scale;
 # beyond a line those by another choice of the model.
-# Variables from gear-plot: tsv, heading, line1, line2, ..., notes, labels, entries, choice_labels, choices, bars_each, pressure (1: budgets that
-# know of pressure).
+# Variables from gear-plot: tsv, heading, line1, line2, ..., notes, labels, entries, choice_labels, choices, bars_each, top (%), pressure (1: budgets
+# that know of pressure).
 set datafile separator tab
 set datafile commentschars "#"
 foot_name = "line%d"
@@ -17,7 +17,7 @@ set grid ytics lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set logscale y
 set format y "10^{%L}"
 set ylabel "Change (%)"
-set yrange [1e-5:10]
+set yrange [1e-5:top]
 set xrange [-0.6:entries + (choices > 0 ? choices + 0.1 : -0.4)]
 set xtics ()
 two_lines(s) = strstrt(s, "|") > 0 ? s[1:strstrt(s, "|") - 1] . "\n{/*0.8 " . s[strstrt(s, "|") + 1:*] . "}" : s

@@ -24,14 +24,14 @@ do for [r = 1:rows] {
   set tmargin at screen top(r)
   set bmargin at screen foot(r)
   set lmargin at screen 0.085
-  set rmargin at screen 0.5
+  set rmargin at screen 0.495
   unset key
   unset grid
   set xrange [roll_from - half_wide : roll_to + half_wide]
   set yrange [frequency_from - half_tall : frequency_to + half_tall]
   set cbrange [0 : pressure_max]
-  set cblabel "Pressure (MPa)" offset -0.4
-  set colorbox user origin screen 0.515, foot(r) size screen 0.012, top(r) - foot(r)
+  set cblabel "Pressure (MPa)" offset -0.9
+  set colorbox user origin screen 0.508, foot(r) size screen 0.012, top(r) - foot(r)
   set xlabel (r == rows ? "Roll angle of " . word(labels, 1) . " (deg)" : "") offset 0, 0.3 noenhanced
   set ylabel "Mesh frequency (Hz)" offset 1
   set label 1 (r == 1 ? "{/:Bold (a)} speed rising" : "{/:Bold (b)} speed falling") at graph 0, graph 1 offset 0, 0.8 font ",14"
@@ -50,7 +50,7 @@ upper = top(1)
 lower = foot(rows)
 middle = 0.5 * (upper + lower)
 gap = 44.0 / height
-set lmargin at screen 0.69
+set lmargin at screen 0.715
 set rmargin at screen 0.985
 set grid lt 1 lc rgb "#e4e4e4" lw 1
 set key at graph 0.99, graph 0.04 right bottom Left reverse vertical samplen 2 spacing 1.2 font ",13" noenhanced

@@ -28,10 +28,10 @@ set tics out nomirror front
 set palette defined (0 "#f7fbff", 0.1 "#d6e6f4", 0.25 "#abcfe6", 0.45 "#6aaed6", 0.7 "#2e7ebc", 1 "#08306b")
 set tmargin at screen 1 - 195.0 / height + lift
 set bmargin at screen (rows == 2 ? 0.56 : 0.155) + lift
-set lmargin at screen 0.085
+set lmargin at screen 0.1
 set rmargin at screen 0.42
 set xlabel "Tip relief (µm)\n{/:Bold (a)} peak-to-peak transmission error (µm)"
-set ylabel "Torque (N m)"
+set ylabel "Torque (N m)" offset 0.8
 set xrange [*:*] noextend
 set yrange [*:*] noextend
 set colorbox user origin screen 0.435, (rows == 2 ? 0.56 : 0.155) + lift size screen 0.014, (rows == 2 ? 0.337 : 0.65)
@@ -62,7 +62,7 @@ if (moving > 0) {
   set border 15
   set tmargin at screen 0.44 + lift
   set bmargin at screen 0.085 + lift
-  set lmargin at screen 0.085
+  set lmargin at screen 0.1
   set rmargin at screen 0.42
   set xrange [*:*] noextend
   set yrange [*:*] noextend

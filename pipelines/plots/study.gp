@@ -11,16 +11,31 @@ foot2 = cut > 0 ? subtitle[cut + 2:*] : second_line
 foot3 = second_line
 foot_name = "foot%d"
 lift = room(1 + (cut > 0) + (strlen(second_line) > 0))
-set multiplot title heading
-set border 3 lw 1.4
-set tics out nomirror font ",13"
-set grid lt 1 lc rgb "#e4e4e4" lw 1
 all = columns + random
 left = 0.1
 width = (0.985 - left) / all
 top = 1 - 82.0 / height
 bottom = (colours > 0 ? 110.0 : 75.0) / height + lift
 tall = (top - bottom) / rows
+# Numbers below an axis have room for six letters each; names have a letter as large as lets them end before the next panel's.
+round_step(x) = (power = 10 ** floor(log10(x)), x <= power ? power : x <= 2 * power ? 2 * power : x <= 5 * power ? 5 * power : 10 * power)
+most_steps = int((width - 0.03) * 1600 / 56)
+array tick_step[int(columns)]
+do for [c = 1:int(columns)] {
+  tick_step[c] = 0
+  do for [r = 1:int(rows)] {
+    if (tick_step[c] == 0 && value(sprintf("ticks%d", c)) == 0 && value(sprintf("drawn%d_%d", r, c)) > 0) {
+      stats tsv index sprintf("[panel%d_%d]", r, c) using ($1 * value(sprintf("scale%d", c))) nooutput name "shown"
+      if (shown_max > shown_min) { tick_step[c] = round_step(1.06 * (shown_max - shown_min) / most_steps) }
+    }
+  }
+}
+letters(name) = strstrt(name, "\n") > 0 ? strstrt(name, "\n") - 1 : strlen(name)
+fitting(name, pixels, usual) = sprintf(",%.1f", usual * 0.65 * letters(name) > pixels ? pixels / (0.65 * letters(name)) : usual)
+set multiplot title heading
+set border 3 lw 1.4
+set tics out nomirror font ",13"
+set grid lt 1 lc rgb "#e4e4e4" lw 1
 set key off
 do for [r = 1:int(rows)] {
   set tmargin at screen top - (r - 1) * tall - 14.0 / height
@@ -28,18 +43,19 @@ do for [r = 1:int(rows)] {
   do for [c = 1:int(all)] {
     set lmargin at screen left + (c - 1) * width
     set rmargin at screen left + c * width - 0.03
-    if (c == 1) { set ylabel value(sprintf("y%d", r)) font ",13" offset 0, 0; set format y "%g" } else { unset ylabel; set format y "" }
+    if (c == 1) { set ylabel value(sprintf("y%d", r)) font fitting(value(sprintf("y%d", r)), 0.9 * tall * height, 13) offset 0, 0; set format y "%g" } else { unset ylabel; set format y "" }
     set autoscale
     set offsets graph 0.03, graph 0.03, graph 0.12, graph 0.06
     set ytics autofreq
     unset label
     if (c <= columns) {
-      set xlabel value(sprintf("x%d", c)) font ",14" offset 0, 0.5
+      set xlabel value(sprintf("x%d", c)) font fitting(value(sprintf("x%d", c)), 0.95 * width * 1600, 14) offset 0, 0.5
       ticks = int(value(sprintf("ticks%d", c)))
       scale = value(sprintf("scale%d", c))
       set format x "%g"
       set xtics autofreq
       set xtics font ",12"
+      if (tick_step[c] > 0) { set xtics tick_step[c] }
       if (ticks > 0) { set xtics (""  1); do for [t = 1:ticks] { set xtics add (value(sprintf("tick%d_%d", c, t)) t) } }
       set label 1 value(sprintf("correlation%d_%d", r, c)) at graph 0.97, 0.93 right font ",13" front
       if (value(sprintf("drawn%d_%d", r, c)) > 0) {
