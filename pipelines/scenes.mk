@@ -18,7 +18,7 @@ scene_stem := $(basename $(notdir $(SCENE)))
 # must not take the place of the project's.
 scene_meant = $(if $1,; there is $1)
 scene_path = $(if $(wildcard $2),,$(error $1=$2: there is no such file$(call scene_meant,$(firstword $(wildcard $2.toml data/scenes/$2 data/scenes/$2.toml)))))$(if $(filter %.toml,$2),,$(error $1=$2: a scene is a .toml file))\
-  $(call plain_stem,$1,$2)$(if $(filter figures bodies studies compare,$(basename $(notdir $2))),$(error $1=$2: out/$(basename $(notdir $2)) has another use; rename the file))\
+  $(call plain_stem,$1,$2)$(if $(filter figures bodies studies compare reading,$(basename $(notdir $2))),$(error $1=$2: out/$(basename $(notdir $2)) has another use; rename the file))\
   $(call scene_of_project,$1,$2,$(wildcard data/scenes/$(basename $(notdir $2)).toml))
 scene_of_project = $(if $3,$(if $(shell cmp -s '$2' $3 || echo differs),$(error $1=$2: out/$(basename $(notdir $2)) is of $3, which says otherwise; rename the file)))
 $(if $(SCENE),$(call scene_path,SCENE,$(SCENE)))

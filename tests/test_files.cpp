@@ -777,6 +777,37 @@ TEST_CASE("system_static.h5 gives back every value bit by bit") {
   write("system_static.h5", a, kMade);
 }
 
+TEST_CASE("artifacts of systems belong to their scene and, sweeps, to their direction, whoever wrote them") {
+  Folder folder;
+  const auto write_sweep = [](const std::string& scene, const std::string& output) {
+    overwrite("out/" + scene + "/params/system_sweep.toml", "of = '" + scene + "'\n");
+    char name[] = "gear-system-sweep", option[] = "--output";
+    std::string place = output;
+    char* arguments[] = {name, option, place.data(), nullptr};
+    const Provenance made = made_by(3, arguments, {"params=out/" + scene + "/params/system_sweep.toml"});
+    write("sweep.h5", small_sweep(small_system(), Direction::down), made);
+    return read_origin("sweep.h5");
+  };
+  fs::create_directories("out/a/params");
+  fs::create_directories("out/b/params");
+  const auto found = [](const std::string& place, const Origin& origin, const std::string& words) {
+    const std::string said = misplaced(place, origin);
+    INFO(said);
+    CHECK(said.find(words) != std::string::npos);
+  };
+  const Origin down = write_sweep("a", "out/a/down/system_sweep.h5");
+  CHECK(misplaced("out/a/down/system_sweep.h5", down).empty());
+  found("out/a/up/system_sweep.h5", down, "is of the sweep down, but lies in up");
+  found("out/b/down/system_sweep.h5", down,
+        "was made from out/a/params/system_sweep.toml, but lies in out/b");
+  found("out/a/system_branch.h5", down, "its name is that of 'whine/system_branch'");
+  // Made by hand under another name and moved: its own parameters tell.
+  const Origin by_hand = write_sweep("a", "sweep.h5");
+  CHECK(misplaced("out/a/down/system_sweep.h5", by_hand).empty());
+  found("out/a/up/system_sweep.h5", by_hand, "is of the sweep down, but lies in up");
+  found("out/b/down/system_sweep.h5", by_hand, "but lies in out/b");
+}
+
 TEST_CASE("system_impact.h5 and system_branch.h5 give back every value bit by bit") {
   Folder folder;
   SystemImpactArtifact a;

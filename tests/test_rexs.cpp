@@ -268,7 +268,9 @@ TEST_CASE("REXS: what a model says and a scene cannot hold is listed; texts of t
   CHECK(read_scene(folder.file("scene.toml", of_json.text)).gears.size() == 2);
 }
 
-TEST_CASE("REXS: names that are cut and bytes that are no UTF-8 give a scene that its own reader accepts") {
+TEST_CASE(
+    "REXS: names that are cut, of folders of results, and bytes that are no UTF-8 give a scene that its own "
+    "reader accepts") {
   const Folder folder;
   Gearbox box = first_pair();
   for (size_t letters = 0; letters < 4; ++letters)
@@ -283,6 +285,12 @@ TEST_CASE("REXS: names that are cut and bytes that are no UTF-8 give a scene tha
       CHECK(read_scene(folder.file("scene.toml", scene.text)).gears.size() == 2);
       unset(box, 10, name);
     }
+  for (const char* place : {"Report", "Up", "Teeth"}) {
+    box.parts[1].name = place;
+    const RexsScene scene = scene_of_rexs(read_rexs(folder.file("pair.rexs", xml(box))), "", 1);
+    CHECK(scene.text.find("\n[gear.gear_") != std::string::npos);
+    CHECK(read_scene(folder.file("scene.toml", scene.text)).gears.size() == 2);
+  }
 }
 
 TEST_CASE("REXS: a damaged archive is rejected, whatever byte is damaged and however the model is packed") {

@@ -261,7 +261,13 @@ TEST_CASE("names must lead somewhere: gears, materials, like") {
                  "did you mean 'bore_radius_mm' (half of the diameter)?"));
   CHECK(contains(file.rejection(with_section("[gear.third]\nlike = \"wheel\"\n")), "name the first gear"));
   CHECK(contains(file.rejection(scene_with("[gear.wheel]", "[gear.T150]")), "cannot be called 'T150'"));
-  CHECK(contains(file.rejection(scene_with("[gear.wheel]", "[gear.params]")), "cannot be called 'params'"));
+  for (const std::string place : {"params", "report", "variants", "teeth", "up", "down"})
+    CHECK(contains(file.rejection(scene_with("[gear.wheel]", "[gear." + place + "]")),
+                   "cannot be called '" + place + "', a folder of results is"));
+  CHECK(contains(file.rejection(scene_with("[gear.wheel]", "[gear." + std::string(101, 'w') + "]")),
+                 "its name has 101 letters; it becomes a folder, so it may have 100 at most"));
+  CHECK(contains(file.rejection(scene_with("[gear.wheel]", "[gear." + std::string(100, 'w') + "]")),
+                 "names no gear: 'wheel'"));
   CHECK(contains(file.rejection(scene_with("[gear.wheel]", "[gear.\"the wheel\"]")), "letters, digits"));
   CHECK(contains(file.rejection(with_section(
                      "[[mesh]]\ndriver = \"pinion\"\ndriven = \"wheel\"\ncentre_distance_mm = 150\n")),

@@ -16,6 +16,7 @@
 #include "message_of_input.h"
 #include "relative.h"
 #include "report/figure_words.h"
+#include "report/system_branch_figure.h"
 #include "report/system_figures.h"
 #include "report/system_motion_tables.h"
 #include "report/system_picture.h"
@@ -214,6 +215,34 @@ TEST_CASE(
   CHECK(speeds_words(speeds, {true, true, false, true, false, true}) == "100 to 200, 400, 600");
   CHECK(speeds_words(speeds, {true, true, true, true, true, true}) == "100 to 600");
   CHECK(speeds_words(speeds, std::vector<bool>(6, false)).empty());
+}
+
+TEST_CASE("figures of motion set only motions of one system beside each other, one sweep in a direction") {
+  const SystemStaticArtifact rest = varied();
+  const std::vector<SystemSweepArtifact> sweeps = sweeps_of(rest);
+  SystemBranchArtifact branch;
+  branch.settings = sweeps[0].settings;
+  branch.torque = sweeps[0].torque;
+  branch.mesh_frequency = Eigen::Vector2d(1000, 1100);
+  branch.dte_rms = MatrixRM::Constant(2, sweeps[0].dte_rms.cols(), 1e-6);
+  branch.floquet_multiplier.assign(2, MatrixRM::Constant(1, 2, 0.5));
+  branch.stable = Eigen::Vector2i(1, 1);
+  REQUIRE(system_sweep_figure(sweeps).blocks.size() == 6);
+  REQUIRE(system_branch_figure(branch, sweeps).blocks.size() == 3);
+
+  const auto said = [&](const auto& change, const std::string& words) {
+    std::vector<SystemSweepArtifact> changed = sweeps;
+    change(changed[1]);
+    CAPTURE(words);
+    CHECK(holds(message_of_input([&] { system_sweep_figure(changed); }), words));
+    CHECK(holds(message_of_input([&] { system_branch_figure(branch, changed); }), words));
+  };
+  said([](SystemSweepArtifact& c) { c.settings.layout.bodies[0].teeth = 28; }, "of two systems");
+  said([](SystemSweepArtifact& c) { c.settings.layout.bodies[0].name = "other"; }, "of two systems");
+  said([](SystemSweepArtifact& c) { c.torque[0] = 401; }, "the torque on 'sun' is 400 N m in ");
+  said([](SystemSweepArtifact& c) { c.settings.damping.rayleigh_stiffness = 3e-6; },
+       "the damping is 2e-06 s x stiffness + ");
+  said([](SystemSweepArtifact& c) { c.direction = Direction::up; }, "two sweeps in the direction 'up'");
 }
 
 TEST_CASE("odd names in the figures of a system: marks of gnuplot, names that are long") {

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <vector>
 
+#include "gear/scene_cost.h"
 #include "gear/scene_geometry.h"
 #include "gear/system_layout.h"
 #include "io/scene.h"
@@ -283,6 +284,30 @@ TEST_CASE(
   CHECK(said(primes).empty());
   CHECK(said(primes + differ).find("[gear.g41.error]: the same teeth meet again after 47027 mesh periods") !=
         std::string::npos);
+}
+
+TEST_CASE("what a system makes expensive is said with the key that makes it so, nothing of an ordinary one") {
+  const SystemScene ordinary = read_system_scene("data/scenes/three-in-line.toml");
+  CHECK(costs(ordinary, 2).empty());
+  const auto said = [&](const auto& change) {
+    SystemScene scene = ordinary;
+    change(scene);
+    std::string out;
+    for (const std::string& cost : costs(scene, 2)) out += cost + "\n";
+    INFO(out);
+    return out;
+  };
+  const auto holds = [](const std::string& text, const std::string& words) {
+    return text.find(words) != std::string::npos;
+  };
+  CHECK(holds(said([](SystemScene& s) { s.contact.strips = 1001; }),
+              "min: strips = 1001, 128 positions of 2 meshes"));
+  const std::string fine = said([](SystemScene& s) { s.body.element_size = 0.05e-3; });
+  for (const char* gear : {"pinion", "idler", "wheel"})
+    CHECK(holds(fine,
+                std::string("[gear.") + gear + "]: element_mm = 0.05 is 0.025 modules; mesh and modes take"));
+  CHECK(holds(said([](SystemScene& s) { s.time.min_sample_rate = 1e9; }),
+              "lower min_sample_rate_kHz take less"));
 }
 
 TEST_CASE("remarks on the motion of a system: contact on lines, a damping that nobody chose") {

@@ -28,6 +28,16 @@ double hunting(const Scene& scene) {
   return static_cast<double>(periods);
 }
 
+// Bodies: unknowns grow with the square of 1 / element_mm, factors and modes with the cube of that.
+void tell_of_body(std::vector<std::string>& out, const std::string& gear, const BodyDiscretisation& body,
+                  const GearDesign& design) {
+  const double coarseness = body.element_size / design.module;
+  if (coarseness < 0.04)
+    out.push_back(text("[gear.", gear, "]: element_mm = ", body.element_size * 1e3, " is ", coarseness,
+                       " modules; mesh and modes take minutes and gigabytes below 0.04, and eight times the "
+                       "unknowns for a third of it"));
+}
+
 }  // namespace
 
 std::vector<std::string> costs(const Scene& scene) {
@@ -55,15 +65,7 @@ std::vector<std::string> costs(const Scene& scene) {
     out.push_back(text("a sweep takes ", minutes(speed * speeds), ": the same teeth meet after ", periods,
                        " mesh periods, and it has ", speeds,
                        " speeds; fewer speeds or contact = \"line\" take less"));
-  // Bodies: unknowns grow with the square of 1 / element_mm, factors and modes with the cube of that.
-  for (const SceneGear& gear : scene.gears) {
-    const double coarseness = scene.body.element_size / gear.design.module;
-    if (coarseness < 0.04)
-      out.push_back(
-          text("[gear.", gear.name, "]: element_mm = ", scene.body.element_size * 1e3, " is ", coarseness,
-               " modules; mesh and modes take minutes and gigabytes below 0.04, and eight times the "
-               "unknowns for a third of it"));
-  }
+  for (const SceneGear& gear : scene.gears) tell_of_body(out, gear.name, scene.body, gear.design);
   if (scene.fidelity.body == BodyModel::full)
     out.push_back(
         "body = \"full\" finds all modes by dense algebra: about a minute a gear for a thousand unknowns a "
@@ -75,6 +77,7 @@ std::vector<std::string> costs(const Scene& scene) {
 std::vector<std::string> costs(const SystemScene& scene, size_t meshes) {
   std::vector<std::string> out;
   if (scene.rigid()) return out;
+  for (const SystemScene::Gear& gear : scene.gears) tell_of_body(out, gear.name, scene.body, gear.design);
   std::vector<int> teeth;
   for (const SystemScene::Gear& gear : scene.gears)
     if (!gear.errors.none()) teeth.push_back(gear.design.teeth);
@@ -89,8 +92,8 @@ std::vector<std::string> costs(const SystemScene& scene, size_t meshes) {
                          (on_strips ? std::pow(strips / kDefaultStrips, kGrowth) : 0.1);
   if (statics > kMinute)
     out.push_back(text(
-        "the system at rest takes ", minutes(statics), ": ", each * periods, " positions of ", meshes,
-        " meshes",
+        "the system at rest takes ", minutes(statics), ": ", on_strips ? text("strips = ", strips, ", ") : "",
+        each * periods, " positions of ", meshes, " meshes",
         periods > 1 ? text(" over the ", periods, " mesh periods after which the same teeth meet") : ""));
   // In motion: a step takes 4 microseconds for each mesh; some 30 mesh periods a speed, and not less than eight hunting periods.
   constexpr double kStep = 4e-6, kTransient = 30;

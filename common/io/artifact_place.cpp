@@ -71,16 +71,17 @@ std::string short_torque(double torque) {
   return word;
 }
 
-// Of what lies in out/<scene>/T<torque>/...
+// Of what lies in out/<scene>/T<torque>/..., or, of a system, in out/<scene>/<up or down>.
 std::string wrong_operation(const PathParts& place, const Origin& origin) {
-  if (place.size() < 4 || place[2].size() < 2 || place[2][0] != 'T') return "";
+  if (place.size() < 4) return "";
+  const bool of_torque = place[2].size() > 1 && place[2][0] == 'T';
   const std::string torque = short_torque(origin.torque);
-  if (origin.has_torque && place[2] != "T" + torque)
+  if (of_torque && origin.has_torque && place[2] != "T" + torque)
     return text("is at ", torque, " N m, but lies in ", place[2]);
   const std::string& folder = place[place.size() - 2];
   if (!origin.direction.empty() && (folder == "up" || folder == "down") && folder != origin.direction)
     return text("is of the sweep ", origin.direction, ", but lies in ", folder);
-  if (place.size() == 4 || origin.direction.empty()) return "";
+  if (!of_torque || place.size() == 4 || origin.direction.empty()) return "";
   // What follows a dash in the folder's name is a variant of the model.
   const std::string model = place.size() == 6 ? place[3] : "";
   const bool same = model == origin.model || (!origin.model.empty() && model.starts_with(origin.model + "-"));

@@ -11,6 +11,7 @@
 #include "base/tool.h"
 #include "base/units.h"
 #include "io/rexs_stage.h"
+#include "io/variant.h"
 
 namespace whine {
 namespace {
@@ -70,7 +71,7 @@ std::string section_name(const RexsComponent& c) {
       out += '_';
   }
   while (!out.empty() && out.back() == '_') out.pop_back();
-  return out.empty() || out.size() > 40 ? text("gear_", c.id) : out;
+  return out.empty() || out.size() > 40 || is_folder_of_results(out) ? text("gear_", c.id) : out;
 }
 
 void check_spur(RexsStage& stage, int side) {

@@ -249,6 +249,16 @@ void reject_stray_section(const Source& source, const std::string& name, const t
                      "] with teeth", advice_for(name, names)));
 }
 
+// A gear has a folder beside those of results, which is a link to its body: what is made in a folder of its name would land there.
+void reject_place(const Source& source, const std::string& name, const toml::table& table) {
+  if (is_folder_of_results(name))
+    source.reject(table, text("[gear.", name, "]: a gear cannot be called '", name,
+                              "', a folder of results is; choose another name"));
+  if (name.size() > kLongestName)
+    source.reject(table, text("[gear.", name.substr(0, 40), "...]: its name has ", name.size(),
+                              " letters; it becomes a folder, so it may have ", kLongestName, " at most"));
+}
+
 }  // namespace
 
 void read_gears(const Source& source, Scene& scene, bool rigid) {
@@ -274,13 +284,7 @@ void read_gears(const Source& source, Scene& scene, bool rigid) {
   };
   const auto names = section_names(gears);
   for (const auto& [name, table] : gears) {
-    // These would be mixed up with the folders of parameters, reports and torques beside the gear's own.
-    const bool torque_like =
-        name.size() > 1 && name[0] == 'T' && std::isdigit(static_cast<unsigned char>(name[1]));
-    if (name == "params" || name == "report" || name == "variants" || torque_like) {
-      source.reject(*table, text("[gear.", name, "]: a gear cannot be called '", name,
-                                 "', a folder of results is; choose another name"));
-    }
+    reject_place(source, name, *table);
     reject_stray_section(source, name, *table, names);
     const SectionReader reader(source, Dialect::scene, *table, "gear", "gear." + name);
     std::vector<std::string> others{"crack", "modification", "error"};
@@ -428,6 +432,13 @@ bool is_system(const Source& source) {
   const toml::array* meshes = mesh ? mesh->as_array() : nullptr;
   return root.contains("carrier") || root.contains("drive") ||
          (meshes && meshes->is_array_of_tables() && meshes->size() > 1);
+}
+
+bool is_folder_of_results(const std::string& name) {
+  static const std::set<std::string> others{"params", "report", "variants", "teeth", "up", "down"};
+  const bool torque_like =
+      name.size() > 1 && name[0] == 'T' && std::isdigit(static_cast<unsigned char>(name[1]));
+  return others.contains(name) || torque_like;
 }
 
 bool plain_name(const std::string& name) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <sstream>
 
 #include "base/error.h"
@@ -37,7 +38,12 @@ std::string checked_scene_stem(const std::string& path) {
          "' becomes a folder and a make target, so it may hold letters, digits, '_' and '-' only; rename the "
          "file");
   }
-  if (stem == "bodies" || stem == "figures" || stem == "studies") {
+  if (stem.size() > kLongestName)
+    fail(Failure::input, path.size() > 200 ? "..." + path.substr(path.size() - 200) : path, ": the name has ",
+         stem.size(), " letters; it becomes a folder and a make target, so it may have ", kLongestName,
+         " at most; rename the file");
+  static const std::set<std::string> others{"bodies", "figures", "studies", "compare", "reading"};
+  if (others.contains(stem)) {
     fail(Failure::input, path, ": a scene cannot be called '", stem,
          "', a folder of results is; rename the file");
   }

@@ -21,4 +21,10 @@ Scene read_variant_of(const std::string& path, const std::string& variant);
 // Letters, digits, '_' and '-': what may be the name of a section of a scene, of a folder and of a goal of make.
 bool plain_name(const std::string& name);
 
+// Of a gear or a scene, in letters: with what stands behind it, it is the name of a folder or a file.
+inline constexpr size_t kLongestName = 100;
+
+// Whether what is made of a scene beside the folders of its gears stands in a folder of this name.
+bool is_folder_of_results(const std::string& name);
+
 }  // namespace whine

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "report/one_system.h"
 #include "system/rigid_system.h"
 
 namespace whine {
@@ -52,6 +53,7 @@ FigureBlock sweep_block(const SystemSweepArtifact& s, size_t meshes) {
 Figure system_branch_figure(const SystemBranchArtifact& b, const std::vector<SystemSweepArtifact>& sweeps) {
   if (b.mesh_frequency.size() == 0) fail(Failure::input, "figure: the branch holds no orbit");
   const System& s = b.settings.layout;
+  require_one_system("the branch", b.settings, b.torque, sweeps);
   const size_t meshes = std::min(s.meshes.size(), kMostMeshes);
   Figure figure;
   figure.title = "Branch of periodic motions of a system";
@@ -61,9 +63,6 @@ Figure system_branch_figure(const SystemBranchArtifact& b, const std::vector<Sys
   if (stable) figure.blocks.push_back(system_branch_block(b, meshes, true));
   if (unstable) figure.blocks.push_back(system_branch_block(b, meshes, false));
   for (const SystemSweepArtifact& sweep : sweeps) {
-    if (sweep.settings.layout.meshes.size() != s.meshes.size())
-      fail(Failure::input, "figure: the branch is of ", s.meshes.size(), " meshes and a sweep of ",
-           sweep.settings.layout.meshes.size(), "; give those of one system");
     figure.blocks.push_back(sweep_block(sweep, meshes));
     (sweep.direction == Direction::up ? up : down) = 1;
     most = std::max(most, sweep.dte_rms.leftCols(static_cast<Index>(meshes)).maxCoeff());

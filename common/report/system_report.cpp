@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "report/figures.h"
 #include "report/html.h"
+#include "report/one_system.h"
 #include "report/report_page.h"
 #include "report/system_figures.h"
 #include "report/system_motion_tables.h"
@@ -146,14 +147,6 @@ std::string system_introduction(const SystemReport& r) {
       text(" Static transmission errors are up to ", significant(most * kMicro, 3), " µm from peak to peak.");
   if (!r.sweeps.empty()) out += " " + motion_words(r);
   return html::paragraph(out);
-}
-
-// Bodies by name and teeth, and the number of meshes.
-bool one_system(const System& a, const System& b) {
-  bool same = a.bodies.size() == b.bodies.size() && a.meshes.size() == b.meshes.size();
-  for (size_t i = 0; same && i < a.bodies.size(); ++i)
-    same = a.bodies[i].name == b.bodies[i].name && a.bodies[i].teeth == b.bodies[i].teeth;
-  return same;
 }
 
 void require_sweeps(const SystemReport& r) {

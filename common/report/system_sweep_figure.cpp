@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "report/figure_words.h"
+#include "report/one_system.h"
 #include "report/system_picture.h"
 #include "system/rigid_system.h"
 
@@ -62,11 +63,7 @@ Figure system_sweep_figure(const std::vector<SystemSweepArtifact>& sweeps) {
       fail(Failure::input, "figure: a sweep of no speeds, or of a system without meshes, was given");
   const SystemSweepArtifact& a = sweeps.front();
   const System& s = a.settings.layout;
-  for (const SystemSweepArtifact& other : sweeps)
-    if (other.settings.layout.meshes.size() != s.meshes.size() ||
-        other.settings.layout.bodies.size() != s.bodies.size())
-      fail(Failure::input, "the sweeps are of systems with ", s.meshes.size(), " and ",
-           other.settings.layout.meshes.size(), " meshes; give those of one system, rising and falling");
+  require_one_system("another sweep", a.settings, a.torque, sweeps);
   Figure figure;
   figure.title = "A system over its speeds: vibration, contact loss, forces on bearings";
   figure.notes = in_lines(bodies_words(s, a.torque));

@@ -1,0 +1,50 @@
+#include "report/one_system.h"
+
+#include <cmath>
+
+#include "base/error.h"
+
+namespace whine {
+namespace {
+
+bool agree(double a, double b) {
+  return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b));
+}
+
+}  // namespace
+
+bool one_system(const System& a, const System& b) {
+  bool same = a.bodies.size() == b.bodies.size() && a.meshes.size() == b.meshes.size();
+  for (size_t i = 0; same && i < a.bodies.size(); ++i)
+    same = a.bodies[i].name == b.bodies[i].name && a.bodies[i].teeth == b.bodies[i].teeth;
+  return same;
+}
+
+void require_one_system(const std::string& what, const SystemSweepParameters& settings,
+                        const Eigen::VectorXd& torque, const std::vector<SystemSweepArtifact>& sweeps) {
+  const System& s = settings.layout;
+  for (size_t i = 0; i < sweeps.size(); ++i) {
+    const SystemSweepArtifact& sweep = sweeps[i];
+    const std::string of = text("the sweep ", name_of(sweep.direction));
+    if (!one_system(sweep.settings.layout, s))
+      fail(Failure::input, "figure: ", what, " and ", of,
+           " are of two systems, with other bodies, teeth or meshes; give those of one scene");
+    for (Eigen::Index b = 0; b < torque.size(); ++b)
+      if (!agree(sweep.torque[b], torque[b]))
+        fail(Failure::input, "figure: the torque on '", s.bodies[static_cast<size_t>(b)].name, "' is ",
+             torque[b], " N m in ", what, " and ", sweep.torque[b], " N m in ", of,
+             "; give those of one scene");
+    const Damping &own = settings.damping, &other = sweep.settings.damping;
+    if (!agree(own.rayleigh_stiffness, other.rayleigh_stiffness) ||
+        !agree(own.rayleigh_mass, other.rayleigh_mass))
+      fail(Failure::input, "figure: the damping is ", own.rayleigh_stiffness, " s x stiffness + ",
+           own.rayleigh_mass, " 1/s x mass in ", what, " and ", other.rayleigh_stiffness, " and ",
+           other.rayleigh_mass, " in ", of, "; give those of one scene");
+    for (size_t j = 0; j < i; ++j)
+      if (sweeps[j].direction == sweep.direction)
+        fail(Failure::input, "figure: two sweeps in the direction '", name_of(sweep.direction),
+             "' are given; give one of each direction");
+  }
+}
+
+}  // namespace whine

@@ -1,0 +1,17 @@
+// Whether motions are of one system: what a figure may set beside each other.
+#pragma once
+#include <vector>
+
+#include "studies/system_sweep_result.h"
+
+namespace whine {
+
+// Bodies by name and teeth, and the number of meshes.
+bool one_system(const System& a, const System& b);
+
+// Throws Error(input) unless all sweeps are of one system, with one torque on each body and one damping, at most one of them in a
+// direction. `settings` and `torque`: of what else stands in the figure, or of the first sweep; `what` it is, such as "the branch".
+void require_one_system(const std::string& what, const SystemSweepParameters& settings,
+                        const Eigen::VectorXd& torque, const std::vector<SystemSweepArtifact>& sweeps);
+
+}  // namespace whine
