@@ -249,6 +249,34 @@ TEST_CASE("friction in motion: slow and light, losses are those at rest; a sweep
   CHECK(read.friction_rolling == slow.friction_rolling);
 }
 
+TEST_CASE(
+    "friction in motion: a coefficient of 0 leaves every bit as it is without, a small one tends to that") {
+  for (const auto contact : {ContactModel::strips, ContactModel::line}) {
+    const auto swept = [&](double coefficient, double smoothing) {
+      StaticParameters statics = with_friction(coefficient, contact);
+      statics.mesh.friction.smoothing = smoothing;
+      const StaticArtifact s = static_transmission(coarse_body(), coarse_body(), statics, 150);
+      SweepParameters settings = paper_sweep(2300, 2300, 1);
+      settings.fidelity.contact = contact;
+      settings.fidelity.body = BodyModel::lagged;
+      settings.time.min_sample_rate = 20e3;
+      return sweep(coarse_body(), coarse_body(), s, s.mean_stiffness, settings, Direction::up, no_report);
+    };
+    const Friction untouched;
+    const SweepArtifact without = swept(0, untouched.smoothing), none = swept(0, 0.5),
+                        little = swept(1e-9, untouched.smoothing);
+    CHECK(none.transmission_error == without.transmission_error);
+    CHECK(none.mesh_force == without.mesh_force);
+    CHECK(none.tooth_load == without.tooth_load);
+    CHECK(none.friction.power.size() == 0);
+    CHECK(none.friction_work.size() == 0);
+    REQUIRE(little.friction.power.size() == 1);
+    CHECK(little.friction.power[0] > 0);
+    CHECK((little.transmission_error - without.transmission_error).norm() <
+          1e-6 * without.transmission_error.norm());
+  }
+}
+
 TEST_CASE("friction in motion: with Schlenk's formula the energy balance closes at every speed") {
   StaticParameters statics = with_friction(0, ContactModel::line);
   Friction& friction = statics.mesh.friction;
