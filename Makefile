@@ -74,13 +74,27 @@ LDLIBS = -lpugixml -lzip -ljsoncpp -lsndfile -lgmsh -lcholmod $(shell pkg-config
 # With `deps` among the goals whatever uses a package waits for it, in any order of the goals and under -j.
 with_deps := $(filter deps,$(goals))
 
+# Sources are compiled in units, a layer or a part of one at a time: alone, each reads and instantiates the same headers again, which
+# took half of a build. Apart from the rest of their layer: what has flags of its own, and parts of the long layers.
+unit_expressions := base/dense=base/dense.* base/eigen_templates=base/eigen_templates base/options=base/options \
+  dynamics/step_kernel=dynamics/step_kernel dynamics/step_kernel_pack=dynamics/step_kernel_pack dynamics/system=dynamics/system_.* \
+  io/codecs=io/.*_codec io/scenes=io/(rexs|scene|section|stage|study|system|toml|variant).* \
+  report/system=report/(system|teeth|root|flank|runup|order|sound|wire).* report/report=report/(report|html|compare|exported).*
+# A program waits for the units behind the headers that it includes, and for no other.
+links := $(shell awk -v units='$(unit_expressions)' -f pipelines/sources.awk $(wildcard common/*/*.h common/*/*.cpp tools/*.cpp tests/fuzz/*.cpp))
+sources_of = $(patsubst $1=%,common/%.cpp,$(filter $1=%,$(links)))
+units := $(sort $(foreach l,$(links),$(if $(findstring =,$l),$(firstword $(subst =, ,$l)))))
+cold_units := $(filter $(cold_layers:%=%/%),$(units))
 # The cold ones last: a linker takes an inline function from the first object that has it.
-layers := $(filter-out $(cold_layers),$(notdir $(wildcard common/*))) $(cold_layers)
-library := $(patsubst %.cpp,$(B)/obj/%.o,$(foreach r,$(layers),$(wildcard common/$r/*.cpp)))
+library := $(patsubst %,$(B)/obj/common/%.o,$(filter-out $(cold_units),$(units)) $(cold_units))
 tools := $(patsubst tools/%.cpp,%,$(wildcard tools/gear-*.cpp))
 tool_objects := $(tools:%=$(B)/obj/tools/%.o)
 hard_cases := $(B)/obj/tests/hard_cases.o
-test_objects := $(filter-out $(hard_cases),$(patsubst %.cpp,$(B)/obj/%.o,$(wildcard tests/*.cpp)))
+# Tests go together by their names.
+test_groups := [a-d] (e|f[a-q]) (f[r-z]|[g-i]) [j-o] [p-r] s[a-x] (sy|[t-z])
+tests_of = $(shell printf '%s\n' $(wildcard tests/test_*.cpp) | grep -E '^tests/test_$(word $1,$(test_groups))')
+test_units := $(foreach n,1 2 3 4 5 6 7,$(B)/obj/tests/unit$n.o)
+test_objects := $(B)/obj/tests/main.o $(test_units)
 objects := $(library) $(tool_objects) $(test_objects) $(hard_cases)
 
 .PHONY: build
@@ -103,8 +117,13 @@ $(cold_objects): private INCLUDE_PRECOMPILED = -include $(cold_precompiled)
 $(cold_objects) $(cold_precompiled).gch: private CXXFLAGS += $(COLD_FLAGS)
 $(cold_objects): $(cold_precompiled).gch
 $(filter-out $(cold_objects),$(objects)): $(precompiled).gch
-$(objects): $(B)/obj/%.o: %.cpp $(B)/flags | $$(@D)/ $(with_deps)
-	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(INCLUDE_PRECOMPILED) -MMD -MP -c -o $@ $<
+compile = $(CXX) $(CPPFLAGS) $(CXXFLAGS) $(INCLUDE_PRECOMPILED) -MMD -MP -MF $(@:.o=.d) -MT $@ -c -o $@
+$(filter-out $(library) $(test_units),$(objects)): $(B)/obj/%.o: %.cpp $(B)/flags | $$(@D)/ $(with_deps)
+	$(compile) $<
+$(library): $(B)/obj/common/%.o: $$(call sources_of,$$*) $(B)/flags $(B)/unit_expressions | $$(@D)/ $(with_deps)
+	printf '#include "%s"\n' $(filter %.cpp,$^) | $(compile) -x c++ -
+$(test_units): $(B)/obj/tests/unit%.o: $$(call tests_of,$$*) pipelines/test_unit.awk $(B)/flags | $$(@D)/ $(with_deps)
+	awk -f pipelines/test_unit.awk $(filter %.cpp,$^) | $(compile) -Itests -x c++ -
 
 # Assertions as calls rather than as code in place: a third of the time of compiling them. Private: the precompiled header, of
 # which a test may be the first that wants it, is not of the tests.
@@ -114,7 +133,7 @@ $(filter $(B)/obj/tests/%,$(objects)): private CPPFLAGS += -DDOCTEST_CONFIG_SUPE
 $(filter $(B)/obj/tests/%,$(objects)): private CXXFLAGS += $(if $(SANITIZE),-fno-sanitize=undefined)
 
 # Nothing of ours but calls of Eigen's decompositions and of the library of options.
-$(filter $(B)/obj/common/base/dense% $(B)/obj/common/base/eigen_templates.o $(B)/obj/common/base/options.o,$(objects)): private CXXFLAGS += $(if $(SANITIZE),-fno-sanitize=undefined)
+$(filter $(B)/obj/common/base/dense.o $(B)/obj/common/base/eigen_templates.o $(B)/obj/common/base/options.o,$(objects)): private CXXFLAGS += $(if $(SANITIZE),-fno-sanitize=undefined)
 
 step_objects := $(B)/obj/common/dynamics/step_kernel.o $(B)/obj/common/dynamics/step_kernel_pack.o $(filter $(B)/obj/common/contact/%,$(objects))
 $(step_objects): private CXXFLAGS += $(STEP_FLAGS)
@@ -124,8 +143,6 @@ $(step_objects) $(B)/obj/common/base/eigen_templates.o: private INCLUDE_PRECOMPI
 # HDF5 stays in one layer: nobody else finds its headers.
 $(filter $(B)/obj/common/io/%,$(objects)): private CPPFLAGS += $(HDF5_CFLAGS)
 
-# A program waits for the sources behind the headers that it includes, and for no other.
-links := $(shell awk -f pipelines/sources.awk $(wildcard common/*/*.h common/*/*.cpp tools/*.cpp tests/fuzz/*.cpp))
 linked = $(filter $(patsubst $1:%,$(B)/obj/common/%.o,$(filter $1:%,$(links))),$(library))
 link = $(CXX) $(LDFLAGS) -o $@ $(filter %.o,$^) $(LDLIBS)
 
@@ -141,11 +158,14 @@ $(B)/bin/whine-hard-cases: $(library) $(hard_cases) | $(B)/bin/
 
 flags := $(CXX) $(CPPFLAGS) $(CXXFLAGS) $(COLD_FLAGS) $(STEP_FLAGS) $(LDFLAGS)
 # Equal as whole texts: objects of different flags do not fit each other (Eigen's alignment follows the processor). $(strip): make 4.3
-# leaves the newline of $(file <...) where its buffer has moved.
-flags_before := $(strip $(file <$(B)/flags))
-$(B)/flags: $(if $(and $(findstring x$(strip $(flags))x,x$(flags_before)x),$(findstring x$(flags_before)x,x$(strip $(flags))x)),,FORCE)
+# leaves the newline of $(file <...) where its buffer has moved. So with the units: a source is in one of them.
+said_before = $(strip $(file <$(B)/$1))
+differs = $(if $(and $(findstring x$(strip $($1))x,x$(said_before)x),$(findstring x$(said_before)x,x$(strip $($1))x)),,FORCE)
+$(B)/flags: $(call differs,flags)
+$(B)/unit_expressions: $(call differs,unit_expressions)
+$(B)/flags $(B)/unit_expressions:
 	@mkdir -p $(@D)
-	@echo '$(flags)' > $@
+	@echo '$($(@F))' > $@
 
 -include $(objects:.o=.d)
 

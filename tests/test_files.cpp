@@ -334,7 +334,7 @@ ImpactArtifact small_impact() {
   return a;
 }
 
-SweepArtifact small_sweep() {
+SweepArtifact small_pair_sweep() {
   SweepArtifact a;
   set_pair(a);
   a.mesh = {"pinion", "wheel", 0.15 / 1.1, {false, std::numeric_limits<double>::infinity()}};
@@ -375,7 +375,7 @@ SweepArtifact small_sweep() {
 // Records are stored in single precision.
 RunupArtifact small_runup() {
   const auto single = [](const auto& x) { return x.template cast<float>().template cast<double>().eval(); };
-  const SweepArtifact other = small_sweep();
+  const SweepArtifact other = small_pair_sweep();
   RunupArtifact a;
   static_cast<MotionParameters&>(a) = other;
   a.torque = 150;
@@ -1039,7 +1039,7 @@ TEST_CASE("error_budget.h5 gives back every value bit by bit, errors and choices
 
 TEST_CASE("sweep.h5 gives back every value bit by bit, and an empty list of jumps") {
   Folder folder;
-  SweepArtifact a = small_sweep();
+  SweepArtifact a = small_pair_sweep();
   write("sweep.h5", a, kMade);
   const SweepArtifact b = read_sweep("sweep.h5");
   CHECK(same_pair(a, b));
@@ -1190,7 +1190,7 @@ TEST_CASE(
   CHECK(h5::Reader(read_bytes("static.h5"), "static.h5", "").shape("/body/wheel/bearing_force") ==
         h5::Shape{3, 2});
 
-  SweepArtifact moving = small_sweep();
+  SweepArtifact moving = small_pair_sweep();
   moving.mesh.bearing = {own, own};
   for (auto& force : moving.bearing_force) force = {odd_matrix(64, 2, 1e3), odd_matrix(64, 2, 2e3)};
   write("sweep.h5", moving, kMade);
@@ -1410,8 +1410,8 @@ TEST_CASE("two writes of the same values give the same bytes, another value othe
   changed.inertia = std::nextafter(changed.inertia, 1.0);
   write("c.h5", changed, kMade);
   CHECK(read_bytes("a.h5") != read_bytes("c.h5"));
-  write("d.h5", small_sweep(), kMade);
-  write("e.h5", small_sweep(), kMade);
+  write("d.h5", small_pair_sweep(), kMade);
+  write("e.h5", small_pair_sweep(), kMade);
   CHECK(read_bytes("d.h5") == read_bytes("e.h5"));
 }
 
@@ -1769,10 +1769,10 @@ TEST_CASE(
   statics = small_static();
   statics.hunting_periods = 1 << 30;
   CHECK(says(said(statics, read_static), "dataset /hunting_periods holds 1073741824, allowed is 1 to "));
-  SweepArtifact sweep = small_sweep();
+  SweepArtifact sweep = small_pair_sweep();
   sweep.tooth_load[1](0, 0) = 1e18;
   CHECK(says(said(sweep, read_sweep), "dataset /tooth_load holds 1e+18, allowed is "));
-  sweep = small_sweep();
+  sweep = small_pair_sweep();
   sweep.mesh_frequency[0] = 0;
   CHECK(says(said(sweep, read_sweep), "dataset /mesh_frequency holds 0, allowed is more than 0 to "));
 }
@@ -2006,7 +2006,7 @@ TEST_CASE("the summary names the key numbers in an engineer's units") {
   CHECK(all.find("root stress of wheel: 0 % from 0.8 to 0.4 mm, 0 % from 0.4 to 0.2 mm") !=
         std::string::npos);
   write("impact.h5", small_impact(), kMade);
-  write("sweep.h5", small_sweep(), kMade);
+  write("sweep.h5", small_pair_sweep(), kMade);
   write("response.h5", small_response(), kMade);
   write("mesh.h5", small_mesh(), kMade);
   write("body.h5", small_body(), kMade);
@@ -2062,7 +2062,7 @@ TEST_CASE("axes of each kind of artifact are dimension scales, the numbers of ha
   write("error_budget.h5", small_budget(), kMade);
   write("loaded.h5", small_loaded(), kMade);
   write("impact.h5", small_impact(), kMade);
-  write("sweep.h5", small_sweep(), kMade);
+  write("sweep.h5", small_pair_sweep(), kMade);
   write("response.h5", small_response(), kMade);
   write("branch.h5", small_branch(), kMade);
   write("modes.h5", natural_modes(layout_of(planetary_train(3))), kMade);
@@ -2087,7 +2087,7 @@ TEST_CASE("axes of each kind of artifact are dimension scales, the numbers of ha
   CHECK(read_branch("branch.h5").floquet_multiplier[1] == small_branch().floquet_multiplier[1]);
   CHECK(read_jump_map("jump_map.h5").dte_rms[1] == small_jump_map().dte_rms[1]);
 
-  SweepArtifact sweep = small_sweep();
+  SweepArtifact sweep = small_pair_sweep();
   sweep.pair.conservativeResize(sweep.pair.size() - 1);
   CHECK(caught([&] { write("x.h5", sweep, kMade); }).says("along pair"));
 }
