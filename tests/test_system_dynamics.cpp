@@ -124,7 +124,7 @@ const BodyArtifact& train_body(int teeth, bool internal) {
 }
 
 // Sun, planets and ring; the sun floats, planets stand on elastic pins; ring and carrier are held.
-SystemModel train(const std::array<int, 3>& teeth, int planets = 3) {
+SystemModel train(const std::array<int, 3>& teeth, int planets = 3, const Bearing& of_ring = {}) {
   SystemScene scene = planetary_train(planets);
   const std::array stiffness{2e7, 3e8, 0.0};
   for (size_t g = 0; g < 3; ++g) {
@@ -134,7 +134,7 @@ SystemModel train(const std::array<int, 3>& teeth, int planets = 3) {
     gear.equivalent_mass = 0;
     gear.bearing = {stiffness[g], g == 0 ? 500.0 : 2000.0, 0};
   }
-  scene.gears[2].bearing = {};
+  scene.gears[2].bearing = of_ring;
   scene.carriers[0].bearing = {};
   for (SystemScene::Mesh& mesh : scene.meshes)
     mesh.spec.centre_distance = 0.5 * (teeth[0] + teeth[1]) * kModule;
@@ -161,10 +161,31 @@ namespace {
 
 constexpr int kSteps = 48;  // threes, over which planets hand their motion on
 
+// A planet of 37 teeth and a ring of 100 as a system on rigid axes. sense: of the driver.
+SystemModel internal_pair(bool ring_drives, int sense) {
+  const std::array<int, 2> teeth = ring_drives ? std::array{100, 37} : std::array{37, 100};
+  std::array<GearDesign, 2> design;
+  for (size_t g = 0; g < 2; ++g) design[g] = train_body(teeth[g], teeth[g] == 100).design;
+  GearMeshSpec spec;
+  spec.gear = {"a", "b"};
+  spec.centre_distance = 31.5 * kModule;
+  System layout;
+  add_input_gear(layout, "a", design[0]);
+  layout.bodies[0].sense = sense;
+  add_driven_gear(layout, 0, design[0], "b", design[1], spec.centre_distance, 0.7);
+  const std::vector<BodyArtifact> bodies = {train_body(teeth[0], ring_drives),
+                                            train_body(teeth[1], !ring_drives)};
+  const double torque = teeth[0] * kTorque / 26;
+  layout.drives = {{0, System::DriveKind::torque, torque},
+                   {1, System::DriveKind::torque, -torque * teeth[1] / teeth[0]}};
+  for (size_t b = 0; b < 2; ++b) layout.bodies[b].inertia = 1.3 * bodies[b].inertia;
+  return {layout, bodies, {spec}};
+}
+
 // Three equal planets, 26, 37 and 100 teeth: a third of a mesh period apart.
 struct Planetary {
-  explicit Planetary(double eta = 1e-6, int steps = kSteps, double gap = 60e-6)
-      : system(train({26, 37, 100})), dynamics(system, motion_of(system, 4e8, eta)) {
+  explicit Planetary(double eta = 1e-6, int steps = kSteps, double gap = 60e-6, const Bearing& of_ring = {})
+      : system(train({26, 37, 100}, 3, of_ring)), dynamics(system, motion_of(system, 4e8, eta)) {
     dynamics.set_positions(std::vector<double>(6, gap), steps);
   }
   SystemModel system;
@@ -435,6 +456,106 @@ TEST_CASE("stiff bearings: rigid axes, to the first order of their flexibility")
                two = (errors(8e11) - rigid).norm() / rigid.norm();
   CHECK(one < 0.01);
   CHECK(two / one == relative(0.5, 0.05));
+}
+
+TEST_CASE(
+    "an internal pair by the system's equations moves as by those of pairs, in both senses, either driver") {
+  for (const bool ring_drives : {false, true}) {
+    const SystemModel reference = internal_pair(ring_drives, 1);
+    DynamicParameters parameters = paper_parameters(4e8, BodyModel::modal, ContactModel::line);
+    parameters.torque = reference.layout.torque(0);
+    parameters.inertia = {reference.layout.bodies[0].inertia, reference.layout.bodies[1].inertia};
+    GearMeshSpec spec;
+    spec.gear = {"a", "b"};
+    spec.centre_distance = 31.5 * kModule;
+    const GearMeshModel model(reference.body[0]->body(), reference.body[1]->body(), spec);
+    RollingDynamics pair(model, parameters);
+    CandidateZone zone;
+    zone.corner_gap = 60e-6;
+    pair.set_zone(zone, kSteps);
+    RollingDynamics::State rolling = pair.rest();
+    RollingDynamics::Period b;
+    pair.set_speed(2500, kSteps);
+    for (int n = 0; n < 60; ++n) REQUIRE(pair.integrate(rolling, b));
+    const VectorXd other = b.transmission_error;
+    const double rms = std::sqrt((other.array() - other.mean()).square().mean());
+    for (const int sense : {1, -1}) {
+      CAPTURE(ring_drives);
+      CAPTURE(sense);
+      const SystemModel system = internal_pair(ring_drives, sense);
+      SystemDynamics dynamics(system, motion_of(system, 4e8));
+      dynamics.set_positions({60e-6}, kSteps);
+      SystemDynamics::State state = dynamics.rest();
+      SystemDynamics::Period a;
+      dynamics.set_speed(2500, kSteps);
+      for (int n = 0; n < 60; ++n) REQUIRE(dynamics.integrate(state, a));
+      const VectorXd one = a.transmission_error.row(0);
+      CHECK((one - other).norm() < 1e-4 * rms * std::sqrt(static_cast<double>(kSteps)));
+      CHECK(a.drift_force == relative(b.drift_force, 1e-3));
+    }
+  }
+}
+
+TEST_CASE("a ring that floats on a bearing: rest, frozen modes, energy, and the rigid axis as its limit") {
+  const Bearing soft{4e7, 3000, 0};
+  Planetary rig(1e-6, kSteps, 60e-6, soft);
+  const std::vector<SystemSolution> statics = rest_over_period(rig.system, ContactModel::line, 8, 16);
+  const int ring = static_cast<int>(rig.system.body.size()) - 1;
+  REQUIRE(is_ring(rig.system.layout, ring));
+  for (int i = 0; i < 16; i += 5) {
+    const VectorXd p = rig.dynamics.rest_forces(3 * i);
+    for (int m = 0; m < 6; ++m) {
+      double own = 0;
+      for (const LoadedSegment& at : statics[static_cast<size_t>(i)].loads)
+        own += at.mesh == m ? at.force : 0;
+      CHECK(p.segment(m * rig.dynamics.pairs(), rig.dynamics.pairs()).sum() == relative(own, 1e-9));
+    }
+  }
+  const auto ring_rigid = [&](int i) {
+    const RigidSystem rigid = rigid_system(rig.system.layout, statics[static_cast<size_t>(i)].mesh_stiffness);
+    const MatrixXd unit = rigid.mass.diagonal().cwiseSqrt().cwiseInverse().asDiagonal();
+    return VectorXd(
+        symmetric_eigenvalues(MatrixXd(unit * rigid.stiffness * unit)).values.cwiseMax(0.0).cwiseSqrt() /
+        (2 * kPi));
+  };
+  for (const int i : {0, 3}) {
+    const VectorXd own = rig.dynamics.frozen_frequencies(3 * i), other = ring_rigid(i);
+    for (Index n = 0; n < 7; ++n) {
+      CAPTURE(n);
+      CHECK(own[n] == relative(other[n], 0.005));
+    }
+  }
+  SystemPeriodMap map(rig.dynamics, kSteps);
+  map.set_parameter(2600);
+  const PeriodicMotion motion = find_periodic_motion(map, map.rest(), {1e-9, 3000, true});
+  REQUIRE(motion.multiple == 1);
+  map.apply(motion.state);
+  // Phases of planets cancel on the ring as on the sun.
+  const Harmonics pushes =
+      harmonics(VectorXd(map.period().bearing_force[static_cast<size_t>(ring)].row(0)), 6);
+  for (const int l : {3, 6}) CHECK(pushes.amplitude[l - 1] < 1e-6 * pushes.amplitude.maxCoeff());
+  CHECK(pushes.amplitude.maxCoeff() > 1);
+  SystemDynamics::State state = rig.dynamics.rest();
+  SystemDynamics::Period period;
+  rig.dynamics.set_speed(7000, kSteps);
+  for (int n = 0; n < 30; ++n) REQUIRE(rig.dynamics.integrate(state, period));
+  SystemEnergyBalance energy;
+  REQUIRE(rig.dynamics.integrate(state, period, &energy));
+  CHECK(energy.imbalance < 1e-12 * energy.throughput);
+  CHECK(energy.bearing_damping[ring] > 0);
+
+  const auto errors = [&](const Bearing& bearing) {
+    Planetary on(1e-6, kSteps, 60e-6, bearing);
+    SystemDynamics::State from = on.dynamics.rest();
+    on.dynamics.set_speed(2600, kSteps);
+    for (int n = 0; n < 80; ++n) REQUIRE(on.dynamics.integrate(from, period));
+    return MatrixXd(period.transmission_error);
+  };
+  const MatrixXd rigid = errors({});
+  const double one = (errors({4e11, 2e4, 0}) - rigid).norm() / rigid.norm(),
+               two = (errors({8e11, 3e4, 0}) - rigid).norm() / rigid.norm();
+  CHECK(one < 0.01);
+  CHECK(two < 0.55 * one);
 }
 
 // CPU time of a step over the number of meshes; the numbers of common/dynamics/README.md:

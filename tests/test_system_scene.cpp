@@ -238,9 +238,10 @@ TEST_CASE("elastic systems: what their rest needs is checked with its line befor
         "systems in motion have \"quasi-static\"");
   check({{"[damping]", "[fidelity]\nintegrator = \"newmark\"\n[damping]"}},
         "integrator = ", "systems in motion have \"exact\"");
+  // A ring may float.
   check({{"[[drive]]\ngear = \"ring\"",
           "[[bearing]]\ngear = \"ring\"\nstiffness_N_um = 100\n[[drive]]\ngear = \"ring\""}},
-        "gear = \"ring\"\nstiffness", "in motion internal gears have rigid axes");
+        nullptr, "");
   check({{"title = ", "discretisation.steps_per_period = 64\ntitle = "}}, nullptr, "");
   check({{"bore_radius_mm = 20.0", "bore_radius_mm = 20.0\ntotal_inertia_kgm2 = 1e-4"}}, nullptr,
         "by its drawing at least");

@@ -202,8 +202,10 @@ void RollingDynamics::add_sway(int g, const std::vector<int>& columns) {
   const BodyArtifact& body = gear.body();
   const Bearing& bearing = model_.bearing[g];
   if (model_.kinematics.internal())
-    fail(Failure::input, "motion on elastic bearings is of external gears, and the ",
-         model_.kinematics.ring() ? "driven gear" : "driver", " is internal; take the [[bearing]] out");
+    fail(Failure::input, "a pair in motion on elastic bearings has external gears, and the ",
+         model_.kinematics.ring() ? "driven gear" : "driver",
+         " is internal; take the [[bearing]] out, or give both gears a [[drive]]: as a system they move on "
+         "bearings");
   const Damping& damping = parameters_.damping;
   std::vector<int> cosine;
   for (const int column : columns)

@@ -207,9 +207,6 @@ class Builder {
     const System::Body& at = placed_body(system_, b);
     const Bearing& bearing = at.bearing;
     const double own_mass = bearing.mass > 0 ? bearing.mass : body.mass;
-    if (body.design.internal)
-      fail(Failure::input, "motion on elastic bearings is of external gears, and '", at.name,
-           "' is internal; take its [[bearing]] out");
     if (!(own_mass >= body.mass * (1 - 1e-9)))
       fail(Failure::input, "mass_kg = ", own_mass, " in the [[bearing]] of '", at.name,
            "' lies below the mass of its own body, ", body.mass,

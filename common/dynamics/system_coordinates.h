@@ -72,8 +72,7 @@ struct SystemCoordinates {
 };
 
 // Throws Error(input) for body = "full", "rigid", contact other than "line", Newmark's method, a gear without a mode that a freedom
-// needs, inertias and masses below those of the body, and internal gears on elastic bearings; Error(numerical) if modes cannot be
-// found.
+// needs, and inertias and masses below those of the body; Error(numerical) if modes cannot be found.
 SystemCoordinates coordinates_of(const SystemModel& system, const SystemMotion& motion);
 
 }  // namespace whine

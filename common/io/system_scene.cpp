@@ -161,14 +161,6 @@ void take_bearings(const Source& source, SystemScene& scene) {
           *table->get("gear"),
           text("'gear' in [bearing] = '", values.bearing_gear,
                "' is a carrier, whose axis is rigid where gears are elastic; take the section out"));
-    if (const auto number = static_cast<size_t>(at - names.begin());
-        !scene.rigid() && scene.operation.frequency_to > 0 && number < scene.gears.size() &&
-        scene.gears[number].design.internal)
-      source.reject(
-          *table->get("gear"),
-          text("'gear' in [bearing] = '", values.bearing_gear,
-               "' is internal: in motion internal gears have rigid axes; take this [[bearing]] out, or "
-               "[operation]"));
     if (scene.rigid() && !(values.bearing.mass > 0))
       source.reject(*table, text("[bearing] of '", values.bearing_gear,
                                  "' lacks 'mass_kg', which body = \"rigid\" needs"));
