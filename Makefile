@@ -40,6 +40,12 @@ no_such_target = $(error $1: $(if $(filter %.toml,$1),a scene is given by SCENE 
   there is no such target;$(foreach n,$(firstword $(call near_target,$1)), did you mean $n?) `make help` lists them)))
 $(foreach g,$(filter-out $(documented) FORCE fig%,$(goals)),$(if $(or $(findstring /,$g),$(filter-out %.toml,$(wildcard $g))),,$(call no_such_target,$g)))
 
+# A variable that nothing reads is a slip of the pen, which would otherwise be ignored without a word.
+variables_read := $(names_given) LAUNCH B CXX ARCH OPTIMISE CXXFLAGS CPPFLAGS LDFLAGS LDLIBS COLD_FLAGS STEP_FLAGS
+near_variable = $(shell printf '%s\n' $(variables_read) | awk -v word='$(subst ','\'',$1)' -f pipelines/nearest.awk)
+$(foreach v,$(filter-out $(variables_read) LAUNCH_% SHELL MAKE%,$(.VARIABLES)),$(if $(findstring command line,$(origin $v)),\
+  $(error $v: there is no such variable;$(foreach n,$(firstword $(call near_variable,$v)), did you mean $n?) pipelines/README.md lists them)))
+
 # --- programs -------------------------------------------------------------------------------------------------
 
 # Sanitized objects do not fit others.
@@ -55,7 +61,8 @@ OPTIMISE := -O2 $(ARCH)
 # g++ 12 sees AVX loads beyond the end of Eigen's small vectors that it has itself proved not to happen.
 # Sanitizers: a null pointer and what lies outside its object end in a report of ASan, a vector that is not aligned in a fault: without
 # UBSan's own checks of them, one at each access to memory, a file is compiled in 0.7 of the time.
-CXXFLAGS := -std=c++20 -fvisibility=hidden -Wall -Wextra -Wno-array-bounds $(if $(SANITIZE),-O1 -g1 $(ARCH) -D_GLIBCXX_ASSERTIONS \
+# Sections: a program holds the functions that it uses, not all of the units that they are in, so that a change elsewhere leaves its bytes.
+CXXFLAGS := -std=c++20 -fvisibility=hidden -ffunction-sections -fdata-sections -Wall -Wextra -Wno-array-bounds $(if $(SANITIZE),-O1 -g1 $(ARCH) -D_GLIBCXX_ASSERTIONS \
   -fsanitize=address$(,)undefined -fno-sanitize-recover=undefined -fno-sanitize=null$(,)alignment$(,)object-size,\
   $(OPTIMISE) -DNDEBUG)
 # A step runs through loops over two to five lanes, which -O3 unrolls: with it, and without a precompiled header that was made
@@ -66,7 +73,7 @@ STEP_FLAGS := $(if $(SANITIZE),,-O3)
 COLD_FLAGS := $(if $(SANITIZE),-O0,-Og)
 cold_layers := report paper io
 CPPFLAGS := -Icommon -isystem /usr/include/eigen3 -isystem /usr/include/suitesparse
-LDFLAGS := $(if $(SANITIZE),-fsanitize=address$(,)undefined) -Wl,--as-needed
+LDFLAGS := $(if $(SANITIZE),-fsanitize=address$(,)undefined) -Wl,--as-needed -Wl,--gc-sections
 # Recursive: pkg-config may itself be one of the packages that `deps` installs in the same run.
 HDF5_CFLAGS = $(shell pkg-config --cflags hdf5)
 LDLIBS = -lpugixml -lzip -ljsoncpp -lsndfile -lgmsh -lcholmod $(shell pkg-config --libs-only-L hdf5) -lhdf5_hl $(shell pkg-config --libs hdf5 fftw3 libcrypto)
@@ -120,7 +127,7 @@ $(filter-out $(cold_objects),$(objects)): $(precompiled).gch
 compile = $(CXX) $(CPPFLAGS) $(CXXFLAGS) $(INCLUDE_PRECOMPILED) -MMD -MP -MF $(@:.o=.d) -MT $@ -c -o $@
 $(filter-out $(library) $(test_units),$(objects)): $(B)/obj/%.o: %.cpp $(B)/flags | $$(@D)/ $(with_deps)
 	$(compile) $<
-$(library): $(B)/obj/common/%.o: $$(call sources_of,$$*) $(B)/flags $(B)/unit_expressions | $$(@D)/ $(with_deps)
+$(library): $(B)/obj/common/%.o: $$(call sources_of,$$*) $(B)/flags $(B)/obj/unit_expressions | $$(@D)/ $(with_deps)
 	printf '#include "%s"\n' $(filter %.cpp,$^) | $(compile) -x c++ -
 $(test_units): $(B)/obj/tests/unit%.o: $$(call tests_of,$$*) pipelines/test_unit.awk $(B)/flags | $$(@D)/ $(with_deps)
 	awk -f pipelines/test_unit.awk $(filter %.cpp,$^) | $(compile) -Itests -x c++ -
@@ -159,11 +166,11 @@ $(B)/bin/whine-hard-cases: $(library) $(hard_cases) | $(B)/bin/
 flags := $(CXX) $(CPPFLAGS) $(CXXFLAGS) $(COLD_FLAGS) $(STEP_FLAGS) $(LDFLAGS)
 # Equal as whole texts: objects of different flags do not fit each other (Eigen's alignment follows the processor). $(strip): make 4.3
 # leaves the newline of $(file <...) where its buffer has moved. So with the units: a source is in one of them.
-said_before = $(strip $(file <$(B)/$1))
-differs = $(if $(and $(findstring x$(strip $($1))x,x$(said_before)x),$(findstring x$(said_before)x,x$(strip $($1))x)),,FORCE)
-$(B)/flags: $(call differs,flags)
-$(B)/unit_expressions: $(call differs,unit_expressions)
-$(B)/flags $(B)/unit_expressions:
+said_before = $(strip $(file <$1))
+differs = $(if $(and $(findstring x$(strip $2)x,x$(call said_before,$1)x),$(findstring x$(call said_before,$1)x,x$(strip $2)x)),,FORCE)
+$(B)/flags: $(call differs,$(B)/flags,$(flags))
+$(B)/obj/unit_expressions: $(call differs,$(B)/obj/unit_expressions,$(unit_expressions))
+$(B)/flags $(B)/obj/unit_expressions:
 	@mkdir -p $(@D)
 	@echo '$($(@F))' > $@
 

@@ -180,6 +180,7 @@ rejected_by_make() { # claim, words, arguments of make
   grep -q -F -- "$words" "$log" && ok "$claim" || wrong "$claim" "no '$words' in: $(tail -n 1 "$log")"
 }
 rejected_by_make "a misspelt target gets the one that is spelt alike" 'raport: there is no such target; did you mean report? `make help`' raport
+rejected_by_make "a variable that nothing reads gets the one that is spelt alike" 'BRANCH: there is no such variable; did you mean BRANCHES?' BRANCH=yes report
 rejected_by_make "a word that is like no target gets make help" 'xyzzyq: there is no such target; `make help`' xyzzyq
 touch own.toml
 rejected_by_make "a scene as a target is told SCENE=" 'own.toml: a scene is given by SCENE in front of a target: make SCENE=own.toml report' own.toml
