@@ -452,8 +452,8 @@ grep -q 'there is no data/scenes/nowhere.toml' "$log" && ok "a scene that does n
   wrong "a scene that does not exist is named" "$(tail -n 1 "$log")"
 make_ -n SCENE=nowhere.toml sweep
 grep -q 'SCENE=nowhere.toml: there is no such file' "$log" && ok "a missing SCENE is named" || wrong "a missing SCENE is named" "$(tail -n 1 "$log")"
-make_ -n SCENE=elsewhere/own sweep
-grep -q 'SCENE=elsewhere/own: there is no such file; there is elsewhere/own.toml' "$log" && ok "a SCENE without its .toml is told the file" ||
+make_ -n SCENE=other/own sweep
+grep -q 'SCENE=other/own: there is no such file; there is other/own.toml' "$log" && ok "a SCENE without its .toml is told the file" ||
   wrong "a SCENE without its .toml is told the file" "$(tail -n 1 "$log")"
 make_ -n SCENE=parker2000 sweep
 grep -q 'SCENE=parker2000: there is no such file; there is data/scenes/parker2000.toml' "$log" && ok "a SCENE of the project by its name alone is told the file" ||

@@ -1,4 +1,4 @@
-// Requests for memory of the whole test program, counted in test_complementarity.cpp. A sanitizer brings its own malloc.
+// Requests for memory of the whole test program, counted in main.cpp. A sanitizer brings its own malloc.
 #pragma once
 #include <atomic>
 

@@ -26,17 +26,6 @@ using namespace whine;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Eigen takes memory by malloc, the standard library by operator new, which calls malloc: counted here for the
-// whole test program. A sanitizer brings its own malloc; the case below then counts nothing and says so.
-#ifdef WHINE_COUNTS_MEMORY
-std::atomic<long> memory_requests{0};
-extern "C" void* __libc_malloc(size_t);
-extern "C" void* malloc(size_t size) noexcept {
-  memory_requests.fetch_add(1, std::memory_order_relaxed);
-  return __libc_malloc(size);
-}
-#endif
-
 namespace {
 
 struct Solved {

@@ -53,7 +53,9 @@ void tell_root_stress(const std::array<std::string, whine::kSides>& gears,
     const double order = whine::order_worth_a_word(root, root.order.rows() - 1, g);
     whine::tell("gear-static: largest root stress of ", gears[static_cast<size_t>(g)], " changes by ",
                 changes, " % each time the elements on the root are halved",
-                std::isfinite(order) ? whine::text("; order at last ", std::round(10 * order) / 10) : "");
+                !std::isfinite(order) ? ""
+                : order > 0           ? whine::text("; order at last ", std::round(10 * order) / 10)
+                                      : "; the last changes do not shrink");
   }
 }
 
