@@ -164,7 +164,8 @@ rejected "a key of a million parts" 3 'deep.toml:1: is not valid TOML: the file 
 rejected "a key of a hundred thousand parts" 3 'deep.toml:2: is not valid TOML: a key has more than 32 parts' "${to_scene[@]}" deep.toml
 { printf 'title = "'; head -c 200000 /dev/zero | tr '\0' x; echo '"'; grep -v '^title' s.toml; } > long.toml
 rejected "a title of 200 kB" 3 "'title' = .*: has 200000 bytes; must be at most 500" "${to_scene[@]}" long.toml
-rejected "a path of 200 kB" 4 'cannot be read: File name too long' bash -c "'$bin/gear-scene' --output x.mk --out x --scene \"\$(head -c 100000 /dev/zero | tr '\\0' x).toml\""
+rejected "a path of 120 kB" 4 'cannot be read: File name too long' bash -c "'$bin/gear-scene' --output x.mk --out x --scene \"\$(head -c 60000 /dev/zero | tr '\\0' x | sed 's|.|x/|g')s.toml\""
+rejected "a name of 100 kB" 3 'the name has 100000 letters; .* so it may have 100 at most' bash -c "'$bin/gear-scene' --output x.mk --out x --scene \"\$(head -c 100000 /dev/zero | tr '\\0' x).toml\""
 { printf '"\\u001b[31mred" = 1\n'; cat s.toml; } > red.toml
 rejected "a key with control characters" 3 "red.toml:1: unknown key '\?\[31mred'" "${to_scene[@]}" red.toml
 sed 's/^module_mm = .*/module_mm = 0.049999999999999/' s.toml > near.toml
