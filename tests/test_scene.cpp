@@ -267,7 +267,7 @@ TEST_CASE("names must lead somewhere: gears, materials, like") {
   CHECK(contains(file.rejection(scene_with("[gear.wheel]", "[gear." + std::string(101, 'w') + "]")),
                  "its name has 101 letters; it becomes a folder, so it may have 100 at most"));
   CHECK(contains(file.rejection(scene_with("[gear.wheel]", "[gear." + std::string(100, 'w') + "]")),
-                 "names no gear: 'wheel'"));
+                 "'wheel' names no [gear.<name>] section"));
   CHECK(contains(file.rejection(scene_with("[gear.wheel]", "[gear.\"the wheel\"]")), "letters, digits"));
   CHECK(contains(file.rejection(with_section(
                      "[[mesh]]\ndriver = \"pinion\"\ndriven = \"wheel\"\ncentre_distance_mm = 150\n")),
