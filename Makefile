@@ -35,16 +35,16 @@ $(if $(filter clean%,$(goals)),$(if $(filter-out clean%,$(goals)),\
 
 # A goal that is neither a path nor a target: the targets that are spelt alike.
 documented := $(shell sed -n 's/^\([a-z0-9-]*\):.*\#\# .*/\1/p' Makefile pipelines/*.mk)
-near_target = $(shell printf '%s\n' $(documented) | awk -v word='$(subst ','\'',$1)' -f pipelines/nearest.awk)
+near = $(firstword $(shell printf '%s\n' $2 | awk -v word='$(subst ','\'',$1)' -f pipelines/nearest.awk))
+meant = $(foreach n,$(call near,$1,$2), did you mean $n?)
 no_such_target = $(error $1: $(if $(filter %.toml,$1),a scene is given by SCENE in front of a target: make SCENE=$1 report,$(strip \
-  there is no such target;$(foreach n,$(firstword $(call near_target,$1)), did you mean $n?) `make help` lists them)))
+  there is no such target;$(call meant,$1,$(documented)) `make help` lists them)))
 $(foreach g,$(filter-out $(documented) FORCE fig%,$(goals)),$(if $(or $(findstring /,$g),$(filter-out %.toml,$(wildcard $g))),,$(call no_such_target,$g)))
 
 # A variable that nothing reads is a slip of the pen, which would otherwise be ignored without a word.
 variables_read := $(names_given) LAUNCH B CXX ARCH OPTIMISE CXXFLAGS CPPFLAGS LDFLAGS LDLIBS COLD_FLAGS STEP_FLAGS
-near_variable = $(shell printf '%s\n' $(variables_read) | awk -v word='$(subst ','\'',$1)' -f pipelines/nearest.awk)
 $(foreach v,$(filter-out $(variables_read) LAUNCH_% SHELL MAKE%,$(.VARIABLES)),$(if $(findstring command line,$(origin $v)),\
-  $(error $v: there is no such variable;$(foreach n,$(firstword $(call near_variable,$v)), did you mean $n?) pipelines/README.md lists them)))
+  $(error $v: there is no such variable;$(call meant,$v,$(variables_read)) pipelines/README.md lists them)))
 
 # --- programs -------------------------------------------------------------------------------------------------
 
@@ -97,10 +97,13 @@ library := $(patsubst %,$(B)/obj/common/%.o,$(filter-out $(cold_units),$(units))
 tools := $(patsubst tools/%.cpp,%,$(wildcard tools/gear-*.cpp))
 tool_objects := $(tools:%=$(B)/obj/tools/%.o)
 hard_cases := $(B)/obj/tests/hard_cases.o
-# Tests go together by their names.
-test_groups := [a-d] (e|f[a-q]) (f[r-z]|[g-i]) [j-o] [p-r] s[a-x] (sy|[t-z])
-tests_of = $(shell printf '%s\n' $(wildcard tests/test_*.cpp) | grep -E '^tests/test_$(word $1,$(test_groups))')
-test_units := $(foreach n,1 2 3 4 5 6 7,$(B)/obj/tests/unit$n.o)
+# Tests go together by the first letters of their names, the rest of them in one unit more.
+test_letters := [a-d] e,f[a-q] f[r-z],[g-i] [j-o] [p-r] s[a-x]
+test_numbers := 1 2 3 4 5 6
+tests_by_letters = $(wildcard $(patsubst %,tests/test_%*.cpp,$(subst $(,), ,$(word $1,$(test_letters)))))
+tests_of = $(if $(filter rest,$1),$(filter-out $(foreach n,$(test_numbers),$(call tests_by_letters,$n)),$(wildcard tests/test_*.cpp)),$(call tests_by_letters,$1))
+test_units := $(patsubst %,$(B)/obj/tests/unit_%.o,$(test_numbers) rest)
+unit_lists := $(unit_expressions) $(test_letters)
 test_objects := $(B)/obj/tests/main.o $(test_units)
 objects := $(library) $(tool_objects) $(test_objects) $(hard_cases)
 
@@ -127,9 +130,9 @@ $(filter-out $(cold_objects),$(objects)): $(precompiled).gch
 compile = $(CXX) $(CPPFLAGS) $(CXXFLAGS) $(INCLUDE_PRECOMPILED) -MMD -MP -MF $(@:.o=.d) -MT $@ -c -o $@
 $(filter-out $(library) $(test_units),$(objects)): $(B)/obj/%.o: %.cpp $(B)/flags | $$(@D)/ $(with_deps)
 	$(compile) $<
-$(library): $(B)/obj/common/%.o: $$(call sources_of,$$*) $(B)/flags $(B)/obj/unit_expressions | $$(@D)/ $(with_deps)
+$(library): $(B)/obj/common/%.o: $$(call sources_of,$$*) $(B)/flags $(B)/obj/unit_lists | $$(@D)/ $(with_deps)
 	printf '#include "%s"\n' $(filter %.cpp,$^) | $(compile) -x c++ -
-$(test_units): $(B)/obj/tests/unit%.o: $$(call tests_of,$$*) pipelines/test_unit.awk $(B)/flags | $$(@D)/ $(with_deps)
+$(test_units): $(B)/obj/tests/unit_%.o: $$(call tests_of,$$*) pipelines/test_unit.awk $(B)/flags $(B)/obj/unit_lists | $$(@D)/ $(with_deps)
 	awk -f pipelines/test_unit.awk $(filter %.cpp,$^) | $(compile) -Itests -x c++ -
 
 # Assertions as calls rather than as code in place: a third of the time of compiling them. Private: the precompiled header, of
@@ -169,8 +172,8 @@ flags := $(CXX) $(CPPFLAGS) $(CXXFLAGS) $(COLD_FLAGS) $(STEP_FLAGS) $(LDFLAGS)
 said_before = $(strip $(file <$1))
 differs = $(if $(and $(findstring x$(strip $2)x,x$(call said_before,$1)x),$(findstring x$(call said_before,$1)x,x$(strip $2)x)),,FORCE)
 $(B)/flags: $(call differs,$(B)/flags,$(flags))
-$(B)/obj/unit_expressions: $(call differs,$(B)/obj/unit_expressions,$(unit_expressions))
-$(B)/flags $(B)/obj/unit_expressions:
+$(B)/obj/unit_lists: $(call differs,$(B)/obj/unit_lists,$(unit_lists))
+$(B)/flags $(B)/obj/unit_lists:
 	@mkdir -p $(@D)
 	@echo '$($(@F))' > $@
 

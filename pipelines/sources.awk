@@ -13,9 +13,9 @@ function unit_of(source, i) {
   return source
 }
 BEGIN {
-  expressions = split(units, list, " ")
+  expressions = split(units, given, " ")
   for (i = 1; i <= expressions; ++i) {
-    split(list[i], part, "=")
+    split(given[i], part, "=")
     unit[i] = part[1]
     expression[i] = part[2]
   }

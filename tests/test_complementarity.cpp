@@ -169,8 +169,8 @@ TEST_CASE(
   const VectorXd e{{-1, -2}};
   VectorXd p(2), d(2);
   ComplementaritySolver solver;
-  for (const bool kept :
-       {false, true}) {  // with the kept inverse of the shifted block, or from the set alone
+  // From the set alone, or with the kept inverse of the shifted block.
+  for (const bool kept : {false, true}) {
     ActiveSet both;
     both.strips = {0, 1};
     if (kept) ComplementaritySolver(Singular::shift).solve(a, e, both, p, d);

@@ -237,17 +237,17 @@ TEST_CASE("root stress: the order of convergence is the power of the element siz
   CHECK(convergence({}).change.rows() == 0);
 }
 
-TEST_CASE("root stress: changes that go with where the elements lie have no order worth a word") {
+TEST_CASE("root stress: changes that go with where the elements lie show no order") {
   RootRefinement root;
   root.element_size = Eigen::Vector4d(1e-3, 5e-4, 2.5e-4, 1.25e-4);
   root.stress.resize(4, 2);
   root.stress << 193.64e6, 206.25e6, 192.72e6, 204.47e6, 192.73e6, 204.38e6, 192.75e6, 204.36e6;
   const RootConvergence found = convergence(root);
   CHECK(found.order(1, 0) < 0);  // that of two changes of hundredths of a per cent
-  CHECK(std::isnan(order_worth_a_word(found, 0, 0)));
-  CHECK(std::isnan(order_worth_a_word(found, 1, 0)));
-  CHECK(order_worth_a_word(found, 0, 1) == found.order(0, 1));
-  CHECK(std::isnan(order_worth_a_word(found, 1, 1)));
+  CHECK(std::isnan(resolved_order(found, 0, 0)));
+  CHECK(std::isnan(resolved_order(found, 1, 0)));
+  CHECK(resolved_order(found, 0, 1) == found.order(0, 1));
+  CHECK(std::isnan(resolved_order(found, 1, 1)));
 }
 
 TEST_CASE("root stress: it converges with the elements on the root, by more than order 1.5") {

@@ -274,8 +274,8 @@ TEST_CASE(
 
 TEST_CASE("a run-up that finds no periodic motion at its start says so") {
   SweepParameters settings = paper_sweep(3300, 3400, 20);
-  settings.time.periodicity =
-      0;  // no motion repeats like this: changes are told from 0, which they may be, by being below it
+  // No motion repeats like this: changes are told from 0, which they may be, by being below it.
+  settings.time.periodicity = 0;
   RunupSettings wanted;
   wanted.ramp = {3300, 3400, 2000};
   Kept out;

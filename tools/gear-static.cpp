@@ -43,14 +43,14 @@ void tell_change(const std::string& where, const whine::StaticDifference& change
               change.load_rms * 100, " % RMS of the load");
 }
 
-// What each halving of the elements on the root changes, and the order at last where it is worth a word.
+// What each halving of the elements on the root changes, and the order at last where the changes show one.
 void tell_root_stress(const std::array<std::string, whine::kSides>& gears,
                       const whine::RootConvergence& root) {
   for (int g = 0; g < whine::kSides; ++g) {
     std::string changes;
     for (Eigen::Index k = 0; k < root.change.rows(); ++k)
       changes += whine::text(k > 0 ? ", " : "", std::round(1e5 * root.change(k, g)) / 1e3 + 0.0);
-    const double order = whine::order_worth_a_word(root, root.order.rows() - 1, g);
+    const double order = whine::resolved_order(root, root.order.rows() - 1, g);
     whine::tell("gear-static: largest root stress of ", gears[static_cast<size_t>(g)], " changes by ",
                 changes, " % each time the elements on the root are halved",
                 !std::isfinite(order) ? ""

@@ -213,7 +213,7 @@ void show(SummaryLines& lines, const ErrorBudgetArtifact& a) {
     for (Eigen::Index k = 0; k < root.change.rows(); ++k)
       changes += text(k ? ", " : "", std::round(root.change(k, g) * 1e5) / 1e3 + 0.0, " % from ",
                       a.root.element_size[k] * 1e3, " to ", a.root.element_size[k + 1] * 1e3, " mm");
-    const double order = order_worth_a_word(root, root.order.rows() - 1, g);
+    const double order = resolved_order(root, root.order.rows() - 1, g);
     add(lines, "root stress of " + a.mesh.gear[static_cast<size_t>(g)], changes,
         std::isfinite(order) ? text(", order ", std::round(order * 100) / 100) : "");
   }

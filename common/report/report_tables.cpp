@@ -153,8 +153,7 @@ std::string root_refinement_table(const ErrorBudgetArtifact& b) {
   for (int g = 0; g < kSides; ++g)
     for (Index k = 0; k < b.root.stress.rows(); ++k) {
       const bool changes = k > 0;
-      const double order =
-          k > 1 ? order_worth_a_word(found, k - 2, g) : std::numeric_limits<double>::quiet_NaN();
+      const double order = k > 1 ? resolved_order(found, k - 2, g) : std::numeric_limits<double>::quiet_NaN();
       rows.push_back({b.mesh.gear[g], shown(b.root.element_size[k] * 1e3, 4),
                       fixed(b.root.stress(k, g) * 1e-6, 2),
                       changes ? fixed(found.change(k - 1, g) * kPercent, 3) : "–",

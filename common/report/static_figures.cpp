@@ -329,7 +329,7 @@ FigureBlock root_levels(const ErrorBudgetArtifact& budget, std::vector<std::stri
     std::string words = "root stress with smaller elements on the roots:";
     for (int g = 0; g < kSides; ++g) {
       const Eigen::Index last = root.change.rows() - 1;
-      const double order = order_worth_a_word(root, last - 1, g);
+      const double order = resolved_order(root, last - 1, g);
       // What the finest still changes the result by, and the last order.
       words += text(g ? "; " : " ", budget.mesh.gear[g], " ",
                     shown((budget.root.stress(last + 1, g) / budget.root.stress(0, g) - 1) * kPercent, 2),

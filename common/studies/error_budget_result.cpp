@@ -25,7 +25,7 @@ RootConvergence convergence(const RootRefinement& root) {
   return out;
 }
 
-double order_worth_a_word(const RootConvergence& root, Eigen::Index k, Eigen::Index gear) {
+double resolved_order(const RootConvergence& root, Eigen::Index k, Eigen::Index gear) {
   const bool told = root.change.col(gear).segment(k, 2).cwiseAbs().minCoeff() > kOrderlessChange;
   return told ? root.order(k, gear) : std::numeric_limits<double>::quiet_NaN();
 }

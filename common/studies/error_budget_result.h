@@ -36,8 +36,8 @@ struct RootConvergence {
 };
 // Both without rows for fewer than two levels.
 RootConvergence convergence(const RootRefinement& root);
-// 1: order(k, gear), NaN where a change that it is of is kOrderlessChange or less.
-double order_worth_a_word(const RootConvergence& root, Eigen::Index k, Eigen::Index gear);
+// 1: order(k, gear) where both changes that it is of exceed kOrderlessChange; else NaN: such changes go with where the elements lie.
+double resolved_order(const RootConvergence& root, Eigen::Index k, Eigen::Index gear);
 
 // error_budget.h5
 struct ErrorBudgetArtifact : PairParameters {

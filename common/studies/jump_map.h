@@ -12,8 +12,8 @@
 
 namespace whine {
 
-inline constexpr int kStatePhases =
-    128;  // over the mesh period, at which states with fixed contact are looked at
+// Mesh phases at which states with fixed contact are looked at.
+inline constexpr int kStatePhases = 128;
 
 struct JumpMapPlan : MapSpeeds {
   // Cases: first these Rayleigh stiffness factors (s) as they are, then those factors that give these damping ratios with
