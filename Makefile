@@ -61,7 +61,8 @@ OPTIMISE := -O2 $(ARCH)
 # g++ 12 sees AVX loads beyond the end of Eigen's small vectors that it has itself proved not to happen.
 # Sanitizers: a null pointer and what lies outside its object end in a report of ASan, a vector that is not aligned in a fault: without
 # UBSan's own checks of them, one at each access to memory, a file is compiled in 0.7 of the time.
-# Sections: a program holds the functions that it uses, not all of the units that they are in, so that a change elsewhere leaves its bytes.
+# Sections: a program holds the functions that it uses, not all of the units that they are in, so that a change in a unit of which it uses
+# none leaves its bytes.
 CXXFLAGS := -std=c++20 -fvisibility=hidden -ffunction-sections -fdata-sections -Wall -Wextra -Wno-array-bounds $(if $(SANITIZE),-O1 -g1 $(ARCH) -D_GLIBCXX_ASSERTIONS \
   -fsanitize=address$(,)undefined -fno-sanitize-recover=undefined -fno-sanitize=null$(,)alignment$(,)object-size,\
   $(OPTIMISE) -DNDEBUG)
