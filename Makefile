@@ -104,7 +104,6 @@ test_numbers := 1 2 3 4 5 6
 tests_by_letters = $(wildcard $(patsubst %,tests/test_%*.cpp,$(subst $(,), ,$(word $1,$(test_letters)))))
 tests_of = $(if $(filter rest,$1),$(filter-out $(foreach n,$(test_numbers),$(call tests_by_letters,$n)),$(wildcard tests/test_*.cpp)),$(call tests_by_letters,$1))
 test_units := $(patsubst %,$(B)/obj/tests/unit_%.o,$(test_numbers) rest)
-unit_lists := $(unit_expressions) $(test_letters)
 test_objects := $(B)/obj/tests/main.o $(test_units)
 objects := $(library) $(tool_objects) $(test_objects) $(hard_cases)
 
@@ -131,9 +130,9 @@ $(filter-out $(cold_objects),$(objects)): $(precompiled).gch
 compile = $(CXX) $(CPPFLAGS) $(CXXFLAGS) $(INCLUDE_PRECOMPILED) -MMD -MP -MF $(@:.o=.d) -MT $@ -c -o $@
 $(filter-out $(library) $(test_units),$(objects)): $(B)/obj/%.o: %.cpp $(B)/flags | $$(@D)/ $(with_deps)
 	$(compile) $<
-$(library): $(B)/obj/common/%.o: $$(call sources_of,$$*) $(B)/flags $(B)/obj/unit_lists | $$(@D)/ $(with_deps)
+$(library): $(B)/obj/common/%.o: $$(call sources_of,$$*) $(B)/flags $$(@:.o=.unit) | $$(@D)/ $(with_deps)
 	printf '#include "%s"\n' $(filter %.cpp,$^) | $(compile) -x c++ -
-$(test_units): $(B)/obj/tests/unit_%.o: $$(call tests_of,$$*) pipelines/test_unit.awk $(B)/flags $(B)/obj/unit_lists | $$(@D)/ $(with_deps)
+$(test_units): $(B)/obj/tests/unit_%.o: $$(call tests_of,$$*) pipelines/test_unit.awk $(B)/flags $$(@:.o=.unit) | $$(@D)/ $(with_deps)
 	awk -f pipelines/test_unit.awk $(filter %.cpp,$^) | $(compile) -Itests -x c++ -
 
 # Assertions as calls rather than as code in place: a third of the time of compiling them. Private: the precompiled header, of
@@ -169,14 +168,24 @@ $(B)/bin/whine-hard-cases: $(library) $(hard_cases) | $(B)/bin/
 
 flags := $(CXX) $(CPPFLAGS) $(CXXFLAGS) $(COLD_FLAGS) $(STEP_FLAGS) $(LDFLAGS)
 # Equal as whole texts: objects of different flags do not fit each other (Eigen's alignment follows the processor). $(strip): make 4.3
-# leaves the newline of $(file <...) where its buffer has moved. So with the units: a source is in one of them.
+# leaves the newline of $(file <...) where its buffer has moved.
 said_before = $(strip $(file <$1))
 differs = $(if $(and $(findstring x$(strip $2)x,x$(call said_before,$1)x),$(findstring x$(call said_before,$1)x,x$(strip $2)x)),,FORCE)
 $(B)/flags: $(call differs,$(B)/flags,$(flags))
-$(B)/obj/unit_lists: $(call differs,$(B)/obj/unit_lists,$(unit_lists))
-$(B)/flags $(B)/obj/unit_lists:
+$(B)/flags:
 	@mkdir -p $(@D)
-	@echo '$($(@F))' > $@
+	@echo '$(flags)' > $@
+
+# The list of sources of a unit: one that is renamed or goes away is compiled out of it.
+define unit_list
+$1: $(call differs,$1,$2)
+$1: private sources := $2
+endef
+$(foreach o,$(library),$(eval $(call unit_list,$(o:.o=.unit),$(call sources_of,$(patsubst $(B)/obj/common/%.o,%,$o)))))
+$(foreach o,$(test_units),$(eval $(call unit_list,$(o:.o=.unit),$(call tests_of,$(patsubst $(B)/obj/tests/unit_%.o,%,$o)))))
+$(patsubst %.o,%.unit,$(library) $(test_units)):
+	@mkdir -p $(@D)
+	@echo '$(sources)' > $@
 
 -include $(objects:.o=.d)
 
