@@ -415,10 +415,11 @@ SystemModel elastic_train(const std::vector<int>& steps) {
   scene.drives = {{"sun", System::DriveKind::torque, kPlanetTorque, 0},
                   {"ring", System::DriveKind::held, 0, 0},
                   {"carrier", System::DriveKind::held, 0, 0}};
-  const System layout = on_fixed_carriers(layout_of(scene));
+  const System layout = layout_of(scene);
   std::vector<BodyArtifact> bodies;
   for (const System::Body& body : layout.bodies)
-    bodies.push_back(body.teeth == 27 ? sun_body() : body.teeth == 35 ? planet_body() : ring_body());
+    if (body.kind == System::BodyKind::gear)
+      bodies.push_back(body.teeth == 27 ? sun_body() : body.teeth == 35 ? planet_body() : ring_body());
   std::vector<GearMeshSpec> specs;
   for (size_t m = 0; m < layout.meshes.size(); ++m) specs.push_back(scene.meshes[m / steps.size()].spec);
   return {layout, bodies, specs};

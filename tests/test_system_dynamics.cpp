@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <ctime>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "base/error.h"
 #include "dynamics/system_dynamics.h"
 #include "dynamics/system_period_map.h"
+#include "elastic_train.h"
 #include "gear/system_layout.h"
 #include "gear/train.h"
 #include "io/system_scene.h"
@@ -19,7 +21,6 @@
 #include "orbits/periodic_motion.h"
 #include "orbits/periodic_orbit.h"
 #include "paper_pair.h"
-#include "planetary_train.h"
 #include "relative.h"
 #include "signal/spectrum.h"
 #include "system/rigid_system.h"
@@ -45,15 +46,6 @@ SystemModel turning_pair(const std::array<Bearing, 2>& bearing = {}) {
   system.layout.drives = {{0, System::DriveKind::torque, 150}, {1, System::DriveKind::torque, -150}};
   for (System::Body& body : system.layout.bodies) body.inertia = 0.0148;
   return system;
-}
-
-SystemMotion motion_of(const SystemModel& system, double stiffness, double eta = 7.7e-6) {
-  SystemMotion motion;
-  motion.damping.rayleigh_stiffness = eta;
-  motion.fidelity = {BodyModel::modal, ContactModel::line, Integrator::exact};
-  const auto meshes = static_cast<Index>(system.mesh.size());
-  motion.axis_frequency = axis_frequency(system, stiffness * MatrixXd::Identity(meshes, meshes));
-  return motion;
 }
 
 }  // namespace
@@ -107,53 +99,7 @@ TEST_CASE("a pair by the system's equations moves as by those of pairs, on rigid
 
 namespace {
 
-constexpr double kTorque = 300, kModule = 2.776e-3;
-
-// Coarse bodies, each reduced once.
-const BodyArtifact& train_body(int teeth, bool internal) {
-  static std::map<std::pair<int, bool>, BodyArtifact> known;
-  const auto at = known.find({teeth, internal});
-  if (at != known.end()) return at->second;
-  GearDesign design = rigid_gear(teeth, internal);
-  if (!internal) design.bore_radius = (0.5 * teeth - 5) * kModule;
-  BodyDiscretisation coarse;
-  coarse.element_size = 2.5e-3;
-  coarse.modes = 15;
-  return known[{teeth, internal}] =
-             reduce(make_sector_mesh(design, coarse), Material{206e9, 0.3, 7850, true}, coarse.modes);
-}
-
-// Sun, planets and ring; the sun floats, planets stand on elastic pins; ring and carrier are held.
-SystemModel train(const std::array<int, 3>& teeth, int planets = 3, const Bearing& of_ring = {}) {
-  SystemScene scene = planetary_train(planets);
-  const std::array stiffness{2e7, 3e8, 0.0};
-  for (size_t g = 0; g < 3; ++g) {
-    SystemScene::Gear& gear = scene.gears[g];
-    gear.design = rigid_gear(teeth[g], g == 2);
-    if (g < 2) gear.design.bore_radius = (0.5 * teeth[g] - 5) * kModule;
-    gear.equivalent_mass = 0;
-    gear.bearing = {stiffness[g], g == 0 ? 500.0 : 2000.0, 0};
-  }
-  scene.gears[2].bearing = of_ring;
-  scene.carriers[0].bearing = {};
-  for (SystemScene::Mesh& mesh : scene.meshes)
-    mesh.spec.centre_distance = 0.5 * (teeth[0] + teeth[1]) * kModule;
-  scene.drives = {{"sun", System::DriveKind::torque, kTorque, 0},
-                  {"ring", System::DriveKind::held, 0, 0},
-                  {"carrier", System::DriveKind::held, 0, 0}};
-  scene.fidelity = {BodyModel::modal, ContactModel::line, Integrator::exact};
-  System layout = on_fixed_carriers(layout_of(scene));
-  std::vector<BodyArtifact> bodies;
-  for (System::Body& body : layout.bodies) {
-    bodies.push_back(train_body(body.teeth, body.teeth == teeth[2]));
-    body.inertia = 1.02 * bodies.back().inertia;
-    if (body.bearing.elastic()) body.bearing.mass = bodies.back().mass;
-  }
-  std::vector<GearMeshSpec> specs;
-  for (const System::Mesh& mesh : layout.meshes)
-    specs.push_back(scene.meshes[mesh.side[0].body == 0 ? 0 : 1].spec);
-  return {layout, bodies, specs};
-}
+constexpr double kTorque = kTrainTorque, kModule = kTrainModule;
 
 }  // namespace
 

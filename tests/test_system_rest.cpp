@@ -186,10 +186,11 @@ TEST_CASE(
     CAPTURE(contact);
     const SystemScene scene = train({26, 37, 100}, contact, false);
     const SystemStaticArtifact a = at_rest(scene);
-    System layout = on_fixed_carriers(a.settings.layout);
+    const System& layout = a.settings.layout;
     std::vector<BodyArtifact> bodies;
     std::vector<GearMeshSpec> specs;
-    for (const System::Body& body : layout.bodies) bodies.push_back(body_of(body.teeth, body.teeth == 100));
+    for (const System::Body& body : layout.bodies)
+      if (body.kind == System::BodyKind::gear) bodies.push_back(body_of(body.teeth, body.teeth == 100));
     for (const int section : a.settings.section)
       specs.push_back(scene.meshes[static_cast<size_t>(section)].spec);
     const SystemModel system(layout, bodies, specs);
@@ -324,8 +325,9 @@ TEST_CASE(
             .find("the same teeth meet again after 10395 mesh periods") != std::string::npos);
   CHECK(said("[gear.sun.crack]\ntooth = 1\ndepth_mm = 0.5\n").find("or compute two of the gears as a pair") !=
         std::string::npos);
-  CHECK(said("[[bearing]]\ngear = \"carrier\"\nstiffness_N_um = 5.0\n").find("whose axis is rigid") !=
-        std::string::npos);
+  CHECK(said("[[bearing]]\ngear = \"carrier\"\nstiffness_N_um = 5.0\n")
+            .find("lacks 'mass_kg', which a carrier needs") != std::string::npos);
+  CHECK(said("[[bearing]]\ngear = \"carrier\"\nstiffness_N_um = 5.0\nmass_kg = 6.0\n").empty());
   CHECK(said("[fidelity]\ncontact = \"line\"\n").empty());
   // Motion: what the statics do not depend on is in parameters of its own.
   const SystemSweepParameters motion = sweep_parameters_of(scene, layout_in(scene, kTrain));

@@ -1,12 +1,16 @@
 // Coordinates of a system of elastic bodies in motion: z" + c z' + w^2 z = force, unit modal mass.
 //
-// - Rigid rotations: theta_b of every body that no drive holds, of unit modal mass. Motions in which no mesh approaches (the
+// - Rigid rotations: theta_b of every body that no drive holds, of unit modal mass; planets go round with their carrier. Motions in which no mesh approaches (the
 //   rolling of the whole train) are the null space of the matrix of approaches; they are projected out, and the force that holds
 //   the mean speed against the contact forces is reported.
 // - Bodies that turn: modes with zero diameters are diagonalised with theta, M0 = [[I, g^T], [g, 1]], K0 = diag(0, w^2).
 // - Bodies on elastic bearings or pins: modes with one diameter are diagonalised with x and y in the frame of the system (of a
-//   planetary train: of its carrier, which is held), M0 = [[m, G^T], [G, 1]], K0 = diag(k, w^2). Only the diagonal of the bearing
+//   planetary train: of its carrier at the mean speed), M0 = [[m, G^T], [G, 1]], K0 = diag(k, w^2). Only the diagonal of the bearing
 //   damping is kept; modes of one pair have the same one, as bearings are alike in all directions.
+// - A carrier that may turn or move, and its planets: one group. With u = r theta and x, y of the carrier, x, y of each planet on an
+//   elastic pin and its modes with one diameter, X_b the displacement of hub b and D_b that relative to what carries it,
+//     M0 = sum m_b X_b^T X_b + (I / r^2) U^T U + modes + G_b^T X_b,   K0 = sum k_b D_b^T D_b + diag(w^2)
+//   is diagonalised at once; without its null vector, the rigid rotation of the carrier.
 // - All other modes turn with their gear; doublets turn back by a tooth at the end of a mesh period.
 // Coriolis and centrifugal terms are left out: nothing where the carrier stands still, see README.md where it turns.
 #pragma once
@@ -31,18 +35,39 @@ double axis_frequency(const SystemModel& system, const Eigen::MatrixXd& mean_sti
 
 struct SystemCoordinates {
   struct Share {               // of one body
-    int first = 0, count = 0;  // its elastic coordinates
+    int first = 0, count = 0;  // its own elastic coordinates; none of a carrier
     int torsional = 0;         // the first of them, which turn the hub
     int swaying = 0;           // of them, which move the hub; they follow
     std::vector<int> kept;     // columns of BodyArtifact::flank_mode
     Eigen::MatrixXd columns;   // (kept, coordinate): share of each mode
     Eigen::VectorXd hub;       // (torsional) rad per unit, in the body's own sense
     Eigen::MatrixXd shift;     // (xy, swaying) m per unit, in the frame of the system
+    int group = -1;            // in which its hub moves; -1: none
+    int member = 0;            // of the group
+    Eigen::MatrixXd carried;   // (xy, rigid) m per unit: its hub with its carrier; empty: nothing
+  };
+  // A carrier that may move and its planets.
+  struct Group {
+    struct Member {
+      int body = 0;
+      Eigen::MatrixXd columns;  // (kept, coordinate): share of each mode
+      Eigen::MatrixXd shift;    // (xy, coordinate) m per unit: of its hub
+      Eigen::MatrixXd
+          stretch;  // (xy, coordinate) m per unit: relative to what carries it, on an elastic bearing
+      Eigen::VectorXd of_bearing;  // (coordinate) s-1: share of its bearing's damper
+    };
+    int carrier = 0;             // number of the body
+    int first = 0, count = 0;    // its coordinates
+    std::vector<Member> member;  // the planets, then the carrier
+    Eigen::VectorXd hub;         // (coordinate) rad per unit: rotation of the carrier, in its own sense
   };
   int rigid = 0;             // rotations come first
   Eigen::MatrixXd rotation;  // (body, rigid) rad per unit, in the body's own sense
   Eigen::MatrixXd rolling;   // (body, null vector) m: r theta, 1 at most; what is projected out
+  Eigen::VectorXd
+      inertia;  // (body) kg m2: of its rigid rotation, of a carrier with the masses of its planets
   std::vector<Share> body;
+  std::vector<Group> group;
   Eigen::VectorXd frequency;   // (coordinate) rad s-1
   Eigen::VectorXd damping;     // (coordinate) s-1
   Eigen::VectorXd of_bearing;  // (coordinate) s-1: share of a bearing's damper in it
@@ -56,23 +81,49 @@ struct SystemCoordinates {
     double out = 0;
     for (int i = 0; i < rigid; ++i) out += rotation(b, i) * z[i];
     for (int i = 0; i < own.torsional; ++i) out += own.hub[i] * z[own.first + i];
-    return out;
+    if (own.group < 0) return out;
+    const Group& joint = group[static_cast<size_t>(own.group)];
+    return joint.carrier == b ? out + joint.hub.dot(z.segment(joint.first, joint.count)) : out;
   }
   // m, of its hub; velocity likewise.
   Vec2 translation_of(int b, const Eigen::VectorXd& z) const {
     const Share& own = body[static_cast<size_t>(b)];
+    Vec2 out = swayed(own, z);
+    if (own.carried.size() > 0) out += own.carried * z.head(rigid);
+    if (own.group >= 0) out += grouped(own, z, &Group::Member::shift);
+    return out;
+  }
+  // m: by how much its elastic bearing or pin gives way; velocity likewise.
+  Vec2 bearing_deflection(int b, const Eigen::VectorXd& z) const {
+    const Share& own = body[static_cast<size_t>(b)];
+    return own.group < 0 ? swayed(own, z) : grouped(own, z, &Group::Member::stretch);
+  }
+  // By how much a unit of each coordinate moves a point of a flank outwards, the rotation of the hub left out.
+  struct Participation {
+    Eigen::VectorXd own, group;  // (coordinate) of the body's own and of its group
+  };
+  // weights: (flank) of the point in the flank table; outward: its normal; phase: mesh periods since tooth numbers were given.
+  Participation participation(const SystemModel& system, int b, const ToothFlank& flank, double phase,
+                              const Eigen::RowVectorXd& weights, const Vec2& outward) const;
+
+ private:
+  static Vec2 swayed(const Share& own, const Eigen::VectorXd& z) {
     Vec2 out(0, 0);
     for (int i = 0; i < own.swaying; ++i) out += own.shift.col(i) * z[own.first + own.torsional + i];
     return out;
   }
-  // (coordinate of body b) by how much a unit of each moves flank `flank` of tooth `tooth` outwards, the rotation of the hub left
-  // out. weights: (flank) of the point in the flank table; outward: its normal; phase: mesh periods since tooth numbers were given.
-  Eigen::VectorXd participation(const SystemModel& system, int b, const ToothFlank& flank, double phase,
-                                const Eigen::RowVectorXd& weights, const Vec2& outward) const;
+  Vec2 grouped(const Share& own, const Eigen::VectorXd& z, Eigen::MatrixXd Group::Member::*part) const {
+    const Group& joint = group[static_cast<size_t>(own.group)];
+    return joint.member[static_cast<size_t>(own.member)].*part * z.segment(joint.first, joint.count);
+  }
 };
 
+// Whether a body is a carrier that may turn or move: its planets do so with it.
+bool moving_carrier(const System& layout, int b);
+
 // Throws Error(input) for body = "full", "rigid", contact other than "line", Newmark's method, a gear without a mode that a freedom
-// needs, and inertias and masses below those of the body; Error(numerical) if modes cannot be found.
+// needs, and inertias and masses below those of the body, of a carrier below those of planets on rigid pins; Error(numerical) if modes
+// cannot be found.
 SystemCoordinates coordinates_of(const SystemModel& system, const SystemMotion& motion);
 
 }  // namespace whine

@@ -29,18 +29,16 @@ SystemDynamics::SystemDynamics(const SystemModel& system, const SystemMotion& mo
          " rad/s; give that of axis_frequency()");
   const VectorXd loads = mesh_loads(system);
   load_of_mesh_ = loads.cwiseMax(1e-3 * loads.maxCoeff());
-  for (int b = 0; b < static_cast<int>(system.body.size()); ++b) radius_.push_back(system.base_radius(b));
+  for (int b = 0; b < static_cast<int>(system.layout.bodies.size()); ++b)
+    radius_.push_back(system.base_radius(b));
+  for (size_t m = 0; m < system.mesh.size(); ++m) carried_.push_back(carried_mesh(system.layout, m));
   for (const GearMeshModel& mesh : system.mesh)
     outward_.push_back({mesh.outward_in_system(0), mesh.outward_in_system(1)});
 }
 
 double SystemDynamics::moved(const Position& position, int k, const VectorXd& z) const {
-  const Contact& contact = position.contact[static_cast<size_t>(k)];
-  double out = position.rigid.col(k).dot(z.head(coordinates_.rigid));
-  for (size_t s = 0; s < 2; ++s) {
-    const SystemCoordinates::Share& own = coordinates_.body[static_cast<size_t>(contact.body[s])];
-    out += position.elastic[s].col(k).head(own.count).dot(z.segment(own.first, own.count));
-  }
+  double out = 0;
+  each_part(position, k, [&](Index first, const auto& h) { out += h.dot(z.segment(first, h.size())); });
   return out;
 }
 
@@ -73,14 +71,9 @@ void SystemDynamics::require_range(const Position& position, const Eigen::Ref<co
 // y -= weight h force, by coordinate.
 void SystemDynamics::push(const Position& position, int k, double force, const VectorXd& weight,
                           VectorXd& y) const {
-  const Contact& contact = position.contact[static_cast<size_t>(k)];
-  const int rigid = coordinates_.rigid;
-  y.head(rigid) -= force * weight.head(rigid).cwiseProduct(position.rigid.col(k));
-  for (size_t s = 0; s < 2; ++s) {
-    const SystemCoordinates::Share& own = coordinates_.body[static_cast<size_t>(contact.body[s])];
-    y.segment(own.first, own.count) -=
-        force * weight.segment(own.first, own.count).cwiseProduct(position.elastic[s].col(k).head(own.count));
-  }
+  each_part(position, k, [&](Index first, const auto& h) {
+    y.segment(first, h.size()) -= force * weight.segment(first, h.size()).cwiseProduct(h);
+  });
 }
 
 // fields += factor V S p
@@ -150,7 +143,7 @@ SystemEquilibrium SystemDynamics::equilibrium_at(int i, VectorXd* z) {
   for (int k = 0; k < position.size(); ++k) at.gap[k] -= moved(position, k, by_torque);
   ComplementaritySolver solver;
   const SystemEquilibrium out =
-      equilibrium(system_, at, compliance, VectorXd::Zero(static_cast<Index>(system_.body.size())), solver);
+      equilibrium(system_, at, compliance, VectorXd::Zero(coordinates_.inertia.size()), solver);
   require_range(position, out.p);
   if (!z) return out;
   *z = coordinates_.torque;
@@ -158,10 +151,9 @@ SystemEquilibrium SystemDynamics::equilibrium_at(int i, VectorXd* z) {
   *z = z->cwiseProduct(flexibility);
   // x_b = r_b theta_b; unit modal mass, so the shares of a rotation are its own shape times the inertias.
   for (int c = 0; c < coordinates_.rigid; ++c)
-    for (int b = 0; b < static_cast<int>(system_.body.size()); ++b)
+    for (int b = 0; b < static_cast<int>(coordinates_.inertia.size()); ++b)
       if (!system_.layout.held(b))
-        (*z)[c] += coordinates_.rotation(b, c) * system_.layout.bodies[static_cast<size_t>(b)].inertia *
-                   out.x[b] / system_.base_radius(b);
+        (*z)[c] += coordinates_.rotation(b, c) * coordinates_.inertia[b] * out.x[b] / system_.base_radius(b);
   return out;
 }
 
@@ -241,8 +233,7 @@ bool SystemDynamics::record(const Position& position, int sample, Period& period
   for (int m = 0; m < meshes(); ++m) period.mesh_force(m, sample) = period.largest_tooth_force(m, sample) = 0;
   period.drift.setZero();
   period.contact_torque.col(sample).setZero();
-  for (int b = 0; b < static_cast<int>(system_.body.size()); ++b)
-    period.bearing_force[static_cast<size_t>(b)].col(sample).setZero();
+  for (Eigen::Matrix2Xd& force : period.bearing_force) force.col(sample).setZero();
   for (int k = 0; k < position.size(); ++k) {
     const Contact& contact = position.contact[static_cast<size_t>(k)];
     if (!(p_[k] > 0)) continue;
@@ -255,14 +246,20 @@ bool SystemDynamics::record(const Position& position, int sample, Period& period
       period.bearing_force[b].col(sample) -= closing_sign(static_cast<int>(s)) * p_[k] * contact.normal;
       period.contact_torque(contact.body[s], sample) += contact.lever[s] * radius_[b] * p_[k];
     }
+    if (contact.carrier >= 0)
+      period.contact_torque(contact.carrier, sample) +=
+          contact.carrier_lever * radius_[static_cast<size_t>(contact.carrier)] * p_[k];
   }
   for (Index c = 0; c < period.drift.size(); ++c)
     period.drift_force = std::max(period.drift_force, std::abs(period.drift[c]));
-  for (int b = 0; b < static_cast<int>(system_.body.size()); ++b)
-    if (const Bearing& bearing = system_.layout.bodies[static_cast<size_t>(b)].bearing; bearing.elastic())
-      period.bearing_force[static_cast<size_t>(b)].col(sample) =
-          bearing.stiffness * coordinates_.translation_of(b, z_) +
-          bearing.damping * coordinates_.translation_of(b, v_);
+  for (int b = 0; b < static_cast<int>(period.bearing_force.size()); ++b) {  // planets before carriers
+    const System::Body& body = system_.layout.bodies[static_cast<size_t>(b)];
+    auto force = period.bearing_force[static_cast<size_t>(b)].col(sample);
+    if (body.bearing.elastic())
+      force = body.bearing.stiffness * coordinates_.bearing_deflection(b, z_) +
+              body.bearing.damping * coordinates_.bearing_deflection(b, v_);
+    if (body.on != System::kGround) period.bearing_force[static_cast<size_t>(body.on)].col(sample) += force;
+  }
   period.least_gap = std::min(period.least_gap, certificate_.least_gap);
   period.least_force = std::min(period.least_force, certificate_.least_force);
   bool inside = true;
@@ -274,8 +271,11 @@ bool SystemDynamics::record(const Position& position, int sample, Period& period
       closing +=
           outward_[static_cast<size_t>(m)][static_cast<size_t>(s)].dot(coordinates_.translation_of(b, z_));
     }
-    period.transmission_error(m, sample) = error;
     closing += error;
+    if (const CarriedMesh& on = carried_[static_cast<size_t>(m)]; on.carrier >= 0)
+      error +=
+          on.closing * radius_[static_cast<size_t>(on.carrier)] * coordinates_.rotation_of(on.carrier, z_);
+    period.transmission_error(m, sample) = error;
     period.mesh_deflection(m, sample) = closing;
     if (closing > position.lost_gap[static_cast<size_t>(m)])
       fail_outside_range(
@@ -313,8 +313,8 @@ void SystemDynamics::resize(Period& period, int steps) const {
   for (MatrixXd* x :
        {&period.transmission_error, &period.mesh_deflection, &period.mesh_force, &period.largest_tooth_force})
     x->resize(meshes(), steps);
-  period.contact_torque.resize(static_cast<Index>(system_.body.size()), steps);
-  period.bearing_force.resize(system_.body.size());
+  period.contact_torque.resize(coordinates_.inertia.size(), steps);
+  period.bearing_force.resize(system_.layout.bodies.size());
   for (Eigen::Matrix2Xd& x : period.bearing_force) x.resize(2, steps);
   period.drift.resize(coordinates_.rolling.cols());
   period.drift_force = period.least_gap = period.least_force = 0;

@@ -25,6 +25,7 @@
 #include "dynamics/propagator.h"
 #include "dynamics/system_coordinates.h"
 #include "dynamics/system_energy.h"
+#include "system/rigid_system.h"
 #include "system/system_statics.h"
 
 namespace whine {
@@ -49,7 +50,8 @@ class SystemDynamics {
     Eigen::MatrixXd mesh_force;           // (mesh, step) N: torque on the driving body over its base radius
     Eigen::MatrixXd largest_tooth_force;  // (mesh, step) N
     // [body] (xy, step) N: k x + c x' of an elastic bearing; on a rigid axis the sum of the contact forces, without the inertia of
-    // the body's own modes
+    // the body's own modes and, of a planet on a carrier that moves, of its mass. Of a carrier on a rigid axis the sum of those of its
+    // planets.
     std::vector<Eigen::Matrix2Xd> bearing_force;
     // (body, step) N m, in the body's sense: what balances its contact forces. Of a held body its mean over a periodic motion is
     // that of the torque that holds it, the inertia of the body's own modes being 0 in the mean.
@@ -116,6 +118,9 @@ class SystemDynamics {
     std::array<int, 2> load_at{};   // [side] where its fields stand in all relaxed loads
     std::array<double, 2> lever{};  // [side] closing per r theta of its body
     Vec2 normal = Vec2::Zero();     // from the first side's flank to the second's
+    int carrier = -1;               // on which one of the bodies stands; -1: none
+    double carrier_lever = 0;       // closing per r theta of the carrier
+    int group = -1;                 // of coordinates, in which a side's body moves; -1: none
   };
   struct Position {
     std::vector<Contact> contact;
@@ -124,6 +129,7 @@ class SystemDynamics {
     Eigen::VectorXd gap;                     // (contact) m
     Eigen::MatrixXd rigid;                   // (rigid rotation, contact): h
     std::array<Eigen::MatrixXd, 2> elastic;  // [side] (coordinate of its body, contact): h
+    Eigen::MatrixXd grouped;                 // (coordinate of its group, contact): h
     std::array<Eigen::MatrixXd, 2> field;    // [side] (field, contact): V^T S^T
     std::array<Eigen::MatrixXd, 2> reading;  // [side] (relaxed load of its body, contact) m N-1: W^T
     Eigen::MatrixXd at_once, relaxed;        // (contact, contact) m N-1: A, and W V S
@@ -138,6 +144,7 @@ class SystemDynamics {
   void put_gap(int position, int period);  // of its mesh period
   void find_slots(const std::vector<SystemPosition>& placed);
   std::pair<int, int> largest_body() const;
+  int largest_group() const;
   void couple();
   Position filled(const SystemPosition& at, int shift);
   void relate(Position& position, const SystemPosition& at) const;
@@ -145,6 +152,19 @@ class SystemDynamics {
   Eigen::MatrixXd modal_compliance(const Position& position, const Eigen::VectorXd& weight) const;
   Eigen::VectorXd participation(const Position& position,
                                 int k) const;  // (coordinate) h of contact k, in full
+  // visit(first, h): h of contact k by what coordinates it moves, from number `first` on.
+  template <class Visit>
+  void each_part(const Position& position, int k, const Visit& visit) const {
+    const Contact& contact = position.contact[static_cast<size_t>(k)];
+    visit(Eigen::Index{0}, position.rigid.col(k).head(coordinates_.rigid));
+    for (size_t s = 0; s < 2; ++s) {
+      const SystemCoordinates::Share& own = coordinates_.body[static_cast<size_t>(contact.body[s])];
+      visit(static_cast<Eigen::Index>(own.first), position.elastic[s].col(k).head(own.count));
+    }
+    if (contact.group < 0) return;
+    const SystemCoordinates::Group& group = coordinates_.group[static_cast<size_t>(contact.group)];
+    visit(static_cast<Eigen::Index>(group.first), position.grouped.col(k).head(group.count));
+  }
   double moved(const Position& position, int k, const Eigen::VectorXd& z) const;
   double read(const Position& position, int k, const Eigen::VectorXd& relaxed) const;
   void push(const Position& position, int k, double force, const Eigen::VectorXd& weight,
@@ -168,7 +188,8 @@ class SystemDynamics {
   SystemCoordinates coordinates_;
   double depth_, relaxation_;
   Eigen::VectorXd load_of_mesh_;
-  std::vector<double> radius_;                // [body] m
+  std::vector<double> radius_;                // [body] m; of a carrier that of its pins
+  std::vector<CarriedMesh> carried_;          // [mesh]
   std::vector<std::array<Vec2, 2>> outward_;  // [mesh][side]
   std::vector<Position>
       positions_;  // (step + 1): the last one is the first one in the names of the period before

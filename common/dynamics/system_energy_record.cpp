@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 SystemEnergyRecord::SystemEnergyRecord(const SystemDynamics& dynamics, SystemEnergyBalance* balance)
     : of_(dynamics), balance_(balance) {
   if (!balance) return;
-  const auto bodies = static_cast<Index>(of_.system_.body.size());
+  const Index bodies = of_.coordinates_.inertia.size();
   *balance = {};
   for (VectorXd* x : {&balance->drive, &balance->bearing_damping}) x->setZero(bodies);
   for (VectorXd* x : {&balance->rolling, &balance->switching, &balance->cutting}) x->setZero(of_.meshes());
@@ -102,8 +102,12 @@ double SystemEnergyRecord::modes(const Instant& a, const Instant& b) {
   double bearing = 0, drive = 0;
   for (Index n = 0; n < balance_->drive.size(); ++n) {
     const SystemCoordinates::Share& own = c.body[static_cast<size_t>(n)];
-    const double taken =
-        c.of_bearing.segment(own.first, own.count).dot(squared.segment(own.first, own.count));
+    double taken = c.of_bearing.segment(own.first, own.count).dot(squared.segment(own.first, own.count));
+    if (own.group >= 0) {
+      const SystemCoordinates::Group& group = c.group[static_cast<size_t>(own.group)];
+      taken += group.member[static_cast<size_t>(own.member)].of_bearing.dot(
+          squared.segment(group.first, group.count));
+    }
     balance_->bearing_damping[n] += taken;
     bearing += taken;
     const int body = static_cast<int>(n);

@@ -82,7 +82,7 @@ MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
     fail(Failure::input, "the period map of teeth that differ, of ", of.hunting_periods(),
          " mesh periods, has no tangent; take teeth that are alike");
   const Index n = of.coordinates().size(), loads = of.relaxed_size(), slots = of.slots(),
-              rigid = of.coordinates().rigid, many = directions.cols();
+              many = directions.cols();
   const MatrixXd start = unit_.asDiagonal() * directions;
   MatrixXd z = start.topRows(n), v = start.middleRows(n, n), relaxed = start.middleRows(2 * n, loads),
            force = MatrixXd::Zero(n, many), load = MatrixXd::Zero(loads, many), p = start.bottomRows(slots);
@@ -92,14 +92,12 @@ MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
     for (int k = 0; k < position.size(); ++k) {
       const SystemDynamics::Contact& contact = position.contact[static_cast<size_t>(k)];
       if (p.row(contact.slot).isZero(0)) continue;
-      force.topRows(rigid) -= position.rigid.col(k) * p.row(contact.slot);
-      for (size_t s = 0; s < 2; ++s) {
-        const SystemCoordinates::Share& own = of.coordinates().body[static_cast<size_t>(contact.body[s])];
-        force.middleRows(own.first, own.count) -=
-            position.elastic[s].col(k).head(own.count) * p.row(contact.slot);
+      of.each_part(position, k, [&](Index first, const auto& h) {
+        force.middleRows(first, h.size()) -= h * p.row(contact.slot);
+      });
+      for (size_t s = 0; s < 2; ++s)
         load.middleRows<SystemDynamics::kFields>(contact.load_at[s]) +=
             position.field[s].col(k) * p.row(contact.slot);
-      }
     }
   };
   spread(of.at(0));
@@ -118,11 +116,11 @@ MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
       const SystemDynamics::Contact& contact = position.contact[static_cast<size_t>(k)];
       const auto row = static_cast<Index>(a);
       tangent(row, row) += position.law[static_cast<size_t>(k)].at(of.forces()(i, contact.slot)).slope;
-      e.row(row) = -position.rigid.col(k).transpose() * z.topRows(rigid);
+      e.row(row).setZero();
+      of.each_part(position, k, [&](Index first, const auto& h) {
+        e.row(row) -= h.transpose() * z.middleRows(first, h.size());
+      });
       for (size_t s = 0; s < 2; ++s) {
-        const SystemCoordinates::Share& own = of.coordinates().body[static_cast<size_t>(contact.body[s])];
-        e.row(row) -=
-            position.elastic[s].col(k).head(own.count).transpose() * z.middleRows(own.first, own.count);
         const auto b = static_cast<size_t>(contact.body[s]);
         const Index first = of.relaxed_first_[b], count = of.relaxed_first_[b + 1] - first;
         e.row(row) += position.reading[s].col(k).head(count).transpose() * relaxed.middleRows(first, count);

@@ -152,6 +152,12 @@ std::pair<int, int> SystemDynamics::largest_body() const {
   return {most, most_loads};
 }
 
+int SystemDynamics::largest_group() const {
+  int most = 0;
+  for (const SystemCoordinates::Group& group : coordinates_.group) most = std::max(most, group.count);
+  return most;
+}
+
 // shift: 1 at the end of the mesh period, whose teeth are then one further than where `at` has them.
 SystemDynamics::Position SystemDynamics::filled(const SystemPosition& at, int shift) {
   Position out;
@@ -161,6 +167,7 @@ SystemDynamics::Position SystemDynamics::filled(const SystemPosition& at, int sh
   out.gap = at.gap;
   out.rigid = MatrixXd::Zero(coordinates_.rigid, n);
   out.drift = MatrixXd::Zero(coordinates_.rolling.cols(), n);
+  out.grouped = MatrixXd::Zero(largest_group(), n);
   for (size_t s = 0; s < 2; ++s) {
     out.elastic[s] = MatrixXd::Zero(most, n);
     out.field[s] = MatrixXd::Zero(kFields, n);
@@ -191,9 +198,14 @@ SystemDynamics::Position SystemDynamics::filled(const SystemPosition& at, int sh
       out.rigid.col(k) += arm * coordinates_.rotation.row(b).transpose();
       out.drift.col(k) += contact.lever[s] * coordinates_.rolling.row(b).transpose();
       const RowVectorXd weights = at.displacement.flank[m][s].row(node);
-      out.elastic[s].col(k).head(share.count) =
+      const auto part =
           coordinates_.participation(system_, b, flank_of(system_, segment, s, -shift), phase, weights,
                                      closing_sign(static_cast<int>(s)) * segment.normal);
+      out.elastic[s].col(k).head(share.count) = part.own;
+      if (share.group >= 0) {
+        contact.group = share.group;
+        out.grouped.col(k).head(part.group.size()) = part.group;
+      }
       out.elastic[s].col(k).head(share.torsional) += arm * share.hub;
       const auto& list = meshes_of_[own];
       const auto place = static_cast<int>(std::find(list.begin(), list.end(), segment.mesh) - list.begin());
@@ -202,6 +214,13 @@ SystemDynamics::Position SystemDynamics::filled(const SystemPosition& at, int sh
       out.field[s].col(k) = fields_[own].transpose() * weights.transpose();
       const MatrixXd& c = coupling_[own];
       out.reading[s].col(k).head(c.rows()) = c.middleCols(local, kFields) * out.field[s].col(k);
+    }
+    if (const CarriedMesh& on = carried_[m]; on.carrier >= 0) {
+      contact.carrier = on.carrier;
+      contact.carrier_lever = at.displacement.rotation(k, on.carrier);
+      out.rigid.col(k) += contact.carrier_lever * radius_[static_cast<size_t>(on.carrier)] *
+                          coordinates_.rotation.row(on.carrier).transpose();
+      out.drift.col(k) += contact.carrier_lever * coordinates_.rolling.row(on.carrier).transpose();
     }
     out.contact.push_back(contact);
   }
@@ -290,8 +309,9 @@ void SystemDynamics::set_positions(const std::vector<double>& corner_gap, int st
   find_slots(placed);
   constexpr double kMostMemory = 12e9;  // bytes
   const auto [most, most_loads] = largest_body();
-  const double numbers = steps * static_cast<double>(most_contacts_) *
-                         (2.0 * (most + most_loads + kFields) + coordinates_.rigid + 3.0 * most_contacts_);
+  const double numbers =
+      steps * static_cast<double>(most_contacts_) *
+      (2.0 * (most + most_loads + kFields) + largest_group() + coordinates_.rigid + 3.0 * most_contacts_);
   if (8 * numbers > kMostMemory)
     fail(Failure::input, "the positions of ", steps, " steps of a mesh period need ", 8e-9 * numbers,
          " GB, at most ", 1e-9 * kMostMemory,

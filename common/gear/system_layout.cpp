@@ -350,34 +350,6 @@ std::vector<int> sections_of(const std::vector<GearMeshSpec>& meshes, const std:
   return out;
 }
 
-System on_fixed_carriers(const System& layout) {
-  System out;
-  std::vector<int> number;  // [body of layout] in `out`
-  for (size_t b = 0; b < layout.bodies.size(); ++b) {
-    const System::Body& body = layout.bodies[b];
-    number.push_back(static_cast<int>(out.bodies.size()));
-    if (body.kind == System::BodyKind::carrier) {
-      if (!layout.held_rigidly(static_cast<int>(b)))
-        fail(Failure::input, "carrier '", body.name,
-             "' may turn; at rest it has to be held: give it a [[drive]] with kind = \"held\" and no "
-             "stiffness");
-      continue;
-    }
-    out.bodies.push_back(body);
-    out.bodies.back().on = System::kGround;
-  }
-  for (System::Mesh mesh : layout.meshes) {
-    for (System::Side& side : mesh.side) side.body = number[static_cast<size_t>(side.body)];
-    out.meshes.push_back(mesh);
-  }
-  for (System::Drive drive : layout.drives) {
-    if (layout.bodies[static_cast<size_t>(drive.body)].kind == System::BodyKind::carrier) continue;
-    drive.body = number[static_cast<size_t>(drive.body)];
-    out.drives.push_back(drive);
-  }
-  return out;
-}
-
 std::vector<std::string> colliding_gears(const System& layout, const std::vector<const GearDesign*>& design) {
   const auto in_mesh = [&](size_t a, size_t b) {
     return std::any_of(layout.meshes.begin(), layout.meshes.end(), [&](const System::Mesh& mesh) {

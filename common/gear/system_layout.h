@@ -23,12 +23,6 @@ std::vector<std::string> gears_of(const SystemScene& scene, const System& layout
 std::vector<int> sections_of(const std::vector<GearMeshSpec>& meshes, const std::vector<std::string>& gears,
                              const System& layout);
 
-// The same with carriers that do not move: planets turn on axes, or on bearings, that stand on the ground, and carriers with their
-// drives are gone. At rest a train whose ring and carrier are held is this one; what holds the carrier is the sum of the planets'
-// bearing forces. Throws Error(input) for a carrier that no drive holds rigidly.
-// Elastic systems (system/system_statics.h) know no carriers and need this form.
-System on_fixed_carriers(const System& layout);
-
 // A line for each two external gears that do not mesh and whose tip circles overlap, and for each that stands through a ring: they run
 // into each other unless they lie side by side. Planets among themselves are left out, which layout_of() checks. design: [body]
 // nullptr: not known, of carriers.

@@ -211,7 +211,7 @@ std::vector<Key> make_keys() {
      [](V& v) -> Slot { return choice_slot(v.mesh.contact_plane); }},
 
     {Part::bearing_gear, "bearing", "gear", kNone, nullptr, 0, 0, false, "",
-     "name of the gear that it carries, in a system with body = \"rigid\" also of a carrier; without a bearing it turns on a rigid axis",
+     "name of the gear or carrier that it carries; without a bearing it turns on a rigid axis",
      [](V& v) -> Slot { return &v.bearing_gear; }},
     {Part::bearing, "bearing", "stiffness_N_um", kNewtonPerMicrometre, nullptr, 0, 1e6, true, "",
      "radial stiffness of all that carries the gear (bearings, shaft, housing), alike in all directions",

@@ -99,7 +99,13 @@ void take_carriers(const Source& source, SystemScene& scene) {
     if (!plain_name(values.carrier.name))
       source.reject(*table->get("name"), text("'name' in [carrier] = '", values.carrier.name,
                                               "': a name holds letters, digits, '_' and '-' only"));
-    if (scene.rigid() && (values.carrier.inertia > 0) == (values.carrier.equivalent_mass > 0))
+    const bool one = values.carrier.inertia > 0, other = values.carrier.equivalent_mass > 0;
+    if (one && other)
+      source.reject(*table,
+                    text("[carrier] '", values.carrier.name,
+                         "' gives 'inertia_kgm2' and 'equivalent_mass_kg', which say the same; give one "
+                         "of them"));
+    if (scene.rigid() && !one && !other)
       source.reject(*table, text("[carrier] '", values.carrier.name,
                                  "' needs its inertia, either 'inertia_kgm2' or 'equivalent_mass_kg'"));
     scene.carriers.push_back(values.carrier);
@@ -156,14 +162,10 @@ void take_bearings(const Source& source, SystemScene& scene) {
       source.reject(*table->get("gear"), text("'gear' in [bearing] = '", values.bearing_gear,
                                               "' has a bearing already; give one section with what carries "
                                               "it in all"));
-    if (!scene.rigid() && static_cast<size_t>(at - names.begin()) >= scene.gears.size())
-      source.reject(
-          *table->get("gear"),
-          text("'gear' in [bearing] = '", values.bearing_gear,
-               "' is a carrier, whose axis is rigid where gears are elastic; take the section out"));
-    if (scene.rigid() && !(values.bearing.mass > 0))
-      source.reject(*table, text("[bearing] of '", values.bearing_gear,
-                                 "' lacks 'mass_kg', which body = \"rigid\" needs"));
+    const bool drawn = !scene.rigid() && static_cast<size_t>(at - names.begin()) < scene.gears.size();
+    if (!drawn && !(values.bearing.mass > 0))
+      source.reject(*table, text("[bearing] of '", values.bearing_gear, "' lacks 'mass_kg', which ",
+                                 scene.rigid() ? "body = \"rigid\"" : "a carrier", " needs"));
     bearing = values.bearing;
   }
 }

@@ -239,10 +239,10 @@ std::vector<Remark> motion_remarks(const SystemReport& r) {
                              " Hz: the vibration jumps at the ends of these ranges"));
     }
     if (has_planets(first.settings.layout))
-      out.push_back(remark(false,
-                           "the carrier stands still in the sweeps: centrifugal and Coriolis forces on ",
-                           "planets of a carrier that turns are left out, and may be as large as the ",
-                           "forces on their pins"));
+      out.push_back(
+          remark(false, "motions are relative to the mean rotation of the carrier: where it turns, Coriolis ",
+                 "and centrifugal forces on the planets are left out; the latter may be as large as ",
+                 "the mean forces on their pins"));
   }
   return out;
 }

@@ -316,8 +316,7 @@ Figure picture_of(Train t, const Eigen::VectorXd& torque) {
           : "rigid gears: a working pitch circle for each mesh, a tick at each tooth; black: lines of "
             "action, one base pitch long; below a name its number of teeth");
   figure.notes.push_back(
-      text("arrows: senses of rotation",
-           carriers ? " relative to the carrier, which stands still here; green: its arms" : ""));
+      text("arrows: senses of rotation", carriers ? " relative to the carrier; green: its arms" : ""));
   for (const std::string& line : in_lines(numbers)) figure.notes.push_back(line);
   add_labels(t, figure);
   const size_t close_ups = add_close_ups(t, figure);

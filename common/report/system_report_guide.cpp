@@ -108,7 +108,8 @@ std::string system_guide(const SystemReport& r) {
   }
   return guide_table(
       text("Frequencies are mesh frequencies unless said otherwise.",
-           planets ? " All numbers are those in the frame of the carrier, which stands still here." : ""),
+           planets ? " All numbers are those in the frame of the carrier, which turns at its mean speed."
+                   : ""),
       rows, r.pictures);
 }
 

@@ -40,9 +40,9 @@ BranchSettings segment_settings(const SystemSweepParameters& p, int steps, doubl
 }
 
 // Of a period, for each mesh and then each body: the columns of the artifact, one after the other.
-VectorXd measured(const System& layout, const SystemDynamics::Period& period) {
+VectorXd measured(const SystemDynamics::Period& period) {
   const Index meshes = period.mesh_force.rows();
-  const std::vector<Eigen::Matrix2Xd> forces = bearing_forces(layout, period);
+  const std::vector<Eigen::Matrix2Xd>& forces = period.bearing_force;
   VectorXd out(5 * meshes + static_cast<Index>(forces.size()));
   for (Index m = 0; m < meshes; ++m) {
     const VectorXd error = period.transmission_error.row(m);
@@ -116,8 +116,7 @@ class Follower {
  private:
   void new_map(double at, int steps) {
     map_ = std::make_unique<SystemPeriodMap>(rig_.dynamics(), steps);
-    map_->measure(
-        [this](const SystemDynamics::Period& period) { return measured(settings_.layout, period); });
+    map_->measure(measured);
     map_->set_parameter(at);
   }
 

@@ -24,15 +24,6 @@ constexpr int kMostWidenings = 5;
 
 }  // namespace
 
-std::vector<Eigen::Matrix2Xd> bearing_forces(const System& layout, const SystemDynamics::Period& period) {
-  std::vector<Eigen::Matrix2Xd> out = period.bearing_force;
-  out.resize(layout.bodies.size(), Eigen::Matrix2Xd::Zero(2, period.mesh_force.cols()));
-  for (size_t b = 0; b < period.bearing_force.size(); ++b)
-    if (const int on = layout.bodies[b].on; on != System::kGround)
-      out[static_cast<size_t>(on)] += period.bearing_force[b];
-  return out;
-}
-
 void require_like_teeth(const SystemStaticParameters& settings, const std::string& stage) {
   for (size_t b = 0; b < settings.errors.size(); ++b)
     if (settings.has_errors(b))

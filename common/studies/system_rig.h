@@ -11,9 +11,6 @@
 
 namespace whine {
 
-// [body of the layout with its carriers] (xy, step) N: those of carriers are the sums of their pins.
-std::vector<Eigen::Matrix2Xd> bearing_forces(const System& layout, const SystemDynamics::Period& period);
-
 // Mesh periods per speed before a motion counts as not periodic, and so many hunting periods at least.
 inline constexpr int kMostSystemPeriods = 3000, kLeastSystemTurns = 100;
 

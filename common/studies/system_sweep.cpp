@@ -47,8 +47,8 @@ class Recorded {
         force_squares_(VectorXd::Zero(static_cast<Index>(bodies))),
         force_most_(force_squares_) {}
 
-  // forces: [body] (xy, step), carriers too
-  void take(const SystemDynamics::Period& period, const std::vector<Eigen::Matrix2Xd>& forces) {
+  void take(const SystemDynamics::Period& period) {
+    const std::vector<Eigen::Matrix2Xd>& forces = period.bearing_force;
     const Index steps = period.mesh_force.cols();
     count_ += static_cast<double>(steps);
     for (Index i = 0; i < steps; ++i) {
@@ -155,15 +155,13 @@ class SystemSweeper {
     out.bearing_damping.row(row).setZero();
     out.drift_force[row] = 0;
     out.holding_torque.row(row).setZero();
-    std::vector<Eigen::Matrix2Xd> forces;
     begin_samples(hunting, row, out);
     for (int n = 0; n < periods; ++n) {
       if (!rig_.dynamics().integrate(state_, period, &energy)) return false;
-      forces = bearing_forces(settings_.layout, period);
-      recorded.take(period, forces);
-      take_samples(period, forces, n % hunting, row, out);
+      recorded.take(period);
+      take_samples(period, n % hunting, row, out);
       take(energy, row, out);
-      take_holding(period, forces, static_cast<double>(periods), row, out);
+      take_holding(period, static_cast<double>(periods), row, out);
       imbalance += energy.imbalance;
       out.drift_force[row] = std::max(out.drift_force[row], period.drift_force);
       out.least_gap = std::min(out.least_gap, period.least_gap);
@@ -186,8 +184,8 @@ class SystemSweeper {
   }
 
   // Of mesh period k of a hunting period, which the last one that is recorded overwrites. Sample 0 is that of the period's end.
-  void take_samples(const SystemDynamics::Period& period, const std::vector<Eigen::Matrix2Xd>& forces, int k,
-                    Index row, SystemSweepArtifact& out) const {
+  void take_samples(const SystemDynamics::Period& period, int k, Index row, SystemSweepArtifact& out) const {
+    const std::vector<Eigen::Matrix2Xd>& forces = period.bearing_force;
     const Index samples = settings_.time.steps_per_period, stride = period.mesh_force.cols() / samples;
     const auto at = static_cast<size_t>(row);
     const auto put = [&](const auto& of, MatrixRM& rows) {
@@ -201,19 +199,19 @@ class SystemSweeper {
   }
 
   // Mean over the recorded periods of the torques that hold bodies; of a carrier -sum (P - C) x F of its pins, as at rest.
-  void take_holding(const SystemDynamics::Period& period, const std::vector<Eigen::Matrix2Xd>& forces,
-                    double periods, Index row, SystemSweepArtifact& out) const {
-    const System& layout = rig_.system().layout;
+  void take_holding(const SystemDynamics::Period& period, double periods, Index row,
+                    SystemSweepArtifact& out) const {
+    const System& layout = settings_.layout;
     for (size_t b = 0; b < layout.bodies.size(); ++b)
-      if (layout.held(static_cast<int>(b)))
+      if (layout.held(static_cast<int>(b)) && layout.bodies[b].kind == System::BodyKind::gear)
         out.holding_torque(row, static_cast<Index>(b)) +=
             period.contact_torque.row(static_cast<Index>(b)).mean() / periods;
     for (size_t b = 0; b < layout.bodies.size(); ++b) {
-      const System::Body& body = settings_.layout.bodies[b];
-      if (body.on == System::kGround) continue;
-      const System::Body& carrier = settings_.layout.bodies[static_cast<size_t>(body.on)];
+      const System::Body& body = layout.bodies[b];
+      if (body.on == System::kGround || !layout.held(body.on)) continue;
+      const System::Body& carrier = layout.bodies[static_cast<size_t>(body.on)];
       const double x = body.centre[0] - carrier.centre[0], y = body.centre[1] - carrier.centre[1];
-      const Vec2 pin = forces[b].rowwise().mean();
+      const Vec2 pin = period.bearing_force[b].rowwise().mean();
       out.holding_torque(row, body.on) -= carrier.sense * (x * pin.y() - y * pin.x()) / periods;
     }
   }

@@ -18,6 +18,25 @@ Vec2 line_of_action(const System::Mesh& mesh) {
   return Eigen::Rotation2Dd(mesh.direction - 0.5 * std::numbers::pi) * Vec2(along, away);
 }
 
+Vec2 pin_direction(const System& system, const System::Body& planet) {
+  const System::Body& carrier = system.bodies[static_cast<size_t>(planet.on)];
+  const double x = planet.centre[0] - carrier.centre[0], y = planet.centre[1] - carrier.centre[1];
+  return carrier.sense * Vec2(-y, x) / carrier.radius;
+}
+
+CarriedMesh carried_mesh(const System& system, size_t m) {
+  const System::Mesh& mesh = system.meshes[m];
+  CarriedMesh out;
+  for (int s = 0; s < kSides; ++s) {
+    const System::Body& body = system.bodies[static_cast<size_t>(mesh.side[static_cast<size_t>(s)].body)];
+    if (body.on == System::kGround) continue;
+    out.carrier = body.on;
+    out.side = s;
+    out.closing = closing_sign(s) * line_of_action(mesh).dot(pin_direction(system, body));
+  }
+  return out;
+}
+
 std::string mesh_name(const System& system, size_t m) {
   const auto& side = system.meshes[m].side;
   return system.bodies[static_cast<size_t>(side[0].body)].name + "-" +
@@ -36,10 +55,7 @@ MatrixXd carried(const RigidSystem& system, int b) {
   const System::Body& body = system.layout.bodies[static_cast<size_t>(b)];
   if (body.on == System::kGround) return MatrixXd::Zero(2, system.rotation[0].cols());
   const auto c = static_cast<size_t>(body.on);
-  const System::Body& carrier = system.layout.bodies[c];
-  const double x = body.centre[0] - carrier.centre[0], y = body.centre[1] - carrier.centre[1];
-  const Vec2 tangent = carrier.sense * Vec2(-y, x) / carrier.radius;
-  return system.translation[c] + tangent * system.rotation[c];
+  return system.translation[c] + pin_direction(system.layout, body) * system.rotation[c];
 }
 
 // Numbers the freedoms and fills U and X; carriers come before what they carry.

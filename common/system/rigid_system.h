@@ -28,6 +28,17 @@ inline double closing_sign(int side) {
 // Unit vector along the line of action of a mesh, from the first side's flank to the second's, in the frame of the system.
 Vec2 line_of_action(const System::Mesh& mesh);
 
+// Displacement of the axis P of a planet per unit u = r theta of its carrier, theta x (P - C) / r: a tangent of the circle of the pins.
+Vec2 pin_direction(const System& system, const System::Body& planet);
+
+// A mesh of a planet moves with its carrier: by how much a unit u of the carrier closes it along the line of action.
+struct CarriedMesh {
+  int carrier = -1;  // number of the body; -1: no side of the mesh stands on a carrier
+  int side = 0;      // of the planet
+  double closing = 0;
+};
+CarriedMesh carried_mesh(const System& system, size_t m);
+
 // "sun-planet1": a mesh by its bodies.
 std::string mesh_name(const System& system, size_t m);
 

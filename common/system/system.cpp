@@ -18,17 +18,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-namespace {
-
-std::vector<int> free_bodies(const System& system) {
-  std::vector<int> out;
-  for (int b = 0; b < static_cast<int>(system.bodies.size()); ++b)
-    if (!system.held(b)) out.push_back(b);
-  return out;
-}
-
-}  // namespace
-
 SystemModel::SystemModel(const BodyArtifact& driver, const BodyArtifact& driven, const GearMeshSpec& spec)
     : layout(pair_system(spec, driver.design, driven.design)) {
   for (const BodyArtifact* of : {&driver, &driven})
@@ -39,9 +28,17 @@ SystemModel::SystemModel(const BodyArtifact& driver, const BodyArtifact& driven,
 SystemModel::SystemModel(const System& of, const std::vector<BodyArtifact>& bodies,
                          const std::vector<GearMeshSpec>& specs)
     : layout(of) {
-  if (bodies.size() != layout.bodies.size() || specs.size() != layout.meshes.size() || specs.empty())
-    fail(Failure::input, "a system of ", layout.bodies.size(), " bodies and ", layout.meshes.size(),
-         " meshes is given ", bodies.size(), " and ", specs.size());
+  const auto gears = static_cast<size_t>(
+      std::count_if(layout.bodies.begin(), layout.bodies.end(),
+                    [](const System::Body& b) { return b.kind == System::BodyKind::gear; }));
+  if (bodies.size() != gears || specs.size() != layout.meshes.size() || specs.empty())
+    fail(Failure::input, "a system of ", gears, " gears and ", layout.meshes.size(), " meshes is given ",
+         bodies.size(), " and ", specs.size());
+  for (size_t b = 0; b < layout.bodies.size(); ++b)
+    if ((layout.bodies[b].kind == System::BodyKind::gear) != (b < gears) ||
+        !has_place(layout, layout.bodies[b]))
+      fail(Failure::input, "'", layout.bodies[b].name,
+           "': gears stand before carriers, on the ground or on a carrier that stands there");
   for (const GearMeshSpec& spec : specs)
     if (spec.contact_plane != specs[0].contact_plane)
       fail(Failure::input, "the meshes of a system have contact_plane = \"", specs[0].contact_plane,
@@ -66,6 +63,8 @@ SystemModel::SystemModel(const System& of, const std::vector<BodyArtifact>& bodi
 }
 
 double SystemModel::base_radius(int b) const {
+  if (const System::Body& of = layout.bodies[static_cast<size_t>(b)]; of.kind == System::BodyKind::carrier)
+    return of.radius;
   for (const GearMeshModel& of : mesh)
     for (int s = 0; s < kSides; ++s)
       if (of.layout.side[static_cast<size_t>(s)].body == b) return of.kinematics.gear(s).base_radius();
@@ -159,10 +158,18 @@ SystemPosition join(const SystemModel& system, double phase, int period,
       segment.first_strip = first + position.first_strip[j];
       segment.strips = position.first_strip[j + 1] - position.first_strip[j];
       for (int s = 0; s < kSides; ++s) {
-        MatrixXd& rows = map.translation[static_cast<size_t>(model.layout.side[static_cast<size_t>(s)].body)];
-        if (rows.size() > 0)
-          rows.middleRows(segment.first_strip, segment.strips).rowwise() =
-              closing_sign(s) * segment.normal.transpose();
+        const auto b = static_cast<size_t>(model.layout.side[static_cast<size_t>(s)].body);
+        const auto move = [&](MatrixXd& rows) {
+          if (rows.size() > 0)
+            rows.middleRows(segment.first_strip, segment.strips).rowwise() =
+                closing_sign(s) * segment.normal.transpose();
+        };
+        move(map.translation[b]);
+        const System::Body& body = system.layout.bodies[b];
+        if (body.on == System::kGround) continue;
+        move(map.translation[static_cast<size_t>(body.on)]);
+        map.rotation.col(body.on).segment(segment.first_strip, segment.strips).array() =
+            closing_sign(s) * segment.normal.dot(pin_direction(system.layout, body));
       }
       out.segment.push_back(segment);
     }
@@ -236,7 +243,7 @@ MatrixXd contact_compliance(const SystemModel& system, const SystemPosition& pos
         a(position.strips_of(m), position.strips_of(n)) +=
             between_meshes(system, position, m, read, n, loaded);
       }
-  for (size_t b = 0; b < system.body.size(); ++b)
+  for (size_t b = 0; b < system.layout.bodies.size(); ++b)
     if (const Bearing& bearing = system.layout.bodies[b].bearing; bearing.elastic())
       a += position.displacement.translation[b] * position.displacement.translation[b].transpose() /
            bearing.stiffness;
@@ -245,7 +252,7 @@ MatrixXd contact_compliance(const SystemModel& system, const SystemPosition& pos
 
 MatrixXd friction_compliance(const SystemModel& system, const SystemPosition& position) {
   MatrixXd out;
-  for (size_t b = 0; system.friction > 0 && b < system.body.size(); ++b) {
+  for (size_t b = 0; system.friction > 0 && b < system.layout.bodies.size(); ++b) {
     const Bearing& bearing = system.layout.bodies[b].bearing;
     if (!bearing.elastic()) continue;
     const MatrixXd &read = position.displacement.translation[b], &pushed = position.load.translation[b];
@@ -255,34 +262,9 @@ MatrixXd friction_compliance(const SystemModel& system, const SystemPosition& po
   return out;
 }
 
-LoadBalance load_balance(const System& layout) {
-  const std::vector<int> free = free_bodies(layout);
-  if (free.empty())
-    fail(Failure::input,
-         "every body is held; leave one gear free to turn, and give it or another one a torque");
-  const auto meshes = static_cast<Index>(layout.meshes.size());
-  MatrixXd balance = MatrixXd::Zero(static_cast<Index>(free.size()), meshes);
-  VectorXd force(static_cast<Index>(free.size()));
-  for (size_t i = 0; i < free.size(); ++i) {
-    const auto row = static_cast<Index>(i);
-    force[row] = layout.torque(free[i]) / layout.bodies[static_cast<size_t>(free[i])].radius;
-    for (Index m = 0; m < meshes; ++m)
-      for (int s = 0; s < kSides; ++s)
-        if (layout.meshes[static_cast<size_t>(m)].side[static_cast<size_t>(s)].body == free[i])
-          balance(row, m) = closing_sign(s);
-  }
-  LoadBalance out;
-  out.load = meshes == 1 && free.size() == 1 ? VectorXd(force / balance(0, 0)) : least_norm(balance, force);
-  const double most = out.load.cwiseAbs().maxCoeff(), round_off = 1e-12 * force.cwiseAbs().maxCoeff();
-  out.balanced = (balance * out.load - force).cwiseAbs().maxCoeff() <= round_off;
-  for (Index m = 0; m < meshes && out.pulled_apart < 0; ++m)
-    if (out.load[m] < -1e-12 * most) out.pulled_apart = static_cast<int>(m);
-  return out;
-}
-
 VectorXd mesh_loads(const SystemModel& system) {
   const LoadBalance out = load_balance(system.layout);
-  if (!out.balanced) fail(Failure::input, kUnbalanced);
+  if (!out.balanced) fail(Failure::input, unbalanced_words(system.layout));
   if (out.pulled_apart >= 0) {
     const System::Mesh& mesh = system.layout.meshes[static_cast<size_t>(out.pulled_apart)];
     fail(Failure::input, "the torques pull the mesh of '",
@@ -297,7 +279,9 @@ VectorXd mesh_loads(const SystemModel& system) {
 
 double SystemEquilibrium::transmission_error(const SystemModel& system, int m) const {
   const auto& side = system.layout.meshes[static_cast<size_t>(m)].side;
-  return x[side[0].body] - x[side[1].body];
+  const double of_gears = x[side[0].body] - x[side[1].body];
+  const CarriedMesh on = carried_mesh(system.layout, static_cast<size_t>(m));
+  return on.carrier < 0 ? of_gears : of_gears + on.closing * x[on.carrier];
 }
 
 namespace {
@@ -394,12 +378,9 @@ VectorXd first_guess(const SystemModel& system, const SystemPosition& position, 
                      const std::vector<int>& free) {
   const VectorXd load = mesh_loads(system);
   const auto meshes = static_cast<Index>(system.mesh.size());
-  MatrixXd closing = MatrixXd::Zero(meshes, static_cast<Index>(free.size()));
+  const MatrixXd closing = closing_of(system.layout)(free, Eigen::all).transpose();
   VectorXd deflection = VectorXd::Zero(meshes);
   for (Index m = 0; m < meshes; ++m) {
-    for (size_t i = 0; i < free.size(); ++i)
-      if (const int side = system.side_of(free[i], static_cast<int>(m)); side >= 0)
-        closing(m, static_cast<Index>(i)) = closing_sign(side);
     if (!(load[m] > 0)) continue;
     const auto own = position.strips_of(static_cast<size_t>(m));
     const MeshPosition& mesh = position.mesh[static_cast<size_t>(m)];
@@ -418,12 +399,24 @@ VectorXd first_guess(const SystemModel& system, const SystemPosition& position, 
   return least_norm(closing, deflection);
 }
 
+// (free body, free body): takes the rolling of the whole train out of a motion; empty where it cannot roll. closing: (free body, mesh).
+MatrixXd without_rolling(const MatrixXd& closing) {
+  constexpr double kNull = 1e-12;  // of the largest: squared approach of a rolling
+  const SymmetricEigen eigen = symmetric_eigen(MatrixXd(closing * closing.transpose()));
+  if (!eigen.converged) fail(Failure::numerical, "the rolling of the train was not found");
+  const Index kept = (eigen.values.array() > kNull * eigen.values.tail(1)[0]).count();
+  if (kept == eigen.values.size()) return {};
+  return eigen.vectors.rightCols(kept) * eigen.vectors.rightCols(kept).transpose();
+}
+
 // Newton's method with a line search on the convex energy whose gradient is `unbalance`, which stand(x) sets together with the residual
 // and the stiffness; false if it does not come to 1e-12, or to 1e-10 where round-off allows no more, within `steps`.
+// spring: N m-1, of the size of a mesh load over a deflection, at least.
 template <class Stand>
 bool balanced(const Stand& stand, VectorXd& x, const VectorXd& unbalance, const SystemEquilibrium& at,
-              int steps) {
+              double spring, int steps) {
   constexpr int kCuts = 60;
+  constexpr double kReached = 1e-6;  // of the unbalance
   stand(x);
   int idle = 0;  // steps since the residual fell last
   double best = std::numeric_limits<double>::infinity();
@@ -433,7 +426,10 @@ bool balanced(const Stand& stand, VectorXd& x, const VectorXd& unbalance, const 
     best = std::min(best, at.residual);
     if (at.residual < 1e-10 && idle > 1) return true;
     // Bodies that carry nothing may roll freely: the least step is taken.
-    const VectorXd newton = -least_norm(at.stiffness, unbalance);
+    VectorXd newton = -least_norm(at.stiffness, unbalance);
+    // A body that carries load and whose meshes have parted has a force and no stiffness: springs bring it back.
+    if (!((at.stiffness * newton + unbalance).norm() <= kReached * unbalance.norm()))
+      newton = -lu_solve(at.stiffness + spring * MatrixXd::Identity(x.size(), x.size()), unbalance);
     const double slope = newton.dot(unbalance);
     // Along the step the slope of the energy grows monotonically; its root is where the energy is least.
     VectorXd next = x + newton;
@@ -456,19 +452,20 @@ SystemEquilibrium equilibrium(const SystemModel& system, const SystemPosition& p
                               ComplementaritySolver& solver) {
   const std::vector<int> free = free_bodies(system.layout);
   const auto freedoms = static_cast<Index>(free.size());
+  const LoadBalance balance = load_balance(system.layout);
   MatrixXd displacement(position.strips(), freedoms), load(position.strips(), freedoms);
   VectorXd force(freedoms), x(freedoms);
   for (Index i = 0; i < freedoms; ++i) {
     const int b = free[static_cast<size_t>(i)];
     displacement.col(i) = position.displacement.rotation.col(b);
     load.col(i) = position.load.rotation.col(b);
-    force[i] = system.layout.torque(b) / system.base_radius(b);
+    force[i] = balance.force[b];
     x[i] = start[b];
   }
   const MatrixXd friction = friction_compliance(system, position);
   Contact contact(position, compliance, friction, system.friction > 0, solver);
   SystemEquilibrium out;
-  out.x = VectorXd::Zero(static_cast<Index>(system.body.size()));
+  out.x = VectorXd::Zero(static_cast<Index>(system.layout.bodies.size()));
   out.p = VectorXd::Zero(position.strips());
   const auto give = [&] {
     for (Index i = 0; i < freedoms; ++i) out.x[free[static_cast<size_t>(i)]] = x[i];
@@ -489,23 +486,27 @@ SystemEquilibrium equilibrium(const SystemModel& system, const SystemPosition& p
   }
 
   const double scale = mesh_loads(system).maxCoeff();
+  const MatrixXd rolls = without_rolling(closing_of(system.layout)(free, Eigen::all));
   VectorXd unbalance;
   const auto stand = [&](const VectorXd& at) {
     const StillContact held = contact.solve(position.gap - displacement * at, displacement, load, out.p);
     out.certificate = held.certificate;
     out.stiffness = held.stiffness;
     unbalance = load.transpose() * out.p - force;
+    if (rolls.size() > 0) {
+      unbalance = (rolls * unbalance).eval();
+      out.stiffness = (rolls * out.stiffness * rolls).eval();
+    }
     if (!unbalance.allFinite() || !out.stiffness.allFinite())
       fail(Failure::numerical, "static equilibrium of the system: the compliance holds no number");
     out.residual = unbalance.cwiseAbs().maxCoeff() / scale;
   };
-  // From where the bodies stood at the position before, if that is known; a mesh that does not touch there may leave a body free that
-  // carries load, which no step brings back.
+  // From where the bodies stood at the position before, if that is known.
   constexpr int kNearSteps = 20, kSteps = 200;
   const bool known = x.squaredNorm() > 0;
-  if (known && balanced(stand, x, unbalance, out, kNearSteps)) return give();
+  if (known && balanced(stand, x, unbalance, out, scale / x.cwiseAbs().maxCoeff(), kNearSteps)) return give();
   x = first_guess(system, position, compliance, free);
-  if (balanced(stand, x, unbalance, out, kSteps)) return give();
+  if (balanced(stand, x, unbalance, out, scale / x.cwiseAbs().maxCoeff(), kSteps)) return give();
   fail(Failure::numerical, "static equilibrium of the system did not converge: residual ", out.residual,
        " of the largest mesh load ", scale, " N after ", kSteps, " steps");
 }
@@ -524,6 +525,12 @@ Vec2 pressing(const SystemModel& system, const ContactSegment& segment) {
 Vec2 bearing_force(const SystemModel& system, const SystemPosition& position, int b,
                    const Eigen::Ref<const VectorXd>& p) {
   Vec2 sum(0, 0);
+  if (system.layout.bodies[static_cast<size_t>(b)].kind == System::BodyKind::carrier) {
+    for (int planet = 0; planet < static_cast<int>(system.body.size()); ++planet)
+      if (system.layout.bodies[static_cast<size_t>(planet)].on == b)
+        sum += bearing_force(system, position, planet, p);
+    return sum;
+  }
   for (const ContactSegment& segment : position.segment)
     if (const int side = system.side_of(b, segment.mesh); side >= 0)
       sum -= closing_sign(side) * p.segment(segment.first_strip, segment.strips).sum() *
@@ -536,10 +543,13 @@ double mesh_deflection(const SystemModel& system, const SystemPosition& position
   const GearMeshModel& mesh = system.mesh[static_cast<size_t>(m)];
   double out = at.transmission_error(system, m);
   for (int s = 0; s < kSides; ++s) {
-    const int b = mesh.layout.side[static_cast<size_t>(s)].body;
-    const Bearing& bearing = system.layout.bodies[static_cast<size_t>(b)].bearing;
-    if (bearing.elastic())
-      out += mesh.outward_in_system(s).dot(bearing_force(system, position, b, at.p)) / bearing.stiffness;
+    const int own = mesh.layout.side[static_cast<size_t>(s)].body;
+    for (const int b : {own, system.layout.bodies[static_cast<size_t>(own)].on}) {
+      if (b == System::kGround) continue;
+      const Bearing& bearing = system.layout.bodies[static_cast<size_t>(b)].bearing;
+      if (bearing.elastic())
+        out += mesh.outward_in_system(s).dot(bearing_force(system, position, b, at.p)) / bearing.stiffness;
+    }
   }
   return out;
 }

@@ -14,24 +14,26 @@
 #include <span>
 #include <vector>
 
+#include "system/load_balance.h"
 #include "system/rolling_mesh.h"
 
 namespace whine {
 
 struct SystemModel {
-  System layout;
-  double friction = 0;  // 1: coefficient of friction of the only mesh
-  std::vector<SideGears::Shared> body;
+  System layout;                        // gears before carriers
+  double friction = 0;                  // 1: coefficient of friction of the only mesh
+  std::vector<SideGears::Shared> body;  // the gears
   std::vector<GearMeshModel> mesh;
 
   // The one pair of a scene.
   SystemModel(const BodyArtifact& driver, const BodyArtifact& driven, const GearMeshSpec& mesh);
-  // specs: of each mesh of the layout; of its bearings those of the layout count. Throws Error(input) for a number of bodies or
-  // meshes that is not the layout's, and for a cracked gear, whose teeth are not their own mirror images, in several meshes.
+  // bodies: of the gears of the layout; specs: of each mesh of it; of its bearings those of the layout count. Throws Error(input) for a
+  // number of gears or meshes that is not the layout's, for a carrier before a gear or on a carrier, and for a cracked gear, whose teeth
+  // are not their own mirror images, in several meshes.
   SystemModel(const System& layout, const std::vector<BodyArtifact>& bodies,
               const std::vector<GearMeshSpec>& specs);
 
-  double base_radius(int b) const;  // m
+  double base_radius(int b) const;  // m; of a carrier the radius of its pins
   // The side of mesh m that body b is; -1: none.
   int side_of(int b, int m) const;
 };
@@ -54,9 +56,10 @@ struct ContactSegment {
 
 // Between the strips and the motions of the bodies.
 struct ContactMap {
-  Eigen::MatrixXd rotation;  // (strip, body) 1: of x
+  Eigen::MatrixXd
+      rotation;  // (strip, body) 1: of x; of a carrier by what its planets' axes move along the normals
   std::vector<Eigen::MatrixXd>
-      translation;  // [body] (strip, xy) 1: outward normal of its flank; no rows for a rigid bearing
+      translation;  // [body] (strip, xy) 1: outward normal of its flank, of a carrier those of its planets; no rows for a rigid bearing
   std::vector<std::array<Eigen::MatrixXd, 2>>
       flank;  // [mesh][side] (node of the mesh, flank) 1: in the flank table
 };
@@ -99,23 +102,6 @@ Eigen::MatrixXd contact_compliance(const SystemModel& system, const SystemPositi
 // (strip, strip) m N-1: what friction adds to A by way of elastic bearings, not symmetric; empty where it adds nothing.
 Eigen::MatrixXd friction_compliance(const SystemModel& system, const SystemPosition& position);
 
-// The balance of torques alone: sum over the meshes of a free body of closing sign times load = T / r.
-struct LoadBalance {
-  Eigen::VectorXd load;   // (mesh) N, mean force along the line of action; below 0: pulled
-  bool balanced = true;   // no torque of a free body is left that no mesh carries
-  int pulled_apart = -1;  // the first mesh that would be; -1: none
-};
-// Throws Error(input) if every body is held.
-LoadBalance load_balance(const System& layout);
-
-// What is wrong with torques and what to do, in the words of errors.
-inline constexpr const char* kUnbalanced =
-    "the torques of the drives are not balanced: hold one gear, or give the others torques that add up";
-inline constexpr const char* kFlowOfPower =
-    "name the gears in the order of the flow of power, or give torque_Nm the other sign";
-inline constexpr const char* kNoTorque =
-    "no drive of the system has a torque that a mesh carries; give one a torque_Nm above 0";
-
 // (mesh) N: the loads of load_balance(). Throws Error(input) if a mesh would be pulled apart, if torques are not balanced, and if no
 // mesh carries load.
 Eigen::VectorXd mesh_loads(const SystemModel& system);
@@ -125,12 +111,16 @@ struct SystemEquilibrium {
   Eigen::VectorXd p;          // (strip) N
   Eigen::MatrixXd stiffness;  // (free body, free body) N m-1: d (L^T p) / d x, contact changes included
   Certificate certificate;
-  double residual = 0;  // largest |L^T p - f| of free bodies over the largest mesh load
+  double residual =
+      0;  // largest |L^T p - f| of free bodies over the largest mesh load; what turns a train that can roll left out
 
-  // m: sum of the sides' rotations along the line of action, positive where the first side is ahead.
+  // m: sum of the sides' rotations along the line of action, positive where the first side is ahead; of a mesh on a carrier
+  // relative to the carrier.
   double transmission_error(const SystemModel& system, int m) const;
 };
 
+// A train that can roll as a whole, its torques in balance, stands where it is: the moments by which tip edges, with lever arms of
+// their own, would turn it are taken out (orthogonal to the closing of all meshes), as the force that holds the mean speed in motion.
 // Free bodies: those that no drive holds, one at least; start: (body) m, where they stood nearby; 0: not known. With one free body it is
 // the monotone search of equilibrium(); with more Newton's method with a line search on the convex energy whose gradient L^T p - f is,
 // to 1e-12, or to 1e-10 where round-off allows no more. laws: of lines, else empty. Throws Error(numerical) with the residual if that
@@ -139,11 +129,13 @@ SystemEquilibrium equilibrium(const SystemModel& system, const SystemPosition& p
                               const Eigen::MatrixXd& compliance, const Eigen::VectorXd& start,
                               ComplementaritySolver& solver);
 
-// N, in the frame of the system: what body b presses its bearing with, elastic or rigid; the sum of its contact forces.
+// N, in the frame of the system: what body b presses its bearing with, elastic or rigid; the sum of its contact forces, of a carrier
+// that of its planets.
 Vec2 bearing_force(const SystemModel& system, const SystemPosition& position, int b,
                    const Eigen::Ref<const Eigen::VectorXd>& p);
 
-// m: what mesh m alone gives way, the transmission error less what its bearings give way along the line of action.
+// m: what mesh m alone gives way, the transmission error less what its bearings, and that of its carrier, give way along the line of
+// action.
 double mesh_deflection(const SystemModel& system, const SystemPosition& position, const SystemEquilibrium& at,
                        int m);
 

@@ -32,10 +32,11 @@ int hunting_periods(const SystemStaticParameters& settings) {
 }
 
 SystemModel elastic_system(const SystemStaticParameters& settings, const std::vector<BodyArtifact>& bodies) {
-  const System layout = on_fixed_carriers(settings.layout);
+  const System& layout = settings.layout;
   std::vector<BodyArtifact> of_body;
   for (size_t b = 0; b < layout.bodies.size(); ++b)
-    of_body.push_back(body_of(settings, bodies, settings.gear[b]));
+    if (layout.bodies[b].kind == System::BodyKind::gear)
+      of_body.push_back(body_of(settings, bodies, settings.gear[b]));
   std::vector<GearMeshSpec> specs;
   specs.reserve(settings.section.size());
   for (size_t m = 0; m < settings.section.size(); ++m) {
@@ -91,7 +92,7 @@ void take_pairs(const std::vector<SystemSolution>& solutions, Index meshes, Syst
 void take_balance(const SystemModel& system, const SystemSolution& at, Index row, SystemStaticArtifact& out) {
   const System& layout = out.settings.layout;
   MatrixRM& force = out.bearing_force[static_cast<size_t>(row)];
-  for (size_t b = 0; b < system.layout.bodies.size(); ++b) {
+  for (size_t b = 0; b < system.body.size(); ++b) {
     force.row(static_cast<Index>(b)) = at.bearing_force[b].transpose();
     double moment = 0;  // N, of the contact forces over the base radius
     for (size_t m = 0; m < system.mesh.size(); ++m)
@@ -101,7 +102,10 @@ void take_balance(const SystemModel& system, const SystemSolution& at, Index row
     out.torque(row, number) =
         system.layout.held(number) ? moment * system.base_radius(number) : system.layout.torque(number);
   }
-  for (size_t b = 0; b < system.layout.bodies.size(); ++b) {
+  for (size_t c = system.body.size(); c < layout.bodies.size(); ++c)
+    if (const int number = static_cast<int>(c); !layout.held(number))
+      out.torque(row, number) = layout.torque(number);
+  for (size_t b = 0; b < system.body.size(); ++b) {
     const int on = layout.bodies[b].on;
     if (on == System::kGround) continue;
     const System::Body& carrier = layout.bodies[static_cast<size_t>(on)];
@@ -109,6 +113,7 @@ void take_balance(const SystemModel& system, const SystemSolution& at, Index row
                  y = layout.bodies[b].centre[1] - carrier.centre[1];
     const Vec2& pin = at.bearing_force[b];
     force.row(on) += pin.transpose();
+    if (!layout.held(on)) continue;
     out.torque(row, on) -= carrier.sense * (x * pin.y() - y * pin.x());
   }
 }
@@ -163,10 +168,14 @@ void check_at_rest(const SystemScene& scene, const System& layout) {
     throw SystemSceneError(section, number, text(words...));
   };
   for (size_t c = 0; c < scene.carriers.size(); ++c)
-    for (size_t b = 0; b < layout.bodies.size(); ++b)
-      if (layout.bodies[b].name == scene.carriers[c].name && !layout.held_rigidly(static_cast<int>(b)))
-        reject("carrier", c, "carrier '", scene.carriers[c].name,
-               "' may turn; at rest it has to be held: give it a [[drive]] with kind = \"held\"");
+    for (size_t b = 0; b < layout.bodies.size(); ++b) {
+      const System::Body& body = layout.bodies[b];
+      if (body.name != scene.carriers[c].name) continue;
+      if (!layout.held(static_cast<int>(b)) && !(body.inertia > 0))
+        reject("carrier", c, "carrier '", body.name,
+               "' may turn and has no inertia: give 'inertia_kgm2' or 'equivalent_mass_kg', or hold it by a "
+               "[[drive]] with kind = \"held\"");
+    }
   std::vector<GearMeshSpec> specs;
   for (const SystemScene::Mesh& mesh : scene.meshes) specs.push_back(mesh.spec);
   for (size_t m = 1; m < specs.size(); ++m)
@@ -175,11 +184,11 @@ void check_at_rest(const SystemScene& scene, const System& layout) {
              specs[0].contact_plane, "\": bodies that take part in both have one; give all meshes the same");
   LoadBalance balance;
   try {
-    balance = load_balance(on_fixed_carriers(layout));
+    balance = load_balance(layout);
   } catch (const Error& error) {
     reject("drive", 0, error.what());
   }
-  if (!balance.balanced) reject("drive", 0, kUnbalanced);
+  if (!balance.balanced) reject("drive", 0, unbalanced_words(layout));
   if (balance.pulled_apart >= 0) {
     const auto section = static_cast<size_t>(
         sections_of(specs, gears_of(scene, layout), layout)[static_cast<size_t>(balance.pulled_apart)]);

@@ -11,22 +11,22 @@
 namespace whine {
 
 // What can be told of a scene before its bodies are made. Throws SystemSceneError with the section that is wrong: a carrier that may
-// turn, meshes of different contact_plane, torques that are not balanced, that pull a mesh apart or that no mesh carries.
+// turn without an inertia, meshes of different contact_plane, torques that are not balanced, that pull a mesh apart or that no mesh
+// carries.
 void check_at_rest(const SystemScene& scene, const System& layout);
 
 // Mesh periods after which the same teeth meet, as hunting_periods() of the system.
 int hunting_periods(const SystemStaticParameters& settings);
 
-// The system that the settings describe, its carriers held; bodies: [gear] of settings.body. Bodies stand in the order of
-// settings.layout, whose carriers come last.
+// The system that the settings describe; bodies: [gear] of settings.body.
 SystemModel elastic_system(const SystemStaticParameters& settings, const std::vector<BodyArtifact>& bodies);
 
 // Inertias and masses as the gears are drawn, where the scene does not say them.
 void take_masses(const SystemStaticParameters& settings, const std::vector<BodyArtifact>& bodies,
                  System& layout);
 
-// bodies: [gear] of settings.body. Throws Error(input) for a carrier that may turn, torques that are not balanced, more positions
-// than memory holds and what SystemModel and hunting_periods() reject, and what rest_over_period throws.
+// bodies: [gear] of settings.body. Throws Error(input) for torques that are not balanced, more positions than memory holds and what
+// SystemModel and hunting_periods() reject, and what rest_over_period throws.
 //
 // What holds a carrier, T_c = -sum (P - C) x F over its planets, and its bearing force, sum F, F what a planet presses its pin
 // with, follow from the planets. Where all axes of a train but those of planets are one, sum of sense T over bodies that stand on the

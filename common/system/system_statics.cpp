@@ -117,7 +117,7 @@ std::vector<SystemSolution> rest_over_period(const SystemModel& system, ContactM
     std::string beyond;
     bool widened = true;  // whether a wider range may do
     std::vector<VectorXd> start(static_cast<size_t>(periods),
-                                VectorXd::Zero(static_cast<Eigen::Index>(system.body.size())));
+                                VectorXd::Zero(static_cast<Eigen::Index>(system.layout.bodies.size())));
     // All mesh periods at one position after the other: all but the gaps is the same there.
     for (int step = 0; step < all && beyond.empty(); ++step) {
       report_step("mesh positions", step, all);
@@ -197,7 +197,7 @@ const SystemSolution& SystemStatics::solve(double phase, int period, const Vecto
   SystemSolution solution;
   solution.equilibrium =
       equilibrium(system_, position, cracked_here_ ? with_cracks_ : compliance_, start, solver_);
-  for (size_t b = 0; b < system_.body.size(); ++b)
+  for (size_t b = 0; b < system_.layout.bodies.size(); ++b)
     solution.bearing_force.push_back(
         bearing_force(system_, position, static_cast<int>(b), solution.equilibrium.p));
   for (size_t m = 0; m < position.mesh.size(); ++m) {
@@ -276,7 +276,7 @@ MatrixXd SystemStatics::mesh_stiffness() const {
     for (int i = position.first_strip[m]; i < position.first_strip[m + 1]; ++i)
       if (p[i] > 0 && force[m] > least) active.push_back(i);
   MatrixXd a = cracked_here_ ? with_cracks_ : compliance_;
-  for (size_t b = 0; b < system_.body.size(); ++b)
+  for (size_t b = 0; b < system_.layout.bodies.size(); ++b)
     if (const Bearing& bearing = system_.layout.bodies[b].bearing; bearing.elastic())
       a -= position.displacement.translation[b] * position.displacement.translation[b].transpose() /
            bearing.stiffness;

@@ -1,0 +1,78 @@
+// Coarse elastic planetary trains, for tests of systems in motion.
+#pragma once
+#include <array>
+#include <functional>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "dynamics/system_dynamics.h"
+#include "gear/system_layout.h"
+#include "planetary_train.h"
+#include "solid/mesher.h"
+#include "solid/reduce.h"
+
+inline constexpr double kTrainTorque = 300, kTrainModule = 2.776e-3;
+
+inline whine::SystemMotion motion_of(const whine::SystemModel& system, double stiffness,
+                                     double eta = 7.7e-6) {
+  using namespace whine;
+  SystemMotion motion;
+  motion.damping.rayleigh_stiffness = eta;
+  motion.fidelity = {BodyModel::modal, ContactModel::line, Integrator::exact};
+  const auto meshes = static_cast<Eigen::Index>(system.mesh.size());
+  motion.axis_frequency = axis_frequency(system, stiffness * Eigen::MatrixXd::Identity(meshes, meshes));
+  return motion;
+}
+
+// Coarse bodies, each reduced once.
+inline const whine::BodyArtifact& train_body(int teeth, bool internal) {
+  using namespace whine;
+  static std::map<std::pair<int, bool>, BodyArtifact> known;
+  const auto at = known.find({teeth, internal});
+  if (at != known.end()) return at->second;
+  GearDesign design = rigid_gear(teeth, internal);
+  if (!internal) design.bore_radius = (0.5 * teeth - 5) * kTrainModule;
+  BodyDiscretisation coarse;
+  coarse.element_size = 2.5e-3;
+  coarse.modes = 15;
+  return known[{teeth, internal}] =
+             reduce(make_sector_mesh(design, coarse), Material{206e9, 0.3, 7850, true}, coarse.modes);
+}
+
+// Sun, planets and ring; the sun floats, planets stand on elastic pins; ring and carrier are held. change: of the scene.
+inline whine::SystemModel train(const std::array<int, 3>& teeth, int planets = 3,
+                                const whine::Bearing& of_ring = {},
+                                const std::function<void(whine::SystemScene&)>& change = {}) {
+  using namespace whine;
+  SystemScene scene = planetary_train(planets);
+  const std::array stiffness{2e7, 3e8, 0.0};
+  for (size_t g = 0; g < 3; ++g) {
+    SystemScene::Gear& gear = scene.gears[g];
+    gear.design = rigid_gear(teeth[g], g == 2);
+    if (g < 2) gear.design.bore_radius = (0.5 * teeth[g] - 5) * kTrainModule;
+    gear.equivalent_mass = 0;
+    gear.bearing = {stiffness[g], g == 0 ? 500.0 : 2000.0, 0};
+  }
+  scene.gears[2].bearing = of_ring;
+  scene.carriers[0].bearing = {};
+  for (SystemScene::Mesh& mesh : scene.meshes)
+    mesh.spec.centre_distance = 0.5 * (teeth[0] + teeth[1]) * kTrainModule;
+  scene.drives = {{"sun", System::DriveKind::torque, kTrainTorque, 0},
+                  {"ring", System::DriveKind::held, 0, 0},
+                  {"carrier", System::DriveKind::held, 0, 0}};
+  scene.fidelity = {BodyModel::modal, ContactModel::line, Integrator::exact};
+  if (change) change(scene);
+  System layout = layout_of(scene);
+  std::vector<BodyArtifact> bodies;
+  for (System::Body& body : layout.bodies) {
+    if (body.kind == System::BodyKind::carrier) continue;
+    bodies.push_back(train_body(body.teeth, body.teeth == teeth[2]));
+    body.inertia = 1.02 * bodies.back().inertia;
+    if (body.bearing.elastic()) body.bearing.mass = bodies.back().mass;
+  }
+  std::vector<GearMeshSpec> specs;
+  for (const System::Mesh& mesh : layout.meshes)
+    specs.push_back(scene.meshes[mesh.side[0].body == 0 ? 0 : 1].spec);
+  return {layout, bodies, specs};
+}

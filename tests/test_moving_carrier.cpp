@@ -1,0 +1,276 @@
+// Elastic planetary trains whose carrier turns or moves on bearings: any member held, rest, frozen modes, motion.
+#include <doctest/doctest.h>
+
+#include <Eigen/Cholesky>
+#include <cmath>
+#include <numbers>
+
+#include "base/dense.h"
+#include "base/error.h"
+#include "dynamics/system_dynamics.h"
+#include "dynamics/system_period_map.h"
+#include "elastic_train.h"
+#include "orbits/periodic_motion.h"
+#include "relative.h"
+#include "signal/spectrum.h"
+#include "system/rigid_system.h"
+#include "system/system_statics.h"
+
+using namespace whine;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr std::array<int, 3> kTeeth{26, 37, 100};
+constexpr double kOfRing = kTrainTorque * 100 / 26, kOfCarrier = kTrainTorque * 126 / 26;
+constexpr int kSteps = 48;                           // threes, over which planets hand their motion on
+constexpr size_t kSun = 0, kRing = 4, kCarrier = 5;  // bodies of a train of three planets
+
+using Drives = std::vector<SystemScene::Drive>;
+const System::DriveKind kTorque = System::DriveKind::torque, kHeld = System::DriveKind::held;
+const Drives kCarrierTurns = {
+    {"sun", kTorque, kTrainTorque, 0}, {"ring", kHeld, 0, 0}, {"carrier", kTorque, -kOfCarrier, 0}};
+
+// stiffness_of_carrier: N m-1 of its bearing; 0: a rigid axis.
+SystemModel train_with(const Drives& drives, double stiffness_of_carrier = 0, bool corner = true,
+                       bool elastic_pins = true, double inertia_factor = 1) {
+  return train(kTeeth, 3, {}, [&](SystemScene& scene) {
+    scene.drives = drives;
+    if (stiffness_of_carrier > 0) scene.carriers[0].bearing = {stiffness_of_carrier, 4000, 5.43};
+    if (!elastic_pins) scene.gears[1].bearing = {};
+    scene.carriers[0].equivalent_mass *= inertia_factor;
+    for (SystemScene::Mesh& mesh : scene.meshes) mesh.spec.corner.enabled = corner;
+  });
+}
+
+struct Moving {
+  explicit Moving(SystemModel of, double eta = 1e-6)
+      : system(std::move(of)), dynamics(system, motion_of(system, 4e8, eta)) {
+    dynamics.set_positions(std::vector<double>(6, 60e-6), kSteps);
+  }
+  SystemModel system;
+  SystemDynamics dynamics;
+};
+
+// The carrier turns, on an elastic bearing.
+Moving& turning() {
+  static Moving out(train_with(kCarrierTurns, 2e8));
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("a train that turns as one rigid body closes no gap, whatever carries its planets") {
+  for (const bool pins : {true, false}) {
+    const SystemModel system = train_with(kCarrierTurns, 0, true, pins);
+    VectorXd turned(6);
+    for (int b = 0; b < 6; ++b)
+      turned[b] = system.layout.bodies[static_cast<size_t>(b)].sense * system.base_radius(b);
+    const RigidSystem rigid = rigid_system(system.layout, 4e8 * MatrixXd::Identity(6, 6));
+    MatrixXd rolls = MatrixXd::Zero(6, 6);  // rows: meshes
+    for (size_t m = 0; m < 6; ++m) {
+      const auto row = static_cast<Index>(m);
+      for (int s = 0; s < kSides; ++s)
+        rolls(row, system.layout.meshes[m].side[static_cast<size_t>(s)].body) = closing_sign(s);
+      const CarriedMesh on = carried_mesh(system.layout, m);
+      REQUIRE(on.carrier == static_cast<int>(kCarrier));
+      rolls(row, on.carrier) = on.closing;
+    }
+    CHECK((rolls * turned).norm() < 1e-12 * turned.norm());
+    // The assembly of rigid bodies has the same rows, the held ring left out; on rigid pins it knows no translation of planets.
+    VectorXd q = VectorXd::Zero(rigid.freedoms());
+    for (size_t b = 0; b < 6; ++b) q += rigid.rotation[b].transpose() * turned[static_cast<Index>(b)];
+    if (!pins) CHECK((rigid.closing * q).head(3).norm() < 1e-12 * turned.norm());
+    // Of the strips, tip edges among them.
+    SystemStatics statics(system, ContactModel::line, static_zones(system, 8, 1, 1));
+    for (const double phase : {0.0, 0.3, 0.8}) {
+      statics.solve(phase, 0, VectorXd::Zero(6));
+      CHECK((statics.position().displacement.rotation * turned).cwiseAbs().maxCoeff() <
+            1e-10 * turned.maxCoeff());
+    }
+  }
+}
+
+TEST_CASE("which member is held makes no difference to loads, errors and pins at rest") {
+  const auto solutions = [](const Drives& drives, double stiffness, bool corner) {
+    return rest_over_period(train_with(drives, stiffness, corner), ContactModel::line, 8, 6);
+  };
+  const Drives carrier_held = {
+      {"sun", kTorque, kTrainTorque, 0}, {"ring", kHeld, 0, 0}, {"carrier", kHeld, 0, 0}};
+  const std::vector<Drives> others = {
+      kCarrierTurns,
+      {{"sun", kHeld, 0, 0}, {"ring", kTorque, -kOfRing, 0}, {"carrier", kTorque, -kOfCarrier, 0}},
+      {{"sun", kHeld, 0, 0}, {"ring", kHeld, 0, 0}, {"carrier", kTorque, -kOfCarrier, 0}},
+      {{"sun", kTorque, kTrainTorque, 0}, {"ring", kTorque, -kOfRing, 0}, {"carrier", kHeld, 0, 0}},
+      {{"sun", kTorque, kTrainTorque, 0},
+       {"ring", kTorque, -kOfRing, 0},
+       {"carrier", kTorque, -kOfCarrier, 0}}};
+  for (const double stiffness : {0.0, 2e8}) {
+    const auto one = solutions(carrier_held, stiffness, false);
+    for (size_t n = 0; n < others.size(); ++n) {
+      CAPTURE(n);
+      const auto two = solutions(others[n], stiffness, false);
+      for (size_t i = 0; i < one.size(); ++i)
+        for (size_t m = 0; m < 6; ++m) {
+          CHECK(two[i].mesh_force[m] == relative(one[i].mesh_force[m], 1e-8));
+          CHECK(two[i].transmission_error[m] == relative(one[i].transmission_error[m], 1e-8));
+          CHECK(two[i].deflection[m] == relative(one[i].deflection[m], 1e-8));
+          const auto b = m % 3 + 1;
+          CHECK((two[i].bearing_force[b] - one[i].bearing_force[b]).norm() <
+                1e-8 * one[i].bearing_force[b].norm());
+        }
+    }
+  }
+  // Tip edges act with lever arms of their own: what would turn the train as a whole is taken out.
+  const auto one = solutions(carrier_held, 0, true), two = solutions(kCarrierTurns, 0, true);
+  for (size_t i = 0; i < one.size(); ++i)
+    for (size_t m = 0; m < 6; ++m)
+      CHECK(two[i].transmission_error[m] == relative(one[i].transmission_error[m], 0.01));
+}
+
+TEST_CASE(
+    "torques that are not balanced: the one that would balance the others is named, digits are forgiven") {
+  const auto with = [](double of_carrier) {
+    Drives drives = kCarrierTurns;
+    drives[2].torque = of_carrier;
+    return load_balance(train_with(drives).layout);
+  };
+  CHECK(with(-1453.8462).balanced);
+  CHECK(!with(-1453).balanced);
+  CHECK(with(-1453.8462).load.sum() == relative(with(-kOfCarrier).load.sum(), 1e-6));
+  Drives drives = kCarrierTurns;
+  drives.pop_back();
+  CHECK_THROWS_WITH(mesh_loads(train_with(drives)),
+                    doctest::Contains("that of 'carrier' is 0 N m, and -1453.846154 N m would balance"));
+}
+
+TEST_CASE(
+    "frozen stiffness of a train on its carrier: assembly of the modes and tangent of the statics agree") {
+  for (const ContactModel contact : {ContactModel::line, ContactModel::strips}) {
+    CAPTURE(contact);
+    const SystemModel system = train_with(
+        {{"sun", kHeld, 0, 0}, {"ring", kHeld, 0, 0}, {"carrier", kTorque, -kOfCarrier, 0}}, 2e8, false);
+    for (const SystemSolution& at : rest_over_period(system, contact, 4, 2)) {
+      const RigidSystem rigid = rigid_system(system.layout, at.mesh_stiffness);
+      std::vector<Index> turns, moves;
+      for (Index q = 0; q < rigid.freedoms(); ++q) {
+        bool turn = false;
+        for (const MatrixXd& u : rigid.rotation) turn = turn || u(0, q) != 0;
+        (turn ? turns : moves).push_back(q);
+      }
+      REQUIRE(turns.size() == 4);   // planets and carrier
+      REQUIRE(moves.size() == 10);  // of sun, planets and carrier
+      const MatrixXd& k = rigid.stiffness;
+      const MatrixXd condensed =
+          k(turns, turns) - k(turns, moves) * k(moves, moves).ldlt().solve(k(moves, turns));
+      CHECK((condensed - at.equilibrium.stiffness).norm() < 1e-8 * condensed.norm());
+    }
+  }
+}
+
+TEST_CASE("a carrier that turns: frozen contact has the natural frequencies of the train of rigid bodies") {
+  // Of tip edges what is left of the moments is spread otherwise than by the inertias of motion.
+  Moving rig(train_with(kCarrierTurns, 2e8, false));
+  const std::vector<SystemSolution> statics = rest_over_period(rig.system, ContactModel::line, 8, 16);
+  for (const int i : {0, 3}) {
+    const VectorXd p = rig.dynamics.rest_forces(3 * i);
+    for (int m = 0; m < 6; ++m) {
+      double own = 0;
+      for (const LoadedSegment& at : statics[static_cast<size_t>(i)].loads)
+        own += at.mesh == m ? at.force : 0;
+      CHECK(p.segment(m * rig.dynamics.pairs(), rig.dynamics.pairs()).sum() == relative(own, 1e-9));
+    }
+    const VectorXd own = rig.dynamics.frozen_frequencies(3 * i);
+    const RigidSystem rigid = rigid_system(rig.system.layout, statics[static_cast<size_t>(i)].mesh_stiffness);
+    const VectorXd other = symmetric_eigen(rigid.stiffness, rigid.mass).values.cwiseMax(0.0).cwiseSqrt() /
+                           (2 * std::numbers::pi);
+    CHECK(other[0] < 1e-3 * other[1]);  // the rolling of the train, which is no coordinate of its motion
+    for (Index n = 0; n < 7; ++n) {
+      CAPTURE(n);
+      CHECK(own[n] == relative(other[n + 1], 0.006));
+    }
+  }
+}
+
+TEST_CASE("a carrier that turns, contact lost: energy closes, its bearing takes a part") {
+  SystemDynamics& dynamics = turning().dynamics;
+  SystemDynamics::State state = dynamics.rest();
+  SystemDynamics::Period period;
+  SystemEnergyBalance energy;
+  dynamics.set_speed(7000, kSteps);
+  for (int n = 0; n < 30; ++n) REQUIRE(dynamics.integrate(state, period));
+  int parted = 0;
+  for (int n = 0; n < 5; ++n) {
+    REQUIRE(dynamics.integrate(state, period, &energy));
+    parted += static_cast<int>((period.mesh_force.array() == 0).count());
+    CHECK(energy.imbalance < 1e-12 * energy.throughput);
+    CHECK(std::abs(energy.dropped) < 1e-9 * energy.throughput);
+    CHECK(energy.bearing_damping.head(4).minCoeff() > 0);
+    CHECK(energy.bearing_damping[kRing] == 0);
+    CHECK(energy.bearing_damping[kCarrier] > 0);
+    CHECK(std::abs(energy.drive[kCarrier]) > 0);
+  }
+  CHECK(parted > 0);
+}
+
+TEST_CASE("a carrier that turns is in the period map, pushed and turned by what its planets do not cancel") {
+  SystemDynamics& dynamics = turning().dynamics;
+  SystemPeriodMap map(dynamics, kSteps);
+  map.set_parameter(2600);
+  const PeriodicMotion motion = find_periodic_motion(map, map.rest(), {1e-10, 3000, true});
+  REQUIRE(motion.multiple == 1);
+  map.apply(motion.state);
+  const SystemDynamics::Period period = map.period();
+  // z_s / N is not whole: harmonic l turns central members only where z_s l / N is, and pushes them only where it is not.
+  const Harmonics turns = harmonics(VectorXd(period.contact_torque.row(kCarrier)), 6),
+                  pushes = harmonics(VectorXd(period.bearing_force[kCarrier].row(0)), 6);
+  for (const int l : {1, 2, 4, 5}) CHECK(turns.amplitude[l - 1] < 1e-6 * turns.amplitude.maxCoeff());
+  for (const int l : {3, 6}) CHECK(pushes.amplitude[l - 1] < 1e-6 * pushes.amplitude.maxCoeff());
+  CHECK(turns.amplitude.maxCoeff() > 1e-2);
+  CHECK(pushes.amplitude.maxCoeff() > 1);
+  // Over a periodic motion what turns the carrier is its load, but for the force that holds the mean speed.
+  CHECK(turns.mean == relative(-kOfCarrier, 1e-3));
+
+  VectorXd along = VectorXd::Zero(map.size());
+  for (Index i = 0; i < 2 * dynamics.coordinates().size(); ++i)
+    along[i] = std::sin(1.0 + static_cast<double>(i));
+  const MatrixXd slope = map.tangent_times(along);
+  const double h = 1e-6;
+  const VectorXd quotient =
+      (map.apply(motion.state + h * along) - map.apply(motion.state - h * along)) / (2 * h);
+  CHECK((slope - quotient).norm() < 1e-5 * quotient.norm());
+}
+
+TEST_CASE("a heavy carrier on a stiff bearing is one that is held") {
+  const auto errors = [](const SystemModel& system, double speed) {
+    Moving rig(system);
+    SystemDynamics::State state = rig.dynamics.rest();
+    SystemDynamics::Period period;
+    rig.dynamics.set_speed(speed, kSteps);
+    for (int n = 0; n < 60; ++n) REQUIRE(rig.dynamics.integrate(state, period));
+    return MatrixXd(period.transmission_error);
+  };
+  const Drives held = {{"sun", kTorque, kTrainTorque, 0}, {"ring", kHeld, 0, 0}, {"carrier", kHeld, 0, 0}};
+  for (const bool pins : {true, false}) {
+    CAPTURE(pins);
+    const auto off = [&](double factor, double stiffness) {
+      const MatrixXd rigid = errors(train_with(held, 0, false, pins), 2600);
+      return (errors(train_with(kCarrierTurns, stiffness, false, pins, factor), 2600) - rigid).norm() /
+             rigid.norm();
+    };
+    const double one = off(100, 0), two = off(200, 0);
+    CHECK(one < 0.01);
+    CHECK(two == relative(0.5 * one, 0.1));
+    const double soft = off(1e7, 4e11), stiff = off(1e7, 8e11);
+    CHECK(soft < 0.01);
+    CHECK(stiff < 0.55 * soft);
+  }
+}
+
+TEST_CASE("planets on rigid pins of a carrier that is lighter than they are: rejected with both numbers") {
+  const SystemModel system = train_with(kCarrierTurns, 0, true, false, 1e-6);
+  CHECK_THROWS_WITH(motion_of(system, 4e8),
+                    doctest::Contains("lies below that of its planets on rigid pins"));
+}
