@@ -176,7 +176,7 @@ $(B)/flags:
 	@mkdir -p $(@D)
 	@echo '$(flags)' > $@
 
-# The list of sources of a unit: one that is renamed or goes away is compiled out of it.
+# The list of sources of a unit: one that is added may be older than it.
 define unit_list
 $1: $(call differs,$1,$2)
 $1: private sources := $2

@@ -1,16 +1,22 @@
 // Coarse elastic planetary trains, for tests of systems in motion.
 #pragma once
+#include <doctest/doctest.h>
+
 #include <array>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <utility>
 #include <vector>
 
 #include "dynamics/system_dynamics.h"
+#include "dynamics/system_period_map.h"
 #include "gear/system_layout.h"
 #include "planetary_train.h"
+#include "relative.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
+#include "system/system_statics.h"
 
 inline constexpr double kTrainTorque = 300, kTrainModule = 2.776e-3;
 
@@ -75,4 +81,29 @@ inline whine::SystemModel train(const std::array<int, 3>& teeth, int planets = 3
   for (const System::Mesh& mesh : layout.meshes)
     specs.push_back(scene.meshes[mesh.side[0].body == 0 ? 0 : 1].spec);
   return {layout, bodies, specs};
+}
+
+// Forces at rest are those of the statics at 16 positions, at 48 of which the motion has its own.
+inline void check_rest(whine::SystemDynamics& dynamics, const std::vector<whine::SystemSolution>& statics) {
+  for (int i = 0; i < 16; i += 5) {
+    const Eigen::VectorXd p = dynamics.rest_forces(3 * i);
+    for (int m = 0; m < dynamics.meshes(); ++m) {
+      double own = 0;
+      for (const whine::LoadedSegment& at : statics[static_cast<size_t>(i)].loads)
+        own += at.mesh == m ? at.force : 0;
+      CHECK(p.segment(m * dynamics.pairs(), dynamics.pairs()).sum() == relative(own, 1e-9));
+    }
+  }
+}
+
+// Tangent of the period map by central differences, along a direction in which no contact changes.
+inline void check_tangent(whine::SystemPeriodMap& map, const Eigen::VectorXd& state, Eigen::Index moved) {
+  map.apply(state);
+  Eigen::VectorXd along = Eigen::VectorXd::Zero(map.size());
+  for (Eigen::Index i = 0; i < moved; ++i) along[i] = std::sin(1.0 + static_cast<double>(i));
+  const Eigen::MatrixXd slope = map.tangent_times(along);
+  constexpr double kStep = 1e-6;
+  const Eigen::VectorXd quotient =
+      (map.apply(state + kStep * along) - map.apply(state - kStep * along)) / (2 * kStep);
+  CHECK((slope - quotient).norm() < 1e-5 * quotient.norm());
 }

@@ -31,6 +31,12 @@ else
   wrong "a comment in a source leaves the id of its program" "$(tail -n 1 "$log")"
 fi
 
+# --- a test that is older than its unit, as one that was moved here or added while make ran
+printf '// Nothing.\n' > tests/test_older.cpp && touch -d 2020-01-01 tests/test_older.cpp
+make $sanitize -n "$B/obj/tests/unit_4.o" 2> /dev/null | grep -q -- "-o $B/obj/tests/unit_4.o " && ok "a source that is older than its unit is compiled into it" ||
+  wrong "a source that is older than its unit is compiled into it" "nothing was compiled"
+rm tests/test_older.cpp
+
 # --- what the scorecard reads, from the real program
 wanted=$("$B/bin/gear-scorecard" --files | sed 's|^|out/parker2000/|; p; s|^out/parker2000/|out/parker2000-standard-tooth/|; p; s|^out/parker2000-standard-tooth/|out/parker2000-calibrated/|' | sort)
 given=$(make $sanitize -n out/figures/scorecard.txt 2> /dev/null | sed ':a;/\\$/{N;s/\\\n//;ba}' |

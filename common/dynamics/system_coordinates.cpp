@@ -22,18 +22,27 @@ const System::Body& placed_body(const SystemModel& system, int b) {
   return system.layout.bodies[static_cast<size_t>(b)];
 }
 
+// kg: of all that moves with a gear's hub, as drawn where the layout does not say it.
+double mass_on_bearing(const SystemModel& system, int b) {
+  const System::Body& at = placed_body(system, b);
+  const double body = system.body[static_cast<size_t>(b)]->body().mass,
+               own = at.bearing.mass > 0 ? at.bearing.mass : body;
+  if (!(own >= body * (1 - 1e-9)))
+    fail(Failure::input, "mass_kg = ", own, " in the [[bearing]] of '", at.name,
+         "' lies below the mass of its own body, ", body,
+         " kg: it is that of all that moves with the hub; raise it");
+  return own;
+}
+
 // kg m2: of a carrier about its axis with all that goes round with it. Planets on rigid pins are in its own inertia.
 double turning_inertia(const SystemModel& system, int carrier) {
   const System::Body& own = placed_body(system, carrier);
   double out = own.inertia, on_rigid_pins = 0;
-  for (size_t b = 0; b < system.body.size(); ++b) {
-    const System::Body& planet = system.layout.bodies[b];
+  for (int b = 0; b < static_cast<int>(system.body.size()); ++b) {
+    const System::Body& planet = placed_body(system, b);
     if (planet.on != carrier) continue;
-    const double square = own.radius * own.radius;
-    if (planet.bearing.elastic())
-      out += planet.bearing.mass * square;
-    else
-      on_rigid_pins += system.body[b]->body().mass * square;
+    const double of_planet = mass_on_bearing(system, b) * own.radius * own.radius;
+    (planet.bearing.elastic() ? out : on_rigid_pins) += of_planet;
   }
   if (!(own.inertia > 0) || !(own.inertia >= on_rigid_pins * (1 - 1e-9)))
     fail(Failure::input, "the inertia of carrier '", own.name, "', ", own.inertia, " kg m2, ",
@@ -71,19 +80,12 @@ VectorXd inertias(const SystemModel& system) {
 
 // (mesh, free body): approach of the mesh per unit rotation of unit modal mass.
 MatrixXd approaches(const SystemModel& system, const std::vector<int>& free, const VectorXd& inertia) {
-  MatrixXd out = MatrixXd::Zero(static_cast<Index>(system.mesh.size()), static_cast<Index>(free.size()));
-  for (Index m = 0; m < out.rows(); ++m) {
-    const CarriedMesh on = carried_mesh(system.layout, static_cast<size_t>(m));
-    for (Index i = 0; i < out.cols(); ++i) {
-      const int b = free[static_cast<size_t>(i)];
-      const double unit = system.base_radius(b) / std::sqrt(inertia[b]);
-      if (const int side = system.side_of(b, static_cast<int>(m)); side >= 0)
-        out(m, i) = closing_sign(side) * unit;
-      else if (b == on.carrier)
-        out(m, i) = on.closing * unit;
-    }
+  VectorXd unit(static_cast<Index>(free.size()));
+  for (Index i = 0; i < unit.size(); ++i) {
+    const int b = free[static_cast<size_t>(i)];
+    unit[i] = system.base_radius(b) / std::sqrt(inertia[b]);
   }
-  return out;
+  return closing_of(system.layout)(free, Eigen::all).transpose() * unit.asDiagonal();
 }
 
 class Builder {
@@ -261,7 +263,7 @@ class Builder {
     const BodyArtifact& body = system_.body[static_cast<size_t>(b)]->body();
     const System::Body& at = placed_body(system_, b);
     const Bearing& bearing = at.bearing;
-    const double own_mass = mass_on_bearing(b);
+    const double own_mass = mass_on_bearing(system_, b);
     const auto k = static_cast<Index>(rows.size());
     MatrixXd mass = MatrixXd::Identity(k + 2, k + 2), stiffness = MatrixXd::Zero(k + 2, k + 2);
     mass.diagonal().head<2>().setConstant(own_mass);
@@ -288,17 +290,6 @@ class Builder {
                    elastic = std::max(0.0, eigen.values[i] - bearing.stiffness * hub);
       add(std::sqrt(eigen.values[i]), rayleigh(elastic), 0, bearing.damping * hub);
     }
-  }
-
-  double mass_on_bearing(int b) const {  // kg
-    const System::Body& at = placed_body(system_, b);
-    const double body = system_.body[static_cast<size_t>(b)]->body().mass,
-                 own = at.bearing.mass > 0 ? at.bearing.mass : body;
-    if (!(own >= body * (1 - 1e-9)))
-      fail(Failure::input, "mass_kg = ", own, " in the [[bearing]] of '", at.name,
-           "' lies below the mass of its own body, ", body,
-           " kg: it is that of all that moves with the hub; raise it");
-    return own;
   }
 
   // The freedoms of a group before they are diagonalised: u of the carrier, x and y of hubs on elastic bearings, modes.
@@ -356,7 +347,7 @@ class Builder {
       const int b = group.member[i].body;
       const Bearing& bearing = placed_body(system_, b).bearing;
       if (!bearing.elastic()) continue;  // the mass of a planet on a rigid pin is in that of the carrier
-      const double moved = b == group.carrier ? bearing.mass : mass_on_bearing(b);
+      const double moved = b == group.carrier ? bearing.mass : mass_on_bearing(system_, b);
       mass += moved * of.shift[i].transpose() * of.shift[i];
       stiffness += bearing.stiffness * of.stretch[i].transpose() * of.stretch[i];
     }

@@ -1,8 +1,8 @@
 // Coordinates of a system of elastic bodies in motion: z" + c z' + w^2 z = force, unit modal mass.
 //
-// - Rigid rotations: theta_b of every body that no drive holds, of unit modal mass; planets go round with their carrier. Motions in which no mesh approaches (the
-//   rolling of the whole train) are the null space of the matrix of approaches; they are projected out, and the force that holds
-//   the mean speed against the contact forces is reported.
+// - Rigid rotations: theta_b of every body that no drive holds, of unit modal mass; planets go round with their carrier. Motions in
+//   which no mesh approaches (the rolling of the whole train) are the null space of the matrix of approaches; they are projected out,
+//   and the force that holds the mean speed against the contact forces is reported.
 // - Bodies that turn: modes with zero diameters are diagonalised with theta, M0 = [[I, g^T], [g, 1]], K0 = diag(0, w^2).
 // - Bodies on elastic bearings or pins: modes with one diameter are diagonalised with x and y in the frame of the system (of a
 //   planetary train: of its carrier at the mean speed), M0 = [[m, G^T], [G, 1]], K0 = diag(k, w^2). Only the diagonal of the bearing

@@ -246,9 +246,9 @@ bool SystemDynamics::record(const Position& position, int sample, Period& period
       period.bearing_force[b].col(sample) -= closing_sign(static_cast<int>(s)) * p_[k] * contact.normal;
       period.contact_torque(contact.body[s], sample) += contact.lever[s] * radius_[b] * p_[k];
     }
-    if (contact.carrier >= 0)
-      period.contact_torque(contact.carrier, sample) +=
-          contact.carrier_lever * radius_[static_cast<size_t>(contact.carrier)] * p_[k];
+    if (const int carrier = carried_[static_cast<size_t>(contact.mesh)].carrier; carrier >= 0)
+      period.contact_torque(carrier, sample) +=
+          contact.carrier_lever * radius_[static_cast<size_t>(carrier)] * p_[k];
   }
   for (Index c = 0; c < period.drift.size(); ++c)
     period.drift_force = std::max(period.drift_force, std::abs(period.drift[c]));

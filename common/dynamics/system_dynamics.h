@@ -118,8 +118,7 @@ class SystemDynamics {
     std::array<int, 2> load_at{};   // [side] where its fields stand in all relaxed loads
     std::array<double, 2> lever{};  // [side] closing per r theta of its body
     Vec2 normal = Vec2::Zero();     // from the first side's flank to the second's
-    int carrier = -1;               // on which one of the bodies stands; -1: none
-    double carrier_lever = 0;       // closing per r theta of the carrier
+    double carrier_lever = 0;       // closing per r theta of the carrier on which one of the bodies stands
     int group = -1;                 // of coordinates, in which a side's body moves; -1: none
   };
   struct Position {

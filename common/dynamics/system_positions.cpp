@@ -216,7 +216,6 @@ SystemDynamics::Position SystemDynamics::filled(const SystemPosition& at, int sh
       out.reading[s].col(k).head(c.rows()) = c.middleCols(local, kFields) * out.field[s].col(k);
     }
     if (const CarriedMesh& on = carried_[m]; on.carrier >= 0) {
-      contact.carrier = on.carrier;
       contact.carrier_lever = at.displacement.rotation(k, on.carrier);
       out.rigid.col(k) += contact.carrier_lever * radius_[static_cast<size_t>(on.carrier)] *
                           coordinates_.rotation.row(on.carrier).transpose();

@@ -221,7 +221,7 @@ std::vector<Key> make_keys() {
      "radial viscous damping of the same",
      [](V& v) -> Slot { return &v.bearing.damping; }},
     {Part::bearing, "bearing", "mass_kg", kKilogram, "0.0", 0, 1e6, false, "",
-     "mass of all that moves with the gear's hub, its body included; 0: as drawn, the body between bore and tip alone; of a system with body = \"rigid\" it is required",
+     "mass of all that moves with the gear's hub, its body included; 0: as drawn, the body between bore and tip alone; of a carrier, and of a system with body = \"rigid\", it is required",
      [](V& v) -> Slot { return &v.bearing.mass; }},
 
     {Part::friction, "friction", "law", kNone, "constant", 0, 0, false, kWordsOf<FrictionLaw>,
