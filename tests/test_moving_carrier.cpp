@@ -234,8 +234,8 @@ TEST_CASE("a heavy carrier on a stiff bearing is one that is held") {
   const Drives held = {{"sun", kTorque, kTrainTorque, 0}, {"ring", kHeld, 0, 0}, {"carrier", kHeld, 0, 0}};
   for (const bool pins : {true, false}) {
     CAPTURE(pins);
+    const MatrixXd rigid = errors(train_with(held, 0, false, pins), 2600);
     const auto off = [&](double factor, double stiffness) {
-      const MatrixXd rigid = errors(train_with(held, 0, false, pins), 2600);
       return (errors(train_with(kCarrierTurns, stiffness, false, pins, factor), 2600) - rigid).norm() /
              rigid.norm();
     };
