@@ -7,9 +7,9 @@ lift = room(notes)
 
 array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#aa4499", "#e69f00", "#444444"]
 # Of both directions of torque t.
-rings(t, column) = sprintf('tsv index "[%d up]" using ($7 > 0 ? $1 : NaN):%d with points pt 6 ps 0.7 lw 1.2 lc rgb "#202020" notitle, ', t, column) \
-  . sprintf('tsv index "[%d down]" using ($7 > 0 ? $1 : NaN):%d with points pt 6 ps 0.7 lw 1.2 lc rgb "#202020" notitle, ', t, column)
-ring_key = beyond_backlash > 0 ? ', keyentry with points pt 6 ps 0.7 lw 1.2 lc rgb "#202020" title "beyond backlash"' : ''
+rings(t, column) = sprintf('tsv index "[%d up]" using ($7 > 0 ? $1 : NaN):%d with points pt 6 ps 1.1 lw 1.4 lc rgb "#202020" notitle, ', t, column) \
+  . sprintf('tsv index "[%d down]" using ($7 > 0 ? $1 : NaN):%d with points pt 6 ps 1.1 lw 1.4 lc rgb "#202020" notitle, ', t, column)
+ring_key = beyond_backlash > 0 ? ', keyentry with points pt 6 ps 1.1 lw 1.4 lc rgb "#202020" title "beyond backlash"' : ''
 set multiplot title heading offset 0, -0.3
 set border 3 lw 1.6
 set tics out nomirror font ",14"
