@@ -330,7 +330,7 @@ TEST_CASE(
   CHECK(furthest(a.phase_natural_frequency, a.eigen_frequency) < 1e-4);
   CHECK(furthest(a.phase_damping_ratio, a.eigen_damping_ratio) < 1e-3);
   const ImpactArtifact found =
-      calibrate(body, body, statics, 463e6, coarse_impact(), {1e-6, 4}, 0.07, ContactState::two, no_report);
+      calibrate(body, body, statics, 463e6, coarse_impact(), {1e-6, 8}, 0.07, ContactState::two, no_report);
   CHECK(found.damping_ratio[1] == relative(0.07, 1e-6));
   CHECK(found.damping.rayleigh_stiffness == relative(7.75e-6, 0.01));
 }

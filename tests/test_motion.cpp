@@ -144,12 +144,12 @@ TEST_CASE("contact pressure and half-width follow Hertz inside the flanks, and a
 TEST_CASE("error budget: every discretisation below 0.1 % of the mean stiffness, all together below 0.3 %") {
   // Elements twice as large as the default's, so that the refined ones are the default's.
   const BodyArtifact& body = paper_body(40e-3, 0.8e-3);
-  const ErrorBudgetArtifact budget = error_budget(body, body, paper_statics(64), 150);
+  const ErrorBudgetArtifact budget = error_budget(body, body, paper_statics(128), 150);
   const StaticChanges& errors = budget.refinement;
   CHECK(errors.entry ==
         "strips 8 to 16, flank table 24 to 48 points, elements 0.8 to 0.4 mm, search range 1 to 2 times, "
-        "positions 64 "
-        "to 128");
+        "positions 128 "
+        "to 256");
   REQUIRE(errors.mean_stiffness_change.size() == 5);
   CHECK(errors.mean_stiffness_change.cwiseAbs().maxCoeff() < 1e-3);
   CHECK(errors.mean_stiffness_change.cwiseAbs().sum() < 3e-3);
@@ -162,7 +162,7 @@ TEST_CASE("error budget: every discretisation below 0.1 % of the mean stiffness,
   REQUIRE(budget.root.element_size.size() == 4);
   CHECK(budget.root.element_size[0] == relative(0.8e-3, 1e-12));
   CHECK(budget.root.stress(0, 0) ==
-        static_transmission(body, body, paper_statics(64), 150).root_stress_max[0]);
+        static_transmission(body, body, paper_statics(128), 150).root_stress_max[0]);
   const RootConvergence root = convergence(budget.root);
   MESSAGE("changes of the root stress: " << root.change.col(0).transpose() << "; order "
                                          << root.order.col(0).transpose());
@@ -173,14 +173,14 @@ TEST_CASE("error budget: every discretisation below 0.1 % of the mean stiffness,
   CHECK(budget.fidelity.contact == ContactModel::strips);
   CHECK(budget.choice.entry == "matching at 1 mm, order 1, contact line");
   CHECK(budget.choice_missing == "");
-  const double mean = static_transmission(body, body, paper_statics(64), 150).mean_stiffness;
+  const double mean = static_transmission(body, body, paper_statics(128), 150).mean_stiffness;
   BodyDiscretisation matching = body.discretisation;
   matching.near_field = NearField::matching;
   const BodyArtifact matched = reduce(make_sector_mesh(body.design, matching), body.material, 5);
   CHECK(budget.choice.mean_stiffness_change[0] ==
-        relative(static_transmission(matched, matched, paper_statics(64), 150).mean_stiffness / mean - 1,
+        relative(static_transmission(matched, matched, paper_statics(128), 150).mean_stiffness / mean - 1,
                  1e-9));
-  StaticParameters by_line = paper_statics(64);
+  StaticParameters by_line = paper_statics(128);
   by_line.fidelity.contact = ContactModel::line;
   CHECK(budget.choice.mean_stiffness_change[2] ==
         relative(static_transmission(body, body, by_line, 150).mean_stiffness / mean - 1, 1e-9));
