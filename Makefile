@@ -16,7 +16,8 @@ include pipelines/names.mk
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 # As many jobs as processors unless -j says otherwise; no built-in rules.
-MAKEFLAGS += -rR -j$(shell nproc 2>/dev/null || echo 1)
+processors := $(shell nproc 2>/dev/null || echo 1)
+MAKEFLAGS += -rR -j$(processors)
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
 .PHONY: FORCE
@@ -54,7 +55,8 @@ B := build$(if $(SANITIZE),/sanitize)
 CXX := g++
 # Half the time of a sweep is dense algebra: AVX2 and FMA where the processor has them. Bytes are the same on one type of
 # machine; ARCH= builds for any. Moves of 256 bits (g++ 12 on) clear and copy small arrays without a string instruction, which is slow to start.
-ARCH := $(if $(shell grep -m1 -w avx2 /proc/cpuinfo 2>/dev/null | grep -w fma),-march=x86-64-v3 -mmove-max=256 -mstore-max=256)
+processor := $(if $(wildcard /proc/cpuinfo),$(file < /proc/cpuinfo))
+ARCH := $(if $(and $(filter avx2,$(processor)),$(filter fma,$(processor))),-march=x86-64-v3 -mmove-max=256 -mstore-max=256)
 OPTIMISE := -O2 $(ARCH)
 # Without NDEBUG an assert would put its line number into the program, and a comment would redo results.
 # Hidden: gmsh carries an Eigen without AVX, which would take over exported templates of ours and free what it did not allocate.
@@ -191,10 +193,9 @@ $(B)/flags $(B)/obj/unit_lists:
 id = $(if $(FREEZE),,$(B)/id/$1)
 # Machine and number of the shell in the name: two makes on one tree do not write the same file.
 new = $1.new.$$HOSTNAME.$$$$
-replace_if_changed = { cat > $(new); if cmp -s $(new) $1; then rm $(new); else mv $(new) $1; fi; }
 
 $(tools:%=$(B)/id/%): $(B)/id/%: $(B)/bin/% | $(B)/id/
-	+@if [ -e $< ]; then mkdir -p $(@D); sha256sum < $< | $(call replace_if_changed,$@); fi
+	+@[ ! -e $< ] || { said=$$(sha256sum < $<); [ -e $@ ] && [ "$$said" = "$$(< $@)" ] || { [ -d $(@D) ] || mkdir -p $(@D); echo "$$said" > $(call new,$@); mv $(call new,$@) $@; }; }
 
 include pipelines/figures.mk pipelines/scenes.mk pipelines/studies.mk pipelines/bifurcations.mk pipelines/stages.mk pipelines/systems.mk pipelines/compare.mk pipelines/maps.mk pipelines/bench.mk pipelines/robust.mk pipelines/reading.mk
 
