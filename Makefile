@@ -16,7 +16,8 @@ include pipelines/names.mk
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 # As many jobs as processors unless -j says otherwise; no built-in rules.
-MAKEFLAGS += -rR -j$(shell nproc 2>/dev/null || echo 1)
+processors := $(shell nproc 2>/dev/null || echo 1)
+MAKEFLAGS += -rR -j$(processors)
 .DELETE_ON_ERROR:
 .DEFAULT_GOAL := help
 .PHONY: FORCE
@@ -54,7 +55,8 @@ B := build$(if $(SANITIZE),/sanitize)
 CXX := g++
 # Half the time of a sweep is dense algebra: AVX2 and FMA where the processor has them. Bytes are the same on one type of
 # machine; ARCH= builds for any. Moves of 256 bits (g++ 12 on) clear and copy small arrays without a string instruction, which is slow to start.
-ARCH := $(if $(shell grep -m1 -w avx2 /proc/cpuinfo 2>/dev/null | grep -w fma),-march=x86-64-v3 -mmove-max=256 -mstore-max=256)
+processor := $(if $(wildcard /proc/cpuinfo),$(file < /proc/cpuinfo))
+ARCH := $(if $(and $(filter avx2,$(processor)),$(filter fma,$(processor))),-march=x86-64-v3 -mmove-max=256 -mstore-max=256)
 OPTIMISE := -O2 $(ARCH)
 # Without NDEBUG an assert would put its line number into the program, and a comment would redo results.
 # Hidden: gmsh carries an Eigen without AVX, which would take over exported templates of ours and free what it did not allocate.
@@ -77,7 +79,12 @@ CPPFLAGS := -Icommon -isystem /usr/include/eigen3 -isystem /usr/include/suitespa
 LDFLAGS := $(if $(SANITIZE),-fsanitize=address$(,)undefined) -Wl,--as-needed -Wl,--gc-sections
 # Recursive: pkg-config may itself be one of the packages that `deps` installs in the same run.
 HDF5_CFLAGS = $(shell pkg-config --cflags hdf5)
-LDLIBS = -lpugixml -lzip -ljsoncpp -lsndfile -lgmsh -lcholmod $(shell pkg-config --libs-only-L hdf5) -lhdf5_hl $(shell pkg-config --libs hdf5 fftw3 libcrypto)
+LDLIBS = -lpugixml -lzip -ljsoncpp -lsndfile -lcholmod $(shell pkg-config --libs-only-L hdf5) -lhdf5_hl $(shell pkg-config --libs hdf5 fftw3 libcrypto)
+
+# gmsh brings a hundred libraries of windows, pictures and CAD, whose loading takes 0.25 s of CPU at each start: programs that mesh nothing do
+# without. The linker says where it is missing from this list; of functions that it throws away it asks nothing. Sanitizers keep them.
+meshing := gear-mesh gear-reduce gear-static gear-sweep gear-reading whine-tests whine-hard-cases
+gmsh = $(if $(SANITIZE)$(filter $(meshing),$(@F)),-lgmsh)
 
 # With `deps` among the goals whatever uses a package waits for it, in any order of the goals and under -j.
 with_deps := $(filter deps,$(goals))
@@ -154,7 +161,7 @@ $(step_objects) $(B)/obj/common/base/eigen_templates.o: private INCLUDE_PRECOMPI
 $(filter $(B)/obj/common/io/%,$(objects)): private CPPFLAGS += $(HDF5_CFLAGS)
 
 linked = $(filter $(patsubst $1:%,$(B)/obj/common/%.o,$(filter $1:%,$(links))),$(library))
-link = $(CXX) $(LDFLAGS) -o $@ $(filter %.o,$^) $(LDLIBS)
+link = $(CXX) $(LDFLAGS) -o $@ $(filter %.o,$^) $(gmsh) $(LDLIBS)
 
 $(tools:%=$(B)/bin/%): $(B)/bin/%: $$(call linked,$$*) $(B)/obj/tools/%.o | $(B)/bin/
 	$(link)
@@ -195,10 +202,9 @@ $(patsubst %.o,%.unit,$(library) $(test_units)):
 id = $(if $(FREEZE),,$(B)/id/$1)
 # Machine and number of the shell in the name: two makes on one tree do not write the same file.
 new = $1.new.$$HOSTNAME.$$$$
-replace_if_changed = { cat > $(new); if cmp -s $(new) $1; then rm $(new); else mv $(new) $1; fi; }
 
 $(tools:%=$(B)/id/%): $(B)/id/%: $(B)/bin/% | $(B)/id/
-	+@if [ -e $< ]; then mkdir -p $(@D); sha256sum < $< | $(call replace_if_changed,$@); fi
+	+@[ ! -e $< ] || { said=$$(sha256sum < $<); [ -e $@ ] && [ "$$said" = "$$(< $@)" ] || { [ -d $(@D) ] || mkdir -p $(@D); echo "$$said" > $(call new,$@); mv $(call new,$@) $@; }; }
 
 include pipelines/figures.mk pipelines/scenes.mk pipelines/studies.mk pipelines/bifurcations.mk pipelines/stages.mk pipelines/systems.mk pipelines/compare.mk pipelines/maps.mk pipelines/bench.mk pipelines/robust.mk pipelines/reading.mk
 

@@ -17,7 +17,7 @@ with_deps_bench := $(with_deps) $(filter deps-bench,$(goals))
 # Compiled in every run (seconds), so that it sees whether Siconos has come or gone.
 $(B)/bin/whine-bench: tests/bench/bench.cpp tests/bench/calculix.h tests/bench/rolling.h tests/peer/lemke.h $(library) FORCE | $(B)/bin/ $(with_deps_bench)
 	$(CXX) $(CPPFLAGS) $(if $(call bench_siconos,x),-isystem /usr/include/siconos -isystem /usr/include/siconos/numerics) \
-	  $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(library) $(LDLIBS) $(call bench_siconos,-lsiconos_numerics)
+	  $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(library) -lgmsh $(LDLIBS) $(call bench_siconos,-lsiconos_numerics)
 
 .PHONY: bench
 bench: $(B)/bin/whine-bench $(call pair_bodies,$(standard_scene)) ## speed and memory, beside Siconos and CalculiX if `deps-bench` has installed them
@@ -25,7 +25,7 @@ bench: $(B)/bin/whine-bench $(call pair_bodies,$(standard_scene)) ## speed and m
 	  --body pinion=out/$(standard_scene)/pinion/body.h5 --body wheel=out/$(standard_scene)/wheel/body.h5
 
 $(B)/bin/whine-bench-stress: tests/bench/root_stress.cpp tests/bench/calculix.h $(B)/flags $(library) | $(B)/bin/ $(with_deps_bench)
-	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(library) $(LDLIBS)
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(library) -lgmsh $(LDLIBS)
 
 # Of SCENE, or of the default pair and of 16 and 24 teeth of module 4.5 mm.
 stress_scenes := $(if $(SCENE),$(own_scene),$(paper_scene) fzg-c)
@@ -45,7 +45,7 @@ bench-internal: $(B)/bin/whine-bench $(call pair_bodies,$(internal_scene)) ## st
 	@$< --params out/$(internal_scene)/params/static.toml $(call pair_options,$(internal_scene)) --torque 200 --position 0 --position 0.25 --position 0.5
 
 $(B)/bin/whine-work-precision: tests/bench/work_precision.cpp $(B)/flags $(library) | $(B)/bin/ $(with_deps)
-	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(library) $(LDLIBS)
+	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(library) -lgmsh $(LDLIBS)
 
 .PHONY: work-precision
 work-precision: $(B)/bin/whine-work-precision $(call pair_bodies,$(paper_scene)) ## error against CPU time of each numerical choice, at a damping with two branches

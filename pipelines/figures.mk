@@ -69,7 +69,7 @@ inputs_sidebands = out/$1/T$(firstword $2)/static.h5 out/$1/T$(firstword $2)/up/
 inputs_root-stress = out/$1/T$(firstword $2)/static.h5 $(call both_ways,$1,$(firstword $2),response)
 inputs_root-stress-branches = $(inputs_root-stress) out/$1/T$(firstword $2)/branch.h5
 inputs_flank-pressure = $(inputs_root-stress)
-inputs_efficiency = $(foreach t,$(call each,$2),out/$1/T$t/static.h5 $(call both_ways,$1,$t,response))
+inputs_efficiency = $(foreach t,$(call each,$2),out/$1/T$t/static.h5 $(call both_ways,$1,$t,response) $(call both_ways,$1,$t,sweep))
 inputs_crack = out/$1/T$(firstword $2)/static.h5
 inputs_table1 = $(foreach t,$2,out/$1/T$t/impact.h5)
 
@@ -194,7 +194,8 @@ $1.tsv $1.txt &: $2 $3 $4 $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
 endef
 
 # 2400 Hz is where P2000 shows two branches at 150 N m; of a scene it is its first torque and the speed with the largest RMS.
-animation_frames := $(shell seq -f %03g 48)
+digits := 0 1 2 3 4 5 6 7 8 9
+animation_frames := $(wordlist 2,49,$(foreach t,0 1 2 3 4,$(foreach u,$(digits),0$t$u)))
 define animation_rule # path without extension, scene, torque, options, what else it depends on
 $1.tsv $1.gif $(animation_frames:%=$1-%.png) &: $(call of_gears,$2,mesh) out/$2/T$3/down/sweep.h5 out/$2/params/title.txt $5 \
     pipelines/plots/animation.gp $(call id,gear-animate) | $(B)/bin/gear-animate $(with_deps)

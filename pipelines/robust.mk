@@ -43,7 +43,7 @@ STRESS_PROBLEMS ?= 1000000
 STRESS_SCENES ?= 200
 STRESS_SEED ?= 1
 $(B)/bin/whine-stress-contact: tests/stress/contact.cpp tests/paper_pair.h tests/peer/strip_problems.h tests/peer/window_problem.h $(B)/flags $(library) | $(B)/bin/ $(with_deps)
-	$(CXX) $(CPPFLAGS) -Itests $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(library) $(LDLIBS)
+	$(CXX) $(CPPFLAGS) -Itests $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(library) -lgmsh $(LDLIBS)
 
 .PHONY: stress
 stress: $(B)/bin/whine-stress-contact build ## a million contact problems and 200 random scenes: a certificate, a closed energy balance or an error that says why; STRESS_PROBLEMS, STRESS_SCENES
@@ -109,7 +109,7 @@ $(B)/bin/whine-replay-artifact $(B)/bin/whine-replay-sealed: tests/fuzz/artifact
 $(B)/bin/whine-replay-sealed: tests/fuzz/edit.cpp
 $(replays): $(B)/bin/whine-replay-%: tests/fuzz/replay.cpp tests/fuzz/file_of.h $(B)/flags $(cold_precompiled).gch | $(B)/bin/ $(with_deps)
 	$(CXX) $(CPPFLAGS) $(HDF5_CFLAGS) $(CXXFLAGS) $(COLD_FLAGS) -include $(cold_precompiled) $(if $(filter sealed,$*),-DSEALED) $(LDFLAGS) \
-	  -o $@ $(filter %.o %.cpp,$^) $(LDLIBS)
+	  -o $@ $(filter %.o %.cpp,$^) $(gmsh) $(LDLIBS)
 
 # HDF5 1.10 forgets some memory where it rejects a file: leaks are looked for where it takes no part, neither after each input
 # nor at the end.

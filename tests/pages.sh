@@ -17,6 +17,31 @@ wrong() { echo "FAILED: $1: $2"; }
 
 mapfile -t pages < <(find . -name README.md -not -path './build/*' -not -path './out/*' -not -path './.git/*' | sed 's|^\./||' | sort)
 
+# A shell that starts a process for each word, link or header takes minutes: loops over them are of bash alone.
+# there <pattern>: whether there is such a path
+there() {
+  local status
+  set +f
+  compgen -G "$1" > /dev/null
+  status=$?
+  set -f
+  return $status
+}
+# plain_path <path>: without its /./ and /../, from the top, in $plain
+plain_path() {
+  local part parts=()
+  local IFS=/
+  for part in $1; do
+    case $part in
+      '' | .) ;;
+      ..) if [ ${#parts[@]} -gt 0 ] && [ "${parts[-1]}" != .. ]; then unset 'parts[-1]'; else parts+=(..); fi ;;
+      *) parts+=("$part") ;;
+    esac
+  done
+  plain="${parts[*]}"
+  [[ $1 != /* ]] || plain=/$plain
+}
+
 # --- what there is
 # What a page consists of, a line each: kind (link, code, block, heading), line number, text.
 parts_of() {
@@ -68,7 +93,8 @@ faults_of() {
         case $text in http://* | https://*) continue ;; esac
         file=${text%%#*}
         name=${text#"$file"}
-        file=$(realpath -m --relative-to="$top" "$folder/${file:-${page##*/}}")
+        plain_path "$folder/${file:-${page##*/}}"
+        file=$plain
         if [ ! -e "$file" ]; then echo "$page:$line: link to $text: no such file"
         elif [ -n "$name" ] && [ -z "${anchor[$file$name]:-}" ]; then echo "$page:$line: link to $text: no such heading"; fi
         continue ;;
@@ -84,7 +110,7 @@ faults_of() {
       case $word in
         *'<'* | *...* | *'$'* | *'{'*) ;;
         common/* | tools/* | pipelines/* | data/* | tests/*)
-          (set +f; compgen -G "$word" > /dev/null) || echo "$page:$line: $word: no such path" ;;
+          there "$word" || echo "$page:$line: $word: no such path" ;;
         gear-*.[a-z]* | whine-*.[a-z]*) ;;
         gear-* | build/bin/gear-*)
           [ -n "${help_of[${word##*/}]:-}" ] || echo "$page:$line: $word: no such program" ;;
@@ -176,11 +202,14 @@ for page in "${pages[@]}"; do
 done
 found=$(for folder in tools pipelines data tests common $(set +f; echo common/*/); do [ -e "${folder%/}/README.md" ] || echo "${folder%/}"; done)
 [ -z "$found" ] && ok "every folder has its page" || wrong "every folder has its page" "$found"
-found=$(set +f; for header in common/*/*.h; do grep -q -F "\`$header\`" "${header%/*}/README.md" || echo "$header"; done)
+found=$(set +f; declare -A text; for header in common/*/*.h; do
+  folder=${header%/*}
+  [ -n "${text[$folder]:-}" ] || text[$folder]=$(< "$folder/README.md")
+  [[ ${text[$folder]} == *"\`$header\`"* ]] || echo "$header"; done)
 [ -z "$found" ] && ok "every header of a layer stands on its page" || wrong "every header of a layer stands on its page" "$(tr '\n' ' ' <<< "$found")"
 linked=$(for page in "${pages[@]}"; do parts_of "$page" | awk -F '\t' '$1 == "link" && $3 !~ /^http/ { sub(/#.*/, "", $3); if ($3 != "") print $3 }' |
-  while read -r target; do realpath -m --relative-to="$top" "$(dirname "$page")/$target"; done; done | sort -u)
-found=$(for page in "${pages[@]}"; do [ "$page" = README.md ] || grep -q -x -F "$page" <<< "$linked" || echo "$page"; done)
+  while read -r target; do case $page in */*) plain_path "${page%/*}/$target" ;; *) plain_path "$target" ;; esac; echo "$plain"; done; done | sort -u)
+found=$(for page in "${pages[@]}"; do [ "$page" = README.md ] || [[ $'\n'$linked$'\n' == *$'\n'"$page"$'\n'* ]] || echo "$page"; done)
 [ -z "$found" ] && ok "every page is linked from another" || wrong "every page is linked from another" "$found"
 found=$(for program in ${programs//.cpp/}; do grep -q -E "^\| \`$program\` \| ([^\`]|\`[^-])" tools/README.md || echo "$program"; done)
 [ -z "$found" ] && ok "tools/README.md says what each program reads and writes" || wrong "tools/README.md says what each program reads and writes" "$found"
@@ -229,7 +258,7 @@ done < "$work/dry"
 tried=$(wc -l < <(cut -f2 "$work/commands" | sort -u))
 if [ -z "$found" ]; then ok "$tried commands of make pass make -n"; else wrong "commands of make pass make -n" "$found"; fi
 touch "$work/used"
-found=$(for name in "${!excepted[@]}"; do grep -q -x -F -e "$name" "$work/used" || echo "$name"; done)
+found=$(printf '%s\n' "${!excepted[@]}" | grep -v -x -F -f "$work/used")
 [ -z "$found" ] && ok "every line of tests/pages.exceptions is needed" || wrong "every line of tests/pages.exceptions is needed" "$found"
 
 # --- generated tables

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -90,6 +91,29 @@ std::vector<ResponseArtifact> losses_at(double mesh_frequency) {
 
 TEST_CASE("figures: losses at one speed, the same at rest, are drawn") {
   CHECK(drawn(efficiency_figure({flat_losses()}, losses_at(2000)), "efficiency"));
+}
+
+TEST_CASE("figures: losses mark the speeds at which the motion goes beyond the backlash") {
+  std::vector<SweepBacklash> backlash{{150, Direction::up, VectorXd::Constant(1, 20e-6)},
+                                      {150, Direction::down, VectorXd::Constant(1, -1e-6)}};
+  const std::vector<ResponseArtifact> sweeps = losses_at(2000);
+  const Figure marked = efficiency_figure({flat_losses()}, sweeps, backlash);
+  CHECK(marked.blocks[0].columns.back() == "beyond_backlash [1]");
+  CHECK(marked.blocks[0].rows[0].back() == 0);
+  CHECK(marked.blocks[1].rows[0].back() == 1);
+  const auto says = [](const Figure& figure, const std::string& words) {
+    return std::any_of(figure.notes.begin(), figure.notes.end(),
+                       [&](const std::string& note) { return note.find(words) != std::string::npos; });
+  };
+  CHECK(says(marked, "beyond the backlash"));
+  CHECK(says(marked, "at 150 N m: 2000 Hz"));
+  CHECK(drawn(marked, "efficiency"));
+  backlash[1].left[0] = 1e-6;
+  CHECK(!says(efficiency_figure({flat_losses()}, sweeps, backlash), "beyond the backlash"));
+  CHECK(says(efficiency_figure({flat_losses()}, sweeps), "it is not known where"));
+  backlash.pop_back();
+  CHECK_THROWS_WITH_AS(efficiency_figure({flat_losses()}, sweeps, backlash),
+                       doctest::Contains("no sweep.h5 down at 150 N m"), Error);
 }
 
 TEST_CASE("figures: losses say where Schlenk's formula is beyond its tests") {

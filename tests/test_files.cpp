@@ -34,12 +34,14 @@
 #include "io/mesh_codec.h"
 #include "io/modes_codec.h"
 #include "io/named_files.h"
+#include "io/picture_sources.h"
 #include "io/provenance.h"
 #include "io/publish.h"
 #include "io/ranges.h"
 #include "io/readings_codec.h"
 #include "io/response_codec.h"
 #include "io/runup_codec.h"
+#include "io/scene_words.h"
 #include "io/static_codec.h"
 #include "io/study.h"
 #include "io/study_codec.h"
@@ -930,7 +932,7 @@ TEST_CASE("modes.h5 whose bodies stand on nothing, or whose meshes join none, is
   rejects([](System& s) { s.meshes[0].side[1].body = 99; }, "dataset /mesh/body_number holds the number 99");
   // What figures divide by and look up.
   rejects([](System& s) { s.bodies[2].teeth = 0; }, "dataset /body/teeth holds 0 of body 2, which is a gear");
-  rejects([](System& s) { s.bodies[2].radius = 0; }, "dataset /body/radius holds 0 of body 2");
+  rejects([](System& s) { s.bodies[2].radius = 0; }, "dataset /body/radius holds 0, allowed is 1e-06 to 10");
   rejects([](System& s) { s.bodies[2].name = "a/b"; }, "dataset /body/name holds 'a/b'");
   rejects([&](System& s) { s.meshes[0].side[1].body = carrier; }, "allowed are two gears that differ");
   rejects([](System& s) { s.meshes[0].side[1].body = s.meshes[0].side[0].body; },
@@ -1775,6 +1777,48 @@ TEST_CASE(
   sweep = small_pair_sweep();
   sweep.mesh_frequency[0] = 0;
   CHECK(says(said(sweep, read_sweep), "dataset /mesh_frequency holds 0, allowed is more than 0 to "));
+  SystemStaticArtifact rest = small_system();
+  rest.settings.layout.bodies[0].radius = 1e-300;
+  CHECK(says(said(rest, read_system_static), "dataset /body/radius holds 1e-300, allowed is 1e-06 to 10"));
+  SystemSweepArtifact motion = small_sweep(small_system(), Direction::up);
+  motion.residual[0] = 1e300;
+  CHECK(says(said(motion, read_system_sweep), "dataset /residual holds 1e+300, allowed is 0 to 1e+12"));
+  motion = small_sweep(small_system(), Direction::up);
+  motion.energy_imbalance[0] = 1e300;
+  CHECK(
+      says(said(motion, read_system_sweep), "dataset /energy_imbalance holds 1e+300, allowed is 0 to 1e+12"));
+}
+
+TEST_CASE("a picture says what it was drawn from, and one of other files or of another scene is rejected") {
+  const Folder folder;
+  const std::string header("\x89PNG\r\n\x1a\n\0\0\0\rIHDR0123456789abcCRC!", 33),
+      end("\0\0\0\0IEND\xae\x42\x60\x82", 12);
+  for (const char* scene : {"one", "other"}) {
+    std::filesystem::create_directories(text("out/", scene, "/params"));
+    std::filesystem::create_directories(text("out/", scene, "/T100"));
+    std::ofstream(text("out/", scene, "/params/title.txt")) << "Pair " << scene << '\n';
+    std::ofstream(text("out/", scene, "/T100/static.h5")) << scene;
+  }
+  const std::string scene = scene_words("out/one/T100/static.h5");
+  REQUIRE(scene.find("Pair one") != std::string::npos);
+  const std::string picture = with_sources(header + end, {"out/one/T100/static.h5"});
+  const auto sources = picture_sources("a.png", picture);
+  REQUIRE(sources.size() == 1);
+  CHECK(sources[0].path == "out/one/T100/static.h5");
+  CHECK(sources[0].sha256 == sha256_of_file("out/one/T100/static.h5"));
+  const auto rejected = [&](const std::string& bytes) {
+    return caught([&] { require_fresh_picture("fig12.png", bytes, scene); });
+  };
+  CHECK_NOTHROW(require_fresh_picture("fig12.png", picture, scene));
+  CHECK_NOTHROW(require_fresh_picture("fig12.png", picture, ""));
+  CHECK(rejected(header + end).says("fig12.png: does not say what it was drawn from"));
+  CHECK(
+      rejected(with_sources(header + end, {"out/other/T100/static.h5"}))
+          .says("was drawn from out/other/T100/static.h5, of the scene other: Pair other; the report is of"));
+  std::ofstream("out/one/T100/static.h5") << "made anew";
+  CHECK(rejected(picture).says("was drawn from another out/one/T100/static.h5 than there is"));
+  for (size_t length = header.size(); length + end.size() < picture.size(); ++length)
+    if (length > header.size()) CHECK(rejected(picture.substr(0, length)).says("is no whole PNG"));
 }
 
 TEST_CASE("a range holds its ends, an open one not its least, and none a number that is not one") {

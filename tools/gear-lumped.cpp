@@ -21,6 +21,7 @@
 #include "io/lumped_inputs.h"
 #include "io/provenance.h"
 #include "io/sweep_codec.h"
+#include "signal/jump_words.h"
 
 namespace {
 
@@ -167,13 +168,14 @@ void tell_map(const whine::JumpMapArtifact& result, const std::string& output) {
 
 void tell_sweep(const whine::SweepArtifact& result, const whine::LumpedOptions& o,
                 const std::string& output) {
-  std::string jumps;
-  for (double f : result.jump_frequency) jumps += whine::text(jumps.empty() ? ", jumps at " : ", ", f, " Hz");
   whine::tell("gear-lumped: ", o.model, ", ", result.torque, " N m ", o.direction, ", mean stiffness ",
               result.mean_stiffness * 1e-6, "e6 N/m, mass ", o.mass, " kg, natural frequency ",
               result.natural_frequency, " Hz, damping ratio ", o.damping_ratio, ", ",
-              result.mesh_frequency.size(), " speeds, ", result.periods.sum(), " mesh periods",
-              jumps.empty() ? ", no jump" : jumps, " -> ", output);
+              result.mesh_frequency.size(), " speeds, ", result.periods.sum(), " mesh periods, ",
+              result.jump_frequency.size() > 0
+                  ? "jumps at " + whine::jump_words(result.jump_frequency, result.jump_width)
+                  : "no jump",
+              " -> ", output);
   for (Eigen::Index i = 0; i < result.mesh_frequency.size(); ++i)
     if (result.period_multiple[i] == 0)
       whine::tell("gear-lumped: warning: at ", result.mesh_frequency[i],

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/tool.h"
 #include "io/impact_codec.h"
+#include "io/picture_sources.h"
 #include "io/provenance.h"
 #include "io/publish.h"
 #include "io/readings_codec.h"
@@ -41,7 +42,8 @@ void publish_figure(const whine::Figure& figure, const Paths& inputs, const Path
   const whine::PlotFile data(figure);
   whine::publish_tables(figure, output, sources);
   whine::publish(output + ".svg", whine::draw(figure, data.path(), recipe, whine::Picture::svg));
-  whine::publish(output + ".png", whine::draw(figure, data.path(), recipe, whine::Picture::png));
+  whine::publish(output + ".png",
+                 whine::with_sources(whine::draw(figure, data.path(), recipe, whine::Picture::png), inputs));
   whine::tell("gear-plot: ", figure.title, " -> ", output, ".{tsv,svg,png}");
 }
 

@@ -1,4 +1,4 @@
-// gear-scene: checks a scene and cuts it into the parts that the stages depend on.
+// gear-scene: checks a scene and writes what each stage needs of it.
 //
 // Reads      a scene (TOML)
 // Writes     <out>/<scene>/params/{static,impact,sweep,map,lumped,lumped_map}.toml
@@ -102,12 +102,14 @@ void body(int argc, char** argv) {
   std::string path, output, variant, ids, folder = "out";
   std::vector<std::string> changes;
   bool keys = false;
-  whine::Options options{"Checks a scene and cuts it into the parts that the stages depend on", "gear-scene"};
+  whine::Options options{"Checks a scene and writes what each stage needs of it", "gear-scene"};
   Option scene_option = options.add("--scene", path, "scene file (TOML)");
-  Option output_option = options.add("--output", output, "make fragment to write");
+  Option output_option = options.add(
+      "--output", output, "file to write that make includes: gears, bodies and torques of the scene");
   options.add("--out", folder, "folder of the artifacts").show_default();
   options.add("--ids", ids,
-              "folder of the programs' hashes, whose times in the future become those of now, too");
+              "folder of the files that tell make which programs have changed: those with a time in the "
+              "future get the time of now");
   Option keys_option = options.flag("--keys", keys, "print the table of scene keys and end");
   Option variant_option = options.add("--variant", variant, "scene to write with the changes of --set");
   Option set_option = options.add("--set", changes, "key=value, any number of times");

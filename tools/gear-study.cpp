@@ -96,11 +96,15 @@ void body(int argc, char** argv) {
                          "gear-study"};
   Option study_option = options.add("--study", path, "study file (TOML)");
   Option gather_option = options.add("--gather", plan_path, "plan.toml of a study whose variants are there");
-  options.add("--output", output, "make fragment to write; with --gather study.h5, with --design a scene")
+  options
+      .add("--output", output,
+           "file to write: one that make includes, of the variants; with --gather study.h5, with --design a "
+           "scene")
       .required();
   options.add("--out", folder, "folder of the artifacts").show_default();
   options.add("--ids", ids,
-              "folder of the programs' hashes, whose times in the future become those of now, too");
+              "folder of the files that tell make which programs have changed: those with a time in the "
+              "future get the time of now");
   options
       .add("--design", design,
            "with --study: a scene of the first or the second variant that it marks by compare = [0, 3]")

@@ -19,6 +19,7 @@
 #include "io/provenance.h"
 #include "io/scene.h"
 #include "io/sweep_codec.h"
+#include "signal/jump_words.h"
 #include "studies/next_level.h"
 #include "studies/sweep.h"
 
@@ -30,12 +31,6 @@ std::string in_words(const whine::Change& change) {
   return out.str();
 }
 
-std::string in_words(const Eigen::VectorXd& jumps) {
-  std::ostringstream out;
-  for (Eigen::Index i = 0; i < jumps.size(); ++i) out << (i ? ", " : "") << jumps[i];
-  return jumps.size() > 0 ? out.str() + " Hz" : "none";
-}
-
 void tell_change(const whine::NextSweep& next, const whine::SweepArtifact& here,
                  const whine::SweepArtifact& there) {
   const whine::SweepChange change = whine::sweep_change(here, there);
@@ -44,9 +39,9 @@ void tell_change(const whine::NextSweep& next, const whine::SweepArtifact& here,
   whine::tell(level, " at ", change.compared, " speeds: RMS of the transmission error off by ",
               in_words(change.dte_rms), "; its mean by ", in_words(change.dte_mean), "; peak tooth load by ",
               in_words(change.tooth_load));
-  whine::tell(level, ": jumps ", in_words(here.jump_frequency), " against ", in_words(there.jump_frequency),
-              "; on different branches at ", change.apart, " speeds, with other periods or none at ",
-              change.uneven);
+  whine::tell(level, ": jumps ", whine::jump_words(here.jump_frequency, here.jump_width), " against ",
+              whine::jump_words(there.jump_frequency, there.jump_width), "; on different branches at ",
+              change.apart, " speeds, with other periods or none at ", change.uneven);
 }
 
 void body(int argc, char** argv) {
@@ -102,11 +97,12 @@ void body(int argc, char** argv) {
       run(driver, driven, at_torque, at_reference.mean_stiffness, settings, "");
 
   whine::write(output, result, provenance);
-  std::string jumps;
-  for (double f : result.jump_frequency) jumps += whine::text(jumps.empty() ? ", jumps at " : ", ", f, " Hz");
   whine::tell("gear-sweep: ", result.torque, " N m ", direction, ", ", result.mesh_frequency.size(),
-              " speeds, ", result.periods.sum(), " mesh periods", jumps.empty() ? ", no jump" : jumps, " -> ",
-              output);
+              " speeds, ", result.periods.sum(), " mesh periods, ",
+              result.jump_frequency.size() > 0
+                  ? "jumps at " + whine::jump_words(result.jump_frequency, result.jump_width)
+                  : "no jump",
+              " -> ", output);
   for (const whine::Remark& remark : whine::remarks(result, at_torque))
     whine::tell("gear-sweep: ", remark.warning ? "warning: " : "", remark.words);
   for (const whine::NextSweep& s : next)

@@ -117,7 +117,7 @@ void describe_bodies(Codec& codec, Columns& c) {
   codec.dataset({at + "angle", "rad", "angle of tooth 0 from +y at mesh phase 0, counter-clockwise",
                  "body_number", kSigned},
                 &c.angle);
-  codec.dataset({at + "radius", "m", "base radius; of a carrier that of the pins", "body_number", kSize},
+  codec.dataset({at + "radius", "m", "base radius; of a carrier that of the pins", "body_number", kRadius},
                 &c.radius);
   codec.dataset({at + "inertia", "kg m2", "inertia about the axis", "body_number", {0, kKilograms}},
                 &c.inertia);
@@ -169,8 +169,6 @@ void require_gears(const Codec& c, const System& s) {
       reject("dataset /body/name holds '", body.name, "'; a name holds letters, digits, '_' and '-' only");
     if (body.sense == 0) reject("dataset /body/sense holds 0 of body ", b, "; allowed are -1 and 1");
     if (gear && body.teeth == 0) reject("dataset /body/teeth holds 0 of body ", b, ", which is a gear");
-    if (!(body.radius > 0))
-      reject("dataset /body/radius holds 0 of body ", b, "; allowed is what is above 0");
     if (!has_place(s, body))
       reject("dataset /body/stands_on holds ", body.on, " of body ", b,
              "; allowed are -1, the ground, and the number of a carrier on the ground");

@@ -23,22 +23,10 @@
 #include "io/summary_lines.h"
 #include "io/sweep_codec.h"
 #include "io/variant_codec.h"
+#include "signal/jump_words.h"
 
 namespace whine {
 namespace {
-
-std::string jumps(const Eigen::VectorXd& frequency, const Eigen::VectorXd& width) {
-  std::string out;
-  for (Eigen::Index j = 0; j < frequency.size(); ++j) {
-    // To the digits of the width's first one, to 0.1 Hz at most.
-    const double half = 0.5 * width[j];
-    const int digits = half > 0 && half < 0.1 ? static_cast<int>(std::ceil(-std::log10(half))) : 1;
-    const double unit = std::pow(10, digits), own = digits > 1 ? 10 * unit : 1;
-    out += text(j ? ", " : "", std::round(frequency[j] * own) / own, " +- ", std::round(half * unit) / unit,
-                " Hz");
-  }
-  return out.empty() ? "none" : out;
-}
 
 std::string contact_plane(const GearMeshSpec& mesh) {
   return mesh.contact_plane == ContactPlane::body ? "plane state of the bodies"
@@ -296,7 +284,7 @@ void show(SummaryLines& lines, const SweepArtifact& a) {
   add(lines, "certificate", "least gap ", a.least_gap * 1e6, " µm, least force ", a.least_force, " N, ",
       a.fallbacks, " solutions by Lawson and Hanson");
   if (!std::isinf(a.backlash_margin)) add(lines, "least backlash", a.backlash_margin * 1e6, " µm");
-  add(lines, "jumps", jumps(a.jump_frequency, a.jump_width));
+  add(lines, "jumps", jump_words(a.jump_frequency, a.jump_width));
 }
 
 void show(SummaryLines& lines, const BranchArtifact& a) {
@@ -378,7 +366,7 @@ void show(SummaryLines& lines, const ResponseArtifact& a) {
   }
   add(lines, "natural frequency", a.natural_frequency,
       " Hz (mean over the period, contact frozen under the static load)");
-  add(lines, "jumps", jumps(a.jump_frequency, a.jump_width));
+  add(lines, "jumps", jump_words(a.jump_frequency, a.jump_width));
 }
 
 void show(SummaryLines& lines, const JumpMapArtifact& a) {

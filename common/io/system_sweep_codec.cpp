@@ -75,9 +75,9 @@ void describe_solution(Codec& c, SystemSweepArtifact& a) {
   c.dataset({"/period_multiple", "1", "mesh periods after which the motion repeats; 0: not within the limit",
              kAxis, kMultiple},
             &a.period_multiple);
-  c.dataset({"/residual", "1", "relative change of the state over them", kAxis, {0, 1e300}}, &a.residual);
+  c.dataset({"/residual", "1", "relative change of the state over them", kAxis, kImbalance}, &a.residual);
   c.dataset(
-      {"/energy_imbalance", "1", "energy not accounted for, relative to the throughput", kAxis, {0, 1e300}},
+      {"/energy_imbalance", "1", "energy not accounted for, relative to the throughput", kAxis, kImbalance},
       &a.energy_imbalance);
   constexpr auto kLines = static_cast<Eigen::Index>(kSystemEnergyLines.size());
   if (c.out() && a.energy.cols() != kLines)

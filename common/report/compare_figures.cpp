@@ -99,6 +99,9 @@ Figure compared_motion_figure(const std::vector<OfDesign<ResponseArtifact>>& swe
         fail(Failure::input, "figure: ", found, " sweeps ", direction, " of ", names[i],
              " given; one up and one down of each design are wanted");
       const ResponseArtifact& r = std::find_if(sweeps.begin(), sweeps.end(), is)->artifact;
+      const auto other = std::find_if(sweeps.begin(), sweeps.end(), [&](const auto& one) {
+        return one.design == names[i] && one.artifact.direction != direction;
+      });
       const double force = r.torque / ToothGeometry(r.gear[0].design).base_radius();
       FigureBlock block{
           text(i + 1, " ", direction),
@@ -106,7 +109,7 @@ Figure compared_motion_figure(const std::vector<OfDesign<ResponseArtifact>>& swe
           {},
           "motion",
           text(names[i], " ", direction)};
-      const std::vector<bool> broken = broken_after(r);
+      const std::vector<bool> broken = broken_after(r, other == sweeps.end() ? nullptr : &other->artifact);
       for (Index k = 0; k < r.mesh_frequency.size(); ++k) {
         block.rows.push_back({r.mesh_frequency[k], r.dte_rms[k] * kMicro,
                               r.dte_harmonic.cols() > 0 ? r.dte_harmonic(k, 0) * kMicro : 0,

@@ -48,6 +48,7 @@
 #include "report/system_picture.h"
 #include "report/system_sweep_figure.h"
 #include "signal/response.h"
+#include "studies/sweep.h"
 
 namespace whine {
 namespace {
@@ -134,12 +135,17 @@ Figure draw_root_stress(const Paths& inputs, const Frequencies&) {
 Figure draw_efficiency(const Paths& inputs, const Frequencies&) {
   std::vector<StaticArtifact> statics;
   std::vector<ResponseArtifact> sweeps;
+  std::vector<SweepBacklash> backlash;
   for (const std::string& path : inputs)
-    if (is_a("whine/static", path))
+    if (is_a("whine/static", path)) {
       statics.push_back(read_static(path));
-    else
+    } else if (is_a("whine/sweep", path)) {
+      const SweepArtifact sweep = read_sweep(path);
+      backlash.push_back({sweep.torque, sweep.direction, backlash_left(sweep)});
+    } else {
       sweeps.push_back(read_response(path));
-  return efficiency_figure(statics, sweeps);
+    }
+  return efficiency_figure(statics, sweeps, backlash);
 }
 
 Drawings drawings_at_rest() {
@@ -184,7 +190,9 @@ Drawings drawings_at_rest() {
         [](const Paths& in, const Frequencies&) { return crack_figure(read_static(in[0])); }}},
       {"efficiency",
        {"losses and efficiency over speed, moments of friction over a mesh period",
-        "static.h5, then response.h5 of the sweeps up and down, of each torque, of a scene with [friction]",
+        "static.h5, then response.h5 of the sweeps up and down, of each torque, of a scene with [friction]; "
+        "their "
+        "sweep.h5, for the speeds beyond the backlash",
         0, 0, draw_efficiency}},
       {"root-stress",
        {"root stress over the mesh cycle and over speed, dynamic factors beside K_v",

@@ -1,13 +1,17 @@
 #include "report/efficiency_figure.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <numbers>
 #include <optional>
 
 #include "base/error.h"
 #include "gear/friction.h"
 #include "gear/iso6336_strength.h"
+#include "report/figure_words.h"
 #include "report/response_figures.h"
+#include "signal/response.h"
 
 namespace whine {
 namespace {
@@ -29,20 +33,45 @@ const ResponseArtifact& sweep_at(const std::vector<ResponseArtifact>& sweeps, do
   return *found;
 }
 
+// null where nothing is known of any sweep.
+const SweepBacklash* backlash_of(const std::vector<SweepBacklash>& backlash, const ResponseArtifact& r) {
+  if (backlash.empty()) return nullptr;
+  for (const SweepBacklash& b : backlash)
+    if (b.torque == r.torque && b.direction == r.direction && b.left.size() == r.mesh_frequency.size())
+      return &b;
+  fail(Failure::input, "efficiency: no sweep.h5 ", r.direction, " at ", r.torque,
+       " N m of the speeds of its response.h5; ", "give those of all sweeps or none");
+}
+
+// "2400 to 2600, 3100" (Hz) of a torque, "" for none.
+std::string speeds_beyond(const std::vector<SweepBacklash>& backlash, const ResponseArtifact& up,
+                          const ResponseArtifact& down) {
+  std::map<double, bool> beyond;
+  for (const ResponseArtifact* r : {&up, &down})
+    if (const SweepBacklash* known = backlash_of(backlash, *r))
+      for (Eigen::Index i = 0; i < known->left.size(); ++i)
+        beyond[r->mesh_frequency[i]] |= known->left[i] <= 0;
+  return speed_ranges(beyond);
+}
+
 // rest: of the same torque. Its loss goes with the coefficient at each speed: what a motion without vibration would lose.
-FigureBlock efficiency_block(const std::string& name, const ResponseArtifact& r, const StaticArtifact& rest) {
+FigureBlock efficiency_block(const std::string& name, const ResponseArtifact& r,
+                             const ResponseArtifact& other, const StaticArtifact& rest,
+                             const SweepBacklash* backlash) {
   FigureBlock block{name,
                     {"mesh_frequency [Hz]", "efficiency [%]", "friction_power [W]",
                      "friction_coefficient [1]", "loss_factor [1]", "efficiency_without_vibration [%]"},
                     {},
                     text("speed-T", shown(r.torque, 6)),
                     name_of(r.direction)};
-  const std::vector<bool> broken = broken_after(r);
+  const std::vector<bool> broken = broken_after(r, &other);
+  if (backlash) block.columns.emplace_back("beyond_backlash [1]");
   const double loss = (1 - rest.efficiency) / rest.friction_coefficient;
   for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i) {
     block.rows.push_back({r.mesh_frequency[i], r.friction.efficiency[i] * 100, r.friction.power[i],
                           r.friction.coefficient[i], r.loss_factor.size() > 0 ? r.loss_factor[i] : 0,
                           (1 - loss * r.friction.coefficient[i]) * 100});
+    if (backlash) block.rows.back().push_back(backlash->left[i] <= 0 ? 1 : 0);
     if (broken[static_cast<size_t>(i)]) block.rows.emplace_back();
   }
   return block;
@@ -50,10 +79,11 @@ FigureBlock efficiency_block(const std::string& name, const ResponseArtifact& r,
 
 // Drawn only: the efficiency at rest is the same on all branches, so that its curve has no gap where a sweep jumps.
 FigureBlock unbroken_rest(const std::string& name, const FigureBlock& speeds) {
-  FigureBlock block{name, {speeds.columns.front(), speeds.columns.back()}, {}, "", "", true};
+  constexpr size_t kAtRest = 5;
+  FigureBlock block{name, {speeds.columns.front(), speeds.columns[kAtRest]}, {}, "", "", true};
   block.rows.reserve(speeds.rows.size());
   for (const std::vector<double>& row : speeds.rows)
-    if (!row.empty()) block.rows.push_back({row.front(), row.back()});
+    if (!row.empty()) block.rows.push_back({row.front(), row[kAtRest]});
   return block;
 }
 
@@ -92,7 +122,8 @@ std::vector<std::string> beyond_schlenk(const GearPair& pair, const std::vector<
 }  // namespace
 
 Figure efficiency_figure(const std::vector<StaticArtifact>& statics,
-                         const std::vector<ResponseArtifact>& sweeps) {
+                         const std::vector<ResponseArtifact>& sweeps,
+                         const std::vector<SweepBacklash>& backlash) {
   constexpr size_t kMostTorques = 6;
   if (statics.empty() || statics.size() > kMostTorques || sweeps.size() != 2 * statics.size())
     fail(Failure::input, "efficiency: it needs static.h5 and two response.h5, up and down, at each of 1 to ",
@@ -112,13 +143,18 @@ Figure efficiency_figure(const std::vector<StaticArtifact>& statics,
                    ""};
   if (rigid) rest.columns.emplace_back("loss_factor_rigid [1]");
   double power = 0, least = 100, most = 0;
-  std::string labels, at_rest, factors;
+  std::string labels, at_rest, factors, beyond;
   for (size_t t = 0; t < statics.size(); ++t) {
     const StaticArtifact& s = statics[t];
     labels += text(t ? " '" : "'", torque_words(s.torque), "'");
-    for (const Direction direction : {Direction::up, Direction::down}) {
+    const std::array<const ResponseArtifact*, 2> both{&sweep_at(sweeps, s.torque, Direction::up),
+                                                      &sweep_at(sweeps, s.torque, Direction::down)};
+    if (const std::string speeds = speeds_beyond(backlash, *both[0], *both[1]); !speeds.empty())
+      beyond += text(beyond.empty() ? "" : "; ", "at ", torque_words(s.torque), ": ", speeds, " Hz");
+    for (const size_t way : {0, 1}) {
+      const ResponseArtifact& r = *both[way];
       figure.blocks.push_back(
-          efficiency_block(text(t + 1, " ", direction), sweep_at(sweeps, s.torque, direction), s));
+          efficiency_block(text(t + 1, " ", r.direction), r, *both[1 - way], s, backlash_of(backlash, r)));
       for (const std::vector<double>& row : figure.blocks.back().rows) {
         if (row.empty()) continue;
         least = std::min({least, row[1], row[5]});
@@ -155,10 +191,16 @@ Figure efficiency_figure(const std::vector<StaticArtifact>& statics,
                        "): ", at_rest),
                   text("loss factor H_V at rest, without the coefficient: ", factors,
                        rigid ? text("; of rigid teeth ", fixed(*rigid, 4)) : "")};
+  if (backlash.empty())
+    figure.notes.emplace_back("without sweep.h5 it is not known where motions go beyond the backlash");
+  if (!beyond.empty())
+    for (std::string& line : in_lines(
+             "rings: the motion goes beyond the backlash, friction of back flanks is left out; " + beyond))
+      figure.notes.push_back(std::move(line));
   const ResponseArtifact& up = sweep_at(sweeps, first.torque, Direction::up);
   if (first.mesh.friction.law == FrictionLaw::schlenk) {
-    const std::vector<std::string> beyond = beyond_schlenk(pair, statics, up.mesh_frequency);
-    figure.notes.insert(figure.notes.end(), beyond.begin(), beyond.end());
+    const std::vector<std::string> untested = beyond_schlenk(pair, statics, up.mesh_frequency);
+    figure.notes.insert(figure.notes.end(), untested.begin(), untested.end());
   }
   figure.shafts = shafts_of(first);
   figure.words = {{"labels", labels},
@@ -169,6 +211,7 @@ Figure efficiency_figure(const std::vector<StaticArtifact>& statics,
                     {"efficiency_max", most},
                     {"frequency_from", up.mesh_frequency.minCoeff()},
                     {"frequency_to", up.mesh_frequency.maxCoeff()},
+                    {"beyond_backlash", beyond.empty() ? 0.0 : 1.0},
                     {"notes", static_cast<double>(figure.notes.size())},
                     {"natural_frequency", up.natural_frequency}};
   return figure;

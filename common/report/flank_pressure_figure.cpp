@@ -54,14 +54,14 @@ FigureBlock map_block(const ResponseArtifact& r, const GearPair& pair) {
   return block;
 }
 
-FigureBlock pressure_block(const ResponseArtifact& r) {
+FigureBlock pressure_block(const ResponseArtifact& r, const ResponseArtifact& other) {
   FigureBlock block{text("speed ", r.direction),
                     {"mesh_frequency [Hz]", "pressure [MPa]", "edge_load_" + r.mesh.gear[0] + " [N]",
                      "edge_load_" + r.mesh.gear[1] + " [N]"},
                     {},
                     "speed",
                     name_of(r.direction)};
-  const std::vector<bool> broken = broken_after(r);
+  const std::vector<bool> broken = broken_after(r, &other);
   for (Index f = 0; f < r.mesh_frequency.size(); ++f) {
     block.rows.push_back({r.mesh_frequency[f], r.flank_pressure_held[f] * kInMegapascals, r.edge_load[0][f],
                           r.edge_load[1][f]});
@@ -103,7 +103,7 @@ Figure flank_pressure_figure(const StaticArtifact& s, const std::vector<Response
   if (both) figure.blocks.push_back(map_block(down, pair));
   double largest = 0, edge = 0;
   for (const ResponseArtifact* r : {&up, &down}) {
-    figure.blocks.push_back(pressure_block(*r));
+    figure.blocks.push_back(pressure_block(*r, r == &up ? down : up));
     largest = std::max({largest, r->flank_pressure.maxCoeff(), r->flank_pressure_held.maxCoeff()});
     for (const Eigen::VectorXd& load : r->edge_load) edge = std::max(edge, load.maxCoeff());
   }

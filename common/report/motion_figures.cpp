@@ -1,6 +1,7 @@
 #include "report/motion_figures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -198,11 +199,11 @@ FigureBlock spectra_block(const SweepArtifact& sweep, const ResponseArtifact& r,
 }
 
 // Amplitudes of the first `known` orders of the mesh frequency at every speed.
-FigureBlock orders_block(const ResponseArtifact& r, Eigen::Index known) {
+FigureBlock orders_block(const ResponseArtifact& r, const ResponseArtifact* other, Eigen::Index known) {
   FigureBlock orders{
       text("orders ", r.direction), {"mesh_frequency [Hz]"}, {}, "orders", name_of(r.direction)};
   for (Eigen::Index k = 1; k <= known; ++k) orders.columns.push_back(text("amplitude of order ", k, " [µm]"));
-  const std::vector<bool> broken = broken_after(r);
+  const std::vector<bool> broken = broken_after(r, other);
   for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i) {
     std::vector<double> row{r.mesh_frequency[i]};
     for (Eigen::Index k = 0; k < known; ++k) row.push_back(r.dte_harmonic(i, k) * kMicro);
@@ -291,9 +292,10 @@ Figure dynamic_load_figure(const std::vector<SweepArtifact>& sweeps, Background 
   Motion worst;
   double rms = -1, from = std::numeric_limits<double>::infinity(), to = 0, most = 0;
   bool lost = false;
+  const std::array<ResponseArtifact, 2> both{response(*curve.up), response(*curve.down)};
   for (const SweepArtifact* sweep : {curve.up, curve.down}) {
-    const ResponseArtifact r = response(*sweep);
-    figure.blocks.push_back(response_block(name_of(sweep->direction), r));
+    const ResponseArtifact& r = both[sweep == curve.up ? 0 : 1];
+    figure.blocks.push_back(response_block(name_of(sweep->direction), r, &both[sweep == curve.up ? 1 : 0]));
     Eigen::Index row = 0;
     if (const double here = r.dte_rms.maxCoeff(&row); here > rms) {
       rms = here;
@@ -362,12 +364,17 @@ Figure waterfall_figure(const std::vector<SweepArtifact>& sweeps) {
   }
   std::string directions;
   double largest = 0;
-  for (const SweepArtifact* sweep : shown) {
-    const ResponseArtifact r = response(*sweep);
+  std::vector<ResponseArtifact> responses;
+  for (const SweepArtifact* sweep : shown) responses.push_back(response(*sweep));
+  for (size_t i = 0; i < shown.size(); ++i) {
+    const SweepArtifact* sweep = shown[i];
+    const ResponseArtifact& r = responses[i];
     known = std::min(known, r.dte_harmonic.cols());
     FigureBlock lines = spectra_block(*sweep, r, group, end);
     for (const std::vector<double>& row : lines.rows) largest = std::max(largest, row[2]);
-    figure.blocks.insert(figure.blocks.end(), {std::move(lines), orders_block(r, known)});
+    figure.blocks.insert(
+        figure.blocks.end(),
+        {std::move(lines), orders_block(r, shown.size() == 2 ? &responses[1 - i] : nullptr, known)});
     directions += text(directions.empty() ? "" : " ", sweep->direction);
   }
   figure.notes.push_back(

@@ -29,7 +29,7 @@ Figure order_figure(const std::vector<ResponseArtifact>& sweeps) {
     FigureBlock block{
         text("orders ", r->direction), {"mesh_frequency [Hz]"}, {}, "orders", name_of(r->direction)};
     for (Eigen::Index k = 1; k <= orders; ++k) block.columns.push_back(text("order_", k, " [µm]"));
-    const std::vector<bool> broken = broken_after(*r);
+    const std::vector<bool> broken = broken_after(*r, r == curve.up ? curve.down : curve.up);
     for (Eigen::Index i = 0; i < r->mesh_frequency.size(); ++i) {
       std::vector<double> row{r->mesh_frequency[i]};
       for (Eigen::Index k = 0; k < orders; ++k) {

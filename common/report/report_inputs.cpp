@@ -9,6 +9,7 @@
 #include "io/error_budget_codec.h"
 #include "io/impact_codec.h"
 #include "io/modes_codec.h"
+#include "io/picture_sources.h"
 #include "io/provenance.h"
 #include "io/publish.h"
 #include "io/scene_words.h"
@@ -24,12 +25,13 @@
 namespace whine {
 namespace {
 
-ReportPicture read_picture(const std::string& path) {
+ReportPicture read_picture(const std::string& path, const std::string& scene) {
   const ReportPicture picture{std::filesystem::path(path).stem().string(),
                               read_bytes(path, "make the figure first")};
   const bool whole =
       picture.bytes.rfind("\x89PNG", 0) == 0 && picture.bytes.find("IEND") != std::string::npos;
   if (!whole) fail(Failure::input, path, ": is no whole PNG; delete it and make the figure again");
+  require_fresh_picture(path, picture.bytes, scene);
   return picture;
 }
 
@@ -97,9 +99,10 @@ void require_one_origin(const std::vector<ReportSource>& sources) {
 
 SystemReport read_system_report(const std::vector<std::string>& paths) {
   SystemReport report;
+  std::vector<std::string> pictures;
   for (const std::string& path : paths) {
     if (path.ends_with(".png")) {
-      report.pictures.push_back(read_picture(path));
+      pictures.push_back(path);
       continue;
     }
     take_source(path, report);
@@ -120,6 +123,7 @@ SystemReport read_system_report(const std::vector<std::string>& paths) {
       report.modes = read_modes(path);
   }
   require_one_origin(report.sources);
+  for (const std::string& path : pictures) report.pictures.push_back(read_picture(path, report.scene));
   if (report.scene.empty()) report.scene = "system of gears";
   return report;
 }
@@ -127,10 +131,10 @@ SystemReport read_system_report(const std::vector<std::string>& paths) {
 ReportContent read_report_content(const std::vector<std::string>& paths) {
   // Sweeps last: what they warn of depends on the statics at their torque.
   ReportContent content;
-  std::vector<std::string> sweeps;
+  std::vector<std::string> sweeps, pictures;
   for (const std::string& path : paths) {
     if (path.ends_with(".png")) {
-      content.pictures.push_back(read_picture(path));
+      pictures.push_back(path);
       continue;
     }
     take_source(path, content);
@@ -149,6 +153,7 @@ ReportContent read_report_content(const std::vector<std::string>& paths) {
     }
   }
   for (const std::string& path : sweeps) content.sweeps.push_back(read_sweep_of(content, path));
+  for (const std::string& path : pictures) content.pictures.push_back(read_picture(path, content.scene));
   if (content.scene.empty()) content.scene = "gear pair";
   require_one_pair(content);
   return content;

@@ -145,7 +145,8 @@ std::string add_curve(Figure& figure, const std::string& letter, size_t c, const
   const std::string name = letter + " " + label + " ";
   std::string found;
   for (const ResponseArtifact* r : {curve.up, curve.down}) {
-    figure.blocks.push_back(response_block(text(name, r->direction), *r));
+    figure.blocks.push_back(
+        response_block(text(name, r->direction), *r, r == curve.up ? curve.down : curve.up));
     figure.blocks.push_back(jump_block(text(name, "jumps ", r->direction), *r));
     const std::string at = listed_jumps(figure.blocks.back());
     if (!at.empty())
@@ -210,7 +211,20 @@ void add_panel(Figure& figure, const std::string& letter, const ChoicePanel<Resp
 
 }  // namespace
 
-std::vector<bool> broken_after(const ResponseArtifact& r) {
+namespace {
+
+// Whether the other sweep has the motion of a row.
+bool found_again(const ResponseArtifact& r, Eigen::Index row, const ResponseArtifact& other) {
+  constexpr double kAlike = 0.02;  // of the RMS
+  for (Eigen::Index i = 0; i < other.mesh_frequency.size(); ++i)
+    if (std::abs(other.mesh_frequency[i] / r.mesh_frequency[row] - 1) < 1e-9)
+      return std::abs(other.dte_rms[i] - r.dte_rms[row]) < kAlike * r.dte_rms[row];
+  return false;
+}
+
+}  // namespace
+
+std::vector<bool> broken_after(const ResponseArtifact& r, const ResponseArtifact* other) {
   const Eigen::Index n = r.mesh_frequency.size();
   std::vector<bool> jumps(n, false), broken;
   for (const Eigen::Index i : rows_before_jumps(r))
@@ -224,19 +238,21 @@ std::vector<bool> broken_after(const ResponseArtifact& r) {
   for (Eigen::Index i = 0; i + 1 < n; ++i)
     if (r.dte_rms[i] > 0 && r.dte_rms[i + 1] > 0 &&
         r.mesh_frequency[i + 1] - r.mesh_frequency[i] < kWidest * r.mesh_frequency[i] &&
-        change(i) > std::max(std::log(1.5), 2.5 * std::max(change(i - 1), change(i + 1))))
+        change(i) > std::max(std::log(1.5), 2.5 * std::max(change(i - 1), change(i + 1))) &&
+        !(other && found_again(r, i, *other) && found_again(r, i + 1, *other)))
       broken[i] = true;
   return broken;
 }
 
-FigureBlock response_block(const std::string& name, const ResponseArtifact& r) {
+FigureBlock response_block(const std::string& name, const ResponseArtifact& r,
+                           const ResponseArtifact* other) {
   FigureBlock block{name,
                     {"mesh_frequency [Hz]", "dte_rms [µm]", "dte_mean [µm]", "separation_fraction [1]",
                      "mesh_force_max [N]", "tooth_load_max [N]", "period_multiple [1]"},
                     {},
                     "responses",
                     name};
-  const std::vector<bool> broken = broken_after(r);
+  const std::vector<bool> broken = broken_after(r, other);
   for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i) {
     block.rows.push_back({r.mesh_frequency[i], r.dte_rms[i] * kMicro, r.dte_mean[i] * kMicro,
                           r.separation_fraction[i], r.mesh_force_max[i], r.tooth_load_max[i],
@@ -320,7 +336,7 @@ Figure bearing_force_figure(const std::vector<ResponseArtifact>& sweeps, const B
                         {},
                         "forces",
                         text(mesh.gear[g], " ", r->direction)};
-      const std::vector<bool> broken = broken_after(*r);
+      const std::vector<bool> broken = broken_after(*r, r == curve.up ? curve.down : curve.up);
       for (Eigen::Index i = 0; i < r->mesh_frequency.size(); ++i) {
         block.rows.push_back({r->mesh_frequency[i], r->bearing_force_rms[g][i], r->bearing_force_max[g][i]});
         if (broken[i]) block.rows.emplace_back();

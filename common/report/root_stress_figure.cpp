@@ -70,10 +70,10 @@ std::vector<std::string> motion_columns(const PairParameters& pair) {
           "factor_root_stress_" + driven + " [1]"};
 }
 
-FigureBlock stress_block(const ResponseArtifact& r, const AtRest& rest) {
+FigureBlock stress_block(const ResponseArtifact& r, const ResponseArtifact& other, const AtRest& rest) {
   FigureBlock block{text("speed ", r.direction), motion_columns(r), {}, "speed", name_of(r.direction)};
   block.columns.emplace_back("loss_factor [1]");
-  const std::vector<bool> broken = broken_after(r);
+  const std::vector<bool> broken = broken_after(r, &other);
   for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i) {
     const double a = r.root_stress_held[0][i], b = r.root_stress_held[1][i];
     block.rows.push_back({r.mesh_frequency[i], a * kInMegapascals, b * kInMegapascals,
@@ -193,7 +193,8 @@ Figure root_stress_figure(const StaticArtifact& s, const std::vector<ResponseArt
       }
     figure.blocks.push_back(std::move(block));
   };
-  for (const ResponseArtifact& r : sweeps) add_motions(stress_block(r, rest));
+  for (const ResponseArtifact& r : sweeps)
+    add_motions(stress_block(r, sweeps[&r == &sweeps[0] ? 1 : 0], rest));
   for (const BranchArtifact& b : branches) add_motions(branch_block(b, s, rest));
   if (iso.resonance) figure.blocks.push_back(dynamic_factor_block(iso, sweeps[0]));
   figure.blocks.push_back(rest_block(s, iso));

@@ -1,11 +1,15 @@
 # Efficiency (a) and power lost (b) over speed at each torque, both sweep directions; moments of friction over a mesh period (c).
 # Variables from gear-plot: tsv, heading, note1, note2, ..., notes, height, labels, gears, curves, power_max,
-# efficiency_min, efficiency_max, frequency_from, frequency_to, natural_frequency.
+# efficiency_min, efficiency_max, beyond_backlash, frequency_from, frequency_to, natural_frequency.
 set datafile separator tab
 set datafile commentschars "#"
 lift = room(notes)
 
 array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#aa4499", "#e69f00", "#444444"]
+# Of both directions of torque t.
+rings(t, column) = sprintf('tsv index "[%d up]" using ($7 > 0 ? $1 : NaN):%d with points pt 6 ps 1.1 lw 1.4 lc rgb "#202020" notitle, ', t, column) \
+  . sprintf('tsv index "[%d down]" using ($7 > 0 ? $1 : NaN):%d with points pt 6 ps 1.1 lw 1.4 lc rgb "#202020" notitle, ', t, column)
+ring_key = beyond_backlash > 0 ? ', keyentry with points pt 6 ps 1.1 lw 1.4 lc rgb "#202020" title "beyond backlash"' : ''
 set multiplot title heading offset 0, -0.3
 set border 3 lw 1.6
 set tics out nomirror font ",14"
@@ -34,9 +38,10 @@ drawn = ''
 do for [t = 1:curves] {
   drawn = drawn . sprintf('tsv index "[%d down]" using 1:2 with lines lt 1 lw 2 dt (10, 5) lc rgb "%s" notitle, ', t, colour[t]) \
     . sprintf('tsv index "[%d up]" using 1:2 with lines lt 1 lw 2 lc rgb "%s" title word(labels, %d), ', t, colour[t], t) \
-    . sprintf('tsv index "[%d rest]" using 1:2 with lines lt 1 lw 2.2 dt (3, 4) lc rgb "%s" notitle, ', t, colour[t])
+    . sprintf('tsv index "[%d rest]" using 1:2 with lines lt 1 lw 2.2 dt (3, 4) lc rgb "%s" notitle, ', t, colour[t]) \
+    . (beyond_backlash > 0 ? rings(t, 2) : '')
 }
-eval("plot " . drawn . 'keyentry with lines lt 1 lw 2 dt (10, 5) lc rgb "#505050" title "dashed: falling"')
+eval("plot " . drawn . 'keyentry with lines lt 1 lw 2 dt (10, 5) lc rgb "#505050" title "dashed: falling"' . ring_key)
 
 set tmargin at screen 0.56 + 0.5 * lift
 set bmargin at screen 0.36 + 0.5 * lift
@@ -46,9 +51,10 @@ set label 1 "{/:Bold (b)} mean power that friction takes"
 drawn = ''
 do for [t = 1:curves] {
   drawn = drawn . sprintf('tsv index "[%d down]" using 1:3 with lines lt 1 lw 2 dt (10, 5) lc rgb "%s" notitle, ', t, colour[t]) \
-    . sprintf('tsv index "[%d up]" using 1:3 with lines lt 1 lw 2 lc rgb "%s" title word(labels, %d), ', t, colour[t], t)
+    . sprintf('tsv index "[%d up]" using 1:3 with lines lt 1 lw 2 lc rgb "%s" title word(labels, %d), ', t, colour[t], t) \
+    . (beyond_backlash > 0 ? rings(t, 3) : '')
 }
-eval("plot " . drawn . 'keyentry with lines lt 1 lw 2 dt (10, 5) lc rgb "#505050" title "dashed: falling"')
+eval("plot " . drawn . 'keyentry with lines lt 1 lw 2 dt (10, 5) lc rgb "#505050" title "dashed: falling"' . ring_key)
 
 unset arrow
 unset label 11
