@@ -669,6 +669,7 @@ TEST_CASE("orbits: a sweep jumps where the branch folds, also across a change of
     // Stable orbits are the sweep's.
     const ResponseArtifact response = whine::response(swept);
     double apart = 0, held = 0;
+    Eigen::Array2d place = Eigen::Array2d::Zero();  // rad; mesh periods
     int compared = 0;
     for (Eigen::Index i = 0; i < response.mesh_frequency.size(); ++i)
       for (Eigen::Index k = 0; k + 1 < branch.mesh_frequency.size(); ++k) {
@@ -683,6 +684,12 @@ TEST_CASE("orbits: a sweep jumps where the branch folds, also across a change of
         };
         for (size_t g = 0; g < kSides; ++g)
           held_apart(branch.root_stress_held[g], response.root_stress_held[g][i]);
+        // Where that stress stands: at the nearer orbit, as the largest may go over to another tooth.
+        const Eigen::Index near = share < 0.5 ? k : k + 1;
+        for (size_t g = 0; g < kSides; ++g)
+          place = place.max(
+              Eigen::Array2d(std::abs(branch.root_stress_angle[g][near] - response.root_stress_angle[g][i]),
+                             std::abs(branch.root_stress_phase[g][near] - response.root_stress_phase[g][i])));
         held_apart(branch.tooth_load_held, response.tooth_load_held[i]);
         held_apart(branch.mesh_force_held, response.mesh_force_held[i]);
         ++compared;
@@ -692,6 +699,9 @@ TEST_CASE("orbits: a sweep jumps where the branch folds, also across a change of
     CHECK(apart < 1e-2);
     MESSAGE("held loads and root stress: " << held);
     CHECK(held < 2e-2);
+    MESSAGE("place of the root stress: " << place[0] << " rad, " << place[1] << " mesh periods");
+    CHECK(place[0] < 0.01);
+    CHECK(place[1] < 3.0 / 64);
   }
   // What is written is read.
   const std::string path = (std::filesystem::temp_directory_path() / "whine-branch-test.h5").string();

@@ -357,6 +357,8 @@ SweepArtifact small_pair_sweep() {
   a.mesh_force = odd_matrix(2, 64, 3e3);
   a.pair = Eigen::VectorXi{{-1, 0, 1}};
   a.root_stress = {odd_matrix(2, 64, 9e7), odd_matrix(2, 64, 8e7)};
+  a.root_stress_angle = {odd_vector(2, 0.7), odd_vector(2, 0.8)};
+  a.root_stress_phase = {odd_vector(2, 0.3), odd_vector(2, -0.4)};
   a.tooth_load = {odd_matrix(64, 3, 1e3), odd_matrix(64, 3, 2e3)};
   a.periods = Eigen::VectorXi{{80, 120}};
   a.residual = odd_vector(2, 1e-7);
@@ -429,6 +431,8 @@ ResponseArtifact small_response() {
   a.tooth_load_max = odd_vector(2, 4e3);
   a.root_stress_max = {odd_vector(2, 3e8), odd_vector(2, 2e8)};
   a.root_stress_held = {odd_vector(2, 2.5e8), odd_vector(2, 1.5e8)};
+  a.root_stress_angle = {odd_vector(2, 0.7), odd_vector(2, 0.8)};
+  a.root_stress_phase = {odd_vector(2, 0.3), odd_vector(2, -0.4)};
   a.tooth_load_held = odd_vector(2, 4e3).cwiseAbs();
   a.mesh_force_held = odd_vector(2, 6e3).cwiseAbs();
   a.pair_phase = odd_vector(3, 0.5);
@@ -565,6 +569,8 @@ BranchArtifact small_branch() {
   a.dte_rms = a.dte_mean = a.residual = odd_vector(2, 1e-6);
   a.mesh_force_held = a.tooth_load_held = odd_vector(2, 5e3).cwiseAbs();
   a.root_stress_held = {odd_vector(2, 2.5e8), odd_vector(2, 1.5e8)};
+  a.root_stress_angle = {odd_vector(2, 0.7), odd_vector(2, 0.8)};
+  a.root_stress_phase = {odd_vector(2, 0.3), odd_vector(2, -0.4)};
   a.dte_harmonic = odd_matrix(2, 3, 1e-6);
   a.floquet_multiplier = {odd_matrix(4, 2, 0.9), odd_matrix(4, 2, 0.7)};
   a.stable = a.steps = a.period_multiple = Eigen::Vector2i(1, 1);
@@ -1063,6 +1069,8 @@ TEST_CASE("sweep.h5 gives back every value bit by bit, and an empty list of jump
   CHECK(a.transmission_error == b.transmission_error);
   CHECK(a.mesh_force == b.mesh_force);
   CHECK(a.root_stress == b.root_stress);
+  CHECK(a.root_stress_angle == b.root_stress_angle);
+  CHECK(a.root_stress_phase == b.root_stress_phase);
   CHECK(a.pair == b.pair);
   REQUIRE(b.tooth_load.size() == 2);
   CHECK(a.tooth_load[0] == b.tooth_load[0]);
@@ -1259,6 +1267,8 @@ TEST_CASE("response.h5 gives back every value bit by bit") {
   CHECK(a.mesh_force_max == b.mesh_force_max);
   CHECK(a.root_stress_max == b.root_stress_max);
   CHECK(a.root_stress_held == b.root_stress_held);
+  CHECK(a.root_stress_angle == b.root_stress_angle);
+  CHECK(a.root_stress_phase == b.root_stress_phase);
   CHECK(a.tooth_load_held == b.tooth_load_held);
   CHECK(a.mesh_force_held == b.mesh_force_held);
   CHECK(a.pair_phase == b.pair_phase);
@@ -2083,7 +2093,8 @@ TEST_CASE("an empty list of matrices is given back as such: a branch without a p
   BranchArtifact a = small_branch();
   for (Eigen::VectorXd* v :
        {&a.mesh_frequency, &a.dte_rms, &a.dte_mean, &a.residual, &a.fold_frequency, &a.fold_rms,
-        &a.mesh_force_held, &a.tooth_load_held, &a.root_stress_held[0], &a.root_stress_held[1]})
+        &a.mesh_force_held, &a.tooth_load_held, &a.root_stress_held[0], &a.root_stress_held[1],
+        &a.root_stress_angle[0], &a.root_stress_angle[1], &a.root_stress_phase[0], &a.root_stress_phase[1]})
     v->resize(0);
   a.dte_harmonic.resize(0, 3);
   a.floquet_multiplier.clear();

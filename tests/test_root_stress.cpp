@@ -17,6 +17,7 @@
 #include "report/iso_comparison.h"
 #include "report/root_stress_figure.h"
 #include "signal/branches.h"
+#include "signal/no_root_stress.h"
 #include "signal/response.h"
 #include "solid/loaded_gear.h"
 #include "solid/root_stress.h"
@@ -393,9 +394,8 @@ TEST_CASE(
   const std::array periods{period(3000, 2000), period(1500, 3000), period(2000, 1500)};
   const auto largest_of = [&](int repeats) {
     HeldPeaks peaks(model, kSteps);
-    Eigen::VectorXd most = Eigen::VectorXd::Zero(4);
-    for (int k = 0; k < kPeriods; ++k)
-      most = most.cwiseMax(peaks.of(periods[static_cast<size_t>(k)], k, repeats));
+    Eigen::VectorXd most;
+    for (int k = 0; k < kPeriods; ++k) most = peaks.so_far(periods[static_cast<size_t>(k)], k, repeats);
     return most;
   };
   MatrixRM force(kPeriods * kSteps, 1);
@@ -406,6 +406,27 @@ TEST_CASE(
   CHECK(largest_of(kPeriods)[0] == 3200);
   CHECK(largest_of(HeldPeaks::kNever)[0] == held_load(force, kSteps));
   CHECK(largest_of(kPeriods)[2] > 1.1 * HeldPeaks(model, kSteps).of(periods[1])[2]);
+  // The place goes with the largest of the periods, not with the last one, and it is not the largest place.
+  HeldPeaks following(model, kSteps);
+  Eigen::VectorXd alone[kPeriods], together;
+  for (int k = 0; k < kPeriods; ++k) {
+    HeldPeaks own(model, kSteps);
+    for (int before = 0; before < k; ++before) own.of(periods[static_cast<size_t>(before)], before, kPeriods);
+    alone[k] = own.of(periods[static_cast<size_t>(k)], k, kPeriods);
+    together = following.so_far(periods[static_cast<size_t>(k)], k, kPeriods);
+  }
+  REQUIRE(together.size() == HeldPeaks::kRows);
+  for (int g = 0; g < kSides; ++g) {
+    int most = 0;
+    for (int k = 1; k < kPeriods; ++k)
+      if (alone[k][2 + g] > alone[most][2 + g]) most = k;
+    CHECK(most < kPeriods - 1);
+    for (const int row : {2 + g, 2 + kSides + g, 2 + 2 * kSides + g})
+      CHECK(together[row] == alone[most][row]);
+    // The load stands at the pitch point's pair within two samples of the start of a period.
+    const double phase = together[2 + 2 * kSides + g];
+    CHECK(std::min(std::abs(phase), std::abs(phase - 1)) <= 2.0 / kSteps);
+  }
   // A motion of one period meets its own start.
   CHECK(HeldPeaks(model, kSteps).of(periods[0])[0] == 2200);
   CHECK(HeldPeaks(model, kSteps).of(periods[0], 0, HeldPeaks::kNever)[0] == 300);
@@ -429,6 +450,13 @@ TEST_CASE(
         up.root_stress[g].row(0).transpose() - s.root_stress[g].rowwise().maxCoeff();
     // Tooth loads move by the inertia of the hubs, 4e-3 as in the transmission error.
     CHECK(difference.cwiseAbs().maxCoeff() < 5e-3 * s.root_stress_max[static_cast<Eigen::Index>(g)]);
+    // The same place: within 1/64 of a mesh period and what the fillet's angle changes by meanwhile.
+    const auto at = static_cast<Eigen::Index>(g);
+    MESSAGE("place at rest and crawling: " << s.root_stress_angle[at] << ", " << up.root_stress_angle[g][0]
+                                           << " rad; " << s.root_stress_phase[at] << ", "
+                                           << up.root_stress_phase[g][0]);
+    CHECK(std::abs(up.root_stress_phase[g][0] - s.root_stress_phase[at]) <= 1.0 / 64);
+    CHECK(std::abs(up.root_stress_angle[g][0] - s.root_stress_angle[at]) < 5e-3);
   }
   ResponseArtifact r = response(up);
   r.loss_factor = loss_factors(up);
@@ -471,6 +499,8 @@ TEST_CASE(
   CHECK(r.loss_factor[0] == relative(s.loss_factor, 2e-3));
   for (size_t g = 0; g < kSides; ++g) {
     CHECK(r.root_stress_held[g][0] <= r.root_stress_max[g][0]);
+    CHECK(r.root_stress_angle[g] == up.root_stress_angle[g]);
+    CHECK(r.root_stress_phase[g] == up.root_stress_phase[g]);
     CHECK(r.root_stress_held[g][0] == relative(r.root_stress_max[g][0], 0.02));
   }
   CHECK(r.tooth_load_held[0] <= r.tooth_load_max[0]);
@@ -502,6 +532,11 @@ TEST_CASE(
   CHECK(rest.rows[0][6] == relative(flank_pressure(s).smooth * 1e-6, 1e-12));
   for (size_t column = 3; column < 7; ++column) CHECK(speed.rows[0][column] == relative(1, 0.02));
   CHECK(block("cycle 1").rows.size() == static_cast<size_t>(s.root_stress[0].size()));
+  REQUIRE(speed.columns.size() == 12);
+  CHECK(speed.columns[8] == "root_angle_pinion [deg]");
+  CHECK(speed.columns[11] == "root_phase_wheel [1]");
+  CHECK(speed.rows[0][8] == relative(r.root_stress_angle[0][0] * 180 / std::numbers::pi, 1e-12));
+  CHECK(speed.rows[0][11] == relative(r.root_stress_phase[1][0], 1e-12));
   CHECK(block("iso").rows.front()[1] >= 1);
   // Gears by the scene's names, no raw markup.
   CHECK(speed.columns[1] == "root_stress_pinion [MPa]");
@@ -532,4 +567,20 @@ TEST_CASE(
   CHECK(without([](ResponseArtifact& a) { a.mesh_force_held.resize(0); }) == Failure::input);
   CHECK(without([](ResponseArtifact& a) { a.tooth_load_held.resize(0); }) == Failure::input);
   CHECK(without([](ResponseArtifact& a) { a.loss_factor.resize(0); }) == Failure::input);
+}
+
+TEST_CASE("root stress: a pair at rest without it says which tooth is cracked and what to take out") {
+  StaticArtifact s;
+  s.mesh.gear = {"pinion", "wheel"};
+  CHECK(why_no_root_stress(s).find("make the bodies anew") != std::string::npos);
+  s.gear[1].design.crack.depth = 2e-3;
+  s.gear[1].design.crack.tooth = 3;
+  const std::string why = why_no_root_stress(s);
+  for (const char* part : {"tooth 3 of wheel", "2 mm", "[gear.wheel.crack]"})
+    CHECK(why.find(part) != std::string::npos);
+  CHECK(failure_of([&] { root_stress_figure(s, {}); }) == Failure::input);
+  s.gear[1].design.crack.depth = 0;
+  s.root_stress_max = Eigen::Vector2d(1e8, 1e8);
+  s.root_stress = {MatrixRM::Constant(1, 1, 1e8), MatrixRM::Constant(1, 1, 1e8)};
+  CHECK(why_no_root_stress(s) == "");
 }

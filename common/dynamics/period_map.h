@@ -47,7 +47,7 @@ class RollingPeriodMap : public PeriodMap {
   }
   std::vector<ContactEvent> events() const override;
   Eigen::VectorXd observable() const override { return period_.transmission_error; }
-  // What peaks() are of a period, with its number and those of the orbit.
+  // What peaks() are of a period and those before it, with its number and those of the orbit.
   using Measure = std::function<Eigen::VectorXd(const RollingDynamics::Period&, int, int)>;
   void measure(Measure of) { measure_ = std::move(of); }
   Eigen::VectorXd peaks(int number, int periods) override {

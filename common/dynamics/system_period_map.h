@@ -27,9 +27,12 @@ class SystemPeriodMap : public PeriodMap {
   Eigen::MatrixXd tangent_times(const Eigen::MatrixXd& directions) override;
   std::vector<ContactEvent> events() const override;  // contact: the slot
   Eigen::VectorXd observable() const override;        // transmission error of the first mesh
-  // What `measure` gives of a period; empty without.
-  Eigen::VectorXd peaks(int /*number*/, int /*periods*/) override {
-    return measure_ ? measure_(period_) : Eigen::VectorXd();
+  // The largest that `measure` gives of the periods; empty without.
+  Eigen::VectorXd peaks(int number, int /*periods*/) override {
+    if (!measure_) return {};
+    const Eigen::VectorXd own = measure_(period_);
+    peaks_ = number == 0 ? own : Eigen::VectorXd(peaks_.cwiseMax(own));
+    return peaks_;
   }
   using Measure = std::function<Eigen::VectorXd(const SystemDynamics::Period&)>;
   void measure(Measure of) { measure_ = std::move(of); }
@@ -50,6 +53,7 @@ class SystemPeriodMap : public PeriodMap {
   int steps_;
   bool left_zone_ = false, left_last_ = false, applied_ = false;
   Measure measure_;
+  Eigen::VectorXd peaks_;  // of the periods so far
   Eigen::VectorXd unit_, rest_;
   SystemDynamics::Period period_;
 };

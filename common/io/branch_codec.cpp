@@ -8,7 +8,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kBranchSchema{"branch", 3};
+constexpr Schema kBranchSchema{"branch", 4};
 
 void describe_points(Codec& c, BranchArtifact& a) {
   c.dataset({"/mesh_frequency", "Hz", "mesh frequency along the branch", "point", kSpeed}, &a.mesh_frequency);
@@ -27,13 +27,15 @@ void describe_points(Codec& c, BranchArtifact& a) {
   c.dataset({"/tooth_load_held", "N", "the same of one pair", "point", kLoad}, &a.tooth_load_held);
   for (int g = 0; g < (c.lists() ? 1 : kSides); ++g)
     if (Eigen::VectorXd& stress = a.root_stress_held[static_cast<size_t>(g)];
-        c.optional(of_body(c, a.mesh, g, "root_stress_held"), stress.size() > 0))
+        c.optional(of_body(c, a.mesh, g, "root_stress_held"), stress.size() > 0)) {
       c.dataset(
           {of_body(c, a.mesh, g, "root_stress_held"), "Pa",
            "the same of the tangential stress along the roots beside the loaded flanks, quasi-static in "
            "the tooth loads",
            "point", kStress},
           &stress);
+      describe_root_place(c, a.mesh, g, "point", a.root_stress_angle, a.root_stress_phase);
+    }
   describe_stability(c, a);
 }
 

@@ -358,6 +358,19 @@ void describe_backlash(Codec& c, double& margin) {
     margin = std::numeric_limits<double>::infinity();
 }
 
+void describe_root_place(Codec& c, const GearMeshSpec& mesh, int g, const std::string& axis,
+                         std::array<Eigen::VectorXd, 2>& angle, std::array<Eigen::VectorXd, 2>& phase) {
+  const auto gear = static_cast<size_t>(g);
+  c.dataset({of_body(c, mesh, g, "root_stress_angle"), "1",
+             "angle (rad) of the root's tangent against the centre line of the tooth where the stress is "
+             "largest of what is held for 1/64 of a mesh period",
+             axis, kRoll},
+            &angle[gear]);
+  c.dataset({of_body(c, mesh, g, "root_stress_phase"), "1",
+             "mesh phase of the tooth's pair then, 0 at the pitch point", axis, kPlace},
+            &phase[gear]);
+}
+
 void describe_friction(Codec& c, const GearMeshSpec& mesh, FrictionLosses& friction) {
   constexpr Range kPower{-1e12, 1e12};  // W
   if (!c.lists() && !mesh.friction.acts()) return;

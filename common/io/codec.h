@@ -183,6 +183,9 @@ void describe_backlash(Codec& codec, double& margin);
 void describe_certificate(Codec& codec, double& least_gap, double& least_force, int& fallbacks);
 // Losses of a mesh with friction; nothing of one without, that is of a file without /parameters/friction.
 void describe_friction(Codec& c, const GearMeshSpec& mesh, FrictionLosses& friction);
+// Of gear g, (axis): where the largest root stress of a motion stands.
+void describe_root_place(Codec& c, const GearMeshSpec& mesh, int g, const std::string& axis,
+                         std::array<Eigen::VectorXd, 2>& angle, std::array<Eigen::VectorXd, 2>& phase);
 // Mesh periods of a hunting period, left out where all teeth are alike: 1.
 void describe_hunting(Codec& codec, int& periods);
 void describe_natural_frequency(Codec& codec, double& frequency);

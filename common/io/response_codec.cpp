@@ -8,7 +8,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kResponseSchema{"response", 6};
+constexpr Schema kResponseSchema{"response", 7};
 
 void describe_bearings(Codec& c, ResponseArtifact& a, int g) {
   if (!c.optional(of_body(c, a.mesh, g, "bearing_force_max"), a.bearing_force_max[g].size() > 0)) return;
@@ -106,6 +106,7 @@ void describe(Codec& c, ResponseArtifact& a) {
            "the same, held for 1/64 of a mesh period: without spikes whose height depends on the time step",
            axis, kStress},
           &a.root_stress_held[g]);
+      describe_root_place(c, a.mesh, g, axis, a.root_stress_angle, a.root_stress_phase);
     }
   }
   if (c.optional("/tooth_load_held", a.tooth_load_held.size() > 0)) {

@@ -24,6 +24,7 @@
 #include "io/sweep_codec.h"
 #include "io/variant_codec.h"
 #include "signal/jump_words.h"
+#include "signal/no_root_stress.h"
 
 namespace whine {
 namespace {
@@ -155,6 +156,7 @@ void show(SummaryLines& lines, const StaticArtifact& a) {
   for (int g = 0; g < a.root_stress_max.size(); ++g)
     add(lines, "root stress of " + a.mesh.gear[g], a.root_stress_max[g] * 1e-6, " MPa at a tangent of ",
         a.root_stress_angle[g] * 180 / std::numbers::pi, " deg, phase of its pair ", a.root_stress_phase[g]);
+  if (const std::string why = why_no_root_stress(a); !why.empty()) add(lines, "root stress", why);
   add(lines, "loss factor", a.loss_factor,
       a.friction_loss.size() > 0 ? text("; efficiency ", a.efficiency * 100,
                                         " % at a coefficient of friction of ", a.friction_coefficient)
@@ -361,6 +363,14 @@ void show(SummaryLines& lines, const ResponseArtifact& a) {
       if (a.bearing_force_max[g].size() > 0)
         add(lines, text("bearing of ", a.mesh.gear[g]), "force at most ", a.bearing_force_max[g].maxCoeff(),
             " N, its oscillation at most ", a.bearing_force_rms[g].maxCoeff(), " N RMS");
+    for (size_t g = 0; g < kSides; ++g)
+      if (a.root_stress_held[g].size() > 0) {
+        const double stress = a.root_stress_held[g].maxCoeff(&worst);
+        add(lines, "root stress of " + a.mesh.gear[g], stress * 1e-6, " MPa held at ",
+            a.mesh_frequency[worst], " Hz, at a tangent of ",
+            a.root_stress_angle[g][worst] * 180 / std::numbers::pi, " deg, phase of its pair ",
+            a.root_stress_phase[g][worst]);
+      }
     add(lines, "contact lost", (a.separation_fraction.array() > 0).count(), " speeds, at most ",
         a.separation_fraction.maxCoeff() * 100, " % of the period");
   }

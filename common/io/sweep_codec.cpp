@@ -8,7 +8,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSweepSchema{"sweep", 5};
+constexpr Schema kSweepSchema{"sweep", 6};
 
 // Left out of finite element sweeps, which have no such part.
 void describe_lumped(Codec& c, std::string& model, LumpedParameters& a) {
@@ -54,13 +54,15 @@ void describe_motions(Codec& c, SweepArtifact& a, bool lumped) {
            "mesh_frequency sample xy", kForce},
           &a.bearing_force[g]);
   for (int g = 0; g < (c.lists() ? 1 : 2); ++g)
-    if (c.optional(of_body(c, a.mesh, g, "root_stress"), a.root_stress[g].size() > 0))
+    if (c.optional(of_body(c, a.mesh, g, "root_stress"), a.root_stress[g].size() > 0)) {
       c.dataset(
           {of_body(c, a.mesh, g, "root_stress"), "Pa",
            "largest tangential stress of the teeth that carry load along the root beside the loaded flank, "
            "tension positive; quasi-static in the tooth loads: the inertia of the body adds none",
            "mesh_frequency sample", kStress},
           &a.root_stress[g]);
+      describe_root_place(c, a.mesh, g, "mesh_frequency", a.root_stress_angle, a.root_stress_phase);
+    }
 }
 
 void describe_speed_by_speed(Codec& c, SweepArtifact& a) {

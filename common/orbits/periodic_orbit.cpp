@@ -28,8 +28,7 @@ VectorXd image(PeriodMap& map, const VectorXd& y, int multiple, PeriodicOrbit* p
     const VectorXd observable = map.observable();
     passed->observable.conservativeResize(multiple * observable.size());
     passed->observable.segment(k * observable.size(), observable.size()) = observable;
-    const VectorXd peaks = map.peaks(k, multiple);
-    passed->peaks = k == 0 ? peaks : VectorXd(passed->peaks.cwiseMax(peaks));
+    passed->peaks = map.peaks(k, multiple);
   }
   return at;
 }

@@ -25,7 +25,7 @@ struct PeriodicOrbit {
   SlowTangent slow;                  // of P^m
   std::vector<ContactEvent> events;  // of its periods in turn, phases from 0 to `multiple`
   Eigen::VectorXd observable;        // of its periods in turn
-  Eigen::VectorXd peaks;             // (quantity) the map's, largest of its periods
+  Eigen::VectorXd peaks;             // (quantity) the map's, of all its periods
 
   // Descending modulus; of a long state the largest ones. Throws Error(numerical) if they cannot be found.
   Eigen::VectorXcd multipliers() const { return slow.multipliers(); }

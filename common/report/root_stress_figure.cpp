@@ -13,14 +13,14 @@
 #include "report/figure_words.h"
 #include "report/iso_comparison.h"
 #include "report/response_figures.h"
+#include "signal/no_root_stress.h"
 #include "system/flank_pressure.h"
 
 namespace whine {
 namespace {
 
 void require_root_stresses(const StaticArtifact& s, const std::vector<ResponseArtifact>& sweeps) {
-  if (s.root_stress_max.size() != kSides || s.root_stress[0].size() == 0 || s.root_stress[1].size() == 0)
-    fail(Failure::input, "root-stress: static.h5 holds no root stress; a pair with a cracked tooth has none");
+  if (const std::string why = why_no_root_stress(s); !why.empty()) fail(Failure::input, "root-stress: ", why);
   if (sweeps.size() != 2 || sweeps[0].direction == sweeps[1].direction)
     fail(Failure::input, "root-stress: it needs two response.h5 beside static.h5, up and down; ",
          sweeps.size(), " given");
@@ -53,6 +53,23 @@ FigureBlock cycle_block(const StaticArtifact& s, int g) {
   return block;
 }
 
+// Where the root stresses stand.
+void add_place_columns(const PairParameters& pair, FigureBlock& block) {
+  for (const auto& gear : pair.mesh.gear) {
+    block.columns.push_back("root_angle_" + gear + " [deg]");
+    block.columns.push_back("root_phase_" + gear + " [1]");
+  }
+}
+
+// Result: ResponseArtifact or BranchArtifact.
+template <typename Result>
+void add_place(const Result& r, Eigen::Index i, std::vector<double>& row) {
+  for (size_t g = 0; g < kSides; ++g) {
+    row.push_back(r.root_stress_angle[g][i] * 180 / std::numbers::pi);
+    row.push_back(r.root_stress_phase[g][i]);
+  }
+}
+
 struct AtRest {
   double mesh_force, tooth_load, contact_ratio;
   Eigen::VectorXd root_stress;
@@ -73,12 +90,14 @@ std::vector<std::string> motion_columns(const PairParameters& pair) {
 FigureBlock stress_block(const ResponseArtifact& r, const ResponseArtifact& other, const AtRest& rest) {
   FigureBlock block{text("speed ", r.direction), motion_columns(r), {}, "speed", name_of(r.direction)};
   block.columns.emplace_back("loss_factor [1]");
+  add_place_columns(r, block);
   const std::vector<bool> broken = broken_after(r, &other);
   for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i) {
     const double a = r.root_stress_held[0][i], b = r.root_stress_held[1][i];
     block.rows.push_back({r.mesh_frequency[i], a * kInMegapascals, b * kInMegapascals,
                           r.mesh_force_held[i] / rest.mesh_force, r.tooth_load_held[i] / rest.tooth_load,
                           a / rest.root_stress[0], b / rest.root_stress[1], r.loss_factor[i]});
+    add_place(r, i, block.rows.back());
     if (broken[static_cast<size_t>(i)]) block.rows.emplace_back();
   }
   return block;
@@ -93,6 +112,7 @@ FigureBlock branch_block(const BranchArtifact& b, const StaticArtifact& s, const
     fail(Failure::input, "root-stress: branch.h5 holds no root stress; make it anew");
   FigureBlock block{"branch", motion_columns(b), {}};
   for (const char* column : {"stable [1]", "part [1]"}) block.columns.emplace_back(column);
+  add_place_columns(b, block);
   for (Eigen::Index i = 0; i < b.mesh_frequency.size(); ++i) {
     if (i > 0 && b.part[i] != b.part[i - 1]) block.rows.emplace_back();
     const double first = b.root_stress_held[0][i], second = b.root_stress_held[1][i];
@@ -100,6 +120,7 @@ FigureBlock branch_block(const BranchArtifact& b, const StaticArtifact& s, const
                           b.mesh_force_held[i] / rest.mesh_force, b.tooth_load_held[i] / rest.tooth_load,
                           first / rest.root_stress[0], second / rest.root_stress[1],
                           static_cast<double>(b.stable[i]), static_cast<double>(b.part[i])});
+    add_place(b, i, block.rows.back());
   }
   return block;
 }

@@ -15,6 +15,7 @@
 #include "report/report_figures.h"
 #include "report/report_page.h"
 #include "report/report_tables.h"
+#include "signal/no_root_stress.h"
 #include "system/flank_pressure.h"
 
 namespace whine {
@@ -94,8 +95,10 @@ WordTable in_motion(const StaticArtifact& s, const GearPair& pair, const IsoComp
            ": the largest over all speeds, held for 1/64 of a mesh period, with the mesh frequency at "
            "which it stands; of forces and of root stress, which goes with them, what it is over its value "
            "at rest (the "
-           "dynamic factor), and K_v of ISO 6336-1, method B, at that speed."),
-      {"", "speed", "largest", "at (Hz)", "dynamic factor", "K_v there"},
+           "dynamic factor), and K_v of ISO 6336-1, method B, at that speed; of root stress, where: tangent "
+           "of "
+           "the root against the tooth's centre line, phase of the tooth's pair from the pitch point."),
+      {"", "speed", "largest", "at (Hz)", "where", "dynamic factor", "K_v there"},
       {}};
   const double force = s.torque / pair.gear(0).base_radius();
   enum class Factor { none, of_rest };
@@ -103,19 +106,24 @@ WordTable in_motion(const StaticArtifact& s, const GearPair& pair, const IsoComp
     const ResponseArtifact& r = *sweeps[d];
     // 0: it does not occur at any speed
     const auto add = [&](const std::string& what, const Eigen::VectorXd& values, double scale,
-                         const char* unit, Factor factor, double rest = 0) {
+                         const char* unit, Factor factor, double rest = 0,
+                         const std::function<std::string(Index)>& where = {}) {
       Index top = 0;
       const double most = values.maxCoeff(&top), speed = r.mesh_frequency[top];
       const bool compared = factor == Factor::of_rest && rest > 0;
       out.rows.push_back({what, d == 0 ? "rising" : "falling",
                           most > 0 ? fixed(most * scale, scale == 1 ? 0 : 1) + unit : "none",
                           most > 0 ? fixed(speed, 0) : html::kNoValue,
+                          most > 0 && where ? where(top) : html::kNoValue,
                           compared ? fixed(most / rest, 2) : html::kNoValue,
                           compared ? or_dash(iso.dynamic_factor(speed), 2) : html::kNoValue});
     };
     for (size_t g = 0; g < kSides; ++g)
       add("root stress of " + s.mesh.gear[g], r.root_stress_held[g], kInMegapascals, " MPa", Factor::of_rest,
-          s.root_stress_max[static_cast<Index>(g)]);
+          s.root_stress_max[static_cast<Index>(g)], [&](Index i) {
+            return fixed(r.root_stress_angle[g][i] * kInDegrees, 0) + " deg, " +
+                   fixed(r.root_stress_phase[g][i], 2);
+          });
     add("mesh force", r.mesh_force_held, 1, " N", Factor::of_rest, force);
     add("load of a pair of teeth", r.tooth_load_held, 1, " N", Factor::of_rest, s.tooth_load.maxCoeff());
     add("pressure inside the flanks", r.flank_pressure_held, kInMegapascals, " MPa", Factor::none);
@@ -123,7 +131,7 @@ WordTable in_motion(const StaticArtifact& s, const GearPair& pair, const IsoComp
       add("load over the tip edge of " + s.mesh.gear[g], r.edge_load[g], 1, " N", Factor::none);
     out.rows.push_back({"loss factor H_V, least to largest", d == 0 ? "rising" : "falling",
                         fixed(r.loss_factor.minCoeff(), 4) + " to " + fixed(r.loss_factor.maxCoeff(), 4),
-                        html::kNoValue, html::kNoValue, html::kNoValue});
+                        html::kNoValue, html::kNoValue, html::kNoValue, html::kNoValue});
   }
   return out;
 }
@@ -159,8 +167,7 @@ std::vector<WordTable> teeth_tables(const ReportContent& c) {
     fail(Failure::input, "teeth: no static.h5 given; that of the scene's first torque is the least");
   require_one_pair(c);
   const StaticArtifact& s = c.statics[0];
-  if (s.root_stress_max.size() != kSides)
-    fail(Failure::input, "teeth: static.h5 holds no root stress; a pair with a cracked tooth has none");
+  if (const std::string why = why_no_root_stress(s); !why.empty()) fail(Failure::input, "teeth: ", why);
   std::array<const ResponseArtifact*, 2> sweeps{};
   for (const Direction direction : {Direction::up, Direction::down}) {
     const ReportSweep* sweep = sweep_of(c, s.torque, direction);

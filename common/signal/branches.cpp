@@ -105,6 +105,24 @@ double held_load(const Eigen::Ref<const MatrixRM>& load, int samples, int multip
   return held;
 }
 
+Eigen::Index held_row(const Eigen::Ref<const VectorXd>& load, int samples, int multiple) {
+  const Eigen::Index window = held_samples(samples);
+  const Eigen::Index rows =
+      multiple > 0 ? std::min(load.size(), static_cast<Eigen::Index>(multiple) * samples) : load.size();
+  double held = -1;
+  Eigen::Index row = 0;
+  for (Eigen::Index i = 0; i + (multiple > 0 ? 1 : window) <= rows; ++i) {
+    double least = load[i];
+    for (Eigen::Index n = 1; n < window; ++n) least = std::min(least, load[(i + n) % rows]);
+    if (!(least > held)) continue;
+    held = least;
+    row = i;
+    for (Eigen::Index n = 1; n < window; ++n)
+      if (const Eigen::Index other = (i + n) % rows; load[other] > load[row]) row = other;
+  }
+  return row;
+}
+
 VectorXd map_speeds(const MapSpeeds& plan, double natural_frequency) {
   const double from = plan.from > 0 ? plan.from : kLeastSpeed * natural_frequency,
                to = plan.to > 0 ? plan.to : kMostSpeed * natural_frequency;

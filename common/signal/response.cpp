@@ -27,6 +27,9 @@ void require_shapes(const SweepArtifact& s) {
     if (stress.size() > 0 && (stress.rows() != speeds || stress.cols() != s.transmission_error.cols()))
       fail(Failure::input, "sweep: root_stress is ", stress.rows(), " x ", stress.cols(), ", expected ",
            speeds, " x ", s.transmission_error.cols());
+  for (size_t g = 0; g < kSides; ++g)
+    for (const Eigen::VectorXd* place : {&s.root_stress_angle[g], &s.root_stress_phase[g]})
+      if (s.root_stress[g].size() > 0) require_length("the place of the root stress", place->size(), speeds);
   require_length("period_multiple", s.period_multiple.size(), speeds);
   if (s.mesh_force.cols() != s.transmission_error.cols())
     fail(Failure::input, "sweep: mesh_force has ", s.mesh_force.cols(), " samples, transmission_error ",
@@ -143,6 +146,8 @@ ResponseArtifact response(const SweepArtifact& s) {
     if (s.root_stress[g].size() > 0) {
       r.root_stress_max[g] = s.root_stress[g].rowwise().maxCoeff();
       r.root_stress_held[g].resize(speeds);
+      r.root_stress_angle[g] = s.root_stress_angle[g];
+      r.root_stress_phase[g] = s.root_stress_phase[g];
     }
   if (s.root_stress[0].size() > 0) {
     for (Eigen::VectorXd* v : {&r.tooth_load_held, &r.mesh_force_held}) v->resize(speeds);

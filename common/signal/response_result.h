@@ -30,6 +30,7 @@ struct ResponseArtifact : MotionParameters {
   // What is held for 1/64 of a mesh period: without the spikes of pairs that come into contact at once, whose height depends on
   // the time step. [gear] (speed) Pa; (speed) N; empty for lumped models
   std::array<Eigen::VectorXd, 2> root_stress_held;
+  std::array<Eigen::VectorXd, 2> root_stress_angle, root_stress_phase;  // [gear] (speed) as in the sweep
   Eigen::VectorXd tooth_load_held, mesh_force_held;
   Eigen::VectorXd loss_factor;  // (speed) H_V, as in static.h5; empty without root stress
   // Flank pressure (studies/sweep_pressure.h); empty for lumped models. Places of the flanks by the phase of the pair that touches

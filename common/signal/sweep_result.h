@@ -69,6 +69,9 @@ struct SweepArtifact : MotionParameters {
   // [gear] (speed, sample) Pa: largest tangential stress of the teeth that carry load, along the root beside the loaded flank,
   // quasi-static in their loads; empty for lumped models
   std::array<MatrixRM, 2> root_stress;
+  // [gear] (speed) where it is largest as it is held for 1/64 of a mesh period (held_row() of signal/branches.h): rad, of the
+  // root's tangent there against the centre line of the tooth; 1, mesh phase of the tooth's pair then, 0 at the pitch point
+  std::array<Eigen::VectorXd, 2> root_stress_angle, root_stress_phase;
   Eigen::VectorXi periods;   // (speed) mesh periods run
   Eigen::VectorXd residual;  // (speed) relative change of the state over a period at the end
   // (speed) mesh periods of the orbit: hunting_periods unless subharmonic; 0: not periodic within the limit

@@ -19,6 +19,8 @@ struct BranchArtifact : MotionParameters {
   Eigen::VectorXd mesh_force_held, tooth_load_held;
   // [gear] (point) Pa: the same of the root stress, quasi-static in the tooth loads; empty where bodies have no tables
   std::array<Eigen::VectorXd, 2> root_stress_held;
+  std::array<Eigen::VectorXd, 2> root_stress_angle,
+      root_stress_phase;  // [gear] (point) where, as in the sweep
   std::vector<MatrixRM>
       floquet_multiplier;  // (point) (multiplier, 2) 1: real and imaginary part, largest modulus first
   Eigen::VectorXi stable;  // (point) 1: all multipliers lie inside the unit circle

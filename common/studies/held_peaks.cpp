@@ -6,6 +6,9 @@
 #include "signal/branches.h"
 
 namespace whine {
+
+using Eigen::VectorXd;
+
 namespace {
 
 int samples_of(int steps) {
@@ -25,17 +28,21 @@ std::vector<double> phases_of(int samples) {
 HeldPeaks::HeldPeaks(const GearMeshModel& model, int steps)
     : roots_(model, phases_of(samples_of(steps))), samples_(samples_of(steps)) {}
 
-Eigen::VectorXd HeldPeaks::of(const RollingDynamics::Period& period, int number, int periods) {
+VectorXd HeldPeaks::of(const RollingDynamics::Period& period, int number, int periods) {
   const Eigen::Index pairs = period.pair_load.rows(), stride = period.pair_load.cols() / samples_;
   const int reach = static_cast<int>(pairs) / 2;
   pair_ = Eigen::VectorXi::LinSpaced(pairs, -reach, reach);
   load_.resize(samples_, pairs);
-  along_.resize(samples_, root_stress() ? 3 : 1);
+  along_.resize(samples_, root_stress() ? kRows - 1 : 1);
   for (Eigen::Index n = 0; n < samples_; ++n) {
     load_.row(n) = period.pair_load.col(n * stride).transpose();
     along_(n, 0) = load_.row(n).sum();
-    for (int g = 0; root_stress() && g < kSides; ++g)
-      along_(n, 1 + g) = roots_.largest(g, static_cast<size_t>(n), pair_, load_.row(n).transpose()).stress;
+    for (int g = 0; root_stress() && g < kSides; ++g) {
+      const RootStress at = roots_.largest(g, static_cast<size_t>(n), pair_, load_.row(n).transpose());
+      along_(n, 1 + g) = at.stress;
+      along_(n, 1 + kSides + g) = at.angle;
+      along_(n, 1 + 2 * kSides + g) = static_cast<double>(n) / samples_ + at.pair;
+    }
   }
   const Eigen::Index seam = held_samples(samples_) - 1;
   if (number == 0) first_ = along_.topRows(seam);
@@ -45,11 +52,27 @@ Eigen::VectorXd HeldPeaks::of(const RollingDynamics::Period& period, int number,
   joined_.middleRows(before, samples_) = along_;
   if (after > 0) joined_.bottomRows(after) = first_;
   last_ = along_.bottomRows(seam);
-  Eigen::VectorXd out(along_.cols() + 1);
+  VectorXd out(along_.cols() + 1);
   out[0] = held_load(joined_.col(0), samples_);
   out[1] = held_load(load_, samples_);
-  for (Eigen::Index k = 1; k < along_.cols(); ++k) out[k + 1] = held_load(joined_.col(k), samples_);
+  for (int g = 0; root_stress() && g < kSides; ++g) {
+    const VectorXd stress = joined_.col(1 + g);
+    const Eigen::Index at = held_row(stress, samples_);
+    out[2 + g] = held_load(stress, samples_);
+    out[2 + kSides + g] = joined_(at, 1 + kSides + g);
+    out[2 + 2 * kSides + g] = joined_(at, 1 + 2 * kSides + g);
+  }
   return out;
+}
+
+VectorXd HeldPeaks::so_far(const RollingDynamics::Period& period, int number, int periods) {
+  const VectorXd own = of(period, number, periods);
+  if (number == 0) return so_far_ = own;
+  for (Eigen::Index k = 0; k < 2; ++k) so_far_[k] = std::max(so_far_[k], own[k]);
+  for (Eigen::Index k = 2; k < own.size() && k < 2 + kSides; ++k)
+    if (own[k] > so_far_[k])  // and its place
+      for (Eigen::Index of_gear = k; of_gear < kRows; of_gear += kSides) so_far_[of_gear] = own[of_gear];
+  return so_far_;
 }
 
 }  // namespace whine

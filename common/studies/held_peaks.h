@@ -16,20 +16,24 @@ class HeldPeaks {
   // of two.
   HeldPeaks(const GearMeshModel& model, int steps);
   bool root_stress() const { return roots_.known(); }
-  // (2, or 4 with root stress) N, N, Pa, Pa: mesh force, load of one pair, root stress of driver and driven gear, in mesh period
-  // `number`, from 0, of a motion that repeats after `periods`, or never: kNever. Periods are given in their order: what is held
+  // (2, or kRows with root stress) N, N, Pa, Pa: mesh force, load of one pair, root stress of driver and driven gear; then where
+  // either root stress stands, as in a sweep: rad, angles of the roots' tangents; 1, mesh phases of the teeth's pairs. In mesh
+  // period `number`, from 0, of a motion that repeats after `periods`, or never: kNever. Periods are given in their order: what is held
   // across the start of one counts with it, and across the end of the last with that. The load of one pair is not followed there.
-  static constexpr int kNever = 0;
+  static constexpr int kNever = 0, kRows = 2 + 3 * kSides;
   Eigen::VectorXd of(const RollingDynamics::Period& period, int number = 0, int periods = 1);
+  // The largest of this period and those before it, from number 0 on.
+  Eigen::VectorXd so_far(const RollingDynamics::Period& period, int number, int periods);
 
  private:
   RootStresses roots_;
   int samples_;
   Eigen::VectorXi pair_;
   MatrixRM load_;   // (sample, pair) N
-  MatrixRM along_;  // (sample, quantity) of all pairs together
+  MatrixRM along_;  // (sample, quantity) of all pairs together, and the places of the root stresses
   MatrixRM first_, last_,
       joined_;  // (sample, quantity) start of period 0, end of the period before, all that is looked at
+  Eigen::VectorXd so_far_;
 };
 
 }  // namespace whine

@@ -46,7 +46,7 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
                           plan.tolerance);
   HeldPeaks peaks(model, stage_settings.time.steps_per_period);
   follower.measure([&peaks](const RollingDynamics::Period& period, int number, int periods) {
-    return peaks.of(period, number, periods);
+    return peaks.so_far(period, number, periods);
   });
   std::vector<BranchSegment> segments =
       plan.sweep ? follower.follow_from_sweep(*plan.sweep, plan.at, report) : follower.follow(report);
@@ -66,7 +66,8 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
   for (VectorXd* x : {&a.mesh_frequency, &a.dte_rms, &a.dte_mean, &a.residual}) x->resize(points);
   for (Eigen::VectorXi* x : {&a.stable, &a.steps, &a.period_multiple, &a.part}) x->resize(points);
   for (VectorXd* x : {&a.mesh_force_held, &a.tooth_load_held}) x->resize(points);
-  for (VectorXd& x : a.root_stress_held) x.resize(peaks.root_stress() ? points : 0);
+  for (auto* x : {&a.root_stress_held, &a.root_stress_angle, &a.root_stress_phase})
+    for (VectorXd& of_gear : *x) of_gear.resize(peaks.root_stress() ? points : 0);
   const int harmonic_count = resolved_harmonics(stage_settings.time.steps_per_period, kResponseHarmonics);
   a.dte_harmonic.resize(points, harmonic_count);
   std::vector<SpecialPoint> special;
@@ -83,8 +84,11 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
       a.dte_harmonic.row(i) = h.amplitude.transpose();
       a.mesh_force_held[i] = p.peaks[0];
       a.tooth_load_held[i] = p.peaks[1];
-      for (size_t g = 0; g < kSides; ++g)
-        if (peaks.root_stress()) a.root_stress_held[g][i] = p.peaks[2 + static_cast<Eigen::Index>(g)];
+      for (int g = 0; peaks.root_stress() && g < kSides; ++g) {
+        a.root_stress_held[static_cast<size_t>(g)][i] = p.peaks[2 + g];
+        a.root_stress_angle[static_cast<size_t>(g)][i] = p.peaks[2 + kSides + g];
+        a.root_stress_phase[static_cast<size_t>(g)][i] = p.peaks[2 + 2 * kSides + g];
+      }
       a.residual[i] = p.residual;
       a.stable[i] = p.stable();
       a.steps[i] = s.steps;

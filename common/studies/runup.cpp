@@ -246,8 +246,8 @@ class Runner {
     if (k < 0 || k >= periods_) return;
     const double start = clock_.time(static_cast<double>(k));
     const double most = held_load(period_.pair_load.transpose(), static_cast<int>(period_.pair_load.cols()));
-    const VectorXd peaks =
-        head_.root_stress ? peaks_.of(period_, static_cast<int>(k), HeldPeaks::kNever) : VectorXd::Zero(4);
+    const VectorXd peaks = head_.root_stress ? peaks_.of(period_, static_cast<int>(k), HeldPeaks::kNever)
+                                             : VectorXd::Zero(HeldPeaks::kRows);
     for (const double x : {start, clock_.frequency(start), std::sqrt(squares / steps), mean, most,
                            static_cast<double>(parted) / steps, peaks[2], peaks[3]})
       period_rows_.push_back(x);

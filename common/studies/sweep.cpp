@@ -20,6 +20,7 @@
 #include "gear/pair.h"
 #include "gear/scene_geometry.h"
 #include "signal/branch_end.h"
+#include "signal/branches.h"
 #include "signal/response.h"
 #include "studies/zone_levels.h"
 #include "system/root_stress.h"
@@ -433,7 +434,7 @@ double store_motions(const std::vector<Orbit>& steady, int reach, SweepArtifact&
   return least_error;
 }
 
-// At the samples that are stored; orbits shorter than the row repeat in it.
+// At the samples that are stored, and the place of the largest; orbits shorter than the row repeat in it.
 void store_root_stress(const GearMeshModel& model, SweepArtifact& a) {
   const int samples = a.time.steps_per_period;
   std::vector<double> phases;
@@ -443,18 +444,26 @@ void store_root_stress(const GearMeshModel& model, SweepArtifact& a) {
   if (!roots.known()) return;
   const Eigen::Index width = a.mesh_force.cols();
   for (int g = 0; g < kSides; ++g) {
-    MatrixRM& out = a.root_stress[static_cast<size_t>(g)];
+    const auto gear = static_cast<size_t>(g);
+    MatrixRM& out = a.root_stress[gear];
     out.resize(a.mesh_force.rows(), width);
+    for (VectorXd* v : {&a.root_stress_angle[gear], &a.root_stress_phase[gear]}) v->resize(out.rows());
+    std::vector<RootStress> along(static_cast<size_t>(width));
     for (Eigen::Index row = 0; row < out.rows(); ++row) {
       const Eigen::Index orbit = a.period_multiple[row] > 0
                                      ? std::min<Eigen::Index>(width, a.period_multiple[row] * samples)
                                      : width;
       const MatrixRM& load = a.tooth_load[static_cast<size_t>(row)];
-      for (Eigen::Index n = 0; n < width; ++n)
-        out(row, n) =
-            n < orbit
-                ? roots.largest(g, static_cast<size_t>(n % samples), a.pair, load.row(n).transpose()).stress
-                : out(row, n - orbit);
+      for (Eigen::Index n = 0; n < width; ++n) {
+        RootStress& at = along[static_cast<size_t>(n)];
+        at = n < orbit ? roots.largest(g, static_cast<size_t>(n % samples), a.pair, load.row(n).transpose())
+                       : along[static_cast<size_t>(n - orbit)];
+        out(row, n) = at.stress;
+      }
+      const auto top =
+          static_cast<size_t>(held_row(out.row(row).transpose(), samples, a.period_multiple[row]));
+      a.root_stress_angle[gear][row] = along[top].angle;
+      a.root_stress_phase[gear][row] = phases[top % phases.size()] + along[top].pair;
     }
   }
 }
