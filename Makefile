@@ -97,19 +97,20 @@ unit_expressions := base/dense=base/dense.* base/eigen_templates=base/eigen_temp
   report/system=report/(system|teeth|root|flank|runup|order|sound|wire).* report/report=report/(report|html|compare|exported).*
 # A program waits for the units behind the headers that it includes, and for no other.
 links := $(shell awk -v units='$(unit_expressions)' -f pipelines/sources.awk $(wildcard common/*/*.h common/*/*.cpp tools/*.cpp tests/fuzz/*.cpp))
-sources_of = $(patsubst $1=%,common/%.cpp,$(filter $1=%,$(links)))
+# Sorted, here and below: the order of `wildcard` follows the locale, and another order would compile everything anew.
+sources_of = $(sort $(patsubst $1=%,common/%.cpp,$(filter $1=%,$(links))))
 units := $(sort $(foreach l,$(links),$(if $(findstring =,$l),$(firstword $(subst =, ,$l)))))
 cold_units := $(filter $(cold_layers:%=%/%),$(units))
 # The cold ones last: a linker takes an inline function from the first object that has it.
 library := $(patsubst %,$(B)/obj/common/%.o,$(filter-out $(cold_units),$(units)) $(cold_units))
-tools := $(patsubst tools/%.cpp,%,$(wildcard tools/gear-*.cpp))
+tools := $(sort $(patsubst tools/%.cpp,%,$(wildcard tools/gear-*.cpp)))
 tool_objects := $(tools:%=$(B)/obj/tools/%.o)
 hard_cases := $(B)/obj/tests/hard_cases.o
 # Tests go together by the first letters of their names, the rest of them in one unit more.
 test_letters := [a-d] e,f[a-q] f[r-z],[g-i] [j-o] [p-r] s[a-x]
 test_numbers := 1 2 3 4 5 6
-tests_by_letters = $(wildcard $(patsubst %,tests/test_%*.cpp,$(subst $(,), ,$(word $1,$(test_letters)))))
-tests_of = $(if $(filter rest,$1),$(filter-out $(foreach n,$(test_numbers),$(call tests_by_letters,$n)),$(wildcard tests/test_*.cpp)),$(call tests_by_letters,$1))
+tests_by_letters = $(sort $(wildcard $(patsubst %,tests/test_%*.cpp,$(subst $(,), ,$(word $1,$(test_letters))))))
+tests_of = $(if $(filter rest,$1),$(filter-out $(foreach n,$(test_numbers),$(call tests_by_letters,$n)),$(sort $(wildcard tests/test_*.cpp))),$(call tests_by_letters,$1))
 test_units := $(patsubst %,$(B)/obj/tests/unit_%.o,$(test_numbers) rest)
 test_objects := $(B)/obj/tests/main.o $(test_units)
 objects := $(library) $(tool_objects) $(test_objects) $(hard_cases)

@@ -138,11 +138,8 @@ void body(int argc, char** argv) {
     fail(Failure::usage, "--scene and --output are needed, or --keys; see --help");
 
   const std::string stem = checked_scene_stem(path);
-  if (is_system_scene(path)) {
-    cut_system(path, stem, folder, output);
-  } else {
-    cut_pair(path, stem, folder, ids, output);
-  }
+  if (is_system_scene(path)) return cut_system(path, stem, folder, output);
+  cut_pair(path, stem, folder, ids, output);
 }
 
 }  // namespace

@@ -119,6 +119,23 @@ std::vector<std::string> beyond_schlenk(const GearPair& pair, const std::vector<
   return out;
 }
 
+// Moments and loss of friction at rest over the first mesh period, closed.
+FigureBlock friction_cycle(const StaticArtifact& first) {
+  FigureBlock cycle{"cycle",
+                    {"mesh_phase [1]", "friction_moment_driver [N m]", "friction_moment_driven [N m]",
+                     "friction_loss [N m]"},
+                    {},
+                    "cycle",
+                    ""};
+  const Eigen::Index positions = std::min<Eigen::Index>(first.contact.positions, first.friction_loss.size());
+  for (Eigen::Index i = 0; i <= positions; ++i) {
+    const Eigen::Index at = i % positions;
+    cycle.rows.push_back({first.mesh_phase[at] + (i == positions ? 1.0 : 0.0), first.friction_moment[0][at],
+                          first.friction_moment[1][at], first.friction_loss[at]});
+  }
+  return cycle;
+}
+
 }  // namespace
 
 Figure efficiency_figure(const std::vector<StaticArtifact>& statics,
@@ -169,19 +186,7 @@ Figure efficiency_figure(const std::vector<StaticArtifact>& statics,
                     " (coefficient ", fixed(s.friction_coefficient, 4), ")");
     factors += text(t ? ", " : "", fixed(s.loss_factor, 4));
   }
-  FigureBlock cycle{"cycle",
-                    {"mesh_phase [1]", "friction_moment_driver [N m]", "friction_moment_driven [N m]",
-                     "friction_loss [N m]"},
-                    {},
-                    "cycle",
-                    ""};
-  const Eigen::Index positions = std::min<Eigen::Index>(first.contact.positions, first.friction_loss.size());
-  for (Eigen::Index i = 0; i <= positions; ++i) {  // the first mesh period, closed
-    const Eigen::Index at = i % positions;
-    cycle.rows.push_back({first.mesh_phase[at] + (i == positions ? 1.0 : 0.0), first.friction_moment[0][at],
-                          first.friction_moment[1][at], first.friction_loss[at]});
-  }
-  figure.blocks.push_back(cycle);
+  figure.blocks.push_back(friction_cycle(first));
   figure.blocks.push_back(rest);
   figure.notes = {"friction between the flanks alone: " + in_words(first.mesh.friction),
                   text("at rest (kinematics",

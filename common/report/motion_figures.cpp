@@ -365,6 +365,7 @@ Figure waterfall_figure(const std::vector<SweepArtifact>& sweeps) {
   std::string directions;
   double largest = 0;
   std::vector<ResponseArtifact> responses;
+  responses.reserve(shown.size());
   for (const SweepArtifact* sweep : shown) responses.push_back(response(*sweep));
   for (size_t i = 0; i < shown.size(); ++i) {
     const SweepArtifact* sweep = shown[i];
