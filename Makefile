@@ -79,7 +79,7 @@ CPPFLAGS := -Icommon -isystem /usr/include/eigen3 -isystem /usr/include/suitespa
 LDFLAGS := $(if $(SANITIZE),-fsanitize=address$(,)undefined) -Wl,--as-needed -Wl,--gc-sections
 # Recursive: pkg-config may itself be one of the packages that `deps` installs in the same run.
 HDF5_CFLAGS = $(shell pkg-config --cflags hdf5)
-LDLIBS = -lpugixml -lzip -ljsoncpp -lsndfile -lcholmod $(shell pkg-config --libs-only-L hdf5) -lhdf5_hl $(shell pkg-config --libs hdf5 fftw3 libcrypto)
+LDLIBS = -lpugixml -lz -lzip -ljsoncpp -lsndfile -lcholmod $(shell pkg-config --libs-only-L hdf5) -lhdf5_hl $(shell pkg-config --libs hdf5 fftw3 libcrypto)
 
 # gmsh brings a hundred libraries of windows, pictures and CAD, whose loading takes 0.25 s of CPU at each start: programs that mesh nothing do
 # without. The linker says where it is missing from this list; of functions that it throws away it asks nothing. Sanitizers keep them.
@@ -218,7 +218,7 @@ $(if $(SCENE),$(if $(filter scorecard out/figures/scorecard%,$(goals)),\
 # --- packages -------------------------------------------------------------------------------------------------
 
 packages := g++ pkgconf libgmsh-dev libsuitesparse-dev libeigen3-dev libhdf5-dev libfftw3-dev \
-  libtomlplusplus-dev libpugixml-dev libzip-dev libjsoncpp-dev libsndfile1-dev libcli11-dev libssl-dev doctest-dev libopenblas0-pthread hdf5-tools gnuplot-nox fonts-dejavu-core
+  libtomlplusplus-dev libpugixml-dev libzip-dev zlib1g-dev libjsoncpp-dev libsndfile1-dev libcli11-dev libssl-dev doctest-dev libopenblas0-pthread hdf5-tools gnuplot-nox fonts-dejavu-core
 dry_run := $(findstring n,$(filter-out -%,$(firstword $(MAKEFLAGS))))
 
 define install_wanted

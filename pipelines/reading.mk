@@ -10,7 +10,7 @@
 reading_scene := parker2000-standard-tooth
 reading_plans := reading reading-shallow reading-deep reading-best
 READING_PARTS ?= 8
-reading_numbers := $(if $(filter 8,$(READING_PARTS)),1 2 3 4 5 6 7 8,$(shell seq -w $(READING_PARTS)))
+reading_numbers := $(shell seq -w $(READING_PARTS))
 reading_parts := $(foreach p,$(reading_plans),$(reading_numbers:%=out/reading/$p/part_%.h5))
 claim_sets := data/published/claim_sets.toml
 

@@ -94,7 +94,7 @@ $(B)/fuzz/whine-fuzz-transfer: tests/fuzz/transfer.cpp
 $(B)/fuzz/whine-fuzz-artifact $(B)/fuzz/whine-fuzz-sealed: tests/fuzz/artifact.cpp
 $(B)/fuzz/whine-fuzz-sealed: tests/fuzz/edit.cpp
 $(fuzz_targets:%=$(B)/fuzz/whine-fuzz-%): $(B)/fuzz/whine-fuzz-%:
-	clang++ $(CPPFLAGS) $(HDF5_CFLAGS) -Itests $(fuzz_flags) $(if $(filter sealed,$*),-DSEALED) -o $@ $(filter %.cpp %.o,$^) -lpugixml -lzip -ljsoncpp -lsndfile $(shell pkg-config --libs-only-L hdf5) -lhdf5_hl $(shell pkg-config --libs hdf5 libcrypto)
+	clang++ $(CPPFLAGS) $(HDF5_CFLAGS) -Itests $(fuzz_flags) $(if $(filter sealed,$*),-DSEALED) -o $@ $(filter %.cpp %.o,$^) -lpugixml -lz -lzip -ljsoncpp -lsndfile $(shell pkg-config --libs-only-L hdf5) -lhdf5_hl $(shell pkg-config --libs hdf5 libcrypto)
 
 # The same targets without libFuzzer; tests/fuzz.sh runs them if they are there.
 .PHONY: replay

@@ -1,5 +1,7 @@
 #include "io/picture_sources.h"
 
+#include <zlib.h>
+
 #include <cstdint>
 #include <filesystem>
 
@@ -16,12 +18,7 @@ constexpr size_t kSignature = 8, kFrame = 12;  // bytes: before the chunks; leng
 const std::string kText = "tEXt", kSourceKey("whine source\0", 13);
 
 std::uint32_t checksum(const std::string& bytes) {
-  std::uint32_t crc = 0xffffffffu;
-  for (const char c : bytes) {
-    crc ^= static_cast<unsigned char>(c);
-    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1) ? 0xedb88320u : 0);
-  }
-  return crc ^ 0xffffffffu;
+  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
 std::string big_endian(std::uint32_t value) {

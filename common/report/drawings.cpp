@@ -191,8 +191,7 @@ Drawings drawings_at_rest() {
       {"efficiency",
        {"losses and efficiency over speed, moments of friction over a mesh period",
         "static.h5, then response.h5 of the sweeps up and down, of each torque, of a scene with [friction]; "
-        "their "
-        "sweep.h5, for the speeds beyond the backlash",
+        "their sweep.h5, for the speeds beyond the backlash",
         0, 0, draw_efficiency}},
       {"root-stress",
        {"root stress over the mesh cycle and over speed, dynamic factors beside K_v",

@@ -40,7 +40,7 @@ const SweepBacklash* backlash_of(const std::vector<SweepBacklash>& backlash, con
     if (b.torque == r.torque && b.direction == r.direction && b.left.size() == r.mesh_frequency.size())
       return &b;
   fail(Failure::input, "efficiency: no sweep.h5 ", r.direction, " at ", r.torque,
-       " N m of the speeds of its response.h5; ", "give those of all sweeps or none");
+       " N m of the speeds of its response.h5; give those of all sweeps or none");
 }
 
 // "2400 to 2600, 3100" (Hz) of a torque, "" for none.

@@ -209,10 +209,6 @@ void add_panel(Figure& figure, const std::string& letter, const ChoicePanel<Resp
     figure.numbers.emplace_back(name + letter, value);
 }
 
-}  // namespace
-
-namespace {
-
 // Whether the other sweep has the motion of a row.
 bool found_again(const ResponseArtifact& r, Eigen::Index row, const ResponseArtifact& other) {
   constexpr double kAlike = 0.02;  // of the RMS

@@ -19,8 +19,8 @@ Figure bearing_force_figure(const std::vector<ResponseArtifact>& sweeps, const B
 std::string loss_ranges(const ResponseArtifact& up, const ResponseArtifact& down);
 
 // Rows after which a curve breaks: where the sweep left a branch that ends at a jump, and where the RMS changes by half of
-// itself at once, over less than 5 % of the speed, and 2.5 times as much as in the steps beside, which is another branch, too. Not so where the sweep in the other direction, if it is
-// given, has the motions of both rows: those that both find on either side are of one branch.
+// itself at once, over less than 5 % of the speed, and 2.5 times as much as in the steps beside, which is another branch, too. Not so
+// where the sweep in the other direction, if it is given, has the motions of both rows: what both find on either side is one branch.
 std::vector<bool> broken_after(const ResponseArtifact& r, const ResponseArtifact* other = nullptr);
 
 // The response of one direction of a sweep as a curve that lifts the pen where it breaks.

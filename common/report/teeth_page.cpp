@@ -95,9 +95,9 @@ WordTable in_motion(const StaticArtifact& s, const GearPair& pair, const IsoComp
            ": the largest over all speeds, held for 1/64 of a mesh period, with the mesh frequency at "
            "which it stands; of forces and of root stress, which goes with them, what it is over its value "
            "at rest (the "
-           "dynamic factor), and K_v of ISO 6336-1, method B, at that speed; of root stress, where: tangent "
-           "of "
-           "the root against the tooth's centre line, phase of the tooth's pair from the pitch point."),
+           "dynamic factor), and K_v of ISO 6336-1, method B, at that speed; of root stress, where: "
+           "tangent of the root against the tooth's centre line, phase of the tooth's pair from the pitch "
+           "point."),
       {"", "speed", "largest", "at (Hz)", "where", "dynamic factor", "K_v there"},
       {}};
   const double force = s.torque / pair.gear(0).base_radius();

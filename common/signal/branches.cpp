@@ -89,6 +89,14 @@ std::optional<Branches> widest(const VectorXd& speed, const VectorXd& up, const 
   return std::nullopt;
 }
 
+// Least of `window` samples from row i on; the end of `rows` is followed by their begin.
+template <typename Column>
+double least_from(const Column& load, Eigen::Index i, Eigen::Index window, Eigen::Index rows) {
+  double least = load[i];
+  for (Eigen::Index n = 1; n < window; ++n) least = std::min(least, load[(i + n) % rows]);
+  return least;
+}
+
 }  // namespace
 
 double held_load(const Eigen::Ref<const MatrixRM>& load, int samples, int multiple) {
@@ -97,11 +105,8 @@ double held_load(const Eigen::Ref<const MatrixRM>& load, int samples, int multip
       multiple > 0 ? std::min(load.rows(), static_cast<Eigen::Index>(multiple) * samples) : load.rows();
   double held = 0;
   for (Eigen::Index pair = 0; pair < load.cols(); ++pair)
-    for (Eigen::Index i = 0; i + (multiple > 0 ? 1 : window) <= rows; ++i) {
-      double least = load(i, pair);
-      for (Eigen::Index n = 1; n < window; ++n) least = std::min(least, load((i + n) % rows, pair));
-      held = std::max(held, least);
-    }
+    for (Eigen::Index i = 0; i + (multiple > 0 ? 1 : window) <= rows; ++i)
+      held = std::max(held, least_from(load.col(pair), i, window, rows));
   return held;
 }
 
@@ -112,8 +117,7 @@ Eigen::Index held_row(const Eigen::Ref<const VectorXd>& load, int samples, int m
   double held = -1;
   Eigen::Index row = 0;
   for (Eigen::Index i = 0; i + (multiple > 0 ? 1 : window) <= rows; ++i) {
-    double least = load[i];
-    for (Eigen::Index n = 1; n < window; ++n) least = std::min(least, load[(i + n) % rows]);
+    const double least = least_from(load, i, window, rows);
     if (!(least > held)) continue;
     held = least;
     row = i;

@@ -24,7 +24,7 @@ struct BranchPoint {
 // periods of `samples`. multiple: periods after which the motion repeats; only these count, and their end is followed by their
 // begin; not for loads of pairs, which go on in another column there. 0: it does not repeat.
 double held_load(const Eigen::Ref<const MatrixRM>& load, int samples, int multiple = 0);
-// Of one column, the row of the largest of the samples in a row that hold it: the first of equals.
+// (row) 0 up to the rows that count: where held_load() of one column is held, the row of its largest sample; the first of equals.
 Eigen::Index held_row(const Eigen::Ref<const Eigen::VectorXd>& load, int samples, int multiple = 0);
 
 // Samples in a row that it looks at.
