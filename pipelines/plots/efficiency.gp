@@ -27,7 +27,7 @@ if (natural_frequency > frequency_from && natural_frequency < frequency_to) {
   set arrow from natural_frequency, graph 0 to natural_frequency, graph 1 nohead back lt 1 lc rgb "#9a9a9a" lw 1.2 dt (18, 10)
   set label 11 "f_n" at natural_frequency, graph 1.0 offset 0, 0.55 center tc rgb "#505050" font ",14"
 }
-set tmargin at screen 0.87 + 0.5 * lift
+set tmargin at screen 0.87 + 0.4 * lift
 set bmargin at screen 0.67 + 0.5 * lift
 range = efficiency_max - efficiency_min
 range = range > 0 ? range : 0.1
@@ -59,7 +59,7 @@ eval("plot " . drawn . 'keyentry with lines lt 1 lw 2 dt (10, 5) lc rgb "#505050
 unset arrow
 unset label 11
 set tmargin at screen 0.25 + 0.5 * lift
-set bmargin at screen 0.08 + 0.8 * lift
+set bmargin at screen 0.08 + 1.0 * lift
 set xrange [0 : 1]
 set yrange [* : *]
 set xlabel "Mesh phase (mesh periods)" offset 0, 0.3
