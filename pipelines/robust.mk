@@ -1,6 +1,6 @@
 # What machine and input may do to a result: sanitizers, faults, fuzzing, numbers under stress, static checks.
 #
-#   make test-sanitize        the tests of the programs' parts under ASan, UBSan and -D_GLIBCXX_ASSERTIONS, without tests/unsanitized
+#   make test-sanitize        the tests of the programs' parts under ASan, UBSan and -D_GLIBCXX_ASSERTIONS, without the slow ones
 #   make test-faults          kills, full disks, damaged files, two makes at once; FAULT_KILLS=50
 #   make fuzz                 FUZZ_SECONDS=60 for each reader, from the corpus in tests/fuzz/corpus
 #   make stress               contact problems and whole scenes by the thousand; STRESS_PROBLEMS, STRESS_SCENES
@@ -18,7 +18,7 @@ deps-fuzz: | $(with_deps) ## install the packages that only `fuzz` uses
 # --- sanitizers
 
 .PHONY: test-sanitize
-test-sanitize: $(B)/bin/whine-tests | $(with_deps) ## the tests under ASan, UBSan and -D_GLIBCXX_ASSERTIONS, but for the slow cases in tests/unsanitized
+test-sanitize: $(B)/bin/whine-tests | $(with_deps) ## the tests under ASan, UBSan and -D_GLIBCXX_ASSERTIONS, but for the slow cases in tests/slow and tests/unsanitized
 	@B=$(B) TESTS=sanitize LSAN_OPTIONS=suppressions=tests/leaks:print_suppressions=0 tests/run
 
 # --- faults
@@ -52,17 +52,21 @@ stress: $(B)/bin/whine-stress-contact build ## a million contact problems and 20
 
 # --- static checks
 
-lint_sources := $(wildcard common/*/*.cpp tools/*.cpp)
 lint_scripts := $(wildcard tests/*.sh tests/*/*.sh pipelines/*.sh) tests/run .ci/run
-lint_checked := $(lint_sources:%=$(B)/lint/%)
+# The units of compilation, and the programs as two more.
+lint_program_units := tools/a-l tools/m-z
+lint_sources_of = $(if $(filter tools/%,$1),$(sort $(wildcard tools/gear-[$(notdir $1)]*.cpp)),$(call sources_of,$1))
+lint_checked := $(patsubst %,$(B)/lint/%,$(units) $(lint_program_units))
 # __builtin_shuffle is g++'s alone. The analyzer gives up a function after 50000 states instead of 225000: what it spends beyond
-# goes into Eigen's loops and takes as long as all other checks. A file that passed is checked again when it, a header that it sees
-# or the list of checks has changed.
+# goes into Eigen's loops and takes as long as all other checks. A unit that passed is checked again when a source of it, a header that
+# it sees or the list of checks has changed.
 with_deps_lint := $(with_deps) $(filter deps-lint,$(goals))
-$(lint_checked): $(B)/lint/%: % .clang-tidy | $(with_deps_lint)
+$(lint_checked): $(B)/lint/%: $$(call lint_sources_of,$$*) .clang-tidy pipelines/lint_unit.awk | $(with_deps_lint)
 	@mkdir -p $(@D)
-	@$(CXX) $(CPPFLAGS) $(HDF5_CFLAGS) -std=c++20 -MM -MP -MT $@ -MF $@.d $<
-	@clang-tidy --quiet $< -- -std=c++20 $(CPPFLAGS) $(HDF5_CFLAGS) '-D__builtin_shuffle(a,b,order)=((a)+(b))' -Xclang -analyzer-config -Xclang max-nodes=50000 2> /dev/null > $@.new || { cat $@.new >&2; exit 1; }
+	@awk -f pipelines/lint_unit.awk $(filter %.cpp,$^) > $@.cpp
+	@$(CXX) $(CPPFLAGS) $(HDF5_CFLAGS) -std=c++20 -MM -MP -MT $@ -MF $@.d $@.cpp
+	@clang-tidy --quiet --config-file=.clang-tidy $@.cpp -- -std=c++20 $(CPPFLAGS) $(HDF5_CFLAGS) '-D__builtin_shuffle(a,b,order)=((a)+(b))' -Xclang -analyzer-config -Xclang max-nodes=50000 2> /dev/null > $@.new || \
+	  { awk -v unit=$@.cpp -f pipelines/lint_unit.awk $@.cpp $@.new >&2; exit 1; }
 	@mv $@.new $@
 -include $(lint_checked:=.d)
 

@@ -62,12 +62,13 @@ else
 fi
 if [ -x "$B/bin/whine-tests" ]; then
   mapfile -t cases < <("$B/bin/whine-tests" --no-colors=true --no-skip --list-test-cases)
-  found=$(grep -v '^#' tests/unsanitized | while read -r pattern; do
+  found=$(grep -h -v '^#' tests/slow tests/unsanitized | while read -r pattern; do
+    [ ! -e "tests/$pattern" ] || continue
     matched=0
     # shellcheck disable=SC2053 # as a pattern
     for name in "${cases[@]}"; do [[ $name != $pattern ]] || matched=$((matched + 1)); done
     [ $matched = 1 ] || echo "$pattern"; done)
-  if [ -z "$found" ]; then echo "ok: each line of tests/unsanitized is a case"; else echo "FAILED: tests/unsanitized: not one case: $found"; fi
+  if [ -z "$found" ]; then echo "ok: each line of tests/slow and tests/unsanitized is a file or a case"; else echo "FAILED: tests/slow, tests/unsanitized: not one case: $found"; fi
 fi
 # An equation of P2000 is found by its number, `grep -rnw "Eq. 18" common`.
 found=$(grep -n -E 'Eqs?\. *$' common/*/*.h common/*/*.cpp tools/*.cpp | head -3)

@@ -5,12 +5,15 @@
 #include "memory.h"
 
 // Eigen takes memory by malloc, the standard library by operator new, which calls malloc: counted here for the
-// whole test program. A sanitizer brings its own malloc; cases that count then count nothing and say so.
-#ifdef WHINE_COUNTS_MEMORY
+// whole test program.
 std::atomic<long> memory_requests{0};
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
+const bool counts_memory = true;
 extern "C" void* __libc_malloc(size_t);
 extern "C" void* malloc(size_t size) noexcept {
   memory_requests.fetch_add(1, std::memory_order_relaxed);
   return __libc_malloc(size);
 }
+#else
+const bool counts_memory = false;
 #endif

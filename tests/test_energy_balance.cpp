@@ -133,7 +133,6 @@ TEST_CASE(
   }
 }
 
-#ifdef WHINE_COUNTS_MEMORY
 TEST_CASE("a mesh period takes no memory, with an energy balance or without") {
   for (const auto contact : {ContactModel::strips, ContactModel::line}) {
     Rig rig(contact, 5.5e-6);
@@ -146,4 +145,3 @@ TEST_CASE("a mesh period takes no memory, with an energy balance or without") {
     }
   }
 }
-#endif

@@ -177,7 +177,7 @@ RootReader::RootReader(const MeshArtifact& mesh, const Material& material, int p
     const auto along = [&](double a) {
       const SideShape shape = side_shape(side.node.size(), a);
       Vec2 d = Vec2::Zero();
-      for (size_t k = 0; k < side.node.size(); ++k)
+      for (size_t k = 0; k < std::min(side.node.size(), std::size(shape.slope)); ++k)
         d += shape.slope[k] * Vec2(mesh.node_position.row(side.node[k]));
       return d;
     };
