@@ -17,6 +17,7 @@
 
 #include "base/dense.h"
 #include "base/error.h"
+#include "cracked_gear.h"
 #include "failure_of.h"
 #include "gear/crack.h"
 #include "io/mesh_codec.h"
@@ -27,35 +28,16 @@
 #include "solid/crack.h"
 #include "solid/elements.h"
 #include "solid/flank_table.h"
+#include "solid/half_plane.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
+#include "solid/root_stress.h"
 #include "solid/sector.h"
 
 namespace {
 
 using namespace whine;
 using Eigen::Index;
-constexpr double kPi = std::numbers::pi;
-const Material kSteel{207e9, 0.3, 7600, true};
-
-GearDesign cracked_gear(double depth, int teeth = 50, double bore = 40e-3) {
-  GearDesign d;
-  d.teeth = teeth;
-  d.module = 3e-3;
-  d.pressure_angle = 20 * kPi / 180;
-  d.face_width = 25.4e-3;
-  d.bore_radius = bore;
-  d.crack.depth = depth;
-  return d;
-}
-
-MeshArtifact sector_of(const GearDesign& design, double element, int order = 2) {
-  BodyDiscretisation discretisation;
-  discretisation.element_size = element;
-  discretisation.element_order = order;
-  return make_sector_mesh(design, discretisation);
-}
-
 Eigen::VectorXd table_of(const GearDesign& design, int points = kFlankPoints) {
   return FlankTable(ToothGeometry(design), points).points();
 }
@@ -289,7 +271,7 @@ TEST_CASE("an edge crack in a strip in bending adds the rotation that the handbo
   }
 }
 
-TEST_CASE("condensed teeth give the compliance that cyclic symmetry gives") {
+TEST_CASE("condensed teeth give the compliance and the root stress that cyclic symmetry gives") {
   for (int teeth : {9, 50}) {
     GearDesign design = cracked_gear(0, teeth, 0.25 * 3e-3 * teeth);
     if (teeth < 17) design.profile_shift = 0.6;
@@ -298,7 +280,9 @@ TEST_CASE("condensed teeth give the compliance that cyclic symmetry gives") {
     const BodyArtifact body = reduce(sector, kSteel, 0);
     CHECK(body.crack_compliance.size() == 0);
     const int reach = body.offsets;
-    const MatrixRM all = teeth_compliance(sector, sector, kSteel, body.flank_position, reach);
+    const TeethTables tables = teeth_tables(sector, sector, kSteel, body.flank_position, reach);
+    const MatrixRM& all = tables.compliance;
+    const Index roots = body.root_angle.size();
     const Index n = body.flank_position.size();
     const double scale = body.compliance[0].cwiseAbs().maxCoeff();
     for (int i = -reach; i <= reach; ++i)
@@ -309,16 +293,62 @@ TEST_CASE("condensed teeth give the compliance that cyclic symmetry gives") {
         if (offset < 0) cyclic.transposeInPlace();
         CHECK((all.block((i + reach) * n, (j + reach) * n, n, n) - cyclic).cwiseAbs().maxCoeff() <
               1e-10 * scale);
+        const MatrixRM& stress = body.root_stress[static_cast<size_t>(offset + reach)];
+        CHECK(
+            (tables.root_stress.block((i + reach) * roots, (j + reach) * n, roots, n) - stress.topRows(roots))
+                .cwiseAbs()
+                .maxCoeff() < 1e-9 * body.root_stress[static_cast<size_t>(reach)].cwiseAbs().maxCoeff());
       }
   }
 }
+
+namespace {
+
+// (root, load) Pa N-1: along the root of the driving flank, at the points of RootReader, from the strain inside the elements there.
+Eigen::MatrixXd surface_stress(const MeshArtifact& mesh, const Material& material, const Eigen::MatrixXd& u) {
+  const ToothGeometry tooth(mesh.design);
+  const RootPoints points = root_points(tooth);
+  const double e = material.youngs_modulus, nu = material.poisson_ratio;
+  Eigen::Matrix3d law;
+  law << 1, nu, 0, nu, 1, 0, 0, 0, 0.5 * (1 - nu);
+  law *= e / (1 - nu * nu);
+  Eigen::MatrixXd out(kRootPoints, u.cols());
+  for (Index i = 0; i < kRootPoints; ++i) {
+    const double t = points.parameter[i], step = 1e-4;
+    const Vec2 p = tooth.root_point(t),
+               along = (tooth.root_point(t + step) - tooth.root_point(t - step)).normalized();
+    double nearest = 1.3;  // a side of an element is a parabola, the root is not
+    for (Index k = 0; k < mesh.element_node.rows(); ++k) {
+      Eigen::MatrixX2d node(9, 2);
+      for (Index n = 0; n < 9; ++n) node.row(n) = mesh.node_position.row(mesh.element_node(k, n));
+      Vec2 at;
+      if ((node.row(0) - p.transpose()).norm() > 3e-3 || !invert_map(node, p, at) ||
+          !(at.cwiseAbs().maxCoeff() < nearest))
+        continue;
+      nearest = at.cwiseAbs().maxCoeff();
+      const Shape shape = shape_functions(9, at.x(), at.y());
+      const Eigen::MatrixX2d slope = shape.slope * (node.transpose() * shape.slope).inverse();
+      for (Index c = 0; c < u.cols(); ++c) {
+        Eigen::Matrix2d g = Eigen::Matrix2d::Zero();  // du_a / dx_b
+        for (Index n = 0; n < 9; ++n) g += u.col(c).segment<2>(2 * mesh.element_node(k, n)) * slope.row(n);
+        const Eigen::Vector3d s = law * Eigen::Vector3d(g(0, 0), g(1, 1), g(0, 1) + g(1, 0));
+        out(i, c) =
+            along.x() * along.x() * s[0] + along.y() * along.y() * s[1] + 2 * along.x() * along.y() * s[2];
+      }
+    }
+    REQUIRE(nearest < 1.3);
+  }
+  return out;
+}
+
+}  // namespace
 
 TEST_CASE("condensed teeth give what the whole gear with its crack gives in one piece") {
   const int teeth = 9, reach = 2, tooth = 5;
   GearDesign design = cracked_gear(2e-3, teeth, 4e-3);
   design.profile_shift = 0.6;
   design.crack.tooth = tooth;
-  const MeshArtifact sector = sector_of(design, 1.2e-3);
+  const MeshArtifact sector = sector_of(design, 0.8e-3);
   const MeshArtifact& cracked = sector.cracked_tooth.at(0);
   const Eigen::VectorXd xi = table_of(design, 8);
   const Index points = xi.size();
@@ -368,7 +398,7 @@ TEST_CASE("condensed teeth give what the whole gear with its crack gives in one 
           turn(j) * f.force.middleRows(2 * i, 2);
   }
   const Eigen::MatrixXd u = solved(stiffness, held, force);
-  MatrixRM found(window * points, window * points);
+  MatrixRM found(window * points, window * points), stress(window * kRootPoints, window * points);
   for (int k = 0; k < window; ++k) {
     const int j = tooth_at(k);
     const MeshArtifact& mesh = mesh_of(j);
@@ -377,11 +407,35 @@ TEST_CASE("condensed teeth give what the whole gear with its crack gives in one 
       local.middleRows(2 * i, 2) = turn(j).transpose() * u.middleRows(2 * node_of(j, static_cast<int>(i)), 2);
     found.middleRows(k * points, points) = -(FlankReader(mesh).outward(xi) * local);
     found.block(k * points, k * points, points, points) += loads[k].subtracted;
+    const RootReader reader(mesh, kSteel, Roots::driving);
+    stress.middleRows(k * kRootPoints, kRootPoints) = reader.stress() * local;
+    stress.block(k * kRootPoints, k * points, kRootPoints, points) += reader.near_field(loads[k], xi);
+    if (j != tooth) continue;
+    // Of the cracked tooth, from the elements' whole strain; under its own loads nodes near them hold what the half-plane leaves.
+    for (Index load = 0; load < points; ++load)
+      for (Index i = 0; i < mesh.node_position.rows(); ++i)
+        if (loads[k].holds_rest[static_cast<size_t>(i)])
+          local.col(k * points + load).segment<2>(2 * i) +=
+              LineLoadField(ToothGeometry(design).flank_point(xi[load]),
+                            ToothGeometry(design).flank_normal(xi[load]), plane_strain_equivalent(kSteel),
+                            design.face_width, kReferenceDepth)
+                  .displacement(mesh.node_position.row(i).transpose());
+    const Eigen::MatrixXd own = local.middleCols(k * points, points),
+                          read = stress.block(k * kRootPoints, k * points, kRootPoints, points);
+    const Eigen::MatrixXd whole = surface_stress(mesh, kSteel, own);
+    const double scale =
+        reduce(sector, kSteel, 0).root_stress[static_cast<size_t>(reach)].topRows(kRootPoints).maxCoeff();
+    // The lowest force stands beside the root. A sharp bend of the stress before the mouth is rounded off by the fit.
+    CHECK((whole - read).rightCols(points - 1).cwiseAbs().maxCoeff() < 0.25 * scale);
+    for (Index load = 2; load < points; ++load)
+      CHECK(read.col(load).maxCoeff() == relative(whole.col(load).maxCoeff(), 0.02));
   }
   found = (0.5 * (found + found.transpose())).eval();
-  const MatrixRM condensed = teeth_compliance(sector, cracked, kSteel, xi, reach);
+  const TeethTables tables = teeth_tables(sector, cracked, kSteel, xi, reach);
+  const MatrixRM& condensed = tables.compliance;
+  CHECK((stress - tables.root_stress).cwiseAbs().maxCoeff() < 1e-9 * stress.cwiseAbs().maxCoeff());
   CHECK((found - condensed).cwiseAbs().maxCoeff() < 1e-9 * condensed.cwiseAbs().maxCoeff());
-  const MatrixRM intact = teeth_compliance(sector, sector, kSteel, xi, reach);
+  const MatrixRM intact = teeth_tables(sector, sector, kSteel, xi, reach).compliance;
   CHECK((condensed - intact).cwiseAbs().maxCoeff() > 0.05 * intact.cwiseAbs().maxCoeff());
 }
 
@@ -390,11 +444,11 @@ TEST_CASE("a crack adds flexibility, the more the deeper, and none of it without
   const Eigen::VectorXd xi = table_of(design);
   const Index n = xi.size();
   const auto tip_of = [&](double depth, double element) {
-    const MatrixRM share = crack_compliance(sector_of(cracked_gear(depth), element), kSteel, xi, 3);
+    const MatrixRM share = crack_tables(sector_of(cracked_gear(depth), element), kSteel, xi, 3).compliance;
     return share(4 * n - 1, 4 * n - 1);
   };
   const MeshArtifact sector = sector_of(cracked_gear(2e-3), 0.6e-3);
-  const MatrixRM share = crack_compliance(sector, kSteel, xi, 3);
+  const MatrixRM share = crack_tables(sector, kSteel, xi, 3).compliance;
   const SymmetricEigen eigen = symmetric_eigenvalues(Eigen::MatrixXd(share));
   CHECK(eigen.values[0] > -1e-7 * eigen.values[7 * n - 1]);
   Index row = 0, column = 0;
@@ -402,8 +456,8 @@ TEST_CASE("a crack adds flexibility, the more the deeper, and none of it without
   CHECK(row == 4 * n - 1);  // the tip of the cracked tooth itself
   CHECK(column == row);
   // What the other mesh of the same tooth, with its slit closed, differs by is far less.
-  const MatrixRM closed = teeth_compliance(sector, close_slit(sector.cracked_tooth[0]), kSteel, xi, 3),
-                 plain = teeth_compliance(sector, sector, kSteel, xi, 3);
+  const MatrixRM closed = teeth_tables(sector, close_slit(sector.cracked_tooth[0]), kSteel, xi, 3).compliance,
+                 plain = teeth_tables(sector, sector, kSteel, xi, 3).compliance;
   CHECK((closed - plain).cwiseAbs().maxCoeff() < 1e-4 * plain.cwiseAbs().maxCoeff());
 
   const double at[4] = {tip_of(0.1e-3, 0.6e-3), tip_of(0.2e-3, 0.6e-3), tip_of(1e-3, 0.6e-3),
@@ -412,7 +466,7 @@ TEST_CASE("a crack adds flexibility, the more the deeper, and none of it without
   CHECK(at[1] / at[0] > 3.2);  // with the square of the depth, as long as that is small
   CHECK(at[1] / at[0] < 4.0);
   CHECK(tip_of(2e-3, 0.8e-3) == relative(tip_of(2e-3, 0.4e-3), 2e-3));
-  CHECK(failure_of([&] { crack_compliance(sector_of(design, 1e-3), kSteel, xi, 3); }) == Failure::input);
+  CHECK(failure_of([&] { crack_tables(sector_of(design, 1e-3), kSteel, xi, 3); }) == Failure::input);
   CHECK(failure_of([&] { make_cracked_sector(sector_of(design, 1e-3)); }) == Failure::input);
 }
 
@@ -538,6 +592,7 @@ TEST_CASE("artifacts of a cracked gear give back every value bit by bit") {
   write(folder.file("body.h5"), body, {"test", "test", {}});
   const BodyArtifact back = read_body(folder.file("body.h5"));
   CHECK(back.crack_compliance == body.crack_compliance);
+  CHECK(back.crack_root_stress == body.crack_root_stress);
   CHECK(back.design.crack.tooth == 7);
   CHECK(body_hash(body_parameters({back.design, back.material, back.discretisation})) ==
         body_hash(body_parameters({design, kSteel, body.discretisation})));

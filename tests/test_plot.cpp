@@ -796,8 +796,8 @@ TEST_CASE("draw: spectra below the least decade of their axis are drawn, not an 
                    {"orders in motion", {"order [1]", "amplitude [µm]"}, floor},
                    {"orders", {"order [1]", "amplitude [µm]"}, floor},
                    {"orders without", {"order [1]", "amplitude [µm]"}, floor}};
-  figure.numbers = {{"periods", 2},          {"last_order", 3.5}, {"top_at_rest", 1e-5},
-                    {"top_in_motion", 1e-5}, {"around", 1},       {"top", 1e-5}};
+  figure.numbers = {{"periods", 2}, {"last_order", 3.5}, {"top_at_rest", 1e-5}, {"top_in_motion", 1e-5},
+                    {"around", 1},  {"top", 1e-5},       {"notes", 2},          {"cracked_gears", 0}};
   figure.words = {{"speed", "1 Hz"}};
   std::ofstream(table) << plot_data(figure);
   for (const char* name : {"sidebands", "crack"}) {

@@ -569,17 +569,11 @@ TEST_CASE(
   CHECK(without([](ResponseArtifact& a) { a.loss_factor.resize(0); }) == Failure::input);
 }
 
-TEST_CASE("root stress: a pair at rest without it says which tooth is cracked and what to take out") {
+TEST_CASE("root stress: a pair at rest without it says what to do") {
   StaticArtifact s;
   s.mesh.gear = {"pinion", "wheel"};
   CHECK(why_no_root_stress(s).find("make the bodies anew") != std::string::npos);
-  s.gear[1].design.crack.depth = 2e-3;
-  s.gear[1].design.crack.tooth = 3;
-  const std::string why = why_no_root_stress(s);
-  for (const char* part : {"tooth 3 of wheel", "2 mm", "[gear.wheel.crack]"})
-    CHECK(why.find(part) != std::string::npos);
   CHECK(failure_of([&] { root_stress_figure(s, {}); }) == Failure::input);
-  s.gear[1].design.crack.depth = 0;
   s.root_stress_max = Eigen::Vector2d(1e8, 1e8);
   s.root_stress = {MatrixRM::Constant(1, 1, 1e8), MatrixRM::Constant(1, 1, 1e8)};
   CHECK(why_no_root_stress(s) == "");

@@ -80,6 +80,14 @@ void describe_root_stress(Codec& c, BodyArtifact& a) {
              "`offsets` clockwise of the loaded one to `offsets` counter-clockwise of it",
              "root_offset both_root_position loaded_position", kStressPerForce},
             &a.root_stress);
+  if (c.lists() || (c.in() ? a.design.crack.depth > 0 : a.crack_root_stress.size() > 0)) {
+    c.axis("tooth_root_position", (2 * a.offsets + 1) * a.root_arc_length.size());
+    c.dataset({at + "crack", "Pa N-1",
+               "what the crack adds along the driving flank's root, between the teeth of /compliance/crack, "
+               "tooth by tooth",
+               "tooth_root_position loaded_tooth_flank_position", kStressPerForce},
+              &a.crack_root_stress);
+  }
 }
 
 }  // namespace

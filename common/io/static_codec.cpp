@@ -62,7 +62,8 @@ void describe_root_stress(Codec& c, StaticArtifact& a) {
           {of_body(c, a.mesh, g, "root_stress"), "Pa",
            "largest tangential stress along the root beside the loaded flank of each pair's tooth, "
            "tension positive",
-           "mesh_phase pair", kStress, "sum over the pairs of root_stress/per_force of body.h5 times force"},
+           "mesh_phase pair", kStress,
+           "sum over the pairs of root_stress/per_force of body.h5, and of root_stress/crack, times force"},
           &a.root_stress[g]);
   if (c.optional("/root_stress_max", there)) {
     c.dataset({"/root_stress_max", "Pa", "largest root stress over the mesh cycle, beside the loaded flanks",
@@ -74,6 +75,11 @@ void describe_root_stress(Codec& c, StaticArtifact& a) {
     c.dataset({"/root_stress_phase", "1", "mesh phase of the tooth's pair then, 0 at the pitch point", "gear",
                kPlace},
               &a.root_stress_phase);
+    if (c.optional("/root_stress_tooth", a.root_stress_tooth.size() > 0))
+      c.dataset({"/root_stress_tooth", "1",
+                 "number of that tooth, counter-clockwise from tooth 0, where teeth differ or one is cracked",
+                 "gear", kTooth},
+                &a.root_stress_tooth);
   }
   c.dataset({"/loss_factor", "1",
              "mean power lost by sliding over the power carried, per unit coefficient of friction", "",

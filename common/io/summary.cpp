@@ -155,7 +155,8 @@ void show(SummaryLines& lines, const StaticArtifact& a) {
   }
   for (int g = 0; g < a.root_stress_max.size(); ++g)
     add(lines, "root stress of " + a.mesh.gear[g], a.root_stress_max[g] * 1e-6, " MPa at a tangent of ",
-        a.root_stress_angle[g] * 180 / std::numbers::pi, " deg, phase of its pair ", a.root_stress_phase[g]);
+        a.root_stress_angle[g] * 180 / std::numbers::pi, " deg, phase of its pair ", a.root_stress_phase[g],
+        a.root_stress_tooth.size() > 0 ? text(", tooth ", a.root_stress_tooth[g]) : "");
   if (const std::string why = why_no_root_stress(a); !why.empty()) add(lines, "root stress", why);
   add(lines, "loss factor", a.loss_factor,
       a.friction_loss.size() > 0 ? text("; efficiency ", a.efficiency * 100,

@@ -185,7 +185,8 @@ Drawings drawings_at_rest() {
         1, 0,
         [](const Paths& in, const Frequencies&) { return error_budget_figure(read_error_budget(in[0])); }}},
       {"crack",
-       {"the mark of a cracked tooth in the static transmission error, and its orders",
+       {"the mark of a cracked tooth in the static transmission error, its orders, and the root stress of "
+        "the teeth about it",
         "static.h5 of a pair with a crack", 1, 0,
         [](const Paths& in, const Frequencies&) { return crack_figure(read_static(in[0])); }}},
       {"efficiency",

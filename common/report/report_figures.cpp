@@ -196,7 +196,8 @@ const std::vector<ExplainedFigure>& explained_figures() {
            "Teeth that differ: transmission error over the period after which the same teeth meet, and the "
            "shafts' orders and sidebands at rest and in motion.")},
       {"crack", "rest", "The cracked tooth",
-       same_words("The mark of the cracked tooth in the static transmission error, and its orders.")},
+       same_words("The mark of the cracked tooth in the static transmission error, its orders, and the root "
+                  "stress of the teeth about it.")},
       {"fig05", "motion", "Vibration over speed", of_response},
       {"fig07", "motion", "Vibration over speed", of_response},
       {"fig05-branches", "motion", "Branches of periodic motions",

@@ -28,14 +28,16 @@ struct StaticArtifact : PairParameters {
   // (phase, pair) Pa, m: of contacts that stay inside the flank, 0 elsewhere
   MatrixRM contact_pressure, contact_half_width;
   // [gear] (phase, pair) Pa: largest tangential stress along the root beside the loaded flank of each pair's tooth, tension
-  // positive; empty for a pair with a cracked tooth
+  // positive
   std::array<MatrixRM, 2> root_stress;
   Eigen::VectorXd root_stress_max;  // (gear) Pa: largest of these
   Eigen::VectorXd
       root_stress_angle;  // (gear) rad: of the root's tangent there against the centre line of the tooth
   Eigen::VectorXd root_stress_phase;  // (gear) 1: mesh phase of the loaded pair then, 0 at the pitch point
-  double loss_factor = 0;             // H_V: mean power lost by sliding, over mu times the power carried
-  double friction_coefficient = 0;    // 1; 0: no friction, and what follows is empty
+  Eigen::VectorXi
+      root_stress_tooth;  // (gear): of which tooth, counter-clockwise from tooth 0; empty for teeth that are all alike
+  double loss_factor = 0;           // H_V: mean power lost by sliding, over mu times the power carried
+  double friction_coefficient = 0;  // 1; 0: no friction, and what follows is empty
   // (phase) N m: work that friction takes per angle of the driver; [gear] (phase) N m: moment of friction about its axis, positive
   // where it acts as the normal force does: against the rotation of the driver, with that of the driven gear
   Eigen::VectorXd friction_loss;

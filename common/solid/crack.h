@@ -10,7 +10,8 @@
 // equal, so that three sectors (intact, open, closed) and two block-cyclic matrices of the edges are factorised whatever the
 // number of teeth. The crack's share is the difference between the mesh with the slit open and the same mesh with the slit
 // closed. So it is free of what the meshes themselves differ by, zero without a crack and never negative; it is added to
-// the compliance that cyclic symmetry gives.
+// the compliance that cyclic symmetry gives. The stress along the roots is treated alike: beside the mouth of the slit the crack
+// takes away what the intact tooth has there, for the surface ends. At the tip of the slit stress is singular and not looked at.
 #pragma once
 #include <vector>
 
@@ -41,15 +42,22 @@ MeshArtifact make_cracked_sector(const MeshArtifact& sector);
 // The same mesh without a crack: the nodes of `slit_node` are one again.
 MeshArtifact close_slit(const MeshArtifact& cracked);
 
-// (tooth flank, tooth flank) m N-1: compliance between the teeth -reach .. reach (counter-clockwise) of a gear made of
-// `sector` alone but for tooth 0, which is `special`; at roll angles xi (rad), less the half-plane as in
-// BodyArtifact::compliance. Symmetrised. 2 reach + 1 teeth at most. The near field is by subtraction.
-MatrixRM teeth_compliance(const MeshArtifact& sector, const MeshArtifact& special, const Material& material,
-                          const Eigen::VectorXd& xi, int reach);
+// Between the teeth -reach .. reach (counter-clockwise) of a gear, tooth by tooth; under unit normal forces at roll angles xi.
+struct TeethTables {
+  MatrixRM
+      compliance;  // (tooth flank, tooth flank) m N-1: less the half-plane as in BodyArtifact::compliance, symmetrised
+  MatrixRM
+      root_stress;  // (tooth root, tooth flank) Pa N-1: along the driving flank's root, as in BodyArtifact::root_stress
+};
 
-// BodyArtifact::crack_compliance of a mesh whose `cracked_tooth` is there. Throws Error(numerical) if it is not positive
-// semidefinite to 1e-6 of its largest entry.
-MatrixRM crack_compliance(const MeshArtifact& sector, const Material& material, const Eigen::VectorXd& xi,
-                          int reach);
+// Of a gear made of `sector` alone but for tooth 0, which is `special`; xi in rad. 2 reach + 1 teeth at most. The near field is by
+// subtraction.
+TeethTables teeth_tables(const MeshArtifact& sector, const MeshArtifact& special, const Material& material,
+                         const Eigen::VectorXd& xi, int reach);
+
+// BodyArtifact::crack_compliance and crack_root_stress of a mesh whose `cracked_tooth` is there. Throws Error(numerical) if the
+// compliance is not positive semidefinite to 1e-3 of its largest entry.
+TeethTables crack_tables(const MeshArtifact& sector, const Material& material, const Eigen::VectorXd& xi,
+                         int reach);
 
 }  // namespace whine

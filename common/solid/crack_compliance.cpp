@@ -1,4 +1,4 @@
-// What a crack adds to the flexibility of a gear: the cracked tooth among intact ones.
+// What a crack adds to the flexibility of a gear and to the stress of its roots: the cracked tooth among intact ones.
 #include "solid/crack.h"
 
 #include <Eigen/Geometry>
@@ -14,6 +14,7 @@
 #include "solid/elements.h"
 #include "solid/factor.h"
 #include "solid/reduce.h"
+#include "solid/root_stress.h"
 
 namespace whine {
 namespace {
@@ -30,44 +31,60 @@ struct Condensed {
   MatrixXd reading;     // (point, edge unknown) 1: outward displacement by the edges
   MatrixXd own;         // (point, load) m N-1: outward displacement with the edges held
   MatrixRM subtracted;  // (point, load) m N-1, see FlankLoads
+  MatrixXd root;        // (root, edge unknown) Pa m-1: stress along the driving flank's root by the edges
+  MatrixXd own_root;    // (root, load) Pa N-1: the same with the edges held, near field included
   Index edge = 0;       // unknowns of one edge
 };
 
-Condensed condense(const MeshArtifact& mesh, const Material& material, const Eigen::VectorXd& xi,
-                   const std::string& what) {
-  const SparseReal stiffness =
-      assemble(mesh.node_position, mesh.element_node, material, mesh.design.face_width).stiffness;
-  const FlankLoads loads = make_flank_loads(mesh, material, xi);
-  const MatrixXd reading = FlankReader(mesh).outward(xi);
+// Displacements of a sector by what becomes of them; those of bore nodes are neither.
+struct Unknowns {
+  explicit Unknowns(const MeshArtifact& mesh);
+  static constexpr int kNone = -1;
+  std::vector<int> edge, inner;     // (2 node): number of the unknown, or kNone
+  int of_one_edge = 0, inside = 0;  // how many
+};
 
-  constexpr int kFixed = -1;
-  const Index size = stiffness.rows();
-  std::vector<int> edge_unknown(static_cast<size_t>(size), kFixed), inner(static_cast<size_t>(size), kFixed);
-  std::vector<char> held(static_cast<size_t>(size / 2), 0);
+Unknowns::Unknowns(const MeshArtifact& mesh)
+    : edge(2 * static_cast<size_t>(mesh.node_position.rows()), kNone), inner(edge) {
+  std::vector<char> held(edge.size() / 2, 0);
   for (int node : mesh.bore_node) held[static_cast<size_t>(node)] = 1;
-  int edge = 0;
   for (Index i = 0; i < mesh.side_node.rows(); ++i)
-    if (!held[static_cast<size_t>(mesh.side_node(i, 0))]) edge += 2;
+    if (!held[static_cast<size_t>(mesh.side_node(i, 0))]) of_one_edge += 2;
   int at = 0;
   for (Index i = 0; i < mesh.side_node.rows(); ++i) {
     const int low = mesh.side_node(i, 0), high = mesh.side_node(i, 1);
     if (held[static_cast<size_t>(low)]) continue;
     held[static_cast<size_t>(low)] = held[static_cast<size_t>(high)] = 1;
     for (int c = 0; c < 2; ++c) {
-      edge_unknown[2 * static_cast<size_t>(low) + static_cast<size_t>(c)] = at + c;
-      edge_unknown[2 * static_cast<size_t>(high) + static_cast<size_t>(c)] = edge + at + c;
+      edge[2 * static_cast<size_t>(low) + static_cast<size_t>(c)] = at + c;
+      edge[2 * static_cast<size_t>(high) + static_cast<size_t>(c)] = of_one_edge + at + c;
     }
     at += 2;
   }
-  int inner_size = 0;
-  for (Index i = 0; i < size; ++i)
-    if (!held[static_cast<size_t>(i / 2)]) inner[static_cast<size_t>(i)] = inner_size++;
+  for (size_t i = 0; i < inner.size(); ++i)
+    if (!held[i / 2]) inner[i] = inside++;
+}
 
+Condensed condense(const MeshArtifact& mesh, const Material& material, const Eigen::VectorXd& xi,
+                   const std::string& what) {
+  const SparseReal stiffness =
+      assemble(mesh.node_position, mesh.element_node, material, mesh.design.face_width).stiffness;
+  const FlankLoads loads = make_flank_loads(mesh, material, xi);
+  const RootReader roots(mesh, material, Roots::driving);
+  // Displacements at the flank, then stress along the root.
+  const MatrixXd outward = FlankReader(mesh).outward(xi), stress = roots.stress();
+  MatrixXd reading(outward.rows() + stress.rows(), outward.cols());
+  reading << outward, stress;
+
+  const Unknowns number(mesh);
+  const std::vector<int>&edge_unknown = number.edge, &inner = number.inner;
+  const Index size = stiffness.rows(), edge = number.of_one_edge, inner_size = number.inside;
   const Index points = xi.size(), unknowns = 2 * edge;
   std::vector<Eigen::Triplet<Complex>> entries;
   MatrixXd right = MatrixXd::Zero(inner_size, unknowns + points),
-           edge_force = MatrixXd::Zero(unknowns, points), inner_reading = MatrixXd::Zero(points, inner_size),
-           edge_reading = MatrixXd::Zero(points, unknowns),
+           edge_force = MatrixXd::Zero(unknowns, points),
+           inner_reading = MatrixXd::Zero(reading.rows(), inner_size),
+           edge_reading = MatrixXd::Zero(reading.rows(), unknowns),
            edge_stiffness = MatrixXd::Zero(unknowns, unknowns);
   for (Index column = 0; column < size; ++column)
     for (SparseReal::InnerIterator it(stiffness, column); it; ++it) {
@@ -101,8 +118,12 @@ Condensed condense(const MeshArtifact& mesh, const Material& material, const Eig
   out.edge = edge;
   out.stiffness = edge_stiffness - coupling.transpose() * by_edge;
   out.force = edge_force - coupling.transpose() * by_load;
-  out.reading = edge_reading - inner_reading * by_edge;
-  out.own = inner_reading * by_load;
+  const MatrixXd read_by_edge = edge_reading - inner_reading * by_edge,
+                 read_by_load = inner_reading * by_load;
+  out.reading = read_by_edge.topRows(points);
+  out.own = read_by_load.topRows(points);
+  out.root = read_by_edge.bottomRows(stress.rows());
+  out.own_root = read_by_load.bottomRows(stress.rows()) + roots.near_field(loads, xi);
   out.subtracted = loads.subtracted;
   const Eigen::Matrix2d turn =
       Eigen::Rotation2Dd(2 * std::numbers::pi / mesh.design.teeth).toRotationMatrix();
@@ -111,11 +132,12 @@ Condensed condense(const MeshArtifact& mesh, const Material& material, const Eig
     out.stiffness.middleCols(k, 2) = (out.stiffness.middleCols(k, 2) * turn).eval();
     out.force.middleRows(k, 2) = (turn.transpose() * out.force.middleRows(k, 2)).eval();
     out.reading.middleCols(k, 2) = (out.reading.middleCols(k, 2) * turn).eval();
+    out.root.middleCols(k, 2) = (out.root.middleCols(k, 2) * turn).eval();
   }
   return out;
 }
 
-MatrixRM assemble_teeth(const Condensed& plain, const Condensed& special, int teeth, int reach) {
+TeethTables assemble_teeth(const Condensed& plain, const Condensed& special, int teeth, int reach) {
   const Index edge = plain.edge, size = edge * teeth, points = plain.own.rows();
   const int window = 2 * reach + 1;
   if (window > teeth)
@@ -146,38 +168,46 @@ MatrixRM assemble_teeth(const Condensed& plain, const Condensed& special, int te
   HermitianFactor factor(whole);
   factor.factorise(whole, text("the stiffness of ", teeth, " teeth at their sector edges"));
   const MatrixXd solution = factor.solve(right).real();
-  MatrixRM compliance(window * points, window * points);
+  const Index root = plain.root.rows();
+  TeethTables out{MatrixRM(window * points, window * points), MatrixRM(window * root, window * points)};
   for (int i = -reach; i <= reach; ++i) {
     const Condensed& tooth = of(i);
-    compliance.middleRows((i + reach) * points, points) =
-        -(tooth.reading.leftCols(edge) * solution.middleRows(edge * wrapped(i), edge) +
-          tooth.reading.rightCols(edge) * solution.middleRows(edge * wrapped(i + 1), edge));
-    compliance.block((i + reach) * points, (i + reach) * points, points, points) +=
-        tooth.subtracted - tooth.own;
+    const Index at = i + reach;
+    const auto by_edges = [&](const MatrixXd& read) -> MatrixXd {
+      return read.leftCols(edge) * solution.middleRows(edge * wrapped(i), edge) +
+             read.rightCols(edge) * solution.middleRows(edge * wrapped(i + 1), edge);
+    };
+    out.compliance.middleRows(at * points, points) = -by_edges(tooth.reading);
+    out.compliance.block(at * points, at * points, points, points) += tooth.subtracted - tooth.own;
+    out.root_stress.middleRows(at * root, root) = by_edges(tooth.root);
+    out.root_stress.block(at * root, at * points, root, points) += tooth.own_root;
   }
-  return 0.5 * (compliance + compliance.transpose());
+  out.compliance = (0.5 * (out.compliance + out.compliance.transpose())).eval();
+  return out;
 }
 
 }  // namespace
 
-MatrixRM teeth_compliance(const MeshArtifact& sector, const MeshArtifact& special, const Material& material,
-                          const Eigen::VectorXd& xi, int reach) {
+TeethTables teeth_tables(const MeshArtifact& sector, const MeshArtifact& special, const Material& material,
+                         const Eigen::VectorXd& xi, int reach) {
   return assemble_teeth(condense(sector, material, xi, "an intact sector"),
                         condense(special, material, xi, "the sector of tooth 0"), sector.design.teeth, reach);
 }
 
-MatrixRM crack_compliance(const MeshArtifact& sector, const Material& material, const Eigen::VectorXd& xi,
-                          int reach) {
+TeethTables crack_tables(const MeshArtifact& sector, const Material& material, const Eigen::VectorXd& xi,
+                         int reach) {
   if (sector.cracked_tooth.size() != 1) fail(Failure::input, "the mesh has no cracked tooth");
   const MeshArtifact& open = sector.cracked_tooth[0];
   const Condensed plain = condense(sector, material, xi, "an intact sector");
   const int teeth = sector.design.teeth;
-  const MatrixRM share =
-      assemble_teeth(plain, condense(open, material, xi, "the sector with the crack"), teeth, reach) -
-      assemble_teeth(plain, condense(close_slit(open), material, xi, "the sector with its crack closed"),
-                     teeth, reach);
-  const double largest = share.cwiseAbs().maxCoeff();
-  const SymmetricEigen eigen = symmetric_eigenvalues(MatrixXd(share));
+  TeethTables share =
+      assemble_teeth(plain, condense(open, material, xi, "the sector with the crack"), teeth, reach);
+  const TeethTables closed = assemble_teeth(
+      plain, condense(close_slit(open), material, xi, "the sector with its crack closed"), teeth, reach);
+  share.compliance -= closed.compliance;
+  share.root_stress -= closed.root_stress;
+  const double largest = share.compliance.cwiseAbs().maxCoeff();
+  const SymmetricEigen eigen = symmetric_eigenvalues(MatrixXd(share.compliance));
   // Flanks are loaded through the elements' edges and read at points: 1e-4 of the largest at 0.8 mm, 1e-6 at 0.4 mm.
   if (!(eigen.values[0] >= -1e-3 * largest))
     fail(Failure::numerical,

@@ -397,7 +397,11 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
     store_finer_root_stress(mesh, material, element, body);
   else
     store_root_stress(r, loads, harmonics.root_stress, body);
-  if (mesh.design.crack.depth > 0) body.crack_compliance = crack_compliance(mesh, material, xi, body.offsets);
+  if (mesh.design.crack.depth > 0) {
+    TeethTables crack = crack_tables(mesh, material, xi, body.offsets);
+    body.crack_compliance = std::move(crack.compliance);
+    body.crack_root_stress = std::move(crack.root_stress);
+  }
   body.least_eigenvalue =
       least_eigenvalue(r, harmonics.flexibility, kept, body.compliance[0].cwiseAbs().maxCoeff());
   fields.add("displacement_unit_force", [&](int j) {

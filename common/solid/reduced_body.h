@@ -42,12 +42,15 @@ struct BodyArtifact : BodyParameters {
   // clockwise of the cracked one to `offsets` counter-clockwise of it, tooth by tooth
   MatrixRM crack_compliance;
   // Stress along the roots of teeth; see solid/root_stress.h. Both roots of a tooth in one column: the points of the driving
-  // flank's side from the flank on, then those of the other side. Of an intact gear.
+  // flank's side from the flank on, then those of the other side.
   Eigen::VectorXd root_arc_length;  // (root) m: from the flank along the root curve
   Eigen::VectorXd root_angle;       // (root) rad: of the tangent against the centre line of the tooth
   // [offset + offsets] (2 root, flank) Pa N-1: tangential stress, tension positive, of the tooth `offset` counter-clockwise of
   // the loaded one, -offsets .. offsets, per unit total normal force
   std::vector<MatrixRM> root_stress;
+  // (tooth root, tooth flank) Pa N-1, or empty: what the crack adds to it along the driving flank's root, between the teeth of
+  // crack_compliance
+  MatrixRM crack_root_stress;
   double asymmetry = 0;         // relative, before symmetrisation
   double least_eigenvalue = 0;  // m N-1 of the compliance of all offsets less the stored modes
   // for looking: the whole gear with mode shapes and the displacement under a unit force at mid flank; written, never

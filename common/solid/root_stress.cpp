@@ -18,12 +18,12 @@ namespace {
 constexpr int kSteps = 4000;
 constexpr Eigen::Index kMostTerms = 9;
 
-// (place, value) 1: least squares by polynomials in x, from -1 to 1 along the root, of values at `at` with the weights `weight`,
-// read at `wanted`. Legendre polynomials, of at most degree 8.
+// (place, value) 1: least squares by polynomials in x, from -1 to 1 along the root or a piece of it, of values at `at` with the weights `weight`,
+// read at `wanted`. Legendre polynomials, of at most degree 8; where zero is -1 or 1, times what vanishes there.
 Eigen::MatrixXd fitted(const Eigen::VectorXd& at, const Eigen::VectorXd& weight,
-                       const Eigen::VectorXd& wanted) {
+                       const Eigen::VectorXd& wanted, int zero) {
   const Eigen::Index terms = std::clamp<Eigen::Index>(at.size() / 2 + 1, 1, kMostTerms);
-  const auto polynomials = [terms](const Eigen::VectorXd& x) {
+  const auto polynomials = [terms, zero](const Eigen::VectorXd& x) {
     Eigen::MatrixXd p(x.size(), terms);
     p.col(0).setOnes();
     if (terms > 1) p.col(1) = x;
@@ -31,6 +31,7 @@ Eigen::MatrixXd fitted(const Eigen::VectorXd& at, const Eigen::VectorXd& weight,
       const auto k = static_cast<double>(n);
       p.col(n) = ((2 * k - 1) * x.array() * p.col(n - 1).array() - (k - 1) * p.col(n - 2).array()) / k;
     }
+    if (zero != 0) p.array().colwise() *= 1 - zero * x.array();
     return p;
   };
   const Eigen::VectorXd root = weight.cwiseSqrt();
@@ -124,13 +125,20 @@ struct RootReader::Strain {
   std::vector<double> slope;  // m-1
 };
 
-// From the lower end of the driving flank along the free boundary to the sector's edge.
-std::vector<RootReader::Side> RootReader::sides() const {
+// The root of the driving flank.
+struct RootReader::Curve {
+  std::vector<Side> side;
+  size_t before_mouth = 0;  // sides from the flank to the mouth of a slit; 0: none opens here
+};
+
+// From the lower end of the driving flank along the free boundary to the sector's edge, past a slit.
+RootReader::Curve RootReader::curve() const {
   const MeshArtifact& mesh = mesh_;
   std::map<std::pair<int, int>, std::pair<std::vector<int>, int>> all;  // nodes, elements at the side
   for (Eigen::Index e = 0; e < mesh.element_node.rows(); ++e)
     for (int k = 0; k < 4; ++k) {
       std::vector<int> node{mesh.element_node(e, k), mesh.element_node(e, (k + 1) % 4)};
+      if (node[0] == node[1]) continue;  // the fourth side of a triangle
       if (mesh.element_node.cols() == 9) node.push_back(mesh.element_node(e, 4 + k));
       auto& [nodes, elements] = all[std::minmax(node[0], node[1])];
       nodes = node;
@@ -162,18 +170,63 @@ std::vector<RootReader::Side> RootReader::sides() const {
     at = side.node[1];
     chain.push_back(std::move(side));
   }
-  return chain;
+  Curve out{std::move(chain)};
+  // Two nodes stand at the mouth: the boundary comes to the first of them, and leaves from the second.
+  const std::set<int> slit(mesh.slit_node.data(), mesh.slit_node.data() + mesh.slit_node.size());
+  const auto at_end = [&](const Side& s) { return slit.contains(s.node[1]); };
+  const auto at_start = [&](const Side& s) { return slit.contains(s.node[0]); };
+  const auto come = std::find_if(out.side.begin(), out.side.end(), at_end);
+  if (come == out.side.end()) return out;
+  const auto leave = std::find_if(out.side.rbegin(), out.side.rend(), at_start).base() - 1;
+  out.before_mouth = static_cast<size_t>(come - out.side.begin()) + 1;
+  out.side.erase(come + 1, leave);
+  return out;
 }
 
-RootReader::RootReader(const MeshArtifact& mesh, const Material& material, int points)
+Eigen::MatrixXd RootReader::fit(const std::vector<Strain>& strains, double length, double mouth) const {
+  const Eigen::Index points = points_.parameter.size(), count = static_cast<Eigen::Index>(strains.size());
+  const auto place = [&](double arc_length) { return points_.place(arc_length * points_.length / length); };
+  const Eigen::VectorXd wanted =
+      Eigen::VectorXd::NullaryExpr(points, [&](Eigen::Index i) { return (i + 0.5) / points; });
+  Eigen::VectorXd at(count), weight(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Strain& strain = strains[static_cast<size_t>(i)];
+    at[i] = place(strain.arc_length);
+    weight[i] = strain.weight / length;
+  }
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(points, count);
+  double from = 0;
+  for (const double to : parted_ ? std::vector<double>{place(mouth), 1} : std::vector<double>{1}) {
+    const auto split = [&](const Eigen::VectorXd& v, double x) {
+      return std::lower_bound(v.begin(), v.end(), x) - v.begin();
+    };
+    const Eigen::Index first = split(at, from), known = split(at, to) - first, top = split(wanted, from),
+                       rows = split(wanted, to) - top;
+    const auto inside = [&](const auto& v) {
+      return Eigen::VectorXd((2 * (v.array() - from) / (to - from) - 1).matrix());
+    };
+    if (rows > 0)
+      out.block(top, first, rows, known) =
+          fitted(inside(at.segment(first, known)), weight.segment(first, known),
+                 inside(wanted.segment(top, rows)), parted_ ? (from > 0 ? -1 : 1) : 0);
+    from = to;
+  }
+  return out;
+}
+
+RootReader::RootReader(const MeshArtifact& mesh, const Material& material, Roots roots, int points)
     : mesh_(mesh),
+      sides_(roots == Roots::both ? 2 : 1),
       tooth_(mesh.design),
       points_(root_points(tooth_, points)),
       moduli_(plane_strain_equivalent(material)) {
   const GaussRule fine = gauss_rule(6);
   std::vector<Strain> strains;
-  double length = 0;
-  for (const Side& side : sides()) {
+  double length = 0, mouth = 0;
+  const Curve root = curve();
+  for (size_t k = 0; k < root.side.size(); ++k) {
+    const Side& side = root.side[k];
+    if (k == root.before_mouth) mouth = length;
     const auto along = [&](double a) {
       const SideShape shape = side_shape(side.node.size(), a);
       Vec2 d = Vec2::Zero();
@@ -197,14 +250,8 @@ RootReader::RootReader(const MeshArtifact& mesh, const Material& material, int p
     }
     length += length_to(1);
   }
-  Eigen::VectorXd place(static_cast<Eigen::Index>(strains.size())), weight(place.size());
-  for (size_t i = 0; i < strains.size(); ++i) {
-    place[static_cast<Eigen::Index>(i)] = points_.place(strains[i].arc_length * points_.length / length);
-    weight[static_cast<Eigen::Index>(i)] = strains[i].weight / length;
-  }
-  const Eigen::VectorXd wanted =
-      Eigen::VectorXd::NullaryExpr(points, [&](Eigen::Index i) { return (2 * i + 1.0) / points - 1; });
-  const Eigen::MatrixXd fit = fitted((2 * place.array() - 1).matrix(), weight, wanted);
+  parted_ = mouth > 0;
+  const Eigen::MatrixXd fitting = fit(strains, length, mouth);
   const double modulus = moduli_.youngs_modulus / (1 - moduli_.poisson_ratio * moduli_.poisson_ratio);  // E'
   std::map<int, int> image;
   std::vector<Eigen::Triplet<double>> entries;
@@ -213,41 +260,43 @@ RootReader::RootReader(const MeshArtifact& mesh, const Material& material, int p
       const Strain& s = strains[g];
       for (size_t k = 0; k < s.node.size(); ++k) {
         const int node = s.node[k];
-        if (!image.contains(node)) image[node] = mirror_node(mesh, node);
+        if (sides_ == 2 && !image.contains(node)) image[node] = mirror_node(mesh, node);
         for (int c = 0; c < 2; ++c) {
-          const double value = fit(i, static_cast<Eigen::Index>(g)) * modulus * s.slope[k] * s.tangent[c];
+          const double value = fitting(i, static_cast<Eigen::Index>(g)) * modulus * s.slope[k] * s.tangent[c];
           entries.emplace_back(i, 2 * node + c, value);
-          entries.emplace_back(points + i, 2 * image.at(node) + c, c == 0 ? -value : value);
+          if (sides_ == 2) entries.emplace_back(points + i, 2 * image.at(node) + c, c == 0 ? -value : value);
         }
       }
     }
-  stress_.resize(2 * points, 2 * mesh.node_position.rows());
+  stress_.resize(sides_ * points, 2 * mesh.node_position.rows());
   stress_.setFromTriplets(entries.begin(), entries.end());
 }
 
 MatrixRM RootReader::near_field(const FlankLoads& loads, const Eigen::VectorXd& xi) const {
   const Eigen::Index points = points_.parameter.size(), nodes = mesh_.node_position.rows();
-  MatrixRM out = MatrixRM::Zero(2 * points, xi.size());
+  MatrixRM out = MatrixRM::Zero(sides_ * points, xi.size());
   if (std::none_of(loads.holds_rest.begin(), loads.holds_rest.end(), [](char rest) { return rest != 0; }))
     return out;
   const double thickness = mesh_.design.face_width,
                across = moduli_.poisson_ratio / (1 - moduli_.poisson_ratio);
-  // Nodes of the roots that hold u: what they hold of the half-plane is taken off.
-  std::set<int> whole;
+  // Nodes of the roots that hold u: what they hold of the half-plane is taken off; beside a slit, added to the others.
+  std::set<int> held_at;
   for (int column = 0; column < stress_.outerSize(); ++column)
     for (SparseReal::InnerIterator it(stress_, column); it; ++it)
-      if (!loads.holds_rest[static_cast<size_t>(it.col() / 2)]) whole.insert(static_cast<int>(it.col() / 2));
+      if ((loads.holds_rest[static_cast<size_t>(it.col() / 2)] != 0) == parted_)
+        held_at.insert(static_cast<int>(it.col() / 2));
   for (Eigen::Index j = 0; j < xi.size(); ++j) {
     const LineLoadField field(tooth_.flank_point(xi[j]), tooth_.flank_normal(xi[j]), moduli_, thickness,
                               kReferenceDepth);
     Eigen::VectorXd held = Eigen::VectorXd::Zero(2 * nodes);
-    for (const int node : whole)
+    for (const int node : held_at)
       held.segment<2>(2 * node) = field.displacement(mesh_.node_position.row(node).transpose());
-    out.col(j) = -(stress_ * held);
+    out.col(j) = (parted_ ? 1 : -1) * (stress_ * held);
+    if (parted_) continue;
     for (Eigen::Index i = 0; i < points; ++i) {
       const double t = points_.parameter[i], step = 1e-5;
       const Vec2 d = tooth_.root_point(std::min(t + step, 1.0)) - tooth_.root_point(std::max(t - step, 0.0));
-      for (const int side : {0, 1}) {
+      for (int side = 0; side < sides_; ++side) {
         const Vec2 mirror(side == 0 ? 1 : -1, 1);
         const Vec2 point = tooth_.root_point(t).cwiseProduct(mirror),
                    tangent = d.normalized().cwiseProduct(mirror), normal(tangent.y(), -tangent.x());

@@ -36,23 +36,34 @@ RootPoints root_points(const ToothGeometry& tooth, int points = kRootPoints);
 // m: least radius of curvature of the root curve, over steps of 1 % of its parameter.
 double least_root_radius(const ToothGeometry& tooth);
 
-// Reading of the stress along both roots of a tooth sector: rows are the points of the driving flank's side, then those of the
-// other side.
+// Which roots of a tooth are read: a mesh with a slit in one of them is not its own mirror image.
+enum class Roots { both, driving };
+
+// Reading of the stress along the roots of a tooth sector: rows are the points of the driving flank's side, then those of the
+// other side if both are read. Where a slit opens in the root, the two sides of its mouth are fitted apart, and vanish there: a corner between two
+// free surfaces that is less than straight has no stress. What vanishes is the whole stress: there the half-plane is read from the
+// nodes as well.
 class RootReader {
  public:
-  // Throws Error(input) for a mesh whose free boundary is not that of a tooth or that is not its own mirror image.
-  RootReader(const MeshArtifact& mesh, const Material& material, int points = kRootPoints);
-  // (2 root, 2 node) Pa m-1: of displacements of the nodes.
+  // Throws Error(input) for a mesh whose free boundary is not that of a tooth or, of both roots, that is not its own mirror image.
+  RootReader(const MeshArtifact& mesh, const Material& material, Roots roots = Roots::both,
+             int points = kRootPoints);
+  // (root, 2 node) Pa m-1: of displacements of the nodes.
   const SparseReal& stress() const { return stress_; }
-  // (2 root, load) Pa N-1: what the half-planes of `loads` at roll angles xi (rad) add in the loaded tooth, whose nodes hold
+  // (root, load) Pa N-1: what the half-planes of `loads` at roll angles xi (rad) add in the loaded tooth, whose nodes hold
   // what holds_rest says.
   MatrixRM near_field(const FlankLoads& loads, const Eigen::VectorXd& xi) const;
 
  private:
   struct Side;
   struct Strain;
-  std::vector<Side> sides() const;
+  struct Curve;
+  Curve curve() const;
+  // (root, strain) 1
+  Eigen::MatrixXd fit(const std::vector<Strain>& strains, double length, double mouth) const;
   const MeshArtifact& mesh_;
+  int sides_;            // how many roots are read
+  bool parted_ = false;  // by the mouth of a slit
   ToothGeometry tooth_;
   RootPoints points_;
   PlaneModuli moduli_;

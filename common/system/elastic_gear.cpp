@@ -27,6 +27,7 @@ const BodyArtifact& finite(const BodyArtifact& body) {
   require(body.far_compliance, "compliance between teeth far apart");
   require(body.back_compliance, "compliance of the back flanks");
   require(body.crack_compliance, "compliance of its crack");
+  require(body.crack_root_stress, "root stress of its crack");
   for (size_t d = 0; d < body.compliance.size(); ++d)
     require(body.compliance[d], text("compliance at tooth offset ", d));
   return body;
@@ -92,15 +93,23 @@ MatrixXd ElasticGear::residual(int offset, double depth, const std::vector<int>&
   return r;
 }
 
-MatrixXd ElasticGear::crack_compliance(int read, int loaded) const {
+MatrixXd ElasticGear::of_crack(const MatrixRM& table, Eigen::Index rows, int read, int loaded) const {
   const int teeth = body_.design.teeth, n = table_size();
-  const auto place = [&](int tooth) {  // in the stored candidate zone; its end or more if outside
+  const auto place = [&](int tooth) {  // among the stored teeth; beyond their number if not there
     const int from = (tooth - body_.design.crack.tooth + body_.offsets) % teeth;
     return from < 0 ? from + teeth : from;
   };
   const int row = place(read), column = place(loaded);
-  if (!cracked() || row > 2 * body_.offsets || column > 2 * body_.offsets) return {};
-  return body_.crack_compliance.block(row * n, column * n, n, n);
+  if (table.size() == 0 || row > 2 * body_.offsets || column > 2 * body_.offsets) return {};
+  return table.block(row * rows, column * n, rows, n);
+}
+
+MatrixXd ElasticGear::crack_compliance(int read, int loaded) const {
+  return of_crack(body_.crack_compliance, table_size(), read, loaded);
+}
+
+MatrixXd ElasticGear::crack_root_stress(int read, int loaded) const {
+  return of_crack(body_.crack_root_stress, body_.root_angle.size(), read, loaded);
 }
 
 int ElasticGear::partner(int column) const {

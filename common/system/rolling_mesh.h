@@ -67,6 +67,8 @@ class ElasticGear {
   // of teeth, counter-clockwise, any whole ones. Empty where it adds nothing: without a crack, and further than the stored
   // offsets from the cracked tooth.
   Eigen::MatrixXd crack_compliance(int read, int loaded) const;
+  // (root, flank) Pa N-1: the same of the stress along the root beside the driving flank.
+  Eigen::MatrixXd crack_root_stress(int read, int loaded) const;
   // (flank) kg^-1/2: outward normal displacement of mode `column` on the tooth `tooth` places
   // counter-clockwise.
   Eigen::VectorXd mode_on_tooth(int column, int tooth) const;
@@ -75,6 +77,8 @@ class ElasticGear {
   double tooth_angle(int column) const;  // rad: 2 pi n / teeth, the turn of a doublet per tooth
 
  private:
+  // The block (rows, flank) of a table of the teeth about the crack.
+  Eigen::MatrixXd of_crack(const MatrixRM& table, Eigen::Index rows, int read, int loaded) const;
   BodyArtifact body_;
   HalfPlaneSurface half_plane_, body_half_plane_;
   bool own_plane_;  // the contact has another plane state than the body

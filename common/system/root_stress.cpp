@@ -12,37 +12,43 @@ RootStresses::RootStresses(const GearMeshModel& model, std::vector<double> phase
     per_force_[g].resize(phases_.size());
     const BodyArtifact& body = model.gear[g].body();
     known_ = known_ && static_cast<int>(body.root_stress.size()) == 2 * body.offsets + 1 &&
-             body.root_angle.size() > 2 && body.design.crack.depth == 0;
+             body.root_angle.size() > 2 && (body.crack_root_stress.size() > 0 || !model.gear[g].cracked());
   }
 }
 
-const Eigen::MatrixXd& RootStresses::per_force(int g, size_t phase, int pair) {
+const RootStresses::PerForce& RootStresses::per_force(int g, size_t phase, int pair) {
   std::vector<PerForce>& known = per_force_[static_cast<size_t>(g)][phase];
   for (const PerForce& at : known)
-    if (at.pair == pair) return at.table;
+    if (at.pair == pair) return at;
   const ElasticGear& gear = model_.gear[static_cast<size_t>(g)];
   const FlankTable& flank = gear.table();
   const double roll =
       std::clamp(model_.kinematics.contact(phases_[phase] + pair).roll[static_cast<size_t>(g)],
                  flank.lowest(), flank.highest());
-  const Eigen::VectorXd weights = flank.weights(roll).transpose();
   const BodyArtifact& body = gear.body();
-  PerForce at{pair, Eigen::MatrixXd(body.root_angle.size(), 2 * body.offsets + 1)};
+  PerForce at{pair, flank.weights(roll).transpose(),
+              Eigen::MatrixXd(body.root_angle.size(), 2 * body.offsets + 1)};
   for (int d = 0; d <= 2 * body.offsets; ++d)
-    at.table.col(d) = body.root_stress[static_cast<size_t>(d)].topRows(body.root_angle.size()) * weights;
+    at.table.col(d) = body.root_stress[static_cast<size_t>(d)].topRows(body.root_angle.size()) * at.weights;
   known.push_back(std::move(at));
-  return known.back().table;
+  return known.back();
 }
 
 RootStress RootStresses::of_tooth(int g, size_t phase, int of, const Eigen::VectorXi& numbers,
-                                  const Eigen::Ref<const Eigen::VectorXd>& load) {
-  const BodyArtifact& body = model_.gear[static_cast<size_t>(g)].body();
+                                  const Eigen::Ref<const Eigen::VectorXd>& load, int period) {
+  const ElasticGear& gear = model_.gear[static_cast<size_t>(g)];
+  const BodyArtifact& body = gear.body();
+  const auto tooth = [&](int pair) { return GearMeshModel::tooth(g, pair - period); };
   along_.setZero(body.root_angle.size());
   for (Eigen::Index k = 0; k < numbers.size(); ++k) {
     if (!(load[k] > 0)) continue;
-    const int offset = GearMeshModel::tooth(g, of) - GearMeshModel::tooth(g, numbers[k]);
-    if (std::abs(offset) <= body.offsets)
-      along_ += load[k] * per_force(g, phase, numbers[k]).col(offset + body.offsets);
+    const int offset = tooth(of) - tooth(numbers[k]);
+    if (std::abs(offset) > body.offsets) continue;
+    const PerForce& at = per_force(g, phase, numbers[k]);
+    along_ += load[k] * at.table.col(offset + body.offsets);
+    if (!gear.cracked()) continue;
+    const Eigen::MatrixXd crack = gear.crack_root_stress(tooth(of), tooth(numbers[k]));
+    if (crack.size() > 0) along_ += load[k] * (crack * at.weights);
   }
   Eigen::Index top = 0;
   RootStress out{along_.maxCoeff(&top), of, body.root_angle[top]};

@@ -112,7 +112,7 @@ std::string solve_period(const SystemModel& system, const std::vector<CandidateZ
   return "";
 }
 
-// Root stresses at all positions, and where they are largest; nothing of a pair with a cracked tooth.
+// Root stresses at all positions, and where they are largest.
 void store_root_stress(const GearMeshModel& model, StaticArtifact& s) {
   const auto positions = static_cast<size_t>(s.contact.positions);
   std::vector<double> phases;
@@ -121,18 +121,26 @@ void store_root_stress(const GearMeshModel& model, StaticArtifact& s) {
   RootStresses roots(model, phases);
   if (!roots.known()) return;
   for (VectorXd* v : {&s.root_stress_max, &s.root_stress_angle, &s.root_stress_phase}) v->setZero(kSides);
+  if (s.hunting_periods > 1) s.root_stress_tooth.setZero(kSides);
+  // Of teeth that differ by round-off alone the first one is named.
+  const double clearly = s.hunting_periods > 1 ? 1 + 1e-9 : 1;
   for (int g = 0; g < kSides; ++g) {
+    const int teeth = s.gear[static_cast<size_t>(g)].design.teeth;
     MatrixRM& out = s.root_stress[static_cast<size_t>(g)];
     out.resize(s.tooth_load.rows(), s.tooth_load.cols());
     for (Eigen::Index i = 0; i < out.rows(); ++i) {
       const size_t phase = static_cast<size_t>(i) % positions;
+      const int period = static_cast<int>(i) / s.contact.positions;
       for (Eigen::Index k = 0; k < out.cols(); ++k) {
-        const RootStress tooth = roots.of_tooth(g, phase, s.pair[k], s.pair, s.tooth_load.row(i).transpose());
+        const RootStress tooth =
+            roots.of_tooth(g, phase, s.pair[k], s.pair, s.tooth_load.row(i).transpose(), period);
         out(i, k) = tooth.stress;
-        if (tooth.stress <= s.root_stress_max[g]) continue;
+        if (tooth.stress <= clearly * s.root_stress_max[g]) continue;
         s.root_stress_max[g] = tooth.stress;
         s.root_stress_angle[g] = tooth.angle;
         s.root_stress_phase[g] = phases[phase] + tooth.pair;
+        if (s.hunting_periods > 1)
+          s.root_stress_tooth[g] = (GearMeshModel::tooth(g, tooth.pair - period) % teeth + teeth) % teeth;
       }
     }
   }
