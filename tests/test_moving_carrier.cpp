@@ -13,6 +13,7 @@
 #include "orbits/periodic_motion.h"
 #include "relative.h"
 #include "signal/spectrum.h"
+#include "studies/turning_carrier.h"
 #include "system/rigid_system.h"
 #include "system/system_statics.h"
 
@@ -364,4 +365,44 @@ TEST_CASE(
   const double one = off(16e9), two = off(32e9);
   CHECK(one < 0.1);
   CHECK(two == relative(0.5 * one, 0.1));
+}
+
+TEST_CASE(
+    "what a sweep leaves out of a carrier that turns: forces at the highest speed, by which gear stands "
+    "still") {
+  const auto of = [](const Drives& drives) {
+    SystemSweepArtifact sweep;
+    sweep.settings.layout = train_with(drives, 0).layout;
+    sweep.mesh_frequency = Eigen::Vector2d(3000, 1000);
+    sweep.mesh_force.assign(2, MatrixRM::Constant(4, 6, 500));
+    sweep.mesh_force[0].col(1).setConstant(2000);
+    return turning_carriers(sweep);
+  };
+  const std::vector<TurningCarrier> turns = of(kCarrierTurns);
+  REQUIRE(turns.size() == 1);
+  const double speed = 2 * std::numbers::pi * 3000 / 100, mass = train_body(37, false).mass,
+               radius = 0.5 * (26 + 37) * kTrainModule;
+  CHECK(turns[0].turns);
+  CHECK(turns[0].carrier == static_cast<int>(kCarrier));
+  CHECK(turns[0].still == static_cast<int>(kRing));
+  CHECK(turns[0].mesh_frequency == 3000);
+  CHECK(turns[0].speed == relative(speed, 1e-12));
+  CHECK(turns[0].centrifugal_force == relative(mass * radius * speed * speed, 1e-12));
+  CHECK(turns[0].mesh_force == 2000);
+  CHECK(turns[0].coriolis == relative(0.02, 1e-12));
+  // Held, as the frame; by the sun; none of its gears.
+  const auto frame = of({{"sun", kTorque, kTrainTorque, 0}, {"ring", kHeld, 0, 0}, {"carrier", kHeld, 0, 0}});
+  REQUIRE(frame.size() == 1);
+  CHECK(!frame[0].turns);
+  CHECK(frame[0].centrifugal_force == turns[0].centrifugal_force);
+  CHECK(of({{"sun", kHeld, 0, 0}, {"ring", kTorque, -kOfRing, 0}, {"carrier", kTorque, -kOfCarrier, 0}})[0]
+            .speed == relative(speed * 100 / 26, 1e-12));
+  const auto none = of({{"sun", kTorque, kTrainTorque, 0},
+                        {"ring", kTorque, -kOfRing, 0},
+                        {"carrier", kTorque, -kOfCarrier, 0}});
+  REQUIRE(none.size() == 1);
+  CHECK(none[0].still == -1);
+  CHECK(none[0].relative_force() == 0);
+  CHECK(of({{"sun", kTorque, kTrainTorque, 0}, {"ring", kTorque, -kOfRing, 0}, {"carrier", kHeld, 0, 0}})
+            .empty());
 }
