@@ -10,11 +10,14 @@
 #include "dynamics/system_dynamics.h"
 #include "dynamics/system_period_map.h"
 #include "elastic_train.h"
+#include "gear/system_layout.h"
+#include "io/system_scene.h"
 #include "orbits/periodic_motion.h"
 #include "relative.h"
 #include "signal/spectrum.h"
 #include "studies/turning_carrier.h"
 #include "system/rigid_system.h"
+#include "system/system_rest.h"
 #include "system/system_statics.h"
 
 using namespace whine;
@@ -405,4 +408,29 @@ TEST_CASE(
   CHECK(none[0].relative_force() == 0);
   CHECK(of({{"sun", kTorque, kTrainTorque, 0}, {"ring", kTorque, -kOfRing, 0}, {"carrier", kHeld, 0, 0}})
             .empty());
+}
+
+TEST_CASE(
+    "the shipped train whose carrier turns is the one whose carrier is held, with the carrier of Lin and "
+    "Parker") {
+  const SystemScene held = read_system_scene("data/scenes/oh58-planetary.toml"),
+                    scene = read_system_scene("data/scenes/oh58-planetary-carrier.toml"),
+                    rigid = read_system_scene("data/scenes/lin-parker-planetary.toml");
+  const System layout = layout_of(scene), other = layout_of(held);
+  check_at_rest(scene, layout);
+  REQUIRE(layout.bodies.size() == other.bodies.size());
+  for (size_t b = 0; b + 1 < layout.bodies.size(); ++b) {
+    CHECK(layout.bodies[b].angle == other.bodies[b].angle);
+    CHECK(layout.bodies[b].bearing.stiffness == other.bodies[b].bearing.stiffness);
+    CHECK(layout.bodies[b].bearing.damping == other.bodies[b].bearing.damping);
+  }
+  for (size_t m = 0; m < layout.meshes.size(); ++m) CHECK(layout.meshes[m].phase == other.meshes[m].phase);
+  CHECK(layout.torque(0) == other.torque(0));
+  CHECK(scene.damping.rayleigh_stiffness == held.damping.rayleigh_stiffness);
+  const System::Body& carrier = layout.bodies.back();
+  CHECK(moving_carrier(layout, static_cast<int>(layout.bodies.size()) - 1));
+  const Bearing& from = layout_of(rigid).bodies.back().bearing;
+  CHECK(carrier.bearing.stiffness == from.stiffness);
+  CHECK(carrier.bearing.mass == from.mass);
+  CHECK(carrier.inertia == relative(rigid.carriers[0].equivalent_mass * std::pow(carrier.radius, 2), 1e-12));
 }

@@ -453,6 +453,11 @@ bool moving_carrier(const System& layout, int b) {
   return body.kind == System::BodyKind::carrier && (!layout.held(b) || body.bearing.elastic());
 }
 
+bool on_rigid_moving_pin(const System& layout, int b) {
+  const System::Body& body = layout.bodies[static_cast<size_t>(b)];
+  return body.on != System::kGround && !body.bearing.elastic() && moving_carrier(layout, body.on);
+}
+
 SystemCoordinates::Participation SystemCoordinates::participation(const SystemModel& system, int b,
                                                                   const ToothFlank& flank, double phase,
                                                                   const Eigen::RowVectorXd& weights,

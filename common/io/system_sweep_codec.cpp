@@ -49,11 +49,6 @@ void describe_meshes(Codec& c, SystemSweepArtifact& a) {
             &a.mesh_force);
 }
 
-bool on_rigid_pin_that_moves(const System& layout, size_t b) {
-  const System::Body& body = layout.bodies[b];
-  return body.on != System::kGround && !body.bearing.elastic() && moving_carrier(layout, body.on);
-}
-
 void describe_bodies(Codec& c, SystemSweepArtifact& a) {
   const std::string axes = std::string(kAxis) + " body_number";
   c.dataset(
@@ -72,7 +67,7 @@ void describe_bodies(Codec& c, SystemSweepArtifact& a) {
         {"/body/" + (c.lists() ? "<body>" : a.settings.layout.bodies[b].name) + "/bearing_force", "N",
          text("force of the body on its bearing or pin over the last mesh or hunting period; on a rigid "
               "axis the sum of its contact forces",
-              c.lists() || on_rigid_pin_that_moves(a.settings.layout, b)
+              c.lists() || on_rigid_moving_pin(a.settings.layout, static_cast<int>(b))
                   ? ", on a rigid pin of a carrier that moves less the rate of its momentum"
                   : "",
               "; of a carrier the sum of its pins"),
