@@ -18,6 +18,7 @@ using Eigen::Index;
 
 constexpr double kSamePeak = 0.01;        // of the RMS: below it rising and falling speed have one motion
 constexpr double kLargeImbalance = 1e-6;  // of the throughput
+constexpr double kSharpPeak = 2;          // of the RMS at the neighbouring speeds
 
 // The largest value over the speeds, and where.
 struct Peak {
@@ -149,6 +150,18 @@ bool differs(const SystemSweepArtifact& a, Index row, const SystemSweepArtifact&
   return false;
 }
 
+// Hz: speeds at which the RMS of a mesh is far above those at the speeds on either side.
+std::string sharp_peaks(const SystemSweepArtifact& a) {
+  const std::vector<Index> order = by_speed(a);
+  std::string out;
+  for (size_t i = 1; i + 1 < order.size(); ++i) {
+    const auto rms = [&](size_t k) { return a.dte_rms.row(order[k]).array(); };
+    if ((rms(i) > kSharpPeak * rms(i - 1).max(rms(i + 1))).any())
+      out += (out.empty() ? "" : ", ") + shown(a.mesh_frequency[order[i]], 5);
+  }
+  return out;
+}
+
 // What a sweep leaves out of a planetary train whose carrier turns, by its size at the highest speed.
 Remark left_out(const System& layout, const TurningCarrier& of) {
   const std::string carrier = layout.bodies[static_cast<size_t>(of.carrier)].name;
@@ -263,6 +276,18 @@ std::vector<Remark> motion_remarks(const SystemReport& r) {
         out.push_back(remark(false, "rising and falling speed lead to different motions at ", two,
                              " Hz: the vibration jumps at the ends of these ranges"));
     }
+    if (const std::string sharp = sharp_peaks(first); !sharp.empty())
+      out.push_back(
+          remark(true, "peaks at ", sharp, " Hz are one speed wide, of more than ", fixed(kSharpPeak, 0),
+                 " times the RMS beside them: their height is that of the step of mesh_frequency_Hz; lower "
+                 "it, or give the bearings their damping"));
+    std::string undamped;
+    for (const System::Body& body : first.settings.layout.bodies)
+      if (body.bearing.elastic() && body.bearing.damping == 0)
+        undamped += (undamped.empty() ? "" : ", ") + body.name;
+    if (!undamped.empty())
+      out.push_back(remark(false, "no damping_Ns_m in the [[bearing]] of ", undamped,
+                           ": where a resonance moves it on its bearing, the height has no meaning"));
     for (const TurningCarrier& of : turning_carriers(first))
       out.push_back(left_out(first.settings.layout, of));
   }
