@@ -322,6 +322,28 @@ TEST_CASE(
     if (!meets)
       for (size_t m = 0; m < 6; ++m) CHECK(at.mesh_force[m] == relative(exact.mesh_force[m], 1e-9));
   }
+  // In motion: the same forces at rest; the balance of energy closes as the tooth comes round.
+  SystemDynamics dynamics(one, motion_of(one, 4e8, 2e-6));
+  constexpr int kSteps = 48;
+  dynamics.set_positions(std::vector<double>(6, 60e-6), kSteps);
+  CHECK(dynamics.hunting_periods() == kTeeth[2]);
+  for (int i = 0; i < 4; ++i) {
+    const VectorXd p = dynamics.rest_forces(i * kSteps / 4);
+    for (int m = 0; m < 6; ++m) {
+      double own = 0;
+      for (const LoadedSegment& load : each[static_cast<size_t>(i) * periods].loads)
+        own += load.mesh == m ? load.force : 0;
+      CHECK(p.segment(m * dynamics.pairs(), dynamics.pairs()).sum() == relative(own, 1e-9));
+    }
+  }
+  SystemDynamics::State state = dynamics.rest();
+  SystemDynamics::Period period;
+  SystemEnergyBalance energy;
+  dynamics.set_speed(1000, kSteps);
+  for (int n = 0; n < kTeeth[2]; ++n) {
+    REQUIRE(dynamics.integrate(state, period, &energy));
+    CHECK(energy.imbalance < 1e-12 * energy.throughput);
+  }
   for (size_t planet = 0; planet < 3; ++planet) {
     CAPTURE(planet);
     CHECK(met[planet] >= 4);  // for the contact ratio of mesh periods
