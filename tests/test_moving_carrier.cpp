@@ -429,7 +429,7 @@ TEST_CASE(
   CHECK(scene.damping.rayleigh_stiffness == held.damping.rayleigh_stiffness);
   const System::Body& carrier = layout.bodies.back();
   CHECK(moving_carrier(layout, static_cast<int>(layout.bodies.size()) - 1));
-  const Bearing& from = layout_of(rigid).bodies.back().bearing;
+  const Bearing from = layout_of(rigid).bodies.back().bearing;
   CHECK(carrier.bearing.stiffness == from.stiffness);
   CHECK(carrier.bearing.mass == from.mass);
   CHECK(carrier.inertia == relative(rigid.carriers[0].equivalent_mass * std::pow(carrier.radius, 2), 1e-12));
