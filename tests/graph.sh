@@ -12,7 +12,7 @@ log=$tree/log
 ok() { echo "ok: $1"; }
 wrong() { echo "FAILED: $1: $2"; }
 
-cp -a Makefile pipelines common tools data "$tree"
+cp -a Makefile pipelines common tools data tests "$tree"
 mkdir -p "$tree/$B"
 cp -a "$B/bin" "$B/obj" "$B/id" "$B/flags" "$tree/$B"
 cd "$tree" || exit 1

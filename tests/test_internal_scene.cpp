@@ -95,8 +95,7 @@ TEST_CASE("what makes no sense in an internal gear is rejected with its line and
   CHECK(contains(unmeshed(ring_with("rim_outer_radius_mm = 200", "rim_outer_radius_mm = 180")),
                  "is not above the root radius of the internal gear"));
   CHECK(contains(unmeshed(with_ring(kRing + "[gear.wheel.crack]\ndepth_mm = 1\n")), "crack"));
-  CHECK(contains(unmeshed(with_ring(kRing + "[gear.wheel.error]\neccentricity_um = 10\n")),
-                 "errors of the teeth"));
+  CHECK(unmeshed(with_ring(kRing + "[gear.wheel.error]\neccentricity_um = 10\n")).empty());
 }
 
 TEST_CASE("artifacts of an internal gear come back as they were; those of external ones know of no rim") {

@@ -10,10 +10,14 @@
 #include "dynamics/system_dynamics.h"
 #include "dynamics/system_period_map.h"
 #include "elastic_train.h"
+#include "gear/system_layout.h"
+#include "io/system_scene.h"
 #include "orbits/periodic_motion.h"
 #include "relative.h"
 #include "signal/spectrum.h"
+#include "studies/turning_carrier.h"
 #include "system/rigid_system.h"
+#include "system/system_rest.h"
 #include "system/system_statics.h"
 
 using namespace whine;
@@ -252,4 +256,181 @@ TEST_CASE("planets on rigid pins of a carrier that is lighter than they are: rej
   const SystemModel system = train_with(kCarrierTurns, 0, true, false, 1e-6);
   CHECK_THROWS_WITH(motion_of(system, 4e8),
                     doctest::Contains("lies below that of its planets on rigid pins"));
+}
+
+namespace {
+
+struct MomentumError {
+  double turning = 0, moving = 0;  // of the impulse of the planets
+};
+// Own momentum of the carrier over a mesh period, without that of planets on rigid pins, against the impulse, by trapezia, of what
+// acts on it: forces of its planets on their pins, its bearing, its load, damping by mass.
+MomentumError momentum_error(bool elastic_pins, int steps) {
+  constexpr double kMassDamping = 300, kSpeed = 2600;
+  SystemModel system =
+      train_with({{"sun", kHeld, 0, 0}, {"ring", kHeld, 0, 0}, {"carrier", kTorque, -kOfCarrier, 0}}, 2e8,
+                 true, elastic_pins);
+  System::Body& carrier = system.layout.bodies[kCarrier];
+  carrier.bearing.damping = 0;
+  for (size_t b = 1; b < kRing; ++b) system.layout.bodies[b].bearing.damping = 0;
+  double own_mass = carrier.bearing.mass, own_inertia = carrier.inertia;
+  if (!elastic_pins) {
+    const double planets = 3 * system.body[1]->body().mass;
+    carrier.bearing.mass += planets;
+    carrier.inertia += planets * carrier.radius * carrier.radius;
+  }
+  SystemMotion motion = motion_of(system, 4e8, 0);
+  motion.damping.rayleigh_mass = kMassDamping;
+  motion.damping.bearing_ratio = 0;
+  SystemDynamics dynamics(system, motion);
+  dynamics.set_positions(std::vector<double>(6, 60e-6), steps);
+  dynamics.set_speed(kSpeed, steps);
+  SystemDynamics::State now = dynamics.rest();
+  SystemDynamics::Period before, period;
+  for (int n = 0; n < 2; ++n) REQUIRE(dynamics.integrate(now, before));
+  const SystemDynamics::State old = now;
+  REQUIRE(dynamics.integrate(now, period));
+  double turned = 0, largest_turned = 0;
+  Vec2 moved(0, 0);
+  double largest_moved = 0;
+  for (int i = 0; i <= steps; ++i) {  // sample 0 is that of the end
+    const SystemDynamics::Period& of = i == 0 ? before : period;
+    const double weight = (i % steps == 0 ? 0.5 : 1) / (steps * kSpeed);
+    double moment = system.layout.torque(kCarrier);
+    Vec2 force = -of.bearing_force[kCarrier].col(i % steps);
+    for (size_t b = 1; b < kRing; ++b) {
+      const Vec2 pin = of.bearing_force[b].col(i % steps);
+      moment += carrier.radius * pin_direction(system.layout, system.layout.bodies[b]).dot(pin);
+      force += pin;
+    }
+    turned += weight * moment;
+    moved += weight * force;
+    largest_turned += weight * std::abs(moment);
+    largest_moved += weight * force.norm();
+  }
+  const SystemCoordinates& c = dynamics.coordinates();
+  const double turns =
+      c.rotation_of(kCarrier, now.v - old.v) + kMassDamping * c.rotation_of(kCarrier, now.z - old.z);
+  const Vec2 moves =
+      c.translation_of(kCarrier, now.v - old.v) + kMassDamping * c.translation_of(kCarrier, now.z - old.z);
+  return {std::abs(turned - own_inertia * turns) / largest_turned,
+          (moved - own_mass * moves).norm() / largest_moved};
+}
+
+}  // namespace
+
+TEST_CASE(
+    "forces on elastic and on rigid pins give a carrier its momentum, to second order of the time step") {
+  for (const bool pins : {true, false}) {
+    CAPTURE(pins);
+    const MomentumError one = momentum_error(pins, 96), two = momentum_error(pins, 384);
+    CHECK(two.turning < 1e-4);
+    CHECK(two.moving < 1e-4);
+    CHECK(two.turning < 0.1 * one.turning);
+    CHECK(two.moving < 0.1 * one.moving);
+  }
+}
+
+TEST_CASE(
+    "stiff pins of a carrier that turns carry what rigid ones do, to the first order of their flexibility") {
+  const auto forces = [](double stiffness) {
+    SystemModel system = train_with(kCarrierTurns, 2e8, true, stiffness > 0);
+    double planets = 0;
+    for (size_t b = 1; b < kRing; ++b) {
+      planets += system.body[b]->body().mass;
+      system.layout.bodies[b].bearing.stiffness = stiffness;
+    }
+    System::Body& carrier = system.layout.bodies[kCarrier];
+    if (!(stiffness > 0)) {
+      carrier.bearing.mass += planets;
+      carrier.inertia += planets * carrier.radius * carrier.radius;
+    }
+    SystemMotion motion = motion_of(system, 4e8, 1e-6);
+    SystemDynamics dynamics(system, motion);
+    dynamics.set_positions(std::vector<double>(6, 60e-6), 192);
+    dynamics.set_speed(2600, 192);
+    SystemDynamics::State state = dynamics.rest();
+    SystemDynamics::Period period;
+    for (int n = 0; n < 50; ++n) REQUIRE(dynamics.integrate(state, period));
+    return period;
+  };
+  const SystemDynamics::Period rigid = forces(0);
+  // Harmonics 1 to 3 on the pin of the first planet; its force is the mean of a step, so steps are short.
+  const auto of_pin = [](const Eigen::Matrix2Xd& force) {
+    return Eigen::Vector2d(harmonics(VectorXd(force.row(0)), 3).amplitude.norm(),
+                           harmonics(VectorXd(force.row(1)), 3).amplitude.norm())
+        .norm();
+  };
+  const auto off = [&](double stiffness) {
+    return of_pin(forces(stiffness).bearing_force[1] - rigid.bearing_force[1]) /
+           of_pin(rigid.bearing_force[1]);
+  };
+  const double one = off(16e9), two = off(32e9);
+  CHECK(one < 0.1);
+  CHECK(two == relative(0.5 * one, 0.1));
+}
+
+TEST_CASE(
+    "what a sweep leaves out of a carrier that turns: forces at the highest speed, by which gear stands "
+    "still") {
+  const auto of = [](const Drives& drives) {
+    SystemSweepArtifact sweep;
+    sweep.settings.layout = train_with(drives, 0).layout;
+    sweep.mesh_frequency = Eigen::Vector2d(3000, 1000);
+    sweep.mesh_force.assign(2, MatrixRM::Constant(4, 6, 500));
+    sweep.mesh_force[0].col(1).setConstant(2000);
+    return turning_carriers(sweep);
+  };
+  const std::vector<TurningCarrier> turns = of(kCarrierTurns);
+  REQUIRE(turns.size() == 1);
+  const double speed = 2 * std::numbers::pi * 3000 / 100, mass = train_body(37, false).mass,
+               radius = 0.5 * (26 + 37) * kTrainModule;
+  CHECK(turns[0].turns);
+  CHECK(turns[0].carrier == static_cast<int>(kCarrier));
+  CHECK(turns[0].still == static_cast<int>(kRing));
+  CHECK(turns[0].mesh_frequency == 3000);
+  CHECK(turns[0].speed == relative(speed, 1e-12));
+  CHECK(turns[0].centrifugal_force == relative(mass * radius * speed * speed, 1e-12));
+  CHECK(turns[0].mesh_force == 2000);
+  CHECK(turns[0].coriolis == relative(0.02, 1e-12));
+  // Held, as the frame; by the sun; none of its gears.
+  const auto frame = of({{"sun", kTorque, kTrainTorque, 0}, {"ring", kHeld, 0, 0}, {"carrier", kHeld, 0, 0}});
+  REQUIRE(frame.size() == 1);
+  CHECK(!frame[0].turns);
+  CHECK(frame[0].centrifugal_force == turns[0].centrifugal_force);
+  CHECK(of({{"sun", kHeld, 0, 0}, {"ring", kTorque, -kOfRing, 0}, {"carrier", kTorque, -kOfCarrier, 0}})[0]
+            .speed == relative(speed * 100 / 26, 1e-12));
+  const auto none = of({{"sun", kTorque, kTrainTorque, 0},
+                        {"ring", kTorque, -kOfRing, 0},
+                        {"carrier", kTorque, -kOfCarrier, 0}});
+  REQUIRE(none.size() == 1);
+  CHECK(none[0].still == -1);
+  CHECK(none[0].relative_force() == 0);
+  CHECK(of({{"sun", kTorque, kTrainTorque, 0}, {"ring", kTorque, -kOfRing, 0}, {"carrier", kHeld, 0, 0}})
+            .empty());
+}
+
+TEST_CASE(
+    "the shipped train whose carrier turns is the one whose carrier is held, with the carrier of Lin and "
+    "Parker") {
+  const SystemScene held = read_system_scene("data/scenes/oh58-planetary.toml"),
+                    scene = read_system_scene("data/scenes/oh58-planetary-carrier.toml"),
+                    rigid = read_system_scene("data/scenes/lin-parker-planetary.toml");
+  const System layout = layout_of(scene), other = layout_of(held);
+  check_at_rest(scene, layout);
+  REQUIRE(layout.bodies.size() == other.bodies.size());
+  for (size_t b = 0; b + 1 < layout.bodies.size(); ++b) {
+    CHECK(layout.bodies[b].angle == other.bodies[b].angle);
+    CHECK(layout.bodies[b].bearing.stiffness == other.bodies[b].bearing.stiffness);
+    CHECK(layout.bodies[b].bearing.damping == other.bodies[b].bearing.damping);
+  }
+  for (size_t m = 0; m < layout.meshes.size(); ++m) CHECK(layout.meshes[m].phase == other.meshes[m].phase);
+  CHECK(layout.torque(0) == other.torque(0));
+  CHECK(scene.damping.rayleigh_stiffness == held.damping.rayleigh_stiffness);
+  const System::Body& carrier = layout.bodies.back();
+  CHECK(moving_carrier(layout, static_cast<int>(layout.bodies.size()) - 1));
+  const Bearing from = layout_of(rigid).bodies.back().bearing;
+  CHECK(carrier.bearing.stiffness == from.stiffness);
+  CHECK(carrier.bearing.mass == from.mass);
+  CHECK(carrier.inertia == relative(rigid.carriers[0].equivalent_mass * std::pow(carrier.radius, 2), 1e-12));
 }

@@ -217,6 +217,44 @@ TEST_CASE(
   CHECK(speeds_words(speeds, std::vector<bool>(6, false)).empty());
 }
 
+TEST_CASE(
+    "remarks on motion: peaks that are one speed wide, bearings without dampers, what a turning carrier "
+    "leaves out") {
+  const SystemStaticArtifact rest = varied();
+  SystemReport r;
+  r.sweeps = {small_sweep(rest, Direction::up)};
+  SystemSweepArtifact& a = r.sweeps[0];
+  const Index meshes = a.dte_rms.cols();
+  a.mesh_frequency = Eigen::Vector4d(1000, 1100, 1200, 1300);
+  a.dte_rms = MatrixRM::Constant(4, meshes, 1e-6);
+  a.separation_fraction = MatrixRM::Zero(4, meshes);
+  a.energy_imbalance = Eigen::VectorXd::Zero(4);
+  a.period_multiple = Eigen::VectorXi::Ones(4);
+  a.mesh_force.assign(4, MatrixRM::Constant(2, meshes, 1000));
+  for (System::Body& body : a.settings.layout.bodies)
+    if (body.bearing.elastic()) body.bearing.damping = 100;
+  const auto said = [&](const std::string& words) {
+    for (const Remark& one : motion_remarks(r))
+      if (holds(one.words, words)) return one.warning ? 2 : 1;
+    return 0;
+  };
+  CHECK(said("one speed wide") == 0);
+  CHECK(said("no damping_Ns_m") == 0);
+  a.dte_rms(2, 1) = 2.1e-6;
+  CHECK(said("peaks at 1200 Hz are one speed wide") == 2);
+  a.dte_rms(1, 1) = 1.1e-6;
+  CHECK(said("one speed wide") == 0);
+  for (System::Body& body : a.settings.layout.bodies)
+    if (body.name == "planet2") body.bearing = {1e8, 0, 1};
+  CHECK(said("no damping_Ns_m in the [[bearing]] of planet2:") == 1);
+  // The ring is held, and the carrier; then the carrier is let go.
+  CHECK(said("In a machine in which ring stands still") == 1);
+  std::erase_if(a.settings.layout.drives, [&](const System::Drive& drive) {
+    return a.settings.layout.bodies[static_cast<size_t>(drive.body)].kind == System::BodyKind::carrier;
+  });
+  CHECK(said("rpm at 1300 Hz, ring being held: centrifugal forces on its planets of") == 2);
+}
+
 TEST_CASE("figures of motion set only motions of one system beside each other, one sweep in a direction") {
   const SystemStaticArtifact rest = varied();
   const std::vector<SystemSweepArtifact> sweeps = sweeps_of(rest);

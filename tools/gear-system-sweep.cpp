@@ -17,6 +17,7 @@
 #include "io/system_scene.h"
 #include "io/system_sweep_codec.h"
 #include "studies/system_sweep.h"
+#include "studies/turning_carrier.h"
 
 namespace {
 
@@ -60,6 +61,12 @@ void body(int argc, char** argv) {
   for (Eigen::Index i = 0; i < result.mesh_frequency.size(); ++i)
     if (result.period_multiple[i] == 0)
       speeds += whine::text(speeds.empty() ? "" : ", ", result.mesh_frequency[i]);
+  for (const whine::TurningCarrier& of : whine::turning_carriers(result))
+    if (of.turns && of.relative_force() > whine::kNotedCentrifugal)
+      whine::tell("gear-system-sweep: left out of the pins of ",
+                  settings.layout.bodies[static_cast<size_t>(of.carrier)].name,
+                  ", which turns: centrifugal forces of ", of.centrifugal_force, " N, ",
+                  100 * of.relative_force(), " % of the mesh force, at ", of.mesh_frequency, " Hz");
   if (!speeds.empty())
     whine::tell("gear-system-sweep: the motion does not become periodic at ", speeds,
                 " Hz; raise damping, or periodicity in [discretisation]");

@@ -372,8 +372,8 @@ class Builder {
     group.carrier = carrier;
     group.first = static_cast<int>(frequency_.size());
     for (int b = 0; b < static_cast<int>(system_.body.size()); ++b)
-      if (placed_body(system_, b).on == carrier) group.member.push_back({b, {}, {}, {}, {}});
-    group.member.push_back({carrier, {}, {}, {}, {}});
+      if (placed_body(system_, b).on == carrier) group.member.emplace_back().body = b;
+    group.member.emplace_back().body = carrier;
     for (size_t i = 0; i < group.member.size(); ++i) {
       SystemCoordinates::Share& share = out_.body[static_cast<size_t>(group.member[i].body)];
       share.group = static_cast<int>(out_.group.size());
@@ -407,10 +407,24 @@ class Builder {
     for (size_t m = 0; m < of.mode_of.size(); ++m)
       group.member[of.mode_of[m].first].columns.row(of.mode_of[m].second) =
           shape.row(of.first_mode + static_cast<Index>(m));
+    for (size_t i = 0; i + 1 < group.member.size(); ++i) add_momentum(group.member[i]);
     for (Index i = 0; i < shape.cols(); ++i)
       add(std::sqrt(eigen.values[null + i]), rayleigh(std::max(0.0, elastic[i])),
           group.hub[i] * system_.layout.torque(carrier), of_bearing[i]);
     out_.group.push_back(std::move(group));
+  }
+
+  void add_momentum(SystemCoordinates::Group::Member& planet) {
+    if (placed_body(system_, planet.body).bearing.elastic()) return;
+    const std::vector<int>& kept = out_.body[static_cast<size_t>(planet.body)].kept;
+    const BodyArtifact& body = system_.body[static_cast<size_t>(planet.body)]->body();
+    planet.mass = mass_on_bearing(system_, planet.body);
+    out_.rigid_pins = true;
+    planet.momentum = planet.mass * planet.shift;
+    for (size_t row = 0; row < kept.size(); ++row)
+      if (body.nodal_diameter[kept[row]] == 1)
+        planet.momentum += body.translation_coupling.row(kept[row]).transpose() *
+                           planet.columns.row(static_cast<Index>(row));
   }
 
   const SystemModel& system_;
@@ -437,6 +451,11 @@ SystemCoordinates coordinates_of(const SystemModel& system, const SystemMotion& 
 bool moving_carrier(const System& layout, int b) {
   const System::Body& body = layout.bodies[static_cast<size_t>(b)];
   return body.kind == System::BodyKind::carrier && (!layout.held(b) || body.bearing.elastic());
+}
+
+bool on_rigid_moving_pin(const System& layout, int b) {
+  const System::Body& body = layout.bodies[static_cast<size_t>(b)];
+  return body.on != System::kGround && !body.bearing.elastic() && moving_carrier(layout, body.on);
 }
 
 SystemCoordinates::Participation SystemCoordinates::participation(const SystemModel& system, int b,

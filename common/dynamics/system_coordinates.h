@@ -55,6 +55,9 @@ struct SystemCoordinates {
       Eigen::MatrixXd
           stretch;  // (xy, coordinate) m per unit: relative to what carries it, on an elastic bearing
       Eigen::VectorXd of_bearing;  // (coordinate) s-1: share of its bearing's damper
+      // Of a planet on a rigid pin: kg, its mass, and kg per unit velocity (xy, coordinate), its momentum m X_b + G_b^T q_b; others 0.
+      double mass = 0;
+      Eigen::MatrixXd momentum;
     };
     int carrier = 0;             // number of the body
     int first = 0, count = 0;    // its coordinates
@@ -68,6 +71,7 @@ struct SystemCoordinates {
       inertia;  // (body) kg m2: of its rigid rotation, of a carrier with the masses of its planets
   std::vector<Share> body;
   std::vector<Group> group;
+  bool rigid_pins = false;     // of a carrier that may move
   Eigen::VectorXd frequency;   // (coordinate) rad s-1
   Eigen::VectorXd damping;     // (coordinate) s-1
   Eigen::VectorXd of_bearing;  // (coordinate) s-1: share of a bearing's damper in it
@@ -98,6 +102,21 @@ struct SystemCoordinates {
     const Share& own = body[static_cast<size_t>(b)];
     return own.group < 0 ? swayed(own, z) : grouped(own, z, &Group::Member::stretch);
   }
+  bool on_rigid_pin(int b) const {
+    const Share& own = body[static_cast<size_t>(b)];
+    return own.group >= 0 &&
+           group[static_cast<size_t>(own.group)].member[static_cast<size_t>(own.member)].mass > 0;
+  }
+  // N: rate of the momentum of a planet on a rigid pin for accelerations a of the coordinates, in the frame
+  // of the carrier.
+  Vec2 momentum_rate(int b, const Eigen::VectorXd& a) const {
+    const Share& own = body[static_cast<size_t>(b)];
+    const Group& joint = group[static_cast<size_t>(own.group)];
+    const Group::Member& in = joint.member[static_cast<size_t>(own.member)];
+    Vec2 out = in.momentum * a.segment(joint.first, joint.count);
+    if (own.carried.size() > 0) out += in.mass * (own.carried * a.head(rigid));
+    return out;
+  }
   // By how much a unit of each coordinate moves a point of a flank outwards, the rotation of the hub left out.
   struct Participation {
     Eigen::VectorXd own, group;  // (coordinate) of the body's own and of its group
@@ -120,6 +139,8 @@ struct SystemCoordinates {
 
 // Whether a body is a carrier that may turn or move: its planets do so with it.
 bool moving_carrier(const System& layout, int b);
+// Whether a body is a planet on a rigid pin of such a carrier: the force on its pin has the inertia of the planet.
+bool on_rigid_moving_pin(const System& layout, int b);
 
 // Throws Error(input) for body = "full", "rigid", contact other than "line", Newmark's method, a gear without a mode that a freedom
 // needs, and inertias and masses below those of the body, of a carrier below those of planets on rigid pins; Error(numerical) if modes

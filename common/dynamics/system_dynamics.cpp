@@ -226,6 +226,23 @@ void SystemDynamics::step(const Position& position) {
   force_ += coordinates_.torque;
   load(position, p_, 1, load_);
   relaxed_ += relaxed_step_.from_new * load_;
+  if (coordinates_.rigid_pins)
+    rate_ = force_.array() - coordinates_.frequency.array().square() * z_.array() -
+            (coordinates_.damping.array() - motion_.damping.rayleigh_mass) * v_.array();
+}
+
+// Forces on bearings and pins, from the sums of the contact forces that stand in their places.
+void SystemDynamics::record_bearings(int sample, Period& period) const {
+  for (int b = 0; b < static_cast<int>(period.bearing_force.size()); ++b) {  // planets before carriers
+    const System::Body& body = system_.layout.bodies[static_cast<size_t>(b)];
+    auto force = period.bearing_force[static_cast<size_t>(b)].col(sample);
+    if (body.bearing.elastic())
+      force = body.bearing.stiffness * coordinates_.bearing_deflection(b, z_) +
+              body.bearing.damping * coordinates_.bearing_deflection(b, v_);
+    else if (coordinates_.on_rigid_pin(b))
+      force -= coordinates_.momentum_rate(b, rate_);
+    if (body.on != System::kGround) period.bearing_force[static_cast<size_t>(body.on)].col(sample) += force;
+  }
 }
 
 // False if a tip edge that was left out would touch.
@@ -252,14 +269,7 @@ bool SystemDynamics::record(const Position& position, int sample, Period& period
   }
   for (Index c = 0; c < period.drift.size(); ++c)
     period.drift_force = std::max(period.drift_force, std::abs(period.drift[c]));
-  for (int b = 0; b < static_cast<int>(period.bearing_force.size()); ++b) {  // planets before carriers
-    const System::Body& body = system_.layout.bodies[static_cast<size_t>(b)];
-    auto force = period.bearing_force[static_cast<size_t>(b)].col(sample);
-    if (body.bearing.elastic())
-      force = body.bearing.stiffness * coordinates_.bearing_deflection(b, z_) +
-              body.bearing.damping * coordinates_.bearing_deflection(b, v_);
-    if (body.on != System::kGround) period.bearing_force[static_cast<size_t>(body.on)].col(sample) += force;
-  }
+  record_bearings(sample, period);
   period.least_gap = std::min(period.least_gap, certificate_.least_gap);
   period.least_force = std::min(period.least_force, certificate_.least_force);
   bool inside = true;

@@ -49,9 +49,10 @@ class SystemDynamics {
     Eigen::MatrixXd mesh_deflection;      // (mesh, step) m: what flanks close by, motion of the hubs included
     Eigen::MatrixXd mesh_force;           // (mesh, step) N: torque on the driving body over its base radius
     Eigen::MatrixXd largest_tooth_force;  // (mesh, step) N
-    // [body] (xy, step) N: k x + c x' of an elastic bearing; on a rigid axis the sum of the contact forces, without the inertia of
-    // the body's own modes and, of a planet on a carrier that moves, of its mass. Of a carrier on a rigid axis the sum of those of its
-    // planets.
+    // [body] (xy, step) N, of the body on what carries it: k x + c x' of an elastic bearing; of a planet on a rigid pin of a carrier
+    // that moves F = sum of the contact forces - (P' + mu P), P = m X' + G^T q' its momentum in the frame of the carrier and mu the
+    // damping by mass; on other rigid axes the sum of the contact forces, without the inertia of the body's own modes. Of a carrier
+    // on a rigid axis the sum of those of its planets.
     std::vector<Eigen::Matrix2Xd> bearing_force;
     // (body, step) N m, in the body's sense: what balances its contact forces. Of a held body its mean over a periodic motion is
     // that of the torque that holds it, the inertia of the body's own modes being 0 in the mean.
@@ -176,6 +177,7 @@ class SystemDynamics {
   void step(const Position& position);
   void solve(const Position& position);
   bool record(const Position& position, int sample, Period& period) const;
+  void record_bearings(int sample, Period& period) const;
   void rename();
   const Position& at(int step) const {  // of the speed's steps
     return positions_[static_cast<size_t>(step) * static_cast<size_t>(stride_)];
@@ -212,6 +214,7 @@ class SystemDynamics {
 
   // The state of a step.
   Eigen::VectorXd z_, v_, force_, relaxed_, load_, mean_, before_;
+  Eigen::VectorXd rate_;  // (coordinate) z" + mu z', mu the damping by mass; of trains with rigid pins
   Eigen::VectorXd e_, p_, d_, p_of_slot_;  // e_, p_, d_: (contact)
   Certificate certificate_;
   Eigen::MatrixXd forces_;

@@ -122,12 +122,11 @@ FlankDeviation::FlankDeviation(const ToothGeometry& gear, const FlankModificatio
   modified_ = !none_;
   if (!errors.none()) {
     const GearDesign& design = gear.design();
-    if (design.internal)
-      fail(Failure::input, "errors of the teeth of an internal gear are not modelled; take the section out");
     repeats_ = design.teeth;
     none_ = false;
     base_radius_ = gear.base_radius();
     reference_roll_ = std::tan(design.pressure_angle);
+    outwards_ = gear.outwards();
     waves_ = errors.profile_form_waves;
     // Seen from behind, a trailing flank is a leading one, and teeth count the other way.
     const double seen = side == FlankSide::leading ? 1 : -1;
@@ -180,13 +179,15 @@ Vector2d FlankDeviation::of_tooth(double roll, int tooth) const {
   Vector2d sum(own.offset + own.slope * from + 0.5 * own.form * std::sin(rate * from),
                (own.slope + 0.5 * own.form * rate * std::cos(rate * from)) / span);
   if (eccentricity_ == 0) return sum;
-  // The displacement along the flank's normal brings it nearer; that along the tangent moves a flank of this curvature away.
+  // The displacement along the flank's normal brings it nearer; that along the tangent moves a flank of this curvature away, a concave
+  // one nearer.
   constexpr double kLeastRoll = 0.02;
-  const double angle = normal_angle_ - roll + tooth_angle_ * tooth - eccentric_angle_;
+  const double angle = normal_angle_ - outwards_ * roll + tooth_angle_ * tooth - eccentric_angle_;
   const double along = eccentricity_ * std::cos(angle), across = eccentricity_ * std::sin(angle);
   const double radius = base_radius_ * std::max(roll, kLeastRoll);
-  sum[0] += -along + 0.5 * across * across / radius;
-  sum[1] += -across - across * along / radius - 0.5 * across * across / (radius * std::max(roll, kLeastRoll));
+  sum[0] += -along + 0.5 * outwards_ * across * across / radius;
+  sum[1] += -outwards_ * across - across * along / radius -
+            0.5 * outwards_ * across * across / (radius * std::max(roll, kLeastRoll));
   return sum;
 }
 

@@ -82,6 +82,7 @@ class FlankDeviation {
     double offset, slope, form;
   };
   std::vector<Tooth> teeth_;
+  int outwards_ = 1;
   double base_radius_ = 0, reference_roll_ = 0, waves_ = 0;                             // m, rad, 1
   double eccentricity_ = 0, eccentric_angle_ = 0, normal_angle_ = 0, tooth_angle_ = 0;  // m, rad
 };

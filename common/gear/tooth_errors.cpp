@@ -79,8 +79,8 @@ ToothDeviations drawn(const GearDesign& design, int iso_class, double share, int
   };
   take(leading);
   // A toothing that is displaced by e towards A moves flanks at the angle t along the circle by e sin(A - t) + e tan(alpha) cos(A - t),
-  // trailing ones by e sin(A - t) - e tan(alpha) cos(A - t).
-  if (flank == FlankSide::trailing) take(leading - 2 * design.pressure_angle);
+  // trailing ones by e sin(A - t) - e tan(alpha) cos(A - t). Those of a ring look inwards: the other way about.
+  if (flank == FlankSide::trailing) take(leading + (design.internal ? 2 : -2) * design.pressure_angle);
 
   // Up to the share of what is used most; what is cut off below a nanometre keeps within it.
   const double pitch_use = std::max({largest_of(single_pitch(d.cumulative_pitch)) / limit.single_pitch,

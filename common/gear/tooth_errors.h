@@ -43,7 +43,8 @@ struct ToothDeviations {
 // alone, to 1 nm, so that it is the same on every machine.
 //
 // Lists are those of both flanks. Of a class each flank has a draw of its own, but for the share of pitch that turns once per
-// revolution: that is a displacement of the whole toothing, whose wave on the trailing flank is behind by twice the pressure angle.
+// revolution: that is a displacement of the whole toothing, whose wave on the trailing flank is behind by twice the pressure angle,
+// of an internal gear ahead by it.
 ToothDeviations tooth_deviations(const GearDesign& design, const ToothErrors& errors,
                                  FlankSide flank = FlankSide::leading);
 

@@ -1,6 +1,7 @@
 #include "io/system_sweep_codec.h"
 
 #include "base/error.h"
+#include "dynamics/system_coordinates.h"
 #include "io/codec.h"
 #include "io/keys.h"
 #include "io/layout_codec.h"
@@ -62,12 +63,16 @@ void describe_bodies(Codec& c, SystemSweepArtifact& a) {
             &a.holding_torque);
   a.bearing_force.resize(c.lists() ? 1 : a.settings.layout.bodies.size());
   for (size_t b = 0; b < a.bearing_force.size(); ++b)
-    c.dataset({"/body/" + (c.lists() ? "<body>" : a.settings.layout.bodies[b].name) + "/bearing_force", "N",
-               "force of the body on its bearing or pin over the last mesh or hunting period; on a rigid "
-               "axis the sum of its "
-               "contact forces; of a carrier the sum of its pins",
-               std::string(kAxis) + " sample xy", kForce},
-              &a.bearing_force[b]);
+    c.dataset(
+        {"/body/" + (c.lists() ? "<body>" : a.settings.layout.bodies[b].name) + "/bearing_force", "N",
+         text("force of the body on its bearing or pin over the last mesh or hunting period; on a rigid "
+              "axis the sum of its contact forces",
+              c.lists() || on_rigid_moving_pin(a.settings.layout, static_cast<int>(b))
+                  ? ", on a rigid pin of a carrier that moves less the rate of its momentum"
+                  : "",
+              "; of a carrier the sum of its pins"),
+         std::string(kAxis) + " sample xy", kForce},
+        &a.bearing_force[b]);
 }
 
 void describe_solution(Codec& c, SystemSweepArtifact& a) {

@@ -59,9 +59,11 @@ Figure campbell_figure(const ModesArtifact& a) {
     figure.notes.emplace_back(
         text("bands by rank: a line may lie outside of its own, because at one phase the meshes differ ",
              "from planet to planet, which parts near frequencies"));
-  figure.notes.emplace_back(
-      text("points: mesh frequencies at which a harmonic of the meshes meets a natural frequency; frame ",
-           "of the carrier at rest, without Coriolis terms"));
+  const bool planets = std::any_of(a.layout.bodies.begin(), a.layout.bodies.end(),
+                                   [](const System::Body& body) { return body.on != System::kGround; });
+  figure.notes.push_back(
+      text("points: mesh frequencies at which a harmonic of the meshes meets a natural frequency",
+           planets ? "; in the frame of the carrier, without Coriolis terms" : ""));
   return figure;
 }
 

@@ -130,12 +130,14 @@ Figure modes_figure(const ModesArtifact& a) {
            " meshes of mean stiffness, ", a.natural_frequency.size(), " modes, ", still,
            " of them free motions (0 Hz, not drawn)",
            left_out ? text("; the shapes of ", left_out, " higher frequencies are not drawn") : ""));
+  const bool planets = std::any_of(s.bodies.begin(), s.bodies.end(),
+                                   [](const System::Body& body) { return body.on != System::kGround; });
   figure.notes.push_back(
-      text("blue: central gears, orange: planets, green: carrier, grey: at rest; a radius of each gear, ",
-           "of a ring a mark outside, shows its rotation; of a double mode one shape"));
-  figure.notes.push_back(
-      "shapes are magnified, the largest motion of each to the same size; frame of the carrier at rest, "
-      "without Coriolis terms");
+      text(planets ? "blue: central gears, orange: planets, green: carrier, grey" : "blue: moved, grey",
+           ": at rest; a radius of each gear, of a ring a mark outside, shows its rotation; of a double mode "
+           "one shape"));
+  figure.notes.push_back(text("shapes are magnified, the largest motion of each to the same size",
+                              planets ? "; in the frame of the carrier, without Coriolis terms" : ""));
   const int lines = (panels + kColumns - 1) / kColumns;
   double most = 0;
   for (Index i = 0; i < a.natural_frequency.size(); ++i) most = std::max(most, a.natural_frequency[i]);

@@ -104,7 +104,9 @@ Figure mesh_stiffness_figure(const std::vector<StaticArtifact>& statics) {
   const StaticArtifact& first = statics[0];
   const RectangularWave wave = rectangular_wave(first);
   Figure figure;
-  figure.title = "Mesh stiffness: torque / (base radius × (static − unloaded transmission error))";
+  const bool bearings = first.mesh.bearing[0].elastic() || first.mesh.bearing[1].elastic();
+  figure.title = text("Mesh stiffness: torque / (base radius × (static − unloaded transmission error",
+                      bearings ? " − that of the bearings" : "", "))");
   figure.notes.push_back(pair_words(statics[0]));
   figure.notes.push_back(
       text("rectangular wave: levels at the middle of the zones of few and of many pairs at ",

@@ -5,8 +5,10 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "report/figures.h"
 #include "report/html.h"
+#include "studies/turning_carrier.h"
 #include "system/rigid_system.h"
 
 namespace whine {
@@ -16,6 +18,7 @@ using Eigen::Index;
 
 constexpr double kSamePeak = 0.01;        // of the RMS: below it rising and falling speed have one motion
 constexpr double kLargeImbalance = 1e-6;  // of the throughput
+constexpr double kSharpPeak = 2;          // of the RMS at the neighbouring speeds
 
 // The largest value over the speeds, and where.
 struct Peak {
@@ -147,6 +150,41 @@ bool differs(const SystemSweepArtifact& a, Index row, const SystemSweepArtifact&
   return false;
 }
 
+// Hz: speeds at which the RMS of a mesh is far above those at the speeds on either side.
+std::string sharp_peaks(const SystemSweepArtifact& a) {
+  const std::vector<Index> order = by_speed(a);
+  std::string out;
+  for (size_t i = 1; i + 1 < order.size(); ++i) {
+    const auto rms = [&](size_t k) { return a.dte_rms.row(order[k]).array(); };
+    if ((rms(i) > kSharpPeak * rms(i - 1).max(rms(i + 1))).any())
+      out += (out.empty() ? "" : ", ") + shown(a.mesh_frequency[order[i]], 5);
+  }
+  return out;
+}
+
+// What a sweep leaves out of a planetary train whose carrier turns, by its size at the highest speed.
+Remark left_out(const System& layout, const TurningCarrier& of) {
+  const std::string carrier = layout.bodies[static_cast<size_t>(of.carrier)].name;
+  if (of.still < 0)
+    return remark(
+        true, "Coriolis and centrifugal forces on the planets of ", carrier,
+        " are left out; how large they are the scene does not say, since no gear of its train is held");
+  const std::string still = layout.bodies[static_cast<size_t>(of.still)].name;
+  const std::string sizes =
+      text("centrifugal forces on its planets of ", fixed(of.centrifugal_force, 0), " N (",
+           fixed(of.relative_force() * kPercent, 1), " % of the largest mean mesh force, ",
+           fixed(of.mesh_force, 0), " N) and Coriolis forces (", fixed(of.coriolis * kPercent, 1),
+           " % of the inertia forces of motion at the mesh frequency) are left out");
+  const std::string turns =
+      text("turns at ", fixed(of.speed * 60 / kTwoPi, 0), " rpm at ", shown(of.mesh_frequency, 4), " Hz");
+  if (of.turns)
+    return remark(of.relative_force() > kNotedCentrifugal, carrier, " ", turns, ", ", still,
+                  " being held: ", sizes,
+                  "; add the former, which are constant and point outwards, to the mean forces on the pins");
+  return remark(false, "motions are relative to ", carrier, ". In a machine in which ", still,
+                " stands still it ", turns, ": ", sizes);
+}
+
 }  // namespace
 
 std::string speeds_words(const Eigen::VectorXd& speeds, const std::vector<bool>& marked) {
@@ -238,11 +276,20 @@ std::vector<Remark> motion_remarks(const SystemReport& r) {
         out.push_back(remark(false, "rising and falling speed lead to different motions at ", two,
                              " Hz: the vibration jumps at the ends of these ranges"));
     }
-    if (has_planets(first.settings.layout))
+    if (const std::string sharp = sharp_peaks(first); !sharp.empty())
       out.push_back(
-          remark(false, "motions are relative to the mean rotation of the carrier: where it turns, Coriolis ",
-                 "and centrifugal forces on the planets are left out; the latter may be as large as ",
-                 "the mean forces on their pins"));
+          remark(true, "peaks at ", sharp, " Hz are one speed wide, of more than ", fixed(kSharpPeak, 0),
+                 " times the RMS beside them: their height is that of the step of mesh_frequency_Hz; lower "
+                 "it, or give the bearings their damping"));
+    std::string undamped;
+    for (const System::Body& body : first.settings.layout.bodies)
+      if (body.bearing.elastic() && body.bearing.damping == 0)
+        undamped += (undamped.empty() ? "" : ", ") + body.name;
+    if (!undamped.empty())
+      out.push_back(remark(false, "no damping_Ns_m in the [[bearing]] of ", undamped,
+                           ": where a resonance moves it on its bearing, the height has no meaning"));
+    for (const TurningCarrier& of : turning_carriers(first))
+      out.push_back(left_out(first.settings.layout, of));
   }
   return out;
 }

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "dynamics/system_coordinates.h"
 #include "report/figure_words.h"
 #include "report/one_system.h"
 #include "report/system_picture.h"
@@ -71,8 +72,11 @@ Figure system_sweep_figure(const std::vector<SystemSweepArtifact>& sweeps) {
                               a.settings.fidelity.contact, "\", damping ",
                               shown(a.settings.damping.rayleigh_stiffness, 3), " s x stiffness + ",
                               shown(a.settings.damping.rayleigh_mass, 3), " 1/s x mass"));
-  figure.notes.emplace_back(
-      "lines: rising speed; open marks: falling speed; force on a rigid axis: sum of the contact forces");
+  bool pins = false;
+  for (int b = 0; b < static_cast<int>(s.bodies.size()); ++b) pins = pins || on_rigid_moving_pin(s, b);
+  figure.notes.push_back(
+      text("lines: rising speed; open marks: falling speed; force on a rigid axis: sum of the contact forces",
+           pins ? ", on a rigid pin less the inertia force of the planet" : ""));
   int row_number = 0;
   double from = a.mesh_frequency.minCoeff(), to = a.mesh_frequency.maxCoeff();
   for (const Quantity& q : kQuantities) {

@@ -90,7 +90,11 @@ SystemSweepParameters SystemRig::used() const {
   out.fidelity = motion_.fidelity;
   for (size_t b = 0; b < system_.layout.bodies.size(); ++b) {
     out.layout.bodies[b].inertia = system_.layout.bodies[b].inertia;
-    out.layout.bodies[b].bearing.mass = system_.layout.bodies[b].bearing.mass;
+    const System::Body& body = system_.layout.bodies[b];
+    // On a rigid pin a planet has the mass of its body, of which a moving carrier's pins feel the inertia.
+    out.layout.bodies[b].bearing.mass = body.on != System::kGround && !body.bearing.elastic()
+                                            ? system_.body[b]->body().mass
+                                            : body.bearing.mass;
   }
   return out;
 }

@@ -29,7 +29,7 @@ do for [k = 1:3] {
   set tmargin at screen 1 - (112.0 + row * (k - 1)) / height
   set bmargin at screen 1 - (row + 5.0 + row * (k - 1)) / height
   set lmargin at screen 0.1
-  set rmargin at screen 0.50
+  set rmargin at screen 0.485
   set xlabel "Mesh phase (mesh periods)" offset 0, 0.3
   set ylabel sprintf("%s (%s)", axis, unit)
   set xrange [0:periods]
@@ -43,7 +43,7 @@ do for [k = 1:3] {
   }
   eval("plot " . drawn)
 
-  set lmargin at screen 0.585
+  set lmargin at screen 0.59
   set rmargin at screen 0.83
   set xlabel "Harmonic of the mesh frequency" offset 0, 0.3
   set ylabel sprintf("Amplitude (%s)", unit)

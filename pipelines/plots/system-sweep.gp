@@ -41,7 +41,7 @@ do for [k = 1:3] {
       quantity, i + 1, dashes(i), thick(i), of(i)) }
     if (sweeps_down) { drawn = drawn . sprintf('tsv index "[%s down]" using 1:%d with points pt %d ps 0.9 lw 1.6 lc rgb "%s" notitle, ', \
       quantity, i + 1, mark(i), of(i)) }
-    drawn = drawn . sprintf('keyentry with linespoints lt 1 dt %s lw 3 pt %d ps 0.9 lc rgb "%s" title word(labels, %d), ', \
+    drawn = drawn . sprintf('keyentry with linespoints lt 1 dt %s lw 1.8 pt %d ps 1.2 lc rgb "%s" title word(labels, %d), ', \
       dashes(i), mark(i), of(i), i)
   }
   eval("plot " . drawn[1:strlen(drawn) - 2])

@@ -1,0 +1,32 @@
+// How large the forces are that systems in motion leave out where a carrier turns.
+#pragma once
+#include <vector>
+
+#include "studies/system_sweep_result.h"
+
+namespace whine {
+
+// One carrier at the highest speed of a sweep. Its frame turns at Omega = 2 pi f / z against the gear of z teeth that stands still.
+struct TurningCarrier {
+  int carrier = 0;  // number of the body
+  bool turns =
+      false;  // in the scene; false: it is held, and would turn if the gear below stood still in its place
+  int still =
+      -1;  // the held gear that meshes with its planets; -1: none, Omega does not follow from the scene
+  double mesh_frequency = 0;  // Hz
+  double speed = 0;           // rad s-1: Omega
+  double centrifugal_force =
+      0;  // N, on a planet: m r Omega^2, constant in the frame of the carrier; largest of its planets
+  double mesh_force = 0;  // N: largest mean force of the meshes of its planets at that speed
+  double coriolis =
+      0;  // 1: 2 Omega over 2 pi f, by which motion at the mesh frequency is changed; 2 / z at any speed
+  double relative_force() const { return mesh_force > 0 ? centrifugal_force / mesh_force : 0; }
+};
+
+// Above this share of the mesh forces a sweep warns of what it leaves out. Its pin forces are then no loads to design by.
+inline constexpr double kNotedCentrifugal = 0.05;
+
+// Carriers whose planets mesh with a held gear, or that turn. Planets without a mass count as weightless.
+std::vector<TurningCarrier> turning_carriers(const SystemSweepArtifact& sweep);
+
+}  // namespace whine
