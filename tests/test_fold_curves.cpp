@@ -220,7 +220,8 @@ TEST_CASE("slow tangent: the largest multipliers of a long state are those of it
   CHECK(products - before <= 2);
 }
 
-TEST_CASE("slow tangent: a subspace that ends among multipliers of one modulus grows until it ends behind them") {
+TEST_CASE(
+    "slow tangent: a subspace that ends among multipliers of one modulus grows until it ends behind them") {
   // As of a gear with many double modes: 14 directions that a period keeps, then 8 that turn at one modulus just below the limit.
   constexpr int kSize = 40, kKept = 14, kAlike = 8;
   MatrixXd turns = MatrixXd::Zero(kSize, kSize), shear = MatrixXd::Identity(kSize, kSize);
