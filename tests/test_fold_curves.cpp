@@ -220,6 +220,30 @@ TEST_CASE("slow tangent: the largest multipliers of a long state are those of it
   CHECK(products - before <= 2);
 }
 
+TEST_CASE(
+    "slow tangent: a subspace that ends among multipliers of one modulus grows until it ends behind them") {
+  // As of a gear with many double modes: 14 directions that a period keeps, then 8 that turn at one modulus just below the limit.
+  constexpr int kSize = 40, kKept = 14, kAlike = 8;
+  MatrixXd turns = MatrixXd::Zero(kSize, kSize), shear = MatrixXd::Identity(kSize, kSize);
+  for (int i = 0; i < kSize; i += 2) {
+    const double modulus = i < kKept ? 0.95 - 0.05 * i : i < kKept + kAlike ? 0.19 : 0.02;
+    const double angle = 0.3 + 0.7 * i;
+    turns.block(i, i, 2, 2) << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+    turns.block(i, i, 2, 2) *= modulus;
+    for (int j = i + 2; j < kSize; ++j) {
+      shear(i, j) = 0.3 * std::sin(1.7 * i + 0.4 * j) / (1 + j - i);
+      shear(i + 1, j) = 0.3 * std::cos(1.3 * i + 0.6 * j) / (1 + j - i);
+    }
+  }
+  const MatrixXd tangent = shear * turns * shear.inverse();
+  const auto times = [&](const MatrixXd& directions) { return MatrixXd(tangent * directions); };
+  const SlowTangent t = slow_tangent(kSize, {}, {}, 1e-8, times);
+  CHECK(t.basis.cols() >= kKept + kAlike);
+  const Eigen::VectorXcd multipliers = t.multipliers();
+  CHECK(std::abs(multipliers[0]) == relative(0.95, 1e-7));
+  CHECK(std::abs(multipliers[kKept - 1]) == relative(0.95 - 0.05 * (kKept - 2), 1e-6));
+}
+
 // Independent of the curve: the whole branch at each torque, from rest.
 TEST_CASE("fold curves: of an elastic pair over torque they are the folds of its branch at each torque") {
   const BodyArtifact& body = paper_body();

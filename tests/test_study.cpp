@@ -428,6 +428,24 @@ TEST_CASE("a study's figure shows words of the study and runs none of them") {
   CHECK(!std::filesystem::exists(mark));
 }
 
+TEST_CASE("a study's figure: vibration from 0 on, units as text has them") {
+  StudyArtifact a;
+  a.plan = study_of(
+      "stage = 'sweep'\nanswers = ['rms_max_up']\n"
+      "[[vary]]\nkey = 'gear.pinion.modification.tip_relief_um'\nvalues = [5, 10]\n");
+  for (const char* level : {"5", "10"}) a.variants.push_back({std::string("ab") + level, {level}});
+  a.rejection.resize(2);
+  a.unsteady = Eigen::VectorXi::Zero(2);
+  a.quantity = MatrixRM::Constant(2, 1, 7e-6);
+  a.quantity(1, 0) = 8e-6;
+  const Figure figure = study_figure(a);
+  const std::string data = plot_data(figure);
+  CHECK(data.find("tip_relief_um [µm]\trms_max_up [µm]") != std::string::npos);
+  const Written table(data, "study.tsv");
+  const std::string svg = draw(figure, table.path, "pipelines/plots/study.gp", Picture::svg);
+  CHECK(svg.find(">0</tspan>") != std::string::npos);
+}
+
 TEST_CASE("a study's figure of many keys: numbers below an axis stand apart") {
   StudyArtifact a;
   a.plan = study_of(kDamping +

@@ -72,12 +72,20 @@ SlowTangent slow_tangent(int size, const SlowTangent& nearby, const VectorXd& al
     t.image = times(t.basis);
     return t;
   }
-  constexpr int kMost = 60;
+  constexpr int kMost = 60, kWidenings = 4;
   Index count = nearby.empty() ? std::min(kSlowDirections, size) : nearby.basis.cols();
   t.basis = orthonormal(also, nearby.image, size, count);
   double residual = 0;
   int waited = 0;  // iterations since it grew
-  for (int i = 0; i < kMost; ++i) {
+  for (int i = 0, widenings = 0;; ++i) {
+    // The cut may go through multipliers of one modulus, as a gear's double modes have them: there no number of iterations settles
+    // it, but it does behind them.
+    if (i == kMost) {
+      if (widenings++ == kWidenings || count == size) break;
+      count = std::min<Index>(count + kSlowDirections, size);
+      t.basis = orthonormal(also, t.image, size, count);
+      i = waited = 0;
+    }
     t.image = times(t.basis);
     // Of the eigenvectors, each weighted by a power of its multiplier.
     const MatrixXd h = t.basis.transpose() * t.image, h2 = h * h, h4 = h2 * h2;
@@ -98,7 +106,8 @@ SlowTangent slow_tangent(int size, const SlowTangent& nearby, const VectorXd& al
     t.basis = orthonormal(also, t.image, size, count);
   }
   fail(Failure::numerical, "the directions of the largest multipliers were not found in ", kMost,
-       " iterations of a subspace of ", count, " directions: residual ", residual);
+       " iterations of a subspace of ", count, " directions, the last of ", kWidenings + 1,
+       " tried: residual ", residual);
 }
 
 }  // namespace whine

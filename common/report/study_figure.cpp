@@ -31,13 +31,17 @@ struct AxisUnits {
   double scale;
 };
 
-AxisUnits axis_units(const VariedKey& key, double largest) {
+// The unit of a key as text has it: µm, where the key's name says um; "1" of a number without.
+std::string spelt_units(const VariedKey& key) {
   static const std::map<std::string, std::string> spelt{
-      {"um", "µm"},     {"Nm", "N m"},     {"deg", "°"}, {"kgm2", "kg m²"},
-      {"per_s", "1/s"}, {"kgm3", "kg/m³"}, {"1", ""}};
-  if (!key.number) return {"", 1};
+      {"um", "µm"}, {"Nm", "N m"}, {"deg", "°"}, {"kgm2", "kg m²"}, {"per_s", "1/s"}, {"kgm3", "kg/m³"}};
   const auto found = spelt.find(key.scene_units);
-  const std::string unit = found == spelt.end() ? key.scene_units : found->second;
+  return found == spelt.end() ? key.scene_units : found->second;
+}
+
+AxisUnits axis_units(const VariedKey& key, double largest) {
+  if (!key.number) return {"", 1};
+  const std::string unit = key.scene_units == "1" ? "" : spelt_units(key);
   if (!(largest > 0 && largest < 1e-2)) return {unit, 1};
   const int power = 3 * static_cast<int>(std::floor(std::log10(largest) / 3));
   return {text("10^{", power, "} ", unit), std::pow(10, -power)};
@@ -227,7 +231,7 @@ FigureBlock table_of(const StudyArtifact& a, const std::vector<Axis>& axes) {
   FigureBlock table{"variants", {"variant [1]", "refused [1]", "unsteady speeds [1]"}, {}};
   for (const VariedKey& key : a.plan.keys)
     table.columns.push_back(key.name +
-                            (key.number ? " [" + key.scene_units + "]" : " [place in the list above]"));
+                            (key.number ? " [" + spelt_units(key) + "]" : " [place in the list above]"));
   std::vector<double> scale;
   for (const std::string& name : a.plan.quantities) {
     const Shown unit = shown_units(kind_of(a, name).units);

@@ -31,7 +31,7 @@ do for [p = 1:2] {
   unset label 11
   if (natural_frequency > frequency_from && natural_frequency < frequency_to) {
     set arrow from natural_frequency, graph 0 to natural_frequency, graph 1 nohead back lt 1 lc rgb "#9a9a9a" lw 1.2 dt (18, 10)
-    set label 11 "f_n" at natural_frequency, graph 1.0 offset 0, 0.55 center tc rgb "#505050" font ",14"
+    set label 11 "f_n" at natural_frequency, graph 0.92 offset 0.5, 0 left tc rgb "#505050" font ",14"
   }
   set key at graph 1.01, graph 0.98 left top Left reverse vertical samplen 2 spacing 1.2 font ",13" noenhanced
   drawn = ''

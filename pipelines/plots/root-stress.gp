@@ -45,7 +45,7 @@ set xlabel "Mesh frequency (Hz)" offset 0, 0.3
 unset arrow
 if (natural_frequency > frequency_from && natural_frequency < frequency_to) {
   set arrow from natural_frequency, graph 0 to natural_frequency, graph 1 nohead back lt 1 lc rgb "#9a9a9a" lw 1.2 dt (18, 10)
-  set label 11 "f_n" at natural_frequency, graph 1.0 offset 0, 0.55 center tc rgb "#505050" font ",14"
+  set label 11 "f_n" at natural_frequency, graph 0.92 offset 0.5, 0 left tc rgb "#505050" font ",14"
 }
 set tmargin at screen 0.57 + 0.5 * lift
 set bmargin at screen 0.40 + 0.5 * lift

@@ -45,7 +45,11 @@ do for [r = 1:int(rows)] {
     set rmargin at screen left + c * width - 0.03
     if (c == 1) { set ylabel value(sprintf("y%d", r)) font fitting(value(sprintf("y%d", r)), 0.9 * tall * height, 13) offset 0, 0; set format y "%g" } else { unset ylabel; set format y "" }
     set autoscale
-    set offsets graph 0.03, graph 0.03, graph 0.12, graph 0.06
+    # Above the points room for the correlation; vibration is seen from 0 on.
+    from_0 = strstrt(value(sprintf("y%d", r)), "RMS") > 0
+    below_points = from_0 ? 0 : 0.06
+    set offsets graph 0.03, graph 0.03, graph 0.2, graph below_points
+    if (from_0) { set yrange [0 : *] }
     set ytics autofreq
     unset label
     if (c <= columns) {
@@ -79,7 +83,7 @@ do for [r = 1:int(rows)] {
       set xlabel "share of the variants (%)" font ",14" offset 0, 0.5
       set xtics 0, 25, 100
       set xrange [0:100]
-      set offsets 0, 0, graph 0.12, graph 0.06
+      set offsets 0, 0, graph 0.2, graph below_points
       if (value(sprintf("drawn%d_1", r)) > 0) {
         array share[3] = [5, 50, 95]
         do for [p = 1:3] {
