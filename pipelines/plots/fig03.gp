@@ -22,8 +22,12 @@ set tmargin at screen 0.785 + lift
 set size ratio -1
 set xlabel "x (mm)"
 set ylabel "y (mm)"
-set xtics 2
-set ytics 2
+# Numbers below an axis stand apart whatever the size of the teeth.
+power(x) = 10 ** floor(log10(x))
+nice(raw) = power(raw) * (raw / power(raw) > 5 ? 10 : raw / power(raw) > 2 ? 5 : raw / power(raw) > 1 ? 2 : 1)
+step = nice(half_window / 6)
+set xtics step > 2 ? step : 2
+set ytics step > 2 ? step : 2
 set xrange [-half_window : half_window]
 set yrange [touch_y - half_window : touch_y + half_window]
 set label 1 "{/:Bold (a)} inner region (tinted) and outer region of the two teeth" at graph 0.5, graph 1.0 center offset 0, 0.7 font ",15"
@@ -44,7 +48,7 @@ set size noratio
 set lmargin at screen 0.575
 set rmargin at screen 0.905
 set xrange [-reach : reach]
-set xtics auto
+set xtics nice(2 * reach / 7)
 set mxtics 2
 set ytics auto
 set border 3 lw 1.4

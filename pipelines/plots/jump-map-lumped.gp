@@ -19,7 +19,7 @@ set xtics 2 font ",13" offset 0, 0.5
 set ytics font ",13"
 set ytics (20, 50, 100, 150, 200, 300, 450, 600, 1000, 2000, 5000)
 set style fill solid 1.0 border rgb "#ffffff"
-left = 0.07
+left = torque_to < 1000 ? 0.07 : 0.085  # room for the numbers of torques
 width = (0.995 - left) / columns
 class(p, n) = sprintf("tsv index '[panel%d]' using ($7 == %d ? $1 : NaN):2:3:4:5:6 with boxxyerror lc rgb %s notitle", \
   p, n, n == 2 ? "two_colour" : n == 1 ? "lost_colour" : "kept_colour")

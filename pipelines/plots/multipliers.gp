@@ -4,6 +4,7 @@
 set datafile separator tab
 set datafile commentschars "#"
 
+stats tsv index "[modulus]" using 1 nooutput name "speed"
 set multiplot title heading offset 0, -0.2
 set border 15 lw 1.6
 set tics out nomirror
@@ -35,7 +36,9 @@ unset colorbox
 set lmargin at screen 0.73
 set rmargin at screen 0.965
 set autoscale x
-set xtics 1000
+power(x) = 10 ** floor(log10(x))
+nice(raw) = power(raw) * (raw / power(raw) > 5 ? 10 : raw / power(raw) > 2 ? 5 : raw / power(raw) > 1 ? 2 : 1)
+if (speed_max > speed_min) { set xtics nice((speed_max - speed_min) / 4) }
 set yrange [0:1.15 * reach]
 set key top right
 set xlabel "Mesh frequency (Hz)"
