@@ -18,6 +18,7 @@
 #include "solid/elements.h"
 #include "solid/factor.h"
 #include "solid/modes.h"
+#include "solid/rim_support.h"
 #include "solid/sector.h"
 
 namespace {
@@ -450,4 +451,43 @@ TEST_CASE("thin ring: 4-node elements lock, 9-node elements give 514.321 Hz") {
   CHECK(layers > 0.4);
   CHECK(same_nodes > 100 * std::abs(nine));
   CHECK(std::abs(short_elements) < 1e-2);  // it locks, but it converges
+}
+
+TEST_CASE("thin ring on an even elastic support of its outside: frequencies of harmonics 0 to 5") {
+  // Energies of a thin ring, u = a cos(n phi) outwards, v = b sin(n phi) along it, c from the middle to the outside R + c:
+  //   U = E A / R (a + n b)^2 + E I / R^3 (1 - n^2)^2 a^2 + (R + c) (k_r a^2 + k_t (b (1 + c / R) + n c a / R)^2)
+  //   T = rho A R (a^2 + b^2)
+  // The theory is right to (n thickness / R)^2.
+  const double radius = 50e-3, half = 1e-3, section = 2 * half, bending = std::pow(section, 3) / 12;
+  for (const auto [radial, across] : {std::array{2e7, 2e7}, {5e8, 3e7}, {3e7, 5e8}}) {
+    MeshArtifact mesh = annulus_sector(2, 12, radius - half, radius + half, 8, 1);
+    mesh.design.internal = true;
+    mesh.design.rim_radial_stiffness = radial;
+    mesh.design.rim_tangential_stiffness = across;
+    std::vector<int> outside;
+    for (int i = 0; i < mesh.node_position.rows(); ++i)
+      if (mesh.node_position.row(i).norm() > radius + 0.99 * half) outside.push_back(i);
+    mesh.bore_node = Eigen::Map<Eigen::VectorXi>(outside.data(), static_cast<Eigen::Index>(outside.size()));
+    PlaneSystem system = assemble(mesh.node_position, mesh.element_node, kSteel, 1);
+    add_rim_support(mesh, system.stiffness);
+    const CyclicSector sector(mesh, system);
+    for (int n = 0; n <= 5; ++n) {
+      const double lever = n * half / radius, length = radius + half, arm = length / radius;
+      const double stretch = kSteel.youngs_modulus * section / radius,
+                   bend = kSteel.youngs_modulus * bending / std::pow(radius, 3) * std::pow(1.0 - n * n, 2);
+      Eigen::Matrix2d k;
+      k(0, 0) = stretch + bend + length * (radial + across * lever * lever);
+      k(0, 1) = k(1, 0) = n * stretch + length * across * lever * arm;
+      k(1, 1) = n * n * stretch + length * across * arm * arm;
+      const Eigen::Vector2d expected = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(k).eigenvalues() /
+                                       (kSteel.density * section * radius);
+      // Above n = 0 the next frequency of the harmonic is that of 12 - n diameters.
+      const int count = n == 0 ? 2 : 1;
+      const Eigen::VectorXd found = frequencies(sector.stiffness(n), sector.mass(n), count, 0);
+      CAPTURE(n);
+      CAPTURE(radial);
+      const double near = 1e-3 + 0.15 * std::pow(n * section / radius, 2);
+      for (int i = 0; i < count; ++i) CHECK(found[i] == relative(std::sqrt(expected[i]), near));
+    }
+  }
 }

@@ -98,6 +98,52 @@ TEST_CASE("what makes no sense in an internal gear is rejected with its line and
   CHECK(unmeshed(with_ring(kRing + "[gear.wheel.error]\neccentricity_um = 10\n")).empty());
 }
 
+TEST_CASE(
+    "the elastic support of a rim: its parameters come back, a rigid one has none, half a support is "
+    "rejected") {
+  const SceneFile file;
+  const std::string radial = "rim_radial_stiffness_N_mm2 = 300\n",
+                    tangential = "rim_tangential_stiffness_N_mm2 = 700\n";
+  const Scene scene = file.read(with_ring(kRing + radial + tangential));
+  const GearDesign& ring = scene.gears[1].design;
+  CHECK(ring.elastic_rim());
+  CHECK(ring.rim_radial_stiffness == 3e8);
+  CHECK(ring.rim_tangential_stiffness == 7e8);
+  const std::string parameters = body_parameters(scene, "wheel");
+  CHECK(contains(parameters, "\nrim_radial_stiffness = 3e+08  # N m-2\n"));
+  const GearDesign read = read_body_parameters(file.path(parameters, "body.toml")).design;
+  CHECK(read.rim_radial_stiffness == ring.rim_radial_stiffness);
+  CHECK(read.rim_tangential_stiffness == ring.rim_tangential_stiffness);
+  CHECK(body_parameters({read, scene.gears[1].material, scene.body}) == parameters);
+
+  BodyDiscretisation coarse;
+  coarse.element_size = 2.7e-3;
+  coarse.element_order = 1;
+  GearDesign supported = ring_gear();
+  supported.rim_radial_stiffness = 3e8;
+  supported.rim_tangential_stiffness = 7e8;
+  const std::string path = file.path("", "mesh.h5");
+  write(path, make_sector_mesh(supported, coarse), Provenance());
+  CHECK(read_mesh(path).design.rim_tangential_stiffness == 7e8);
+
+  // As a file of parameters before there were supports.
+  CHECK(body_parameters(file.read(with_ring()), "wheel").find("stiffness") == std::string::npos);
+  CHECK(body_parameters(file.read(with_ring(kRing + "rim_radial_stiffness_N_mm2 = 0\n")), "wheel") ==
+        body_parameters(file.read(with_ring()), "wheel"));
+
+  CHECK(
+      contains(file.rejection(with_ring(kRing + radial)),
+               "[gear.wheel] gives 'rim_radial_stiffness_N_mm2' and 'rim_tangential_stiffness_N_mm2' is 0"));
+  CHECK(
+      contains(file.rejection(with_ring(kRing + tangential)),
+               "[gear.wheel] gives 'rim_tangential_stiffness_N_mm2' and 'rim_radial_stiffness_N_mm2' is 0"));
+  CHECK(contains(
+      file.rejection(scene_with("bore_radius_mm = 40\n", "bore_radius_mm = 40\n" + radial)),
+      "x.toml:7: [gear.pinion] gives 'rim_radial_stiffness_N_mm2', which only an internal gear has"));
+  CHECK(contains(file.rejection(with_ring(kRing + "rim_radial_stiffness_N_mm2 = -1\n" + tangential)),
+                 "rim_radial_stiffness_N_mm2"));
+}
+
 TEST_CASE("artifacts of an internal gear come back as they were; those of external ones know of no rim") {
   const SceneFile file;
   BodyDiscretisation coarse;

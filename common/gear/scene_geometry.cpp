@@ -74,7 +74,7 @@ void check_inertia(const SystemScene& scene, const ScenePlace& where) {
 
 std::string thin_rim(const GearDesign& design, const std::string& name) {
   const double rim = std::abs(ToothGeometry(design).root_radius() - design.held_radius());
-  if (rim >= design.module) return "";
+  if (rim >= design.module || design.elastic_rim()) return "";
   const char* const key = design.internal ? "rim_outer_radius_mm" : "bore_radius_mm";
   return text(
       "between the ", design.internal ? "outside of the rim" : "bore", " and the root circle of [gear.", name,

@@ -248,11 +248,14 @@ void describe_crack(Codec& c, const std::string& section, KeyValues& values) {
     c.parameters(section + "_crack", values, Part::crack);
 }
 
-// The bore of an external gear or, in a section of its own, the rim of an internal one.
+// The bore of an external gear or, in a section of its own, the rim of an internal one, with the stiffness of its support if that is
+// elastic.
 void describe_blank(Codec& c, const std::string& section, KeyValues& values) {
-  if (!c.lists() && c.optional("/parameters/" + section + "_rim/rim_outer_radius", values.design.internal))
+  if (!c.lists() && c.optional("/parameters/" + section + "_rim/rim_outer_radius", values.design.internal)) {
     c.parameters(section + "_rim", values, Part::rim);
-  else
+    if (c.optional("/parameters/" + section + "_rim/rim_radial_stiffness", values.design.elastic_rim()))
+      c.parameters(section + "_rim", values, Part::rim_support);
+  } else
     c.parameters(section, values, Part::bore);
 }
 

@@ -22,7 +22,7 @@ void require_mesh(const MeshArtifact& mesh, const BodyParameters& settings, cons
   wanted.design = settings.design;
   wanted.body = settings.discretisation;
   found.body.modes = wanted.body.modes;
-  for (const Part part : {Part::design, Part::bore, Part::rim, Part::crack, Part::body}) {
+  for (const Part part : {Part::design, Part::bore, Part::rim, Part::rim_support, Part::crack, Part::body}) {
     const auto have = parameters_of(found, part), want = parameters_of(wanted, part);
     for (std::size_t i = 0; i < want.size(); ++i) {
       if (have[i].value == want[i].value) continue;

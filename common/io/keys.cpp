@@ -23,6 +23,7 @@ constexpr Unit kMicrometre{"_um", "m", 1, 1e6};
 constexpr Unit kCornerDegree{"", "rad", std::numbers::pi, 180};
 constexpr Unit kGigapascal{"_GPa", "Pa", 1e9};
 constexpr Unit kDensity{"_kgm3", "kg m-3"};
+constexpr Unit kNewtonPerSquareMillimetre{"_N_mm2", "N m-2", 1e6};
 constexpr Unit kPerSecond{"_per_s", "s-1"};
 constexpr Unit kSecond{"_s", "s"};
 constexpr Unit kHertzUnit{"_Hz", "Hz"};
@@ -86,6 +87,12 @@ std::vector<Key> make_keys() {
     {Part::rim, "gear", "rim_outer_radius_mm", kMillimetre, "", 0, 1e5, true, "",
      "of an internal gear, which needs it: radius outside which the ring is as good as rigid, its housing; what lies between it and the root circle bends and twists",
      [](V& v) -> Slot { return &v.design.rim_outer_radius; }},
+    {Part::rim_support, "gear", "rim_radial_stiffness_N_mm2", kNewtonPerSquareMillimetre, "0.0", 0, 1e9, false, "",
+     "of an internal gear: stiffness along the radius of an even support of the outside of its rim, N/mm per mm of circumference; 0: rigid. It needs rim_tangential_stiffness_N_mm2",
+     [](V& v) -> Slot { return &v.design.rim_radial_stiffness; }},
+    {Part::rim_support, "gear", "rim_tangential_stiffness_N_mm2", kNewtonPerSquareMillimetre, "0.0", 0, 1e9, false, "",
+     "the same along the circumference, which takes the torque",
+     [](V& v) -> Slot { return &v.design.rim_tangential_stiffness; }},
     {Part::inertia, "gear", "total_inertia_kgm2", kInertia, "0.0", 0, 1e9, false, "",
      "inertia of the whole gear about its axis; what the body lacks is lumped on the hub. 0: as drawn, the body between bore and tip alone; a system with body = \"rigid\" needs it, or equivalent_mass_kg",
      [](V& v) -> Slot { return &v.total_inertia; }},

@@ -45,10 +45,11 @@ enum class Part {
   title,
   reference,  // like, material: names of other sections
   design,
-  bore,      // of an external gear's design
-  rim,       // of an internal gear's design; stage parameters or an artifact hold it in place of the bore
-  diameter,  // other words for parts of a design, in a scene alone
-  crack,     // of a design; stage parameters or an artifact hold it only where there is one
+  bore,         // of an external gear's design
+  rim,          // of an internal gear's design; stage parameters or an artifact hold it in place of the bore
+  rim_support,  // of a rim; stage parameters or an artifact hold it only where it is elastic
+  diameter,     // other words for parts of a design, in a scene alone
+  crack,        // of a design; stage parameters or an artifact hold it only where there is one
   inertia,
   modification,
   error,

@@ -156,7 +156,8 @@ void read_crack(const Source& source, const toml::table& gear, const std::string
 
 // internal: of the gear whose keys these are; it has a rim and no bore.
 std::set<Part> gear_parts(bool internal) {
-  std::set<Part> parts{Part::reference, Part::design, Part::rim, Part::diameter, Part::inertia};
+  std::set<Part> parts{Part::reference,   Part::design,   Part::rim,
+                       Part::rim_support, Part::diameter, Part::inertia};
   if (!internal) parts.insert(Part::bore);
   return parts;
 }
@@ -165,6 +166,34 @@ std::set<Part> gear_parts(bool internal) {
 bool says_internal(const toml::table& table, bool inherited) {
   const toml::node* node = table.get("internal");
   return node && node->is_boolean() ? node->value<bool>().value_or(false) : inherited;
+}
+
+// The support of a rim has two stiffnesses or none.
+void require_rim_support(const Source& source, const toml::table& table, const std::string& label, bool rigid,
+                         GearDesign& d) {
+  constexpr const char* kKeys[] = {"rim_radial_stiffness_N_mm2", "rim_tangential_stiffness_N_mm2"};
+  for (const char* key : kKeys) {
+    const toml::node* node = table.get(key);
+    if (node && !d.internal)
+      source.reject(*node,
+                    text("[", label, "] gives '", key,
+                         "', which only an internal gear has; write internal = true, or take the line out"));
+    if (node && rigid)
+      source.reject(
+          *node,
+          text("[", label, "] gives '", key,
+               "', but the gears of this scene are rigid, rims included; take the line out, or the line "
+               "body = \"rigid\" in [fidelity]"));
+  }
+  if (!d.internal) d.rim_radial_stiffness = d.rim_tangential_stiffness = 0;
+  if ((d.rim_radial_stiffness > 0) == (d.rim_tangential_stiffness > 0)) return;
+  const int lacks = d.rim_radial_stiffness > 0 ? 1 : 0;
+  source.reject(
+      table,
+      text(
+          "[", label, "] gives '", kKeys[1 - lacks], "' and '", kKeys[lacks],
+          "' is 0: a support that is elastic one way and rigid the other is not computed; give both above 0, "
+          "or neither for a rigid housing"));
 }
 
 // What holds a gear: an internal one its rim, an external one its bore; neither takes over the other's.
@@ -315,6 +344,7 @@ void read_gears(const Source& source, Scene& scene, bool rigid) {
       fill_blank(values.design);
     else
       require_blank(source, *table, "gear." + name, values.design);
+    require_rim_support(source, *table, "gear." + name, rigid, values.design);
     take_diameters(source, *table, "gear." + name, like ? &base_design : nullptr, values);
     read_modification(source, *table, "gear." + name, values);
     read_errors(source, *table, "gear." + name, values);

@@ -92,6 +92,8 @@ std::vector<SceneKey> scene_keys_in(const Artifact& a) {
         return !driver.design.internal || !driven.design.internal;
       case Part::rim:
         return driver.design.internal || driven.design.internal;
+      case Part::rim_support:
+        return driver.design.elastic_rim() || driven.design.elastic_rim();
       case Part::friction:
         return driver.mesh.friction.acts();
       case Part::crack:
@@ -167,6 +169,8 @@ SystemKeys scene_keys_of(const SystemStaticArtifact& a, const SystemSweepArtifac
         return !gear.design.internal;
       case Part::rim:
         return gear.design.internal;
+      case Part::rim_support:
+        return gear.design.elastic_rim();
       case Part::bearing:
         return gear.bearing.elastic();
       case Part::error:

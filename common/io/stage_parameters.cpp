@@ -74,6 +74,7 @@ std::string body_parameters(const BodyParameters& chosen) {
   out.add("gear", "gear", values,
           values.design.internal ? std::set{Part::design} : std::set{Part::design, Part::bore});
   if (values.design.internal) out.add("gear", "rim", values, {Part::rim});
+  if (values.design.elastic_rim()) out.add("gear", "rim", values, {Part::rim_support});
   if (values.design.crack.depth > 0) out.add("crack", "crack", values, {Part::crack});
   out.add("material", "material", values, {Part::material});
   out.add("fidelity", "fidelity", values, {Part::body});
@@ -232,6 +233,8 @@ BodyParameters read_body_parameters(const std::string& path) {
   read_parameter_section(source, "gear", "gear",
                          internal ? std::set{Part::design} : std::set{Part::design, Part::bore}, values);
   if (internal) read_parameter_section(source, "gear", "rim", {Part::rim}, values);
+  if (internal && source.section("rim")->contains("rim_radial_stiffness"))
+    read_parameter_section(source, "gear", "rim", {Part::rim_support}, values);
   if (source.section("crack")) read_parameter_section(source, "crack", "crack", {Part::crack}, values);
   read_parameter_section(source, "material", "material", {Part::material}, values);
   read_parameter_section(source, "fidelity", "fidelity", {Part::body}, values);

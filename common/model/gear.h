@@ -36,11 +36,14 @@ struct GearDesign {
   double face_width = 0;        // m
   double bore_radius = 0;       // m; rigid hub of an external gear; 0: none
   bool internal = false;        // teeth on the inside of a ring; see gear/involute.h
-  double rim_outer_radius = 0;  // m; of an internal gear, where its rim is rigid; 0: none
-  Crack crack;                  // of one tooth
+  double rim_outer_radius = 0;  // m; of an internal gear, where its rim is held; 0: none
+  // N m-1 per m of circumference: of an even support of the outside of the rim; 0: rigid. See solid/rim_support.h.
+  double rim_radial_stiffness = 0, rim_tangential_stiffness = 0;
+  Crack crack;  // of one tooth
 
-  // m: of the circle on which the body is as good as rigid, the bore or, of an internal gear, the outside of the rim.
+  // m: of the circle on which the body is held, the bore or, of an internal gear, the outside of the rim.
   double held_radius() const { return internal ? rim_outer_radius : bore_radius; }
+  bool elastic_rim() const { return internal && rim_radial_stiffness > 0; }
 };
 
 // How a relief grows with the roll angle.

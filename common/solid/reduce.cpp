@@ -14,6 +14,7 @@
 #include "solid/flank_table.h"
 #include "solid/mesher.h"
 #include "solid/modes.h"
+#include "solid/rim_support.h"
 #include "solid/root_stress.h"
 #include "solid/sector.h"
 
@@ -104,13 +105,19 @@ struct Reduction {
   SparseReal below;  // what the loaded tooth is read by in place of its surface
 };
 
+PlaneSystem sector_system(const MeshArtifact& mesh, const Material& material) {
+  PlaneSystem system = assemble(mesh.node_position, mesh.element_node, material, mesh.design.face_width);
+  add_rim_support(mesh, system.stiffness);
+  return system;
+}
+
 Reduction::Reduction(const MeshArtifact& of, const Material& material, int wanted, const Eigen::VectorXd& xi)
     : mesh(of),
       modes(wanted),
       teeth(of.design.teeth),
       all(wanted == kAllModes),
       matching(of.discretisation.near_field == NearField::matching),
-      system(assemble(mesh.node_position, mesh.element_node, material, mesh.design.face_width)),
+      system(sector_system(mesh, material)),
       rotation(rotation_field(mesh.node_position)),
       momentum(system.mass * rotation),
       translation((Eigen::Vector2cd(1, Complex(0, 1))).replicate(mesh.node_position.rows(), 1)),

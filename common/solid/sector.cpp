@@ -27,7 +27,10 @@ CyclicSector::CyclicSector(const MeshArtifact& mesh, const PlaneSystem& system) 
   };
   first_ = Eigen::VectorXi::Zero(nodes);
   high_.assign(static_cast<size_t>(nodes), 0);
-  for (int node : mesh.bore_node) first_[checked(node)] = -1;
+  for (int node : mesh.bore_node) {
+    checked(node);
+    if (!mesh.design.elastic_rim()) first_[node] = -1;
+  }
   for (Eigen::Index i = 0; i < mesh.side_node.rows(); ++i)
     high_[static_cast<size_t>(checked(mesh.side_node(i, 1)))] = 1;
   for (Eigen::Index i = 0; i < nodes; ++i) {

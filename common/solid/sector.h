@@ -4,7 +4,7 @@
 // tooth j counted counter-clockwise, vectors turned with their tooth. A sector then obeys u_high = exp(i
 // theta_n) Q u_low on its two edges (Q: rotation by one pitch), and the gear falls into N/2 + 1 Hermitian
 // problems of the size of one sector: Olson, Shaw, Shi, Pierre and Parker, Applied Mechanics Reviews 66
-// (2014) 040803. Bore nodes are fixed.
+// (2014) 040803. Nodes at the bore are fixed, those on the outside of a ring unless it is on an elastic support (rim_support.h).
 #pragma once
 #include "solid/elements.h"
 #include "solid/factor.h"

@@ -16,7 +16,10 @@ double body_twist(const GearDesign& gear, const Material& material, double bore)
   const double shear = material.youngs_modulus / (2 * (1 + material.poisson_ratio)),
                root = tooth.root_radius();
   return std::pow(tooth.base_radius(), 2) / (4 * std::numbers::pi * shear * gear.face_width) *
-         std::abs(1 / (bore * bore) - 1 / (root * root));
+             std::abs(1 / (bore * bore) - 1 / (root * root)) +
+         (gear.elastic_rim() ? std::pow(tooth.base_radius(), 2) /
+                                   (2 * std::numbers::pi * std::pow(bore, 3) * gear.rim_tangential_stiffness)
+                             : 0);
 }
 
 ComplianceSplit compliance_split(const StaticArtifact& s) {

@@ -1,12 +1,11 @@
 // Where the compliance of a mesh at rest comes from: the bodies, the contact, the teeth; and what ISO 6336 says beside it.
 //
 // Displacements along the line of action under the whole load F, over F; they add up to 1 / mean mesh stiffness:
-//   body     twist of the ring between bore and root circle, r_b^2 / (4 pi G b) (1 / r_bore^2 - 1 / r_root^2), of each gear:
-// all
-//            pairs in mesh share it. The ring also moves sideways against the hub, a fifth of what a bore changes; that
-//            counts with the teeth
-//   contact  Hertz's approach at the pitch point, relative to half a tooth's thickness, of a pair that carries F / contact
-// ratio
+//   body     twist of the ring between bore and root circle, r_b^2 / (4 pi G b) (1 / r_bore^2 - 1 / r_root^2), of each gear: all
+//            pairs in mesh share it; a rim on an elastic support twists by r_b^2 / (2 pi r_rim^3 k_t) more. The ring also moves
+//            sideways against the hub, a fifth of what a bore changes; that counts with the teeth
+//   contact  Hertz's approach at the pitch point, relative to half a tooth's thickness, of a pair that carries
+//            F / contact ratio
 //   teeth    the rest: bending, shear and foundation of the teeth of both gears, and gaps that a relief leaves in the mean
 #pragma once
 #include <array>
