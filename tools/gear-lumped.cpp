@@ -170,7 +170,10 @@ void tell_sweep(const whine::SweepArtifact& result, const whine::LumpedOptions& 
                 const std::string& output) {
   whine::tell("gear-lumped: ", o.model, ", ", result.torque, " N m ", o.direction, ", mean stiffness ",
               result.mean_stiffness * 1e-6, "e6 N/m, mass ", o.mass, " kg, natural frequency ",
-              result.natural_frequency, " Hz, damping ratio ", o.damping_ratio, ", ",
+              result.natural_frequency, " Hz, damping ratio ", o.damping_ratio,
+              o.damping_ratio == whine::LumpedOptions().damping_ratio
+                  ? " (that of P2000 for its pair; [damping] of the scene is not read), "
+                  : ", ",
               result.mesh_frequency.size(), " speeds, ", result.periods.sum(), " mesh periods, ",
               result.jump_frequency.size() > 0
                   ? "jumps at " + whine::jump_words(result.jump_frequency, result.jump_width)

@@ -54,6 +54,9 @@ Figure compared_rest_figure(const std::vector<OfDesign<StaticArtifact>>& designs
     for (Index k = 0; k < s.transmission_error.size(); ++k)
       period.rows.push_back(
           {s.mesh_phase[k], s.transmission_error[k] * kMicro, s.stiffness_secant[k] * kMega});
+    // The mesh period closes.
+    if (s.hunting_periods == 1 && !period.rows.empty())
+      period.rows.push_back({period.rows.front()[0] + 1, period.rows.front()[1], period.rows.front()[2]});
     error_low = std::min(error_low, s.transmission_error.minCoeff() * kMicro);
     error_high = std::max(error_high, s.transmission_error.maxCoeff() * kMicro);
     stiffness_high = std::max(stiffness_high, s.stiffness_secant.maxCoeff() * kMega);
