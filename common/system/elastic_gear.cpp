@@ -59,9 +59,12 @@ double ElasticGear::plane_change(double x, double half_width, double reading) co
 }
 
 MatrixXd ElasticGear::compliance(int offset, double depth) const {
-  const int distance = std::abs(offset);
-  if (distance > body_.offsets) return MatrixXd::Zero(table_size(), table_size());
-  MatrixXd r = body_.compliance[distance];
+  const int distance = std::abs(offset), n = table_size();
+  const bool near = distance <= body_.offsets;
+  const auto far = static_cast<Eigen::Index>(distance - body_.offsets - 1) * n;  // first row there
+  if (!near && far + n > body_.far_compliance.rows()) return MatrixXd::Zero(n, n);
+  MatrixXd r =
+      near ? body_.compliance[static_cast<size_t>(distance)] : body_.far_compliance.middleRows(far, n);
   if (offset < 0) r.transposeInPlace();  // reciprocity: R_-d = R_d^T
   if (offset != 0) return r;
   const double from = own_plane_ ? contact_depth() : body_.reference_depth;
@@ -76,16 +79,12 @@ MatrixXd ElasticGear::compliance(const ToothFlank& read, const ToothFlank& loade
   const int turn = loaded.side == FlankSide::leading ? 1 : -1;
   const int ahead = ((turn * (read.tooth - loaded.tooth)) % teeth + teeth) % teeth;
   if (read.side != loaded.side) return body_.back_compliance.middleRows(ahead * n, n);
-  const int offset = 2 * ahead > teeth ? ahead - teeth : ahead, distance = std::abs(offset);
-  if (distance <= body_.offsets) return compliance(offset, depth);
-  MatrixXd r = body_.far_compliance.middleRows((distance - body_.offsets - 1) * n, n);
-  if (offset < 0) r.transposeInPlace();
-  return r;
+  return compliance(2 * ahead > teeth ? ahead - teeth : ahead, depth);
 }
 
 MatrixXd ElasticGear::residual(int offset, double depth, const std::vector<int>& kept) const {
+  if (std::abs(offset) > body_.offsets) return MatrixXd::Zero(table_size(), table_size());
   MatrixXd r = compliance(offset, depth);
-  if (std::abs(offset) > body_.offsets) return r;
   for (int column : kept) {
     const double w = 2 * std::numbers::pi * body_.eigenfrequency[column];
     r -= mode_on_tooth(column, offset) * mode_on_tooth(column, 0).transpose() / (w * w);

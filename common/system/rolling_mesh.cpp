@@ -396,9 +396,11 @@ MatrixXd body_compliance(const MeshPosition& position, int g, const std::vector<
 }
 
 std::vector<MatrixXd> compliance_tables(const ElasticGear& gear, double depth) {
+  constexpr int kFarthestOfMesh = 6;
   std::vector<MatrixXd> tables;
-  for (int offset = -gear.body().offsets; offset <= gear.body().offsets; ++offset)
-    tables.push_back(gear.compliance(offset, depth));
+  // The zone of a mesh with twice the range of search reaches 7 teeth at most.
+  const int most = std::max(gear.body().offsets, std::min(gear.body().design.teeth / 2, kFarthestOfMesh));
+  for (int offset = -most; offset <= most; ++offset) tables.push_back(gear.compliance(offset, depth));
   return tables;
 }
 

@@ -54,13 +54,12 @@ class ElasticGear {
   const FlankTable& table() const { return table_; }
   int table_size() const { return table_.size(); }
   // (flank, flank) m N-1: inward displacement read on tooth `offset` counter-clockwise of the loaded one,
-  // less the half-plane relative to `depth` (m) on the loaded tooth itself. Zero beyond the stored offsets: teeth so far
-  // apart are loaded together only in passing.
+  // less the half-plane relative to `depth` (m) on the loaded tooth itself. Zero beyond half of the teeth.
   Eigen::MatrixXd compliance(int offset, double depth) const;
   // The same between any two flanks of the gear, however far apart; of one flank relative to `depth`. Without cracks.
   Eigen::MatrixXd compliance(const ToothFlank& read, const ToothFlank& loaded, double depth) const;
-  // The same less the part that the modes listed (columns of BodyArtifact::flank_mode) carry: residual
-  // flexibility.
+  // The first less the part that the modes listed (columns of BodyArtifact::flank_mode) carry: residual flexibility. Zero
+  // beyond BodyArtifact::offsets, where the modes have nearly all of it.
   Eigen::MatrixXd residual(int offset, double depth, const std::vector<int>& kept) const;
   bool cracked() const { return body_.crack_compliance.size() > 0; }
   // (flank, flank) m N-1: what the crack adds to the inward displacement of tooth `read` by a force on tooth `loaded`: numbers
@@ -250,7 +249,7 @@ void add_bearings(const GearMeshModel& model, const MeshPosition& position, Eige
 Vec2 bearing_force(const GearMeshModel& model, const MeshPosition& position, int g,
                    const Eigen::Ref<const Eigen::VectorXd>& p);
 
-// m N-1: ElasticGear::compliance for every stored tooth offset, from the most negative on, as body_compliance takes them.
+// m N-1: ElasticGear::compliance for every tooth offset within a mesh, from the most negative on, as body_compliance takes them.
 std::vector<Eigen::MatrixXd> compliance_tables(const ElasticGear& gear, double depth);
 
 // (strip, strip) m N-1: half-planes, bodies and bearings, `tables` of both gears relative to `depth`; not of lines.
