@@ -140,6 +140,9 @@ TEST_CASE(
   CHECK(contains(
       file.rejection(scene_with("bore_radius_mm = 40\n", "bore_radius_mm = 40\n" + radial)),
       "x.toml:7: [gear.pinion] gives 'rim_radial_stiffness_N_mm2', which only an internal gear has"));
+  CHECK(contains(
+      file.rejection(with_ring(kRing + "rim_radial_stiffness_N_mm2 = 19\n" + tangential)),
+      "x.toml:15: 'rim_radial_stiffness_N_mm2' in [gear.wheel] = 19 is below 20, the softest support"));
   CHECK(contains(file.rejection(with_ring(kRing + "rim_radial_stiffness_N_mm2 = -1\n" + tangential)),
                  "rim_radial_stiffness_N_mm2"));
 }

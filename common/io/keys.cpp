@@ -88,7 +88,7 @@ std::vector<Key> make_keys() {
      "of an internal gear, which needs it: radius outside which the ring is as good as rigid, its housing; what lies between it and the root circle bends and twists",
      [](V& v) -> Slot { return &v.design.rim_outer_radius; }},
     {Part::rim_support, "gear", "rim_radial_stiffness_N_mm2", kNewtonPerSquareMillimetre, "0.0", 0, 1e9, false, "",
-     "of an internal gear: stiffness along the radius of an even support of the outside of its rim, N/mm per mm of circumference; 0: rigid. It needs rim_tangential_stiffness_N_mm2",
+     "of an internal gear: stiffness along the radius of an even support of the outside of its rim, N/mm per mm of circumference, 20 or more; 0: rigid. It needs rim_tangential_stiffness_N_mm2",
      [](V& v) -> Slot { return &v.design.rim_radial_stiffness; }},
     {Part::rim_support, "gear", "rim_tangential_stiffness_N_mm2", kNewtonPerSquareMillimetre, "0.0", 0, 1e9, false, "",
      "the same along the circumference, which takes the torque",

@@ -186,6 +186,19 @@ void require_rim_support(const Source& source, const toml::table& table, const s
                "body = \"rigid\" in [fidelity]"));
   }
   if (!d.internal) d.rim_radial_stiffness = d.rim_tangential_stiffness = 0;
+  // Softer ones make the rim's motion as a whole so large that what teeth do to each other drowns in the error of its table.
+  constexpr double kLeast = 2e7;
+  const double given[] = {d.rim_radial_stiffness, d.rim_tangential_stiffness};
+  for (const int i : {0, 1})
+    if (given[i] > 0 && given[i] < kLeast) {
+      const toml::node* node = table.get(kKeys[i]);
+      source.reject(
+          node ? *node : static_cast<const toml::node&>(table),
+          text(
+              "'", kKeys[i], "' in [", label, "] = ", given[i] * 1e-6, " is below ", kLeast * 1e-6,
+              ", the softest support that is computed: the rim would move as a whole by micrometres for some "
+              "newtons; of a ring that floats give a [[bearing]]"));
+    }
   if ((d.rim_radial_stiffness > 0) == (d.rim_tangential_stiffness > 0)) return;
   const int lacks = d.rim_radial_stiffness > 0 ? 1 : 0;
   source.reject(

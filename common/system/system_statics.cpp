@@ -176,10 +176,15 @@ void SystemStatics::take_position(double phase, int period) {
   // A contact that happens to end on a sound part of a broken table would look right.
   const double least = compliance_.allFinite() ? compliance_.ldlt().vectorD().minCoeff()
                                                : std::numeric_limits<double>::quiet_NaN();
-  if (!(least > 0))
-    fail(Failure::numerical, "at mesh phase ", phase, " the compliance of ", position_->strips(),
-         " strips is not positive definite: pivot ", least,
-         " m/N; the body's table is wrong, rebuild body.h5");
+  if (least > 0) return;
+  bool soft_rim = false;
+  for (const auto& gear : system_.body) soft_rim = soft_rim || (gear && gear->body().design.elastic_rim());
+  fail(Failure::numerical, "at mesh phase ", phase, " the compliance of ", position_->strips(),
+       " strips is not positive definite: pivot ", least, " m/N; ",
+       soft_rim
+           ? "raise rim_radial_stiffness_N_mm2 and rim_tangential_stiffness_N_mm2, or lower element_mm: the "
+             "rim moves so much as a whole that the error of the body's table hides what its teeth do"
+           : "the body's table is wrong, rebuild body.h5");
 }
 
 const SystemSolution& SystemStatics::solve(double phase, int period, const VectorXd& start) {
