@@ -72,7 +72,9 @@ unset label 11
 set label 1 "{/:Bold (c)} the same over the largest at rest; root stress is quasi-static in the tooth loads"
 if (iso == 1 && resonance > frequency_from && resonance < frequency_to) {
   set arrow from resonance, graph 0 to resonance, graph 1 nohead back lw 1.2 dt (4, 4) lc rgb "#aa4499"
-  set label 12 "N = 1 (ISO)" at resonance, graph 1.0 offset -0.5, -0.7 right tc rgb "#aa4499" font ",13"
+  # on the side of the line on which f_n is not
+  if (natural_frequency > resonance) { set label 12 "N = 1 (ISO)" at resonance, graph 1.0 offset -0.5, -0.7 right tc rgb "#aa4499" font ",13" } \
+  else { set label 12 "N = 1 (ISO)" at resonance, graph 1.0 offset 0.5, -0.7 left tc rgb "#aa4499" font ",13" }
 }
 array what[4] = ["mesh force (over T / r_b)", "tooth load", "root stress, " . word(labels, 1), "root stress, " . word(labels, 2)]
 array shade[4] = ["#444444", "#009e73", "#0072b2", "#d55e00"]
