@@ -72,6 +72,18 @@ TEST_CASE("a number may be written as a whole float; a decimal comma and a numbe
   const std::string comma = file.rejection(scene_with("module_mm = 3", "module_mm = 2,5"));
   CHECK(contains(comma, "x.toml:3: is not valid TOML: "));
   CHECK(contains(comma, "; numbers have a decimal point: 2.5, not 2,5"));
+  const auto torques = [&](const std::string& list) {
+    return scene_with("torque_Nm = [100, 150]", "torque_Nm = " + list);
+  };
+  CHECK(contains(file.rejection(torques("[1624,77, 800]")),
+                 "holds 1624,77 without a blank and others with one: numbers have a decimal point, 1624.77; "
+                 "two numbers are "
+                 "written 1624, 77"));
+  for (const char* list :
+       {"[1624, 77, 800]", "[1624,77,800]", "[1624.5,77, 800]", "[100,\n150,\n200]", "[1624,77]"}) {
+    CAPTURE(list);
+    CHECK_NOTHROW(file.read(torques(list)));
+  }
   CHECK(contains(file.rejection(scene_with("from = 600", "from = 600,5")), "600.5, not 600,5"));
   CHECK(contains(file.rejection(scene_with("module_mm = 3", "module_mm = \"2,5\"")),
                  "must be a number (in mm); write 2.5, with a decimal point and without quotes"));

@@ -274,6 +274,29 @@ void SectionReader::assign(const Key& key, const toml::node& node, const Slot& s
   }
 }
 
+namespace {
+
+// [1624,77, 800]: what to say of whole numbers that only a comma parts where others have a blank as well. "": there are none.
+std::string decimal_comma_in(const toml::array& list) {
+  const auto apart = [&](std::size_t i) -> long {
+    const toml::source_position end = list[i].source().end, next = list[i + 1].source().begin;
+    return end.line == next.line ? static_cast<long>(next.column) - static_cast<long>(end.column) : 0;
+  };
+  std::string words;
+  bool blanks = false;
+  for (std::size_t i = 0; i + 1 < list.size(); ++i) {
+    blanks = blanks || apart(i) > 1;
+    if (apart(i) != 1 || !list[i].is_integer() || !list[i + 1].is_integer() || !words.empty()) continue;
+    const std::string whole = text(list[i].value_or(0)), parts = text(list[i + 1].value_or(0));
+    words = text("holds ", whole, ",", parts,
+                 " without a blank and others with one: numbers have a decimal point, ", whole, ".", parts,
+                 "; two numbers are written ", whole, ", ", parts);
+  }
+  return blanks ? words : "";
+}
+
+}  // namespace
+
 void SectionReader::assign_list(const Key& key, const toml::node& node, std::vector<double>& list) const {
   list.clear();
   const toml::array* array = node.as_array();
@@ -282,6 +305,8 @@ void SectionReader::assign_list(const Key& key, const toml::node& node, std::vec
   } else {
     if (array->empty()) reject(key, node, "must hold at least one number");
     for (const toml::node& item : *array) list.push_back(checked_number(key, item));
+    if (const std::string words = decimal_comma_in(*array); dialect_ == Dialect::scene && !words.empty())
+      reject(key, node, words);
   }
   if (dialect_ == Dialect::settings) return;
   // Folders are called by the value with six digits; two values must not meet there, nor a name mean
