@@ -15,10 +15,21 @@ namespace {
 // The relief at which lines through the values on either side of the least one meet, as in a cusp: on the grid of the map the
 // best relief would go in steps, and about its least value a map is flat. Beside an end of the grid, where torques are small and
 // the flat is narrow, the lines are of the places that are there. That of the least value where they do not meet near it.
-double relief_at_cusp(const Eigen::VectorXd& relief, const Eigen::RowVectorXd& value) {
+// Where a relief hardly helps, as one that is too short, values are within kAlike of the least one over many places, and which of
+// them is least is chance: the middle of that range then.
+double best_relief(const Eigen::VectorXd& relief, const Eigen::RowVectorXd& value) {
   constexpr Index kFar = 4;  // places from the least value; the line goes through that and the one before
+  constexpr double kAlike = 0.005;
   Index r = 0;
-  value.minCoeff(&r);
+  const double level = (1 + kAlike) * value.minCoeff(&r);
+  const auto crossing = [&](Index step) {
+    Index i = r;
+    while (i + step >= 0 && i + step < relief.size() && value[i + step] <= level) i += step;
+    if (i + step < 0 || i + step >= relief.size()) return relief[i];
+    return relief[i] + (relief[i + step] - relief[i]) * (level - value[i]) / (value[i + step] - value[i]);
+  };
+  const double from = crossing(-1), to = crossing(1);
+  if (to - from > relief[std::min(r + kFar, relief.size() - 1)] - relief[r]) return 0.5 * (from + to);
   const Index below = std::min(kFar, r), above = std::min(kFar, relief.size() - 1 - r);
   if (below < 1 || above < 2) return relief[r];
   const Index low = r - below + 1, high = r + above - 1;
@@ -76,7 +87,7 @@ Figure harris_map_figure(const HarrisMapArtifact& map) {
   for (int n = 0; n < 3; ++n) cube(text("harmonic ", n + 1), map.harmonic[n][best], kMicro);
   FigureBlock ridge{"best relief", {"relief [µm]", "torque [N m]"}, {}};
   for (Index t = 0; t < map.torque.size(); ++t) {
-    ridge.rows.push_back({relief_at_cusp(map.relief, map.peak_to_peak[best].row(t)) * kMicro, map.torque[t]});
+    ridge.rows.push_back({best_relief(map.relief, map.peak_to_peak[best].row(t)) * kMicro, map.torque[t]});
   }
   figure.blocks.push_back(ridge);
   figure.blocks.push_back(

@@ -7,7 +7,7 @@ lift = room(2)
 
 array colour[7] = ["#444444", "#c8201e", "#1f4e9c", "#1a7f37", "#8a4fbf", "#b06a00", "#0a7c86"]
 rows = moving > 0 ? 2 : 1
-step = largest > 12 ? 2 : largest > 5 ? 1 : largest > 2 ? 0.5 : 0.2
+step = largest > 120 ? 20 : largest > 60 ? 10 : largest > 25 ? 5 : largest > 12 ? 2 : largest > 5 ? 1 : largest > 2 ? 0.5 : 0.2
 set contour base
 unset surface
 # One label each, where the line has gone a little way from the edge of the map.
