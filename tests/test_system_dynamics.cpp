@@ -472,10 +472,11 @@ TEST_CASE("a ring that floats on a bearing: rest, frozen modes, energy, and the 
     return MatrixXd(period.transmission_error);
   };
   const MatrixXd rigid = errors({});
-  const double one = (errors({4e11, 2e4, 0}) - rigid).norm() / rigid.norm(),
-               two = (errors({8e11, 3e4, 0}) - rigid).norm() / rigid.norm();
-  CHECK(one < 0.01);
-  CHECK(two < 0.55 * one);
+  // To the first order of their flexibility; between neighbours of a factor of 2 a contact that changes a step earlier hides it.
+  const double soft_one = (errors({1.6e11, 2e4, 0}) - rigid).norm() / rigid.norm(),
+               stiff_one = (errors({1.6e12, 2e4, 0}) - rigid).norm() / rigid.norm();
+  CHECK(soft_one < 1e-4);
+  CHECK(stiff_one == relative(0.1 * soft_one, 0.1));
 }
 
 namespace {
