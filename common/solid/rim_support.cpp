@@ -14,7 +14,7 @@ void add_rim_support(const MeshArtifact& mesh, SparseReal& stiffness) {
   const std::size_t side = mesh.element_node.cols() == 9 ? 3 : 2;  // nodes
   std::vector<int> outside(mesh.bore_node.begin(), mesh.bore_node.end());
   const auto position = [&](int node) { return Eigen::Vector2d(mesh.node_position.row(node)); };
-  // From the radius through the middle of the sector, which no sector reaches half a turn from.
+  // From the radius through the middle of the sector, of which no point is half a turn away.
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
   for (const int node : outside) middle += position(node);
   const auto angle = [&](int node) {
