@@ -76,13 +76,16 @@ std::vector<Remark> body_remarks(const StaticArtifact& s) {
   const ComplianceSplit split = compliance_split(s);
   if (!(split.body_share() > kMuch)) return out;
   const auto percent = [](double share) { return std::round(share * 100); };
-  out.push_back(
-      remark(true, "the bodies between bore and root circle twist: ", percent(split.body_share()),
-             " % of the compliance of the mesh (", s.mesh.gear[0], " ", percent(split.body[0] / split.whole),
-             " %, ", s.mesh.gear[1], " ", percent(split.body[1] / split.whole),
-             " %), which bore_radius_mm decides: give the radius inside which the gear is as good as "
-             "rigid (shaft, hub, "
-             "web)"));
+  const bool supported = s.gear[0].design.elastic_rim() || s.gear[1].design.elastic_rim();
+  out.push_back(remark(
+      true, "the bodies between bore and root circle twist: ", percent(split.body_share()),
+      " % of the compliance of the mesh (", s.mesh.gear[0], " ", percent(split.body[0] / split.whole), " %, ",
+      s.mesh.gear[1], " ", percent(split.body[1] / split.whole),
+      supported ? " %), which bore_radius_mm and rim_tangential_stiffness_N_mm2 decide: give those of the "
+                  "drawing and of "
+                  "the housing"
+                : " %), which bore_radius_mm decides: give the radius inside which the gear is as good as "
+                  "rigid (shaft, hub, web)"));
   return out;
 }
 
