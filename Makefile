@@ -76,7 +76,9 @@ STEP_FLAGS := $(if $(SANITIZE),,-O3)
 COLD_FLAGS := $(if $(SANITIZE),-O0,-Og)
 cold_layers := report paper io
 CPPFLAGS := -Icommon -isystem /usr/include/eigen3 -isystem /usr/include/suitesparse
-LDFLAGS := $(if $(SANITIZE),-fsanitize=address$(,)undefined) -Wl,--as-needed -Wl,--gc-sections
+# gold, where binutils has it, links a program in a fifth of the time of the other linker.
+gold := $(if $(shell command -v ld.gold),-fuse-ld=gold)
+LDFLAGS := $(if $(SANITIZE),-fsanitize=address$(,)undefined) $(gold) -Wl,--as-needed -Wl,--gc-sections
 # Recursive: pkg-config may itself be one of the packages that `deps` installs in the same run.
 HDF5_CFLAGS = $(shell pkg-config --cflags hdf5)
 LDLIBS = -lpugixml -lz -lzip -ljsoncpp -lsndfile -lcholmod $(shell pkg-config --libs-only-L hdf5) -lhdf5_hl $(shell pkg-config --libs hdf5 fftw3 libcrypto)
@@ -128,7 +130,7 @@ $(folders):
 # Half of a compilation is reading the headers in it. Compiled headers fit one set of flags.
 precompiled := $(B)/obj/precompiled.h
 cold_precompiled := $(B)/obj/$(if $(COLD_FLAGS),cold,precompiled).h
-$(addsuffix .gch,$(sort $(precompiled) $(cold_precompiled))): common/base/precompiled.h common/base/eigen_templates.h $(B)/flags | $$(@D)/ $(with_deps)
+$(addsuffix .gch,$(sort $(precompiled) $(cold_precompiled))): common/base/precompiled.h common/base/eigen_templates.h common/base/dense_products.h $(B)/flags | $$(@D)/ $(with_deps)
 	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -x c++-header -o $@ $<
 
 cold_objects := $(tool_objects) $(B)/obj/tests/main.o $(own_test_units) $(hard_cases) $(B)/obj/common/base/options.o $(filter $(foreach r,$(cold_layers),$(B)/obj/common/$r/%),$(library))
@@ -156,8 +158,9 @@ $(filter $(B)/obj/common/base/dense.o $(B)/obj/common/base/eigen_templates.o $(B
 
 step_objects := $(B)/obj/common/dynamics/step_kernel.o $(B)/obj/common/dynamics/step_kernel_pack.o $(filter $(B)/obj/common/contact/%,$(objects))
 $(step_objects): private CXXFLAGS += $(STEP_FLAGS)
-# Nor with the one that says that its templates are compiled elsewhere.
-$(step_objects) $(B)/obj/common/base/eigen_templates.o: private INCLUDE_PRECOMPILED :=
+# Nor with the one that says that its templates are compiled elsewhere; products of matrices are the same everywhere.
+$(step_objects): private INCLUDE_PRECOMPILED := -include base/dense_products.h
+$(B)/obj/common/base/eigen_templates.o: private INCLUDE_PRECOMPILED :=
 
 # HDF5 stays in one layer: nobody else finds its headers.
 $(filter $(B)/obj/common/io/%,$(objects)): private CPPFLAGS += $(HDF5_CFLAGS)

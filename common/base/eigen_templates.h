@@ -2,6 +2,7 @@
 // decompositions took a sixth of the time of compiling the sources that use them. By way of precompiled.h.
 #pragma once
 #include <Eigen/Dense>
+#include "base/dense_products.h"
 
 #ifndef WHINE_EIGEN_TEMPLATE
 #define WHINE_EIGEN_TEMPLATE extern template
@@ -11,6 +12,7 @@ namespace Eigen {
 
 WHINE_EIGEN_TEMPLATE class PartialPivLU<MatrixXd>;
 WHINE_EIGEN_TEMPLATE class LLT<MatrixXd>;
+WHINE_EIGEN_TEMPLATE class LLT<MatrixXcd>;
 WHINE_EIGEN_TEMPLATE class LDLT<MatrixXd>;
 WHINE_EIGEN_TEMPLATE class ColPivHouseholderQR<MatrixXd>;
 WHINE_EIGEN_TEMPLATE class SelfAdjointEigenSolver<MatrixXd>;

@@ -1,6 +1,5 @@
 #include "solid/root_stress.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "base/dense.h"
 #include "base/error.h"
 #include "solid/half_plane.h"
 
@@ -36,7 +36,7 @@ Eigen::MatrixXd fitted(const Eigen::VectorXd& at, const Eigen::VectorXd& weight,
   };
   const Eigen::VectorXd root = weight.cwiseSqrt();
   const Eigen::MatrixXd known = root.asDiagonal() * polynomials(at);
-  return polynomials(wanted) * known.householderQr().solve(Eigen::MatrixXd(root.asDiagonal()));
+  return polynomials(wanted) * least_squares(known, Eigen::MatrixXd(root.asDiagonal()));
 }
 
 // Nodes and their mirror images in the centre line of the tooth.
