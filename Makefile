@@ -83,10 +83,16 @@ LDFLAGS := $(if $(SANITIZE),-fsanitize=address$(,)undefined) $(gold) -Wl,--as-ne
 HDF5_CFLAGS = $(shell pkg-config --cflags hdf5)
 LDLIBS = -lpugixml -lz -lzip -ljsoncpp -lsndfile -lcholmod $(shell pkg-config --libs-only-L hdf5) -lhdf5_hl $(shell pkg-config --libs hdf5 fftw3 libcrypto)
 
-# gmsh brings a hundred libraries of windows, pictures and CAD, whose loading takes 0.25 s of CPU at each start: programs that mesh nothing do
-# without. The linker says where it is missing from this list; of functions that it throws away it asks nothing. Sanitizers keep them.
-meshing := gear-mesh gear-reduce gear-static gear-sweep gear-reading whine-tests whine-hard-cases
-gmsh = $(if $(SANITIZE)$(filter $(meshing),$(@F)),-lgmsh)
+# Libraries that bring many more: gmsh a hundred of windows, pictures and CAD, whose loading takes 0.25 s of CPU at each start, the others
+# together 18 of 43 ms. Programs that do not call one do without; the linker says where one is missing from this list; of functions that
+# it throws away it asks nothing. Sanitizers keep them.
+users_of_-lgmsh := gear-mesh gear-reduce gear-static gear-sweep gear-reading
+users_of_-lcholmod := gear-reduce gear-loaded gear-animate gear-static gear-sweep gear-reading
+users_of_-lsndfile := gear-sound
+users_of_-lzip := gear-import gear-export whine-replay-rexs
+users_of_-lpugixml := gear-import gear-export whine-replay-rexs
+not_used = $(foreach l,-lgmsh -lcholmod -lsndfile -lzip -lpugixml,$(if $(filter $(@F),$(users_of_$l)),,$l))
+libraries = $(filter-out $(if $(SANITIZE)$(filter-out gear-% whine-replay-%,$(@F)),,$(not_used)),-lgmsh $(LDLIBS))
 
 # With `deps` among the goals whatever uses a package waits for it, in any order of the goals and under -j.
 with_deps := $(filter deps,$(goals))
@@ -166,7 +172,7 @@ $(B)/obj/common/base/eigen_templates.o: private INCLUDE_PRECOMPILED :=
 $(filter $(B)/obj/common/io/%,$(objects)): private CPPFLAGS += $(HDF5_CFLAGS)
 
 linked = $(filter $(patsubst $1:%,$(B)/obj/common/%.o,$(filter $1:%,$(links))),$(library))
-link = $(CXX) $(LDFLAGS) -o $@ $(filter %.o,$^) $(gmsh) $(LDLIBS)
+link = $(CXX) $(LDFLAGS) -o $@ $(filter %.o,$^) $(libraries)
 
 $(tools:%=$(B)/bin/%): $(B)/bin/%: $$(call linked,$$*) $(B)/obj/tools/%.o | $(B)/bin/
 	$(link)

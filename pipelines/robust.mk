@@ -113,7 +113,7 @@ $(B)/bin/whine-replay-artifact $(B)/bin/whine-replay-sealed: tests/fuzz/artifact
 $(B)/bin/whine-replay-sealed: tests/fuzz/edit.cpp
 $(replays): $(B)/bin/whine-replay-%: tests/fuzz/replay.cpp tests/fuzz/file_of.h $(B)/flags $(cold_precompiled).gch | $(B)/bin/ $(with_deps)
 	$(CXX) $(CPPFLAGS) $(HDF5_CFLAGS) $(CXXFLAGS) $(COLD_FLAGS) -include $(cold_precompiled) $(if $(filter sealed,$*),-DSEALED) $(LDFLAGS) \
-	  -o $@ $(filter %.o %.cpp,$^) $(gmsh) $(LDLIBS)
+	  -o $@ $(filter %.o %.cpp,$^) $(libraries)
 
 # HDF5 1.10 forgets some memory where it rejects a file: leaks are looked for where it takes no part, neither after each input
 # nor at the end.

@@ -1,5 +1,6 @@
 #include "base/dense_products.h"
-#include <array>
+
+#include <type_traits>
 
 namespace whine {
 
@@ -14,7 +15,9 @@ using Eigen::VectorXd;
 
 template <int Order>
 using Columns = Eigen::Map<const Eigen::Matrix<double, Dynamic, Dynamic, Order>, 0, Eigen::OuterStride<>>;
-using Strided = Eigen::Map<const MatrixXd, 0, Eigen::Stride<Dynamic, Dynamic>>;
+using Stride = Eigen::Stride<Dynamic, Dynamic>;
+template <typename Entry>
+using Strided = Eigen::Map<std::conditional_t<std::is_const_v<Entry>, const MatrixXd, MatrixXd>, 0, Stride>;
 using StridedVector = Eigen::Map<VectorXd, 0, Eigen::InnerStride<>>;
 using ReadVector = Eigen::Map<const VectorXd, 0, Eigen::InnerStride<>>;
 
@@ -29,10 +32,16 @@ bool by_rows(const MatrixView<Entry>& m) {
   return m.row_stride != 1 && m.column_stride == 1;
 }
 
+// Whether its columns or its rows are.
+template <typename Entry>
+bool is_contiguous(const MatrixView<Entry>& m) {
+  return m.row_stride == 1 || m.column_stride == 1;
+}
+
 // `m` with contiguous columns or rows, copied to `copy` if it has neither.
 MatrixRead contiguous(const MatrixRead& m, MatrixXd& copy) {
-  if (m.row_stride == 1 || m.column_stride == 1) return m;
-  copy = Strided(m.data, m.rows, m.columns, {m.column_stride, m.row_stride});
+  if (is_contiguous(m)) return m;
+  copy = Strided<const double>(m.data, m.rows, m.columns, {m.column_stride, m.row_stride});
   return {copy.data(), m.rows, m.columns, 1, m.rows};
 }
 
@@ -55,15 +64,17 @@ void small(double* to, Index stride, const MatrixRead& a, const MatrixRead& b, d
 }
 
 bool is_small(const MatrixWritten& to, Index depth) {
-  return depth > 0 && depth + to.rows + to.columns < EIGEN_GEMM_TO_COEFFBASED_THRESHOLD;
+  return depth > 0 && is_contiguous(to) && depth + to.rows + to.columns < EIGEN_GEMM_TO_COEFFBASED_THRESHOLD;
 }
 
 void small_product(const MatrixWritten& to, const MatrixRead& a, const MatrixRead& b, double factor,
                    bool add) {
   if (to.row_stride != 1) return small_product(transposed(to), transposed(b), transposed(a), factor, add);
-  const auto run = by_rows(a) ? (by_rows(b) ? small<RowMajor, RowMajor> : small<RowMajor, ColMajor>)
-                              : (by_rows(b) ? small<ColMajor, RowMajor> : small<ColMajor, ColMajor>);
-  run(to.data, to.column_stride, a, b, factor, add);
+  MatrixXd copy_of_a, copy_of_b;
+  const MatrixRead left = contiguous(a, copy_of_a), right = contiguous(b, copy_of_b);
+  const auto run = by_rows(left) ? (by_rows(right) ? small<RowMajor, RowMajor> : small<RowMajor, ColMajor>)
+                                 : (by_rows(right) ? small<ColMajor, RowMajor> : small<ColMajor, ColMajor>);
+  run(to.data, to.column_stride, left, right, factor, add);
 }
 
 // --- matrix by vector: the kernels of Eigen
@@ -134,6 +145,13 @@ void set_zero(const MatrixWritten& to) {
 
 void add_large_product(const MatrixWritten& to, const MatrixRead& a, const MatrixRead& b, double factor) {
   if (to.rows == 0 || to.columns == 0 || a.columns == 0) return;
+  if (to.rows != 1 && to.columns != 1 && !is_contiguous(to)) {
+    Strided<double> target(to.data, to.rows, to.columns, {to.column_stride, to.row_stride});
+    MatrixXd sum = target;
+    add_large_product(view<double>(sum), a, b, factor);
+    target = sum;
+    return;
+  }
   if (to.columns != 1 && (to.rows == 1 || to.row_stride != 1))
     return add_large_product(transposed(to), transposed(b), transposed(a), factor);
   MatrixXd copy_of_a, copy_of_b;
