@@ -274,10 +274,11 @@ Figure profile_figure(const StaticArtifact& s) {
     const double form = gear.form_roll_angle(), tip = gear.tip_roll_angle();
     constexpr int kPlaces = 400;
     for (int i = 0; i <= kPlaces; ++i) {
-      const double roll = form + (tip - form) * i / kPlaces, removed = deviation.at(roll, 0);
-      trace.rows.push_back({roll / degree, gear.base_radius() * roll * kMilli, -removed * kMicro});
-      low = std::min(low, -removed * kMicro);
-      high = std::max(high, -removed * kMicro);
+      // subtracted: the negative of nothing would be printed as -0
+      const double roll = form + (tip - form) * i / kPlaces, material = 0 - deviation.at(roll, 0) * kMicro;
+      trace.rows.push_back({roll / degree, gear.base_radius() * roll * kMilli, material});
+      low = std::min(low, material);
+      high = std::max(high, material);
     }
     figure.blocks.push_back(trace);
     // Start of the active profile, lowest and highest point of single-pair contact: where along the path of contact.

@@ -14,7 +14,7 @@ set multiplot title heading offset 0, -0.4
 set border 3 lw 1.6
 set tics out nomirror
 set grid lt 1 lc rgb "#e4e4e4" lw 1
-set lmargin at screen 0.09
+set lmargin at screen 0.105
 set rmargin at screen 0.97
 set xrange [0 : 1]
 set key at graph 1, graph 1.02 right bottom horizontal Left reverse samplen 2.5 font ",15" noenhanced

@@ -12,7 +12,7 @@ set linetype 2 dt (10, 5)
 set linetype 3 dt solid
 
 set multiplot layout 1, 2 title heading offset 0, -0.4 \
-  margins screen 0.085, 0.985, (curves > 3 ? 0.28 : 0.245) + lift, 0.815 + lift spacing screen 0.1
+  margins screen 0.1, 0.985, (curves > 3 ? 0.28 : 0.245) + lift, 0.815 + lift spacing screen 0.1
 set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set border 3 lw 1.6
 set tics out nomirror

@@ -3,9 +3,10 @@
 # pitch_g, hpstc_g, tip_g.
 set datafile separator tab
 set datafile commentschars "#"
-foot1 = "form: where the involute begins; SAP: start of the active profile; LPSTC, HPSTC: lowest and highest point of single tooth contact (B, D of the driver; D, B of the driven gear)"
+foot1 = "thin line: the involute without modification; form: where the involute begins; SAP: start of the active profile"
+foot2 = "LPSTC, HPSTC: lowest and highest point of single tooth contact (B, D of the driver; D, B of the driven gear)"
 foot_name = "foot%d"
-lift = room(1)
+lift = room(2)
 
 set multiplot layout 2, 1 title heading offset 0, -0.3 margins screen 0.11, 0.975, 0.1 + lift, 0.82 + lift spacing screen 0.19
 set border 3 lw 1.6

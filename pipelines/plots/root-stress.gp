@@ -15,7 +15,7 @@ set border 3 lw 1.6
 set tics out nomirror font ",14"
 set mxtics 5
 set grid lt 1 lc rgb "#e4e4e4" lw 1
-set lmargin at screen 0.08
+set lmargin at screen 0.095
 set rmargin at screen 0.76
 set key at graph 1.01, graph 0.98 left top Left reverse vertical samplen 2 spacing 1.2 font ",13" noenhanced
 
@@ -71,10 +71,7 @@ set ylabel "Dynamic factor (1)"
 unset label 11
 set label 1 "{/:Bold (c)} the same over the largest at rest; root stress is quasi-static in the tooth loads"
 if (iso == 1 && resonance > frequency_from && resonance < frequency_to) {
-  set arrow from resonance, graph 0 to resonance, graph 1 nohead back lw 1.2 dt (4, 4) lc rgb "#aa4499"
-  # on the side of the line on which f_n is not
-  if (natural_frequency > resonance) { set label 12 "N = 1 (ISO)" at resonance, graph 1.0 offset -0.5, -0.7 right tc rgb "#aa4499" font ",13" } \
-  else { set label 12 "N = 1 (ISO)" at resonance, graph 1.0 offset 0.5, -0.7 left tc rgb "#aa4499" font ",13" }
+  set arrow from resonance, graph 0 to resonance, graph 1 nohead back lt 1 lw 1.6 lc rgb "#aa4499"
 }
 array what[4] = ["mesh force (over T / r_b)", "tooth load", "root stress, " . word(labels, 1), "root stress, " . word(labels, 2)]
 array shade[4] = ["#444444", "#009e73", "#0072b2", "#d55e00"]
@@ -89,6 +86,10 @@ if (branches > 0) {
   do for [k = 1:4] { drawn = drawn . sprintf('tsv index "[branch]" using 1:($8 == 0 ? column(%d) : NaN) with lines lt 1 lw %g dt (2, 4) lc rgb "%s" notitle, ', k + 3, heavy[k], shade[k]) }
 }
 if (iso == 1) { drawn = drawn . 'tsv index "[iso]" using 1:2 with lines lt 1 lw 2.2 dt (4, 4) lc rgb "#aa4499" title "K_v, ISO 6336-1 method B", ' }
+# in the key: beside the line a curve would cross the words
+if (iso == 1 && resonance > frequency_from && resonance < frequency_to) {
+  drawn = drawn . sprintf('keyentry with lines lt 1 lw 1.6 lc rgb "#aa4499" title "upright: N = 1 (ISO), %.0f Hz", ', resonance)
+}
 eval("plot " . drawn)
 eval(below)
 unset multiplot
