@@ -77,7 +77,7 @@ COLD_FLAGS := $(if $(SANITIZE),-O0,-Og)
 cold_layers := report paper io
 CPPFLAGS := -Icommon -isystem /usr/include/eigen3 -isystem /usr/include/suitesparse
 # gold, where binutils has it, links a program in a fifth of the time of the other linker.
-gold := $(if $(shell command -v ld.gold),-fuse-ld=gold)
+gold := $(if $(wildcard /usr/bin/ld.gold),-fuse-ld=gold)
 LDFLAGS := $(if $(SANITIZE),-fsanitize=address$(,)undefined) $(gold) -Wl,--as-needed -Wl,--gc-sections
 # Recursive: pkg-config may itself be one of the packages that `deps` installs in the same run.
 HDF5_CFLAGS = $(shell pkg-config --cflags hdf5)

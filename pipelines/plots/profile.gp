@@ -8,7 +8,7 @@ foot2 = "LPSTC, HPSTC: lowest and highest point of single tooth contact (B, D of
 foot_name = "foot%d"
 lift = room(2)
 
-set multiplot layout 2, 1 title heading offset 0, -0.3 margins screen 0.11, 0.975, 0.1 + lift, 0.82 + lift spacing screen 0.19
+set multiplot layout 2, 1 title heading offset 0, -0.3 margins screen 0.11, 0.975, 0.1 + lift, 0.79 + lift spacing screen 0.185
 set border 3 lw 1.6
 set tics out nomirror
 set mxtics 5
