@@ -14,7 +14,7 @@ using Eigen::RowMajor;
 using Eigen::VectorXd;
 
 template <int Order>
-using Columns = Eigen::Map<const Eigen::Matrix<double, Dynamic, Dynamic, Order>, 0, Eigen::OuterStride<>>;
+using Mapped = Eigen::Map<const Eigen::Matrix<double, Dynamic, Dynamic, Order>, 0, Eigen::OuterStride<>>;
 using Stride = Eigen::Stride<Dynamic, Dynamic>;
 template <typename Entry>
 using Strided = Eigen::Map<std::conditional_t<std::is_const_v<Entry>, const MatrixXd, MatrixXd>, 0, Stride>;
@@ -46,7 +46,7 @@ MatrixRead contiguous(const MatrixRead& m, MatrixXd& copy) {
 }
 
 template <int Order>
-Columns<Order> map(const MatrixRead& m) {
+Mapped<Order> map(const MatrixRead& m) {
   return {m.data, m.rows, m.columns,
           Eigen::OuterStride<>(Order == RowMajor ? m.row_stride : m.column_stride)};
 }

@@ -3,10 +3,11 @@
 // and a tenth of a build. By way of precompiled.h; without it Eigen's own product takes the same ways to the same numbers.
 #pragma once
 #include <Eigen/Core>
+#include <type_traits>
 
 namespace whine {
 
-// Entry (i, j) is data[i row_stride + j column_stride].
+// rows x columns; entry (i, j) is data[i row_stride + j column_stride].
 template <typename Entry>
 struct MatrixView {
   Entry* data;
@@ -15,7 +16,8 @@ struct MatrixView {
 using MatrixRead = MatrixView<const double>;
 using MatrixWritten = MatrixView<double>;
 
-// to (+)= factor a b. None of them may overlap `to`. The first two sum small products coefficient by coefficient.
+// to (+)= factor a b, with to m x n, a m x k, b k x n; `to` overlaps neither. The ways are those of Eigen 3.4, generic_product_impl of
+// GemmProduct (the first two: where m + n + k is below 20 the blocks of its kernels cost more than they save) and of GemvProduct.
 void set_product(const MatrixWritten& to, const MatrixRead& a, const MatrixRead& b, double factor);
 void add_product(const MatrixWritten& to, const MatrixRead& a, const MatrixRead& b, double factor);
 void set_large_product(const MatrixWritten& to, const MatrixRead& a, const MatrixRead& b, double factor);
