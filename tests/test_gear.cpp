@@ -243,7 +243,7 @@ TEST_CASE("corner gap equals the separation of points found by brute force") {
 TEST_CASE("the gap's slope and curvature at the touching point, on the line of action and at corners") {
   const GearPair pair(fzg_c(16, 0.1817, 82.46e-3), fzg_c(24, 0.1715, 118.36e-3), 91.5e-3);
   const double start = pair.path_start() / pair.base_pitch(), end = pair.path_end() / pair.base_pitch();
-  int tip_distances = 0;
+  int edge_distances = 0;
   for (double phase : {start - 0.08, start - 0.02, 0.5 * start, 0.0, 0.7 * end, end - 0.03, end - 0.01,
                        end + 0.02, end + 0.08}) {
     const PairContact contact = pair.contact(phase);
@@ -263,22 +263,18 @@ TEST_CASE("the gap's slope and curvature at the touching point, on the line of a
     // (arc / radius of curvature)^2.
     const ToothGeometry& driver = pair.gear(0);
     const double arc = driver.arc_length(driver.tip_roll_angle()) - driver.arc_length(contact.roll[0]);
-    if (std::isfinite(pair.tip_distance(contact, 0)) && !contact.corner) {
+    if (std::isfinite(pair.edge_distance(contact, 0)) && !contact.corner) {
       const double bend = arc / (driver.base_radius() * contact.roll[0]);
-      CHECK(pair.tip_distance(contact, 0) == relative(arc * (1 - bend * bend / 6), bend * bend * bend));
-      ++tip_distances;
+      CHECK(pair.edge_distance(contact, 0) == relative(arc * (1 - bend * bend / 6), bend * bend * bend));
+      ++edge_distances;
     }
-    if (contact.corner) CHECK(pair.tip_distance(contact, contact.tip_gear) < 1e-15);
+    if (contact.corner) CHECK(pair.edge_distance(contact, contact.end()) < 1e-15);
   }
-  CHECK(tip_distances >= 2);
+  CHECK(edge_distances >= 2);
 }
 
 TEST_CASE("gears that cannot exist are rejected with the reason") {
   GearDesign d = paper_gear();
-  d.teeth = 10;
-  d.bore_radius = 5e-3;
-  CHECK(rejection(d).find("undercut") != std::string::npos);
-  d = paper_gear();
   d.addendum = 4;
   CHECK(rejection(d).find("tip thickness") != std::string::npos);
   d = paper_gear();

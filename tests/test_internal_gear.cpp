@@ -180,7 +180,7 @@ TEST_CASE("internal mesh: relative curvature is the difference, and the second d
       CHECK(std::abs(pair.gap_at(contact, 0).gap) < 1e-18);
     }
     CHECK(pair.largest_relative_curvature_radius() >= largest);
-    CHECK(std::isfinite(pair.tip_distance(pair.contact(0.8), 0)));
+    CHECK(std::isfinite(pair.edge_distance(pair.contact(0.8), 0)));
   }
 }
 

@@ -213,8 +213,8 @@ TEST_CASE(
       const double modulus = 0.5 * kSteel.youngs_modulus;  // plane stress, as the bodies
       const double load = s.tooth_load(i, j) / width,
                    half_width = std::sqrt(4 * load * radius / (kPi * modulus));
-      const double edge = std::min(pair.tip_distance(pair.contact(s.mesh_phase[i] + s.pair[j]), 0),
-                                   pair.tip_distance(pair.contact(s.mesh_phase[i] + s.pair[j]), 1));
+      const double edge = std::min(pair.edge_distance(pair.contact(s.mesh_phase[i] + s.pair[j]), 0),
+                                   pair.edge_distance(pair.contact(s.mesh_phase[i] + s.pair[j]), 1));
       if (edge < 3 * half_width) continue;
       ++inside;
       CHECK(s.contact_half_width(i, j) == relative(half_width, 0.02));

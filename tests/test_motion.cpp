@@ -132,7 +132,7 @@ TEST_CASE("contact pressure and half-width follow Hertz inside the flanks, and a
         // edge the tooth is no half-plane: the contact is narrower by 1.3 % of (a / distance)^2, the same with
         // 60 strips, 0.2 mm elements and 48 flank points.
         const PairContact contact = pair.contact(phase);
-        const double edge = a / std::min(pair.tip_distance(contact, 0), pair.tip_distance(contact, 1));
+        const double edge = a / std::min(pair.edge_distance(contact, 0), pair.edge_distance(contact, 1));
         const double allowed = 0.022 + 0.014 * edge * edge;
         CHECK(result.contact_half_width(i, j) == relative(a, allowed));
         CHECK(result.contact_pressure(i, j) == relative(2 * force / (kPi * a * width), allowed));
@@ -244,7 +244,7 @@ TEST_CASE(
           const PairContact contact = pair.contact(phase);
           const double shared = std::sqrt(4 * torque / rb / width * pair.relative_curvature_radius(contact) /
                                           (kPi * body.material.youngs_modulus));
-          near_edge |= std::min(pair.tip_distance(contact, 0), pair.tip_distance(contact, 1)) < shared;
+          near_edge |= std::min(pair.edge_distance(contact, 0), pair.edge_distance(contact, 1)) < shared;
         }
         if (at.contact_half_width(i, j) == 0) continue;
         REQUIRE_FALSE(pair.contact(phase).corner);

@@ -715,9 +715,9 @@ TEST_CASE("what only the geometry rejects is named with the line of its key, thr
                "x.toml:11: [gear.wheel]: total_inertia_kgm2 = 0.001 lies below"));
   CHECK(starts(rejected(scene_with("total_inertia_kgm2 = 0.0148", "total_inertia_kgm2 = 0.001")),
                "x.toml:7: [gear.pinion]: total_inertia_kgm2 = 0.001 lies below"));
-  // Undercut by keys that are left out: the line of what is there.
-  CHECK(
-      starts(rejected(scene_with("teeth = 50", "teeth = 8")), "x.toml:2: [gear.pinion]: the rack undercuts"));
+  // Undercut is remarked, and 8 teeth have a root below the bore.
+  CHECK(starts(rejected(scene_with("teeth = 50", "teeth = 8")),
+               "x.toml:6: [gear.pinion]: bore_radius_mm = 40"));
   CHECK(starts(rejected(scene_with("centre_distance_mm = 150", "centre_distance_mm = 149"), false),
                "x.toml: [[mesh]]: the gears jam"));
 

@@ -40,19 +40,19 @@ PairStrips make_strips(const GearPair& gears, int pair, const PairContact& conta
   PairStrips s;
   s.pair = pair;
   s.contact = contact;
-  // Which end of the flanks is a tip edge: the driver's at x_max or the driven gear's at x_min. The other
-  // limits are the roots, where strips must not carry force.
+  // Which end of the flanks is an edge: the driver's tip at x_max, the driven gear's at x_min, or where the other flank is undercut.
+  // The other limits are the roots, where strips must not carry force.
   const int n = range.strips;
   const double offset = 0.5 * range.half_zone / n;  // a quarter strip
   const double centre = range.follows ? gears.nearest(contact, deviation) : 0;
   double low = centre + offset - range.half_zone, high = centre + offset + range.half_zone;
   if (low <= contact.x_min) {
     low = contact.x_min;
-    s.low_is_edge = std::isfinite(gears.tip_distance(contact, 1));
+    s.low_is_edge = std::isfinite(gears.edge_distance(contact, 1));
   }
   if (high >= contact.x_max) {
     high = contact.x_max;
-    s.high_is_edge = std::isfinite(gears.tip_distance(contact, 0));
+    s.high_is_edge = std::isfinite(gears.edge_distance(contact, 0));
   }
   s.border = strip_borders(low, high, s.low_is_edge ? 1 - (centre - low) / (range.half_zone - offset) : 0,
                            s.high_is_edge ? 1 - (high - centre) / (range.half_zone + offset) : 0, n);

@@ -26,8 +26,9 @@ double least_body_inertia(const ToothGeometry& tooth, const Material& material) 
   const GearDesign& design = tooth.design();
   const double root = tooth.root_radius(), tip = tooth.tip_radius(), held = design.held_radius();
   const double form = tooth.base_radius() * std::hypot(1.0, tooth.form_roll_angle());
-  // Towards the root a tooth only widens from the involute on.
+  // Towards the root a tooth that is not undercut only widens from the involute on.
   const auto angle = [&](double r) {
+    if (tooth.undercut() > 0) return 2 * tooth.half_span(r);
     const double within = tooth.internal() ? std::min(r, form) : std::max(r, form);
     return tooth.thickness_at_radius(within) / within;
   };

@@ -18,26 +18,12 @@ double tangent_angle(const ToothGeometry& gear, double t) {
   return std::atan2(-along.x(), -along.y());
 }
 
-// rad: half the angle that the material of a tooth spans at a radius; half a pitch below the root circle.
-double half_span(const ToothGeometry& gear, double radius) {
-  if (radius <= gear.root_radius()) return std::numbers::pi / gear.design().teeth;
-  if (radius >= gear.flank_point(gear.form_roll_angle()).norm())
-    return 0.5 * gear.thickness_at_radius(radius) / radius;
-  double high = 0, low = gear.root_corner();
-  for (int i = 0; i < 60; ++i) {
-    const double t = 0.5 * (high + low);
-    (gear.root_point(t).norm() > radius ? high : low) = t;
-  }
-  const Vec2 p = gear.root_point(low);
-  return std::atan2(-p.x(), p.y());
-}
-
 // Where a point lies that is not in the tooth; empty if it is.
 std::string outside(const ToothGeometry& gear, const Vec2& p) {
   const double radius = p.norm();
   if (radius < gear.design().bore_radius) return "the bore";
   if (radius > gear.tip_radius()) return "the tip";
-  if (std::atan2(std::abs(p.x()), p.y()) <= half_span(gear, radius)) return "";
+  if (std::atan2(std::abs(p.x()), p.y()) <= gear.half_span(radius)) return "";
   if (radius <= gear.root_radius()) return "the sector of the next tooth";
   return p.x() > 0 ? "the other side of the tooth" : "the side that it starts from";
 }

@@ -54,22 +54,44 @@ void ToothGeometry::cut_by_rack() {
   // The straight part of the rack ends at this depth; what it cuts there is the lowest involute point.
   const double straight_depth = tip_centre_depth_ + tool_radius_ * std::sin(alpha);
   const double form_curvature = rp_ * std::sin(alpha) - straight_depth / std::sin(alpha);
-  if (form_curvature <= 0)
-    fail(Failure::input, "the rack undercuts the flank: with teeth = ", design.teeth,
-         " and profile_shift = ", x, " it reaches ", millimetres(-form_curvature),
-         " beyond the base circle's tangent point; raise profile_shift or teeth, or lower dedendum");
+  trochoid_end_ = 0.5 * kPi - alpha;
   xi_form_ = form_curvature / rb_;
+  if (form_curvature < 0) {
+    undercut_ = -form_curvature;
+    undercut_flank();
+  }
   if (xi_form_ >= xi_tip_)
     fail(Failure::input, "no involute is left: the root ends at radius ",
          millimetres(rb_ * std::sqrt(1 + xi_form_ * xi_form_)), ", the tip is at ", millimetres(ra_),
-         "; raise addendum or lower dedendum");
+         undercut_ > 0
+             ? "; the rack undercuts the whole flank: raise profile_shift or teeth, or lower dedendum"
+             : "; raise addendum or lower dedendum");
 
   double length = 0;
   constexpr int kPieces = 200;
-  const double end = 0.5 * kPi - alpha;
   for (int i = 0; i < kPieces; ++i)
-    length += (trochoid(end * (i + 1) / kPieces) - trochoid(end * i / kPieces)).norm();
+    length += (trochoid(trochoid_end_ * (i + 1) / kPieces) - trochoid(trochoid_end_ * i / kPieces)).norm();
   t_arc_ = length / (length + rf_ * tip_centre_side_ / rp_);
+}
+
+// The trochoid starts inside the tooth and leaves it through the involute, once: at its end it touches the involute's other
+// branch, which lies in the space. Its radius grows on the way.
+void ToothGeometry::undercut_flank() {
+  const auto in_tooth = [&](double angle) {
+    const Vec2 p = trochoid(angle);
+    const double r = p.norm();
+    return r <= rb_ || std::atan2(-p.x(), p.y()) <= 0.5 * thickness_at_radius(r) / r;
+  };
+  double low = 0, high = trochoid_end_;
+  for (double middle = 0.5 * high; middle > low && middle < high; middle = 0.5 * (low + high))
+    (in_tooth(middle) ? low : high) = middle;
+  trochoid_end_ = high;
+  const Vec2 edge = trochoid(high);
+  xi_form_ = roll_angle_at_radius(std::max(edge.norm(), rb_));
+  const double miss = (flank_point(xi_form_) - edge).norm();
+  if (!(miss <= 1e-14 * ra_))
+    fail(Failure::numerical, "the trochoid of the undercut tooth meets its involute with an error of ", miss,
+         " m, at most ", 1e-14 * ra_, " m is allowed");
 }
 
 void ToothGeometry::round_root_of_ring() {
@@ -102,10 +124,20 @@ void ToothGeometry::require_body() const {
     if (design_.rim_outer_radius <= rf_)
       fail(Failure::input, "rim_outer_radius_mm = ", shown_number(design_.rim_outer_radius * 1e3),
            " is not above the root radius of the internal gear, ", millimetres(rf_), "; raise it");
+  } else if (undercut_ > 0 && !(neck() > 0)) {
+    fail(Failure::input, "the rack cuts the tooth off: with teeth = ", design_.teeth,
+         " and profile_shift = ", shown_number(design_.profile_shift),
+         " its undercuts meet (width of the neck ", millimetres(neck()),
+         "); raise profile_shift or teeth, or lower dedendum");
   } else if (design_.bore_radius >= rf_) {
     fail(Failure::input, "bore_radius_mm = ", shown_number(design_.bore_radius * 1e3),
          " is not below the root radius ", millimetres(rf_), "; lower it");
   }
+}
+
+double shift_without_undercut(const GearDesign& design) {
+  const double sine = std::sin(design.pressure_angle);
+  return design.dedendum - design.rack_tip_radius * (1 - sine) - 0.5 * design.teeth * sine * sine;
 }
 
 double ToothGeometry::roll_angle_at_radius(double r) const {
@@ -118,6 +150,25 @@ double ToothGeometry::roll_angle_at_radius(double r) const {
 double ToothGeometry::thickness_at_radius(double r) const {
   const double xi = roll_angle_at_radius(r);
   return 2 * r * (half_base_ - outwards() * (xi - std::atan(xi)));
+}
+
+double ToothGeometry::half_span(double r) const {
+  if (r <= rf_) return kPi / design_.teeth;
+  if (r >= rb_ * std::hypot(1.0, xi_form_)) return 0.5 * thickness_at_radius(r) / r;
+  double low = 0, high = trochoid_end_;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (trochoid(middle).norm() < r ? low : high) = middle;
+  }
+  const Vec2 p = trochoid(0.5 * (low + high));
+  return std::atan2(-p.x(), p.y());
+}
+
+double ToothGeometry::neck() const {
+  constexpr int kPieces = 1000;
+  double least = 2 * std::abs(flank_point(xi_form_).x());
+  for (int i = 0; i <= kPieces; ++i) least = std::min(least, -2 * trochoid(trochoid_end_ * i / kPieces).x());
+  return least;
 }
 
 Vec2 ToothGeometry::flank_point(double xi) const {
@@ -151,8 +202,7 @@ Vec2 ToothGeometry::root_point(double t) const {
     const double land = 0.5 * kPi + kPi / design_.teeth - fillet_angle_;
     return polar(rf_, fillet_angle_ + land * (t - t_arc_) / (1 - t_arc_));
   }
-  const double end = 0.5 * kPi - design_.pressure_angle;
-  if (t <= t_arc_) return trochoid(end * (1 - t / t_arc_));
+  if (t <= t_arc_) return trochoid(trochoid_end_ * (1 - t / t_arc_));
   const double from_space = tip_centre_side_ / rp_ * (1 - t) / (1 - t_arc_);
   return polar(rf_, 0.5 * kPi + kPi / design_.teeth - from_space);
 }

@@ -10,6 +10,7 @@
 #include "base/units.h"
 #include "gear/internal_mesh.h"
 #include "gear/numbers.h"
+#include "gear/undercut.h"
 
 namespace whine {
 
@@ -50,6 +51,12 @@ GearPair::GearPair(const GearDesign& driver, const GearDesign& driven, double ce
   const double tangent = std::tan(alpha_);
   path_end_ = along_[0] * rb1 * (a.tip_roll_angle() - tangent);
   path_start_ = along_[1] * rb2 * (b.tip_roll_angle() - tangent);
+  const double first = along_[0] * rb1 * (a.form_roll_angle() - tangent),
+               last = along_[1] * rb2 * (b.form_roll_angle() - tangent);
+  if (a.undercut() > 0) path_lost_[0] = std::max(0.0, first - path_start_);
+  if (b.undercut() > 0) path_lost_[1] = std::max(0.0, path_end_ - last);
+  if (path_lost_[0] > 0) path_start_ = first;
+  if (path_lost_[1] > 0) path_end_ = last;
 
   // Backlash on the working pitch circles, whose arcs and pitch share the ratio of the teeth.
   const double rw1 = rb1 / cosine, rw2 = rb2 / cosine;
@@ -109,11 +116,21 @@ void GearPair::require_no_interference() const {
            millimetres(-clearance), " inside the root of the ", kGearName[1 - g],
            "; lower its addendum or raise the other's dedendum");
   }
+  const double lost = path_lost_[0] + path_lost_[1];
   if (contact_ratio() < 1)
     fail(Failure::input, "the contact ratio is ", shown_number(contact_ratio()),
-         ", below 1: teeth would leave before the next ones touch; raise addendum or ",
-         internal() ? "raise" : "lower", " centre_distance_mm");
+         lost > 0 ? text(" (undercut takes ", shown_number(lost / base_pitch()), ")") : "",
+         ", below 1: teeth would leave before the next ones touch; raise ",
+         lost > 0 ? "profile_shift of what is undercut" : "addendum", " or ", internal() ? "raise" : "lower",
+         " centre_distance_mm");
   for (int g = 0; g < kSides; ++g) {
+    if (gear_[g].undercut() > 0) {
+      if (const double clearance = undercut_clearance(*this, g); clearance < 0)
+        fail(Failure::input, "the gears jam (fillet interference): the tip of the ", kGearName[1 - g],
+             " runs ", millimetres(-clearance), " into the undercut root of the ", kGearName[g],
+             "; lower its addendum or raise the other's dedendum");
+      continue;
+    }
     const double roll = nominal_roll(g, g == 0 ? path_start_ : path_end_), form = gear_[g].form_roll_angle();
     const bool ring = gear_[g].internal();
     if (ring ? roll <= form : roll >= form) continue;
@@ -175,49 +192,85 @@ Vec2 GearPair::flank_in_nominal_frame(int g, double nominal, double roll) const 
   return along_[static_cast<size_t>(g)] > 0 ? own : Vec2(-own);  // looks the other way
 }
 
+bool GearPair::in_reach(double phase) const {
+  const double path = phase * base_pitch();
+  for (int g = 0; g < kSides; ++g)
+    if (nominal_roll(g, path) <= 0 && !(gear_[g].undercut() > 0 && nominal_roll(1 - g, path) > 0))
+      return false;
+  return true;
+}
+
+// The edge of gear `tip`, that of its tip or of its undercut flank, on the flank of the other gear, off the line of action. passing:
+// where it stands just beyond that flank's tip edge, the normal is that of the flank there.
+PairContact GearPair::on_edge(const std::array<double, 2>& nominal, int tip, bool undercut,
+                              bool passing) const {
+  constexpr double kPassing = 0.01;  // rad
+  PairContact c;
+  const int flank = 1 - tip;
+  const double rb[2] = {gear_[0].base_radius(), gear_[1].base_radius()};
+  c.nominal = c.roll = nominal;
+  c.lever = {rb[0], rb[1]};
+  c.corner = true;
+  c.tip_gear = tip;
+  c.undercut = undercut;
+  c.roll[tip] = undercut ? gear_[tip].form_roll_angle() : gear_[tip].tip_roll_angle();
+  // The edge as the touched gear sees it: radial and string coordinates about its centre, its own frame.
+  const Vec2 own = own_frame(rb[tip], c.nominal[tip], c.roll[tip]);
+  const Vec2 edge = internal() ? own : Vec2(-own);
+  const double radial = rb[flank] + edge.x(), along = rb[flank] * c.nominal[flank] + edge.y();
+  // The flank's normal through the edge is the tangent from it to the base circle: closed form, no
+  // iteration. With the touched gear's frame turned by d: t = string length from the base circle to the
+  // edge.
+  const double squared = (edge.x() + 2 * rb[flank]) * edge.x() + along * along;  // r^2 - r_b^2
+  if (squared <= 0) {
+    c.on_flank = false;
+    c.gap = std::numeric_limits<double>::infinity();
+    return c;
+  }
+  const double string = std::sqrt(squared);
+  // d = atan(t / r_b) - atan(along / radial), as one arctangent: the two are nearly equal.
+  double d = std::atan2(string * radial - along * rb[flank], rb[flank] * radial + string * along);
+  c.roll[flank] = c.nominal[flank] + d;
+  c.gap = gear_[flank].outwards() * (string - rb[flank] * c.roll[flank]);
+  if (const double beyond = gear_[flank].outwards() * (c.roll[flank] - gear_[flank].tip_roll_angle());
+      passing && beyond > 0 && beyond < kPassing) {
+    c.roll[flank] = gear_[flank].tip_roll_angle();
+    d = c.roll[flank] - c.nominal[flank];
+    c.gap = gear_[flank].outwards() *
+            rotated(edge - own_frame(rb[flank], c.nominal[flank], c.roll[flank]), d).y();
+  }
+  c.on_flank =
+      c.roll[flank] >= gear_[flank].least_roll_angle() && c.roll[flank] <= gear_[flank].largest_roll_angle();
+  c.tilt = d;  // the same sign for either gear: both look along their own outward normal
+  c.origin = flank_in_nominal_frame(flank, c.nominal[flank], c.roll[flank]);
+  c.normal_angle = std::abs((c.roll[tip] - c.nominal[tip]) - d);
+  // Lever arm of the tip gear: its centre stands at (-r_b, -r_b xi) of its own nominal frame.
+  const Vec2 arm = own + Vec2(rb[tip], rb[tip] * c.nominal[tip]);
+  c.lever[tip] = arm.x() * std::cos(d) - arm.y() * std::sin(d);
+  return c;
+}
+
 PairContact GearPair::contact(double phase) const {
   PairContact c;
   const double path = phase * base_pitch();
-  const double rb[2] = {gear_[0].base_radius(), gear_[1].base_radius()};
   c.nominal = {nominal_roll(0, path), nominal_roll(1, path)};
-  if (c.nominal[0] <= 0 || c.nominal[1] <= 0)
+  if (!in_reach(phase))
     fail(Failure::numerical, "a contact ", millimetres(path),
          " from the pitch point lies beyond the base circles");
   c.roll = c.nominal;
-  c.lever = {rb[0], rb[1]};
+  c.lever = {gear_[0].base_radius(), gear_[1].base_radius()};
 
   const bool past_end = path > path_end_, before_start = path < path_start_;
   if (past_end || before_start) {
-    c.corner = true;
-    c.tip_gear = past_end ? 0 : 1;
-    const int tip = c.tip_gear, flank = 1 - tip;
-    c.roll[tip] = gear_[tip].tip_roll_angle();
-    // Tip edge as the touched gear sees it: radial and string coordinates about its centre, its own frame.
-    const Vec2 own = own_frame(rb[tip], c.nominal[tip], c.roll[tip]);
-    const Vec2 edge = internal() ? own : Vec2(-own);
-    const double radial = rb[flank] + edge.x(), along = rb[flank] * c.nominal[flank] + edge.y();
-    // The flank's normal through the edge is the tangent from it to the base circle: closed form, no
-    // iteration. With the touched gear's frame turned by d: t = string length from the base circle to the
-    // edge.
-    const double squared = (edge.x() + 2 * rb[flank]) * edge.x() + along * along;  // r^2 - r_b^2
-    if (squared <= 0) {
-      c.on_flank = false;
-      c.gap = std::numeric_limits<double>::infinity();
-      return c;
+    const int tip = past_end ? 0 : 1;
+    c = on_edge(c.nominal, tip, false);
+    if (gear_[1 - tip].undercut() > 0) {
+      // What touches first; for a moment, as one edge passes the other, neither stands over a flank.
+      PairContact edge = on_edge(c.nominal, 1 - tip, true);
+      if (!c.on_flank && !edge.on_flank) edge = on_edge(c.nominal, 1 - tip, true, true);
+      if (edge.on_flank && !(c.on_flank && c.gap <= edge.gap)) c = edge;
     }
-    const double string = std::sqrt(squared);
-    // d = atan(t / r_b) - atan(along / radial), as one arctangent: the two are nearly equal.
-    const double d = std::atan2(string * radial - along * rb[flank], rb[flank] * radial + string * along);
-    c.roll[flank] = c.nominal[flank] + d;
-    c.gap = gear_[flank].outwards() * (string - rb[flank] * c.roll[flank]);
-    c.on_flank = c.roll[flank] >= gear_[flank].least_roll_angle() &&
-                 c.roll[flank] <= gear_[flank].largest_roll_angle();
-    c.tilt = d;  // the same sign for either gear: both look along their own outward normal
-    c.origin = flank_in_nominal_frame(flank, c.nominal[flank], c.roll[flank]);
-    c.normal_angle = std::abs((c.roll[tip] - c.nominal[tip]) - d);
-    // Lever arm of the tip gear: its centre stands at (-r_b, -r_b xi) of its own nominal frame.
-    const Vec2 arm = own + Vec2(rb[tip], rb[tip] * c.nominal[tip]);
-    c.lever[tip] = arm.x() * std::cos(d) - arm.y() * std::sin(d);
+    if (!std::isfinite(c.gap)) return c;
   }
 
   const auto tangential = [&](int g, double roll) {
@@ -308,10 +361,19 @@ double GearPair::nearest(const PairContact& c, const PairDeviation& deviation) c
   return x;
 }
 
-double GearPair::tip_distance(const PairContact& c, int g) const {
-  const double end = g == 0 ? c.x_max : c.x_min;
-  const bool is_tip = std::abs(roll_at(g, c, end) - gear_[g].tip_roll_angle()) < 1e-9;
-  return is_tip ? std::abs(end) : std::numeric_limits<double>::infinity();
+bool GearPair::ends_at(const PairContact& c, int end, int g, double roll) const {
+  return std::abs(roll_at(g, c, end == 0 ? c.x_max : c.x_min) - roll) < 1e-9;
+}
+
+double GearPair::edge_distance(const PairContact& c, int end) const {
+  const ToothGeometry& other = gear_[1 - end];
+  const bool edge = ends_at(c, end, end, gear_[end].tip_roll_angle()) ||
+                    (other.undercut() > 0 && ends_at(c, end, 1 - end, other.form_roll_angle()));
+  return edge ? std::abs(end == 0 ? c.x_max : c.x_min) : std::numeric_limits<double>::infinity();
+}
+
+int GearPair::edge_gear(const PairContact& c, int end) const {
+  return ends_at(c, end, end, gear_[end].tip_roll_angle()) ? end : 1 - end;
 }
 
 Vec2 Placement::operator()(const Vec2& p) const {

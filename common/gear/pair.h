@@ -3,7 +3,8 @@
 // Both gears' driving flanks lead in counter-clockwise rotation, so one construction serves both. Lengths
 // along the line of action are counted from the pitch point in the direction of motion; a pair at phase f (in
 // mesh periods from the pitch point) touches at f base pitches. Off the path of contact the tip edge of one
-// gear can still touch the flank of the other ("corner contact").
+// gear can still touch the flank of the other ("corner contact"). A flank that is undercut begins with an edge, too: where the
+// other gear's tip reaches below it, the path of contact begins or ends at that edge.
 //
 // One of the two may be an internal gear, the ring; the other one, the pinion, then lies in it. Both turn counter-clockwise, the
 // ring works with its leading flanks where it drives and with its trailing ones where it is driven, and as its teeth are their
@@ -22,8 +23,9 @@ namespace whine {
 // Gear 0 is the driver, gear 1 the driven gear.
 // One pair of teeth at one phase, both gears in their unloaded conjugate positions.
 struct PairContact {
-  bool corner = false;      // a tip edge off the line of action
-  int tip_gear = 0;         // whose tip edge touches, if corner
+  bool corner = false;      // an edge off the line of action
+  int tip_gear = 0;         // whose edge touches, if corner: its tip edge
+  bool undercut = false;    // or that at which its flank, undercut, begins
   bool on_flank = true;     // false: the touched point lies beyond the involute (in the root or past the tip)
   double gap = 0;           // m, separation of the nominal points along the contact normal
   double normal_angle = 0;  // rad between the two flanks' normals (0 on the line of action)
@@ -33,7 +35,10 @@ struct PairContact {
   // Frame of the contact in the frame of the nominal point: origin and direction of the normal.
   Vec2 origin = Vec2::Zero();
   double tilt = 0;                  // rad
-  std::array<double, 2> nominal{};  // rad, nominal roll angles (may lie beyond a tip)
+  std::array<double, 2> nominal{};  // rad, nominal roll angles (may lie beyond an edge)
+
+  // At which end of the flanks' common range the edge stands, if corner: 0 at x_max, 1 at x_min.
+  int end() const { return undercut ? 1 - tip_gear : tip_gear; }
 };
 
 // A point on each flank at the same tangential coordinate.
@@ -45,7 +50,7 @@ struct FlankGap {
 class GearPair {
  public:
   // Throws Error(input) if the pair does not reach, jams (backlash below -1 micrometre, tip in root, tip
-  // beyond the other's involute), has unequal base pitches or a contact ratio below 1; of an internal pair also for two rings,
+  // beyond the other's involute, tip in an undercut root), has unequal base pitches or a contact ratio below 1; of an internal pair also for two rings,
   // a ring that has no more teeth than its pinion, and tips that run into each other beside the mesh (trochoid
   // interference).
   GearPair(const GearDesign& driver, const GearDesign& driven, double centre_distance);
@@ -68,7 +73,10 @@ class GearPair {
   double contact_ratio() const { return (path_end_ - path_start_) / base_pitch(); }
   double path_start() const { return path_start_; }  // m, driven gear's tip comes into contact (negative)
   double path_end() const { return path_end_; }      // m, driver's tip leaves
-  double backlash() const { return backlash_; }      // m along the line of action, both gears unloaded
+  // m: by how much the undercut of gear g shortens the path of contact, at its start that of the driver, at its end that of the
+  // driven gear.
+  double path_lost(int g) const { return path_lost_[static_cast<size_t>(g)]; }
+  double backlash() const { return backlash_; }  // m along the line of action, both gears unloaded
   double relative_curvature_radius(
       double path) const;  // m, rho1 rho2 / (rho1 + rho2), of a ring / (rho2 - rho1)
   double largest_relative_curvature_radius() const;  // m, on the path of contact
@@ -81,8 +89,10 @@ class GearPair {
   // cos^3 psi). The slope tan psi itself, and the tooth that ends at the edge, are no part of it.
   double relative_curvature_radius(const PairContact& contact) const;
 
-  // phase: mesh periods from the pitch point, any value for which the nominal point lies between the base
-  // circles' tangent points (throws Error(numerical) beyond).
+  // Whether the flanks of a pair at this phase can touch: the nominal point lies between the base circles' tangent points, or
+  // beyond that of a gear that is undercut, where edges touch.
+  bool in_reach(double phase) const;
+  // phase: mesh periods from the pitch point, any value that is in reach (throws Error(numerical) beyond).
   PairContact contact(double phase) const;
 
   // x: m, tangential coordinate of the contact frame, growing to the driver's tip (of a ring: inwards), 0 at the nominal touching
@@ -100,20 +110,26 @@ class GearPair {
   // range apart in which it can be least, either may be taken.
   double nearest(const PairContact& contact, const PairDeviation& deviation) const;
 
-  // m, >= 0: from the nominal touching point to gear g's tip edge, the driver's at x_max, the driven gear's at x_min;
-  // infinity if the flanks' common range ends before it.
-  double tip_distance(const PairContact& contact, int g) const;
+  // m, >= 0: from the nominal touching point to the edge at an end of the flanks' common range, 0 x_max, where the driver's tip edge
+  // or that of a driven flank that is undercut stands, 1 x_min, the other way round; infinity if it ends at a root.
+  double edge_distance(const PairContact& contact, int end) const;
+  // Whose edge stands there.
+  int edge_gear(const PairContact& contact, int end) const;
 
  private:
   void require_reach() const;
   void require_no_interference() const;
   double signed_curvature(int g, double radius) const;  // m-1: of a flank with this radius of curvature (m)
+  bool ends_at(const PairContact& contact, int end, int g, double roll) const;
+  PairContact on_edge(const std::array<double, 2>& nominal, int tip, bool undercut,
+                      bool passing = false) const;
   Vec2 flank_in_nominal_frame(int g, double nominal, double roll) const;
   double roll_at(int g, const PairContact& contact, double x) const;
   std::array<ToothGeometry, 2> gear_;
   int ring_;                  // -1: none
   std::array<int, 2> along_;  // see rolls_outwards()
   double centre_distance_, alpha_, path_start_, path_end_, backlash_;
+  std::array<double, 2> path_lost_{};
 };
 
 // Where a gear stands: its body frame is turned counter-clockwise by angle, then moved to centre.

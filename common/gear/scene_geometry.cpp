@@ -1,5 +1,6 @@
 #include "gear/scene_geometry.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "gear/crack.h"
 #include "gear/numbers.h"
 #include "gear/pair.h"
+#include "gear/undercut.h"
 
 namespace whine {
 namespace {
@@ -92,12 +94,29 @@ std::string flywheel(const GearDesign& design, const Material& material, double 
               " times that of the gear as drawn, ", shown_number(own), "; check its unit, kg m2");
 }
 
+namespace {
+
+template <class AnyScene>
+void add_shortened_path(const AnyScene& scene, const GearMeshSpec& mesh, const ScenePlace& where,
+                        std::vector<std::string>& out) {
+  const auto design = [&](int g) {
+    return std::find_if(scene.gears.begin(), scene.gears.end(),
+                        [&](const auto& gear) { return gear.name == mesh.gear[static_cast<size_t>(g)]; })
+        ->design;
+  };
+  const std::string words = shortened_path_words({design(0), design(1), mesh.centre_distance}, mesh.gear);
+  if (!words.empty()) out.push_back(where({"mesh"}, words) + ": " + words);
+}
+
+}  // namespace
+
 std::vector<std::string> scene_warnings(const Scene& scene, const ScenePlace& where) {
   std::vector<std::string> out;
   for (const SceneGear& gear : scene.gears)
-    for (const std::string& words : {thin_rim(gear.design, gear.name),
+    for (const std::string& words : {undercut_words(gear.design, gear.name), thin_rim(gear.design, gear.name),
                                      flywheel(gear.design, gear.material, gear.total_inertia, gear.name)})
       if (!words.empty()) out.push_back(where({"gear." + gear.name}, words) + ": " + words);
+  add_shortened_path(scene, scene.mesh, where, out);
   const double eta = scene.damping.rayleigh_stiffness, highest = scene.operation.frequency_to,
                ratio = std::numbers::pi * highest * eta;
   if (ratio > 1) {
@@ -112,9 +131,12 @@ std::vector<std::string> scene_warnings(const Scene& scene, const ScenePlace& wh
 
 std::vector<std::string> scene_warnings(const SystemScene& scene, const ScenePlace& where) {
   std::vector<std::string> out;
+  if (scene.rigid()) return out;
   for (const SystemScene::Gear& gear : scene.gears)
-    if (const std::string words = scene.rigid() ? "" : thin_rim(gear.design, gear.name); !words.empty())
-      out.push_back(where({"gear." + gear.name}, words) + ": " + words);
+    for (const std::string& words :
+         {undercut_words(gear.design, gear.name), thin_rim(gear.design, gear.name)})
+      if (!words.empty()) out.push_back(where({"gear." + gear.name}, words) + ": " + words);
+  for (const SystemScene::Mesh& mesh : scene.meshes) add_shortened_path(scene, mesh.spec, where, out);
   return out;
 }
 

@@ -24,10 +24,11 @@ void check_system_geometry(const SystemScene& scene, const ScenePlace& where);
 void check_inertia(const Scene& scene, const ScenePlace& where);
 void check_inertia(const SystemScene& scene, const ScenePlace& where);  // of elastic gears
 
-// What a scene may mean but hardly does, each with its place before it: thin rims, inertias of flywheels. Nothing is computed for it.
+// What a scene may mean but hardly does, each with its place before it: thin rims, inertias of flywheels, undercut and what it takes
+// of the path of contact. Nothing is computed for it.
 std::vector<std::string> scene_warnings(const Scene& scene, const ScenePlace& where);
 std::vector<std::string> scene_warnings(const SystemScene& scene,
-                                        const ScenePlace& where);  // thin rims of elastic gears
+                                        const ScenePlace& where);  // thin rims and undercut of elastic gears
 
 // Less than a module between the bore and the root circle of [gear.<name>], in words; "" if there is more.
 std::string thin_rim(const GearDesign& design, const std::string& name);

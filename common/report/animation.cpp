@@ -246,10 +246,7 @@ class Pictures {
 // Only displacements are magnified. A pair that is micrometres apart would be drawn as if it had run into each other: its
 // gap is magnified, too, as far as that takes.
 double Pictures::lean(double phase, int number) const {
-  const double path = (phase + number) * pair_.base_pitch(),
-               tangent = std::tan(pair_.working_pressure_angle());
-  if (tangent + path / pair_.gear(0).base_radius() <= 0 || tangent - path / pair_.gear(1).base_radius() <= 0)
-    return 0.0;
+  if (!pair_.in_reach(phase + number)) return 0.0;
   const PairContact contact = pair_.contact(phase + number);
   if (!(contact.gap > 0) || !contact.on_flank) return 0.0;
   return 0.5 * std::min((magnified_ - 1) * contact.gap,

@@ -35,9 +35,11 @@ std::array<double, kSides> edge_load_at_rest(const StaticArtifact& s) {
     for (Index j = 0; j < s.tooth_load.cols(); ++j) {
       if (!(s.tooth_load(i, j) > 0) || s.contact_pressure(i, j) > 0) continue;
       const PairContact contact = gears.contact(s.mesh_phase[i] - std::floor(s.mesh_phase[i]) + s.pair[j]);
-      const int g = contact.corner                                                    ? contact.tip_gear
-                    : gears.tip_distance(contact, 0) < gears.tip_distance(contact, 1) ? 0
-                                                                                      : 1;
+      const int g =
+          contact.corner
+              ? contact.tip_gear
+              : gears.edge_gear(contact,
+                                gears.edge_distance(contact, 0) < gears.edge_distance(contact, 1) ? 0 : 1);
       double& load = most[static_cast<size_t>(g)];
       load = std::max(load, s.tooth_load(i, j));
     }

@@ -60,8 +60,8 @@ RootPoints root_points(const ToothGeometry& tooth, int points) {
   for (size_t i = 1; i <= kSteps; ++i) {
     const Vec2 step = at[i] - at[i - 1];
     length[i] = length[i - 1] + step.norm();
-    // Against the centre line, from the tip inwards; of a ring outwards.
-    angle[i] = std::atan2(std::abs(step.x()), -tooth.outwards() * step.y());
+    // Against the centre line, from the tip inwards; of a ring outwards. Above the neck of an undercut tooth it is below 0.
+    angle[i] = std::atan2(-step.x(), -tooth.outwards() * step.y());
     if (i > 1) turn[i] = turn[i - 1] + std::abs(angle[i] - angle[i - 1]);
   }
   angle[0] = angle[1];

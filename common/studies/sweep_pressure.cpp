@@ -45,12 +45,12 @@ struct Hertz {
   double pressure(double load, double curvature) const {
     return std::sqrt(load * modulus / (std::numbers::pi * width * curvature));
   }
-  // Over whose tip edge a pair carries its load (N, above 0): 0 the driver's, 1 the driven gear's; -1: it touches inside its flanks.
+  // Over whose edge a pair carries its load (N, above 0): 0 the driver's, 1 the driven gear's; -1: it touches inside its flanks.
   int edge(const PairContact& contact, double curvature, double load) const {
     if (contact.corner) return contact.tip_gear;
     const double half = std::sqrt(4 * load * curvature / (std::numbers::pi * width * modulus));
-    for (int g = 0; g < kSides; ++g)
-      if (gears.tip_distance(contact, g) < half) return g;
+    for (int end = 0; end < kSides; ++end)
+      if (gears.edge_distance(contact, end) < half) return gears.edge_gear(contact, end);
     return -1;
   }
 };

@@ -99,9 +99,7 @@ PairsInReach pairs_in_reach(const GearMeshModel& model, double phase, double cor
   // More than a contact ratio of 4 and corners could need; the tips of a pinion in a ring stay near its flanks for longer.
   const int farthest = gears.internal() ? 5 : 3;
   for (int pair = -farthest; pair <= farthest; ++pair) {
-    const double path = (phase + pair) * gears.base_pitch();
-    // Beyond the tangent points of the base circles there is no contact of these flanks.
-    if (gears.nominal_roll(0, path) <= 0 || gears.nominal_roll(1, path) <= 0) continue;
+    if (!gears.in_reach(phase + pair)) continue;
     const PairContact contact = gears.contact(phase + pair);
     if (contact.corner) {
       if (!model.corner.enabled || contact.normal_angle > model.corner.largest_angle) continue;
@@ -305,8 +303,8 @@ MeshPosition make_line_position(const GearMeshModel& model, double phase, double
     PairStrips line;
     line.pair = reach.pair[j];
     line.contact = contact;
-    const double tip[2] = {gears.tip_distance(contact, 0), gears.tip_distance(contact, 1)};
-    const int near = contact.corner ? contact.tip_gear : tip[0] < tip[1] ? 0 : 1;
+    const double tip[2] = {gears.edge_distance(contact, 0), gears.edge_distance(contact, 1)};
+    const int near = contact.corner ? contact.end() : tip[0] < tip[1] ? 0 : 1;
     const double half_width =
         std::sqrt(2 * gears.relative_curvature_radius(contact) * pair_force * coefficient);
     const LineGap flanks = line_gap(gears, contact, model.common_flanks(), tip, near, half_width);

@@ -44,11 +44,11 @@ int side_at_root(const GearPair& gears, const MeshPosition& mesh, const VectorXd
     const auto i = static_cast<Eigen::Index>(j);
     if (!(p[i] > 0)) continue;
     const PairContact& contact = mesh.pairs[j].contact;
-    const double width = mesh.law[j].width(p[i]), driver_tip = gears.tip_distance(contact, 0),
-                 driven_tip = gears.tip_distance(contact, 1);
+    const double width = mesh.law[j].width(p[i]), driver_tip = gears.edge_distance(contact, 0),
+                 driven_tip = gears.edge_distance(contact, 1);
     double low = -0.5 * width, high = 0.5 * width;
     if (contact.corner || mesh.law[j].at_edge(p[i])) {
-      const bool driver = contact.corner ? contact.tip_gear == 0 : driver_tip < driven_tip;
+      const bool driver = contact.corner ? contact.end() == 0 : driver_tip < driven_tip;
       const double edge = contact.corner ? 0 : driver ? driver_tip : -driven_tip;
       low = driver ? edge - width : edge;
       high = low + width;

@@ -39,7 +39,7 @@ double tangent_angle(const whine::ToothGeometry& tooth, double t) {
   constexpr double kStep = 1e-3;
   const whine::Vec2 step =
       tooth.root_point(std::min(t + kStep, 1.0)) - tooth.root_point(std::max(t - kStep, 0.0));
-  return std::atan2(std::abs(step.x()), -tooth.outwards() * step.y()) * kDegrees;
+  return std::atan2(-step.x(), -tooth.outwards() * step.y()) * kDegrees;
 }
 
 struct Position {
