@@ -194,10 +194,10 @@ TEST_CASE("REXS: the dedendum of a hob is not the addendum of its gear; tip circ
   CHECK(gear(0).addendum == 1.0);
   CHECK(gear(0).dedendum == 1.25);
   CHECK(says(train_in(folder, box).text.assumed, "gear.sun.addendum = 1.0: ISO 53"));
-  // An assumed height of the ring is one that runs: with 1.0 its tips reach below the involute of the planet.
-  CHECK(gear(2).addendum == doctest::Approx(0.85));
+  // An assumed height of the ring is one that runs, and not just so: with 0.9 its tips reach below the involute of the planet.
+  CHECK(gear(2).addendum == relative(0.8, 1e-12));
   CHECK(says(train_in(folder, box).text.assumed,
-             "with more its tips reach below the involute of the 28 teeth"));
+             "1.0 leaves its tips no room at the 28 teeth that it meshes with"));
   set(box, 10, "tip_diameter", "mm", "55.2");
   set(box, 11, "tip_diameter", "mm", "-185.2");
   for (const int flank : {510, 610}) set(box, flank, "tooth_tip_chamfer", "mm", "0.1");
@@ -260,7 +260,7 @@ TEST_CASE(
   for (const double sign : {1.0, -1.0}) {
     for (const int flank : {511, 611})
       set(ring, flank, "addendum_modification_coefficient", "", std::to_string(sign * shift));
-    CHECK(internal().gears[1].design.profile_shift == doctest::Approx(shift).epsilon(1e-5));
+    CHECK(internal().gears[1].design.profile_shift == relative(shift, 1e-5));
     CHECK(says(scene_in(folder, ring, "60").assumed,
                "with the other sign, which the centre distance needs") == (sign < 0));
   }
@@ -275,6 +275,24 @@ TEST_CASE(
     const GearPair of(train.scene.gears[m].design, train.scene.gears[m + 1].design, 59.8e-3);
     CHECK(std::abs(of.backlash()) < 1e-9);
   }
+}
+
+TEST_CASE("REXS: assumed tips of a pair with large shifts leave the other's root room") {
+  const Folder folder;
+  Gearbox box = first_pair();
+  for (const int flank : {20, 21, 22, 23}) set(box, flank, "addendum_modification_coefficient", "", "0.8");
+  // x1 + x2 = 1.6 moves the axes by 3.55 mm in place of 1.6 modules: 0.18 modules of the clearance are gone.
+  set(box, 12, "center_distance", "mm", "97.3");
+  set(box, 30, "addendum_coefficient_reference_profile", "", "1.05");
+  const Scene scene = read_scene(folder.file("pair.toml", scene_in(folder, box).text));
+  check_geometry(scene, [](const auto&, const auto&) { return std::string(); });
+  // The largest: with 0.05 more they jam.
+  GearDesign one = scene.gears[0].design, two = scene.gears[1].design;
+  CHECK(one.addendum == two.addendum);
+  CHECK(one.addendum < 1);
+  one.addendum = two.addendum += 0.05;
+  CHECK(message_of([&] { GearPair(one, two, scene.mesh.centre_distance); }).find("the gears jam") !=
+        std::string::npos);
 }
 
 TEST_CASE("REXS: planets stand where positions or angles say; equal spacing is found in them") {

@@ -379,22 +379,33 @@ RexsGear read_gear(RexsReader& reader, int gear, const RexsNumber& shift) {
   return out;
 }
 
-void fit_ring(RexsGear& ring, const RexsGear& mate, double distance_mm) {
-  if (!ring.tip.second.assumed) return;
+void fit_tips(RexsGear& one, RexsGear& two, double distance_mm) {
   constexpr int kSteps = 20;  // of a module
-  for (int height = kSteps; height >= kSteps / 2; --height) {
-    RexsGear tried = ring;
-    tried.tip.second.value = static_cast<double>(height) / kSteps;
+  const bool internal = one.internal || two.internal;
+  // Of an internal pair the ring alone, and a step less than what just runs: teeth under load touch beyond their path of contact.
+  const auto adjusts = [&](const RexsGear& gear) {
+    return gear.tip.second.assumed && (!internal || gear.internal);
+  };
+  if (!adjusts(one) && !adjusts(two)) return;
+  const auto runs = [&](int height) {
+    std::array tried{one, two};
+    for (RexsGear& gear : tried)
+      if (adjusts(gear)) gear.tip.second.value = static_cast<double>(height) / kSteps;
     try {
-      const GearPair pair(mate.design(), tried.design(), distance_mm * 1e-3);
+      const GearPair pair(tried[0].design(), tried[1].design(), distance_mm * 1e-3);
+      return true;
     } catch (const Error&) {
-      continue;
+      return false;
     }
-    if (height == kSteps) return;
-    ring.tip.second.value = tried.tip.second.value;
-    ring.tip.second.origin += text("; with more its tips reach below the involute of the ", mate.teeth.value,
-                                   " teeth that it meshes with");
-    return;
+  };
+  int height = kSteps;
+  while (height > kSteps / 2 && !runs(height + (internal ? 1 : 0))) --height;
+  if (height == kSteps || height == kSteps / 2) return;
+  for (const auto& [gear, mate] : {std::pair{&one, &two}, std::pair{&two, &one}}) {
+    if (!adjusts(*gear)) continue;
+    gear->tip.second.value = static_cast<double>(height) / kSteps;
+    gear->tip.second.origin +=
+        text("; 1.0 leaves its tips no room at the ", mate->teeth.value, " teeth that it meshes with");
   }
 }
 

@@ -48,8 +48,8 @@ struct RexsGear {
 // shift: as profile_shifts. Throws Error(input) for helical gears and for what a gear cannot do without.
 RexsGear read_gear(RexsReader& reader, int gear, const RexsNumber& shift);
 
-// An assumed height of a ring's teeth becomes the largest, in steps of 0.05 modules, at which they run with the mate.
-void fit_ring(RexsGear& ring, const RexsGear& mate, double distance_mm);
+// Assumed heights of the tips of a pair become the largest, in steps of 0.05 modules, at which it runs; those that the model says stay.
+void fit_tips(RexsGear& one, RexsGear& two, double distance_mm);
 
 // Which flanks of a gear carry load: what each of its stages says of it. Both: of a planet.
 struct RexsFlanks {

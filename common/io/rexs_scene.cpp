@@ -165,8 +165,7 @@ void write_pair(RexsReader& reader, RexsStage stage, const MeshOfTrain& mesh, Re
   const std::array<RexsNumber, kSides> shift = profile_shifts(reader, stage);
   const RexsNumber distance = centre_distance(reader, stage);
   std::array gear{read_gear(reader, stage.gear[0], shift[0]), read_gear(reader, stage.gear[1], shift[1])};
-  for (size_t g = 0; g < kSides; ++g)
-    if (gear[g].internal) fit_ring(gear[g], gear[1 - g], distance.value);
+  fit_tips(gear[0], gear[1], distance.value);
   RexsScene gears, materials;
   RexsWriter of_gears(gears), of_materials(materials), out(scene);
   std::array<std::string, kSides> name{section_name(reader.component(stage.gear[0])),
@@ -243,7 +242,8 @@ TrainGears gears_of(RexsReader& reader, const RexsTrain& train, const RexsTrain:
     fail(Failure::input, reader.path(), ": the axes of ", quoted_name(reader.component(planet.gear)), " are ",
          out.distance.value, " mm from the sun (", out.distance.origin, ") and ", other.value,
          " mm from the ring (", other.origin, "); both have one axis");
-  fit_ring(out.gear[2], out.gear[1], out.distance.value);
+  fit_tips(out.gear[0], out.gear[1], out.distance.value);
+  fit_tips(out.gear[2], out.gear[1], out.distance.value);
   return out;
 }
 
