@@ -100,6 +100,74 @@ inline Gearbox first_pair() {
   return box;
 }
 
+// Three planets of 28 teeth between a sun of 20 and a ring of 76, which a coupling holds in the casing; 300 N m and 1500 1/min at the
+// sun. A mesh has 100 N m, and 1500 / 60 * 20 * 76 / 96 = 395.83 Hz against the carrier. As programs for gearboxes write it: no profile
+// shifts of sun and ring, no tip diameters, a hob that is deeper than the teeth.
+inline Gearbox planetary(int planets = 3, double first_angle_deg = 0) {
+  Gearbox box;
+  const auto gear = [&](int id, const std::string& type, const std::string& name, int teeth) {
+    box.parts.push_back({id,
+                         type,
+                         name,
+                         {{"number_of_teeth", "none", std::to_string(teeth)},
+                          {"normal_module", "mm", "2.5"},
+                          {"face_width", "mm", "20"}}});
+    for (const int flank : {id + 500, id + 600})
+      box.parts.push_back({flank, "cylindrical_gear_flank", "", {{"normal_pressure_angle", "deg", "20"}}});
+    box.links.push_back({"flank", {{"gear", id}, {"left", id + 500}, {"right", id + 600}}});
+  };
+  const auto shaft = [&](int id, const std::string& name, int part) {
+    box.parts.push_back({id, "shaft", name, {}});
+    if (part > 0) box.links.push_back({"assembly", {{"assembly", id}, {"part", part}}});
+  };
+  box.parts = {{1, "gear_unit", "Unit", {}},
+               {2, "gear_casing", "Casing", {}},
+               {3, "planet_carrier", "Carrier", {}},
+               {9, "planetary_stage", "Planetary stage", {}},
+               {8, "switchable_coupling", "Brake", {}},
+               {7, "external_load", "Motor", {{"torque_around_u_axis", "N m", "300"}}},
+               {30,
+                "rack_shaped_tool",
+                "Hob",
+                {{"addendum_coefficient_reference_profile", "", "1.25"},
+                 {"dedendum_coefficient_reference_profile", "", "1.3"},
+                 {"tip_radius_factor", "", "0.38"}}}};
+  gear(10, "cylindrical_gear", "Sun", 20);
+  gear(11, "ring_gear", "Ring", 76);
+  shaft(40, "Sun shaft", 10);
+  shaft(41, "Ring shaft", 11);
+  shaft(42, "Carrier shaft", 0);
+  box.parts[box.parts.size() - 3].attributes.push_back({"rotational_speed", "1 / min", "1500"});
+  box.links.push_back({"assembly", {{"assembly", 40}, {"part", 7}}});
+  box.links.push_back({"assembly", {{"assembly", 9}, {"part", 3}}});
+  box.links.push_back({"planet_carrier_shaft", {{"planetary_stage", 9}, {"shaft", 42}}});
+  box.links.push_back({"side", {{"outer_part", 2}, {"inner_part", 41}, {"assembly", 8}}});
+  box.links.push_back({"manufacturing_step", {{"workpiece", 10}, {"tool", 30}}});
+  for (int n = 0; n < planets; ++n) {
+    const int planet = 20 + n, sun_mesh = 50 + n, ring_mesh = 60 + n;
+    gear(planet, "cylindrical_gear", "Planet " + std::to_string(n), 28);
+    shaft(43 + n, "", planet);
+    box.parts.push_back({sun_mesh,
+                         "cylindrical_stage",
+                         "Sun " + std::to_string(n),
+                         {{"center_distance", "mm", "60"},
+                          {"rotating_angle_around_neg_u_axis", "deg",
+                           std::to_string(first_angle_deg - 360.0 * n / planets)}}});
+    box.parts.push_back(
+        {ring_mesh, "cylindrical_stage", "Ring " + std::to_string(n), {{"center_distance", "mm", "60"}}});
+    box.links.push_back({"stage", {{"stage", sun_mesh}, {"gear_1", 10}, {"gear_2", planet}}});
+    box.links.push_back({"stage", {{"stage", ring_mesh}, {"gear_1", planet}, {"gear_2", 11}}});
+    for (const int mesh : {sun_mesh, ring_mesh})
+      box.links.push_back({"assembly", {{"assembly", 9}, {"part", mesh}}});
+    box.links.push_back({"planet_shaft", {{"planetary_stage", 9}, {"shaft", 43 + n}}});
+    box.links.push_back({"manufacturing_step", {{"workpiece", planet}, {"tool", 30}}});
+    for (const int flank : {planet + 500, planet + 600})
+      for (ModelPart& part : box.parts)
+        if (part.id == flank) part.attributes.push_back({"addendum_modification_coefficient", "", "0"});
+  }
+  return box;
+}
+
 inline std::string xml_parts(const std::vector<ModelPart>& parts) {
   std::string out;
   for (const ModelPart& part : parts) {

@@ -4,11 +4,14 @@
 #include <cmath>
 
 #include "base/tool.h"
+#include "base/visible.h"
 #include "gear/involute.h"
 #include "gear/scene_geometry.h"
 #include "io/scene.h"
 #include "io/variant.h"
 #include "relative.h"
+#include "report/gnuplot.h"
+#include "report/html.h"
 #include "scene_file.h"
 
 using namespace whine;
@@ -131,9 +134,17 @@ TEST_CASE("diameters of tip and root stand for addendum and dedendum") {
   CHECK(file.read(other).gears[1].design.addendum == 0.9);
 }
 
-TEST_CASE("texts of files are printed as whole characters of UTF-8, without control characters") {
+TEST_CASE("texts of files are printed as whole characters of UTF-8, with hidden characters by their names") {
   CHECK(printable("Größe 3 µm: β → 𝛽") == "Größe 3 µm: β → 𝛽");
-  CHECK(printable("a\tb\x1b[31m\x7f\xc2\x9b") == "a b?[31m??");
+  CHECK(printable("a\tb\x1b[31m\x7f\xc2\x9b") == "a b<U+001B>[31m<U+007F><U+009B>");
+  // What turns the order of letters or shows nothing, on terminals, pages and figures alike.
+  const std::string turned = "gear\xe2\x80\xaeraeg\xe2\x81\xa6\xd8\x9c\xef\xbb\xbf",
+                    shown = "gear<U+202E>raeg<U+2066><U+061C><U+FEFF>";
+  CHECK(printable(turned) == shown);
+  CHECK(html::escaped(turned + "<b>") ==
+        "gear&lt;U+202E&gt;raeg&lt;U+2066&gt;&lt;U+061C&gt;&lt;U+FEFF&gt;&lt;b&gt;");
+  CHECK(gnuplot_string(turned) == "'" + shown + "'");
+  CHECK(visible("a\nb\tc \xd7\xa9 \xd8\xb4") == "a\nb\tc \xd7\xa9 \xd8\xb4");
   // Cut off, too long for its number, a surrogate, above U+10FFFF, no beginning.
   CHECK(printable("\xc3") == "?");
   CHECK(printable("\xe2\x82z") == "??z");

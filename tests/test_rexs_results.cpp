@@ -139,6 +139,29 @@ TEST_CASE("REXS: results stand at the stage, with unit and nine digits; nothing 
   CHECK(lines.find("<array><c>420.5</c><c>0.333333333</c></array>") != std::string::npos);
 }
 
+TEST_CASE("REXS: exported JSON has no key twice, also where the stage's attributes are null or missing") {
+  const Folder folder;
+  Gearbox box = first_pair();
+  unset(box, 12, "center_distance");
+  for (const auto& [id, v] : {std::pair{10, "0"}, std::pair{11, "94.5"}})
+    set(box, id, "support_vector", "mm", std::string("<array><c>0</c><c>") + v + "</c><c>0</c></array>");
+  // The writer of tests knows no lists: of the XML's in place.
+  std::string text = json(box);
+  for (const char* v : {"0", "94.5"})
+    replace_all(text, std::string("\"enum\" : \"<array><c>0</c><c>") + v + "</c><c>0</c></array>\"",
+                std::string("\"floating_point_array\": [0, ") + v + ", 0]");
+  const size_t stage = text.find("\"First stage\""), begin = text.rfind("\"attributes\"", stage),
+               end = text.find(',', begin);
+  REQUIRE(stage != std::string::npos);
+  for (const char* attributes : {"\"attributes\" : null,", "\"attributes\" : [],", ""}) {
+    CAPTURE(attributes);
+    std::string changed = text;
+    changed.replace(begin, end + 1 - begin, attributes);
+    const std::string with = exported(folder, folder.file("m.rexsj", changed), "with", "");
+    CHECK(holds_results(with));  // read_rexs rejects keys that stand twice
+  }
+}
+
 TEST_CASE("REXS: results of another pair, of no stage, or that are no numbers are not exported") {
   const Folder folder;
   const Gearbox box = stages()[2].first;

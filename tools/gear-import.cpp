@@ -1,4 +1,4 @@
-// gear-import: a scene from one spur stage of a REXS model.
+// gear-import: a scene from one spur stage or one planetary stage of a REXS model.
 //
 // Reads      a REXS model (.rexs, .rexsj, .rexsz; versions 1.0 to 2.0)
 // Writes     a scene (TOML): each value with its origin, what was assumed, what the model says beside it; never over a file
@@ -12,13 +12,29 @@
 #include "io/rexs_scene.h"
 #include "io/scene.h"
 #include "io/scene_place.h"
+#include "io/system_scene.h"
 
 namespace {
 
 using namespace whine;
 
+// What gear-scene asks of a scene.
+void check(const std::string& path) {
+  const ScenePlace where = [&](const std::vector<std::string>& sections, const std::string& words) {
+    return scene_place(path, sections, words);
+  };
+  if (!is_system_scene(path)) {
+    check_geometry(read_scene(path), where);
+    return;
+  }
+  const SystemScene scene = read_system_scene(path);
+  const System layout = layout_in(scene, path);
+  check_system_geometry(scene, where);
+  check_at_rest_in(scene, layout, path);
+}
+
 void body(int argc, char** argv) {
-  Options options{"Writes a scene from one spur stage of a REXS model", "gear-import"};
+  Options options{"Writes a scene from one spur or planetary stage of a REXS model", "gear-import"};
   std::string input, output, stage;
   int load_case = 1;
   options.add("--input", input, "REXS model: .rexs, .rexsj or .rexsz").required();
@@ -40,10 +56,7 @@ void body(int argc, char** argv) {
        " remarks on what is not in the scene -> ", output);
 
   // What is written stays, to be changed; the status says whether it can be computed as it is.
-  const Scene read = read_scene(output);
-  check_geometry(read, [&](const std::vector<std::string>& sections, const std::string& words) {
-    return scene_place(output, sections, words);
-  });
+  check(output);
 }
 
 }  // namespace

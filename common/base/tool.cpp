@@ -17,32 +17,10 @@
 #include <new>
 
 #include "base/error.h"
+#include "base/visible.h"
 
 namespace whine {
 namespace {
-
-// Bytes of the character of UTF-8 at `i`; 0: none begins there, it is cut off, longer than need be, a surrogate or above U+10FFFF.
-size_t character_length(const std::string& text, size_t i) {
-  const auto byte = [&](size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u; };
-  const unsigned first = byte(i);
-  if (first < 0x80) return 1;
-  const size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
-  unsigned point = first & (0xffu >> (length + 1));
-  for (size_t k = 1; k < length; ++k) {
-    if ((byte(i + k) & 0xc0) != 0x80) return 0;
-    point = point << 6 | (byte(i + k) & 0x3f);
-  }
-  constexpr unsigned kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
-  const bool surrogate = point >= 0xd800 && point <= 0xdfff;
-  return first < 0xc2 || first > 0xf4 || point < kLeast[length] || point > 0x10ffff || surrogate ? 0 : length;
-}
-
-// Whether the character at `i` is a control character: ASCII's, or one of U+0080 to U+009F in UTF-8.
-bool is_control(const std::string& text, size_t i) {
-  const auto c = static_cast<unsigned char>(text[i]);
-  if (c < 0x20 || c == 0x7f) return true;
-  return c == 0xc2 && i + 1 < text.size() && (static_cast<unsigned char>(text[i + 1]) & 0xe0) == 0x80;
-}
 
 // The last place up to `i` at which a character of UTF-8 begins.
 size_t character_begin(const std::string& text, size_t i) {
@@ -155,16 +133,9 @@ std::string blas_name() {
 }
 
 std::string printable(const std::string& text, size_t most) {
-  std::string out;
-  for (size_t i = 0; i < text.size();) {
-    const size_t length = character_length(text, i);
-    if (length == 0 || is_control(text, i)) {
-      out += text[i] == '\n' || text[i] == '\r' || text[i] == '\t' ? ' ' : '?';
-    } else {
-      out.append(text, i, length);
-    }
-    i += std::max<size_t>(length, 1);
-  }
+  std::string out = visible(text);
+  for (char& c : out)
+    if (c == '\n' || c == '\r' || c == '\t') c = ' ';
   if (out.size() <= most) return out;
   // Between characters: half of one would be no UTF-8.
   const size_t end = most / 2;

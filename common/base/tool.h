@@ -38,8 +38,8 @@ std::string command_line(int argc, char** argv);
 // types.
 std::string blas_name();
 
-// Text that came from a file, as a terminal may show it and a comment may hold it: UTF-8 in which control characters, which a
-// terminal would obey, and bytes that are no UTF-8 are '?'. What is longer than `most` bytes loses its middle, whole characters.
+// Text that came from a file, as a terminal may show it and a comment may hold it: one line of visible() (base/visible.h). What is
+// longer than `most` bytes loses its middle, whole characters.
 std::string printable(const std::string& text, size_t most = 2000);
 
 // A line on standard error, printable.

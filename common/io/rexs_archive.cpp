@@ -14,6 +14,28 @@ namespace {
 
 using Archive = std::unique_ptr<zip_t, void (*)(zip_t*)>;
 
+// Every entry has a header of its own in the central directory; libzip reads all of them when it opens an archive.
+void require_few_entries(const std::string& path, const std::string& bytes) {
+  size_t entries = 0;
+  for (size_t at = bytes.find("PK\x01\x02"); at != std::string::npos; at = bytes.find("PK\x01\x02", at + 4))
+    ++entries;
+  if (entries > kMostRexsEntries)
+    reject_rexs(path, text("its zip archive has ", entries, " entries, more than ", kMostRexsEntries));
+}
+
+// Not more nodes than this come out of a text: elements and attributes of XML, values of JSON.
+size_t most_nodes(const std::string& text) {
+  const size_t first = text.find_first_not_of(" \t\r\n");
+  const bool xml = first != std::string::npos && text[first] == '<';
+  size_t nodes = 0;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const bool end_tag = i + 1 < text.size() && text[i + 1] == '/';
+    nodes += xml ? (c == '<' && !end_tag) || c == '=' : c == ',' || c == '[' || c == '{';
+  }
+  return nodes;
+}
+
 // The source keeps what is written to it as long as it is held by the caller.
 Archive opened(const std::string& path, zip_source_t* source, int flags) {
   zip_error_t error;
@@ -62,7 +84,7 @@ std::string bytes_of(zip_source_t* source) {
 }  // namespace
 
 void reject_rexs(const std::string& path, const std::string& why) {
-  fail(Failure::input, path, ": ", printable(why, 300),
+  fail(Failure::input, path, ": ", printable(why, 800),
        "; a REXS model of version 1.0 to 2.0 is wanted (.rexs, .rexsj or .rexsz)");
 }
 
@@ -71,6 +93,7 @@ bool is_rexs_archive(const std::string& bytes) {
 }
 
 std::string model_in_archive(const std::string& path, const std::string& bytes) {
+  require_few_entries(path, bytes);
   const Archive archive = opened(path, source_of(bytes), ZIP_RDONLY);
   const zip_uint64_t index = model_entry(path, archive.get());
   zip_stat_t entry;
@@ -95,6 +118,9 @@ std::string rexs_text(const std::string& path, std::string bytes) {
     reject_rexs(path, text("it has ", bytes.size(), " bytes, more than 64 MB"));
   if (is_rexs_archive(bytes)) bytes = model_in_archive(path, bytes);
   if (bytes.starts_with(kByteOrderMark)) bytes.erase(0, 3);
+  if (const size_t nodes = most_nodes(bytes); nodes > kMostRexsNodes)
+    reject_rexs(path,
+                text("it has up to ", nodes, " elements, attributes and values, more than ", kMostRexsNodes));
   return bytes;
 }
 

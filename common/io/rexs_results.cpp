@@ -21,8 +21,6 @@
 namespace whine {
 namespace {
 
-constexpr RexsUnit kRexsMetre{"m", RexsDimension::length, 1}, kRexsRadian{"rad", RexsDimension::angle, 1};
-
 // Nine digits: fewer than round-off has, so that other machines write the same.
 std::string nine_digits(const std::string& path, const RexsResult& result, double value) {
   if (!std::isfinite(value))
@@ -33,21 +31,23 @@ std::string nine_digits(const std::string& path, const RexsResult& result, doubl
 }
 
 void require_stage_of(const RexsModel& model, const std::string& wanted, const RexsPair& pair, int& id) {
-  RexsStage stage(model, wanted, 1);
-  id = stage.stage().id;
+  RexsReader reader(model, 1);
+  id = chosen_stage(reader, wanted);
+  if (reader.component(id).type != "cylindrical_stage")
+    fail(Failure::input, model.path, ": ", quoted_name(reader.component(id)),
+         " is a system, and results are exported of pairs; give one of its cylindrical stages");
+  const RexsStage stage = stage_of(reader, id);
   constexpr double kSame = 1e-9;  // relative: what rounding to the digits of a file leaves
   const auto same = [](double a, double b) { return std::abs(a - b) <= kSame * std::abs(b); };
+  const std::array<RexsNumber, 2> shifts = profile_shifts(reader, stage);
+  const double distance = centre_distance(reader, stage).value * 1e-3;
   std::array<double, 2> teeth, module, angle, shift;
-  for (int g : {0, 1}) {
-    const auto at = static_cast<size_t>(g);
-    teeth[at] = stage.required(&stage.gear(g), stage.gear(g), "number_of_teeth", kRexsNumber).value;
-    module[at] = stage.required(&stage.gear(g), stage.gear(g), "normal_module", kRexsMetre).value;
-  }
-  const double distance = stage.required(&stage.stage(), stage.stage(), "center_distance", kRexsMetre).value;
-  for (int g : {0, 1}) {
-    const auto at = static_cast<size_t>(g);
-    angle[at] = stage.of_flanks(g, "normal_pressure_angle", kRexsRadian).value;
-    shift[at] = stage.of_flanks(g, "addendum_modification_coefficient", kRexsNumber).value;
+  for (size_t g = 0; g < 2; ++g) {
+    const int gear = stage.gear[g];
+    teeth[g] = teeth_of(reader, gear).value;
+    module[g] = reader.required(reader.component(gear), "normal_module", kRexsMillimetre).value * 1e-3;
+    angle[g] = pressure_angle_of(reader, gear).value * kOneDegree;
+    shift[g] = shifts[g].value;
   }
   const auto fits = [&](size_t first, size_t second) {
     for (const auto& [g, of_pair] : {std::pair{first, size_t{0}}, std::pair{second, size_t{1}}})
@@ -64,7 +64,7 @@ void require_stage_of(const RexsModel& model, const std::string& wanted, const R
                 x[1]);
   };
   if (!(fits(0, 1) || fits(1, 0)) || !same(distance, pair.centre_distance))
-    fail(Failure::input, model.path, ": ", quoted_name(stage.stage()), " has ",
+    fail(Failure::input, model.path, ": ", quoted_name(reader.component(id)), " has ",
          words(teeth, module, distance, angle, shift), "; the results are of ",
          words(pair.teeth, pair.module, pair.centre_distance, pair.pressure_angle, pair.profile_shift),
          ": give the model or the stage that the scene was imported from");
@@ -196,7 +196,8 @@ std::string json_with(const std::string& path, const std::string& bytes, int id,
         add(bytes.substr(static_cast<size_t>(attribute.getOffsetStart()),
                          static_cast<size_t>(attribute.getOffsetLimit() - attribute.getOffsetStart())));
     for (const RexsResult& result : results) add(json_result(path, result));
-    if (attributes.isArray()) {
+    // Also a null, which is no list, is replaced: a key stands once.
+    if (node.isMember("attributes")) {
       const auto from = static_cast<size_t>(attributes.getOffsetStart()),
                  to = static_cast<size_t>(attributes.getOffsetLimit());
       return bytes.substr(0, from) + "[" + inside + "]" + bytes.substr(to);

@@ -2,63 +2,23 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
-#include <set>
 
 #include "base/error.h"
 #include "base/tool.h"
-#include "base/units.h"
+#include "io/rexs_gear.h"
 #include "io/rexs_stage.h"
+#include "io/rexs_train.h"
 #include "io/variant.h"
 
 namespace whine {
 namespace {
 
-// What keys of a scene are in.
-constexpr RexsUnit kRexsMicrometre{"mum", RexsDimension::length, 1e-6},
-    kRexsMillimetre{"mm", RexsDimension::length, 1e-3}, kRexsDegree{"deg", RexsDimension::angle, kPi / 180},
-    kRexsGigapascal{"GPa", RexsDimension::pressure, 1e9}, kRexsDensity{"kg/m^3", RexsDimension::density, 1},
-    kRexsNewtonMetre{"Nm", RexsDimension::moment, 1},
-    kRexsPerMinute{"1/min", RexsDimension::frequency, 1.0 / 60};
-
-// All digits, and no more.
-std::string all_digits(double value) {
-  char buffer[40];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-  const std::string word(buffer, end);
-  return word.find_first_of(".en") == std::string::npos ? word + ".0" : word;
-}
-
-class Writer {
- public:
-  explicit Writer(RexsScene& out) : out_(out) {}
-  void line(const std::string& words) { out_.text += words + "\n"; }
-  void section(const std::string& name) { line("\n" + name); }
-  void value(const std::string& key, const std::string& value, const std::string& remark) {
-    std::string start = key + " = " + value;
-    start.resize(std::max<size_t>(start.size() + 1, 34), ' ');
-    line(start + "# " + remark);
-  }
-  void value(const std::string& key, const RexsNumber& n) { value(key, all_digits(n.value), n.origin); }
-  void whole(const std::string& key, const RexsNumber& n) {
-    value(key, std::to_string(std::lround(n.value)), n.origin);
-  }
-  void assumed(const std::string& key, const std::string& of, const std::string& word,
-               const std::string& why) {
-    value(key, word, "ASSUMED: " + why);
-    out_.assumed.push_back(of + key + " = " + word + ": " + why);
-  }
-  // What is assumed of a whole section.
-  void assumed_of(const std::string& section, const std::string& why) {
-    line("\n# ASSUMED: [" + section + "] " + why);
-    out_.assumed.push_back(section + ": " + why);
-  }
-
- private:
-  RexsScene& out_;
-};
+// The folder of a torque has its six digits.
+constexpr int kTorqueDigits = 6;
+constexpr const char *kStiffnessDamping = "3.0e-6", *kOperation = "operation.",
+                     *kSpeeds = "{ from = 500, to = 5000, step = 25 }";
 
 // Letters, digits and '_' of a component's name, as sections of a scene are called.
 std::string section_name(const RexsComponent& c) {
@@ -74,295 +34,387 @@ std::string section_name(const RexsComponent& c) {
   return out.empty() || out.size() > 40 || is_folder_of_results(out) ? text("gear_", c.id) : out;
 }
 
-void check_spur(RexsStage& stage, int side) {
-  const RexsComponent& gear = stage.gear(side);
-  if (gear.type != "cylindrical_gear")
-    fail(Failure::input, stage.path(), ": ", quoted_name(gear),
-         " is no cylindrical_gear; only external spur gears are imported");
-  const std::optional<RexsNumber> helix = stage.number(&gear, "helix_angle_reference_diameter", kRexsDegree);
-  if (helix && helix->value != 0)
-    fail(Failure::input, stage.path(), ": ", quoted_name(stage.stage()), " is helical (", helix->value,
-         " degrees at ", quoted_name(gear), "); only spur gears are imported");
-  const RexsNumber teeth = stage.required(&gear, gear, "number_of_teeth", kRexsNumber);
-  if (teeth.value < 0)
-    fail(Failure::input, stage.path(), ": ", quoted_name(gear), " is internal (", teeth.value,
-         " teeth); only external spur gears are imported");
+RexsNumber torque_in_digits(RexsNumber torque) {
+  const double all = torque.value;
+  torque.value = with_digits(all, kTorqueDigits);
+  if (torque.value != all) torque.origin += "; six digits of " + all_digits(all);
+  return torque;
 }
 
-// Heights of the teeth: diameters where they are given, else those of the rack-shaped tool.
-void write_heights(RexsStage& stage, int side, const std::string& of, Writer& out) {
-  const RexsComponent& gear = stage.gear(side);
-  const RexsComponent* tool = stage.beside(gear.id, "rack_shaped_tool");
-  for (const char* role : {"left", "right"})
-    if (const RexsComponent* flank = stage.flank(side, role); flank && !tool)
-      tool = stage.beside(flank->id, "rack_shaped_tool");
-  // The tip of the tool cuts the root of the gear.
-  struct Height {
-    const char *diameter, *key, *coefficient, *standard;
-  };
-  for (const Height& h :
-       {Height{"tip_diameter", "addendum", "dedendum_coefficient_reference_profile", "1.0"},
-        Height{"root_diameter", "dedendum", "addendum_coefficient_reference_profile", "1.25"}}) {
-    if (const auto diameter = stage.number(&gear, h.diameter, kRexsMillimetre))
-      out.value(std::string(h.diameter) + "_mm", *diameter);
-    else if (const auto coefficient = stage.number(tool, h.coefficient, kRexsNumber))
-      out.value(h.key, *coefficient);
-    else
-      out.assumed(h.key, of, h.standard, "ISO 53, profile A");
+// From a fifth of the operating speed to half beyond it, in steps of a hundredth. frequency: Hz, with its words.
+void write_speeds(const std::optional<RexsNumber>& frequency, RexsWriter& out) {
+  const char* key = "mesh_frequency_Hz";
+  if (!frequency || frequency->value == 0) {
+    out.assumed(key, kOperation, kSpeeds, "the model has no speed of the driver");
+    return;
   }
-  std::optional<RexsNumber> radius;
-  for (const char* name : {"tip_corner_radius_factor_reference_profile", "tip_radius_factor"})
-    if (!radius) radius = stage.number(tool, name, kRexsNumber);
-  if (radius)
-    out.value("rack_tip_radius", *radius);
+  const double mesh = std::max(10.0, frequency->value), step = std::ceil(mesh / 100);
+  const std::string range = text("{ from = ", std::ceil(mesh / 5), ", to = ", std::ceil(1.5 * mesh),
+                                 ", step = ", step, " }"),
+                    words = text("about ", with_digits(mesh, 6), " Hz: ", frequency->origin);
+  if (frequency->assumed)
+    out.assumed(key, kOperation, range, words);
   else
-    out.assumed("rack_tip_radius", of, "0.38", "ISO 53, profile A");
+    out.value(key, range, words);
 }
 
-// ISO 21771: an arc of 2 m (x - x_E) tan(alpha) is cut off by generating with x_E.
-void write_thinning(RexsStage& stage, int side, const std::string& of, double module_mm, double shift,
-                    double angle_deg, Writer& out) {
-  const RexsComponent* settings =
-      stage.beside(stage.gear(side).id, "cylindrical_gear_manufacturing_settings");
-  const auto generated = stage.number(settings, "generated_addendum_modification_coefficient", kRexsNumber);
-  if (generated)
-    out.value(
-        "tooth_thinning_mm",
-        {2 * module_mm * (shift - generated->value) * std::tan(angle_deg * kPi / 180), generated->origin});
-  else
-    out.assumed("tooth_thinning_mm", of, "0.0", "no backlash");
-}
+// --- A pair on fixed axes
 
-// The flank that carries load: as load case or stage say, else the left one, else the only one.
-struct WorkingFlank {
-  const RexsComponent *flank, *other;
-  std::string assumed;  // empty: as the model says
-};
-
-WorkingFlank working_flank(RexsStage& stage, int side) {
-  const std::string loaded = stage.word(stage.stage_gear_data(side), "loaded_tooth_flank");
-  const bool said = loaded == "left" || loaded == "right";
-  const std::string role = said ? loaded : "left", opposite = role == "left" ? "right" : "left";
-  const RexsComponent *flank = stage.flank(side, role), *other = stage.flank(side, opposite);
-  if (!flank) return {other, nullptr, "of the " + opposite + " flank, the only one that the model has"};
-  if (said) return {flank, other, ""};
-  return {flank, other,
-          "of the left flank: the model " +
-              (loaded.empty() ? "has no loaded_tooth_flank"
-                              : "says loaded_tooth_flank = '" + printable(loaded, 40) + "'")};
-}
-
-std::vector<const RexsComponent*> modifications_of(const RexsStage& stage, const RexsComponent* flank) {
-  std::vector<const RexsComponent*> out;
-  if (flank) out = stage.related(flank->id);
-  std::erase_if(out, [](const RexsComponent* c) {
-    return c->type == "cylindrical_gear" || c->type == "rack_shaped_tool" ||
-           c->type == "cylindrical_gear_flank";
-  });
+// Of the loads on a shaft the torque, or its power at the speed of the shaft; N m, above 0.
+std::optional<RexsNumber> load_of(RexsReader& reader, const RexsComponent* shaft,
+                                  const std::optional<RexsNumber>& speed) {
+  std::optional<RexsNumber> out;
+  if (!shaft) return out;
+  std::string first;
+  for (const RexsComponent* c : reader.related(shaft->id)) {
+    if (c->type != "external_load") continue;
+    std::optional<RexsNumber> torque = reader.number(c, "torque_around_u_axis", kRexsNewtonMetre);
+    const auto power = reader.number(c, "power", kRexsWatt);
+    if ((!torque || torque->value == 0) && power && speed && speed->value != 0)
+      torque = RexsNumber{power->value / (speed->value * kTwoPi / 60),
+                          text(power->origin, " = ", power->value * 1e-3, " kW at ", speed->value, " 1/min")};
+    if (!torque || torque->value == 0) continue;
+    torque->value = std::abs(torque->value);
+    if (!out) {
+      out = torque;
+      first = quoted_name(*c);
+    } else if (quoted_name(*c) != first) {
+      out->origin +=
+          text("; one of several loads of the shaft, ", torque->origin, " = ", torque->value, " N m");
+      out->assumed = true;
+    }
+  }
   return out;
 }
 
-void write_modifications(RexsStage& stage, int side, const std::string& name, Writer& out, RexsScene& scene) {
-  const WorkingFlank works = working_flank(stage, side);
-  const RexsComponent* flank = works.flank;
-  if (!flank) return;
-  const auto modifications = modifications_of(stage, flank), others = modifications_of(stage, works.other);
-  // Flanks with the same modifications give the same scene.
-  if (!works.assumed.empty() &&
-      std::set(modifications.begin(), modifications.end()) != std::set(others.begin(), others.end()))
-    out.assumed_of("gear." + name + ".modification", works.assumed);
-  for (const RexsComponent* c : others)
-    if (std::find(modifications.begin(), modifications.end(), c) == modifications.end())
-      scene.ignored.push_back(quoted_name(*c) + " of " + quoted_name(*works.other) +
-                              ": that flank carries no load");
-  std::set<std::string> written;
-  for (const RexsComponent* c : modifications) {
-    const std::string kind = c->type;
-    const bool tip = kind == "tip_relief", root = kind == "root_relief";
-    const auto skip = [&](const std::string& why) {
-      scene.ignored.push_back(quoted_name(*c) + " of " + quoted_name(*flank) + why);
-    };
-    if (written.contains(kind)) {
-      skip(": a flank of a scene has one " + kind);
-      continue;
-    }
-    const auto begin = [&] {
-      if (written.empty()) out.section("[gear." + name + ".modification]   # of " + quoted_name(*flank));
-      written.insert(kind);
-    };
-    if (tip || root) {
-      const auto depth = stage.number(c, kind + "_depth", kRexsMicrometre);
-      const auto datum = stage.number(c, kind + "_datum_diameter", kRexsMillimetre);
-      if (!depth || !datum) {
-        skip(": a relief needs " + kind + "_depth and " + kind + "_datum_diameter");
-        continue;
-      }
-      begin();
-      out.value(kind + "_um", *depth);
-      out.value(kind + "_start_radius_mm", {datum->value / 2, datum->origin});
-      const std::string shape = stage.word(c, "shape_of_relief");
-      if (shape == "linear" || shape == "parabolic")
-        out.value(kind + "_shape", "\"" + shape + "\"", quoted_name(*c) + ", shape_of_relief");
-      else
-        out.assumed(kind + "_shape", "gear." + name + ".modification.", "\"linear\"",
-                    shape.empty() ? "the model says none" : "the model says " + printable(shape, 40));
-    } else if (kind == "profile_crowning") {
-      const auto at_tip = stage.number(c, "profile_crowning_at_tip", kRexsMicrometre),
-                 at_root = stage.number(c, "profile_crowning_at_root", kRexsMicrometre);
-      if (!at_tip || !at_root || std::abs(at_tip->value - at_root->value) > 1e-9) {
-        skip(": a scene has one crowning, the same at tip and root");
-        continue;
-      }
-      begin();
-      out.value("crowning_um", *at_tip);
-    } else {
-      skip("");
+size_t stages_with(const RexsModel& model, int gear) {
+  return static_cast<size_t>(
+      std::count_if(model.relations.begin(), model.relations.end(), [&](const auto& r) {
+        return r.type == "stage" && (r.in_role("gear_1") == gear || r.in_role("gear_2") == gear);
+      }));
+}
+
+void write_load(RexsReader& reader, const RexsStage& stage, double teeth, RexsWriter& out) {
+  const RexsComponent &driver = reader.component(stage.gear[0]), *shaft = reader.beside(driver.id, "shaft");
+  std::optional<RexsNumber> speed = reader.number(&driver, "rotational_speed", kRexsPerMinute);
+  if (!speed) speed = reader.number(shaft, "rotational_speed", kRexsPerMinute);
+  std::optional<RexsNumber> torque =
+      reader.number(reader.stage_gear_data(stage.id, driver.id), "torque", kRexsNewtonMetre);
+  if (!torque) {
+    torque = reader.number(&driver, "torque_acting_on_shaft_u", kRexsNewtonMetre);
+    if (!torque || torque->value == 0) torque = load_of(reader, shaft, speed);
+    if (const size_t meshes = stages_with(reader.model(), driver.id); torque && meshes > 1) {
+      torque->origin = text("the whole torque, and ", quoted_name(driver), " takes part in ", meshes,
+                            " stages; ", torque->origin);
+      torque->assumed = true;
     }
   }
-}
-
-void write_errors(RexsStage& stage, int side, const std::string& name, Writer& out) {
-  for (const char* attribute :
-       {"global_tolerance_class_iso_1328_2013", "tolerance_class_according_to_iso_1328_2013"}) {
-    const auto iso = stage.number(&stage.gear(side), attribute, kRexsNumber);
-    if (!iso || iso->value < 1) continue;
-    out.section("# [gear." + name + ".error]   # without the # teeth differ: sweeps over many mesh periods");
-    out.line("# iso_class = " + std::to_string(std::lround(iso->value)) + "   # " + iso->origin);
-    return;
-  }
-}
-
-std::string write_material(RexsStage& stage, int side, const std::string& plane, Writer& out) {
-  const RexsComponent* material = stage.beside(stage.gear(side).id, "material");
-  const std::string name = material ? text("material_", material->id) : text("steel_", side + 1),
-                    of = "material." + name + ".";
-  out.section("[material." + name + "]");
-  struct Constant {
-    const char *key, *attribute;
-    RexsUnit unit;
-    const char* steel;
-  };
-  for (const Constant& c : {Constant{"youngs_modulus_GPa", "elastic_modulus", kRexsGigapascal, "206.0"},
-                            Constant{"poisson_ratio", "poisson_ratio", kRexsNumber, "0.3"},
-                            Constant{"density_kgm3", "density", kRexsDensity, "7850.0"}}) {
-    if (const auto found = stage.number(material, c.attribute, c.unit))
-      out.value(c.key, *found);
-    else
-      out.assumed(c.key, of, c.steel, "steel");
-  }
-  out.value("plane", "\"" + plane + "\"", "by the width of the face: stress up to 8 modules");
-  return name;
-}
-
-void write_load(RexsStage& stage, double teeth, Writer& out) {
-  out.section("[operation]");
-  const RexsComponent* shaft = stage.beside(stage.gear(0).id, "shaft");
-  std::optional<RexsNumber> torque = stage.number(stage.stage_gear_data(0), "torque", kRexsNewtonMetre);
-  if (!torque) torque = stage.number(&stage.gear(0), "torque_acting_on_shaft_u", kRexsNewtonMetre);
-  if (!torque && shaft)
-    torque = stage.number(stage.beside(shaft->id, "external_load"), "torque_around_u_axis", kRexsNewtonMetre);
-  if (torque && torque->value != 0)
-    out.value("torque_Nm", {std::abs(torque->value), torque->origin});
-  else
-    out.assumed("torque_Nm", "operation.", "100.0", "the model has no torque of the driver");
-  std::optional<RexsNumber> speed = stage.number(&stage.gear(0), "rotational_speed", kRexsPerMinute);
-  if (!speed) speed = stage.number(shaft, "rotational_speed", kRexsPerMinute);
-  if (speed && speed->value != 0) {
-    // From a fifth of the operating speed to half beyond it, in steps of a hundredth.
-    const double mesh = std::max(10.0, std::round(std::abs(speed->value) / 60 * teeth)),
-                 step = std::ceil(mesh / 100);
-    out.value(
-        "mesh_frequency_Hz",
-        text("{ from = ", std::ceil(mesh / 5), ", to = ", std::ceil(1.5 * mesh), ", step = ", step, " }"),
-        text("about ", mesh, " Hz: ", speed->origin));
+  if (torque && torque->value != 0) {
+    torque->value = std::abs(torque->value);
+    out.value("torque_Nm", kOperation, torque_in_digits(*torque));
   } else {
-    out.assumed("mesh_frequency_Hz", "operation.", "{ from = 500, to = 5000, step = 25 }",
-                "the model has no speed of the driver");
+    out.assumed("torque_Nm", kOperation, "100.0", "the model has no torque of the driver");
   }
+  if (speed) speed->value = std::abs(speed->value) / 60 * teeth;  // 1/min -> Hz
+  write_speeds(speed, out);
 }
 
-struct Written {
-  std::string name;
-  double module_mm, teeth;
+// A mesh of a planetary stage.
+struct MeshOfTrain {
+  int stage = -1;
+  std::optional<RexsTrain> train;
+  std::string unknown;  // why there is no train
 };
 
-Written write_gear(RexsStage& stage, int side, const std::string& name, const std::string& material,
-                   Writer& out, RexsScene& scene) {
-  const RexsComponent& gear = stage.gear(side);
-  const std::string of = "gear." + name + ".";
-  out.section("[gear." + name + "]   # " + quoted_name(gear));
-  const RexsNumber teeth = stage.required(&gear, gear, "number_of_teeth", kRexsNumber),
-                   module = stage.required(&gear, gear, "normal_module", kRexsMillimetre),
-                   angle = stage.of_flanks(side, "normal_pressure_angle", kRexsDegree),
-                   shift = stage.of_flanks(side, "addendum_modification_coefficient", kRexsNumber);
-  if (teeth.value != std::round(teeth.value) || teeth.value > 1e6)
-    fail(Failure::input, stage.path(), ": ", teeth.origin, " = ", teeth.value, " is no number of teeth");
-  out.whole("teeth", teeth);
-  out.value("module_mm", module);
-  out.value("pressure_angle_deg", angle);
-  out.value("profile_shift", shift);
-  write_heights(stage, side, of, out);
-  write_thinning(stage, side, of, module.value, shift.value, angle.value, out);
-  out.value("face_width_mm", stage.required(&gear, gear, "face_width", kRexsMillimetre));
-  const auto bore = stage.number(&gear, "inner_diameter", kRexsMillimetre);
-  if (bore && bore->value > 0)
-    out.value("bore_radius_mm", {bore->value / 2, bore->origin});
+MeshOfTrain mesh_of_train(RexsReader& reader, int planetary_stage) {
+  MeshOfTrain out{planetary_stage, {}, ""};
+  try {
+    out.train = train_of(reader, planetary_stage);
+  } catch (const Error& error) {
+    out.unknown = error.what();
+  }
+  return out;
+}
+
+// Where the model does not say which gear drives, the flow of power through the train does.
+void drive_by_train(const RexsTrain& train, RexsStage& stage) {
+  if (stage.driver_assumed.empty()) return;
+  const bool of_sun = stage.gear[0] == train.sun || stage.gear[1] == train.sun;
+  const int central = of_sun ? train.sun : train.ring;
+  if ((stage.gear[0] == central) != (of_sun == train.sun_drives())) std::swap(stage.gear[0], stage.gear[1]);
+  stage.driver_assumed = text(name_of(train.input), " drives the planetary stage: ", train.input_origin);
+}
+
+// Its share of the torque, and the speed of its teeth against the carrier.
+void write_share(RexsReader& reader, const RexsStage& stage, const RexsTrain& train, double teeth,
+                 RexsWriter& out) {
+  const auto planets = static_cast<double>(train.planets.size());
+  RexsNumber torque{train.sun_torque.value / planets * teeth / train.sun_teeth, "", true};
+  torque.origin = text("of ", planets, " planets that share ",
+                       with_digits(train.sun_torque.value, kTorqueDigits), " N m on the sun equally one, at ",
+                       quoted_name(reader.component(stage.gear[0])), " (", train.sun_torque.origin, ")");
+  out.value("torque_Nm", kOperation, torque_in_digits(torque));
+  std::optional<RexsNumber> frequency = train.mesh_frequency;
+  if (frequency) frequency->origin = "against the carrier: " + frequency->origin;
+  write_speeds(frequency, out);
+}
+
+void write_pair(RexsReader& reader, RexsStage stage, const MeshOfTrain& mesh, RexsScene& scene) {
+  const std::optional<RexsTrain>& train = mesh.train;
+  if (train) drive_by_train(*train, stage);
+  const std::array<RexsNumber, kSides> shift = profile_shifts(reader, stage);
+  const RexsNumber distance = centre_distance(reader, stage);
+  std::array gear{read_gear(reader, stage.gear[0], shift[0]), read_gear(reader, stage.gear[1], shift[1])};
+  fit_tips(gear[0], gear[1], distance.value);
+  RexsScene gears, materials;
+  RexsWriter of_gears(gears), of_materials(materials), out(scene);
+  std::array<std::string, kSides> name{section_name(reader.component(stage.gear[0])),
+                                       section_name(reader.component(stage.gear[1]))};
+  if (name[0] == name[1]) name[1] += "_2";
+  RexsMaterials material(reader);
+  for (size_t g = 0; g < kSides; ++g)
+    write_gear(reader, gear[g], name[g], material.of(gear[g], of_materials),
+               {{reader.stage_gear_data(stage.id, stage.gear[g])}, false}, of_gears, gears);
+  if (mesh.stage >= 0)
+    out.line(text("# One mesh of ", quoted_name(reader.component(mesh.stage)),
+                  ", as a pair in the frame of its carrier: axes at rest, share of the torque, speed against "
+                  "the carrier"));
+  out.line(text("title = \"", gear[0].teeth.value, "/", gear[1].teeth.value, " teeth, module ",
+                gear[0].module.value, " mm\""));
+  scene.text += gears.text + materials.text;
+  out.section("[[mesh]]");
+  if (stage.driver_assumed.empty())
+    out.value("driver", "\"" + name[0] + "\"", quoted_name(reader.component(stage.gear[0])));
   else
-    out.assumed("bore_radius_mm", of, all_digits(std::round(0.3 * module.value * teeth.value * 10) / 20),
-                "0.3 of the reference diameter; it decides how much the body twists");
-  out.assumed("total_inertia_kgm2", of, "0.0", "as drawn, from bore to tip; add shaft and coupling");
-  out.value("material", "\"" + material + "\"", "below");
-  write_modifications(stage, side, name, out, scene);
-  write_errors(stage, side, name, out);
-  return {name, module.value, teeth.value};
+    out.assumed("driver", "mesh.", "\"" + name[0] + "\"", stage.driver_assumed);
+  out.value("driven", "\"" + name[1] + "\"", quoted_name(reader.component(stage.gear[1])));
+  out.value("centre_distance_mm", "mesh.", distance);
+  out.section("[damping]");
+  out.assumed("rayleigh_stiffness_s", "damping.", kStiffnessDamping, "make calibrate DAMPING=0.05 finds it");
+  out.section("[operation]");
+  if (train) {
+    write_share(reader, stage, *train, gear[0].teeth.value, out);
+  } else if (mesh.stage >= 0) {
+    const std::string why = "its share of the torque and its speed are not known: " + mesh.unknown;
+    out.assumed("torque_Nm", kOperation, "100.0", why);
+    out.assumed("mesh_frequency_Hz", kOperation, kSpeeds, why);
+  } else {
+    write_load(reader, stage, gear[0].teeth.value, out);
+  }
+  for (RexsScene* part : {&gears, &materials}) {
+    scene.assumed.insert(scene.assumed.end(), part->assumed.begin(), part->assumed.end());
+    scene.ignored.insert(scene.ignored.end(), part->ignored.begin(), part->ignored.end());
+  }
+}
+
+// --- A planetary stage
+
+// [sun, planet, ring]
+struct TrainGears {
+  std::array<RexsGear, 3> gear;
+  RexsNumber distance;
+};
+
+// What is not said of sun and ring follows from the planet, and of the planet from the sun.
+TrainGears gears_of(RexsReader& reader, const RexsTrain& train, const RexsTrain::Planet& planet) {
+  const RexsNumber of_sun = shift_sum(reader, planet.sun_mesh), of_ring = shift_sum(reader, planet.ring_mesh);
+  const auto at = [&](const RexsStage& mesh, int gear) {
+    return profile_shifts(reader, mesh)[mesh.gear[0] == gear ? 0 : 1];
+  };
+  const auto from = [&](const RexsNumber& sum, double other) {
+    return RexsNumber{with_digits(sum.value - other, 12), "without backlash by " + sum.origin, true};
+  };
+  RexsNumber sun = at(planet.sun_mesh, train.sun), own = at(planet.sun_mesh, planet.gear),
+             ring = at(planet.ring_mesh, train.ring);
+  const auto said = shift_of(reader, planet.gear);
+  if (!said && !shift_of(reader, train.sun)) {
+    // Neither of them: that of the ring decides, else the planet has none.
+    own = shift_of(reader, train.ring) ? from(of_ring, ring.value)
+                                       : RexsNumber{0, "the model has no profile shifts", true};
+    sun = from(of_sun, own.value);
+  }
+  if (!said && !shift_of(reader, train.ring)) ring = from(of_ring, own.value);
+  TrainGears out{{read_gear(reader, train.sun, sun), read_gear(reader, planet.gear, own),
+                  read_gear(reader, train.ring, ring)},
+                 centre_distance(reader, planet.sun_mesh)};
+  const RexsNumber other = centre_distance(reader, planet.ring_mesh);
+  if (std::abs(other.value - out.distance.value) > 1e-6 * out.distance.value)
+    fail(Failure::input, reader.path(), ": the axes of ", quoted_name(reader.component(planet.gear)), " are ",
+         out.distance.value, " mm from the sun (", out.distance.origin, ") and ", other.value,
+         " mm from the ring (", other.origin, "); both have one axis");
+  fit_tips(out.gear[0], out.gear[1], out.distance.value);
+  fit_tips(out.gear[2], out.gear[1], out.distance.value);
+  return out;
+}
+
+// All planets are one gear of a scene. Keys and values, without comments.
+std::string keys_of(RexsReader& reader, const RexsGear& planet, const RexsFlanks& flanks) {
+  RexsScene scene;
+  RexsWriter out(scene);
+  RexsMaterials material(reader);
+  write_gear(reader, planet, "planet", "material", flanks, out, scene);
+  material.of(planet, out);
+  std::string keys, line;
+  for (const char c : scene.text + "\n") {
+    if (c != '\n') {
+      line += c;
+      continue;
+    }
+    if (!line.starts_with("#") && !line.starts_with("["))
+      keys += line.substr(0, line.find_last_not_of(' ', line.find(" #")) + 1) + "\n";
+    line.clear();
+  }
+  return keys;
+}
+
+void require_alike(RexsReader& reader, const RexsTrain& train, const RexsFlanks& flanks,
+                   const std::vector<TrainGears>& all) {
+  const std::string first = keys_of(reader, all[0].gear[1], flanks);
+  for (size_t n = 1; n < all.size(); ++n) {
+    const std::string other = keys_of(reader, all[n].gear[1], flanks);
+    if (other == first && all[n].distance.value == all[0].distance.value) continue;
+    const size_t at = static_cast<size_t>(
+        std::mismatch(first.begin(), first.end(), other.begin(), other.end()).first - first.begin());
+    const auto line = [&](const std::string& keys) {
+      const size_t begin = keys.rfind('\n', std::min(at, keys.size()) - (at > 0)) + 1;
+      return keys.substr(begin, keys.find('\n', begin) - begin);
+    };
+    fail(Failure::input, reader.path(), ": the planets differ, and a scene has one gear for all of them: ",
+         quoted_name(reader.component(train.planets[0].gear)), " has ",
+         other == first ? text(all[0].distance.value, " mm") : line(first), ", ",
+         quoted_name(reader.component(train.planets[n].gear)), " has ",
+         other == first ? text(all[n].distance.value, " mm") : line(other));
+  }
+}
+
+// kg m2: two plates of 0.2 planet widths that reach over the planets, and the planets on their pins. A carrier is seldom drawn in a
+// model, and statics do not depend on it.
+double carrier_inertia(const TrainGears& of, size_t planets) {
+  constexpr double kDensity = 7850, kPlates = 0.4;
+  const GearDesign planet = of.gear[1].design();
+  const double a = of.distance.value * 1e-3, r = 0.5 * planet.module * planet.teeth, outside = a + r,
+               plates = 0.5 * kPi * kDensity * kPlates * planet.face_width * std::pow(outside, 4),
+               disc = kPi * kDensity * planet.face_width * (r * r - planet.bore_radius * planet.bore_radius);
+  return plates + static_cast<double>(planets) * disc * a * a;
+}
+
+void write_carrier(const RexsTrain& train, const TrainGears& of, RexsWriter& out) {
+  out.section("[[carrier]]");
+  out.line("name = \"carrier\"");
+  out.line("planet = \"planet\"");
+  const auto count = static_cast<double>(train.planets.size());
+  bool equal = std::fmod(train.sun_teeth + train.ring_teeth, count) == 0;
+  std::string list;
+  for (size_t n = 0; n < train.planets.size(); ++n) {
+    constexpr double kSame = 0.01;  // deg
+    equal = equal && std::abs(train.planets[n].angle - 360 * static_cast<double>(n) / count) < kSame;
+    list += (n == 0 ? "" : ", ") + all_digits(std::round(train.planets[n].angle * 1e4) / 1e4);
+  }
+  const std::string key = equal ? "planets" : "positions_deg",
+                    value = equal ? std::to_string(train.planets.size()) : "[" + list + "]";
+  if (train.positions_assumed)
+    out.assumed(key, "carrier.", value, train.positions);
+  else
+    out.value(key, value, train.positions);
+  if (train.held != RexsMember::carrier)
+    out.value(
+        "inertia_kgm2", "carrier.",
+        {with_digits(carrier_inertia(of, train.planets.size()), 4),
+         "two plates of 0.2 planet widths over the planets, and the planets; statics do not depend on it",
+         true});
+}
+
+// Torques in the frame of the carrier, each in the sense in which its body turns there: the first driver's above 0.
+void write_drives(const RexsTrain& train, RexsWriter& out) {
+  const RexsMember first = train.sun_drives() ? RexsMember::sun : RexsMember::ring;
+  RexsTrain rounded = train;
+  rounded.sun_torque.value = with_digits(train.sun_torque.value, kTorqueDigits);
+  for (const RexsMember member :
+       {first, first == RexsMember::sun ? RexsMember::ring : RexsMember::sun, RexsMember::carrier}) {
+    out.section("[[drive]]");
+    out.line(text("gear = \"", name_of(member), "\""));
+    if (member == train.held) {
+      if (train.held_assumed)
+        out.assumed("kind", text("drive.", name_of(member), "."), "\"held\"", train.held_origin);
+      else
+        out.value("kind", "\"held\"", train.held_origin);
+      continue;
+    }
+    const bool input = member == train.input;
+    const std::string of = text("drive.", name_of(member), ".");
+    if (input && train.input_assumed)
+      out.assumed("kind", of, "\"torque\"", "the input: " + train.input_origin);
+    else
+      out.value("kind", "\"torque\"", input ? "the input: " + train.input_origin : "the output");
+    RexsNumber torque{(member == first ? 1 : -1) * with_digits(rounded.torque_of(member), 12), "",
+                      train.sun_torque.assumed};
+    torque.origin = text(member == RexsMember::sun ? "" : "from that of the sun; ", train.sun_torque.origin,
+                         "; in the frame of the carrier ", name_of(first), " drives");
+    out.value("torque_Nm", of, torque);
+    const auto planets = static_cast<double>(train.planets.size());
+    if (member == RexsMember::sun)
+      out.line(text("# of it ", with_digits(train.sun_torque.value / planets, kTorqueDigits),
+                    " N m in each of ", planets, " meshes, with equal shares"));
+  }
+}
+
+void write_train(RexsReader& reader, const RexsTrain& train, RexsScene& scene) {
+  std::vector<TrainGears> all;
+  for (const RexsTrain::Planet& planet : train.planets) all.push_back(gears_of(reader, train, planet));
+  const TrainGears& of = all[0];
+  const RexsTrain::Planet& planet = train.planets[0];
+  const auto data = [&](const RexsStage& mesh, int gear) { return reader.stage_gear_data(mesh.id, gear); };
+  const std::array<RexsFlanks, 3> flanks{
+      RexsFlanks{{data(planet.sun_mesh, train.sun)}, false},
+      RexsFlanks{{data(planet.sun_mesh, planet.gear), data(planet.ring_mesh, planet.gear)}, true},
+      RexsFlanks{{data(planet.ring_mesh, train.ring)}, false}};
+  require_alike(reader, train, flanks[1], all);
+
+  RexsWriter out(scene);
+  RexsScene materials;
+  RexsWriter of_materials(materials);
+  RexsMaterials material(reader);
+  out.line(text("title = \"", train.planets.size(), " planets of ", of.gear[1].teeth.value, " between ",
+                train.sun_teeth, " and ", train.ring_teeth, " teeth, module ", of.gear[0].module.value,
+                " mm\""));
+  const std::array name{"sun", "planet", "ring"};
+  for (size_t g = 0; g < name.size(); ++g)
+    write_gear(reader, of.gear[g], name[g], material.of(of.gear[g], of_materials), flanks[g], out, scene);
+  scene.text += materials.text;
+  scene.assumed.insert(scene.assumed.end(), materials.assumed.begin(), materials.assumed.end());
+  write_carrier(train, of, out);
+  const bool sun = train.sun_drives();
+  for (const auto& [driver, driven] :
+       {std::pair{sun ? "sun" : "ring", "planet"}, std::pair{"planet", sun ? "ring" : "sun"}}) {
+    out.section("[[mesh]]");
+    out.line(text("driver = \"", driver, "\""));
+    out.line(text("driven = \"", driven, "\""));
+    out.value("centre_distance_mm", "mesh.", of.distance);
+  }
+  write_drives(train, out);
+  out.section("[damping]");
+  out.assumed("rayleigh_mass_per_s", "damping.", "200.0", "make system-ringdown shows the damping ratios");
+  out.assumed("rayleigh_stiffness_s", "damping.", "2.0e-6", "make system-ringdown shows the damping ratios");
+  out.section("[operation]");
+  write_speeds(train.mesh_frequency, out);
+  scene.ignored.insert(scene.ignored.end(), train.remarks.begin(), train.remarks.end());
+  scene.ignored.emplace_back("bearings: all axes of the scene are rigid; [[bearing]] gives them a stiffness");
 }
 
 }  // namespace
 
 RexsScene scene_of_rexs(const RexsModel& model, const std::string& wanted, int load_case) {
-  RexsStage stage(model, wanted, load_case);
-  for (int side : {0, 1}) check_spur(stage, side);
+  RexsReader reader(model, load_case);
+  const int id = chosen_stage(reader, wanted), whole = planetary_stage_of(reader, id);
   RexsScene scene;
-  scene.stage = quoted_name(stage.stage());
-  RexsScene gears, materials;
-  Writer of_gears(gears), of_materials(materials);
-  std::array<std::string, 2> name = {section_name(stage.gear(0)), section_name(stage.gear(1))}, material;
-  if (name[0] == name[1]) name[1] += "_2";
-  std::array<Written, 2> written;
-  const RexsComponent* first_material = stage.beside(stage.gear(0).id, "material");
-  for (int side : {0, 1}) {
-    const auto s = static_cast<size_t>(side);
-    const RexsComponent& gear = stage.gear(side);
-    const double width = stage.required(&gear, gear, "face_width", kRexsMillimetre).value,
-                 module = stage.required(&gear, gear, "normal_module", kRexsMillimetre).value;
-    const bool shared = side == 1 && first_material == stage.beside(gear.id, "material");
-    material[s] = shared
-                      ? material[0]
-                      : write_material(stage, side, width <= 8 * module ? "stress" : "strain", of_materials);
-    written[s] = write_gear(stage, side, name[s], material[s], of_gears, gears);
-  }
-  Writer out(scene);
-  const std::string title =
-      text("\"", written[0].teeth, "/", written[1].teeth, " teeth, module ", written[0].module_mm, " mm\"");
+  RexsWriter out(scene);
+  scene.stage = quoted_name(reader.component(id));
   out.line("# Imported from a REXS model of version " + printable(model.version, 10) + ": " + scene.stage);
-  out.line("title = " + title);
-  scene.text += gears.text + materials.text;
-  out.section("[[mesh]]");
-  if (stage.driver_assumed().empty())
-    out.value("driver", "\"" + name[0] + "\"", quoted_name(stage.gear(0)));
+  if (reader.component(id).type == "planetary_stage")
+    write_train(reader, train_of(reader, id), scene);
   else
-    out.assumed("driver", "mesh.", "\"" + name[0] + "\"", stage.driver_assumed());
-  out.value("driven", "\"" + name[1] + "\"", quoted_name(stage.gear(1)));
-  out.value("centre_distance_mm",
-            stage.required(&stage.stage(), stage.stage(), "center_distance", kRexsMillimetre));
-  out.section("[damping]");
-  out.assumed("rayleigh_stiffness_s", "damping.", "3.0e-6", "make calibrate DAMPING=0.05 finds it");
-  write_load(stage, written[0].teeth, out);
-  for (RexsScene* part : {&gears, &materials}) {
-    scene.assumed.insert(scene.assumed.end(), part->assumed.begin(), part->assumed.end());
-    scene.ignored.insert(scene.ignored.end(), part->ignored.begin(), part->ignored.end());
-  }
-  for (const std::string& unread : stage.unread()) scene.ignored.push_back(unread);
+    write_pair(reader, stage_of(reader, id), whole < 0 ? MeshOfTrain{} : mesh_of_train(reader, whole), scene);
+  for (const std::string& unread : reader.unread()) scene.ignored.push_back(unread);
   if (!scene.ignored.empty()) out.line("\n# In the model and not in this scene:");
   for (const std::string& ignored : scene.ignored) out.line("# - " + ignored);
   return scene;

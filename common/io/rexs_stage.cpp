@@ -1,222 +1,190 @@
 #include "io/rexs_stage.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <string_view>
 
 #include "base/error.h"
 #include "base/tool.h"
-#include "base/units.h"
-#include "io/rexs_results.h"
+#include "gear/involute.h"
 
 namespace whine {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\n\r";
-constexpr const char* kOfLoad = "load case, ";
+// Signs of torque and speed do not tell: they follow the axes of the shafts, which are not read.
+void put_driver_first(RexsReader& reader, RexsStage& stage) {
+  const auto one = reader.flag(reader.stage_gear_data(stage.id, stage.gear[0]), "is_driving_gear"),
+             two = reader.flag(reader.stage_gear_data(stage.id, stage.gear[1]), "is_driving_gear");
+  if (one == true && two == true)
+    fail(Failure::input, reader.path(), ": is_driving_gear is true of both gears of ",
+         quoted_name(reader.component(stage.id)), "; a stage has one driver");
+  // A gear that is said not to drive leaves the other.
+  const bool first = one == true || (!one && two == false), second = two == true || (!two && one == false);
+  if (second) std::swap(stage.gear[0], stage.gear[1]);
+  if (first || second) return;
+  stage.driver_assumed = one ? "gear_1 of the stage: is_driving_gear is false of both gears"
+                             : "gear_1 of the stage: the model has no is_driving_gear";
+}
 
-constexpr RexsUnit kUnits[] = {
-    {"", RexsDimension::number, 1},         {"none", RexsDimension::number, 1},
-    {"-", RexsDimension::number, 1},        {"mum", RexsDimension::length, 1e-6},
-    {"µm", RexsDimension::length, 1e-6},    {"mm", RexsDimension::length, 1e-3},
-    {"m", RexsDimension::length, 1},        {"deg", RexsDimension::angle, kPi / 180},
-    {"°", RexsDimension::angle, kPi / 180}, {"rad", RexsDimension::angle, 1},
-    {"Pa", RexsDimension::pressure, 1},     {"N/mm^2", RexsDimension::pressure, 1e6},
-    {"MPa", RexsDimension::pressure, 1e6},  {"GPa", RexsDimension::pressure, 1e9},
-    {"kg/m^3", RexsDimension::density, 1},  {"kg/dm^3", RexsDimension::density, 1e3},
-    {"Nmm", RexsDimension::moment, 1e-3},   {"Nm", RexsDimension::moment, 1},
-    {"kNm", RexsDimension::moment, 1e3},    {"1/min", RexsDimension::frequency, 1.0 / 60},
-    {"1/s", RexsDimension::frequency, 1}};
-
-// In another unit, without the digits that only round-off has.
-double converted(double value, const RexsUnit& from, const RexsUnit& to) {
-  if (from.si == to.si) return value;
-  char buffer[40];
-  const auto end =
-      std::to_chars(buffer, buffer + sizeof buffer, value * from.si / to.si, std::chars_format::general, 15)
-          .ptr;
-  std::from_chars(buffer, end, value);
-  return value;
+std::string list_of(const std::vector<const RexsComponent*>& components) {
+  std::string list;
+  for (const RexsComponent* c : components) list += (list.empty() ? "" : "; ") + quoted_name(*c);
+  return list;
 }
 
 }  // namespace
 
-// Texts of the file: control characters would end a comment.
-std::string quoted_name(const RexsComponent& c) {
-  return text(printable(c.type, 80), " ", c.id, c.name.empty() ? "" : " '" + printable(c.name, 80) + "'");
-}
-
-RexsStage::RexsStage(const RexsModel& model, const std::string& wanted, int load_case) : model_(model) {
-  if (load_case < 1 ||
-      (!model.load_cases.empty() && static_cast<size_t>(load_case) > model.load_cases.size()))
-    fail(Failure::input, model.path, ": there is no load case ", load_case, ", there are ",
-         model.load_cases.size());
-  if (!model.load_cases.empty()) load_ = &model.load_cases[static_cast<size_t>(load_case) - 1];
-  id_ = choose(wanted);
-  for (const RexsRelation& relation : model.relations) {
-    if (relation.type != "stage" || relation.in_role("stage") != id_) continue;
-    gear_ = {relation.in_role("gear_1"), relation.in_role("gear_2")};
+int chosen_stage(const RexsReader& reader, const std::string& wanted) {
+  std::vector<const RexsComponent*> found, all, alone;
+  for (const auto& [id, c] : reader.model().components) {
+    const bool mesh = c.type == "cylindrical_stage";
+    if (!mesh && c.type != "planetary_stage") continue;
+    all.push_back(&c);
+    if (!mesh || planetary_stage_of(reader, id) < 0) alone.push_back(&c);
+    if (wanted == std::to_string(id) || wanted == c.name) found.push_back(&c);
   }
-  for (const int gear : gear_)
+  if (wanted.empty()) found = alone;
+  if (found.size() == 1) return found[0]->id;
+  if (all.empty()) fail(Failure::input, reader.path(), ": holds no cylindrical_stage and no planetary_stage");
+  if (wanted.empty())
+    fail(Failure::input, reader.path(), ": holds ", all.size(),
+         " stages; name one with --stage: ", list_of(all));
+  fail(Failure::input, reader.path(), ": ", found.empty() ? "no stage" : "more than one stage",
+       " is called '", printable(wanted, 80), "'; there are ", list_of(all));
+}
+
+RexsStage stage_of(RexsReader& reader, int id) {
+  RexsStage stage;
+  stage.id = id;
+  for (const RexsRelation& relation : reader.model().relations)
+    if (relation.type == "stage" && relation.in_role("stage") == id)
+      stage.gear = {relation.in_role("gear_1"), relation.in_role("gear_2")};
+  for (const int gear : stage.gear)
     if (gear < 0)
-      fail(Failure::input, model.path, ": ", quoted_name(stage()),
+      fail(Failure::input, reader.path(), ": ", quoted_name(reader.component(id)),
            " has no relation 'stage' with gear_1 and gear_2");
-  put_driver_first();
+  put_driver_first(reader, stage);
+  return stage;
 }
 
-const RexsComponent* RexsStage::beside(int id, const std::string& type) const {
-  const auto all = related(id);
-  const auto found = std::find_if(all.begin(), all.end(), [&](const auto* c) { return c->type == type; });
-  return found == all.end() ? nullptr : *found;
+int planetary_stage_of(const RexsReader& reader, int stage) {
+  for (const RexsRelation& relation : reader.model().relations) {
+    const int whole = relation.in_role("assembly");
+    if (relation.type == "assembly" && relation.in_role("part") == stage && whole >= 0 &&
+        reader.component(whole).type == "planetary_stage")
+      return whole;
+  }
+  return -1;
 }
 
-std::vector<const RexsComponent*> RexsStage::related(int id) const {
-  std::vector<const RexsComponent*> out;
-  for (const RexsRelation& relation : model_.relations)
-    if (relation.holds(id))
-      for (const RexsRelation::Reference& other : relation.references)
-        if (other.component != id) out.push_back(&component(other.component));
-  return out;
+bool is_internal(RexsReader& reader, int gear) {
+  const RexsComponent& c = reader.component(gear);
+  return c.type == "ring_gear" || reader.required(c, "number_of_teeth", kRexsNumber).value < 0;
 }
 
-const RexsComponent* RexsStage::flank(int side, const std::string& role) const {
-  for (const RexsRelation& relation : model_.relations)
-    if (relation.type == "flank" && relation.in_role("gear") == gear(side).id && relation.in_role(role) >= 0)
-      return &component(relation.in_role(role));
-  return nullptr;
+RexsNumber teeth_of(RexsReader& reader, int gear) {
+  RexsNumber teeth = reader.required(reader.component(gear), "number_of_teeth", kRexsNumber);
+  teeth.value = std::abs(teeth.value);
+  if (teeth.value != std::round(teeth.value) || teeth.value > 1e6 || teeth.value < 1)
+    fail(Failure::input, reader.path(), ": ", teeth.origin, " = ", teeth.value, " is no number of teeth");
+  return teeth;
 }
 
-const RexsComponent* RexsStage::stage_gear_data(int side) const {
-  for (const RexsRelation& relation : model_.relations)
-    if (relation.type == "stage_gear_data" && relation.in_role("stage") == id_ &&
-        relation.in_role("gear") == gear(side).id && relation.in_role("stage_gear_data") >= 0)
-      return &component(relation.in_role("stage_gear_data"));
-  return nullptr;
-}
-
-// nullptr: none
-const RexsAttribute* RexsStage::attribute_of(const RexsComponent& c, const std::string& name,
-                                             bool of_load) const {
-  if (of_load && !(load_ && load_->contains(c.id))) return nullptr;
-  const auto& attributes = of_load ? load_->at(c.id).attributes : c.attributes;
-  const auto found = attributes.find(name);
-  return found == attributes.end() ? nullptr : &found->second;
-}
-
-std::optional<RexsNumber> RexsStage::number(const RexsComponent* c, const std::string& attribute,
-                                            const RexsUnit& unit) {
-  if (!c) return {};
-  const RexsAttribute *of_load = attribute_of(*c, attribute, true),
-                      *a = of_load ? of_load : attribute_of(*c, attribute, false);
-  if (!a) return {};
-  std::string word = a->value, given = a->unit;
-  const auto blank = [](char x) { return kBlanks.find(x) != std::string_view::npos; };
-  std::erase_if(word, blank);
-  std::erase_if(given, blank);
-  const auto reject = [&](const std::string& why) {
-    fail(Failure::input, model_.path, ": '", attribute, "' of ", quoted_name(*c), " ", why);
-  };
-  if (a->list || word.empty()) reject("is no single number");
-  double value = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
-    reject(text("= '", printable(word, 40), "' is no number"));
-  const RexsUnit* known = std::find_if(std::begin(kUnits), std::end(kUnits), [&](const RexsUnit& u) {
-    return given == u.word && u.dimension == unit.dimension;
-  });
-  if (known == std::end(kUnits)) reject(text("is in '", printable(given, 40), "', which is no unit of it"));
-  read_[c->id].insert(attribute);
-  return RexsNumber{converted(value, *known, unit),
-                    (of_load ? kOfLoad : "") + quoted_name(*c) + ", " + attribute};
-}
-
-RexsNumber RexsStage::required(const RexsComponent* c, const RexsComponent& owner,
-                               const std::string& attribute, const RexsUnit& unit) {
-  const std::optional<RexsNumber> found = number(c, attribute, unit);
-  if (!found)
-    fail(Failure::input, model_.path, ": ", quoted_name(c ? *c : owner), " has no '", attribute,
-         "', which a scene cannot do without; add it to the model");
-  return *found;
-}
-
-std::string RexsStage::word(const RexsComponent* c, const std::string& attribute) {
-  if (!c) return "";
-  const RexsAttribute* a = attribute_of(*c, attribute, true);
-  if (!a) a = attribute_of(*c, attribute, false);
-  if (!a) return "";
-  read_[c->id].insert(attribute);
-  const auto first = a->value.find_first_not_of(kBlanks), last = a->value.find_last_not_of(kBlanks);
-  return first == std::string::npos ? "" : a->value.substr(first, last - first + 1);
-}
-
-std::optional<bool> RexsStage::flag(const RexsComponent* c, const std::string& attribute) {
-  const std::string said = word(c, attribute);
-  if (said == "true" || said == "1") return true;
-  if (said == "false" || said == "0") return false;
-  if (!said.empty())
-    fail(Failure::input, model_.path, ": '", attribute, "' of ", quoted_name(*c), " = '", printable(said, 40),
-         "' is neither true nor false");
+std::optional<RexsPlace> place_of(RexsReader& reader, int gear) {
+  for (const RexsComponent* c : {&reader.component(gear), reader.beside(gear, "shaft")}) {
+    const auto at = reader.vector(c, "support_vector", kRexsMillimetre),
+               axis = reader.vector(c, "u_axis_vector", kRexsMillimetre);
+    if (!at) continue;
+    const std::array<double, 3> u = axis.value_or(std::array{1.0, 0.0, 0.0});
+    const double length = std::hypot(u[0], u[1], u[2]);
+    if (!(length > 0)) continue;
+    return RexsPlace{*at,
+                     {u[0] / length, u[1] / length, u[2] / length},
+                     reader.word(c, "reference_component_for_position"),
+                     quoted_name(*c) + ", support_vector"};
+  }
   return {};
 }
 
-std::vector<std::string> RexsStage::unread() const {
-  std::vector<std::string> out;
-  for (const auto& [id, attributes] : read_) {
-    const auto list = [&, &names_read = attributes, &owner = component(id)](const RexsComponent& c,
-                                                                            const std::string& where) {
-      std::string names;
-      for (const auto& [name, value] : c.attributes)
-        if (!names_read.contains(name) && !name.starts_with(kRexsResult))
-          names += (names.empty() ? "" : ", ") + printable(name, 80);
-      if (!names.empty()) out.push_back(where + quoted_name(owner) + ": " + names);
-    };
-    list(component(id), "");
-    if (load_ && load_->contains(id)) list(load_->at(id), kOfLoad);
+RexsNumber centre_distance(RexsReader& reader, const RexsStage& stage) {
+  const RexsComponent& c = reader.component(stage.id);
+  if (auto said = reader.number(&c, "center_distance", kRexsMillimetre)) {
+    said->value = std::abs(said->value);  // of internal pairs also written below 0
+    return *said;
+  }
+  const auto one = place_of(reader, stage.gear[0]), two = place_of(reader, stage.gear[1]);
+  if (one && two && one->reference == two->reference) {
+    const auto& u = one->axis;
+    const std::array d{two->at[0] - one->at[0], two->at[1] - one->at[1], two->at[2] - one->at[2]};
+    const double along = d[0] * u[0] + d[1] * u[1] + d[2] * u[2],
+                 apart = std::hypot(d[0] - along * u[0], d[1] - along * u[1], d[2] - along * u[2]);
+    constexpr double kRounded = 1e6;  // mm: without what coordinates of a metre leave
+    if (apart > 0)
+      return {std::round(apart * kRounded) / kRounded,
+              "the model has no center_distance; from " + one->origin + " and " + two->origin, true};
+  }
+  fail(Failure::input, reader.path(), ": ", quoted_name(c),
+       " has no 'center_distance', and its gears have no support_vector in the same coordinates; add it to "
+       "the "
+       "model");
+}
+
+std::optional<RexsNumber> shift_of(RexsReader& reader, int gear) {
+  return reader.of_flanks(gear, "addendum_modification_coefficient", kRexsNumber);
+}
+
+RexsNumber pressure_angle_of(RexsReader& reader, int gear) {
+  if (const auto said = reader.of_flanks(gear, "normal_pressure_angle", kRexsDegree)) return *said;
+  fail(Failure::input, reader.path(), ": the flanks of ", quoted_name(reader.component(gear)),
+       " have no 'normal_pressure_angle', which a scene cannot do without; add it to the model");
+}
+
+RexsNumber shift_sum(RexsReader& reader, const RexsStage& stage) {
+  const auto signed_teeth = [&](int gear) {
+    return teeth_of(reader, gear).value * (is_internal(reader, gear) ? -1 : 1);
+  };
+  const double teeth = signed_teeth(stage.gear[0]) + signed_teeth(stage.gear[1]),
+               module =
+                   reader.required(reader.component(stage.gear[0]), "normal_module", kRexsMillimetre).value,
+               angle = pressure_angle_of(reader, stage.gear[0]).value * kOneDegree;
+  const RexsNumber distance = centre_distance(reader, stage);
+  const double cosine = std::abs(teeth) * module * std::cos(angle) / (2 * distance.value);
+  if (!(cosine > 0 && cosine <= 1))
+    fail(Failure::input, reader.path(), ": at ", distance.value, " mm (", distance.origin,
+         ") the base circles of ", quoted_name(reader.component(stage.gear[0])), " and ",
+         quoted_name(reader.component(stage.gear[1])), " do not leave a line of action");
+  constexpr double kRounded = 1e9;
+  const double sum =
+      teeth * (involute_function(std::acos(cosine)) - involute_function(angle)) / (2 * std::tan(angle));
+  return {std::round(sum * kRounded) / kRounded + 0.0, distance.origin, true};  // no -0
+}
+
+std::array<RexsNumber, kSides> profile_shifts(RexsReader& reader, const RexsStage& stage) {
+  std::array said{shift_of(reader, stage.gear[0]), shift_of(reader, stage.gear[1])};
+  std::array<RexsNumber, kSides> out;
+  if (said[0] && said[1]) {
+    out = {*said[0], *said[1]};
+    for (size_t g = 0; g < kSides; ++g) {
+      if (!is_internal(reader, stage.gear[g]) || out[g].value == 0) continue;
+      // Where the other sign fits the centre distance and this one does not.
+      constexpr double kFits = 0.02, kOff = 0.1;
+      const double sum = shift_sum(reader, stage).value, other = out[1 - g].value;
+      if (std::abs(other + out[g].value - sum) > kOff && std::abs(other - out[g].value - sum) < kFits)
+        out[g] = {-out[g].value, out[g].origin + " with the other sign, which the centre distance needs",
+                  true};
+    }
+    return out;
+  }
+  const RexsNumber sum = shift_sum(reader, stage);
+  for (size_t g = 0; g < kSides; ++g) {
+    if (said[g])
+      out[g] = *said[g];
+    else if (said[1 - g])
+      out[g] = {with_digits(sum.value - said[1 - g]->value, 12), "without backlash by " + sum.origin, true};
+    else
+      out[g] = {sum.value / 2,
+                "the model has no profile shifts; half of the sum without backlash by " + sum.origin, true};
   }
   return out;
-}
-
-int RexsStage::choose(const std::string& wanted) const {
-  std::vector<const RexsComponent*> found, all;
-  for (const auto& [id, c] : model_.components) {
-    if (c.type != "cylindrical_stage") continue;
-    all.push_back(&c);
-    if (wanted.empty() || wanted == std::to_string(id) || wanted == c.name) found.push_back(&c);
-  }
-  if (found.size() == 1) return found[0]->id;
-  std::string list;
-  for (const RexsComponent* c : all) list += (list.empty() ? "" : "; ") + quoted_name(*c);
-  if (all.empty()) fail(Failure::input, model_.path, ": holds no cylindrical_stage");
-  if (wanted.empty())
-    fail(Failure::input, model_.path, ": holds ", all.size(), " stages; name one with --stage: ", list);
-  fail(Failure::input, model_.path, ": ", found.empty() ? "no stage" : "more than one stage", " is called '",
-       printable(wanted, 80), "'; there are ", list);
-}
-
-// Signs of torque and speed do not tell: they follow the axes of the shafts, which are not read.
-void RexsStage::put_driver_first() {
-  const auto one = flag(stage_gear_data(0), "is_driving_gear"),
-             two = flag(stage_gear_data(1), "is_driving_gear");
-  if (one == true && two == true)
-    fail(Failure::input, model_.path, ": is_driving_gear is true of both gears of ", quoted_name(stage()),
-         "; a stage has one driver");
-  // A gear that is said not to drive leaves the other.
-  const bool first = one == true || (!one && two == false), second = two == true || (!two && one == false);
-  if (second) std::swap(gear_[0], gear_[1]);
-  if (first || second) return;
-  driver_assumed_ = one ? "gear_1 of the stage: is_driving_gear is false of both gears"
-                        : "gear_1 of the stage: the model has no is_driving_gear";
-}
-
-RexsNumber RexsStage::of_flanks(int side, const std::string& attribute, const RexsUnit& unit) {
-  const RexsComponent *left = flank(side, "left"), *right = flank(side, "right");
-  const RexsNumber one = required(left ? left : right, gear(side), attribute, unit);
-  const std::optional<RexsNumber> other = number(right, attribute, unit);
-  if (other && std::abs(other->value - one.value) > 1e-9)
-    fail(Failure::input, path(), ": the flanks of ", quoted_name(gear(side)), " differ: ", attribute, " = ",
-         one.value, " and ", other->value, "; a scene has symmetric teeth");
-  return one;
 }
 
 }  // namespace whine

@@ -12,6 +12,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "base/visible.h"
 
 namespace whine {
 namespace {
@@ -116,14 +117,13 @@ std::string first_line_that_matters(const std::string& complaints) {
 
 std::string gnuplot_string(const std::string& words) {
   std::string out = "'";
-  for (const char c : words) {
-    const auto code = static_cast<unsigned char>(c);
+  for (const char c : visible(words)) {
     if (c == '\n') {
       out += "'.\"\\n\".'";
     } else if (c == '\'') {
       out += "'.\"'\".'";
     } else {
-      out += code < 0x20 || code == 0x7f ? ' ' : c;
+      out += c == '\t' || c == '\r' ? ' ' : c;
     }
   }
   return out + "'";

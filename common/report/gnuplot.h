@@ -9,7 +9,7 @@ namespace whine {
 enum class Picture { svg, png, gif };  // gif: of half the width, an animation if the template draws several
 
 // A gnuplot expression whose value is `words`: single quotes, between which gnuplot expands neither commands in backticks nor
-// macros; newlines stay, other control characters become blanks.
+// macros; newlines stay, tabs become blanks, hidden characters have their names.
 std::string gnuplot_string(const std::string& words);
 
 // Runs `gnuplot -d` (no user settings, locale C.UTF-8) on the template and returns the picture's bytes. The

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "base/visible.h"
 #include "io/publish.h"
 #include "report/report_style.h"
 
@@ -19,7 +20,7 @@ bool is_number(const std::string& cell) {
 
 std::string escaped(const std::string& words) {
   std::string out;
-  for (const char c : words) {
+  for (const char c : visible(words)) {
     if (c == '&')
       out += "&amp;";
     else if (c == '<')

@@ -26,7 +26,7 @@ void require_scene(const std::string& scene) {
         line.find_first_not_of("abcdefghijklmnopqrstuvwxyzGHPaNm_0123456789") == line.find(" = ");
     if (!line.empty() && !key &&
         !begins_with_one_of(line, {"# ", "[gear.", "[material.material_", "[material.steel_", "[[mesh]]",
-                                   "[damping]", "[operation]"}))
+                                   "[[carrier]]", "[[drive]]", "[damping]", "[operation]"}))
       std::abort();
   }
   try {
@@ -45,7 +45,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   rejected_or_read([&] {
     const RexsModel model = read_rexs(file.path());
     for (const auto& [id, component] : model.components)
-      if (component.type == "cylindrical_stage")
+      if (component.type == "cylindrical_stage" || component.type == "planetary_stage")
         rejected_or_read(
             [&, &stage = id] { require_scene(scene_of_rexs(model, std::to_string(stage), 1).text); });
   });
