@@ -58,12 +58,7 @@ ReportSweep read_sweep_of(const ReportContent& content, const std::string& path)
 template <class Content>
 void take_source(const std::string& path, Content& content) {
   require_fresh(path);
-  const std::string hash = sha256_of_file(path);
-  for (const ReportSource& known : content.sources)
-    if (known.sha256 == hash)
-      fail(Failure::usage, path, ": is the same as ", known.path,
-           ", which is given already; give each artifact once");
-  content.sources.push_back({recorded_path(path), hash, read_origin(path)});
+  content.sources.push_back({recorded_path(path), sha256_of_file(path), read_origin(path)});
   const std::string scene = scene_words(path);
   if (content.scene.empty()) content.scene = scene;
   if (!scene.empty() && scene != content.scene)
