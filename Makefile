@@ -19,6 +19,9 @@ SHELL := /bin/bash
 processors := $(shell nproc 2>/dev/null || echo 1)
 MAKEFLAGS += -rR -j$(processors)
 .DELETE_ON_ERROR:
+# $(call together,files): those that a program publishes together, each whole or as it was. Make has not looked at the times of all of
+# them before the recipe, and would take those for half made if it fails.
+together = $(eval .PRECIOUS: $1)$1
 .DEFAULT_GOAL := help
 .PHONY: FORCE
 FORCE:

@@ -33,7 +33,7 @@ compare_plan_file := $(B)/plans/compare/$(compare_words)
 
 define compare_rule
 $(foreach f,$(compare_shows),$(eval $(call figure_rule,$f,$(compare_folder)/$f-T$(compared_torque),$(call inputs_$f,$(compared_here),$(compared_torque)),$(compared_here:%=$(B)/scenes/%.mk))))
-$(compare_folder)/index.html $(compare_folder)/compare.tsv &: $(compare_artifacts) $(compare_pictures) $(compare_plan_file) \
+$(call together,$(compare_folder)/index.html $(compare_folder)/compare.tsv) &: $(compare_artifacts) $(compare_pictures) $(compare_plan_file) \
     $(call titles,$(compare_artifacts)) $(compared_here:%=$(B)/scenes/%.mk) $(call id,gear-compare) | $(B)/bin/gear-compare $(with_deps)
 	$(B)/bin/gear-compare --output $(compare_folder)/index.html $(compare_artifacts) $(compare_pictures)
 endef

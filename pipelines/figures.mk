@@ -131,7 +131,7 @@ figure_inputs = $(if $(filter bifurcations,$(goals)),$(bifurcation_branches)) $(
 $(if $(SCENE),$(foreach f,$(filter $(paper_only) relief-jumps,$(goals)),\
   $(error $f shows the paper at speeds, torques, levels or reliefs of its own; for SCENE there are $(report_figures) $(other_figures) table1)))
 
-$(addprefix out/figures/scorecard.,tsv md txt) &: $(inputs_scorecard) $(printed_claims) data/published/fitted.toml $(call id,gear-scorecard) | $(B)/bin/gear-scorecard $(with_deps)
+$(call together,$(addprefix out/figures/scorecard.,tsv md txt)) &: $(inputs_scorecard) $(printed_claims) data/published/fitted.toml $(call id,gear-scorecard) | $(B)/bin/gear-scorecard $(with_deps)
 	$(B)/bin/gear-scorecard --printed $(printed_claims) --fitted data/published/fitted.toml --output out/figures/scorecard $(inputs_scorecard)
 
 # AXIS=rpm:pinion: the speed of a gear in place of the mesh frequency; DB=1e-6: RMS of the DTE and of its orders in dB re this length in m.
@@ -156,7 +156,7 @@ axis_plan = $(if $(axis_plan_file),$(call plan_rule,$(axis_plan_file),figure $(s
 
 define figure_rule # figure, path without extension, inputs, what else it depends on
 $(axis_plan)
-$2.tsv $2.svg $2.png &: $3 $4 $(axis_plan_file) $(call titles,$3) pipelines/plots/$(drawn_as).gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
+$(call together,$2.tsv $2.svg $2.png) &: $3 $4 $(axis_plan_file) $(call titles,$3) pipelines/plots/$(drawn_as).gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
 	$(B)/bin/gear-plot $(drawn_as) --output $2 $(options_$1) $(axis_options) $(if $(filter out/figures/fig%,$2),--paper-figure $1) $3
 endef
 
@@ -168,10 +168,11 @@ sound_plan_file = $(if $(TRANSFER),$(B)/plans/$(own_scene)/$(notdir $(sound_file
 sound_plan = --transfer $(TRANSFER) $(firstword $(shell sha256sum 2>/dev/null < '$(TRANSFER)'))
 sound_inputs = $(if $(sound_of_runup),out/$1/T$(TORQUE)/up/runup_$(runup_stem).h5 out/$1/T$(TORQUE)/down/runup_$(RATE)$(if $(FROM),_$(TO)_$(FROM)).h5,$(call both_ways,$1,$(TORQUE),sweep))
 define sound_rule # run-ups or sweeps
-$(sound_file).wav $(sound_file).tsv &: $1 $(TRANSFER) $(sound_plan_file) $(call id,gear-sound) | $(B)/bin/gear-sound $(with_deps)
+$(call together,$(sound_file).wav $(sound_file).tsv) &: $1 $(TRANSFER) $(sound_plan_file) $(call id,gear-sound) | $(B)/bin/gear-sound $(with_deps)
 	$(B)/bin/gear-sound $(if $(sound_of_runup),$(foreach f,$1,--runup $f),$(foreach f,$1,--sweep $f) --mesh-frequency $(AT)) $(if $(TRANSFER),--transfer '$(TRANSFER)') --output $(sound_file)
 endef
 
+$(if $(filter sound,$(goals)),$(if $(TRANSFER),$(if $(wildcard $(TRANSFER)),,$(error TRANSFER=$(TRANSFER): there is no such file))))
 # Results beside the REXS model that the scene was imported from. Path, stage and content, as for a sound.
 $(if $(filter export,$(goals)),$(if $(MODEL),$(if $(wildcard $(MODEL)),,$(error MODEL=$(MODEL): there is no such file)),\
   $(error export: which model? make export SCENE=my-pair.toml MODEL=stage.rexs, the REXS model that the scene was imported from)))
@@ -189,7 +190,7 @@ runup_figure = $(figure_folder)/runup-$(subst _,-,$(runup_stem))-$(WAY)-T$(TORQU
 inputs_runup = out/$1/T$(TORQUE)/$(WAY)/runup_$(runup_stem).h5 $(call both_ways,$1,$(TORQUE),response)
 
 define table_rule # path without extension, inputs, published values, what else it depends on
-$1.tsv $1.txt &: $2 $3 $4 $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
+$(call together,$1.tsv $1.txt) &: $2 $3 $4 $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
 	$(B)/bin/gear-plot table1 $(if $3,--printed $3) --output $1 $2
 endef
 
@@ -197,7 +198,7 @@ endef
 digits := 0 1 2 3 4 5 6 7 8 9
 animation_frames := $(wordlist 2,49,$(foreach t,0 1 2 3 4,$(foreach u,$(digits),0$t$u)))
 define animation_rule # path without extension, scene, torque, options, what else it depends on
-$1.tsv $1.gif $(animation_frames:%=$1-%.png) &: $(call of_gears,$2,mesh) out/$2/T$3/down/sweep.h5 out/$2/params/title.txt $5 \
+$(call together,$1.tsv $1.gif $(animation_frames:%=$1-%.png)) &: $(call of_gears,$2,mesh) out/$2/T$3/down/sweep.h5 out/$2/params/title.txt $5 \
     pipelines/plots/animation.gp $(call id,gear-animate) | $(B)/bin/gear-animate $(with_deps)
 	$$(call run,animate) $(call named,--mesh,$2,mesh) \
 	  --sweep out/$2/T$3/down/sweep.h5 $4 --frames $(words $(animation_frames)) --output $1 $$(call landed,animate)
@@ -218,7 +219,7 @@ report_artifacts = $(foreach t,$2,out/$1/T$t/static.h5) $(call impacts,$1,$2) \
 report_inputs = $(call report_artifacts,$1,$(SCENE_$1_TORQUES)) $(patsubst %,out/$1/report/%.png,$(report_shows))
 
 define report_rule # scene
-out/$1/report/index.html out/$1/report/results.tsv &: $(report_inputs) out/$1/params/title.txt $(B)/scenes/$1.mk $(call id,gear-report) | $(B)/bin/gear-report $(with_deps)
+$(call together,out/$1/report/index.html out/$1/report/results.tsv) &: $(report_inputs) out/$1/params/title.txt $(B)/scenes/$1.mk $(call id,gear-report) | $(B)/bin/gear-report $(with_deps)
 	$(B)/bin/gear-report --output out/$1/report/index.html $(report_inputs)
 endef
 

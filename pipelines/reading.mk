@@ -27,11 +27,11 @@ out/reading/readings.h5: $(reading_parts) $(call id,gear-reading) | $(B)/bin/gea
 out/reading/confirmed.h5: out/reading/readings.h5 data/scenes/$(reading_scene).toml $(printed_claims) $(call id,gear-reading) | $(B)/bin/gear-reading
 	$(call run,reading) --confirm 20 --printed $(printed_claims) --scene data/scenes/$(reading_scene).toml --output $@ $< $(call landed,reading)
 
-out/figures/consistency.md out/figures/consistency.tsv &: out/reading/readings.h5 out/reading/confirmed.h5 $(claim_sets) $(call id,gear-reading) | $(B)/bin/gear-reading
+$(call together,out/figures/consistency.md out/figures/consistency.tsv) &: out/reading/readings.h5 out/reading/confirmed.h5 $(claim_sets) $(call id,gear-reading) | $(B)/bin/gear-reading
 	@mkdir -p out/figures
 	$(B)/bin/gear-reading --sets $(claim_sets) --output out/figures/consistency $(filter %.h5,$^)
 
-out/figures/reading.tsv out/figures/reading.svg out/figures/reading.png &: out/reading/readings.h5 $(claim_sets) pipelines/plots/reading.gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
+$(call together,out/figures/reading.tsv out/figures/reading.svg out/figures/reading.png) &: out/reading/readings.h5 $(claim_sets) pipelines/plots/reading.gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
 	@mkdir -p out/figures
 	$(B)/bin/gear-plot reading --claim-sets $(claim_sets) --output out/figures/reading $<
 

@@ -45,6 +45,9 @@ VARIANTS ?= bore35:bore_radius_mm=35 bore45:bore_radius_mm=45 dedendum140:dedend
   strain:plane=strain inertia139:total_inertia_kgm2=0.0139 inertia157:total_inertia_kgm2=0.0157 \
   mass955:rayleigh_mass_per_s=955 depth025:undamped_depth_mm=0.25 depth100:undamped_depth_mm=1.0 \
   corner_1deg:corner_contact=1 corner_off:corner_contact=false corner_off_mass955:corner_contact=false,rayleigh_mass_per_s=955
+variant_name = $(firstword $(subst :, ,$1))
+$(foreach v,$(VARIANTS),$(if $(and $(findstring :,$v),$(findstring =,$v)),,$(error VARIANTS: $v: write name:key=value$(,) as in bore35:bore_radius_mm=35))\
+  $(if $(strip $(foreach c,/ . + @ $(,) =,$(findstring $c,$(call variant_name,$v)))),$(error VARIANTS: $v: the name '$(call variant_name,$v)' becomes a folder$(,) so it may hold letters$(,) digits$(,) _ and - only)))
 variant_scenes := $(foreach v,$(VARIANTS),$(own_scene)-$(firstword $(subst :, ,$v)))
 # Finer than the paper's scene, for `bifurcations`.
 BIFURCATION_VARIANTS := halfstep:steps_per_period=512,min_sample_rate_kHz=1000 strips16:strips=16 modes122:modes=122

@@ -50,16 +50,16 @@ $(foreach p,$(STUDY_$1_PAIRS),$(eval $(call study_pair_rules,$1,$p,$(word 1,$(su
 out/studies/$1/study.h5: out/studies/$1/plan.toml $(study_variants) $(call id,gear-study) | $(B)/bin/gear-study
 	$(B)/bin/gear-study --gather $$< --output $$@
 
-out/studies/$1/study.tsv out/studies/$1/study.svg out/studies/$1/study.png &: out/studies/$1/study.h5 pipelines/plots/study.gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
+$(call together,out/studies/$1/study.tsv out/studies/$1/study.svg out/studies/$1/study.png) &: out/studies/$1/study.h5 pipelines/plots/study.gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
 	$(B)/bin/gear-plot study --output out/studies/$1/study $$<
 endef
 $(foreach s,$(studies),$(eval $(call study_rules,$s)))
 
 # The variants of a share, i of n equal ones.
 SHARE ?=
-share_of = $(shell bash -c 'IFS=/ read -r i n <<< "$(SHARE)"; [[ "$$i$$n" =~ ^[0-9]+$$ ]] && ((n > 0 && i > 0 && i <= n)) && \
+share_of = $(shell bash -c 'IFS=/ read -r i n <<< "$(SHARE)"; [[ "$$i/$$n" =~ ^[1-9][0-9]{0,8}/[1-9][0-9]{0,8}$$ ]] && ((i <= n)) && \
   echo $$(((i - 1) * $(words $1) / n + 1)) $$((i * $(words $1) / n))')
-shared = $(if $(share_of),,$(error SHARE=$(SHARE): it is i/n, the i-th of n shares, such as 3/10))$(wordlist $(word 1,$(share_of)),$(word 2,$(share_of)),$1)
+shared = $(if $(share_of),,$(error SHARE=$(SHARE): it is i/n, the i-th of n shares, such as 3/10, with 999999999 shares at most))$(wordlist $(word 1,$(share_of)),$(word 2,$(share_of)),$1)
 
 study_made := $(if $(filter study,$(goals)),$(if $(SHARE),$(call shared,$(call study_variants,$(study_stem))),\
   $(foreach e,tsv svg png,out/studies/$(study_stem)/study.$e)))

@@ -53,7 +53,7 @@ system_artifacts = $(if $(filter elastic,$(SCENE_$1_SYSTEM)),out/$1/system_stati
 drawn_of_system = $(if $(filter load-sharing,$1),system-load-sharing,$1)
 
 define system_report_rule # scene
-out/$1/report/index.html out/$1/report/results.tsv &: $(system_artifacts) $(patsubst %,out/$1/report/%.png,$(system_shows)) \
+$(call together,out/$1/report/index.html out/$1/report/results.tsv) &: $(system_artifacts) $(patsubst %,out/$1/report/%.png,$(system_shows)) \
     out/$1/params/title.txt $(B)/scenes/$1.mk $(call id,gear-report) | $(B)/bin/gear-report
 	$(B)/bin/gear-report --output out/$1/report/index.html $(system_artifacts) $(patsubst %,out/$1/report/%.png,$(system_shows))
 endef

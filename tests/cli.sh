@@ -261,6 +261,18 @@ rejected "a map of the same torque and rule twice" 3 'two maps of 100 N m' "$bin
   out/scene/T100/jump_map_false.h5 out/scene/T100/jump_map_false.h5
 rejected "the sensitivity to nothing" 3 'one variant' "$bin/gear-plot" sensitivity --plots "$plots" --output map out/scene/T100/jump_map_false.h5
 
+# --- an option in front of the list of inputs takes one word, as make gives it
+$(sed 's/ up / down /; s|/up/|/down/|g' <<< "${stage_spectra[*]}") > /dev/null 2>&1
+if "$bin/gear-plot" order-cuts --plots "$plots" --output levels --db 1e-6 out/scene/T100/up/response.h5 out/scene/T100/down/response.h5 > said 2>&1 &&
+  grep -q 're 1 µm' levels.tsv; then ok "order cuts in dB"; else wrong "order cuts in dB" "$(tail -n 1 said)"; fi
+rm -f levels.*; rm -f out/scene/T100/down/response.h5
+
+# --- progress within one speed
+WHINE_PROGRESS_SECONDS=0 $(sweep scene up | sed 's|--output .*|--output x.h5|') 2> said
+if grep -q -E '^gear-sweep up: 0 of 3 after [0-9.]+ min; 2000 Hz; mesh period [0-9]+ of at most 3000$' said; then ok "a sweep says how far it is within one speed"; else
+  wrong "a sweep says how far it is within one speed" "$(head -n 2 said | tr '\n' ' ')"; fi
+rm -f x.h5
+
 # --- sound
 sound=("$bin/gear-sound" --sweep out/scene/T100/up/sweep.h5 --mesh-frequency 2000 --seconds 0.1 --output heard)
 for value in nan inf -inf; do
@@ -271,10 +283,17 @@ rejected "a sound at a speed that no sweep has" 3 'holds no speed of 2001 Hz; th
 rejected "a force on a bearing that is rigid" 2 'bearing pinion:x: wanted is <gear>:x or <gear>:y of a gear on an elastic bearing' "${sound[@]}" --bearing pinion:x
 printf 'frequency_Hz,magnitude,phase_deg\n1,1,0\n2,1,0\n' > low.csv
 rejected "a sound of which a transfer function leaves nothing" 3 'nothing is heard of up: no harmonic below 24000 Hz within the transfer function' "${sound[@]}" --transfer low.csv
-rejected "two such sounds" 3 'nothing is heard of up_1: ' "${sound[@]}" --sweep out/scene/T100/up/sweep.h5 --transfer low.csv
-if "${sound[@]}" --sweep out/scene/T100/up/sweep.h5 --sweep out/scene/T100/down/sweep.h5 > said 2>&1 &&
-  [ "$(sed '1,2d' heard.tsv | cut -f1 | tr '\n' ' ')" = 'up_1 up_2 down ' ]; then ok "sounds of one direction are numbered"; else
-  wrong "sounds of one direction are numbered" "$(tail -n 1 said) $(cut -f1 heard.tsv 2>&1 | tr '\n' ' ')"; fi
+rejected "two such sounds" 3 'nothing is heard of up: ' "${sound[@]}" --sweep out/scene/T100/down/sweep.h5 --transfer low.csv
+if "${sound[@]}" --sweep out/scene/T100/down/sweep.h5 > said 2>&1 && [ "$(sed '1,2d' heard.tsv | cut -f1 | tr '\n' ' ')" = 'up down ' ]; then ok "a sound has a line for each branch"; else
+  wrong "a sound has a line for each branch" "$(tail -n 1 said) $(cut -f1 heard.tsv 2>&1 | tr '\n' ' ')"; fi
+rejected "a sound of one sweep twice" 2 'up/sweep.h5: is the same as out/scene/T100/up/sweep.h5, which is heard already' "${sound[@]}" --sweep ./out/scene/T100/up/sweep.h5
+mkdir -p out/strange/T100/up && cp out/scene/T100/up/sweep.h5 out/strange/T100/up
+rejected "a sound of a sweep in another scene's folder" 3 'out/strange/T100/up/sweep.h5: was made from out/scene/params/sweep.toml, but lies in out/strange' \
+  "${sound[@]/#out\/scene/out/strange}"
+rm -r out/strange
+mkdir -p out/scene/T100/kept && mv out/scene/T100/up/runup_5000.h5 out/scene/T100/kept && cp out/scene/T100/kept/runup_5000.h5 out/scene/T100/down
+rejected "a sound of a run-up in the folder of run-downs" 3 'down/runup_5000.h5: is of the sweep up, but lies in down' "$bin/gear-sound" --runup out/scene/T100/down/runup_5000.h5 --output heard
+rm out/scene/T100/down/runup_5000.h5; mv out/scene/T100/kept/runup_5000.h5 out/scene/T100/up; rmdir out/scene/T100/kept
 rejected "a length of a sound of a run-up" 2 '--seconds requires --sweep' "$bin/gear-sound" --runup out/scene/T100/none.h5 --seconds 2 --output heard
 rejected "a run-up and a sweep as one sound" 2 '--sweep excludes --runup' "${sound[@]}" --runup out/scene/T100/none.h5
 rejected "a sound of nothing" 2 'wanted is --sweep with --mesh-frequency above 0, or --runup' "$bin/gear-sound" --output heard
@@ -385,10 +404,13 @@ done
 rm -f lumped.h5 lumped_sweep.h5
 # The exact folds of Eq. 23 at 150 N m do not depend on the torque; here they come out of the programs.
 levels=(--levels 335596523.71,504267825.43 --duty 0.75)
-folds=($(lumped rectangular) --mass 1.4 "${levels[@]}" --from 2600 --to 2740 --step 20)
-"${folds[@]}" > said 2>&1; "${folds[@]/#up/down}" >> said 2>&1
+folds=($(lumped rectangular) --mass 1.4 "${levels[@]}" --from 2600 --to 2740)
+"${folds[@]}" --step 20 > said 2>&1; "${folds[@]/#up/down}" --step 20 >> said 2>&1
 if grep -q 'up, .* jumps at 2679.466' said && grep -q 'down, .* jumps at 2662.046' said; then ok "gear-lumped: folds of the rectangular wave, expected 2679.466 and 2662.046 Hz"; else
   wrong "gear-lumped: folds of the rectangular wave, expected 2679.466 and 2662.046 Hz" "$(grep -o 'jumps at.*->' said | tr '\n' ' ')"; fi
+wide=("${folds[@]/%2600/2400}")
+timeout 60 "${wide[@]/%2740/3000}" --step 150 > said 2>&1
+if grep -q 'up, .* jumps at 2679.466' said; then ok "and at steps of 150 Hz, whose parts of 1e-7 Hz an int does not count"; else wrong "and at steps of 150 Hz" "$(tail -n 1 said)"; fi
 rm -r out/scene/T100/rectangular # the falling sweep lies in the folder of the rising one
 lumped_map=("$bin/gear-lumped" --map --model secant --damper contact --static out/scene/T100/static.h5 --params out/scene/params/lumped_map.toml
   --damping-ratio 0.05,0.1 --from 2700 --to 2900 --step 100 --loads-at 2800 --output lumped_map.h5)
@@ -660,16 +682,20 @@ $(sweep scene up) > /dev/null 2>&1
 if [ "$(contents)" = "$kept" ]; then ok "the next run makes the same artifact and removes what killed runs left"; else
   wrong "the next run makes the same artifact and removes what killed runs left" "$(find out -name '*.tmp*' | tr '\n' ' ')"; fi
 # A limit on the size of files stands for a full disk: the write fails half-way with an error, as on a full one.
-for name in gear-mesh gear-reduce gear-static gear-loaded gear-impact gear-sweep gear-orbit gear-folds gear-lumped gear-spectra gear-modes gear-system-static gear-system-sweep gear-system-impact gear-system-orbit gear-plot; do
+for name in gear-mesh gear-reduce gear-static gear-loaded gear-impact gear-sweep gear-orbit gear-folds gear-runup gear-lumped gear-spectra gear-modes gear-system-static gear-system-sweep gear-system-impact gear-system-orbit gear-plot; do
   before=$(contents)
   (ulimit -f 8; trap '' XFSZ; exec ${whole[$name]}) > /dev/null 2> said
   status=$?
   leftover=$(find . -name '*.tmp*' | head -n 1)
   lines=$(wc -l < said)
   if [ $status != 4 ] || [ "$lines" != 1 ] || ! grep -q "^$name: error: " said; then wrong "$name on a full disk" "status $status: $(head -n 2 said | tr '\n' '|')"
+  elif ! grep -q "error: .*$(sed -n 's/.*--output \([^ ]*\).*/\1/p' <<< "${whole[$name]}").*: File too large" said; then wrong "$name on a full disk" "does not say which file, or why: $(head -n 1 said)"
   elif [ -n "$leftover" ]; then wrong "$name on a full disk" "leaves $leftover"
   elif [ "$(contents)" != "$before" ]; then wrong "$name on a full disk" "files have changed"
   else ok "$name on a full disk says so, and what was there stays"; fi
 done
+mkdir -p page/index.html && echo before > page/results.tsv
+rejected "a page that cannot be written leaves its table, too" 4 'page/index.html: is no regular file and is not replaced' "$bin/gear-report" --output page/index.html out/scene/T100/static.h5
+rm -r page
 touch file
 rejected "a folder that cannot be" 4 'file/x.h5' "$bin/gear-spectra" --input out/scene/T100/up/sweep.h5 --output file/x.h5

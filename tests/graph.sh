@@ -255,6 +255,22 @@ rejected_by_make "a figure that has no amplitudes in dB" 'DB=1e-6: fig05' DB=1e-
 rejected_by_make "a sound at a speed and of a run-up" 'AT=1250 and RATE=500: a sound is of one speed (AT) or of a run-up (RATE)' AT=1250 RATE=500 sound
 rejected_by_make "a speed of something" 'AXIS=order:1: it is rpm:<gear>, such as rpm:pinion' AXIS=order:1 fig05
 rejected_by_make "decibels of nothing" 'DB=0: it is the length in m that is 0 dB' DB=0 order-cuts
+mkfifo a/pipe.csv a/pipe.rexs a/pipe.toml
+for given in 'TRANSFER=a/pipe.csv AT=1250 sound' 'MODEL=a/pipe.rexs export' 'MODEL=/dev/zero export' 'SCENE=a/pipe.toml report' 'STUDY=a/pipe.toml study'; do
+  timeout 60 make $sanitize -n $given > "$log" 2>&1
+  grep -q "\*\*\* ${given%% *}: it is no regular file" "$log" && ok "${given%% *}, which has no end, is not read" || wrong "${given%% *}, which has no end, is not read" "$(tail -n 1 "$log")"
+done
+rm a/pipe.*
+rejected_by_make "a transfer function that is not there" 'TRANSFER=a/none.csv: there is no such file' TRANSFER=a/none.csv AT=1250 sound
+rejected_by_make "a file whose name is that of an option" 'take a name that begins with - for an option; write ./-t.csv' TRANSFER=-t.csv AT=1250 sound
+rejected_by_make "a share whose numbers overflow" 'SHARE=18446744073709551617/18446744073709551617: it is i/n' STUDY=tolerances SHARE=18446744073709551617/18446744073709551617 study
+rejected_by_make "a variant whose name leads out of its folder" "VARIANTS: ../..:bore_radius_mm=35: the name '../..' becomes a folder" VARIANTS=../..:bore_radius_mm=35 sensitivity
+rejected_by_make "a variant without a change" 'VARIANTS: ../..: write name:key=value' VARIANTS=../.. sensitivity
+rejected_by_make "a number that leads out of its folder" 'JUMP_MAP_TORQUES=../..: it holds /' JUMP_MAP_TORQUES=../.. jump-map
+make_ order-cuts; before=$(ls out/figures/order-cuts.*)
+FAIL=out/figures/order-cuts make_ DB=1e-6 order-cuts
+[ "$(ls out/figures/order-cuts.*)" = "$before" ] && [ "$(wc -l <<< "$before")" = 3 ] && ok "a figure that fails leaves all files of the earlier one" ||
+  wrong "a figure that fails leaves all files of the earlier one" "$(ls out/figures/order-cuts.* 2>&1 | tr '\n' ' ')"
 rejected_by_make "a run-up at a rate that is none is told what it is" "RATE=fast: it is the change of the driver's speed in rpm/s" RATE=fast runup
 rejected_by_make "a run-up with one end is told to give both" 'give both or none' FROM=2400 runup
 make_ -n RATE=500 WAY=down FROM=2800 TO=2400 TORQUE=100 runup

@@ -158,6 +158,30 @@ rm $place; mkdir $place; rejected "a folder for an artifact" 4 "$place: .*remove
 rmdir $place; rejected "a missing artifact" 4 "$place: cannot be read: No such file or directory; rebuild it with: make" "$bin/gear-plot" fig12 --output x $place
 mv kept $place
 
+# --- strips: contact of next to no load beside errors of the teeth
+{ sed 's/^torque_Nm = .*/torque_Nm = [1e-4]/' s.toml; printf '[gear.pinion.error]\niso_class = 5\n[gear.wheel.error]\niso_class = 5\n'; } > light.toml
+make_ SCENE=light.toml -n static
+rejected "statics on strips that no memory holds" 3 'contact is looked for on [0-9]+ strips, whose compliance needs [0-9.]+ GB, at most 2 are allowed' \
+  "$bin/gear-static" --params out/light/params/static.toml --body pinion="$(body_of s)/body.h5" --body wheel="$(body_of s)/body.h5" --torque 1e-4 --output x.h5
+
+# --- values from elsewhere: a dataset that HDF5 would read out of another file, its content hash put right
+if ! c++ -O1 $(pkg-config --cflags hdf5) -o "$base/links" tests/faults/links.cpp $(pkg-config --libs hdf5) 2> "$log"; then
+  wrong "datasets that draw their values from elsewhere" "$(head -n 1 "$log")"; fi
+mkfifo endless
+for kind in soft external storage virtual filter; do
+  cp $place linked.h5
+  "$base/links" linked.h5 $kind "$(case $kind in external | virtual) echo "$tree/out/s/T200/static.h5" ;; *) echo "$tree/endless" ;; esac)" || wrong "a dataset by $kind" "is not made"
+  digits=$(($(grep -a -b -o -m1 'in place of these digits: ' linked.h5 | head -n 1 | cut -d: -f1) + 26))
+  printf '%064d' 0 | dd of=linked.h5 bs=1 seek=$digits conv=notrunc status=none
+  sha256sum < linked.h5 | head -c 64 | dd of=linked.h5 bs=1 seek=$digits conv=notrunc status=none
+  said_of='is a link .*, and links are not followed'
+  [ $kind != storage ] && [ $kind != virtual ] || said_of='has its values in another file'
+  [ $kind != filter ] || said_of='is stored by the HDF5 filter 3'
+  for program in "gear-plot fig12 --output x" gear-inspect; do
+    rejected "a dataset by $kind: ${program%% *}" 3 "linked.h5: .*/transmission_error $said_of" "$bin"/$program linked.h5; done
+done
+rm -f endless linked.h5
+
 # --- scenes
 to_scene=("$bin/gear-scene" --output x.mk --out x --scene)
 { printf 'a'; yes .a | head -n 1000000 | tr -d '\n'; echo ' = 1'; } > deep.toml

@@ -179,7 +179,7 @@ TEST_CASE("plot file: gnuplot reads the data of a figure from no disk, again and
   const PlotFile data(figure);
   CHECK(draw(figure, data.path(), recipe, Picture::svg).find("</svg>") != std::string::npos);
   CHECK(draw(figure, data.path(), recipe, Picture::svg) == draw(figure, data.path(), recipe, Picture::svg));
-  publish_tables(figure, folder / "figure", {});
+  publish_all(table_files(figure, folder / "figure", {}));
   for (const char* name : {"figure.tsv", "figure-marks.tsv", "figure-two-words.tsv"})
     CHECK(std::filesystem::exists(folder / name));
   std::filesystem::remove_all(folder);

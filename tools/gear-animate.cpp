@@ -54,7 +54,7 @@ void body(int argc, char** argv) {
 
   const std::string recipe = plots + "/animation.gp";
   const whine::PlotFile data(figure);
-  whine::publish_tables(
+  std::vector<whine::FileBytes> results = whine::table_files(
       figure, output,
       {whine::recorded_path(paths[0]), whine::recorded_path(paths[1]), whine::recorded_path(sweep)});
   const auto of_frames = [&figure](int first, int last) {
@@ -66,11 +66,12 @@ void body(int argc, char** argv) {
   for (int frame = 0; frame < frames; ++frame) {
     char name[16];
     std::snprintf(name, sizeof name, "-%03d.png", frame + 1);
-    whine::publish(output + name,
-                   whine::draw(of_frames(frame, frame), data.path(), recipe, whine::Picture::png));
+    results.push_back(
+        {output + name, whine::draw(of_frames(frame, frame), data.path(), recipe, whine::Picture::png)});
   }
-  whine::publish(output + ".gif",
-                 whine::draw(of_frames(0, frames - 1), data.path(), recipe, whine::Picture::gif));
+  results.push_back(
+      {output + ".gif", whine::draw(of_frames(0, frames - 1), data.path(), recipe, whine::Picture::gif)});
+  whine::publish_all(results);
   whine::tell("gear-animate: ", figure.title, ", ", frames, " frames -> ", output, ".{tsv,gif}, ", output,
               "-001.png ..");
 }

@@ -54,8 +54,8 @@ void body(int argc, char** argv) {
 
   const std::string page = compare_html(designs, read_report_content(pictures).pictures),
                     table = compare_tsv(designs);
-  publish((std::filesystem::path(output).parent_path() / "compare.tsv").string(), table);
-  publish(output, page);
+  publish_all(
+      {{(std::filesystem::path(output).parent_path() / "compare.tsv").string(), table}, {output, page}});
   tell("gear-compare: ", designs.size(), " designs, ", pictures.size(), " figures, ",
        differences(designs).size(), " differences -> ", output);
 }

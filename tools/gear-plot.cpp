@@ -2,8 +2,8 @@
 //
 // Reads      artifacts, which ones `gear-plot --help` says for each figure; params/title.txt in the folder of their scene, if
 //            there is one; table1 besides --printed FILE, what P2000 prints; <plots>/<figure>.gp, the template
-// Writes     <output>.tsv (further tables of the figure: <output>-<table>.tsv), <output>.svg, <output>.png, each whole
-//            or not at all; for table1 <output>.tsv and, to read, <output>.txt
+// Writes     <output>.tsv (further tables of the figure: <output>-<table>.tsv), <output>.svg, <output>.png, all of
+//            them or none; for table1 <output>.tsv and, to read, <output>.txt
 // Equations  k = (T / r_b) / STE
 #include "base/error.h"
 #include "base/tool.h"
@@ -40,10 +40,12 @@ void publish_figure(const whine::Figure& figure, const Paths& inputs, const Path
                     const std::string& output, const std::string& recipe) {
   for (const std::string& path : inputs) whine::require_fresh(path);
   const whine::PlotFile data(figure);
-  whine::publish_tables(figure, output, sources);
-  whine::publish(output + ".svg", whine::draw(figure, data.path(), recipe, whine::Picture::svg));
-  whine::publish(output + ".png",
-                 whine::with_sources(whine::draw(figure, data.path(), recipe, whine::Picture::png), inputs));
+  std::vector<whine::FileBytes> files = whine::table_files(figure, output, sources);
+  files.push_back({output + ".svg", whine::draw(figure, data.path(), recipe, whine::Picture::svg)});
+  files.push_back(
+      {output + ".png",
+       whine::with_sources(whine::draw(figure, data.path(), recipe, whine::Picture::png), inputs)});
+  whine::publish_all(files);
   whine::tell("gear-plot: ", figure.title, " -> ", output, ".{tsv,svg,png}");
 }
 
@@ -67,13 +69,14 @@ void body(int argc, char** argv) {
   options.add("--paper-figure", beside,
               "for pairs of P2000: the title says which figure of it shows the same, as in fig07");
   whine::EngineeringAxes axes;
-  std::vector<double> references;  // none or one
+  double reference = 0;
   options.add(
       "--axis", axes.speed,
       "figures against speed: rpm:<gear> in place of the mesh frequency; also rpm:driver, rpm:driven");
-  options.add("--db", references,
-              "order-cuts, compare-motion, runup: RMS (of an order its amplitude / sqrt 2) in dB re this "
-              "length in m, as 1e-6");
+  const whine::Option level =
+      options.add("--db", reference,
+                  "order-cuts, compare-motion, runup: RMS (of an order its amplitude / sqrt 2) in dB re this "
+                  "length in m, as 1e-6");
   options.add("--plots", plots, "folder of the gnuplot templates").show_default();
   options.footer(footer());
   options.parse(argc, argv);
@@ -96,17 +99,16 @@ void body(int argc, char** argv) {
         impacts, printed.empty() ? std::vector<whine::PrintedClaim>{} : whine::read_printed_claims(printed));
     const std::string words = whine::natural_frequency_text(table);
     for (const std::string& path : inputs) whine::require_fresh(path);
-    whine::publish_tables(table, output, sources);
-    whine::publish(output + ".txt", words);
+    std::vector<whine::FileBytes> files = whine::table_files(table, output, sources);
+    files.push_back({output + ".txt", words});
+    whine::publish_all(files);
     whine::tell("gear-plot: ", table.title, " -> ", output, ".{tsv,txt}");
     return;
   }
   whine::Figure figure = whine::figure_of(name, inputs, mesh_frequencies, others);
   if (const std::string paper = whine::paper_figure(beside); !paper.empty())
     figure.title += ", as " + paper + " of P2000";
-  if (references.size() > 1)
-    whine::fail(whine::Failure::usage, "--db is given ", references.size(), " times");
-  if (!references.empty()) axes.level_reference = references[0];
+  if (level.given()) axes.level_reference = reference;
   whine::apply(axes, figure);
   publish_figure(figure, inputs, sources, output, plots + "/" + name + ".gp");
 }

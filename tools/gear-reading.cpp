@@ -32,8 +32,7 @@ void look_for_sets(const std::vector<std::string>& parts, const std::string& set
   std::string page = consistency_markdown(readings, found);
   if (parts.size() == 2) page += confirmed_markdown(read_readings(parts.back()));
   for (const std::string& path : parts) require_fresh(path);
-  publish(output + ".md", page);
-  publish(output + ".tsv", readings_tsv(readings, found));
+  publish_all({{output + ".md", page}, {output + ".tsv", readings_tsv(readings, found)}});
   tell("gear-reading: ", found.sets.size(), " sets of claims, ", found.conflicts.size(),
        " pairs of claims that never meet -> ", output, ".{md,tsv}");
 }

@@ -42,8 +42,8 @@ void body(int argc, char** argv) {
   options.parse(argc, argv);
 
   const auto publish_both = [&](const std::string& page, const std::string& table) {
-    publish((std::filesystem::path(output).parent_path() / "results.tsv").string(), table);
-    publish(output, page);
+    publish_all(
+        {{(std::filesystem::path(output).parent_path() / "results.tsv").string(), table}, {output, page}});
   };
   if (is_of_system(inputs)) {
     if (teeth) fail(Failure::input, "--teeth is of pairs; a system of several meshes has its whole report");

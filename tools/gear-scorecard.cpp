@@ -49,9 +49,9 @@ void body(int argc, char** argv) {
   std::vector<std::string> sources;
   sources.reserve(inputs.size());
   for (const std::string& path : inputs) sources.push_back(whine::recorded_path(path));
-  whine::publish(output + ".tsv", whine::scorecard_tsv(card, sources));
-  whine::publish(output + ".md", whine::scorecard_markdown(card));
-  whine::publish(output + ".txt", whine::scorecard_text(card));
+  whine::publish_all({{output + ".tsv", whine::scorecard_tsv(card, sources)},
+                      {output + ".md", whine::scorecard_markdown(card)},
+                      {output + ".txt", whine::scorecard_text(card)}});
   for (const std::string& line : whine::bottom_line(card)) whine::tell("gear-scorecard: ", line);
 }
 

@@ -72,8 +72,7 @@ void body(int argc, char** argv) {
     all.segment(at, y.size()) = y / full_scale;
     at += y.size() + pause;
   }
-  publish(output + ".wav", wav_bytes(all, heard.rate));
-  publish(output + ".tsv", heard.table);
+  publish_all({{output + ".wav", wav_bytes(all, heard.rate)}, {output + ".tsv", heard.table}});
   tell("gear-sound: ", runups.empty() ? text(frequency, " Hz") : "run-up", ", ", heard.sounds.size(),
        " branches, full scale ", full_scale, " -> ", output, ".{wav,tsv}");
 }

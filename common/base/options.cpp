@@ -72,7 +72,7 @@ Option& Option::one_of(const std::vector<std::string>& words) {
 }
 
 Option& Option::separated_by(char delimiter) {
-  option_->delimiter(delimiter)->allow_extra_args(false);
+  option_->delimiter(delimiter);
   return *this;
 }
 
@@ -86,6 +86,10 @@ Option& Option::excludes(const Option& other) {
   return *this;
 }
 
+bool Option::given() const {
+  return option_->count() > 0;
+}
+
 Options::Options(const std::string& about, const std::string& program)
     : app_(std::make_unique<CLI::App>(about, program)) {}
 
@@ -96,6 +100,8 @@ Option Options::add(const std::string& name, Target& target, const std::string& 
   CLI::Option* option = app_->add_option(name, target, help);
   if constexpr (std::is_same_v<Target, double> || std::is_same_v<Target, std::vector<double>>)
     option->check(not_finite);
+  // Of a list, too: a second word would be taken from the list of inputs behind it.
+  if (!option->get_positional()) option->allow_extra_args(false);
   return Option(option);
 }
 

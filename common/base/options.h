@@ -34,6 +34,7 @@ class Option {
   // The other option must stand there as well, or must not.
   Option& needs(const Option& other);
   Option& excludes(const Option& other);
+  bool given() const;  // after parse()
 
  private:
   CLI::Option* option_;
@@ -47,7 +48,8 @@ class Options {
   Options& operator=(const Options&) = delete;
 
   // An option "--name" or a positional "name" that sets target, which must outlive parse(). Target is a std::string, double,
-  // int or a vector of strings or doubles; a word that does not convert is an error of parse().
+  // int or a vector of strings or doubles; a word that does not convert is an error of parse(). A positional vector takes all words
+  // that are left, a "--name" one word each time that it stands there.
   template <class Target>
   Option add(const std::string& name, Target& target, const std::string& help);
   Option flag(const std::string& name, bool& target, const std::string& help);

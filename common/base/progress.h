@@ -25,8 +25,9 @@ class Progress {
   double began_, last_draw_;  // s, monotonic clock
 };
 
-// A step of a long computation, by the function that computes it; nothing happens unless a StepsShown lives. what: the steps in
-// words, such as "mesh positions".
+// A step of a long computation, by the function that computes it; nothing happens unless a StepsShown or a Progress lives, to
+// which it is a step inside the one that it shows. what: the steps in words, such as "mesh positions"; total: the most that
+// there may be.
 void report_step(const std::string& what, long done, long total);
 
 // Shows reported steps as a Progress, while it lives. One at a time.

@@ -150,6 +150,21 @@ void tell_line(const std::string& line) {
 
 namespace {
 
+// Fields of elements and strips are of programs that read stage parameters; others hold no more than their files.
+std::string memory_words(int argc, char** argv) {
+  const bool discretised = std::any_of(argv + std::min(argc, 1), argv + argc, [](const char* word) {
+    return std::string(word).starts_with("--params") || std::string(word).starts_with("--static-params");
+  });
+  rusage used{};
+  ::getrusage(RUSAGE_SELF, &used);
+  rlimit limit{};
+  const bool limited = ::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+  return text(
+      "out of memory: the system gives no more than the ", used.ru_maxrss / 1024, " MB that are taken",
+      limited ? text(" (address space is limited to ", limit.rlim_cur >> 20, " MB by ulimit -v)") : "",
+      discretised ? "; a coarser [discretisation] of the scene needs less" : "; give it more memory");
+}
+
 // What body returns, or what its error says.
 int run_body(const std::function<void(const std::string&)>& say, int argc, char** argv,
              const std::function<int(int, char**)>& body) {
@@ -162,7 +177,7 @@ int run_body(const std::function<void(const std::string&)>& say, int argc, char*
     say(error.what());
     return static_cast<int>(error.kind());
   } catch (const std::bad_alloc&) {
-    say("out of memory; a coarser [discretisation] needs less");
+    say(memory_words(argc, argv));
   } catch (const std::exception& error) {
     say(error.what());
   } catch (...) {

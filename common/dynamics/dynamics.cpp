@@ -6,6 +6,7 @@
 
 #include "base/dense.h"
 #include "base/error.h"
+#include "base/memory.h"
 
 namespace whine {
 
@@ -159,16 +160,27 @@ void RollingDynamics::place_positions(const CandidateZone& range, int steps) {
 void RollingDynamics::require_zone_memory(int steps, const ZoneMemory& beside) {
   constexpr double kMostMemory = 12e9;  // bytes
   memory_ = {};
-  for (const Position& position : positions_)
+  int most_strips = 0;
+  for (const Position& position : positions_) {
     memory_.coordinates +=
         8.0 * static_cast<double>(coordinates_.size()) *
         (position.mesh.nodes() + (lines() ? 1.0 : static_cast<double>(StepKernel::kShapeRows)) *
                                      static_cast<double>(position.mesh.pairs.size()));
+    if (lines()) continue;
+    // Each step has a place for the inverse of its active strips.
+    const double strips = position.mesh.strips();
+    memory_.coordinates += 8 * strips * strips;
+    most_strips = std::max(most_strips, position.mesh.strips());
+  }
   require_memory(
       memory_.coordinates, beside.coordinates, kMostMemory,
       "set contact = \"line\", lower min_sample_rate_kHz or raise the lowest speed, or take body = "
       "\"modal\"",
-      coordinates_.size(), " coordinates at ", steps, " positions of a mesh period");
+      coordinates_.size(), " coordinates and ", most_strips, " strips at ", steps,
+      " positions of a mesh period");
+  tell_memory(text(coordinates_.size(), " coordinates and ", most_strips, " strips at ", steps,
+                   " positions of a mesh period"),
+              memory_.coordinates);
 }
 
 // The fields of all gears and what they do to each other. Result: [gear] residual flexibility (flank, flank) by offset between
@@ -292,6 +304,7 @@ void RollingDynamics::set_hunting_gaps(double beside) {
       "set contact = \"line\", lower min_sample_rate_kHz and steps_per_period, or raise the lowest speed",
       "teeth that differ meet again after ", hunting_, " mesh periods, whose gaps at ", positions_.size(),
       " positions each");
+  tell_memory(text("gaps of teeth that differ, over ", hunting_, " mesh periods,"), memory_.gaps);
   hunting_gap_.resize(strips * static_cast<size_t>(hunting_));
   for (int period = 0; period < hunting_; ++period)
     for (size_t i = 0; i < positions_.size(); ++i)

@@ -6,6 +6,7 @@
 
 #include "base/dense.h"
 #include "base/error.h"
+#include "base/progress.h"
 #include "orbits/recurrence.h"
 
 namespace whine {
@@ -149,11 +150,16 @@ std::optional<Orbit> find_periodic_orbit(RollingDynamics& dynamics, State& state
     state = proposal.integrated;
     recurrence.restart(state);
   };
+  int turns = 0;
   const auto turn = [&] {
     start = state;
+    ++turns;
     try {
-      for (int k = 0; k < hunting; ++k)
+      for (int k = 0; k < hunting; ++k) {
+        report_step("mesh period", static_cast<long>(turns - 1) * hunting + k,
+                    static_cast<long>(most) * hunting);
         if (!dynamics.integrate(state, period)) return false;
+      }
     } catch (const Error& error) {  // a proposal may lie where no motion does
       if (!proposal.pending || error.kind() != Failure::numerical) throw;
       return false;

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/model_range.h"
+#include "base/progress.h"
 
 namespace whine {
 
@@ -56,7 +57,9 @@ SystemDynamics::State SystemPeriodMap::state(const VectorXd& y) const {
 VectorXd SystemPeriodMap::apply(const VectorXd& y) {
   SystemDynamics::State state = this->state(y);
   applied_ = left_last_ = false;
-  for (int k = 0; k < dynamics_.hunting_periods(); ++k)
+  const int hunting = dynamics_.hunting_periods();
+  for (int k = 0; k < hunting; ++k) {
+    if (hunting > 1) report_step("mesh period of a hunting period,", k, hunting);
     if (!dynamics_.integrate(state, period_)) {
       left_zone_ = left_last_ = true;
       fail_outside_range(
@@ -64,6 +67,7 @@ VectorXd SystemPeriodMap::apply(const VectorXd& y) {
           " Hz a mesh deflects beyond the tip edges that are looked at; lower the torque or raise the "
           "damping");
     }
+  }
   applied_ = true;
   return flat(state);
 }

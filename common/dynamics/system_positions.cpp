@@ -8,6 +8,7 @@
 
 #include "base/dense.h"
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/progress.h"
 #include "system/rigid_system.h"
 
@@ -275,6 +276,7 @@ void SystemDynamics::set_hunting_gaps(const std::vector<SystemPosition>& placed)
     fail(Failure::input, "the same teeth meet again after ", hunting_, " mesh periods, whose gaps at ",
          placed.size(), " positions each need ", memory * 1e-9, " GB, at most ", kMostMemory * 1e-9,
          " are allowed; lower min_sample_rate_kHz and steps_per_period, or raise the lowest speed");
+  tell_memory(text("gaps of teeth that differ, over ", hunting_, " mesh periods,"), memory);
   hunting_gap_.resize(contacts * static_cast<size_t>(hunting_));
   double* to = hunting_gap_.data();
   for (int period = 0; period < hunting_; ++period)
@@ -315,6 +317,7 @@ void SystemDynamics::set_positions(const std::vector<double>& corner_gap, int st
     fail(Failure::input, "the positions of ", steps, " steps of a mesh period need ", 8e-9 * numbers,
          " GB, at most ", 1e-9 * kMostMemory,
          " are allowed; lower min_sample_rate_kHz or modes, or raise the lowest speed");
+  tell_memory(text("the positions of ", steps, " steps of a mesh period"), 8 * numbers);
   couple();
   for (int i = 0; i < steps; ++i) {
     report_step("mesh positions", i, steps);

@@ -197,7 +197,8 @@ ArtifactWriter::ArtifactWriter(std::string path, std::unique_ptr<StagedFile> sta
       inputs_(provenance.inputs),
       sha256_(provenance.sha256),
       staged_(std::move(staged)),
-      file_(staged_ ? std::make_unique<h5::Writer>(staged_->temporary()) : std::make_unique<h5::Writer>()) {
+      file_(staged_ ? std::make_unique<h5::Writer>(staged_->temporary(), path_)
+                    : std::make_unique<h5::Writer>()) {
   put_seal(*file_);
   file_->attribute("/", "schema", kFamily + kind);
   file_->attribute("/", "schema_version", version);

@@ -85,6 +85,7 @@ struct Image {
 
 struct Writer::Impl {
   hid_t file = -1;
+  bool on_disk = false;
   Image image;
 
   // Datasets with axes, in the order in which they were made, and where each stands.
@@ -256,7 +257,8 @@ Writer::Writer() : impl_(std::make_unique<Impl>()) {
   create(memory_name(), false);
 }
 
-Writer::Writer(const std::string& file) : impl_(std::make_unique<Impl>()) {
+Writer::Writer(const std::string& file, const std::string& path) : impl_(std::make_unique<Impl>()) {
+  refusal() = {path, ""};
   create(file, true);
 }
 
@@ -274,12 +276,13 @@ void Writer::create(const std::string& name, bool on_disk) {
   check(H5Pset_obj_track_times(creation, 0), "switch object times off");
   list_in_header(creation);
   impl_->file = H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation, access);
-  if (impl_->file < 0 && on_disk) fail(Failure::io, name, ": HDF5 cannot write this file; check its folder");
-  if (impl_->file < 0) fail(Failure::numerical, "HDF5 refused to make a file in memory");
+  impl_->on_disk = on_disk;
+  if (impl_->file < 0) reject_deed(on_disk ? "make the file" : "make a file in memory");
 }
 
 Writer::~Writer() {
   if (impl_->file >= 0) H5Fclose(impl_->file);
+  if (impl_->on_disk) refusal() = {};
 }
 
 void Writer::group(const std::string& path) {
@@ -317,6 +320,7 @@ void Writer::reserve(const std::string& path, const Shape& shape, std::size_t ch
 }
 
 void Writer::append(const std::string& path, const double* data, std::size_t first, std::size_t rows) {
+  if (!refusal().words.empty()) reject_deed("close " + path);
   const Handle set(H5Dopen2(impl_->file, path.c_str(), H5P_DEFAULT), H5Dclose, "open " + path);
   const Handle space(H5Dget_space(set), H5Sclose, "get a space");
   std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(H5Sget_simple_extent_ndims(space), 0)));
@@ -334,9 +338,8 @@ void Writer::append(const std::string& path, const double* data, std::size_t fir
   check(H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr),
         "select rows of " + path);
   const Handle memory = space_of({count.begin(), count.end()});
-  if (H5Dwrite(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, data) < 0)
-    fail(Failure::io, "cannot write rows ", first, " to ", first + rows, " of ", path,
-         "; check that the disk has room");
+  check(H5Dwrite(set, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, data),
+        text("write rows ", first, " to ", first + rows, " of ", path));
 }
 
 void Writer::attribute(const std::string& path, const std::string& name, const std::string& value) {
@@ -369,8 +372,8 @@ std::string Writer::finish() {
 
 void Writer::close() {
   impl_->scale_axes();
-  if (H5Fclose(std::exchange(impl_->file, -1)) < 0)
-    fail(Failure::io, "HDF5 cannot finish the file; check that the disk has room");
+  check(H5Fclose(std::exchange(impl_->file, -1)), "close the file");
+  if (!refusal().words.empty()) reject_deed("close its datasets");
 }
 
 struct Reader::Impl {
@@ -382,10 +385,39 @@ struct Reader::Impl {
     fail(Failure::input, path, ": ", what, hint.empty() ? "" : "; ", hint);
   }
 
+  // A soft, external or user-defined link leads to what the path does not say, out of the file, too.
+  void require_hard(const std::string& name, H5L_type_t type) const {
+    if (type != H5L_TYPE_HARD)
+      reject(name + " is a link (HDF5 link type " + std::to_string(type) + "), and links are not followed");
+  }
+
+  // Whether an object stands at the end of the path. Rejects a path on which something else than a hard link stands.
+  bool leads_to_object(const std::string& path) const {
+    for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
+      const std::string part = path.substr(0, end);
+      H5L_info_t link;
+      if (part != "/" && H5Lget_info(file, part.c_str(), &link, H5P_DEFAULT) < 0) return false;
+      if (part != "/") require_hard(part, link.type);
+      if (end == std::string::npos) return true;
+    }
+  }
+
+  // Values that stand in the file itself, as they are or by the filters that are written here.
   Handle dataset(const std::string& name) const {
-    const hid_t id = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
+    const hid_t id = leads_to_object(name) ? H5Dopen2(file, name.c_str(), H5P_DEFAULT) : -1;
     if (id < 0) reject("dataset " + name + " is missing or damaged");
-    return Handle(id, H5Dclose, "open " + name);
+    Handle set(id, H5Dclose, "open " + name);
+    if (const std::string why = not_of_file(set); !why.empty()) reject("dataset " + name + " " + why);
+    return set;
+  }
+
+  // The attribute of an object to which the path leads.
+  Handle attribute(const std::string& path, const std::string& name) const {
+    const hid_t id = leads_to_object(path)
+                         ? H5Aopen_by_name(file, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT)
+                         : -1;
+    if (id < 0) reject("attribute " + name + " of " + path + " is missing or damaged");
+    return Handle(id, H5Aclose, "open the attribute " + name);
   }
 
   Shape shape_of(hid_t set) const {
@@ -500,10 +532,7 @@ void Reader::reject(const std::string& what) const {
 }
 
 bool Reader::has(const std::string& path) const {
-  for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
-    if (H5Lexists(impl_->file, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
-    if (end == std::string::npos) return true;
-  }
+  return impl_->leads_to_object(path);
 }
 
 std::vector<std::string> Reader::children(const std::string& group) const {
@@ -544,9 +573,7 @@ std::vector<std::string> Reader::strings(const std::string& path) const {
 
 std::string Reader::string_attribute(const std::string& path, const std::string& name) const {
   const std::string what = "attribute " + name + " of " + path;
-  const hid_t opened = H5Aopen_by_name(impl_->file, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
-  if (opened < 0) impl_->reject(what + " is missing or damaged");
-  const Handle id(opened, H5Aclose, "open " + what);
+  const Handle id = impl_->attribute(path, name);
   const Handle type(H5Aget_type(id), H5Tclose, "get a type");
   const Handle space(H5Aget_space(id), H5Sclose, "get a space");
   const auto read = [](hid_t object, hid_t memory, void* out) { return H5Aread(object, memory, out); };
@@ -556,9 +583,7 @@ std::string Reader::string_attribute(const std::string& path, const std::string&
 
 int Reader::int_attribute(const std::string& path, const std::string& name) const {
   const std::string what = "attribute " + name + " of " + path;
-  const hid_t opened = H5Aopen_by_name(impl_->file, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
-  if (opened < 0) impl_->reject(what + " is missing or damaged");
-  const Handle id(opened, H5Aclose, "open " + what);
+  const Handle id = impl_->attribute(path, name);
   const Handle type(H5Aget_type(id), H5Tclose, "get a type");
   const Handle space(H5Aget_space(id), H5Sclose, "get a space");
   int value = 0;

@@ -25,8 +25,10 @@ struct Label {
 class Writer {
  public:
   Writer();
-  // Into an existing file on disk, for what is more than memory should hold; it ends with close() instead of finish().
-  explicit Writer(const std::string& file);
+  // Into an existing file on disk, for what is more than memory should hold; it ends with close() instead of finish(). One at a
+  // time. Error(io) of it and of all that follows names `path`, under which the file is to be published, and says what the system
+  // said.
+  Writer(const std::string& file, const std::string& path);
   ~Writer();
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;

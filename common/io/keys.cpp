@@ -305,9 +305,10 @@ std::vector<Key> make_keys() {
     {Part::contact, "discretisation", "strips", kNone, "8", 3, 1001, false, "",
      "pressure strips across the contact width at the mean load; a candidate zone holds whole fours of them",
      [](V& v) -> Slot { return &v.contact.strips; }},
-    {Part::contact, "discretisation", "positions", kNone, "0", 0, 65536, false, "",
+    {Part::contact, "discretisation", "positions", kNone, "0", 8, 65536, false, "",
      "positions of the static stage per mesh period; 0: as steps_per_period, 128 at least, for teeth that differ fewer (16 at least), so that there are 16384 in all",
-     [](V& v) -> Slot { return &v.contact.positions; }},
+     [](V& v) -> Slot { return &v.contact.positions; },
+     "a mesh period in fewer points has no harmonics; 0 takes the default", true},
     {Part::time, "discretisation", "steps_per_period", kNone, "128", 8, 65536, false, "",
      "stored samples per mesh period; steps are doubled until min_sample_rate_kHz is reached",
      [](V& v) -> Slot { return &v.time.steps_per_period; }},
@@ -564,7 +565,7 @@ std::string scene_key_table() {
       std::replace(range.begin(), range.end(), ' ', '/');
     } else if (key.most > key.least) {
       range = key.open ? "> " + shown(key.least) + ", <= " + shown(key.most)
-                       : shown(key.least) + " to " + shown(key.most);
+                       : (key.or_zero ? "0, " : "") + shown(key.least) + " to " + shown(key.most);
     }
     if (std::holds_alternative<CornerRule*>(key.slot(values)))
       range = "true, false, or " + range + " (degrees)";

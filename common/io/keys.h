@@ -127,6 +127,7 @@ struct Key {
   const char* meaning;   // one line
   Slot (*slot)(KeyValues&);
   const char* reason = "";  // why there is the lower limit, where that is not plain
+  bool or_zero = false;     // 0 is allowed below the range
 
   // The word of a choice, and a choice by its word, which is one of `choices`.
   std::string word_in(const ChoiceSlot& slot) const { return word_at(choices, slot.place(slot.value)); }

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <deque>
 #include <filesystem>
 #include <iterator>
 #include <memory>
@@ -196,11 +197,15 @@ void StagedFile::seal(const std::string& mark) {
     reject("write its content hash", errno);
 }
 
-void StagedFile::publish() {
+void StagedFile::sync() const {
   Descriptor file(::open(temporary_.c_str(), O_WRONLY | O_NOFOLLOW | O_CLOEXEC));
   if (file.number() < 0) reject("open", errno);
   if (::fsync(file.number()) != 0) reject("sync", errno);
   if (file.close() != 0) reject("close", errno);
+}
+
+void StagedFile::publish() {
+  sync();
   if (::rename(temporary_.c_str(), path_.c_str()) != 0) reject("put the new file in place", errno);
   temporary_.clear();
   sync_folder(path_);
@@ -210,6 +215,15 @@ void publish(const std::string& path, const std::string& bytes) {
   StagedFile file(path);
   file.write(bytes);
   file.publish();
+}
+
+void publish_all(const std::vector<FileBytes>& files) {
+  std::deque<StagedFile> staged;
+  for (const FileBytes& file : files) {
+    staged.emplace_back(file.path).write(file.bytes);
+    staged.back().sync();
+  }
+  for (StagedFile& file : staged) file.publish();
 }
 
 bool publish_if_changed(const std::string& path, const std::string& bytes) {

@@ -11,6 +11,13 @@ namespace whine {
 // Writes bytes to path; makes the parent folders.
 void publish(const std::string& path, const std::string& bytes);
 
+struct FileBytes {
+  std::string path, bytes;
+};
+// Files that belong together, such as a page and its table: all are written and synced beside their places before the first of
+// them replaces an earlier one, so that a full disk or a wrong path leaves all as they were.
+void publish_all(const std::vector<FileBytes>& files);
+
 // A file that grows beside its place before it is published; removed if it is not.
 class StagedFile {
  public:
@@ -24,7 +31,8 @@ class StagedFile {
   // Puts the 64 digits of the SHA-256 of the file in the place of the 64 zeros behind `mark`. Error(numerical) if they are
   // not there.
   void seal(const std::string& mark);
-  void publish();
+  void sync() const;
+  void publish();  // syncs as well
 
  private:
   [[noreturn]] void reject(const char* deed, int code) const;

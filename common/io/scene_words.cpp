@@ -1,9 +1,10 @@
 #include "io/scene_words.h"
 
+#include <algorithm>
 #include <filesystem>
-#include <fstream>
 
 #include "base/error.h"
+#include "io/publish.h"
 
 namespace whine {
 
@@ -12,10 +13,10 @@ std::string scene_words(const std::string& path) {
   namespace fs = std::filesystem;
   for (fs::path folder = fs::path(path).lexically_normal().parent_path(); folder.has_filename();
        folder = folder.parent_path()) {
-    std::ifstream file(folder / "params" / "title.txt");
-    std::string title;
-    if (!file) continue;
-    std::getline(file, title);
+    const fs::path file = folder / "params" / "title.txt";
+    if (std::error_code none; !fs::exists(file, none)) continue;
+    std::string title = read_bytes(file.string());
+    title.resize(std::min(title.find('\n'), title.size()));
     const std::string name = folder.filename().string();
     std::string words = title.empty() || title == name ? name : name + ": " + title;
     if (words.size() > kMostBytes) {

@@ -207,6 +207,7 @@ double SectionReader::finite_number(const Key& key, const toml::node& node, cons
 double SectionReader::checked_number(const Key& key, const toml::node& node, const std::string& item) const {
   const double value = finite_number(key, node, item);
   if (dialect_ == Dialect::settings) return value;
+  if (key.or_zero && value == 0) return value;
   const std::string why = *key.reason ? text(": ", key.reason) : "";
   if (value < key.least || (key.open && value == key.least)) {
     reject(key, node,

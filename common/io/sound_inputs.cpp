@@ -6,6 +6,8 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "io/provenance.h"
+#include "io/publish.h"
 #include "io/runup_codec.h"
 #include "io/sweep_codec.h"
 
@@ -28,6 +30,17 @@ std::pair<size_t, int> bearing_of(const std::string& path, const std::string& wa
 }
 
 }  // namespace
+
+void require_sound_inputs(const std::vector<std::string>& paths) {
+  std::map<std::string, std::string> known;  // path by SHA-256
+  for (const std::string& path : paths) {
+    require_fresh(path);
+    const auto [same, first] = known.try_emplace(sha256_of_file(path), path);
+    if (!first)
+      fail(Failure::usage, path, ": is the same as ", same->second,
+           ", which is heard already; give each branch once");
+  }
+}
 
 HeardMotion heard_motion(const std::string& path, double frequency, const std::string& bearing) {
   const SweepArtifact sweep = read_sweep(path);

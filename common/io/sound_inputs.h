@@ -8,6 +8,10 @@
 
 namespace whine {
 
+// Throws Error(input) for an artifact that is stale or lies where another belongs (require_fresh), Error(usage) for one that is given
+// twice.
+void require_sound_inputs(const std::vector<std::string>& paths);
+
 // One whole period of a motion.
 struct HeardMotion {
   std::string name;        // direction of its sweep

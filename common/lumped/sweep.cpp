@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/progress.h"
 #include "gear/pair.h"
 #include "lumped/period_map.h"
 #include "lumped/stiffness.h"
@@ -145,6 +146,7 @@ LumpedOrbit find_periodic_orbit(LumpedOscillator& oscillator, const State& start
     return tried;
   };
   for (int n = 1; n <= most_periods; ++n) {
+    report_step("mesh period", n, most_periods);
     oscillator.integrate(y);
     ++orbit.periods;
     recurrence.compare(y, n, away);
@@ -193,6 +195,7 @@ LumpedSpeeds integrate_speeds(LumpedOscillator& oscillator, const std::vector<do
   std::vector<BranchMotion> motions;
   const long total = static_cast<long>(speeds.size());
   for (long i = 0; i < total; ++i) {
+    report(i, total, text(speeds[i], " Hz"));
     oscillator.set_speed(speeds[i]);
     out.orbits.push_back(find_periodic_orbit(oscillator, state, periodicity, integrate_only));
     const LumpedOrbit& orbit = out.orbits.back();

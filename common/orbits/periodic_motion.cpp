@@ -6,6 +6,7 @@
 
 #include "base/dense.h"
 #include "base/error.h"
+#include "base/progress.h"
 #include "orbits/recurrence.h"
 
 namespace whine {
@@ -86,6 +87,7 @@ PeriodicMotion find_periodic_motion(PeriodMap& map, const VectorXd& start,
     recurrence.restart(y);
   };
   for (int n = 1;; ++n) {
+    report_step("period", n, options.most_periods);
     const VectorXd from = y;
     try {
       y = map.apply(from);

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "io/publish.h"
 #include "signal/static_result.h"
 
 namespace whine {
@@ -149,10 +148,12 @@ std::vector<FigureTable> tables(const Figure& figure, const std::vector<std::str
   return out;
 }
 
-void publish_tables(const Figure& figure, const std::string& output,
-                    const std::vector<std::string>& sources) {
+std::vector<FileBytes> table_files(const Figure& figure, const std::string& output,
+                                   const std::vector<std::string>& sources) {
+  std::vector<FileBytes> files;
   for (const FigureTable& table : tables(figure, sources))
-    publish(output + (table.name.empty() ? "" : "-" + table.name) + ".tsv", table.text);
+    files.push_back({output + (table.name.empty() ? "" : "-" + table.name) + ".tsv", table.text});
+  return files;
 }
 
 }  // namespace whine

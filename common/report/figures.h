@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/publish.h"
 #include "signal/static_result.h"
 
 namespace whine {
@@ -108,7 +109,8 @@ struct FigureTable {
 };
 std::vector<FigureTable> tables(const Figure& figure, const std::vector<std::string>& sources);
 
-// Writes them: <output>.tsv, and <output>-<name>.tsv for those after the first.
-void publish_tables(const Figure& figure, const std::string& output, const std::vector<std::string>& sources);
+// As files: <output>.tsv, and <output>-<name>.tsv for those after the first.
+std::vector<FileBytes> table_files(const Figure& figure, const std::string& output,
+                                   const std::vector<std::string>& sources);
 
 }  // namespace whine

@@ -107,6 +107,7 @@ Sounds sounds_of_motions(const std::vector<std::string>& paths, double frequency
                          const Transfer* transfer, double seconds) {
   Sounds out;
   std::vector<HeardMotion> branches;
+  require_sound_inputs(paths);
   for (const std::string& path : paths) {
     branches.push_back(heard_motion(path, frequency, bearing));
     const HeardMotion& heard = branches.back();
@@ -126,6 +127,7 @@ Sounds sounds_of_runups(const std::vector<std::string>& paths, const std::string
                         const Transfer* transfer) {
   Sounds out;
   std::vector<HeardRunup> runs;
+  require_sound_inputs(paths);
   for (const std::string& path : paths) {
     runs.push_back(heard_runup(path, bearing));
     if (runs.back().rate != runs[0].rate)

@@ -92,27 +92,29 @@ std::optional<BranchEnd> branch_end(const BranchWalk& walk, const std::vector<Br
   constexpr double kLost = 1.25;     // change of RMS of a step that is halved whatever it leads to
   constexpr double kSurelyLost = 2;  // the same for kShrinking finest steps and fewer
   constexpr double kToFold = 0.75;   // of the way to a fold that is predicted
+  // Places count finest steps of 1e-7 Hz and less over all of the sweep: more than an int holds.
   const double finest = walk.step / walk.fineness;
   const BranchMotion from = sweep[i - 1];
   const BranchMotion* const swept = at_or_none(sweep, i);
-  const int widest = swept ? walk.fineness / 2 : walk.fineness;
+  const long widest = swept ? walk.fineness / 2 : walk.fineness;
 
   // What stands ahead, nearest last: the sweep's next speed, and runs that left the branch or were too long to tell.
   constexpr int kSwept = -1;
   struct Known {
     BranchMotion motion;
-    int place, from;  // in finest steps from motion i - 1; where its run began
-    int run;          // or kSwept
+    long place, from;  // in finest steps from motion i - 1; where its run began
+    int run;           // or kSwept
   };
   std::vector<Known> ahead;
   if (swept) ahead.push_back({*swept, walk.fineness, 0, kSwept});
   std::vector<BranchMotion> trail(sweep.begin() + static_cast<std::ptrdiff_t>(i < 3 ? 0 : i - 3),
                                   sweep.begin() + static_cast<std::ptrdiff_t>(i));  // on the branch
-  int place = 0, runs = 0, stride = widest;
+  long place = 0, stride = widest;
+  int runs = 0;
   double largest = 0;  // departure over kShrinking finest steps or fewer
 
   const auto beyond = [&](size_t n) -> const BranchMotion* {
-    const int there = ahead[n].place;
+    const long there = ahead[n].place;
     while (n-- > 0)
       if (ahead[n].motion.multiple > 0) return &ahead[n].motion;
     return swept && there == walk.fineness ? at_or_none(sweep, i + 1) : nullptr;
@@ -124,11 +126,11 @@ std::optional<BranchEnd> branch_end(const BranchWalk& walk, const std::vector<Br
   };
 
   for (;;) {
-    int reach = stride;
+    long reach = stride;
     bool again = false;  // from nearer to what is known ahead
     if (!ahead.empty()) {
       const Known& next = ahead.back();
-      const int gap = next.place - place;
+      const long gap = next.place - place;
       const BranchMotion* before = trail.size() > 1 ? &trail[trail.size() - 2] : nullptr;
       // A run that gave up has left the branch.
       const double off = next.run != kSwept && next.motion.multiple == 0
@@ -150,14 +152,14 @@ std::optional<BranchEnd> branch_end(const BranchWalk& walk, const std::vector<Br
       }
       if (nearest) return BranchEnd{trail.back().mesh_frequency, next.motion.mesh_frequency, false};
       again = gap == 1 || (next.run == kSwept && next.from == 0 && place > 0 && to_fold() > gap);
-      reach = again ? gap : std::max(1, gap / 2);
+      reach = again ? gap : std::max(1L, gap / 2);
     } else if ((from.mesh_frequency + (place + stride) * finest - walk.limit) / finest > 1e-6) {
       if (stride == 1) return BranchEnd{trail.back().mesh_frequency, walk.limit, true};
       stride /= 2;
       continue;
     }
     if (const double fold = to_fold(); !again && place > 0 && fold < 2 * reach)
-      reach = std::clamp(static_cast<int>(kToFold * fold), std::max(1, reach / 4), reach);
+      reach = std::clamp(static_cast<long>(kToFold * fold), std::max(1L, reach / 4), reach);
     const Known found{
         walk.run(from.mesh_frequency + (place + reach) * finest, reach > kShrinking ? kLost : kSurelyLost),
         place + reach, place, runs++};
@@ -183,7 +185,10 @@ std::optional<BranchJump> find_jump(const std::vector<BranchMotion>& sweep, size
   BranchWalk walk;
   walk.step = to - from;
   walk.limit = sweep.back().mesh_frequency;
-  while (follow.finest > 0 && std::abs(walk.step) > follow.finest * walk.fineness) walk.fineness *= 2;
+  constexpr int kMostFineness = 1 << 30;
+  while (walk.fineness < kMostFineness && follow.finest > 0 &&
+         std::abs(walk.step) > follow.finest * walk.fineness)
+    walk.fineness *= 2;
   walk.run = follow.run;
   walk.keep = [&](int n) { points.push_back(follow.keep(n)); };
   const auto end = branch_end(walk, sweep, i);

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/model_range.h"
 #include "dynamics/dynamics.h"
 #include "dynamics/steady_state.h"
@@ -61,6 +62,7 @@ void require_memory(int hunting, int speeds, const SweepParameters& settings, in
          hunting > 1 ? " speeds of that length need " : " speeds need ", memory * 1e-9, " GB, at most ",
          kMostMemory * 1e-9,
          " are allowed; give fewer mesh_frequency_Hz, or lower steps_per_period and min_sample_rate_kHz");
+  tell_memory(text("the motions at ", speeds, " speeds"), memory);
 }
 
 // The pair from speed to speed, on the lowest level of candidate contact zones that holds its motion, whatever the speeds before
@@ -497,6 +499,7 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
     fail(Failure::input, "jumps cannot be located to ", jump_width, " Hz; give ", kFinest, " Hz or more");
   require_inertia(statics.mesh, {driver.inertia, driven.inertia}, settings.inertia);
   const GearMeshModel model(driver, driven, statics.mesh);
+  report(0, speeds, "candidate contact zone");
   Sweeper sweeper(model, dynamic_parameters(statics, mean_stiffness, settings), statics, settings);
 
   SweepArtifact result;
@@ -524,6 +527,7 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
   std::vector<BranchMotion> motions;
   std::vector<RollingDynamics::State> reached;
   for (const double f : speed) {
+    report(static_cast<long>(steady.size()), speeds, text(f, " Hz"));
     steady.push_back(integrate ? sweeper.run(f) : run_on(sweeper, motions, reached, f));
     motions.push_back(branch_motion(f, steady.back()));
     reached.push_back(sweeper.state());

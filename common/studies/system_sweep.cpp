@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/memory.h"
 #include "base/model_range.h"
 #include "dynamics/system_period_map.h"
 #include "orbits/periodic_motion.h"
@@ -247,6 +248,7 @@ void require_memory_for(const SystemSweepParameters& settings, int hunting, size
          "the samples of ", speeds, " speeds need ", memory * 1e-9, " GB, at most ", kMostMemory * 1e-9,
          " are allowed; give fewer mesh_frequency_Hz, or lower steps_per_period",
          hunting > 1 ? ", or give errors to fewer gears" : "");
+  tell_memory(text("the samples of ", speeds, " speeds"), memory);
 }
 
 }  // namespace
@@ -256,6 +258,7 @@ SystemSweepArtifact system_sweep(const SystemSweepParameters& settings,
                                  const std::function<void(long, long, const std::string&)>& report) {
   const std::vector<double> speeds = system_speeds(settings, direction);
   require_memory_for(settings, whine::hunting_periods(settings), speeds.size());
+  report(0, static_cast<long>(speeds.size()), "at rest");
   SystemSweeper sweeper(settings, bodies);
   const SystemRig& rig = sweeper.rig();
   const auto n = static_cast<Index>(speeds.size()), meshes = static_cast<Index>(rig.system().mesh.size()),
@@ -283,6 +286,7 @@ SystemSweepArtifact system_sweep(const SystemSweepParameters& settings,
   out.mesh_force.resize(speeds.size());
   out.bearing_force.assign(settings.layout.bodies.size(), std::vector<MatrixRM>(speeds.size()));
   for (Index i = 0; i < n; ++i) {
+    report(i, n, text(speeds[static_cast<size_t>(i)], " Hz"));
     const std::string note = sweeper.run(speeds[static_cast<size_t>(i)], i, out);
     report(i + 1, n, text(speeds[static_cast<size_t>(i)], " Hz", note.empty() ? "" : ", ", note));
   }

@@ -154,6 +154,21 @@ SystemStatics::SystemStatics(const SystemModel& system, ContactModel contact,
   tables_ = compliance_tables(system, depth_);
 }
 
+namespace {
+
+// The compliance of all strips, and its factor.
+void require_strips(double strips) {
+  constexpr double kMostMemory = 2e9;  // bytes
+  const double memory = 2 * 8 * strips * strips;
+  if (memory > kMostMemory)
+    fail(Failure::input, "contact is looked for on ", strips, " strips, whose compliance needs ",
+         memory * 1e-9, " GB, at most ", kMostMemory * 1e-9,
+         " are allowed: under this load contact is that narrow beside what flanks and teeth deviate by; "
+         "raise the torque, lower strips, or set contact = \"line\"");
+}
+
+}  // namespace
+
 void SystemStatics::take_position(double phase, int period) {
   const bool here = position_ && position_->phase == phase;
   if (here && (period == period_ || alike_) && !lines_) return;
@@ -170,6 +185,7 @@ void SystemStatics::take_position(double phase, int period) {
   position_ = join(system_, phase, period, std::move(meshes));
   period_ = period;
   if (here) return;
+  require_strips(position_->strips());
   repeats_ = false;
   compliance_ = contact_compliance(system_, *position_, tables_, depth_);
   if (lines_) return;

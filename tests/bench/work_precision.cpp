@@ -493,11 +493,12 @@ void body(int argc, char** argv) {
 
   const std::string recipe = plots + "/work-precision.gp";
   const PlotFile data(figure);
-  publish_tables(
+  std::vector<FileBytes> files = table_files(
       figure, output,
       {recorded_path(statics), recorded_path(sweeps), recorded_path(paths[0]), recorded_path(paths[1])});
-  publish(output + ".svg", draw(figure, data.path(), recipe, Picture::svg));
-  publish(output + ".png", draw(figure, data.path(), recipe, Picture::png));
+  files.push_back({output + ".svg", draw(figure, data.path(), recipe, Picture::svg)});
+  files.push_back({output + ".png", draw(figure, data.path(), recipe, Picture::png)});
+  publish_all(files);
   tell("work-precision -> ", output, ".{tsv,svg,png}");
 }
 

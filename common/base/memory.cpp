@@ -1,0 +1,12 @@
+#include "base/memory.h"
+
+#include "base/tool.h"
+
+namespace whine {
+
+void tell_memory(const std::string& what, double bytes) {
+  constexpr double kGB = 1e9, kWorthALine = kGB;
+  if (bytes >= kWorthALine) tell(what, " take ", bytes / kGB, " GB of memory");
+}
+
+}  // namespace whine
