@@ -180,7 +180,7 @@ PairContact GearPair::contact(double phase) const {
   const double path = phase * base_pitch();
   const double rb[2] = {gear_[0].base_radius(), gear_[1].base_radius()};
   c.nominal = {nominal_roll(0, path), nominal_roll(1, path)};
-  if (c.nominal[0] <= 0 || c.nominal[1] <= 0)
+  if (!has_contact(phase))
     fail(Failure::numerical, "a contact ", millimetres(path),
          " from the pitch point lies beyond the base circles");
   c.roll = c.nominal;

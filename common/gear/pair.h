@@ -81,8 +81,13 @@ class GearPair {
   // cos^3 psi). The slope tan psi itself, and the tooth that ends at the edge, are no part of it.
   double relative_curvature_radius(const PairContact& contact) const;
 
-  // phase: mesh periods from the pitch point, any value for which the nominal point lies between the base
-  // circles' tangent points (throws Error(numerical) beyond).
+  // phase: mesh periods from the pitch point. A tip edge touches its mate's involute on past the tangent point of the base circle; of
+  // internal pairs phases end there.
+  bool has_contact(double phase) const {
+    return !internal() ||
+           (nominal_roll(0, phase * base_pitch()) > 0 && nominal_roll(1, phase * base_pitch()) > 0);
+  }
+  // Throws Error(numerical) where there is none.
   PairContact contact(double phase) const;
 
   // x: m, tangential coordinate of the contact frame, growing to the driver's tip (of a ring: inwards), 0 at the nominal touching

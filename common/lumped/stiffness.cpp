@@ -162,11 +162,7 @@ class PairGap {
 
   // m; nothing where this pair cannot touch.
   std::optional<double> operator()(double own_phase) const {
-    // Beyond the tangent points of the base circles there is no contact of these flanks.
-    const double path = own_phase * pair_.base_pitch(), tangent = std::tan(pair_.working_pressure_angle());
-    if (pair_.gear(0).base_radius() * tangent + path <= 0 ||
-        pair_.gear(1).base_radius() * tangent - path <= 0)
-      return std::nullopt;
+    if (!pair_.has_contact(own_phase)) return std::nullopt;
     const PairContact c = pair_.contact(own_phase);
     const double gap =
         flanks_.none() || !c.on_flank ? c.gap : pair_.gap_at(c, pair_.nearest(c, flanks_), flanks_);
@@ -263,8 +259,7 @@ LumpedParameters cells_of_pairs(const StaticArtifact& s, int cells, Eigen::Vecto
   double coefficient = 0;
   for (const BodyParameters& gear : s.gear)
     coefficient +=
-        HalfPlaneSurface(in_contact_plane(gear.material, s.mesh.contact_plane), gear.design.face_width)
-            .coefficient();
+        HalfPlaneSurface(in_contact_plane(gear.material, s.mesh.contact_plane), s.face_width()).coefficient();
   const int springs = std::max(1, chords);
 
   // Pair n at mesh phase f in [0, 1] has the phase f + n of its own.
