@@ -9,6 +9,7 @@
 
 #include "base/dense.h"
 #include "base/error.h"
+#include "base/model_range.h"
 #include "dynamics/impact.h"
 #include "paper_pair.h"
 #include "relative.h"
@@ -319,6 +320,22 @@ TEST_CASE(
   CHECK(twice < 1e-4);  // 4000 N s/m: 9 % of critical damping on the bearing
   CHECK(twice / small == relative(4, 0.5));
   CHECK(off(roots(200e6 * 7.7e-6, 7.7e-6)) < 1e-12);
+}
+
+TEST_CASE(
+    "a bearing that lets teeth stand beside their places is refused, with what it moves and the limit") {
+  const auto said = [](double stiffness) {
+    try {
+      at_rest(statics_on({Bearing{stiffness, 0, 0}, Bearing{stiffness, 0, 0}}, true));
+    } catch (const ModelRangeError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK(said(1e7).empty());
+  CHECK(said(1e6).find("the transmission error of 'pinion' and 'wheel' is 4.26") != std::string::npos);
+  CHECK(said(1e6).find("above 0.75 mm, a quarter of the module") != std::string::npos);
+  CHECK(said(1e6).find("raise stiffness_N_um in [[bearing]]") != std::string::npos);
 }
 
 TEST_CASE("bearings are rejected where they cannot be: a mass below the body's, too few modes, every mode") {

@@ -573,3 +573,23 @@ TEST_CASE("line contact: pairs without overlap carry nothing; what cannot be sol
   force.setZero();
   CHECK_THROWS_AS(solve_line_contact(indefinite, lines.law, VectorXd::Constant(2, -1e-6), force, d), Error);
 }
+
+TEST_CASE("gears of plastic: tip edges are found as far as they bend, and all lengths are those of steel") {
+  // A body of another modulus: flexibilities go with its inverse, and equal lengths with equal loads over the modulus.
+  constexpr double kPlastic = 2.8e9, kSoft = 2.8 / 207;
+  BodyArtifact steel = paper_body(40e-3, 1.2e-3, 12), plastic = steel;
+  plastic.material.youngs_modulus = kPlastic;
+  for (MatrixRM& r : plastic.compliance) r /= kSoft;
+  plastic.far_compliance /= kSoft;
+  const auto at_rest = [](const BodyArtifact& body, double torque) {
+    return static_transmission(body, body, paper_statics(8), torque);
+  };
+  for (const double torque : {2.0, 20.0, 60.0}) {
+    CAPTURE(torque);
+    const StaticArtifact soft = at_rest(plastic, torque), hard = at_rest(steel, torque / kSoft);
+    CHECK((soft.transmission_error - hard.transmission_error).norm() < 2e-3 * hard.transmission_error.norm());
+    CHECK((soft.tooth_load.rowwise().sum() - hard.tooth_load.rowwise().sum() * kSoft).norm() <
+          2e-3 * soft.tooth_load.norm());
+  }
+  CHECK(at_rest(plastic, 60).transmission_error.maxCoeff() > 150e-6);
+}

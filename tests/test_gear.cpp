@@ -214,30 +214,36 @@ TEST_CASE("corner contact: gap grows from zero at the ends of the path, by two i
 }
 
 TEST_CASE("corner gap equals the separation of points found by brute force") {
-  // Edge and touched flank placed in one plane through flank_point(), which knows nothing of contact().
-  const GearPair pair(paper_gear(), paper_gear(), 0.150);
-  const double phase = pair.path_end() / pair.base_pitch() + 0.08;
-  const double alpha = pair.working_pressure_angle(), path = phase * pair.base_pitch();
-  const auto place = [&](int g, double xi) {
-    const ToothGeometry& tooth = pair.gear(g);
-    const double rb = tooth.base_radius(), nominal = std::tan(alpha) + (g == 0 ? path : -path) / rb;
-    // Turn the flank so that the normal at the nominal roll angle lies along the line of action, at alpha to
-    // the perpendicular of the line of centres (+y); driver at the origin, driven gear at (0, a) turned by
-    // 180 deg.
-    const Vec2 n = tooth.flank_normal(nominal);
-    const double turn = (std::numbers::pi - alpha) - std::atan2(n.y(), n.x());
-    const Vec2 p = Eigen::Rotation2Dd(turn) * tooth.flank_point(xi);
-    return g == 0 ? p : Vec2(-p.x(), pair.centre_distance() - p.y());
-  };
-  const Vec2 edge = place(0, pair.gear(0).tip_roll_angle());
-  const auto distance = [&](double xi) { return (place(1, xi) - edge).norm(); };
-  double low = pair.gear(1).form_roll_angle(), high = pair.gear(1).tip_roll_angle();
-  for (int i = 0; i < 200; ++i) {  // the distance has one minimum on the flank
-    const double a = low + (high - low) / 3, b = high - (high - low) / 3;
-    (distance(a) < distance(b) ? high : low) = distance(a) < distance(b) ? b : a;
+  // Edge and touched flank placed in one plane through flank_point(), which knows nothing of contact(). The second phase lies past
+  // the tangent point of the driven gear's base circle.
+  for (const bool past : {false, true}) {
+    CAPTURE(past);
+    const GearPair pair(past ? paper_gear(60) : paper_gear(), past ? paper_gear(18) : paper_gear(),
+                        past ? 0.117 : 0.150);
+    const double phase = past ? 1.07 : pair.path_end() / pair.base_pitch() + 0.08;
+    if (past) REQUIRE(pair.nominal_roll(1, phase * pair.base_pitch()) < 0);
+    const double alpha = pair.working_pressure_angle(), path = phase * pair.base_pitch();
+    const auto place = [&](int g, double xi) {
+      const ToothGeometry& tooth = pair.gear(g);
+      const double rb = tooth.base_radius(), nominal = std::tan(alpha) + (g == 0 ? path : -path) / rb;
+      // Turn the flank so that the normal at the nominal roll angle lies along the line of action, at alpha to
+      // the perpendicular of the line of centres (+y); driver at the origin, driven gear at (0, a) turned by
+      // 180 deg.
+      const Vec2 n = tooth.flank_normal(nominal);
+      const double turn = (std::numbers::pi - alpha) - std::atan2(n.y(), n.x());
+      const Vec2 p = Eigen::Rotation2Dd(turn) * tooth.flank_point(xi);
+      return g == 0 ? p : Vec2(-p.x(), pair.centre_distance() - p.y());
+    };
+    const Vec2 edge = place(0, pair.gear(0).tip_roll_angle());
+    const auto distance = [&](double xi) { return (place(1, xi) - edge).norm(); };
+    double low = pair.gear(1).form_roll_angle(), high = pair.gear(1).tip_roll_angle();
+    for (int i = 0; i < 200; ++i) {  // the distance has one minimum on the flank
+      const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+      (distance(a) < distance(b) ? high : low) = distance(a) < distance(b) ? b : a;
+    }
+    CHECK(pair.contact(phase).gap == relative(distance(0.5 * (low + high)), 1e-7));
+    CHECK(pair.contact(phase).roll[1] == relative(0.5 * (low + high), 1e-4));
   }
-  CHECK(pair.contact(phase).gap == relative(distance(0.5 * (low + high)), 1e-7));
-  CHECK(pair.contact(phase).roll[1] == relative(0.5 * (low + high), 1e-4));
 }
 
 TEST_CASE("the gap's slope and curvature at the touching point, on the line of action and at corners") {

@@ -91,7 +91,7 @@ TEST_CASE("ISO 6336: an internal pair is rejected by its name") {
   CHECK_THROWS_WITH_AS(iso_6336_root(pair, 0), doctest::Contains("is internal"), Error);
 }
 
-TEST_CASE("ISO 6336: more than a module of a wider gear's overhang carries nothing") {
+TEST_CASE("ISO 6336: more than a module of a wider gear's overhang on either side carries nothing") {
   GearDesign wide = fzg_c(16, 0.1817, 82.636e-3), narrow = fzg_c(24, 0.1715, 118.544e-3);
   const double even = iso_6336_root_stress(GearPair(wide, narrow, 91.5e-3), 0, kForce);
   wide.face_width = narrow.face_width + 0.5 * wide.module;
@@ -100,7 +100,7 @@ TEST_CASE("ISO 6336: more than a module of a wider gear's overhang carries nothi
   wide.face_width = 3 * narrow.face_width;
   const GearPair pair(wide, narrow, 91.5e-3);
   CHECK(iso_6336_root_stress(pair, 0, kForce) ==
-        relative(even * narrow.face_width / (narrow.face_width + wide.module), 1e-12));
+        relative(even * narrow.face_width / (narrow.face_width + 2 * wide.module), 1e-12));
   CHECK(iso_6336_root_stress(pair, 1, kForce) ==
         relative(iso_6336_root_stress(fzg_c_pair(), 1, kForce), 1e-12));
 }

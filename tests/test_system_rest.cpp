@@ -291,6 +291,31 @@ TEST_CASE("the four-planet set that ships and its rigid twin stand, turn and mes
   CHECK(modes.natural_frequency[14] == relative(10009.9, 0.03));
 }
 
+TEST_CASE("a sun floats on any soft bearing: loads of no bearing to the first order, nothing jumps") {
+  for (const ContactModel contact : {ContactModel::line, ContactModel::strips}) {
+    const auto on = [&](double stiffness) {
+      SystemScene scene = train({26, 37, 100}, contact, true);
+      scene.contact.positions = 4;
+      scene.gears[0].bearing.stiffness = stiffness;
+      return at_rest(scene);
+    };
+    const SystemStaticArtifact free = on(10);
+    const double load = free.mesh_force.maxCoeff();
+    double before = 0;
+    for (const double stiffness : {1e3, 1e4, 1e5}) {
+      const double change = (on(stiffness).mesh_force - free.mesh_force).cwiseAbs().maxCoeff();
+      if (before > 0) CHECK(change == relative(10 * before, 0.05));
+      before = change;
+    }
+    CHECK(before < 1e-3 * load);
+    // Softer than about 1 N per micrometre the hub's translations are freedoms of the equilibrium, else a part of the compliance.
+    const MatrixRM soft = on(0.98e6).mesh_force, hard = on(1.04e6).mesh_force, harder = on(1.1e6).mesh_force;
+    CHECK((soft - 2 * hard + harder).cwiseAbs().maxCoeff() < 1e-5 * load);
+    // What the free sun's meshes push it with adds up to nothing.
+    CHECK(free.bearing_force[0].row(0).norm() < 1e-6 * load);
+  }
+}
+
 TEST_CASE(
     "stage parameters of elastic systems: read as written; what a scene of elastic gears cannot have is "
     "rejected") {

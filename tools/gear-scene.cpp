@@ -26,6 +26,7 @@
 #include "io/system_scene.h"
 #include "io/variant.h"
 #include "system/rigid_system.h"
+#include "system/undamped_depth.h"
 
 namespace {
 using namespace whine;
@@ -48,6 +49,7 @@ void cut_system(const std::string& path, const std::string& stem, const std::str
     check_system_geometry(scene, place_in(path));
     check_inertia(scene, place_in(path));
     check_at_rest_in(scene, layout, path);
+    check_undamped_depth(scene, layout, place_in(path));
     record_scene(home, path);
     for (const auto& [name, words] : elastic_parameters(scene, layout))
       publish_if_changed(home + "/params/" + name, words);
@@ -57,6 +59,7 @@ void cut_system(const std::string& path, const std::string& stem, const std::str
           system_fragment(path, stem, publish_bodies(home, folder, body_parameters_of(scene)),
                           layout.meshes.size() > scene.meshes.size(), scene.operation.frequency_to > 0));
   for (const std::string& said : scene_warnings(scene, place_in(path))) tell("gear-scene: warning: ", said);
+  for (const std::string& remark : scene_remarks(scene)) tell("gear-scene: ", path, ": ", remark);
   for (const std::string& cost : costs(scene, layout.meshes.size())) tell("gear-scene: ", path, ": ", cost);
   for (const std::string& remark : motion_remarks(scene)) tell("gear-scene: ", remark);
   tell("gear-scene: ", path, ": ", layout.bodies.size(), " bodies, ", layout.meshes.size(), " meshes");
@@ -69,6 +72,7 @@ void cut_pair(const std::string& path, const std::string& stem, const std::strin
   const ScenePlace where = place_in(path);
   check_geometry(scene, where);
   check_inertia(scene, where);
+  check_undamped_depth(scene, where);
   const std::string home = folder + "/" + stem;
   record_scene(home, path);
 
@@ -93,6 +97,7 @@ void cut_pair(const std::string& path, const std::string& stem, const std::strin
   // 3. The fragment, always written.
   publish(output, scene_fragment(scene, path, stem, bodies));
   for (const std::string& warning : scene_warnings(scene, where)) tell("gear-scene: warning: ", warning);
+  for (const std::string& remark : scene_remarks(scene)) tell("gear-scene: ", path, ": ", remark);
   for (const std::string& cost : costs(scene)) tell("gear-scene: ", path, ": ", cost);
   tell("gear-scene: ", path, ": ", scene.gears.size(), " gears, ", different(bodies).size(),
        (different(bodies).size() == 1 ? " body, " : " bodies, "), torques_in_words(scene.operation.torques));

@@ -7,6 +7,7 @@
 #include "base/dense.h"
 #include "base/error.h"
 #include "base/memory.h"
+#include "system/undamped_depth.h"
 
 namespace whine {
 
@@ -107,6 +108,10 @@ void RollingDynamics::set_zone(const CandidateZone& range, int steps, const Zone
   if (!lines() && range.strips % StepKernel::kStripsAtOnce != 0)
     fail(Failure::numerical, range.strips, " strips in a candidate zone are no multiple of ",
          StepKernel::kStripsAtOnce);
+  const double depth = parameters_.damping.undamped_depth,
+               widest = widest_half_width(model_.gear[0].half_plane(), model_.gear[1].half_plane(), depth);
+  beyond_depth_ =
+      !lines() && range.half_zone > widest ? beyond_undamped_depth(range.half_zone, widest, depth) : "";
   place_positions(range, steps);
   require_zone_memory(steps, beside);
   StepSystem system;

@@ -305,6 +305,8 @@ class RollingDynamics {
 
   const GearMeshModel& model_;
   DynamicParameters parameters_;
+  std::string
+      beyond_depth_;  // why a failing contact of this range fails; "" where the undamped half-plane holds it
   bool full_, lines_, newmark_;         // of the fidelity
   bool floating_;                       // a gear is on a bearing
   double relaxation_;                   // s, of the residual flexibility

@@ -148,7 +148,8 @@ class SystemDynamics {
   void couple();
   Position filled(const SystemPosition& at, int shift);
   void relate(Position& position, const SystemPosition& at) const;
-  Eigen::MatrixXd residual(int b, const ToothFlank& read, const ToothFlank& loaded) const;
+  Eigen::MatrixXd residual(int b, const ElasticGear& gear, const ToothFlank& read,
+                           const ToothFlank& loaded) const;
   Eigen::MatrixXd modal_compliance(const Position& position, const Eigen::VectorXd& weight) const;
   Eigen::VectorXd participation(const Position& position,
                                 int k) const;  // (coordinate) h of contact k, in full

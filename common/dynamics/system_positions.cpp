@@ -67,8 +67,8 @@ SystemPosition SystemDynamics::positioned(int i) const {
 }
 
 // m N-1, inward: what the kept modes of a body leave between two of its flanks.
-MatrixXd SystemDynamics::residual(int b, const ToothFlank& read, const ToothFlank& loaded) const {
-  const ElasticGear& gear = *system_.body[static_cast<size_t>(b)];
+MatrixXd SystemDynamics::residual(int b, const ElasticGear& gear, const ToothFlank& read,
+                                  const ToothFlank& loaded) const {
   const BodyArtifact& body = gear.body();
   MatrixXd out = gear.compliance(read, loaded, depth_);
   // Shapes on the two teeth, of all modes in turn.
@@ -115,18 +115,21 @@ void SystemDynamics::couple() {
   tables_.clear();
   coupling_.clear();
   for (int b = 0; b < static_cast<int>(system_.body.size()); ++b) {
-    std::vector<ToothFlank> flank;  // of each slot
+    std::vector<ToothFlank> flank;         // of each slot
+    std::vector<const ElasticGear*> gear;  // of each slot, as its mesh sees it
     flank.reserve(meshes_of_[static_cast<size_t>(b)].size() * static_cast<size_t>(pairs()));
     for (const int m : meshes_of_[static_cast<size_t>(b)]) {
-      const System::Side& side =
-          system_.layout.meshes[static_cast<size_t>(m)].side[static_cast<size_t>(system_.side_of(b, m))];
+      const auto s = static_cast<size_t>(system_.side_of(b, m));
+      const System::Side& side = system_.layout.meshes[static_cast<size_t>(m)].side[s];
       for (int pair = first_; pair <= last_; ++pair) flank.push_back({side.tooth(pair), side.flank});
+      gear.resize(flank.size(), &system_.mesh[static_cast<size_t>(m)].gear[s]);
     }
     const auto n = flank.size();
     std::vector<MatrixXd> table(n * n), others;
     for (size_t i = 0; i < n; ++i)
       for (size_t j = 0; j < n; ++j) {
-        table[i * n + j] = residual(b, flank[i], flank[j]);
+        const ElasticGear& seen = i == j ? *gear[i] : *system_.body[static_cast<size_t>(b)];
+        table[i * n + j] = residual(b, seen, flank[i], flank[j]);
         if (flank[i].tooth != flank[j].tooth || flank[i].side != flank[j].side)
           others.push_back(table[i * n + j]);
       }

@@ -5,6 +5,8 @@
 #include <limits>
 #include <numbers>
 
+#include "gear/face_width.h"
+
 namespace whine {
 
 IsoStiffness iso_6336_stiffness(const GearDesign& a, const Material& of_a, const GearDesign& b,
@@ -25,7 +27,7 @@ IsoStiffness iso_6336_stiffness(const GearDesign& a, const Material& of_a, const
   const double modulus =
       2 * of_a.youngs_modulus * of_b.youngs_modulus / (of_a.youngs_modulus + of_b.youngs_modulus);
   IsoStiffness out;
-  out.line_load = torque / (0.5 * a.teeth * a.module) / std::min(a.face_width, b.face_width);
+  out.line_load = torque / (0.5 * a.teeth * a.module) / contact_width(a, b);
   const double load = std::min(1.0, std::pow(out.line_load / kFullLoad, 0.25));
   out.single =
       kMeasured * 0.5 * (rack(a) + rack(b)) / q * (modulus / kSteel) * load * kPerMillimetreMicrometre;

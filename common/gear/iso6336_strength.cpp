@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "gear/face_width.h"
 
 namespace whine {
 namespace {
@@ -75,7 +76,7 @@ IsoRoot iso_6336_root(const GearPair& pair, int g) {
 double iso_6336_root_stress(const GearPair& pair, int g, double tangential_force) {
   const IsoRoot root = iso_6336_root(pair, g);
   const GearDesign& d = pair.gear(g).design();
-  const double width = std::min(d.face_width, pair.gear(1 - g).design().face_width + d.module);
+  const double width = carrying_width(d, contact_width(d, pair.gear(1 - g).design()));
   return tangential_force / (width * d.module) * root.form * root.stress_correction;
 }
 
@@ -85,8 +86,7 @@ double iso_6336_flank_pressure(const GearPair& pair, const std::array<Material, 
   require_two_pairs(pair, "the flank pressure of ISO 6336-2");
   const int pinion = pair.gear(0).design().teeth <= pair.gear(1).design().teeth ? 0 : 1;
   const GearDesign &d1 = pair.gear(pinion).design(), &d2 = pair.gear(1 - pinion).design();
-  const double ratio = static_cast<double>(d2.teeth) / d1.teeth,
-               width = std::min(d1.face_width, d2.face_width);
+  const double ratio = static_cast<double>(d2.teeth) / d1.teeth, width = contact_width(d1, d2);
   const double alpha = d1.pressure_angle, working = pair.working_pressure_angle();
   const double zone = std::sqrt(2 * std::cos(working) / std::sin(working)) / std::cos(alpha);
   double soft = 0;

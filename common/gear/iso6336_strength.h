@@ -11,7 +11,7 @@
 //   Y_F  = 6 h_Fe cos a_Fe / (s_Fn^2 cos alpha),      Y_S = (1.2 + 0.13 L) q_s^(1 / (1.21 + 2.3 / L))
 // with L = s_Fn / h_Fe, q_s = s_Fn / (2 rho_F), d_e the diameter of the load, cos a_e = d_b / d_e,
 // gamma = (pi / 2 + 2 x_E tan alpha) / z + inv alpha - inv a_e, a_Fe = a_e - gamma.
-//   sigma_F0 = F_t / (b m) Y_F Y_S,   b = min(own face width, that of the other gear + m)
+//   sigma_F0 = F_t / (b m) Y_F Y_S,   b = min(own face width, common one + 2 m), face_width.h
 //   sigma_H0 = Z_H Z_E Z_eps sqrt(F_t / (d_1 b) (u + 1) / u),   Z_H = sqrt(2 cos a_w / (cos^2 alpha sin a_w)),
 //   Z_E = 1 / sqrt(pi ((1 - nu_1^2) / E_1 + (1 - nu_2^2) / E_2)),   Z_eps = sqrt((4 - eps_alpha) / 3)
 // Y_S holds for 1 <= q_s < 8. Tooth fillets cut by a rack without protuberance. All are for contact ratios below 2: above there

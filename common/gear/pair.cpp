@@ -194,10 +194,7 @@ Vec2 GearPair::flank_in_nominal_frame(int g, double nominal, double roll) const 
 
 bool GearPair::in_reach(double phase) const {
   const double path = phase * base_pitch();
-  for (int g = 0; g < kSides; ++g)
-    if (nominal_roll(g, path) <= 0 && !(gear_[g].undercut() > 0 && nominal_roll(1 - g, path) > 0))
-      return false;
-  return true;
+  return !internal() || (nominal_roll(0, path) > 0 && nominal_roll(1, path) > 0);
 }
 
 // The edge of gear `tip`, that of its tip or of its undercut flank, on the flank of the other gear, off the line of action. passing:

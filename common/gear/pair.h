@@ -89,8 +89,8 @@ class GearPair {
   // cos^3 psi). The slope tan psi itself, and the tooth that ends at the edge, are no part of it.
   double relative_curvature_radius(const PairContact& contact) const;
 
-  // Whether the flanks of a pair at this phase can touch: the nominal point lies between the base circles' tangent points, or
-  // beyond that of a gear that is undercut, where edges touch.
+  // Whether the flanks of a pair at this phase can touch: of internal pairs where the nominal point lies between the base circles' tangent
+  // points. A tip edge of an external gear touches its mate's flank on past that point.
   bool in_reach(double phase) const;
   // phase: mesh periods from the pitch point, any value that is in reach (throws Error(numerical) beyond).
   PairContact contact(double phase) const;

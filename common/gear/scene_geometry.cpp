@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "gear/body_inertia.h"
 #include "gear/crack.h"
+#include "gear/face_width.h"
 #include "gear/numbers.h"
 #include "gear/pair.h"
 #include "gear/undercut.h"
@@ -126,6 +127,36 @@ std::vector<std::string> scene_warnings(const Scene& scene, const ScenePlace& wh
              " times its critical damping; `make calibrate DAMPING=0.05` finds the one for a ratio");
     out.push_back(where({"damping"}, words) + ": " + words);
   }
+  return out;
+}
+
+namespace {
+
+// gear(name): one of the scene's gears.
+template <class GearOf>
+void add_width_words(const GearMeshSpec& mesh, const GearOf& gear, std::vector<std::string>& out) {
+  const std::string words =
+      width_words(gear(mesh.gear[0]).design, mesh.gear[0], gear(mesh.gear[1]).design, mesh.gear[1]);
+  if (!words.empty()) out.push_back(words);
+}
+
+}  // namespace
+
+std::vector<std::string> scene_remarks(const Scene& scene) {
+  std::vector<std::string> out;
+  add_width_words(
+      scene.mesh, [&](const std::string& name) { return scene.gear(name); }, out);
+  return out;
+}
+
+std::vector<std::string> scene_remarks(const SystemScene& scene) {
+  std::vector<std::string> out;
+  if (scene.rigid()) return out;
+  const auto gear = [&](const std::string& name) {
+    return *std::find_if(scene.gears.begin(), scene.gears.end(),
+                         [&](const SystemScene::Gear& of) { return of.name == name; });
+  };
+  for (const SystemScene::Mesh& mesh : scene.meshes) add_width_words(mesh.spec, gear, out);
   return out;
 }
 

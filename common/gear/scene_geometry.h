@@ -30,6 +30,10 @@ std::vector<std::string> scene_warnings(const Scene& scene, const ScenePlace& wh
 std::vector<std::string> scene_warnings(const SystemScene& scene,
                                         const ScenePlace& where);  // thin rims and undercut of elastic gears
 
+// What to know of a scene that is as it should be: gears of unequal face widths.
+std::vector<std::string> scene_remarks(const Scene& scene);
+std::vector<std::string> scene_remarks(const SystemScene& scene);  // of elastic gears
+
 // Less than a module between the bore and the root circle of [gear.<name>], in words; "" if there is more.
 std::string thin_rim(const GearDesign& design, const std::string& name);
 

@@ -259,8 +259,7 @@ LumpedParameters cells_of_pairs(const StaticArtifact& s, int cells, Eigen::Vecto
   double coefficient = 0;
   for (const BodyParameters& gear : s.gear)
     coefficient +=
-        HalfPlaneSurface(in_contact_plane(gear.material, s.mesh.contact_plane), gear.design.face_width)
-            .coefficient();
+        HalfPlaneSurface(in_contact_plane(gear.material, s.mesh.contact_plane), s.face_width()).coefficient();
   const int springs = std::max(1, chords);
 
   // Pair n at mesh phase f in [0, 1] has the phase f + n of its own.

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "gear/face_width.h"
 #include "gear/pair.h"
 #include "report/wireframe.h"
 #include "solid/flank_table.h"
@@ -25,10 +26,12 @@ constexpr double kDrawnWidth = 0.1;  // of a module: over which a tooth's force 
 // The outline of a gear near the mesh under given tooth loads.
 class ElasticOutline {
  public:
-  ElasticOutline(const MeshArtifact& mesh, const Material& material)
+  // contact_width: m, on which the mesh meets.
+  ElasticOutline(const MeshArtifact& mesh, const Material& material, double contact_width)
       : mesh_(mesh),
         tooth_(mesh.design),
         moduli_(plane_strain_equivalent(material)),
+        concentration_(mesh.design.face_width / carrying_width(mesh.design, contact_width)),
         contour_(Wireframe(mesh).contour()),
         table_(tooth_, kFlankPoints) {
     const FlankLoads unit = make_flank_loads(mesh, material, table_.points());
@@ -56,7 +59,8 @@ class ElasticOutline {
     Eigen::VectorXd u = Eigen::VectorXd::Zero(2 * static_cast<Index>(contour_.size()));
     for (const Press& press : presses) {
       const int offset = ((j - press.tooth) % teeth + teeth) % teeth;
-      u += press.force * (under_[static_cast<size_t>(offset)] * table_.weights(press.roll).transpose());
+      u += concentration_ * press.force *
+           (under_[static_cast<size_t>(offset)] * table_.weights(press.roll).transpose());
       if (offset != 0) continue;
       const StripLoadField near(tooth_.flank_point(press.roll), tooth_.flank_normal(press.roll),
                                 kDrawnWidth * mesh_.design.module, moduli_, mesh_.design.face_width,
@@ -64,7 +68,7 @@ class ElasticOutline {
       for (size_t i = 0; i < contour_.size(); ++i)
         if (holds_rest_[i])
           u.segment<2>(2 * static_cast<Index>(i)) +=
-              press.force * near.displacement(mesh_.node_position.row(contour_[i]));
+              concentration_ * press.force * near.displacement(mesh_.node_position.row(contour_[i]));
     }
     const Eigen::Rotation2Dd turn(2 * std::numbers::pi * j / teeth);
     std::vector<Vec2> out;
@@ -92,6 +96,7 @@ class ElasticOutline {
   const MeshArtifact& mesh_;
   ToothGeometry tooth_;
   PlaneModuli moduli_;
+  double concentration_;  // 1: of the load on the part of the width that carries it
   std::vector<int> contour_;
   FlankTable table_;
   std::vector<char> holds_rest_;        // of the contour's nodes
@@ -217,7 +222,8 @@ class Pictures {
       : s_(s),
         motion_(m),
         pair_(s),
-        outline_{ElasticOutline(driver, s.gear[0].material), ElasticOutline(driven, s.gear[1].material)},
+        outline_{ElasticOutline(driver, s.gear[0].material, s.face_width()),
+                 ElasticOutline(driven, s.gear[1].material, s.face_width())},
         pitch_point_(0, pair_.gear(0).base_radius() / std::cos(pair_.working_pressure_angle())),
         inverse_mass_{std::pow(pair_.gear(0).base_radius(), 2) / s.inertia[0],
                       std::pow(pair_.gear(1).base_radius(), 2) / s.inertia[1]},

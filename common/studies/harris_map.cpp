@@ -11,6 +11,7 @@
 #include "studies/sweep.h"
 #include "system/rolling_mesh.h"
 #include "system/statics.h"
+#include "system/system_statics.h"
 
 namespace whine {
 
@@ -93,7 +94,7 @@ class Range {
     CandidateZone range =
         candidate_zone(model_.kinematics, model_.gear[0].half_plane(), model_.gear[1].half_plane(),
                        plan_.strips, load_[0] / model_.kinematics.contact_ratio(), 1.1 * largest * widening_,
-                       (1e-6 + 8e-9 * largest) * widening_, flanks);
+                       reach_of_edges(model_, largest) * widening_, flanks);
     const double radius = model_.kinematics.relative_curvature_radius(0);
     double slope = 0, spread = 0;
     for (const FlankDeviation& r : relief_) {

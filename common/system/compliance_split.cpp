@@ -38,8 +38,7 @@ ComplianceSplit compliance_split(const StaticArtifact& s) {
   }
   const double force = s.torque / pair.gear(0).base_radius(), of_pair = force / pair.contact_ratio();
   const auto surface = [&](size_t g) {
-    return HalfPlaneSurface(in_contact_plane(s.gear[g].material, s.mesh.contact_plane),
-                            s.gear[g].design.face_width);
+    return HalfPlaneSurface(in_contact_plane(s.gear[g].material, s.mesh.contact_plane), s.face_width());
   };
   const double depth = 0.25 * std::numbers::pi * s.gear[0].design.module;
   out.contact =

@@ -31,10 +31,17 @@ double largest_root_stress(const MeshArtifact& mesh, const Material& material, c
   return largest;
 }
 
-// m: (strip) what the plane state of the contact adds to the inward displacement of a flank.
-VectorXd plane_change(const ElasticGear& gear, const ContactZone& zone) {
+// m: (strip) what the plane state and the width of the contact add to the inward displacement of a flank of gear g.
+VectorXd surface_change(const ElasticGear& gear, int g, const ContactZone& zone) {
   const PairStrips& s = zone.strips;
   VectorXd change = VectorXd::Zero(s.size());
+  if (gear.concentration() > 1) {
+    Eigen::MatrixXd nodes(kZoneNodes, gear.table_size());
+    for (int k = 0; k < kZoneNodes; ++k)
+      nodes.row(k) = gear.table().weights(s.node_roll[static_cast<size_t>(g)][k]);
+    const Eigen::MatrixXd reading = s.interpolation * nodes;
+    change = reading * gear.narrow_change() * reading.transpose() * zone.force;
+  }
   for (int i = 0; i < s.size(); ++i)
     for (int j = 0; j < s.size(); ++j)
       if (zone.force[j] > 0)
@@ -143,13 +150,15 @@ LoadedArtifact loaded_pair(const MeshArtifact& driver_mesh, const MeshArtifact& 
     for (Index j = 0; j < pairs; ++j)
       for (int i = 0; i < loaded[static_cast<size_t>(j)]->strips.size(); ++i, ++at)
         loads.push_back({out.tooth(j, g), out.strip_roll(at, g), out.strip_width[at], out.strip_force[at]});
-    const LoadedGear gear = loaded_gear(*mesh[g], material, loads);
-    // Of the whole field only what the flanks do knows of the contact's own plane state; it is a matter of their surface.
+    LoadedGear gear = loaded_gear(*mesh[g], material, loads);
+    // Of the whole field only what the flanks do knows of the contact's own plane state and width, and the stress of the width that
+    // carries.
+    const ElasticGear own = ElasticGear(*body[g], statics.mesh.contact_plane).in_mesh(out.face_width());
+    gear.stress *= own.concentration();
     VectorXd change(strips);
     at = 0;
     for (const ContactZone* zone : loaded) {
-      change.segment(at, zone->force.size()) =
-          plane_change(ElasticGear(*body[g], statics.mesh.contact_plane), *zone);
+      change.segment(at, zone->force.size()) = surface_change(own, g, *zone);
       at += zone->force.size();
     }
     out.strip_deflection.col(g) = gear.deflection + change;

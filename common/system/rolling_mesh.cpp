@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/model_range.h"
 #include "contact/lanes.h"
+#include "gear/face_width.h"
 #include "gear/train.h"
 
 namespace whine {
@@ -21,9 +22,24 @@ GearMeshModel::GearMeshModel(const BodyArtifact& driver, const BodyArtifact& dri
                      std::make_shared<const ElasticGear>(driven, mesh.contact_plane)},
                     mesh, pair_system(mesh, driver.design, driven.design).meshes[0]) {}
 
+namespace {
+
+// Of the mesh: a gear that is wider than its mate carries on a part of its width.
+SideGears in_mesh(const SideGears& gears) {
+  const double width = contact_width(gears[0].body().design, gears[1].body().design);
+  const auto own = [&](size_t side) {
+    return gears[side].body().design.face_width > width
+               ? std::make_shared<const ElasticGear>(gears[side].in_mesh(width))
+               : gears.shared(side);
+  };
+  return {own(0), own(1)};
+}
+
+}  // namespace
+
 GearMeshModel::GearMeshModel(const SideGears& gears, const GearMeshSpec& mesh, const System::Mesh& placed)
     : kinematics(gears[0].body().design, gears[1].body().design, mesh.centre_distance),
-      gear(gears),
+      gear(in_mesh(gears)),
       corner(mesh.corner),
       deviation{
           FlankDeviation(kinematics.gear(0), mesh.modification[0], mesh.errors[0], placed.side[0].flank),

@@ -13,6 +13,7 @@
 #include "contact/half_plane_strip.h"
 #include "contact/line_contact.h"
 #include "contact/strips.h"
+#include "gear/face_width.h"
 #include "gear/friction.h"
 #include "gear/pair.h"
 #include "model/system.h"
@@ -38,17 +39,31 @@ struct ToothFlank {
 // pi m / 4, the depth that Weber and Banaschek (1953) give the local approach; with "matching" it is the matching depth, since
 // just what lies above it is a half-plane there. Another depth f D would change u by (C_b - C_c) ln f: 0.5 % of the
 // deflection of one pair of the paper's for f = 2.
+//
+// In a mesh with a narrower gear (gear/face_width.h) the half-plane above D has the width b_c of the contact, and the tooth below
+// it carries on b_e of its width b:
+//   u = T + (b / b_e - 1) (T - (R_1 + R_1^T) / 2) + H_c(x; D),   T = R + C_b ln(D_0 / D).
+// R_1 is what the next tooth does, so that T - (R_1 + R_1^T) / 2 is half of what two neighbouring teeth open when they are pressed
+// against each other: the tooth without the body under it, whose twist, rim and support have the whole width. It is positive
+// semidefinite. The modes are those of the whole width; what is added stands in the residual flexibility.
 class ElasticGear {
  public:
   // Throws Error(input) for numbers that are not finite, by the name of their array, and for a flank table with other
   // points than this program's.
   explicit ElasticGear(const BodyArtifact& body, ContactPlane contact_plane = ContactPlane::body);
-  const BodyArtifact& body() const { return body_; }
-  // In the plane state of the contact.
+  // The same gear as a mesh whose contact is `contact_width` (m) wide sees it.
+  ElasticGear in_mesh(double contact_width) const;
+  const BodyArtifact& body() const { return *body_; }
+  // 1: b / b_e, by which the stress of a tooth is larger than on the whole width; 1 where it is carried by all of it.
+  double concentration() const { return concentration_; }
+  // (flank, flank) m N-1: what a contact narrower than the gear adds to the inward displacement of the loaded tooth below the depth of
+  // the half-plane; zero on the whole width.
+  Eigen::MatrixXd narrow_change() const;
+  // In the plane state and of the width of the contact.
   const HalfPlaneSurface& half_plane() const { return half_plane_; }
-  // m: down to which the half-plane in the plane state of the contact takes the place of that of the body.
+  // m: down to which the half-plane of the contact takes the place of that of the body.
   double contact_depth() const;
-  // m N-1: what the plane state of the contact adds to the inward displacement, averaged over a strip of half width `reading`
+  // m N-1: what the plane state and the width of the contact add to the half-plane's inward displacement, averaged over a strip of half width `reading`
   // (m) at distance x (m), of a unit force spread evenly over a strip of half width `half_width` (m).
   double plane_change(double x, double half_width, double reading) const;
   const FlankTable& table() const { return table_; }
@@ -61,7 +76,7 @@ class ElasticGear {
   // The first less the part that the modes listed (columns of BodyArtifact::flank_mode) carry: residual flexibility. Zero
   // beyond BodyArtifact::offsets, where the modes have nearly all of it.
   Eigen::MatrixXd residual(int offset, double depth, const std::vector<int>& kept) const;
-  bool cracked() const { return body_.crack_compliance.size() > 0; }
+  bool cracked() const { return body_->crack_compliance.size() > 0; }
   // (flank, flank) m N-1: what the crack adds to the inward displacement of tooth `read` by a force on tooth `loaded`: numbers
   // of teeth, counter-clockwise, any whole ones. Empty where it adds nothing: without a crack, and further than the stored
   // offsets from the cracked tooth.
@@ -78,9 +93,11 @@ class ElasticGear {
  private:
   // The block (rows, flank) of a table of the teeth about the crack.
   Eigen::MatrixXd of_crack(const MatrixRM& table, Eigen::Index rows, int read, int loaded) const;
-  BodyArtifact body_;
+  std::shared_ptr<const BodyArtifact> body_;
   HalfPlaneSurface half_plane_, body_half_plane_;
-  bool own_plane_;  // the contact has another plane state than the body
+  Material contact_material_;
+  bool own_surface_;  // the contact has another plane state or width than the body
+  double concentration_ = 1;
   FlankTable table_;
 };
 
@@ -106,7 +123,7 @@ struct GearMeshModel {
   GearMeshModel(const BodyArtifact& driver, const BodyArtifact& driven, const GearMeshSpec& mesh);
   GearMeshModel(const SideGears& gears, const GearMeshSpec& mesh, const System::Mesh& layout);
   GearPair kinematics;
-  SideGears gear;  // [side]
+  SideGears gear;  // [side] as this mesh sees them
   CornerRule corner;
   std::array<FlankDeviation, 2> deviation;  // [side]
   std::array<Bearing, 2> bearing;           // [side]
@@ -114,12 +131,13 @@ struct GearMeshModel {
   System::Mesh layout;
 
   bool on_bearings() const { return bearing[0].elastic() || bearing[1].elastic(); }
+  double face_width() const {  // m, on which teeth meet
+    return contact_width(kinematics.gear(0).design(), kinematics.gear(1).design());
+  }
   // 1: mu of the friction under `torque` (N m, on side 0) at a mesh frequency (Hz); 0 without.
   double coefficient_of_friction(double torque, double mesh_frequency) const {
     if (!friction.acts()) return 0;
-    const double width =
-        std::min(kinematics.gear(0).design().face_width, kinematics.gear(1).design().face_width);
-    return friction_coefficient(kinematics, width, friction, torque, mesh_frequency);
+    return friction_coefficient(kinematics, face_width(), friction, torque, mesh_frequency);
   }
   // Of gear g: outward displacement of its flank per unit translation of its hub, in the frame of placed().
   Vec2 outward(int g, const PairContact& contact = {}) const {

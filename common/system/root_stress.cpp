@@ -29,7 +29,8 @@ const RootStresses::PerForce& RootStresses::per_force(int g, size_t phase, int p
   PerForce at{pair, flank.weights(roll).transpose(),
               Eigen::MatrixXd(body.root_angle.size(), 2 * body.offsets + 1)};
   for (int d = 0; d <= 2 * body.offsets; ++d)
-    at.table.col(d) = body.root_stress[static_cast<size_t>(d)].topRows(body.root_angle.size()) * at.weights;
+    at.table.col(d) = gear.concentration() *
+                      (body.root_stress[static_cast<size_t>(d)].topRows(body.root_angle.size()) * at.weights);
   known.push_back(std::move(at));
   return known.back();
 }

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/model_range.h"
 #include "base/progress.h"
+#include "gear/face_width.h"
 #include "gear/internal_mesh.h"
 #include "gear/losses.h"
 #include "gear/numbers.h"
@@ -220,6 +221,10 @@ std::vector<Remark> remarks(const StaticArtifact& s) {
   if (s.hunting_periods > 1)
     add(false, "teeth differ: ", s.hunting_periods, " mesh periods, after which the same ones meet, of ",
         s.contact.positions, " positions each");
+  if (const std::string widths =
+          width_words(s.gear[0].design, s.mesh.gear[0], s.gear[1].design, s.mesh.gear[1]);
+      !widths.empty())
+    add(false, widths);
   if (!s.mesh.corner.enabled)
     add(false, "corner contact is off: only pairs on the line of action carry load");
   if (s.gear[0].design.internal || s.gear[1].design.internal) {

@@ -1,14 +1,9 @@
 #include "system/system.h"
 
-#include <Eigen/LU>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "base/dense.h"
 #include "base/error.h"
-#include "contact/friction.h"
 #include "gear/train.h"
 #include "system/rigid_system.h"
 
@@ -69,6 +64,15 @@ double SystemModel::base_radius(int b) const {
     for (int s = 0; s < kSides; ++s)
       if (of.layout.side[static_cast<size_t>(s)].body == b) return of.kinematics.gear(s).base_radius();
   fail(Failure::input, "[gear.", layout.bodies[static_cast<size_t>(b)].name, "] is in no mesh");
+}
+
+bool SystemModel::floats(int b) const {
+  constexpr double kSoft = 1e-3,
+                   kTooth = 8;  // of the stiffness of a tooth; its compliance over the half-plane's C
+  const Bearing& bearing = layout.bodies[static_cast<size_t>(b)].bearing;
+  if (!bearing.elastic() || mesh.size() == 1) return false;
+  const ElasticGear& gear = *body[std::min(static_cast<size_t>(b), body.size() - 1)];
+  return bearing.stiffness * kTooth * gear.half_plane().coefficient() < kSoft;
 }
 
 int SystemModel::side_of(int b, int m) const {
@@ -153,8 +157,7 @@ SystemPosition join(const SystemModel& system, double phase, int period,
       segment.lever = strips.contact.lever;
       if (system.friction > 0)
         segment.sliding = sliding_of(model.kinematics, strips.contact, model.friction.smoothing);
-      segment.width = std::min(model.kinematics.gear(0).design().face_width,
-                               model.kinematics.gear(1).design().face_width);
+      segment.width = model.face_width();
       segment.first_strip = first + position.first_strip[j];
       segment.strips = position.first_strip[j + 1] - position.first_strip[j];
       for (int s = 0; s < kSides; ++s) {
@@ -196,7 +199,8 @@ MatrixXd between_meshes(const SystemModel& system, const SystemPosition& positio
                         size_t loaded, int loaded_side) {
   const MeshPosition &to = position.mesh[read], &from = position.mesh[loaded];
   const auto side_r = static_cast<size_t>(read_side), side_l = static_cast<size_t>(loaded_side);
-  const ElasticGear& gear = system.mesh[read].gear[side_r];
+  // Far from either contact: the body in its whole width.
+  const ElasticGear& gear = *system.body[static_cast<size_t>(system.layout.meshes[read].side[side_r].body)];
   const MatrixXd &reading = position.displacement.flank[read][side_r],
                  &loading = position.load.flank[loaded][side_l];
   const auto segments_of = [&](size_t m) {
@@ -244,7 +248,8 @@ MatrixXd contact_compliance(const SystemModel& system, const SystemPosition& pos
             between_meshes(system, position, m, read, n, loaded);
       }
   for (size_t b = 0; b < system.layout.bodies.size(); ++b)
-    if (const Bearing& bearing = system.layout.bodies[b].bearing; bearing.elastic())
+    if (const Bearing& bearing = system.layout.bodies[b].bearing;
+        bearing.elastic() && !system.floats(static_cast<int>(b)))
       a += position.displacement.translation[b] * position.displacement.translation[b].transpose() /
            bearing.stiffness;
   return a;
@@ -282,233 +287,6 @@ double SystemEquilibrium::transmission_error(const SystemModel& system, int m) c
   const double of_gears = x[side[0].body] - x[side[1].body];
   const CarriedMesh on = carried_mesh(system.layout, static_cast<size_t>(m));
   return on.carrier < 0 ? of_gears : of_gears + on.closing * x[on.carrier];
-}
-
-namespace {
-
-// The contact of a position whose rigid freedoms stand still, of lines or of strips, and its stiffness in these freedoms.
-struct StillContact {
-  Certificate certificate;
-  MatrixXd stiffness;  // (freedom, freedom) N m-1
-};
-
-class Contact {
- public:
-  // friction: friction_compliance(); `slides`: L is not D.
-  Contact(const SystemPosition& position, const MatrixXd& compliance, const MatrixXd& friction, bool slides,
-          ComplementaritySolver& solver)
-      : compliance_(compliance),
-        friction_(friction),
-        slides_(slides),
-        solver_(solver),
-        d_(position.strips()) {
-    for (const MeshPosition& mesh : position.mesh) law_.insert(law_.end(), mesh.law.begin(), mesh.law.end());
-  }
-  StillContact solve(const VectorXd& e, const MatrixXd& displacement, const MatrixXd& load, VectorXd& p) {
-    const Index freedoms = displacement.cols();
-    StillContact out;
-    if (slides_) {
-      out.certificate = sliding(e, p);
-      out.stiffness = sliding_stiffness(displacement, load, p);
-      return out;
-    }
-    if (!law_.empty()) {
-      out.certificate = solve_line_contact(compliance_, law_, e, p, d_);
-      // The form is quadratic: k(a, b) = (k(a + b) - k(a) - k(b)) / 2.
-      const auto form = [&](const VectorXd& a) { return line_contact_stiffness(compliance_, law_, a, p); };
-      out.stiffness.resize(freedoms, freedoms);
-      for (Index i = 0; i < freedoms; ++i) out.stiffness(i, i) = form(displacement.col(i));
-      for (Index i = 0; i < freedoms; ++i)
-        for (Index j = 0; j < i; ++j)
-          out.stiffness(i, j) = out.stiffness(j, i) = 0.5 * (form(displacement.col(i) + displacement.col(j)) -
-                                                             out.stiffness(i, i) - out.stiffness(j, j));
-      return out;
-    }
-    out.certificate = solver_.solve(compliance_, e, active_, p, d_);
-    const auto k = static_cast<Index>(active_.strips.size());
-    MatrixXd reading(k, freedoms), loading(k, freedoms);
-    for (Index i = 0; i < k; ++i) {
-      reading.row(i) = displacement.row(active_.strips[static_cast<size_t>(i)]);
-      loading.row(i) = load.row(active_.strips[static_cast<size_t>(i)]);
-    }
-    out.stiffness.setZero(freedoms, freedoms);
-    for (Index j = 0; j < freedoms; ++j) {
-      response_ = active_.inverse * VectorXd(reading.col(j));
-      for (Index i = 0; i < freedoms; ++i) out.stiffness(i, j) = loading.col(i).dot(response_);
-    }
-    return out;
-  }
-
- private:
-  Certificate sliding(const VectorXd& e, VectorXd& p) {
-    const auto under = [&](const VectorXd& gap) {
-      return law_.empty() ? solver_.solve(compliance_, gap, active_, p, d_)
-                          : solve_line_contact(compliance_, law_, gap, p, d_);
-    };
-    if (friction_.size() == 0) return under(e);
-    VectorXd shift = friction_ * p;
-    return solve_with_friction(
-        shift, e.cwiseAbs().maxCoeff(), [&](const VectorXd& by) { return under(e + by); },
-        [&] { return VectorXd(friction_ * p); });
-  }
-  // L^T (A + E)^-1 D over what carries load, of lines with the slopes of their laws.
-  MatrixXd sliding_stiffness(const MatrixXd& displacement, const MatrixXd& load, const VectorXd& p) const {
-    std::vector<Index> active;
-    for (Index i = 0; i < p.size(); ++i)
-      if (p[i] > 0) active.push_back(i);
-    MatrixXd a = compliance_(active, active);
-    if (friction_.size() > 0) a += friction_(active, active);
-    for (size_t i = 0; !law_.empty() && i < active.size(); ++i) {
-      const auto row = static_cast<Index>(i);
-      a(row, row) += law_[static_cast<size_t>(active[i])].at(p[active[i]]).slope;
-    }
-    return load(active, Eigen::all).transpose() * lu_solve(a, displacement(active, Eigen::all));
-  }
-
-  const MatrixXd &compliance_, &friction_;
-  bool slides_;
-  ComplementaritySolver& solver_;
-  std::vector<HertzLine> law_;
-  ActiveSet active_;
-  VectorXd d_, response_;
-};
-
-// Where each mesh alone, its own bodies and bearings, would carry its load: a start from which all loaded meshes touch.
-VectorXd first_guess(const SystemModel& system, const SystemPosition& position, const MatrixXd& compliance,
-                     const std::vector<int>& free) {
-  const VectorXd load = mesh_loads(system);
-  const auto meshes = static_cast<Index>(system.mesh.size());
-  const MatrixXd closing = closing_of(system.layout)(free, Eigen::all).transpose();
-  VectorXd deflection = VectorXd::Zero(meshes);
-  for (Index m = 0; m < meshes; ++m) {
-    if (!(load[m] > 0)) continue;
-    const auto own = position.strips_of(static_cast<size_t>(m));
-    const MeshPosition& mesh = position.mesh[static_cast<size_t>(m)];
-    const VectorXd gap = position.gap(own),
-                   approach = position.load.rotation.col(
-                       system.layout.meshes[static_cast<size_t>(m)].side[0].body)(own);
-    const MatrixXd a = compliance(own, own);
-    if (!mesh.law.empty()) {
-      deflection[m] = equilibrium(a, mesh.law, gap, approach, load[m], 0).x;
-    } else {
-      ActiveSet active;
-      ComplementaritySolver solver;
-      deflection[m] = equilibrium(a, gap, approach, load[m], 0, active, solver).x;
-    }
-  }
-  return least_norm(closing, deflection);
-}
-
-// (free body, free body): takes the rolling of the whole train out of a motion; empty where it cannot roll. closing: (free body, mesh).
-MatrixXd without_rolling(const MatrixXd& closing) {
-  constexpr double kNull = 1e-12;  // of the largest: squared approach of a rolling
-  const SymmetricEigen eigen = symmetric_eigen(MatrixXd(closing * closing.transpose()));
-  if (!eigen.converged) fail(Failure::numerical, "the rolling of the train was not found");
-  const Index kept = (eigen.values.array() > kNull * eigen.values.tail(1)[0]).count();
-  if (kept == eigen.values.size()) return {};
-  return eigen.vectors.rightCols(kept) * eigen.vectors.rightCols(kept).transpose();
-}
-
-// Newton's method with a line search on the convex energy whose gradient is `unbalance`, which stand(x) sets together with the residual
-// and the stiffness; false if it does not come to 1e-12, or to 1e-10 where round-off allows no more, within `steps`.
-// spring: N m-1, of the size of a mesh load over a deflection, at least.
-template <class Stand>
-bool balanced(const Stand& stand, VectorXd& x, const VectorXd& unbalance, const SystemEquilibrium& at,
-              double spring, int steps) {
-  constexpr int kCuts = 60;
-  constexpr double kReached = 1e-6;  // of the unbalance
-  stand(x);
-  int idle = 0;  // steps since the residual fell last
-  double best = std::numeric_limits<double>::infinity();
-  for (int step = 0; step < steps; ++step) {
-    if (at.residual < 1e-12) return true;
-    idle = at.residual < best ? 0 : idle + 1;
-    best = std::min(best, at.residual);
-    if (at.residual < 1e-10 && idle > 1) return true;
-    // Bodies that carry nothing may roll freely: the least step is taken.
-    VectorXd newton = -least_norm(at.stiffness, unbalance);
-    // A body that carries load and whose meshes have parted has a force and no stiffness: springs bring it back.
-    if (!((at.stiffness * newton + unbalance).norm() <= kReached * unbalance.norm()))
-      newton = -lu_solve(at.stiffness + spring * MatrixXd::Identity(x.size(), x.size()), unbalance);
-    const double slope = newton.dot(unbalance);
-    // Along the step the slope of the energy grows monotonically; its root is where the energy is least.
-    VectorXd next = x + newton;
-    stand(next);
-    double part = 1;
-    for (int cut = 0; cut < kCuts && newton.dot(unbalance) > 0.5 * std::abs(slope); ++cut) {
-      part *= 0.5;
-      next = x + part * newton;
-      stand(next);
-    }
-    x = next;
-  }
-  return false;
-}
-
-}  // namespace
-
-SystemEquilibrium equilibrium(const SystemModel& system, const SystemPosition& position,
-                              const MatrixXd& compliance, const VectorXd& start,
-                              ComplementaritySolver& solver) {
-  const std::vector<int> free = free_bodies(system.layout);
-  const auto freedoms = static_cast<Index>(free.size());
-  const LoadBalance balance = load_balance(system.layout);
-  MatrixXd displacement(position.strips(), freedoms), load(position.strips(), freedoms);
-  VectorXd force(freedoms), x(freedoms);
-  for (Index i = 0; i < freedoms; ++i) {
-    const int b = free[static_cast<size_t>(i)];
-    displacement.col(i) = position.displacement.rotation.col(b);
-    load.col(i) = position.load.rotation.col(b);
-    force[i] = balance.force[b];
-    x[i] = start[b];
-  }
-  const MatrixXd friction = friction_compliance(system, position);
-  Contact contact(position, compliance, friction, system.friction > 0, solver);
-  SystemEquilibrium out;
-  out.x = VectorXd::Zero(static_cast<Index>(system.layout.bodies.size()));
-  out.p = VectorXd::Zero(position.strips());
-  const auto give = [&] {
-    for (Index i = 0; i < freedoms; ++i) out.x[free[static_cast<size_t>(i)]] = x[i];
-    return out;
-  };
-  if (freedoms == 1 && force[0] > 0) {
-    const Equilibrium one = equilibrium(position.gap, displacement.col(0), load.col(0), force[0], x[0],
-                                        [&](const VectorXd& e, VectorXd& p) {
-                                          const StillContact held = contact.solve(e, displacement, load, p);
-                                          return FixedContact{held.certificate, held.stiffness(0, 0)};
-                                        });
-    x[0] = one.x;
-    out.p = one.p;
-    out.stiffness = MatrixXd::Constant(1, 1, one.stiffness);
-    out.certificate = one.certificate;
-    out.residual = one.residual;
-    return give();
-  }
-
-  const double scale = mesh_loads(system).maxCoeff();
-  const MatrixXd rolls = without_rolling(closing_of(system.layout)(free, Eigen::all));
-  VectorXd unbalance;
-  const auto stand = [&](const VectorXd& at) {
-    const StillContact held = contact.solve(position.gap - displacement * at, displacement, load, out.p);
-    out.certificate = held.certificate;
-    out.stiffness = held.stiffness;
-    unbalance = load.transpose() * out.p - force;
-    if (rolls.size() > 0) {
-      unbalance = (rolls * unbalance).eval();
-      out.stiffness = (rolls * out.stiffness * rolls).eval();
-    }
-    if (!unbalance.allFinite() || !out.stiffness.allFinite())
-      fail(Failure::numerical, "static equilibrium of the system: the compliance holds no number");
-    out.residual = unbalance.cwiseAbs().maxCoeff() / scale;
-  };
-  // From where the bodies stood at the position before, if that is known.
-  constexpr int kNearSteps = 20, kSteps = 200;
-  const bool known = x.squaredNorm() > 0;
-  if (known && balanced(stand, x, unbalance, out, scale / x.cwiseAbs().maxCoeff(), kNearSteps)) return give();
-  x = first_guess(system, position, compliance, free);
-  if (balanced(stand, x, unbalance, out, scale / x.cwiseAbs().maxCoeff(), kSteps)) return give();
-  fail(Failure::numerical, "static equilibrium of the system did not converge: residual ", out.residual,
-       " of the largest mesh load ", scale, " N after ", kSteps, " steps");
 }
 
 namespace {

@@ -22,7 +22,7 @@ namespace whine {
 struct SystemModel {
   System layout;                        // gears before carriers
   double friction = 0;                  // 1: coefficient of friction of the only mesh
-  std::vector<SideGears::Shared> body;  // the gears
+  std::vector<SideGears::Shared> body;  // the gears in their whole width
   std::vector<GearMeshModel> mesh;
 
   // The one pair of a scene.
@@ -34,6 +34,9 @@ struct SystemModel {
               const std::vector<GearMeshSpec>& specs);
 
   double base_radius(int b) const;  // m; of a carrier the radius of its pins
+  // Whether body b of several meshes stands on a bearing so soft against teeth that the teeth would drown in its compliance: the
+  // translations of its hub are then freedoms of the equilibrium, and no part of A.
+  bool floats(int b) const;
   // The side of mesh m that body b is; -1: none.
   int side_of(int b, int m) const;
 };
@@ -95,7 +98,8 @@ SystemPosition join(const SystemModel& system, double phase, int period, std::ve
 using SystemTables = std::vector<std::array<std::vector<Eigen::MatrixXd>, 2>>;
 SystemTables compliance_tables(const SystemModel& system, std::span<const double> depth);
 
-// (strip, strip) m N-1: A above, its symmetric part without friction; without cracks. Of lines their laws are not in it.
+// (strip, strip) m N-1: A above, its symmetric part without friction; without cracks and bearings of bodies that float. Of lines their
+// laws are not in it.
 Eigen::MatrixXd contact_compliance(const SystemModel& system, const SystemPosition& position,
                                    const SystemTables& tables, std::span<const double> depth);
 

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/model_range.h"
 #include "base/progress.h"
+#include "gear/numbers.h"
 #include "system/rigid_system.h"
 
 namespace whine {
@@ -68,6 +69,13 @@ bool wants_more(const SystemSolution& solution) {
 }
 }  // namespace
 
+double reach_of_edges(const GearMeshModel& mesh, double load) {
+  // Of the compliance of a pair of teeth: steel with a face of 25 mm, or half of what the half-planes say of softer and narrower ones.
+  constexpr double kSteel = 8e-9, kHalfPlanes = 8;  // m N-1; 1
+  const double surfaces = mesh.gear[0].half_plane().coefficient() + mesh.gear[1].half_plane().coefficient();
+  return 1e-6 + std::max(kSteel, kHalfPlanes * surfaces) * load;
+}
+
 std::vector<CandidateZone> static_zones(const SystemModel& system, int strips, double zone, double widening) {
   const VectorXd loads = loads_of_ranges(system);
   std::vector<CandidateZone> out;
@@ -80,7 +88,7 @@ std::vector<CandidateZone> static_zones(const SystemModel& system, int strips, d
     out.push_back(candidate_zone(mesh.kinematics, mesh.gear[0].half_plane(), mesh.gear[1].half_plane(),
                                  strips, load / mesh.kinematics.contact_ratio(),
                                  1.1 * load * zone * zone * widening,
-                                 (1e-6 + 8e-9 * load) * widening + errors, mesh.flanks()));
+                                 reach_of_edges(mesh, load) * widening + errors, mesh.flanks()));
   }
   return out;
 }
@@ -236,10 +244,31 @@ const SystemSolution& SystemStatics::solve(double phase, int period, const Vecto
     solution.next_corner_gap.push_back(position.mesh[m].next_corner_gap);
     solution.lost_corner_gap.push_back(position.mesh[m].lost_corner_gap);
   }
+  require_small(solution);
   lines_ ? take_lines(solution) : take_strips(solution);
   solution_ = std::move(solution);
   repeats_ = alike_ && !cracked_here_ && !lines_;
   return solution_;
+}
+
+// Gears are taken to stand where the drawing has them: displacements are small against the teeth.
+void SystemStatics::require_small(const SystemSolution& solution) const {
+  constexpr double kMost = 0.25;  // modules
+  const auto require = [&](double moved, const GearMeshModel& mesh, const auto&... what) {
+    const double most = kMost * mesh.kinematics.gear(0).design().module;
+    if (moved > most)
+      fail_outside_range(
+          Failure::input, what..., " is ", millimetres(moved), ", above ", millimetres(most),
+          ", a quarter of the module, up to which teeth may stand beside the place that the drawing "
+          "gives them; raise stiffness_N_um in [[bearing]], or lower the torque");
+  };
+  for (size_t m = 0; m < system_.mesh.size(); ++m)
+    require(solution.transmission_error[m], system_.mesh[m], "the transmission error of ",
+            mesh_name(system_.layout, m));
+  for (size_t b = 0; b < system_.layout.bodies.size(); ++b)
+    if (const System::Body& body = system_.layout.bodies[b]; body.bearing.elastic())
+      require(solution.bearing_force[b].norm() / body.bearing.stiffness, system_.mesh[0],
+              "the displacement of '", body.name, "' on its bearing");
 }
 
 void SystemStatics::note_root(SystemSolution& solution, size_t m, int side) const {
@@ -298,7 +327,8 @@ MatrixXd SystemStatics::mesh_stiffness() const {
       if (p[i] > 0 && force[m] > least) active.push_back(i);
   MatrixXd a = cracked_here_ ? with_cracks_ : compliance_;
   for (size_t b = 0; b < system_.layout.bodies.size(); ++b)
-    if (const Bearing& bearing = system_.layout.bodies[b].bearing; bearing.elastic())
+    if (const Bearing& bearing = system_.layout.bodies[b].bearing;
+        bearing.elastic() && !system_.floats(static_cast<int>(b)))
       a -= position.displacement.translation[b] * position.displacement.translation[b].transpose() /
            bearing.stiffness;
   MatrixXd closing = MatrixXd::Zero(position.strips(), meshes);
@@ -325,6 +355,11 @@ std::vector<std::vector<ContactZone>> SystemStatics::zones() const {
   VectorXd separation = a * at.p + position_->gap - position_->displacement.rotation * at.x;
   if (const MatrixXd friction = friction_compliance(system_, *position_); friction.size() > 0)
     separation += friction * at.p;
+  for (size_t b = 0; b < system_.layout.bodies.size(); ++b)
+    if (system_.floats(static_cast<int>(b))) {
+      const MatrixXd& rows = position_->displacement.translation[b];
+      separation += rows * (rows.transpose() * at.p) / system_.layout.bodies[b].bearing.stiffness;
+    }
   std::vector<std::vector<ContactZone>> out(position_->mesh.size());
   for (size_t m = 0; m < out.size(); ++m)
     for (size_t j = 0; j < position_->mesh[m].pairs.size(); ++j) {

@@ -41,6 +41,9 @@ struct ContactZone {
 inline constexpr int kWidenings = 6;
 inline constexpr double kWidening = 1.6;
 
+// m: gap up to which tip edges are looked for at first under a load (N) of the mesh.
+double reach_of_edges(const GearMeshModel& mesh, double load);
+
 // [mesh] How far contact is looked for under the mesh loads; zone: that of the strips is this many times as
 // wide as the load alone asks for; widening: of the load that it is for, 1 unless contact has left it.
 std::vector<CandidateZone> static_zones(const SystemModel& system, int strips, double zone, double widening);
@@ -73,6 +76,8 @@ class SystemStatics {
 
  private:
   void take_position(double phase, int period);
+  // Throws ModelRangeError for displacements that are not small against the teeth.
+  void require_small(const SystemSolution& solution) const;
   // side: of mesh m, at whose root force stands; -1: none.
   void note_root(SystemSolution& solution, size_t m, int side) const;
   void take_strips(SystemSolution& solution) const;
