@@ -27,8 +27,8 @@ bench: $(B)/bin/whine-bench $(call pair_bodies,$(standard_scene)) ## speed and m
 $(B)/bin/whine-bench-stress: tests/bench/root_stress.cpp tests/bench/calculix.h $(B)/flags $(library) | $(B)/bin/ $(with_deps_bench)
 	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(library) -lgmsh $(LDLIBS)
 
-# Of SCENE, or of the default pair and of 16 and 24 teeth of module 4.5 mm.
-stress_scenes := $(if $(SCENE),$(own_scene),$(paper_scene) fzg-c)
+# Of SCENE, or of a pair with a deep root and of 16 and 24 teeth of module 4.5 mm.
+stress_scenes := $(if $(SCENE),$(own_scene),$(deep_scene) fzg-c)
 define stress_rule # scene
 .PHONY: bench-stress-of-$1
 bench-stress: bench-stress-of-$1
@@ -48,6 +48,6 @@ $(B)/bin/whine-work-precision: tests/bench/work_precision.cpp $(B)/flags $(libra
 	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(library) -lgmsh $(LDLIBS)
 
 .PHONY: work-precision
-work-precision: $(B)/bin/whine-work-precision $(call pair_bodies,$(paper_scene)) ## error against CPU time of each numerical choice, at a damping with two branches
-	@$< --static-params out/$(paper_scene)/params/static.toml --sweep-params out/$(paper_scene)/params/sweep.toml \
-	  $(call pair_options,$(paper_scene)) --torque 150 --rayleigh-stiffness 2.0e-6 --output out/figures/work-precision
+work-precision: $(B)/bin/whine-work-precision $(call pair_bodies,$(deep_scene)) ## error against CPU time of each numerical choice, at a damping with two branches
+	@$< --static-params out/$(deep_scene)/params/static.toml --sweep-params out/$(deep_scene)/params/sweep.toml \
+	  $(call pair_options,$(deep_scene)) --torque 150 --rayleigh-stiffness 2.0e-6 --output out/figures/work-precision

@@ -10,6 +10,8 @@ paper_scene := parker2000
 standard_scene := parker2000-standard-tooth
 calibrated_scene := parker2000-calibrated
 paper_scenes := $(paper_scene) $(standard_scene) $(calibrated_scene)
+# A deeper root, sharper: what `bench-stress` and `work-precision` measure.
+deep_scene := parker2000-deep-root
 # What figures of motions show below the paper's scene: BESIDE='parker2000-standard-tooth parker2000-calibrated'.
 BESIDE ?=
 $(if $(filter-out $(paper_scenes),$(BESIDE)),$(error BESIDE=$(BESIDE): it is one or more of $(paper_scenes)))

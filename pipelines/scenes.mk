@@ -49,9 +49,11 @@ variant_name = $(firstword $(subst :, ,$1))
 $(foreach v,$(VARIANTS),$(if $(and $(findstring :,$v),$(findstring =,$v)),,$(error VARIANTS: $v: write name:key=value$(,) as in bore35:bore_radius_mm=35))\
   $(if $(strip $(foreach c,/ . + @ $(,) =,$(findstring $c,$(call variant_name,$v)))),$(error VARIANTS: $v: the name '$(call variant_name,$v)' becomes a folder$(,) so it may hold letters$(,) digits$(,) _ and - only)))
 variant_scenes := $(foreach v,$(VARIANTS),$(own_scene)-$(firstword $(subst :, ,$v)))
-# Finer than the paper's scene, for `bifurcations`.
-BIFURCATION_VARIANTS := halfstep:steps_per_period=512,min_sample_rate_kHz=1000 strips16:strips=16 modes122:modes=122
-bifurcation_scenes := $(if $(SCENE),,$(foreach v,$(BIFURCATION_VARIANTS),$(own_scene)-$(firstword $(subst :, ,$v))))
+# Finer than the scene, of 8 strips and 61 modes, for `bifurcations`.
+halved_step = $(shell awk -F '[= ]+' '$$1 == "steps_per_period" { steps = $$2 } $$1 == "min_sample_rate_kHz" { rate = $$2 } \
+  END { printf "steps_per_period=%d,min_sample_rate_kHz=%g", 2 * (steps ? steps : 128), 2 * (rate ? rate : 250) }' '$(subst ','\'',$(or $(SCENE),data/scenes/$(own_scene).toml))')
+BIFURCATION_VARIANTS := $(if $(filter bifurcations,$(goals)),halfstep:$(halved_step) strips16:strips=16 modes122:modes=122)
+bifurcation_scenes := $(foreach v,$(BIFURCATION_VARIANTS),$(own_scene)-$(firstword $(subst :, ,$v)))
 variant_file = out/$(own_scene)/variants/$1.toml
 
 scene_file = $(if $(filter $1,$(study_designs)),$(study_design),$(if $(filter $1,$(compared)),$(firstword $(foreach f,$(compared_files),$(if $(filter $1,$(basename $(notdir $f))),$f))),$(if $(filter $(scene_stem),$1),$(SCENE),$(if $(filter $1,$(variant_scenes) $(bifurcation_scenes)),$(variant_file),data/scenes/$1.toml))))
@@ -63,8 +65,8 @@ scenes := $(sort \
   $(if $(filter $(pair_goals) out/bodies/%,$(goals)),$(own_scene)) \
   $(if $(filter compare,$(goals)),$(compared)) $(if $(filter out/compare/%,$(goals)),$(error out/compare: say make compare SCENES='a.toml b.toml')) \
   $(if $(filter sensitivity out/figures/sensitivity%,$(goals)),$(variant_scenes)) \
-  $(if $(filter bifurcations,$(goals)),$(paper_scene) $(bifurcation_scenes)) \
-  $(if $(filter jump-folds,$(goals)),$(paper_scene)) \
+  $(if $(filter bifurcations,$(goals)),$(own_scene) $(bifurcation_scenes)) \
+  $(if $(filter jump-folds,$(goals)),$(own_scene)) \
   $(if $(filter $(figures) table1 figures,$(goals)),$(if $(SCENE),$(own_scene),$(shown_scenes))) \
   $(if $(filter animation,$(goals)),$(if $(SCENE),$(own_scene),$(calibrated_scene))) \
   $(if $(filter sidebands out/figures/sidebands%,$(goals)),$(if $(SCENE),$(own_scene),$(graded_scene))) \
@@ -75,7 +77,7 @@ scenes := $(sort \
   $(if $(filter crack out/figures/crack%,$(goals)),$(if $(SCENE),$(own_scene),$(cracked_scene))) \
   $(if $(filter scorecard out/figures/%,$(goals)),$(paper_scenes)) \
   $(if $(filter profile-chart relief-jumps out/figures/profile-chart% out/figures/relief-jumps%,$(goals)),$(if $(SCENE),,$(relief_scenes) $(standard_scene) $(calibrated_scene))) \
-  $(if $(filter bench,$(goals)),$(standard_scene)) $(if $(filter bench-stress,$(goals)),$(if $(SCENE),$(own_scene),$(paper_scene) fzg-c)) $(if $(filter bench-internal,$(goals)),$(internal_scene)) $(if $(filter work-precision,$(goals)),$(paper_scene)) \
+  $(if $(filter bench,$(goals)),$(standard_scene)) $(if $(filter bench-stress,$(goals)),$(if $(SCENE),$(own_scene),$(deep_scene) fzg-c)) $(if $(filter bench-internal,$(goals)),$(internal_scene)) $(if $(filter work-precision,$(goals)),$(deep_scene)) \
   $(foreach g,$(filter-out out/figures/% out/bodies/% out/studies/% out/reading/% out/compare/%,$(path_goals)),$(word 2,$(subst /, ,$g))))
 
 $(foreach s,$(filter-out $(variant_scenes) $(bifurcation_scenes) $(study_designs),$(scenes)),$(if $(wildcard $(call scene_file,$s)),,\

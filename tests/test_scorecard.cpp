@@ -348,6 +348,37 @@ TEST_CASE(
   CHECK(never.find(s).note.find("lost at 300 N m: 1680 Hz; looked at 200 N m: 2400 Hz") != std::string::npos);
 }
 
+TEST_CASE(
+    "scorecard: two states stand just below 2500 Hz if all speeds and jumps of the band of f_n are near it") {
+  SceneResults s = flat_results();
+  ResponseArtifact& down = s.responses["T150/down/response.h5"];
+  ResponseArtifact& up = s.responses["T150/up/response.h5"];
+  const Claim& below = claim("two-states-below-2500");
+  const auto two = [&](double from, double to) {
+    for (Eigen::Index i = 0; i < down.dte_rms.size(); ++i)
+      if (down.mesh_frequency[i] >= from && down.mesh_frequency[i] <= to) down.dte_rms[i] = 4e-6;
+    down.jump_frequency = Eigen::VectorXd::Constant(1, from - 5);
+    up.jump_frequency = Eigen::VectorXd::Constant(1, to + 5);
+  };
+  CHECK(below.find(s).value == 0);
+  CHECK(below.find(s).note.find("one branch above 166") == 0);
+  two(1300, 1320);  // of the resonance at f_n / 2: not looked at
+  CHECK(below.find(s).value == 0);
+  two(2520, 2700);  // none below 2500 Hz
+  CHECK(below.find(s).value == 0);
+  two(2160, 2700);
+  CHECK(below.find(s).value == 1);
+  CHECK(below.find(s).note == "from 2155 to 2705 Hz");
+  up.jump_frequency[0] = 2751;
+  CHECK(below.find(s).value == 0);
+  up.jump_frequency[0] = 2749;
+  CHECK(below.find(s).value == 1);
+  down.jump_frequency[0] = 2149;
+  CHECK(below.find(s).value == 0);
+  two(1680, 2160);  // a branch that goes on far below
+  CHECK(below.find(s).value == 0);
+}
+
 TEST_CASE("scorecard: the bottom line counts what the rows say, in every rendering") {
   const auto always = [](double value) {
     return [=](const SceneResults&) { return Finding{value, "a note"}; };

@@ -212,6 +212,11 @@ Named of_sweeps() {
           {"softening", plain(softening)},
           {"superharmonic-weaker", plain(superharmonic_weaker)},
           {"two-states", at_torque(width_at)},
+          {"two-states-below-2500",
+           {{.torque = true, .mesh_frequency = true},
+            [](const SceneResults& s, const PrintedClaim& c) {
+              return two_states_below(s, c.torque, c.mesh_frequency);
+            }}},
           {"jump-frequencies", at_torque([](const SceneResults& s, int torque) {
              return Finding{kNone, jumps_text(s.branches(torque))};
            })},

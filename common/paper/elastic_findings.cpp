@@ -335,6 +335,24 @@ Finding grows_with_torque(const SceneResults& s) {
                                   digits(100 * first_harmonic_share(s.at_rest(300)), 3), " % of its mean")};
 }
 
+Finding two_states_below(const SceneResults& s, int torque, double f) {
+  const Branches b = s.branches(torque);
+  // From there down two motions are those of the resonance at f_n / 2.
+  const double end = kSecondaryEnd * b.up.natural_frequency;
+  std::vector<double> two = speeds_with_two(b);
+  std::erase_if(two, [&](double speed) { return speed < end; });
+  if (two.empty()) return {0, text("one branch above ", digits(end), " Hz; ", jumps_text(b))};
+  double low = two.front(), high = two.back();
+  for (const ResponseArtifact* r : {&b.up, &b.down})
+    for (const double jump : r->jump_frequency)
+      if (jump >= end) {
+        low = std::min(low, jump);
+        high = std::max(high, jump);
+      }
+  return {low >= 0.86 * f && high <= 1.1 * f && two.front() < f ? 1.0 : 0.0,
+          text("from ", digits(low), " to ", digits(high), " Hz")};
+}
+
 Finding width_at(const SceneResults& s, int torque) {
   const Branches b = s.branches(torque);
   const std::vector<double> two = speeds_with_two(b);

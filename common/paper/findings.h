@@ -39,6 +39,8 @@ Finding loss_beyond_two_branches(const SceneResults& s);
 Finding lower_never_loses(const SceneResults& s);
 Finding grows_with_torque(const SceneResults& s);
 Finding width_at(const SceneResults& s, int torque);
+// Whether all speeds (Hz) above the resonance at f_n / 2 with two motions lie just below f or not far above it.
+Finding two_states_below(const SceneResults& s, int torque, double f);
 
 // Of the models with one degree of freedom, and of the stiffness that they take.
 Finding lumped_jumps(const SceneResults& s, int torque);

@@ -11,9 +11,9 @@
 //
 // Reads   params of the static and of the sweep stage, body.h5 of both gears (for their design and material)
 // Writes  <output>.{tsv,svg,png}, and the same table in words on standard output
-// Example: whine-work-precision --static-params out/parker2000/params/static.toml --sweep-params
-//            out/parker2000/params/sweep.toml --body pinion=out/parker2000/pinion/body.h5
-//            --body wheel=out/parker2000/wheel/body.h5 --output out/figures/work-precision
+// Example: whine-work-precision --static-params out/parker2000-deep-root/params/static.toml --sweep-params
+//            out/parker2000-deep-root/params/sweep.toml --body pinion=out/parker2000-deep-root/pinion/body.h5
+//            --body wheel=out/parker2000-deep-root/wheel/body.h5 --output out/figures/work-precision
 #include <algorithm>
 #include <array>
 #include <cmath>
