@@ -42,8 +42,9 @@ each = $(wordlist 1,6,$1)
 # inputs_<figure>: $1 scenes, $2 torques. What is drawn at one torque takes the first.
 inputs_fig01 = $(call of_gears,$1,mesh) out/$1/T$(firstword $2)/static.h5
 inputs_fig03 = $(call of_gears,$1,mesh) $(call of_gears,$1,body) out/$1/T$(firstword $2)/static.h5
-inputs_fig05 = $(call both_ways,$1,$(firstword $2),response) $(call impacts,$1,$(firstword $2))
-inputs_fig07 = $(call both_ways,$1,$(call each,$2),response) $(call impacts,$1,$(call each,$2))
+# A sweep.h5 beside its response.h5: for the speeds beyond the backlash.
+inputs_fig05 = $(foreach f,response sweep,$(call both_ways,$1,$(firstword $2),$f)) $(call impacts,$1,$(firstword $2))
+inputs_fig07 = $(foreach f,response sweep,$(call both_ways,$1,$(call each,$2),$f)) $(call impacts,$1,$(call each,$2))
 inputs_fig07-600 = $(inputs_fig07)
 # The same with the orbits that no sweep finds.
 inputs_fig05-branches = $(inputs_fig05) $(foreach s,$1,out/$s/T$(firstword $2)/branch.h5)
@@ -59,7 +60,7 @@ inputs_load-sharing = $(inputs_fig12)
 inputs_waterfall = $(call both_ways,$1,$(firstword $2),sweep)
 inputs_order-cuts = $(call both_ways,$1,$(firstword $2),response)
 inputs_tooth-loads = $(inputs_fig08)
-inputs_bearing-forces = $(inputs_fig05)
+inputs_bearing-forces = $(call both_ways,$1,$(firstword $2),response) $(call impacts,$1,$(firstword $2))
 inputs_fig14 = $(foreach t,$(call each,$2),$(call both_ways,$1,$t/rectangular,sweep))
 inputs_fig14-elastic = $(inputs_fig07)
 inputs_fig15 = $(foreach m,rectangular-fig15 rectangular,out/$1/T$(firstword $2)/$m/down/sweep.h5)
@@ -136,21 +137,22 @@ $(if $(SCENE),$(foreach f,$(filter $(paper_only) relief-jumps,$(goals)),\
 $(call together,$(addprefix out/figures/scorecard.,tsv md txt)) &: $(inputs_scorecard) $(printed_claims) data/published/fitted.toml $(call id,gear-scorecard) | $(B)/bin/gear-scorecard $(with_deps)
 	$(B)/bin/gear-scorecard --printed $(printed_claims) --fitted data/published/fitted.toml --output out/figures/scorecard $(inputs_scorecard)
 
-# AXIS=rpm:pinion: the speed of a gear in place of the mesh frequency; DB=1e-6: RMS of the DTE and of its orders in dB re this length in m.
+# AXIS=rpm:pinion: the speed of a gear, of a train also of its carrier, in place of the mesh frequency; DB=1e-6: RMS of the DTE and of its orders in dB re this length in m.
 AXIS ?=
 DB ?=
 $(if $(AXIS),$(if $(filter rpm:%,$(AXIS)),$(if $(filter 1,$(words $(AXIS))),,$(error AXIS=$(AXIS): it is one word)),\
-  $(error AXIS=$(AXIS): it is rpm:<gear>$(,) such as rpm:pinion or rpm:driver)))
+  $(error AXIS=$(AXIS): it is rpm:<gear>$(,) such as rpm:pinion or rpm:driver$(,) of a train rpm:<gear or carrier>)))
 $(if $(DB),$(if $(shell awk -v x='$(DB)' 'BEGIN { if (x ~ /^[0-9.]+([eE][-+]?[0-9]+)?$$/ && x + 0 > 0) print "yes" }'),,\
   $(error DB=$(DB): it is the length in m that is 0 dB$(,) such as 1e-6)))
-speed_figures := fig05 fig07 fig05-branches fig07-branches fig07-600 fig14 fig14-elastic fig16 relief-jumps waterfall order-cuts tooth-loads bearing-forces efficiency compare-motion runup-up runup-down
-level_figures := order-cuts compare-motion runup-up runup-down
-# A figure that would not take them is not drawn without them.
-not_drawn_with = $(filter-out $1,$(filter $(figures) table1 histories multipliers fold-curves jump-map sensitivity harris-map branches modes,$(goals)))
-$(if $(AXIS),$(if $(call not_drawn_with,$(speed_figures)),$(error AXIS=$(AXIS): $(firstword $(call not_drawn_with,$(speed_figures))) \
-  is not drawn against the speed of a gear; leave AXIS out. It is for $(filter-out compare-motion runup-up runup-down,$(speed_figures))$(,) runup$(,) compare and report)))
+speed_figures := fig05 fig07 fig05-branches fig07-branches fig07-600 fig14 fig14-elastic fig16 relief-jumps waterfall order-cuts tooth-loads bearing-forces efficiency compare-motion runup-up runup-down campbell system-sweep system-branch
+level_figures := order-cuts compare-motion runup-up runup-down system-sweep system-branch
+# A figure that would not take them is not drawn without them; `modes` draws the Campbell diagram, too.
+not_drawn_with = $(filter-out $1,$(filter $(figures) table1 histories multipliers fold-curves jump-map sensitivity harris-map branches modes \
+  system-static system-ringdown system-sweep system-branch animation study reading work-precision,$(goals)))
+$(if $(AXIS),$(if $(call not_drawn_with,modes $(speed_figures)),$(error AXIS=$(AXIS): $(firstword $(call not_drawn_with,modes $(speed_figures))) \
+  is not drawn against the speed of a gear; leave AXIS out. It is for $(filter-out compare-motion runup-up runup-down campbell,$(speed_figures))$(,) modes$(,) runup$(,) compare and report)))
 $(if $(DB),$(if $(call not_drawn_with,$(level_figures)),$(error DB=$(DB): $(firstword $(call not_drawn_with,$(level_figures))) \
-  is not drawn in dB; leave DB out. It is for order-cuts$(,) runup$(,) compare and report)))
+  is not drawn in dB; leave DB out. It is for order-cuts$(,) system-sweep$(,) system-branch$(,) runup$(,) compare and report)))
 axis_options = $(strip $(if $(AXIS),$(if $(filter $1,$(speed_figures)),--axis '$(AXIS)')) $(if $(DB),$(if $(filter $1,$(level_figures)),--db $(DB))))
 # Only figures that have the choice remember it.
 axis_plan_file = $(if $(filter $1,$(speed_figures)),$(B)/plans/axes/$2)

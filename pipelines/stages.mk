@@ -112,7 +112,7 @@ lumped_options_pairs-hertz = --hertz
 lumped_options_rectangular = --reference-static $(reference_static)
 # P2000's Fig. 15 shows the upper branch at 2200 Hz and the lower one at 2150 Hz. With the levels of the statics, or those
 # of its Table 1, whose ratio is 1.5, the upper branch ends above 2600 Hz; this ratio of 1.757 at its mean stiffness of
-# 462.1e6 N/m ends it at 2172 Hz.
+# 462.1 N/µm ends it at 2172 Hz.
 lumped_options_rectangular-fig15 = --levels 2.93973e8,5.16658e8 --duty 0.755 --from 2000 --to 3400 --step 10 --steps 512
 
 # P2000's mass goes with the secant stiffness of its pair, the inertia of its scenes with the elastic body.

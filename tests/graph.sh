@@ -251,6 +251,12 @@ make_ SCENES='a/a--b.toml a/c.toml' compare; make_ -n SCENES='a/a.toml a/b--c.to
 grep -q 'gear-compare --output out/compare/a+b--c/index.html' "$log" && [ -e out/compare/a--b+c/index.html ] &&
   ok "designs of other names have a folder of their own" || wrong "designs of other names have a folder of their own" "$(ls out/compare) $(tail -n 1 "$log")"
 rejected_by_make "a figure that has no axis of speed" 'AXIS=rpm:driver: multipliers' AXIS=rpm:driver multipliers
+for goal in system-static system-ringdown animation; do
+  rejected_by_make "nor is $goal drawn without a word" "AXIS=rpm:sun: $goal is not drawn against the speed of a gear" AXIS=rpm:sun SCENE=data/scenes/oh58-planetary.toml $goal
+done
+make_ -n AXIS=rpm:sun DB=1e-6 SCENE=data/scenes/oh58-planetary.toml report system-branch
+[ "$(grep -c "gear-plot.* --axis 'rpm:sun'" "$log")" = 3 ] && [ "$(grep -c "gear-plot.* --db 1e-6" "$log")" = 2 ] && ok "speeds in rpm and levels of a train: Campbell diagram, sweeps, branch" ||
+  wrong "speeds in rpm and levels of a train" "$(grep 'gear-plot' "$log" | cut -c1-120 | tail -n 6)"
 rejected_by_make "a figure that has no amplitudes in dB" 'DB=1e-6: fig05' DB=1e-6 fig05
 rejected_by_make "a sound at a speed and of a run-up" 'AT=1250 and RATE=500: a sound is of one speed (AT) or of a run-up (RATE)' AT=1250 RATE=500 sound
 rejected_by_make "a speed of something" 'AXIS=order:1: it is rpm:<gear>, such as rpm:pinion' AXIS=order:1 fig05

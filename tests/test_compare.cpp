@@ -8,8 +8,10 @@
 
 #include "base/error.h"
 #include "failure_of.h"
+#include "gear/system_layout.h"
 #include "paper_pair.h"
 #include "relative.h"
+#include "report/campbell_figure.h"
 #include "report/compare.h"
 #include "report/compare_figures.h"
 #include "report/engineering_axes.h"
@@ -17,7 +19,10 @@
 #include "report/order_figure.h"
 #include "report/plot_file.h"
 #include "report/report.h"
+#include "report/system_sweep_figure.h"
 #include "signal/spectrum.h"
+#include "small_system.h"
+#include "system/natural_modes.h"
 
 using namespace whine;
 using Eigen::Index;
@@ -103,6 +108,74 @@ const Difference& row(const std::vector<Difference>& rows, const std::string& to
 }
 
 }  // namespace
+
+TEST_CASE(
+    "speeds in rpm of a train: Willis, by what is held, with what stands still beside the name of the axis") {
+  const System held = [] {
+    SystemScene scene = planetary_train(3);
+    scene.drives = {{"ring", System::DriveKind::held}, {"carrier", System::DriveKind::held}};
+    return layout_of(scene);
+  }();
+  const auto turns = [](const System& system, const std::string& name) {
+    const TrainSpeeds speeds = train_speeds(system);
+    for (size_t b = 0; b < system.bodies.size(); ++b)
+      if (system.bodies[b].name == name) return std::abs(speeds.turns[b]);
+    FAIL("no body " << name);
+    return 0.0;
+  };
+  // Sun, planet, ring of 27, 36, 99 teeth.
+  CHECK(train_speeds(held).at_rest == "carrier");
+  CHECK(turns(held, "sun") == relative(1 / 27.0, 1e-15));
+  CHECK(turns(held, "ring") == relative(1 / 99.0, 1e-15));
+  CHECK(turns(held, "carrier") == 0);
+  const System ring = layout_of(planetary_train(3));
+  CHECK(train_speeds(ring).at_rest == "ring");
+  CHECK(turns(ring, "ring") == 0);
+  CHECK(turns(ring, "sun") / turns(ring, "carrier") == relative(1 + 99 / 27.0, 1e-14));
+  CHECK(turns(ring, "sun") == relative(1 / 27.0 + 1 / 99.0, 1e-15));
+  CHECK(turns(ring, "planet2") == relative(1 / 36.0, 1e-15));  // on its pin
+  SystemScene scene = planetary_train(3);
+  scene.drives = {{"sun", System::DriveKind::held}};
+  const System sun = layout_of(scene);
+  CHECK(turns(sun, "ring") / turns(sun, "carrier") == relative(1 + 27 / 99.0, 1e-14));
+  scene.drives.clear();
+  CHECK_THROWS_WITH_AS(train_speeds(layout_of(scene)),
+                       doctest::Contains("how fast 'carrier' turns does not follow"), Error);
+
+  const SystemStaticArtifact rest = small_system();
+  const Figure hertz =
+      system_sweep_figure({small_sweep(rest, Direction::up), small_sweep(rest, Direction::down)});
+  Figure rpm = hertz;
+  apply({"rpm:sun", 1e-6}, rpm);
+  CHECK(word(rpm, "speed_label") == "Speed of sun, ring at rest (rpm)");
+  const FigureBlock &a = block(hertz, "dte_rms up"), &b = block(rpm, "dte_rms up");
+  CHECK(b.columns[0] == "mesh_frequency [rpm of sun, ring at rest]");
+  CHECK(b.columns[1].ends_with("[dB re 1 µm RMS]"));
+  for (size_t i = 0; i < a.rows.size(); ++i) {
+    CHECK(b.rows[i][0] == relative(a.rows[i][0] * 60 * (1 / 27.0 + 1 / 99.0), 1e-14));
+    CHECK(b.rows[i][1] == relative(20 * std::log10(a.rows[i][1]), 1e-12));
+  }
+  CHECK(number(rpm, "frequency_to") == relative(2000 * 60 * (1 / 27.0 + 1 / 99.0), 1e-14));
+  const auto refused = [&](const std::string& axis) {
+    Figure figure = hertz;
+    try {
+      apply({axis}, figure);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK(
+      refused("rpm:driver") ==
+      "--axis rpm:driver: there is no gear driver; there are sun, planet1, planet2, planet3, ring, carrier");
+  CHECK(refused("rpm:ring").find("ring stands still") != std::string::npos);
+  const Figure campbell = campbell_figure(natural_modes(ring));
+  Figure turned = campbell;
+  apply({"rpm:carrier"}, turned);
+  CHECK(block(turned, "crossings").rows[3][2] ==
+        relative(block(campbell, "crossings").rows[3][2] * 60 / 99.0, 1e-14));
+  CHECK(block(turned, "crossings").rows[3][3] == block(campbell, "crossings").rows[3][3]);
+}
 
 TEST_CASE(
     "speeds in rpm of a gear: columns, numbers and title, by its teeth; back again by the other scale") {

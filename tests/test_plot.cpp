@@ -194,7 +194,7 @@ TEST_CASE("templates: above a picture stand its title and its scene, in two line
 }
 
 TEST_CASE(
-    "statics figures: torques as the scene lists them, the period closes, units are micrometre and 1e6 N/m") {
+    "statics figures: torques as the scene lists them, the period closes, units are micrometre and N/µm") {
   const StaticArtifact low = some_static(100), high = some_static(300);
   const Figure te = transmission_error_figure({high, low});
   const FigureBlock& curve = block(te, "transmission_error");
@@ -208,6 +208,7 @@ TEST_CASE(
 
   const Figure k = mesh_stiffness_figure({low, high});
   CHECK(block(k, "mesh_stiffness").rows[3][1] == low.stiffness_secant[3] * 1e-6);
+  CHECK(block(k, "mesh_stiffness").columns[1].ends_with("[N/µm]"));
   CHECK(block(k, "rectangular wave").rows.size() == 6);
   CHECK(block(k, "rectangular wave harmonics").rows[0][1] == rectangular_wave(low).amplitude(1) * 1e-6);
   // The wave is that of the torque that the scene lists first, whether or not it is the lowest.
@@ -608,7 +609,8 @@ TEST_CASE("response figure: scene and measured damping ratio stand at the panel 
       figure.notes[3].find(
           "(b) second; 100, 300 N m; damping ratio 1.00 % with one pair, 3.70 % at 100 N m with two pairs in "
           "contact, by ring-down; Rayleigh") == 0);
-  CHECK(word_of(figure, "heading_a").find("first: a\\_b\n100, 300 N m;") == 0);
+  CHECK(word_of(figure, "caption1") == "{/:Bold (a)} first: a\\_b");
+  CHECK(word_of(figure, "above_a").find("100, 300 N m;") == 0);
   captions.impacts[0].mesh.corner.enabled = !captions.impacts[0].mesh.corner.enabled;
   CHECK(response_figure(sweeps, captions).notes[1].find("with one pair, 7.23 % at 300 N m with") !=
         std::string::npos);
@@ -628,12 +630,43 @@ TEST_CASE("response figure: a lumped model is not described as elastic gears") {
   CHECK(figure.notes[0] == "f_n: natural frequency of the mass on the mean stiffness");
   CHECK(figure.notes[1].find("(a) 150 N m; mass 1.4 kg, damping ratio 8 %, damper always on; one degree of "
                              "freedom (Eq. 23), mesh stiffness: secant") == 0);
-  CHECK(word_of(figure, "loss_a") == "contact lost at 150 N m: 2100 to 2200, 2400 or more Hz");
+  CHECK(word_of(figure, "loss_a") == "contact lost at 150 N m: rising 2100 to 2200, falling 2400 or more Hz");
   CHECK(response_figure({up, down}).notes[1].find("Rayleigh") == std::string::npos);
   captions.lumped[1].damping_ratio = 0.05;
   CHECK(failure_of([&] { response_figure({up, down}, captions); }) == Failure::input);
   CHECK(word_of(response_figure({some_response(Direction::up), some_response(Direction::down)}), "loss_a") ==
         "contact is never lost");
+}
+
+TEST_CASE("response figure: speeds beyond the backlash are marked where they are known, and said") {
+  ResponseArtifact up = some_response(Direction::up), down = some_response(Direction::down);
+  const auto number = [](const Figure& figure, const std::string& name) {
+    for (const auto& [key, value] : figure.numbers)
+      if (key == name) return value;
+    return -1.0;
+  };
+  up.separation_fraction[3] = 0.1;
+  const Figure unknown = response_figure({up, down});
+  CHECK(number(unknown, "beyond_backlash_a") == 0);
+  CHECK(word_of(unknown, "loss_a").ends_with("; speeds beyond the backlash: known with sweep.h5 alone"));
+  CHECK(block(unknown, "a 150 N m up").columns.size() == 7);
+  Background background;
+  background.backlash.assign(2, Eigen::VectorXd::Constant(5, 1e-6));
+  CHECK(number(response_figure({up, down}, background), "beyond_backlash_a") == 0);
+  CHECK(word_of(response_figure({up, down}, background), "loss_a").find("backlash") == std::string::npos);
+  background.backlash[0][3] = background.backlash[0][4] = -1e-6;
+  const Figure known = response_figure({up, down}, background);
+  CHECK(number(known, "beyond_backlash_a") == 1);
+  CHECK(word_of(known, "loss_a")
+            .ends_with(
+                "; beyond the backlash, where back flanks would touch, at 150 N m: rising 2300 to 2400 Hz"));
+  REQUIRE(block(known, "a 150 N m up").columns.back() == "beyond_backlash [1]");
+  std::vector<double> beyond;
+  for (const auto& row : block(known, "a 150 N m up").rows)
+    if (!row.empty()) beyond.push_back(row.back());
+  CHECK(beyond == std::vector<double>{0, 0, 0, 1, 1});
+  background.backlash[1].resize(0);
+  CHECK(failure_of([&] { response_figure({up, down}, background); }) == Failure::input);
 }
 
 TEST_CASE("error budget: choices stand apart from the errors and in no sum") {

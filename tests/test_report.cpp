@@ -18,6 +18,7 @@
 #include "report/motion_figures.h"
 #include "report/report.h"
 #include "report/report_figures.h"
+#include "report/report_tables.h"
 #include "report/static_figures.h"
 #include "signal/response.h"
 #include "signal/spectrum.h"
@@ -241,7 +242,8 @@ TEST_CASE("report: numbers of the artifacts, words that are no marks, figures on
   const std::string table = report_tsv(content);
   CHECK(table.find("150\tlargest tooth load, speed rising\t130\tN\t\n") != std::string::npos);
   CHECK(table.find("100\tlargest tooth load") == std::string::npos);
-  CHECK(table.find("150\tcontact lost at\t\tHz\tnowhere\n") != std::string::npos);
+  CHECK(table.find("150\tcontact lost, speed rising\t\tHz\tnowhere\n") != std::string::npos);
+  CHECK(table.find("150\tcontact lost, speed falling\t\tHz\tnowhere\n") != std::string::npos);
 
   const auto rejected = [&](auto change) {
     ReportContent other = content;
@@ -253,6 +255,38 @@ TEST_CASE("report: numbers of the artifacts, words that are no marks, figures on
   CHECK(rejected([](ReportContent& c) { c.pictures[0].name = "fig99"; }));
   CHECK(rejected([](ReportContent& c) { c.pictures.push_back(c.pictures[0]); }));
   CHECK(rejected([](ReportContent& c) { c.statics[1].gear[1].design.teeth = 51; }));
+}
+
+TEST_CASE(
+    "remarks that differ by torque alone are one, with their torques; both ways where these are the same") {
+  ReportContent content;
+  content.scene = "pair: gears";
+  for (const double torque : {100.0, 150.0, 200.0, 300.0})
+    for (const Direction direction : {Direction::up, Direction::down}) {
+      ResponseArtifact r = response(some_sweep(direction));
+      r.torque = torque;
+      std::vector<Remark> found{remark(true, "the same of all")};
+      if (direction == Direction::up && torque < 180) found.push_back(remark(false, "of two torques"));
+      if (direction == Direction::down || torque > 250) found.push_back(remark(false, "of other torques"));
+      if (torque == 200) found.push_back(remark(false, "the same of all"));  // no warning
+      found.push_back(remark(false, "planet1 swings ", 0.01 * torque, " µm of 5. Lower it"));
+      found.push_back(remark(false, "at ", 20 * torque, " Hz"));
+      content.sweeps.push_back({r, found, {}});
+    }
+  const std::string items = remarks_list(content);
+  const auto count = [&](const std::string& words) {
+    size_t n = 0;
+    for (size_t at = 0; (at = items.find(words, at)) != std::string::npos; ++at) ++n;
+    return n;
+  };
+  CHECK(count("the same of all") == 2);
+  CHECK(count("<strong>Warning.</strong> speed rising and speed falling, 100, 150, 200 and 300 N m: the same "
+              "of all.") == 1);
+  CHECK(count("<li>speed rising and speed falling, 200 N m: the same of all.") == 1);
+  CHECK(count("speed rising, 100 and 150 N m: of two torques.") == 1);
+  CHECK(count("100, 150, 200 and 300 N m: planet1 swings 1 to 3 µm of 5. Lower it.") == 1);
+  CHECK(count(" Hz.") == 4);
+  CHECK(count("speed falling, 100, 150, 200 and 300 N m; speed rising, 300 N m: of other torques.") == 1);
 }
 
 TEST_CASE("report: the inertia that moves stands beside that of the drawing") {

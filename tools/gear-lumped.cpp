@@ -169,7 +169,7 @@ void tell_map(const whine::JumpMapArtifact& result, const std::string& output) {
 void tell_sweep(const whine::SweepArtifact& result, const whine::LumpedOptions& o,
                 const std::string& output) {
   whine::tell("gear-lumped: ", o.model, ", ", result.torque, " N m ", o.direction, ", mean stiffness ",
-              result.mean_stiffness * 1e-6, "e6 N/m, mass ", o.mass, " kg, natural frequency ",
+              result.mean_stiffness * 1e-6, " N/µm, mass ", o.mass, " kg, natural frequency ",
               result.natural_frequency, " Hz, damping ratio ", o.damping_ratio,
               o.damping_ratio == whine::LumpedOptions().damping_ratio
                   ? " (that of P2000 for its pair; [damping] of the scene is not read), "

@@ -70,13 +70,13 @@ void body(int argc, char** argv) {
               "for pairs of P2000: the title says which figure of it shows the same, as in fig07");
   whine::EngineeringAxes axes;
   double reference = 0;
-  options.add(
-      "--axis", axes.speed,
-      "figures against speed: rpm:<gear> in place of the mesh frequency; also rpm:driver, rpm:driven");
-  const whine::Option level =
-      options.add("--db", reference,
-                  "order-cuts, compare-motion, runup: RMS (of an order its amplitude / sqrt 2) in dB re this "
-                  "length in m, as 1e-6");
+  options.add("--axis", axes.speed,
+              "figures against speed: rpm:<gear> in place of the mesh frequency; of a pair also rpm:driver, "
+              "rpm:driven, of a train rpm:<carrier>");
+  const whine::Option level = options.add(
+      "--db", reference,
+      "order-cuts, compare-motion, runup, system-sweep, system-branch: RMS (of an order its amplitude / "
+      "sqrt 2) in dB re this length in m, as 1e-6");
   options.add("--plots", plots, "folder of the gnuplot templates").show_default();
   options.footer(footer());
   options.parse(argc, argv);

@@ -113,7 +113,7 @@ void body(int argc, char** argv) {
   whine::write(output, result, provenance);
   const auto& te = result.transmission_error;
   whine::tell("gear-static: ", torque, " N m, contact ratio ", result.contact_ratio, ", mean stiffness ",
-              result.mean_stiffness * 1e-6, "e6 N/m, transmission error ", te.minCoeff() * 1e6, " to ",
+              result.mean_stiffness * 1e-6, " N/µm, transmission error ", te.minCoeff() * 1e6, " to ",
               te.maxCoeff() * 1e6, " µm -> ", output);
   if (change) {
     tell_change("where a pair carries load off the line of action", change->corner, settings.contact.strips);

@@ -398,6 +398,46 @@ bool is_ring(const System& system, int body) {
   return false;
 }
 
+int held_by_planets(const System& system, int carrier) {
+  int held = -1;
+  for (const System::Mesh& mesh : system.meshes)
+    for (size_t s = 0; s < 2; ++s) {
+      const int body = mesh.side[s].body, planet = mesh.side[1 - s].body;
+      if (system.bodies[static_cast<size_t>(planet)].on == carrier && system.held(body) &&
+          system.bodies[static_cast<size_t>(body)].on != carrier)
+        held = body;
+    }
+  return held;
+}
+
+TrainSpeeds train_speeds(const System& system) {
+  TrainSpeeds out;
+  const auto of_gear = [](const System::Body& body) {
+    return body.teeth > 0 ? static_cast<double>(body.sense) / body.teeth : 0;
+  };
+  double frame = 0;
+  for (int b = 0; b < static_cast<int>(system.bodies.size()); ++b) {
+    const System::Body& carrier = system.bodies[static_cast<size_t>(b)];
+    if (carrier.kind != System::BodyKind::carrier) continue;
+    const int still = system.held(b) ? b : held_by_planets(system, b);
+    if (still < 0)
+      fail(Failure::input, "how fast '", carrier.name,
+           "' turns does not follow from the scene: neither it nor a gear that meshes with its planets is "
+           "held; give one of them a [[drive]] with kind = \"held\"");
+    const System::Body& at_rest = system.bodies[static_cast<size_t>(still)];
+    const double turns = -of_gear(at_rest);
+    if (!out.at_rest.empty() && turns != frame)
+      fail(Failure::input, "how fast '", carrier.name, "' turns does not follow from the scene: with '",
+           out.at_rest, "' and '", at_rest.name, "' at rest carriers would turn at two speeds");
+    frame = turns;
+    if (out.at_rest.find(at_rest.name) == std::string::npos)
+      out.at_rest += (out.at_rest.empty() ? "" : ", ") + at_rest.name;
+  }
+  for (const System::Body& body : system.bodies)
+    out.turns.push_back(of_gear(body) + (body.on == System::kGround ? frame : 0));
+  return out;
+}
+
 double working_radius(const System& system, int body) {
   const double radius = system.bodies[static_cast<size_t>(body)].radius;
   for (const System::Mesh& mesh : system.meshes)

@@ -31,6 +31,20 @@ std::vector<std::string> colliding_gears(const System& layout, const std::vector
 // Whether a body is an internal gear: in its meshes both sides turn in one sense, and it has more teeth.
 bool is_ring(const System& system, int body);
 
+// The gear that meshes with planets of a carrier and is held, which stands still in a machine in which the carrier turns; -1: none.
+int held_by_planets(const System& system, int carrier);
+
+// How the members of a train turn in a machine, beside the frame of the layout, in which all axes stand still. Where a carrier is free,
+// the gear that holds its planets stands still and the frame turns; else the frame stands still.
+struct TrainSpeeds {
+  std::vector<double>
+      turns;  // (body) 1: revolutions in a mesh period, counter-clockwise positive; of a planet on its pin
+  std::string at_rest;  // the gear or carrier that stands still; "": none is named, as of gears on the ground
+};
+// Throws Error(input) where it does not follow from what is held: a free carrier whose planets mesh with no held gear, or carriers that
+// would have to turn at two speeds.
+TrainSpeeds train_speeds(const System& system);
+
 // m: working pitch radius in the first mesh of a gear; of a carrier, and of a gear without a mesh, System::Body::radius.
 double working_radius(const System& system, int body);
 

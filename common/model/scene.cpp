@@ -24,7 +24,7 @@ void require_rigid_bearings(const GearMeshSpec& mesh, const std::string& stage) 
     if (mesh.bearing[g].elastic())
       fail(Failure::input, stage, " is of gears on rigid axes, and [gear.", mesh.gear[g],
            "] is on a bearing of ", mesh.bearing[g].stiffness * 1e-6,
-           " N/um; take a scene without [[bearing]]");
+           " N/µm; take a scene without [[bearing]]");
 }
 
 void require_no_friction(const GearMeshSpec& mesh, const std::string& stage) {

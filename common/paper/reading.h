@@ -1,7 +1,7 @@
 // Readings of P2000: gears, damping and sampling for what the paper leaves open, held against its claims.
 //
 // Tied to numbers that P2000 prints, so fitted and not predicted:
-//   bore         mean secant mesh stiffness 462.1e6 N/m at 100 N m
+//   bore         mean secant mesh stiffness 462.1 N/µm at 100 N m
 //   inertia      natural frequency of Table 1 at 100 N m with one pair (2480 Hz), two pairs (3040 Hz) or on the mean
 //                (2900 Hz), or I = 2 r_b^2 x 1.4 kg
 //   mu, eta      damping ratio 0.07 at 150 N m in a contact state, a share of it from mu (Eq. 21)
@@ -45,7 +45,7 @@ class BoreFamily {
   const GearDesign& design() const { return gear_.design; }
   // The body with the bore nearest to `bore` among multiples of 1 mm.
   const BodyArtifact& body(double bore);
-  // m: the bore, a multiple of 1 mm, whose mean mesh stiffness under this corner rule is nearest to 462.1e6 N/m at
+  // m: the bore, a multiple of 1 mm, whose mean mesh stiffness under this corner rule is nearest to 462.1 N/µm at
   // 100 N m. Throws Error(input) if none between 20 mm and the rim does so to 2 %.
   double tied_bore(const CornerRule& corner);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "report/one_system.h"
 
 namespace whine {
 
@@ -64,6 +65,7 @@ Figure campbell_figure(const ModesArtifact& a) {
   figure.notes.push_back(
       text("points: mesh frequencies at which a harmonic of the meshes meets a natural frequency",
            planets ? "; in the frame of the carrier, without Coriolis terms" : ""));
+  add_shafts(a.layout, figure);
   return figure;
 }
 

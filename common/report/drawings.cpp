@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "io/body_codec.h"
@@ -81,8 +82,16 @@ bool is_a(const char* schema, const std::string& path) {
   return read_origin(path).schema == schema;
 }
 
+// A sweep.h5 beside the response.h5 of its motions says what they leave of the backlash; else its motions are drawn themselves.
 Captioned<ResponseArtifact> read_responses(const Paths& inputs) {
   Captioned<ResponseArtifact> captions;
+  struct OfSweep {
+    std::string path;
+    ResponseArtifact response;
+    LumpedParameters lumped;
+    Eigen::VectorXd left;  // (speed) m
+  };
+  std::vector<OfSweep> sweeps;
   for (const std::string& path : inputs) {
     if (is_a("whine/impact", path)) {
       captions.background.impacts.push_back(read_impact(path));
@@ -90,11 +99,34 @@ Captioned<ResponseArtifact> read_responses(const Paths& inputs) {
       captions.background.branches.push_back(read_branch(path));
     } else if (is_a("whine/sweep", path)) {
       const SweepArtifact sweep = read_sweep(path);
-      captions.add(path, response(sweep), sweep.lumped);
+      constexpr double kNoFlanks = std::numeric_limits<double>::infinity();  // of one degree of freedom
+      sweeps.push_back({path, response(sweep), sweep.lumped,
+                        elastic(sweep) ? backlash_left(sweep)
+                                       : Eigen::VectorXd::Constant(sweep.mesh_frequency.size(), kNoFlanks)});
     } else {
       captions.add(path, read_response(path), {});
     }
   }
+  auto& backlash = captions.background.backlash;
+  backlash.resize(captions.sweeps.size());
+  const auto given = static_cast<std::ptrdiff_t>(captions.sweeps.size());
+  bool known = false;
+  for (const OfSweep& sweep : sweeps) {
+    known = known || elastic(sweep.response);
+    const auto end = captions.sweeps.begin() + given;
+    const auto same = std::find_if(captions.sweeps.begin(), end, [&](const ResponseArtifact& r) {
+      return elastic(r) && same_motions(r, sweep.response);
+    });
+    if (same == end) {
+      captions.add(sweep.path, sweep.response, sweep.lumped);
+      backlash.push_back(sweep.left);
+    } else if (auto& left = backlash[static_cast<size_t>(same - captions.sweeps.begin())]; left.size() > 0) {
+      fail(Failure::input, sweep.path, ": a sweep.h5 of these motions is given twice; give each once");
+    } else {
+      left = sweep.left;
+    }
+  }
+  if (!known) backlash.clear();
   return captions;
 }
 
@@ -263,7 +295,7 @@ Drawings drawings_of_motions() {
       {"fig05",
        {"RMS of the dynamic transmission error against mesh frequency",
         "response.h5 of sweeps up and down, any torques, or their sweep.h5 (lumped models: with mass and "
-        "damping ratio); "
+        "damping ratio), or both, for the speeds beyond the backlash; "
         "a panel for each set of choices; impact.h5 of the same torques, for damping ratios; branch.h5, for "
         "orbits, stable or not, and folds",
         0, 0, draw_responses}},

@@ -33,35 +33,45 @@ const Shaft& shaft_of(const std::string& wanted, const Figure& figure) {
   if (!wanted.starts_with(kKind))
     fail(Failure::usage, "--axis ", printable(wanted, 80), ": it is rpm:<gear>, such as rpm:driver");
   if (figure.shafts.empty())
-    fail(Failure::usage, "--axis ", printable(wanted, 80),
-         ": this figure is not against the speed of one pair of gears: ", "its axis stays as it is");
+    fail(Failure::usage, "--axis ", printable(wanted, 80), ": ",
+         figure.no_shafts.empty()
+             ? "this figure is not against the speed of one pair of gears or train: its axis stays as it is"
+             : figure.no_shafts);
   const std::string name = wanted.substr(4);
-  std::string known;
-  for (size_t g = 0; g < figure.shafts.size(); ++g) {
-    if (name == figure.shafts[g].gear || name == kRole[g]) return figure.shafts[g];
-    known += (known.empty() ? "" : ", ") + figure.shafts[g].gear;
+  std::string known, roles;
+  for (const Shaft& shaft : figure.shafts) {
+    if (name != shaft.gear && (shaft.role.empty() || name != shaft.role)) {
+      known += (known.empty() ? "" : ", ") + shaft.gear;
+      if (!shaft.role.empty()) roles += (roles.empty() ? ", also called " : " and ") + shaft.role;
+      continue;
+    }
+    if (shaft.turns == 0)
+      fail(Failure::usage, "--axis ", printable(wanted, 80), ": ", shaft.gear,
+           " stands still; take another gear or the carrier of the train");
+    return shaft;
   }
   fail(Failure::usage, "--axis ", printable(wanted, 80), ": there is no gear ", printable(name, 80),
-       "; there are ", known, ", also called driver and driven");
+       "; there are ", known, roles);
 }
 
 void in_rpm(const Shaft& shaft, Figure& figure) {
-  const double scale = 60.0 / shaft.teeth;
+  const double scale = 60 * std::abs(shaft.turns);
+  const std::string whose = shaft.gear + (shaft.with.empty() ? "" : ", " + shaft.with);
   for (FigureBlock& block : figure.blocks)
     for (size_t c = 0; c < block.columns.size(); ++c) {
       if (!is_speed_column(block.columns[c])) continue;
       std::string& column = block.columns[c];
-      column = column.substr(0, column.find(" [")) + " [rpm of " + shaft.gear + "]";
+      column = column.substr(0, column.find(" [")) + " [rpm of " + whose + "]";
       for (auto& row : block.rows)
         if (!row.empty()) row[c] *= scale;
     }
   for (auto& [name, value] : figure.numbers)
     if (is_speed(name)) value *= scale;
-  const std::string against = "against mesh frequency";
+  constexpr std::string_view against = "against mesh frequency";
   if (const size_t at = figure.title.find(against); at != std::string::npos)
     figure.title.replace(at, against.size(), "against the speed of " + shaft.gear);
   figure.numbers.emplace_back("speed_scale", scale);
-  figure.words.emplace_back("speed_label", "Speed of " + without_markup(shaft.gear) + " (rpm)");
+  figure.words.emplace_back("speed_label", "Speed of " + without_markup(whose) + " (rpm)");
 }
 
 // "dB re 1e-06 m" reads as "dB re 1 µm".

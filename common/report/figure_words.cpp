@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "report/text_width.h"
 
 namespace whine {
 
@@ -13,21 +14,17 @@ std::string quoted_labels(const std::vector<std::string>& names) {
 }
 
 std::string short_name(const std::string& name) {
-  constexpr size_t kMost = 28, kHead = 17, kTail = 10;
-  return name.size() <= kMost ? name : name.substr(0, kHead) + "…" + name.substr(name.size() - kTail);
+  constexpr double kMost = 11.2, kHead = 6;  // 194 and 104 pixels of letters of a legend
+  const auto width = [](const std::string& part) { return text_width(without_markup(part)); };
+  if (width(name) <= kMost) return name;
+  size_t head = name.size(), tail = name.size();
+  while (head > 0 && width(name.substr(0, head)) > kHead) --head;
+  while (tail > 0 && width(name.substr(tail - 1)) <= kMost - 1 - kHead) --tail;
+  return name.substr(0, head) + "…" + name.substr(tail);
 }
 
 std::vector<std::string> in_lines(const std::string& words) {
-  constexpr size_t kWidth = 165;
-  std::vector<std::string> out{""};
-  for (size_t from = 0; from < words.size();) {
-    const size_t blank = std::min(words.find(' ', from), words.size());
-    const std::string word = words.substr(from, blank - from);
-    if (!out.back().empty() && out.back().size() + 1 + word.size() > kWidth) out.emplace_back();
-    out.back() += (out.back().empty() ? "" : " ") + word;
-    from = blank + 1;
-  }
-  return out;
+  return broken_lines(words, kNoteWidth);
 }
 
 void add_lines(size_t plain, Figure& figure) {

@@ -10,8 +10,11 @@ namespace whine {
 // What gnuplot's word() finds one by one: 'a' 'b'.
 std::string quoted_labels(const std::vector<std::string>& names);
 
-// A name that fits into a key or a label: its first and last letters, "…" between, where it is longer than 28.
+// A name that fits into a key or a label: its first and last letters, "…" between, where it is wider than a legend.
 std::string short_name(const std::string& name);
+
+// Of a line of notes, in parts of the size of its letters: 1580 pixels at 16.
+inline constexpr double kNoteWidth = 98;
 
 // Words in lines of a picture's width, broken at blanks.
 std::vector<std::string> in_lines(const std::string& words);

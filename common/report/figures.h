@@ -15,7 +15,7 @@ namespace whine {
 
 inline constexpr double kMicro = 1e6;  // m -> micrometre
 inline constexpr double kMilli = 1e3;  // m -> mm
-inline constexpr double kMega = 1e-6;  // N m-1 -> 1e6 N m-1
+inline constexpr double kMega = 1e-6;  // N m-1 -> N/µm
 inline constexpr double kPercent = 100;
 inline constexpr int kShownHarmonics = 10;
 inline constexpr size_t kMostCurves = 6;  // colours, dashes and marks of the templates
@@ -31,10 +31,12 @@ struct FigureBlock {
   bool drawing = false;  // lines and areas of a drawing, which are in no table
 };
 
-// A gear whose rotation can stand for the mesh frequency: speed (rpm) = 60 / teeth x mesh frequency (Hz).
+// A gear or carrier whose rotation can stand for the mesh frequency: speed (rpm) = 60 turns x mesh frequency (Hz).
 struct Shaft {
   std::string gear;
-  int teeth = 0;
+  double turns = 0;       // revolutions in a mesh period: of a gear whose axis stands still 1 / teeth
+  std::string role;       // "driver", by which it may be called, too; "": none
+  std::string with = {};  // against what it turns: "carrier at rest"; "": nothing that has to be said
 };
 
 // A column (µm) that can be drawn as levels in dB.
@@ -51,7 +53,8 @@ struct Figure {
   std::vector<std::pair<std::string, double>> numbers;     // variables of the template
   std::vector<std::pair<std::string, std::string>> words;  // string variables of the template
   std::vector<Shaft> shafts =
-      {};  // driver and driven gear, where the figure is against speed and all of it is of such gears
+      {};  // gears and carriers, where the figure is against speed and all of it is of one pair or train
+  std::string no_shafts = {};  // why there are none, where that is no matter of the figure
   std::vector<LevelColumn> levels = {};
   int height = 1000;  // of the picture beside a width of 1600; also a variable
 };
@@ -69,7 +72,8 @@ std::string letter_of(size_t i);
 // Driver and driven gear of an artifact with gears and a mesh.
 template <class Artifact>
 std::vector<Shaft> shafts_of(const Artifact& a) {
-  return {{a.mesh.gear[0], a.gear[0].design.teeth}, {a.mesh.gear[1], a.gear[1].design.teeth}};
+  return {{a.mesh.gear[0], 1.0 / a.gear[0].design.teeth, kRole[0]},
+          {a.mesh.gear[1], 1.0 / a.gear[1].design.teeth, kRole[1]}};
 }
 // Of several: none where their gears differ in number of teeth; gears of other names are called by their role.
 template <class Artifacts>
@@ -79,7 +83,7 @@ std::vector<Shaft> shafts_of_all(const Artifacts& all) {
     const std::vector<Shaft> own = shafts_of(a);
     if (first.empty()) first = own;
     for (size_t g = 0; g < own.size(); ++g)
-      if (own[g].teeth != first[g].teeth)
+      if (own[g].turns != first[g].turns)
         return {};
       else if (own[g].gear != first[g].gear)
         first[g].gear = kRole[g];

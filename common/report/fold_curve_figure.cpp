@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "report/figure_words.h"
 
 namespace whine {
 namespace {
@@ -175,7 +176,8 @@ Figure fold_curve_figure(const std::vector<FoldCurvesArtifact>& curves,
   figure.words.emplace_back("axis", axis);
   figure.numbers.emplace_back("curves", static_cast<double>(curves.size()));
   figure.numbers.emplace_back("notes", static_cast<double>(figure.notes.size()));
-  figure.height = 1000 + 30 * static_cast<int>(figure.notes.size());
+  add_lines(figure.notes.size(), figure);
+  figure.height = 1000 + 24 * static_cast<int>(figure.notes.size());
   return figure;
 }
 

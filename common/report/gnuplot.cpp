@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -13,6 +14,8 @@
 
 #include "base/error.h"
 #include "base/visible.h"
+#include "report/figure_words.h"
+#include "report/text_width.h"
 
 namespace whine {
 namespace {
@@ -22,17 +25,43 @@ std::string plain_path(const std::string& path) {
   return path.starts_with('/') ? path : "./" + path;
 }
 
-// Above a picture stand its title and its scene; notes stand below it, in lines of 24 pixels. A template writes `lift = room(2)`, adds
-// lift to each vertical place on the screen, and ends with eval(below), which draws note1 and note2 there (or what foot_name says), once,
-// in a plot of its own without axes; a template that is no multiplot takes eval(foot_labels) before its plot.
+// Above a picture stand its title and its scene; notes stand below it, in lines of 24 pixels, those that are too long in several. A
+// template writes `lift = room(2)`, adds lift to each vertical place on the screen, and ends with eval(below), which draws note1 and
+// note2 there (or what foot_name says), once, in a plot of its own without axes; a template that is no multiplot takes
+// eval(foot_labels) before its plot.
 constexpr const char* kFoot =
-    R"(foot_name = "note%d"; room(lines) = 24.0 * lines / height; )"
-    R"(foot_labels = 'do for [n = 1:int(lift * height / 24 + 0.5)] { set label 900 + n value(sprintf(foot_name, n)) )"
-    R"(at screen 0.5, screen lift + (2 - 24.0 * n + 12) / height center font ",12" }'; )"
+    R"(foot_name = "note%d"; foot_rows(n) = sprintf("rows_" . foot_name, n); )"
+    R"(room(lines) = 24.0 * (sum [n = 1:int(lines)] (exists(foot_rows(n)) ? value(foot_rows(n)) : 1)) / height; )"
+    R"(foot_labels = 'foot_row = 0; foot_end = int(lift * height / 24 + 0.5); foot_number = 0; )"
+    R"(while (foot_row < foot_end) { foot_number = foot_number + 1; )"
+    R"(foot_words = sprintf(foot_name, foot_number); many = exists(foot_rows(foot_number)) ? int(value(foot_rows(foot_number))) : 1; )"
+    R"(do for [r = 1:many] { foot_row = foot_row + 1; )"
+    R"(foot_text = many > 1 ? value(sprintf("row%d_%s", r, foot_words)) : value(foot_words); )"
+    R"(set label 900 + foot_row foot_text )"
+    R"(at screen 0.5, screen lift + (2 - 24.0 * foot_row + 12) / height center font ",12" } }'; )"
     R"(below = 'unset label; unset arrow; unset object; unset border; unset tics; unset grid; unset key; )"
     R"(unset title; unset xlabel; unset ylabel; unset y2label; unset xzeroaxis; unset logscale; unset colorbox; )"
     R"(set lmargin at screen 0; set rmargin at screen 1; set bmargin at screen 0; set tmargin at screen 1; )"
     R"(set xrange [0:1]; set yrange [0:1]; ' . foot_labels . '; plot NaN notitle'; )";
+
+// Words over a picture: letters as large as let them end inside of it. scale: of its letters, 24 pixels each.
+std::string fitting(const std::string& words, double scale) {
+  constexpr double kWidth = 1570, kSize = 24, kLeast = 0.5;
+  const double fits = kWidth / (kSize * std::max(1.0, text_width(words)));
+  if (fits >= scale) return scale == 1 ? words : text("{/*", scale, " ", words, "}");
+  if (fits > kLeast) return text("{/*", fixed(fits, 3), " ", words, "}");
+  return text("{/*", kLeast, " ", broken_lines(words, kWidth / kSize / kLeast - 1)[0], " …}");
+}
+
+// Lines under a picture that are too long go on in the next.
+std::string rows_of(const std::string& name, const std::string& words) {
+  const std::vector<std::string> rows = broken_lines(words, kNoteWidth);
+  if (rows.size() < 2) return "";
+  std::string script = text("rows_", name, " = ", rows.size(), "; ");
+  for (size_t r = 0; r < rows.size(); ++r)
+    script += text("row", r + 1, "_", name, " = ", gnuplot_string(rows[r]), "; ");
+  return script;
+}
 
 std::string prelude(const Figure& figure, const std::string& tsv_path, Picture picture) {
   std::string script = "set encoding utf8; ";
@@ -46,25 +75,29 @@ std::string prelude(const Figure& figure, const std::string& tsv_path, Picture p
   }
   script += " enhanced background '#ffffff'; ";
   script += text("height = real(", figure.height, "); ");
-  script +=
-      text("tsv = ", gnuplot_string(plain_path(tsv_path)), "; title = ", gnuplot_string(figure.title), "; ");
+  script += text("tsv = ", gnuplot_string(plain_path(tsv_path)),
+                 "; title = ", gnuplot_string(fitting(figure.title, 1)), "; ");
   script += kFoot;
   // What engineering_axes() changes.
   script += "speed_label = 'Mesh frequency (Hz)'; speed_scale = 1.0; level_label = ''; ";
-  std::string heading = without_markup(figure.title), scenes;
+  std::string heading = fitting(without_markup(figure.title), 1), scenes;
   for (const std::string& scene : figure.scenes)
     scenes += (scenes.empty() ? "" : "; ") + without_markup(scene);
-  if (!scenes.empty()) heading += "\n{/*0.68 " + scenes + "}";
+  if (!scenes.empty()) heading += "\n" + fitting(scenes, 0.68);
   script += text("heading = ", gnuplot_string(heading), "; ");
   for (size_t i = 0; i < figure.notes.size(); ++i)
-    script += text("note", i + 1, " = ", gnuplot_string(figure.notes[i]), "; ");
+    script += text("note", i + 1, " = ", gnuplot_string(figure.notes[i]), "; ") +
+              rows_of(text("note", i + 1), figure.notes[i]);
   for (const auto& [name, value] : figure.numbers) {
     char number[40];
     std::snprintf(number, sizeof number, "%.17g", value);
     // gnuplot divides integers as integers: a number is always a real one here
     script += name + " = real(" + number + "); ";
   }
-  for (const auto& [name, value] : figure.words) script += name + " = " + gnuplot_string(value) + "; ";
+  for (const auto& [name, value] : figure.words) {
+    script += name + " = " + gnuplot_string(value) + "; ";
+    if (name.starts_with("line")) script += rows_of(name, value);
+  }
   return script;
 }
 

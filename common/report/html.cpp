@@ -49,7 +49,10 @@ std::string table(const std::string& caption, const std::vector<std::string>& he
     const auto filled = count([](const std::string& cell) { return !cell.empty(); });
     if (2 * count(is_number) > filled) open[c] = " class=\"number\"";
   }
-  std::string out = "<div class=\"wide\"><table" + (kind.empty() ? "" : " class=\"" + kind + "\"") +
+  constexpr size_t kBroad = 8;  // columns from which letters and distances are smaller
+  const std::string classes =
+      kind + (kind.empty() || head.size() < kBroad ? "" : " ") + (head.size() < kBroad ? "" : "broad");
+  std::string out = "<div class=\"wide\"><table" + (classes.empty() ? "" : " class=\"" + classes + "\"") +
                     ">\n<caption>" + escaped(caption) + "</caption>\n<thead><tr>";
   for (size_t c = 0; c < head.size(); ++c) out += tagged("th" + open[c], escaped(head[c]));
   out += "</tr></thead>\n<tbody>\n";

@@ -291,11 +291,14 @@ Figure dynamic_load_figure(const std::vector<SweepArtifact>& sweeps, Background 
   figure.height = 1240;
   Motion worst;
   double rms = -1, from = std::numeric_limits<double>::infinity(), to = 0, most = 0;
-  bool lost = false;
+  bool lost = false, beyond = false;
   const std::array<ResponseArtifact, 2> both{response(*curve.up), response(*curve.down)};
   for (const SweepArtifact* sweep : {curve.up, curve.down}) {
     const ResponseArtifact& r = both[sweep == curve.up ? 0 : 1];
-    figure.blocks.push_back(response_block(name_of(sweep->direction), r, &both[sweep == curve.up ? 1 : 0]));
+    const Eigen::VectorXd left = elastic(*sweep) ? backlash_left(*sweep) : Eigen::VectorXd();
+    figure.blocks.push_back(response_block(name_of(sweep->direction), r, &both[sweep == curve.up ? 1 : 0],
+                                           elastic(*sweep) ? &left : nullptr));
+    beyond = beyond || (left.size() > 0 && left.minCoeff() <= 0);
     Eigen::Index row = 0;
     if (const double here = r.dte_rms.maxCoeff(&row); here > rms) {
       rms = here;
@@ -327,7 +330,8 @@ Figure dynamic_load_figure(const std::vector<SweepArtifact>& sweeps, Background 
                          {"speeds", static_cast<double>(curve.up->mesh_frequency.size())},
                          {"load_max", most},
                          {"worst_speed", speed},
-                         {"contact_lost", lost}});
+                         {"contact_lost", lost},
+                         {"beyond_backlash", beyond}});
   return figure;
 }
 
@@ -428,9 +432,9 @@ Figure mesh_force_figure(const std::vector<SweepArtifact>& sweeps,
     std::string jumps;
     for (double f : sweep.jump_frequency) jumps += (jumps.empty() ? ", jump at " : ", ") + fixed(f, 1);
     figure.notes.push_back(text(dashes[s], ": ", sweep.model, " stiffness, ", fixed(low * kMega, 1), " to ",
-                                fixed(high * kMega, 1), " × 10⁶ N/m (ratio ", fixed(high / low, 3),
-                                "), mean ", fixed(sweep.mean_stiffness * kMega, 1), "; ",
-                                lumped_words(sweep.lumped), "; speed ", rising ? "rising" : "falling",
+                                fixed(high * kMega, 1), " N/µm (ratio ", fixed(high / low, 3), "), mean ",
+                                fixed(sweep.mean_stiffness * kMega, 1), "; ", lumped_words(sweep.lumped),
+                                "; speed ", rising ? "rising" : "falling",
                                 jumps.empty() ? ", no jump" : jumps + " Hz"));
     for (size_t k = 0; k < mesh_frequencies.size(); ++k) {
       Eigen::Index row = 0;

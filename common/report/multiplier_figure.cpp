@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "report/figure_words.h"
 
 namespace whine {
 
@@ -35,7 +36,8 @@ Figure multiplier_figure(const BranchArtifact& b) {
   figure.notes.push_back(text(n, " orbits, ", n - b.stable.sum(), " unstable; ", b.flip_frequency.size(),
                               " period doublings, ", b.torus_frequency.size(), " tori"));
   figure.numbers = {{"largest", largest}, {"notes", static_cast<double>(figure.notes.size())}};
-  figure.height = 900 + 28 * static_cast<int>(figure.notes.size());
+  add_lines(figure.notes.size(), figure);
+  figure.height = 900 + 24 * static_cast<int>(figure.notes.size());
   return figure;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "gear/system_layout.h"
 
 namespace whine {
 namespace {
@@ -18,6 +19,24 @@ bool one_system(const System& a, const System& b) {
   for (size_t i = 0; same && i < a.bodies.size(); ++i)
     same = a.bodies[i].name == b.bodies[i].name && a.bodies[i].teeth == b.bodies[i].teeth;
   return same;
+}
+
+void add_shafts(const System& system, Figure& figure) {
+  TrainSpeeds speeds;
+  try {
+    speeds = train_speeds(system);
+  } catch (const Error& error) {
+    if (error.kind() != Failure::input) throw;
+    figure.no_shafts = error.what();
+    return;
+  }
+  for (size_t b = 0; b < system.bodies.size(); ++b) {
+    const System::Body& body = system.bodies[b];
+    const std::string with = body.on != System::kGround ? "on its pin"
+                             : speeds.at_rest.empty()   ? ""
+                                                        : speeds.at_rest + " at rest";
+    figure.shafts.push_back({body.name, speeds.turns[b], "", with});
+  }
 }
 
 void require_one_system(const std::string& what, const SystemSweepParameters& settings,

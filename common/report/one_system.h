@@ -2,12 +2,16 @@
 #pragma once
 #include <vector>
 
+#include "report/figures.h"
 #include "studies/system_sweep_result.h"
 
 namespace whine {
 
 // Bodies by name and teeth, and the number of meshes.
 bool one_system(const System& a, const System& b);
+
+// What a figure of a system needs for speeds in rpm: its gears and carriers, or why they have none.
+void add_shafts(const System& system, Figure& figure);
 
 // Throws Error(input) unless all sweeps are of one system, with one torque on each body and one damping, at most one of them in a
 // direction. `settings` and `torque`: of what else stands in the figure, or of the first sweep; `what` it is, such as "the branch".

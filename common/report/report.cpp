@@ -33,7 +33,7 @@ std::string introduction(const ReportContent& c) {
     const Eigen::VectorXd& f = c.sweeps[0].response.mesh_frequency;
     const double rpm = 60.0 / s.gear[0].design.teeth;
     out += text(" Speeds: ", hertz(f.minCoeff()), " to ", hertz(f.maxCoeff()), " Hz mesh frequency, ",
-                fixed(f.minCoeff() * rpm, 0), " to ", fixed(f.maxCoeff() * rpm, 0), " 1/min of the driver.");
+                fixed(f.minCoeff() * rpm, 0), " to ", fixed(f.maxCoeff() * rpm, 0), " rpm of the driver.");
   } else {
     out += " Without motion: only gears at rest are computed for such a scene.";
   }

@@ -82,7 +82,7 @@ std::string of_response(const ReportContent& c) {
     for (const Index i : resonances(r))
       peaks.push_back(
           text(hertz(r.mesh_frequency[i]), " Hz (", significant(r.dte_rms[i] * kMicro, 3), " µm)"));
-    const std::string loss = loss_ranges(r, f);
+    const std::string loss = loss_both_ways(r, f);
     out += text("At ", torque_words(s.torque), ", f_n = ", hertz(r.natural_frequency),
                 " Hz: ", peaks.empty() ? "no resonance within the sweep" : "resonances at " + listed(peaks),
                 "; ");
@@ -91,7 +91,7 @@ std::string of_response(const ReportContent& c) {
                   ", falling: ", jumps_of(f), f.jump_frequency.size() > 0 ? " Hz" : "", "; ");
     else
       out += "no jumps; ";
-    out += loss == "nowhere" ? "contact is never lost. " : "contact is lost at " + loss + " Hz. ";
+    out += loss.empty() ? "contact is never lost. " : "contact is lost " + loss + ". ";
   }
   while (out.ends_with(' ')) out.pop_back();
   return out + beyond_words(c, 0);
@@ -110,7 +110,7 @@ std::string of_waterfall(const ReportContent& c) {
       hertz(s.response.natural_frequency),
       " Hz (mean over the period, contact frozen under the static load). The mesh frequency is ",
       s.response.gear[0].design.teeth, " times the speed of the driver: 1000 Hz are ",
-      fixed(60000.0 / s.response.gear[0].design.teeth, 0), " 1/min.", beyond_words(c, s.response.torque));
+      fixed(60000.0 / s.response.gear[0].design.teeth, 0), " rpm.", beyond_words(c, s.response.torque));
 }
 
 std::string of_tooth_loads(const ReportContent& c) {

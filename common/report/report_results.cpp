@@ -101,6 +101,7 @@ void add_motion(const StaticArtifact& s, const ReportSweep& sweep, const Adder& 
           beyond_backlash(sweep, at) ? kBeyond : "");
     }
   add("jumps" + way, "Hz", jumps_of(r));
+  add("contact lost" + way, "Hz", loss_ranges(r));
   if (const std::string speeds = speeds_beyond_backlash(sweep); !speeds.empty())
     add("motion beyond the backlash" + way, "Hz", speeds);
 }
@@ -117,7 +118,6 @@ std::vector<ReportNumber> report_numbers(const ReportContent& c) {
                       *down = sweep_of(c, s.torque, Direction::down);
     for (const ReportSweep* sweep : {up, down})
       if (sweep) add_motion(s, *sweep, add);
-    if (up && down) add("contact lost at", "Hz", loss_ranges(up->response, down->response));
   }
   return out;
 }

@@ -26,9 +26,12 @@ th { text-align: left; border-bottom: 1.5px solid var(--ink); }
 th, td { padding: .22rem .8rem .22rem 0; vertical-align: top; }
 td { border-bottom: 1px solid var(--line); }
 .number { text-align: right; min-width: 5.5rem; }
-th { white-space: nowrap; }
+th { vertical-align: bottom; }
+td:first-child { overflow-wrap: anywhere; min-width: 6rem; }
 td:nth-child(2) { white-space: nowrap; }
-table.small { font-size: .8rem; }
+table.small, table.broad { font-size: .8rem; }
+table.broad .number { min-width: 0; }
+table.broad th, table.broad td { padding-right: .55rem; }
 table.code td { font-family: "DejaVu Sans Mono", Consolas, monospace; font-size: .7rem; overflow-wrap: anywhere; min-width: 8rem; white-space: normal; text-align: left; }
 .guide td { min-width: 11rem; white-space: normal; }
 .remarks { padding-left: 1.2rem; }
@@ -38,6 +41,8 @@ footer { color: var(--soft); font-size: .85rem; padding-bottom: 3rem; }
   :root { --ink: #000000; --soft: #444444; --paper: #ffffff; --line: #bbbbbb; --mark: #b42318; --link: #000000; }
   body { font-size: 10pt; } main, header, footer { max-width: none; padding: 0; }
   figure, tr { break-inside: avoid; } h2 { break-after: avoid; } .files { display: none; } .wide { overflow: visible; }
+  table, table.small, table.broad { font-size: 7.5pt; } table.broad { font-size: 6.5pt; } th, td { padding-right: .4rem; }
+  .number, td:first-child { min-width: 0; } td:nth-child(2) { white-space: normal; } table.code td { font-size: 5.5pt; min-width: 4rem; }
 }
 )";
 

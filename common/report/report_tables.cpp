@@ -1,7 +1,9 @@
 #include "report/report_tables.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <numbers>
 
@@ -242,16 +244,123 @@ std::vector<Remark> wide_steps(const ResponseArtifact& r) {
   return {};
 }
 
+// Words with their numbers apart: what stands between is the same in remarks that differ by torque alone.
+struct NumberedWords {
+  std::vector<std::string> between, numbers;  // one more of the first
+
+  explicit NumberedWords(const std::string& words) : between{""} {
+    const auto in_name = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '_'; };
+    for (size_t i = 0; i < words.size();) {
+      const bool digit = std::isdigit(static_cast<unsigned char>(words[i])) != 0;
+      if (!digit || (i > 0 && in_name(words[i - 1]))) {
+        between.back() += words[i++];
+        while (digit && i < words.size() && std::isdigit(static_cast<unsigned char>(words[i])))
+          between.back() += words[i++];
+        continue;
+      }
+      char* end = nullptr;
+      (void)std::strtod(words.c_str() + i, &end);
+      auto length = static_cast<size_t>(end - words.c_str()) - i;
+      if (words[i + length - 1] == '.') --length;  // the end of a sentence
+      numbers.push_back(words.substr(i, length));
+      between.emplace_back();
+      i += length;
+    }
+  }
+  // Of one kind: alike but for numbers that are sizes. Speeds are places: those of two torques have no range in common.
+  bool alike(const NumberedWords& other) const {
+    if (between != other.between) return false;
+    const bool speeds = std::any_of(between.begin(), between.end(), [](const std::string& words) {
+      return words.find("Hz") != std::string::npos;
+    });
+    return !speeds || numbers == other.numbers;
+  }
+};
+
+// Remarks of one kind of artifact: what is said at several torques is said once, with them and with the range of its numbers.
+class RemarksByTorque {
+ public:
+  void add(const std::string& way, double torque, const std::vector<Remark>& remarks) {
+    for (const Remark& r : remarks) {
+      const NumberedWords words(r.words);
+      auto said = std::find_if(said_.begin(), said_.end(), [&](const Said& s) {
+        return s.warning == r.warning && s.all.front().alike(words);
+      });
+      if (said == said_.end()) said = said_.insert(said_.end(), {r.warning, {}, {}});
+      said->all.push_back(words);
+      auto at = std::find_if(said->places.begin(), said->places.end(),
+                             [&](const Place& place) { return place.way == way; });
+      if (at == said->places.end()) at = said->places.insert(said->places.end(), {way, {}});
+      at->torques.push_back(shown(torque, 6));
+    }
+  }
+
+  // Items of a list; adds to `warned`.
+  std::string items(bool& warned) const {
+    std::vector<std::pair<std::string, std::vector<Remark>>> of_place;
+    for (const Said& said : said_) {
+      warned = warned || said.warning;
+      const std::string where = words_of(said.places);
+      auto place = std::find_if(of_place.begin(), of_place.end(),
+                                [&](const auto& other) { return other.first == where; });
+      if (place == of_place.end()) place = of_place.insert(of_place.end(), {where, {}});
+      place->second.push_back({said.warning, said.words()});
+    }
+    std::string out;
+    for (const auto& [where, remarks] : of_place) out += remark_items(where, remarks);
+    return out;
+  }
+
+ private:
+  struct Place {
+    std::string way;                   // "speed rising"
+    std::vector<std::string> torques;  // N m
+  };
+  struct Said {
+    bool warning;
+    std::vector<NumberedWords> all;
+    std::vector<Place> places;
+
+    static double value(const std::string& number) { return std::strtod(number.c_str(), nullptr); }
+
+    // "the teeth swing 2.9 to 37.2 µm apart"
+    std::string words() const {
+      std::string out = all.front().between.front();
+      for (size_t k = 0; k < all.front().numbers.size(); ++k) {
+        const auto less = [&](const NumberedWords& a, const NumberedWords& b) {
+          return value(a.numbers[k]) < value(b.numbers[k]);
+        };
+        const auto [low, high] = std::minmax_element(all.begin(), all.end(), less);
+        out += low->numbers[k];
+        if (value(low->numbers[k]) < value(high->numbers[k])) out += " to " + high->numbers[k];
+        out += all.front().between[k + 1];
+      }
+      return out;
+    }
+  };
+
+  // "speed rising and speed falling, 100, 150 and 200 N m"; "speed rising, 100 N m; speed falling, 100 and 150 N m"
+  static std::string words_of(const std::vector<Place>& places) {
+    std::string out;
+    for (size_t i = 0; i < places.size();) {
+      std::vector<std::string> ways;
+      size_t end = i;
+      while (end < places.size() && places[end].torques == places[i].torques)
+        ways.push_back(places[end++].way);
+      out += text(out.empty() ? "" : "; ", listed(ways), ", ", listed(places[i].torques), " N m");
+      i = end;
+    }
+    return out;
+  }
+
+  std::vector<Said> said_;
+};
+
 }  // namespace
 
 std::string remarks_list(const ReportContent& c) {
-  std::string out;
-  bool warned = false;
-  const auto add = [&](const std::string& where, const std::vector<Remark>& remarks) {
-    out += remark_items(where, remarks);
-    for (const Remark& remark : remarks) warned = warned || remark.warning;
-  };
-  for (const StaticArtifact& s : c.statics) add("at rest, " + torque_words(s.torque), remarks(s));
+  RemarksByTorque at_rest, ring_downs, in_motion;
+  for (const StaticArtifact& s : c.statics) at_rest.add("at rest", s.torque, remarks(s));
   for (const ImpactArtifact& a : c.impacts) {
     std::vector<Remark> found;
     for (Index i = 0; i < a.state_phase.size(); ++i)
@@ -261,7 +370,7 @@ std::string remarks_list(const ReportContent& c) {
                    a.contact_state[static_cast<size_t>(i)] == ContactState::one ? " pair" : " pairs",
                    " in contact is ", shown(ratio * kPercent, 3),
                    " %, outside 1 to 12 %; `make calibrate` finds the damping for a ratio"));
-    add("ring-down, " + torque_words(a.torque), found);
+    ring_downs.add("ring-down", a.torque, found);
   }
   for (const ReportSweep& s : c.sweeps) {
     std::vector<Remark> found = s.remarks;
@@ -276,8 +385,10 @@ std::string remarks_list(const ReportContent& c) {
                                "point) of ",
                                fixed(pressure * 1e-9, 2), kBeyondSteel));
     }
-    add(text(way_words(s), ", ", torque_words(s.response.torque)), found);
+    in_motion.add(way_words(s), s.response.torque, found);
   }
+  bool warned = false;
+  std::string out = at_rest.items(warned) + ring_downs.items(warned) + in_motion.items(warned);
   if (c.budget && !c.budget->choice_missing.empty())
     out +=
         html::tagged("li", html::escaped("error budget: not computed: " + c.budget->choice_missing)) + "\n";

@@ -1,6 +1,7 @@
 #include "report/response_figures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -8,6 +9,7 @@
 #include "base/error.h"
 #include "gear/pair.h"
 #include "io/summary.h"
+#include "report/text_width.h"
 #include "signal/response.h"
 #include "studies/jump_cause.h"
 
@@ -87,30 +89,65 @@ std::string listed_jumps(const FigureBlock& jumps) {
                                          : list;
 }
 
+std::string way_word(const ResponseArtifact& r) {
+  return r.direction == Direction::up ? "rising" : "falling";
+}
+
+// What is left of the backlash of each sweep of a figure.
+struct Backlash {
+  const std::vector<ResponseArtifact>& sweeps;
+  const std::vector<Eigen::VectorXd>& left;
+
+  // (speed) m; nullptr: not known
+  const Eigen::VectorXd* of(const ResponseArtifact& r) const {
+    const auto i = static_cast<size_t>(&r - sweeps.data());
+    return i < left.size() && left[i].size() == r.mesh_frequency.size() ? &left[i] : nullptr;
+  }
+};
+
+// Of a panel: "contact lost at 150 N m: rising 2820 to 2980, falling 2600 to 2980 Hz".
 std::string loss_words(const ChoicePanel<ResponseArtifact>& panel) {
   const auto& curves = panel.curves;
-  const auto loss_words = [](const auto& curve) {
-    const std::string ranges = loss_ranges(*curve.up, *curve.down);
-    return ranges == "nowhere" ? ranges : ranges + " Hz";
-  };
-  const std::string first = loss_words(curves[0]);
+  const std::string first = loss_both_ways(*curves[0].up, *curves[0].down);
   std::string each;
   bool alike = true;
   for (const auto& c : curves) {
-    const std::string words = loss_words(c);
+    const std::string words = loss_both_ways(*c.up, *c.down);
     alike = alike && words == first;
     const std::string label = curve_label(panel, *c.up);
     each += (each.empty() ? " " : "; ") + (label == torque_words(c.up->torque) ? "at " + label : label) +
-            ": " + words;
+            ": " + (words.empty() ? "nowhere" : words);
   }
-  if (alike && first == "nowhere") return "contact is never lost";
+  if (alike && first.empty()) return "contact is never lost";
   return alike && curves.size() > 1 ? "contact lost at every torque: " + first : "contact lost" + each;
+}
+
+// "beyond the backlash at 150 N m: rising 2880 to 2900 Hz", "" where no motion goes there; where it is not known, that.
+std::string beyond_words(const ChoicePanel<ResponseArtifact>& panel, const Backlash& backlash) {
+  std::string each;
+  bool unknown = false;
+  for (const auto& c : panel.curves) {
+    std::string ways;
+    for (const ResponseArtifact* r : {c.up, c.down}) {
+      const Eigen::VectorXd* left = backlash.of(*r);
+      unknown = unknown || (!left && elastic(*r) && r->separation_fraction.maxCoeff() > 0);
+      if (!left) continue;
+      std::map<double, bool> beyond;
+      for (Eigen::Index i = 0; i < left->size(); ++i) beyond[r->mesh_frequency[i]] = (*left)[i] <= 0;
+      if (const std::string ranges = speed_ranges(beyond); !ranges.empty())
+        ways += (ways.empty() ? "" : ", ") + way_word(*r) + " " + ranges;
+    }
+    if (!ways.empty())
+      each += (each.empty() ? "" : "; ") + text("at ", curve_label(panel, *c.up), ": ", ways, " Hz");
+  }
+  if (unknown) return "speeds beyond the backlash: known with sweep.h5 alone";
+  return each.empty() ? "" : "beyond the backlash, where back flanks would touch, " + each;
 }
 
 // What the axes of a panel have to hold.
 struct Extent {
   double rms = 0, mean_high = -std::numeric_limits<double>::infinity(), mean_low = -mean_high;  // m
-  bool lost = false;                                                                            // contact
+  bool lost = false, beyond = false;  // contact; the backlash
 
   void add(const ResponseArtifact& r) {
     rms = std::max(rms, r.dte_rms.maxCoeff());
@@ -138,7 +175,7 @@ std::string cause_words(const ChoicePanel<ResponseArtifact>::Curve& curve, const
 // jumps rising 2645, falling 1819 Hz"
 std::string add_curve(Figure& figure, const std::string& letter, size_t c, const std::string& label,
                       const ChoicePanel<ResponseArtifact>::Curve& curve, const Background& background,
-                      Extent& extent) {
+                      const Backlash& backlash, Extent& extent) {
   const auto number = [&](const std::string& name, double value) {
     figure.numbers.emplace_back(text(name, "_", letter, "_", c), value);
   };
@@ -146,14 +183,13 @@ std::string add_curve(Figure& figure, const std::string& letter, size_t c, const
   std::string found;
   for (const ResponseArtifact* r : {curve.up, curve.down}) {
     figure.blocks.push_back(
-        response_block(text(name, r->direction), *r, r == curve.up ? curve.down : curve.up));
+        response_block(text(name, r->direction), *r, r == curve.up ? curve.down : curve.up, backlash.of(*r)));
     figure.blocks.push_back(jump_block(text(name, "jumps ", r->direction), *r));
     const std::string at = listed_jumps(figure.blocks.back());
-    if (!at.empty())
-      found += (found.empty() ? " " : ", ") +
-               std::string(r->direction == Direction::up ? "rising" : "falling") + at;
+    if (!at.empty()) found += (found.empty() ? " " : ", ") + way_word(*r) + at;
     number(text("jumps_", r->direction), static_cast<double>(r->jump_frequency.size()));
     extent.add(*r);
+    if (const Eigen::VectorXd* left = backlash.of(*r)) extent.beyond |= left->minCoeff() <= 0;
   }
   if (const BranchArtifact* branch = branch_of(*curve.up, background)) {
     for (const bool stable : {true, false}) {
@@ -171,8 +207,24 @@ std::string add_curve(Figure& figure, const std::string& letter, size_t c, const
   return label + (found.empty() ? ": no jump" : ": jumps" + found + " Hz");
 }
 
+constexpr double kCaptionWidth = 91;  // 1460 pixels of letters of 16
+
+// Lines below all panels, with their letter if it is not "", "caption1", "caption2", ...; their number is that of the words that begin with `kind`.
+void add_caption(Figure& figure, const std::string& kind, const std::string& letter,
+                 const std::string& words) {
+  if (words.empty()) return;
+  size_t number = 0;
+  for (const auto& [name, value] : figure.words) number += name.starts_with(kind) ? 1 : 0;
+  bool first = true;
+  for (const std::string& line : broken_lines(words, kCaptionWidth)) {
+    figure.words.emplace_back(text(kind, ++number),
+                              first && !letter.empty() ? "{/:Bold (" + letter + ")} " + line : line);
+    first = false;
+  }
+}
+
 void add_panel(Figure& figure, const std::string& letter, const ChoicePanel<ResponseArtifact>& panel,
-               const Background& background) {
+               const Background& background, const Backlash& backlash, bool alone) {
   const auto& curves = panel.curves;
   if (curves.size() > kMostCurves)
     fail(Failure::input, "figure: ", curves.size(), " torques of the same choices given; ", kMostCurves,
@@ -181,32 +233,45 @@ void add_panel(Figure& figure, const std::string& letter, const ChoicePanel<Resp
   Extent extent;
   for (size_t c = 0; c < curves.size(); ++c) {
     const std::string label = curve_label(panel, *curves[c].up);
-    const std::string words = add_curve(figure, letter, c + 1, label, curves[c], background, extent);
+    const std::string words =
+        add_curve(figure, letter, c + 1, label, curves[c], background, backlash, extent);
     labels += "'" + label + "' ";
     jumps += "'" + words + "' ";
     found_jumps += (c ? "; " : "") + words;
   }
-  // Scene, operating point, choices: lines above the panel.
-  std::vector<std::string> lines{operating_words(panel, background), panel.choices};
-  if (!panel.scene.empty()) lines.insert(lines.begin(), panel.scene);
-  std::string note, heading;
-  for (size_t i = 0; i < lines.size(); ++i) {
-    note += (i ? "; " : "") + lines[i];
-    heading += (i ? "\n" : "") + without_markup(lines[i]);
-  }
-  const std::string loss = loss_words(panel);
-  figure.notes.push_back("(" + letter + ") " + note);
+  const std::string beyond = beyond_words(panel, backlash), operating = operating_words(panel, background),
+                    loss = loss_words(panel) + (beyond.empty() ? "" : "; " + beyond);
+  figure.notes.push_back("(" + letter + ") " + (panel.scene.empty() ? "" : panel.scene + "; ") + operating +
+                         "; " + panel.choices);
   figure.notes.push_back("(" + letter + ") " + found_jumps + "; " + loss);
+  // Above the panel its operating point, in one line; below all panels the rest of it, its scene, its choices.
+  const std::vector<std::string> above = broken_lines(without_markup(operating), kCaptionWidth);
+  std::string rest;
+  for (size_t i = 1; i < above.size(); ++i) rest += (i > 1 ? " " : "") + above[i];
+  for (const std::string& words : {without_markup(panel.scene), rest, without_markup(panel.choices)})
+    add_caption(figure, "caption", alone ? "" : letter, words);
+  add_caption(figure, "loss_caption", alone ? "" : letter, loss);
   for (const auto& [name, value] :
-       {std::pair{"heading_", heading}, {"loss_", loss}, {"labels_", labels}, {"jump_labels_", jumps}})
+       {std::pair{"above_", above[0]}, {"loss_", loss}, {"labels_", labels}, {"jump_labels_", jumps}})
     figure.words.emplace_back(name + letter, value);
-  for (const auto& [name, value] : {std::pair{"heading_lines_", static_cast<double>(lines.size())},
-                                    {"curves_", static_cast<double>(curves.size())},
+  for (const auto& [name, value] : {std::pair{"curves_", static_cast<double>(curves.size())},
                                     {"rms_max_", extent.rms * kMicro},
                                     {"mean_max_", extent.mean_high * kMicro},
                                     {"mean_min_", extent.mean_low * kMicro},
-                                    {"contact_lost_", extent.lost ? 1.0 : 0.0}})
+                                    {"contact_lost_", extent.lost ? 1.0 : 0.0},
+                                    {"beyond_backlash_", extent.beyond ? 1.0 : 0.0}})
     figure.numbers.emplace_back(name + letter, value);
+}
+
+// The tables of a figure have one set of columns.
+void require_backlash_of_all(const std::vector<ResponseArtifact>& sweeps, const Backlash& backlash) {
+  const auto known = [&](const ResponseArtifact& r) { return backlash.of(r) != nullptr; };
+  if (std::none_of(sweeps.begin(), sweeps.end(), known)) return;
+  for (const ResponseArtifact& r : sweeps)
+    if (!known(r))
+      fail(Failure::input, "figure: no sweep.h5 ", r.direction, " at ", torque_words(r.torque),
+           " of the speeds of its response.h5, for the speeds beyond the backlash; give those of all sweeps "
+           "or none");
 }
 
 // Whether the other sweep has the motion of a row.
@@ -240,33 +305,40 @@ std::vector<bool> broken_after(const ResponseArtifact& r, const ResponseArtifact
   return broken;
 }
 
-FigureBlock response_block(const std::string& name, const ResponseArtifact& r,
-                           const ResponseArtifact* other) {
+FigureBlock response_block(const std::string& name, const ResponseArtifact& r, const ResponseArtifact* other,
+                           const Eigen::VectorXd* backlash) {
   FigureBlock block{name,
                     {"mesh_frequency [Hz]", "dte_rms [µm]", "dte_mean [µm]", "separation_fraction [1]",
                      "mesh_force_max [N]", "tooth_load_max [N]", "period_multiple [1]"},
                     {},
                     "responses",
                     name};
+  if (backlash) block.columns.emplace_back("beyond_backlash [1]");
   const std::vector<bool> broken = broken_after(r, other);
   for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i) {
     block.rows.push_back({r.mesh_frequency[i], r.dte_rms[i] * kMicro, r.dte_mean[i] * kMicro,
                           r.separation_fraction[i], r.mesh_force_max[i], r.tooth_load_max[i],
                           static_cast<double>(r.period_multiple[i])});
+    if (backlash) block.rows.back().push_back((*backlash)[i] <= 0 ? 1 : 0);
     // A line across would pretend that there are states between.
     if (broken[i]) block.rows.emplace_back();
   }
   return block;
 }
 
-std::string loss_ranges(const ResponseArtifact& up, const ResponseArtifact& down) {
-  std::map<double, bool> parts;
-  for (const ResponseArtifact* r : {&up, &down})
-    for (Eigen::Index f = 0; f < r->mesh_frequency.size(); ++f)
-      parts[r->mesh_frequency[f]] |= r->separation_fraction[f] > 0;
-  const std::string ranges = speed_ranges(parts);
+std::string loss_ranges(const ResponseArtifact& sweep) {
+  std::map<double, bool> lost;
+  for (Eigen::Index f = 0; f < sweep.mesh_frequency.size(); ++f)
+    lost[sweep.mesh_frequency[f]] = sweep.separation_fraction[f] > 0;
+  const std::string ranges = speed_ranges(lost);
   if (ranges.empty()) return "nowhere";
-  return parts.rbegin()->second ? ranges + " or more" : ranges;  // lost at the last speed, too
+  return lost.rbegin()->second ? ranges + " or more" : ranges;  // lost at the last speed, too
+}
+
+std::string loss_both_ways(const ResponseArtifact& up, const ResponseArtifact& down) {
+  const std::string rising = loss_ranges(up), falling = loss_ranges(down);
+  if (rising == "nowhere" && falling == "nowhere") return "";
+  return "rising " + rising + ", falling " + falling + (falling == "nowhere" ? "" : " Hz");
 }
 
 Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Background& background) {
@@ -290,8 +362,11 @@ Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Backgr
       (any_elastic && any_lumped ? "; one degree of freedom: " : "") +
       (any_lumped ? "natural frequency of the mass on the mean stiffness" : ""));
   figure.shafts = shafts_of_all(sweeps);
-  figure.height = panels.size() == 1 ? 1060 : 240 + 660 * static_cast<int>(panels.size());
-  for (size_t p = 0; p < panels.size(); ++p) add_panel(figure, letter_of(p), panels[p], background);
+  figure.height = panels.size() == 1 ? 1010 : 240 + 610 * static_cast<int>(panels.size());
+  const Backlash backlash{sweeps, background.backlash};
+  require_backlash_of_all(sweeps, backlash);
+  for (size_t p = 0; p < panels.size(); ++p)
+    add_panel(figure, letter_of(p), panels[p], background, backlash, panels.size() == 1);
   double from = std::numeric_limits<double>::infinity(), to = 0;
   Eigen::Index speeds = 0;
   for (const auto& r : sweeps) {
@@ -299,7 +374,14 @@ Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Backgr
     to = std::max(to, r.mesh_frequency.maxCoeff());
     speeds = std::max(speeds, r.mesh_frequency.size());
   }
-  figure.numbers.insert(figure.numbers.end(), {{"speeds", static_cast<double>(speeds)},
+  std::array<double, 2> captions{};  // of all figures, and those of contact loss
+  constexpr std::array kCaptions{"caption", "loss_caption"};
+  for (size_t k = 0; k < captions.size(); ++k)
+    for (const auto& [name, value] : figure.words) captions[k] += name.starts_with(kCaptions[k]) ? 1 : 0;
+  figure.height += 24 * static_cast<int>(captions[0] + captions[1]);
+  figure.numbers.insert(figure.numbers.end(), {{"captions", captions[0]},
+                                               {"loss_captions", captions[1]},
+                                               {"speeds", static_cast<double>(speeds)},
                                                {"panels", static_cast<double>(panels.size())},
                                                {"frequency_from", from},
                                                {"frequency_to", to}});

@@ -15,8 +15,11 @@ Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Backgr
 // else as response_figure.
 Figure bearing_force_figure(const std::vector<ResponseArtifact>& sweeps, const Background& background = {});
 
-// Ranges of neighbouring speeds at which either sweep loses contact, in Hz: "2820 to 2980, 3100", or "nowhere".
-std::string loss_ranges(const ResponseArtifact& up, const ResponseArtifact& down);
+// Ranges of neighbouring speeds at which a sweep loses contact, in Hz: "2820 to 2980, 3100", or "nowhere".
+std::string loss_ranges(const ResponseArtifact& sweep);
+
+// "rising 2820 to 2980, falling 2600 to 2980 Hz", as jumps are said; "" where neither sweep loses contact.
+std::string loss_both_ways(const ResponseArtifact& up, const ResponseArtifact& down);
 
 // Rows after which a curve breaks: where the sweep left a branch that ends at a jump, and where the RMS changes by half of
 // itself at once, over less than 5 % of the speed, and 2.5 times as much as in the steps beside, which is another branch, too. Not so
@@ -24,6 +27,8 @@ std::string loss_ranges(const ResponseArtifact& up, const ResponseArtifact& down
 std::vector<bool> broken_after(const ResponseArtifact& r, const ResponseArtifact* other = nullptr);
 
 // The response of one direction of a sweep as a curve that lifts the pen where it breaks.
-FigureBlock response_block(const std::string& name, const ResponseArtifact& r, const ResponseArtifact* other);
+// backlash: (speed) m, as backlash_left() has it, for a column that marks the speeds beyond it; nullptr: not known.
+FigureBlock response_block(const std::string& name, const ResponseArtifact& r, const ResponseArtifact* other,
+                           const Eigen::VectorXd* backlash = nullptr);
 
 }  // namespace whine

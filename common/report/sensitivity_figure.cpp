@@ -98,7 +98,7 @@ Figure sensitivity_figure(const JumpMapArtifact& base, const std::vector<JumpMap
                : std::string("one branch");
   };
   figure.notes.push_back(text(
-      "base: mean stiffness ", rounded(base.mean_stiffness * 1e-6, 1), "e6 N/m, natural frequencies ",
+      "base: mean stiffness ", rounded(base.mean_stiffness * 1e-6, 1), " N/µm, natural frequencies ",
       rounded(base.one_pair_frequency, 0), " Hz (one pair) and ", rounded(base.two_pair_frequency, 0),
       " Hz (two), ", branch_words(base, shown), ", tooth load up to ", rounded(load(base, shown) * 1e-3, 2),
       " kN; eta ", rounded(base.rayleigh_stiffness[shown] * 1e6, 2), "e-6 s"));

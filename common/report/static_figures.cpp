@@ -112,7 +112,7 @@ Figure mesh_stiffness_figure(const std::vector<StaticArtifact>& statics) {
       text("rectangular wave: levels at the middle of the zones of few and of many pairs at ",
            torque_label(first), ", steps where pairs come and go without load"));
 
-  const std::string unit = "1e6 N/m";
+  const std::string unit = "N/µm";
   FigureBlock rectangle{"rectangular wave", {"mesh_phase [1]", "mesh_stiffness [" + unit + "]"}, {}};
   std::vector<double> steps{wrapped(wave.high_begin), wrapped(wave.high_end)};
   std::sort(steps.begin(), steps.end());

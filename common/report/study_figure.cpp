@@ -20,7 +20,7 @@ struct Shown {
 
 Shown shown_units(const std::string& units) {
   if (units == "m") return {"µm", 1e6};
-  if (units == "N m-1") return {"10^6 N/m", 1e-6};
+  if (units == "N m-1") return {"N/µm", 1e-6};
   if (units == "N") return {"kN", 1e-3};
   return {units == "1" ? "" : "Hz", 1};
 }

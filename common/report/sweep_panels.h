@@ -14,6 +14,8 @@ struct Background {
   std::vector<LumpedParameters> lumped = {};  // of each sweep, empty for elastic gears; or none
   std::vector<ImpactArtifact> impacts =
       {};  // for damping ratios, of any gears and torques; found by what they were made from
+  // Of each sweep (speed) m, as backlash_left() has it: 0 or less where back flanks would touch; empty: not known; or none
+  std::vector<Eigen::VectorXd> backlash = {};
   std::vector<BranchArtifact> branches = {};  // for unstable orbits and folds; found likewise
 };
 
@@ -60,6 +62,9 @@ std::string operating_words(const ChoicePanel<Sweep>& panel, const Background& b
 // What tells the curves of a panel apart: their torques, or their flanks where those differ at one torque.
 template <class Sweep>
 std::string curve_label(const ChoicePanel<Sweep>& panel, const Sweep& s);
+
+// Whether two are of one pair and its choices, torque, flanks, direction and speeds.
+bool same_motions(const ResponseArtifact& a, const ResponseArtifact& b);
 
 // The branch of a sweep's pair at its torque; none if it is not among them.
 const BranchArtifact* branch_of(const ResponseArtifact& r, const Background& background);

@@ -14,14 +14,17 @@ namespace {
 
 constexpr size_t kMostMeshes = 8;  // colours and dashes of the template
 
+std::string rms_column(const System& s, size_t mesh) {
+  return text("dte_rms ", mesh_name(s, mesh), " [µm]");
+}
+
 // Where stability changes the curve of the other kind begins with the last point of this one.
 FigureBlock system_branch_block(const SystemBranchArtifact& b, size_t meshes, bool stable) {
   FigureBlock block{stable ? "stable" : "unstable",
                     {"mesh_frequency [Hz]", "largest multiplier"},
                     {},
                     stable ? "stable" : "unstable"};
-  for (size_t m = 0; m < meshes; ++m)
-    block.columns.push_back(text("dte_rms ", mesh_name(b.settings.layout, m), " [µm]"));
+  for (size_t m = 0; m < meshes; ++m) block.columns.push_back(rms_column(b.settings.layout, m));
   for (Index i = 0; i < b.mesh_frequency.size(); ++i) {
     const bool own = (b.stable[i] != 0) == stable, before = i > 0 && (b.stable[i - 1] != 0) == stable;
     if (!own && !before) continue;
@@ -37,8 +40,7 @@ FigureBlock system_branch_block(const SystemBranchArtifact& b, size_t meshes, bo
 FigureBlock sweep_block(const SystemSweepArtifact& s, size_t meshes) {
   const std::string way = text("sweep ", name_of(s.direction));
   FigureBlock block{way, {"mesh_frequency [Hz]"}, {}, text("sweep_", name_of(s.direction))};
-  for (size_t m = 0; m < meshes; ++m)
-    block.columns.push_back(text("dte_rms ", mesh_name(s.settings.layout, m), " [µm]"));
+  for (size_t m = 0; m < meshes; ++m) block.columns.push_back(rms_column(s.settings.layout, m));
   for (Index i = 0; i < s.mesh_frequency.size(); ++i) {
     std::vector<double> row{s.mesh_frequency[i]};
     row.reserve(meshes + 1);
@@ -72,7 +74,10 @@ Figure system_branch_figure(const SystemBranchArtifact& b, const std::vector<Sys
   double largest = 1;
   for (const MatrixRM& all : b.floquet_multiplier) largest = std::max(largest, all.row(0).norm());
   std::string labels;
-  for (size_t m = 0; m < meshes; ++m) labels += "'" + mesh_name(s, m) + "' ";
+  for (size_t m = 0; m < meshes; ++m) {
+    labels += "'" + mesh_name(s, m) + "' ";
+    figure.levels.push_back({rms_column(s, m), false});
+  }
   figure.notes.push_back(text(b.mesh_frequency.size(), " orbits, ", b.mesh_frequency.size() - b.stable.sum(),
                               " unstable, ", b.fold_frequency.size(), " folds, ", b.flip_frequency.size(),
                               " period doublings, ", b.torus_frequency.size(), " tori; body \"",
@@ -93,6 +98,7 @@ Figure system_branch_figure(const SystemBranchArtifact& b, const std::vector<Sys
                     {"frequency_to", to},
                     {"notes", static_cast<double>(figure.notes.size())}};
   figure.words = {{"labels", labels}};
+  add_shafts(s, figure);
   figure.height = 1300;
   return figure;
 }

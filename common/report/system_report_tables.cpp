@@ -11,6 +11,7 @@
 #include "io/scene_keys.h"
 #include "report/figures.h"
 #include "report/html.h"
+#include "report/one_system.h"
 #include "report/report_page.h"
 #include "report/system_figures.h"
 #include "report/system_motion_tables.h"
@@ -216,6 +217,9 @@ std::string drawings_table(const SystemStaticArtifact& a) {
 std::string gear_tables(const SystemReport& r) {
   const System& s = layout_of(r);
   html::Rows rows;
+  Figure speeds;
+  add_shafts(s, speeds);
+  constexpr double kAt = 1000;  // Hz
   for (size_t b = 0; b < s.bodies.size(); ++b) {
     const System::Body& body = s.bodies[b];
     rows.push_back({body.name, body.teeth > 0 ? text(body.teeth) : "carrier", sense_words(body),
@@ -223,18 +227,28 @@ std::string gear_tables(const SystemReport& r) {
                     fixed(body.centre[1] * kMilli, 3), fixed(2 * body.radius * kMilli, 3),
                     body.inertia > 0 ? shown(body.inertia, 4) : "–", bearing_words(body),
                     body.bearing.elastic() ? shown(body.bearing.mass, 4) : "–"});
+    if (!speeds.shafts.empty())
+      rows.back().insert(rows.back().begin() + 3, fixed(60 * kAt * std::abs(speeds.shafts[b].turns), 1));
+  }
+  std::vector<std::string> head{
+      "body",   "teeth",         "sense",           "rotation",       "axis on",        "x (mm)",
+      "y (mm)", "diameter (mm)", "inertia (kg m²)", "bearing (N/µm)", "mass on it (kg)"};
+  std::string speed_words;
+  if (!speeds.shafts.empty()) {
+    head.insert(head.begin() + 3, text("rpm at ", kAt, " Hz"));
+    const std::string with = speeds.shafts[0].with;
+    speed_words = text(". Speed: at a mesh frequency of ", kAt, " Hz", with.empty() ? "" : ", with ", with,
+                       has_planets(s) ? "; of a planet on its pin" : "");
   }
   return html::table(text("The bodies. Sense: of rotation",
                           has_planets(s) ? " relative to the carrier, which the computation holds; a "
                                            "gear that the machine holds turns against its carrier"
                                          : "",
-                          ". Rotation: by what it is held or driven",
+                          speed_words, ". Rotation: by what it is held or driven",
                           r.rest ? "" : "; torques do not change natural modes",
                           ". Diameter: of the base circle, of a carrier of the circle of its pins. The ",
                           "inertia of a body that is held has no meaning."),
-                     {"body", "teeth", "sense", "rotation", "axis on", "x (mm)", "y (mm)", "diameter (mm)",
-                      "inertia (kg m²)", "bearing (N/µm)", "mass on it (kg)"},
-                     rows, "small") +
+                     head, rows, "small") +
          (r.rest ? drawings_table(*r.rest) : "");
 }
 

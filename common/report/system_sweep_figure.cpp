@@ -38,11 +38,15 @@ std::vector<std::string> curve_names(const System& s, bool bodies) {
   return out;
 }
 
+std::string column_of(const Quantity& q, const std::string& curve) {
+  return text(q.name, " ", curve, " [", q.unit, "]");
+}
+
 FigureBlock block_of(const Quantity& q, const SystemSweepArtifact& a, size_t curves) {
   const std::vector<std::string> names = curve_names(a.settings.layout, q.of_bodies);
   const std::string way = name_of(a.direction);
   FigureBlock block{text(q.name, " ", way), {"mesh_frequency [Hz]"}, {}, text(q.name, "_", way)};
-  for (size_t i = 0; i < curves; ++i) block.columns.push_back(text(q.name, " ", names[i], " [", q.unit, "]"));
+  for (size_t i = 0; i < curves; ++i) block.columns.push_back(column_of(q, names[i]));
   std::vector<Index> order(static_cast<size_t>(a.mesh_frequency.size()));
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
@@ -93,7 +97,10 @@ Figure system_sweep_figure(const std::vector<SystemSweepArtifact>& sweeps) {
     }
     std::vector<std::string> labels;
     labels.reserve(curves);
-    for (size_t i = 0; i < curves; ++i) labels.push_back(short_name(names[i]));
+    for (size_t i = 0; i < curves; ++i) {
+      labels.push_back(short_name(names[i]));
+      if (q.values == &SystemSweepArtifact::dte_rms) figure.levels.push_back({column_of(q, names[i]), false});
+    }
     const std::string row = std::to_string(++row_number);
     for (const auto& [name, value] :
          {std::pair{"curves", static_cast<double>(curves)}, std::pair{"most", most > 0 ? 1.06 * most : 1.0}})
@@ -111,6 +118,7 @@ Figure system_sweep_figure(const std::vector<SystemSweepArtifact>& sweeps) {
   figure.numbers.emplace_back("frequency_from", from);
   figure.numbers.emplace_back("frequency_to", to);
   figure.numbers.emplace_back("notes", static_cast<double>(figure.notes.size()));
+  add_shafts(s, figure);
   figure.height = 1550 + 24 * static_cast<int>(figure.notes.size());
   add_lines(figure.notes.size(), figure);
   return figure;

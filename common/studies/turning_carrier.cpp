@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "gear/system_layout.h"
+
 namespace whine {
 
 using Eigen::Index;
@@ -31,9 +33,8 @@ std::vector<TurningCarrier> turning_carriers(const SystemSweepArtifact& sweep) {
       if (!on_it(0) && !on_it(1)) continue;
       of.mesh_force = std::max(
           of.mesh_force, sweep.mesh_force[static_cast<size_t>(fastest)].col(static_cast<Index>(m)).mean());
-      for (size_t s = 0; s < 2; ++s)
-        if (!on_it(s) && layout.held(side[s].body)) of.still = side[s].body;
     }
+    of.still = held_by_planets(layout, carrier);
     if (of.still < 0 && !of.turns) continue;
     if (of.still >= 0) {
       const int teeth = layout.bodies[static_cast<size_t>(of.still)].teeth;

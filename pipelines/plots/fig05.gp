@@ -1,7 +1,7 @@
 # Frequency response: RMS of the oscillating dynamic transmission error against mesh frequency, both sweep directions, a panel
 # for each set of choices, a curve for each torque (Figures 5 and 7).
-# Variables from gear-plot: tsv, title, note1, panels, frequency_from, frequency_to, height, speeds, and for each panel a, b, ..:
-# heading_a, heading_lines_a, curves_a, labels_a, jump_labels_a, rms_max_a, contact_lost_a, and for each curve
+# Variables from gear-plot: tsv, title, note1, captions, caption1.., panels, frequency_from, frequency_to, height, speeds, and for each panel a, b, ..:
+# above_a, curves_a, labels_a, jump_labels_a, rms_max_a, contact_lost_a, beyond_backlash_a, and for each curve
 # natural_frequency_a_1, jumps_up_a_1, jumps_down_a_1, and with a branch of orbits stable_a_1, unstable_a_1, folds_a_1: numbers of rows.
 set datafile separator tab
 set datafile commentschars "#"
@@ -48,48 +48,33 @@ marked(f, falling) = place(f) % (2 * stride) == (falling ? stride : 0)
 # How marks read, below all panels; with one torque the directions have colours, with several the torques.
 most = 1
 lost = 0
+beyond = 0
+any_branch = 0
 do for [p = 1:panels] {
   letter = word(letters, p)
   most = int(larger(most, of("curves", letter)))
   lost = lost + of("contact_lost", letter)
+  beyond = beyond + of("beyond_backlash", letter)
+  do for [i = 1:int(of("curves", letter))] { if (exists(sprintf("folds_%s_%d", letter, i))) { any_branch = 1 } }
 }
-any_branch = 0
-do for [p = 1:panels] { do for [i = 1:int(of("curves", word(letters, p)))] {
-  if (exists(sprintf("folds_%s_%d", word(letters, p), i))) { any_branch = 1 } } }
 up_tone = most == 1 ? up_colour : "black"
 down_tone = most == 1 ? down_colour : "black"
-set label 101 (most == 1 ? "▲" : filled_signs[1:2 * most - 1]) . " speed rising" at screen 0.06, screen 26 / height tc rgb up_tone font ",14"
-set label 102 (most == 1 ? "▽" : open_signs[1:2 * most - 1]) . (most == 1 ? " speed falling" : " falling, lighter") at screen 0.205, screen 26 / height tc rgb down_tone font ",14"
-set label 103 "dashed: jump; dotted: to the end of the branch; gap: change of branch" at screen 0.36, screen 26 / height tc rgb "black" font ",14"
-if (lost > 0) { set label 104 "■ below 0: contact lost" at screen 0.82, screen 26 / height tc rgb "black" font ",14" }
-
-if (any_branch > 0) { set label 105 "thin: stable orbits; short dashes: unstable orbits; ✱ fold" at screen 0.06, screen 52 / height tc rgb "black" font ",14" }
+mark_font = most > 3 ? ",12" : ",14"
+set label 101 (most == 1 ? "▲" : filled_signs[1:2 * most - 1]) . " speed rising" at screen 0.06, screen 26 / height tc rgb up_tone font mark_font
+set label 102 (most == 1 ? "▽" : open_signs[1:2 * most - 1]) . (most == 1 ? " speed falling" : " falling, lighter") at screen 0.205, screen 26 / height tc rgb down_tone font mark_font
+set label 103 "dashed: jump; dotted: to the end of the branch; gap: change of branch" at screen 0.37, screen 26 / height tc rgb "black" font mark_font
+if (lost > 0) { set label 104 "■ below 0: contact lost" at screen 0.82, screen 26 / height tc rgb "black" font mark_font }
+if (any_branch > 0) { set label 105 "thin: stable orbits; short dashes: unstable orbits; ✱ fold" at screen 0.06, screen 52 / height tc rgb "black" font mark_font }
+if (beyond > 0) { set label 106 "○ beyond the backlash, where back flanks would touch" at screen 0.54, screen 52 / height tc rgb "black" font mark_font }
 
 # Above a panel its operating point, in one line; below all panels what f_n is, their scenes and choices.
-caption_lines = 1
-array caption[2 * panels + 1]
-array above[panels]
-caption[1] = note1
-do for [p = 1:panels] {
-  rest = of("heading", word(letters, p))
-  letter_words = panels > 1 ? "{/:Bold (" . word(letters, p) . ")} " : ""
-  if (of("heading_lines", word(letters, p)) > 2) {
-    cut = strstrt(rest, "\n")
-    caption_lines = caption_lines + 1
-    caption[caption_lines] = letter_words . rest[1:cut - 1]
-    rest = rest[cut + 1:*]
-  }
-  cut = strstrt(rest, "\n")
-  above[p] = letter_words . rest[1:cut - 1]
-  caption_lines = caption_lines + 1
-  caption[caption_lines] = letter_words . rest[cut + 1:*]
-}
-base = any_branch > 0 ? 78 : 52
-do for [n = 1:caption_lines] {
-  set label 105 + n caption[n] at screen 0.06, screen (base + 24.0 * (caption_lines - n)) / height tc rgb "black" font ",12"
+base = any_branch > 0 || beyond > 0 ? 78 : 52
+do for [n = 0:int(captions)] {
+  words = n == 0 ? note1 : value(sprintf("caption%d", n))
+  set label 107 + n words at screen 0.06, screen (base + 24.0 * (captions - n)) / height tc rgb "black" font ",12"
 }
 set multiplot title title offset 0, -0.3
-foot_height = base - 40 + 24 * caption_lines
+foot_height = base - 40 + 24 * (captions + 1)
 panel_height = (height - 110 - foot_height) / panels
 do for [p = 1:panels] {
   letter = word(letters, p)
@@ -109,7 +94,7 @@ do for [p = 1:panels] {
   power = 10 ** floor(log10(top / 6))
   set ytics 0, power * (top / 6 / power > 5 ? 10 : top / 6 / power > 2 ? 5 : top / 6 / power > 1 ? 2 : 1) out nomirror
   set ylabel "RMS of oscillating DTE (µm)"
-  set label 1 above[p] at graph 0, graph 1 offset 0, 1.55 font ",12"
+  set label 1 (panels > 1 ? "{/:Bold (" . letter . ")} " : "") . of("above", letter) at graph 0, graph 1 offset 0, 1.55 font ",12"
 
   # f_n and its fractions, where superharmonic resonances stand
   unset arrow
@@ -137,6 +122,7 @@ do for [p = 1:panels] {
   # Bars along the foot: speeds at which the teeth part during the period.
   bar(i, direction, row) = block(i, direction) . sprintf(' using 1:($4 > 0 ? %g * top : NaN) with points pt 5 ps 0.6 lc rgb "%s" notitle, ', \
     -foot * (row - 0.2), colour(i, direction))
+  ring(i, direction) = block(i, direction) . ' using 1:($8 > 0 ? $2 : NaN) with points pt 6 ps 1.3 lw 1.6 lc rgb "#202020" notitle, '
   # Each curve stops at a jump; an arrow leads to the branch on which the sweep goes on. Where the branch
   # was followed past the last speed of the sweep on it, dots lead from there to its end.
   head = 0.02 * top
@@ -162,6 +148,7 @@ do for [p = 1:panels] {
     if (held(i, "unstable")) { drawn = drawn . orbits(i) }
     if (held(i, "folds")) { drawn = drawn . folds(i) }
     if (of("contact_lost", letter) > 0) { drawn = drawn . bar(i, "up", 2 * i - 1) . bar(i, "down", 2 * i) }
+    if (of("beyond_backlash", letter) > 0) { drawn = drawn . ring(i, "up") . ring(i, "down") }
     if (of_curve("jumps_up", letter, i) > 0) { drawn = drawn . jump(i, "up") }
     if (of_curve("jumps_down", letter, i) > 0) { drawn = drawn . jump(i, "down") }
   }
@@ -170,6 +157,6 @@ do for [p = 1:panels] {
       : sprintf('linespoints lt 1 lw 2 pt %d ps 1.6 lc rgb "%s"', open_mark[i], torque_colour[i]), letter, i, i < curves ? ', ' : '')
   }
   eval("plot " . drawn)
-  do for [n = 101:105 + caption_lines] { unset label n }
+  do for [n = 101:107 + int(captions)] { unset label n }
 }
 unset multiplot

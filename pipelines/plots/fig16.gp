@@ -1,6 +1,6 @@
 # RMS of the oscillating (left) and mean (right) transmission error against mesh frequency, both sweep directions, a row for each
 # set of choices, a curve for each torque (Figures 14 and 16, and the same of the elastic pair).
-# Variables as fig05.gp, and mean_min_a, mean_max_a, loss_a.
+# Variables as fig05.gp, and mean_min_a, mean_max_a, loss_captions, loss_caption1..
 set datafile separator tab
 set datafile commentschars "#"
 
@@ -33,27 +33,39 @@ place(f) = int(floor((f - frequency_from) / (speed_step > 0 ? speed_step : 1.0) 
 marked(f, falling) = place(f) % (2 * stride) == (falling ? stride : 0)
 most = 1
 lost = 0
+beyond = 0
 do for [p = 1:panels] {
-  most = int(larger(most, of("curves", word(letters, p))))
-  lost = lost + of("contact_lost", word(letters, p))
+  letter = word(letters, p)
+  most = int(larger(most, of("curves", letter)))
+  lost = lost + of("contact_lost", letter)
+  beyond = beyond + of("beyond_backlash", letter)
 }
+mark_font = most > 3 ? ",12" : ",14"
 set label 101 filled_signs[1:2 * most - 1] . " speed rising      " . open_signs[1:2 * most - 1] . " speed falling      dashed: jump; dotted: to the end of the branch; gap: change of branch" \
-  . (lost > 0 ? "      ■ below 0: contact lost" : "") at screen 0.5, screen 26 / height center font ",14"
-set multiplot title title . "\n{/*0.68 " . note1 . "}" offset 0, -0.3
-panel_height = (height - 140) / panels
+  . (lost > 0 ? "      ■ below 0: contact lost" : "") at screen 0.5, screen 26 / height center font mark_font
+if (beyond > 0) { set label 102 "○ beyond the backlash, where back flanks would touch" at screen 0.5, screen 52 / height center font mark_font }
+# Below all panels what they show, where contact is lost.
+base = beyond > 0 ? 78 : 52
+lines = int(captions + loss_captions)
+do for [n = 0:lines] {
+  words = n == 0 ? note1 : n <= captions ? value(sprintf("caption%d", n)) : value(sprintf("loss_caption%d", n - int(captions)))
+  set label 103 + n words at screen 0.06, screen (base + 24.0 * (lines - n)) / height font ",12"
+}
+set multiplot title title offset 0, -0.3
+foot_height = base - 40 + 24 * (lines + 1)
+panel_height = (height - 110 - foot_height) / panels
 do for [p = 1:panels] {
   letter = word(letters, p)
   curves = int(of("curves", letter))
-  set tmargin at screen (height - 90 - (p - 1) * panel_height - 128) / height
-  set bmargin at screen (height - 90 - p * panel_height + 120) / height
+  set tmargin at screen (height - 60 - (p - 1) * panel_height - 60) / height
+  set bmargin at screen (height - 60 - p * panel_height + 106) / height
   do for [side = 0:1] {
     set lmargin at screen (side == 0 ? 0.075 : 0.565)
     set rmargin at screen (side == 0 ? 0.48 : 0.97)
     set ylabel (side == 0 ? "RMS of oscillating DTE (µm)" : "Mean DTE (µm)")
     unset label 1
     if (side == 0) {
-      set label 1 "{/:Bold (" . letter . ")} " . of("heading", letter) . "\n" . of("loss", letter) at graph 0, graph 1 \
-        offset 0, 1.55 + 0.8 * of("heading_lines", letter) font ",12"
+      set label 1 (panels > 1 ? "{/:Bold (" . letter . ")} " : "") . of("above", letter) at graph 0, graph 1 offset 0, 1.55 font ",12"
     }
     unset arrow
     unset label 11
@@ -87,6 +99,7 @@ do for [p = 1:panels] {
       direction eq "down", c, direction eq "up" ? filled_mark[i] : open_mark[i], direction eq "up" ? 1.2 : 1.5, torque_colour[i])
     bar(i, direction, row) = block(i, direction) . sprintf(' using 1:($4 > 0 ? %g : NaN) with points pt 5 ps 0.5 lc rgb "%s" notitle, ', \
       -foot * (row - 0.2) * tall, torque_colour[i])
+    ring(i, direction) = block(i, direction) . sprintf(' using 1:($8 > 0 ? $%d : NaN) with points pt 6 ps 1.2 lw 1.5 lc rgb "#202020" notitle, ', c)
     jump(i, direction) = block(i, "jumps " . direction) . sprintf(' using 1:%d:(0):($%d - $%d) with vectors head filled' \
       . ' size screen 0.008, 24 fixed lt 1 lw 2 dt (14, 8) lc rgb "%s" notitle, ', before, after, before, torque_colour[i]) \
       . block(i, "jumps " . direction) . sprintf(' using 7:%d:($1 - $7):(0) with vectors nohead lt 1 lw 1.4 dt (3, 5) lc rgb "%s" notitle, ', \
@@ -95,6 +108,7 @@ do for [p = 1:panels] {
     do for [i = 1:curves] {
       drawn = drawn . branch(i, "down") . branch(i, "up")
       if (side == 0 && of("contact_lost", letter) > 0) { drawn = drawn . bar(i, "up", 2 * i - 1) . bar(i, "down", 2 * i) }
+      if (of("beyond_backlash", letter) > 0) { drawn = drawn . ring(i, "up") . ring(i, "down") }
       if (value(sprintf("jumps_up_%s_%d", letter, i)) > 0) { drawn = drawn . jump(i, "up") }
       if (value(sprintf("jumps_down_%s_%d", letter, i)) > 0) { drawn = drawn . jump(i, "down") }
     }
@@ -103,7 +117,7 @@ do for [p = 1:panels] {
         torque_colour[i], side == 0 ? "jump_" : "", letter, i, i < curves ? ', ' : '')
     }
     eval("plot " . drawn)
-    unset label 101
+    do for [n = 101:103 + lines] { unset label n }
   }
 }
 unset multiplot

@@ -1,7 +1,9 @@
 # Fold curves: mesh frequency of the folds against damping ratio, torque or tip relief; circles: cusps; crosses: jumps of sweeps.
-# Variables from gear-plot: tsv, heading, axis, curves, label1.., folds_1.., cusps_1.., jumps_1.. (rows), notes, note1.., height.
+# Variables from gear-plot: tsv, heading, axis, curves, label1.., folds_1.., cusps_1.., jumps_1.. (rows), notes, line1.., height.
 set datafile separator tab
 set datafile commentschars "#"
+foot_name = "line%d"
+lift = room(notes)
 
 array tone[6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#444444"]
 set title heading offset 0, -0.2
@@ -13,9 +15,9 @@ set ylabel axis offset 0.5, 0
 set key at graph 0.5, 0.98 center top vertical samplen 2 spacing 1.2 font ",15" noenhanced
 set lmargin at screen 0.085
 set rmargin at screen 0.965
-set bmargin at screen (110.0 + 28 * notes) / height
+set bmargin at screen 100.0 / height + lift
 set tmargin at screen 1 - 80.0 / height
-do for [n = 1:int(notes)] { set label 20 + n value(sprintf("note%d", n)) at screen 0.03, screen (28.0 * (notes - n) + 22) / height left noenhanced font ",13" }
+eval(foot_labels)
 drawn = ''
 rows(what, k) = value(sprintf("%s_%d", what, k))
 do for [k = 1:int(curves)] {

@@ -1,15 +1,17 @@
 # Floquet multipliers of a branch: in the complex plane, with the unit circle (a), and the largest modulus against the mesh
 # frequency (b). Filled: stable orbits, open: unstable ones.
-# Variables from gear-plot: tsv, heading, largest, notes, note1.., height.
+# Variables from gear-plot: tsv, heading, largest, notes, line1.., height.
 set datafile separator tab
 set datafile commentschars "#"
+foot_name = "line%d"
+lift = room(notes)
 
 stats tsv index "[modulus]" using 1 nooutput name "speed"
 set multiplot title heading offset 0, -0.2
 set border 15 lw 1.6
 set tics out nomirror
 set grid lt 1 lc rgb "#e4e4e4" lw 1
-bottom = (100.0 + 28 * notes) / height
+bottom = 100.0 / height + lift
 top = 1 - 90.0 / height
 reach = largest > 1.05 ? 1.05 * largest : 1.1
 set bmargin at screen bottom
@@ -26,12 +28,10 @@ set colorbox vertical user origin screen 0.085 + (top - bottom) * height / 1600.
 set parametric
 set trange [0:2*pi]
 set label 1 "{/:Bold (a)}" at graph 0.02, 0.96
-do for [n = 1:int(notes)] { set label 20 + n value(sprintf("note%d", n)) at screen 0.03, screen (28.0 * (notes - n) + 22) / height left noenhanced font ",13" }
 plot cos(t), sin(t) with lines lw 2 lc rgb "#444444" notitle, \
   tsv index "[multipliers]" using ($4 == 1 ? $1 : NaN):2:3 with points pt 7 ps 0.9 palette notitle, \
   tsv index "[multipliers]" using ($4 == 0 ? $1 : NaN):2:3 with points pt 6 ps 1.4 lw 2 palette notitle
 unset parametric
-do for [n = 1:int(notes)] { unset label 20 + n }
 unset colorbox
 set lmargin at screen 0.73
 set rmargin at screen 0.965
@@ -48,4 +48,5 @@ set arrow 1 from graph 0, first 1 to graph 1, first 1 nohead lw 2 lc rgb "#44444
 plot tsv index "[modulus]" using 1:2 with lines lw 1.2 lc rgb "#b0b0b0" notitle, \
   tsv index "[modulus]" using ($3 == 1 ? $1 : NaN):2 with points pt 7 ps 0.7 lc rgb "#0072b2" title "stable", \
   tsv index "[modulus]" using ($3 == 0 ? $1 : NaN):2 with points pt 6 ps 1.2 lw 2 lc rgb "#d55e00" title "unstable"
+eval(below)
 unset multiplot

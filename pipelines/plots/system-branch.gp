@@ -1,7 +1,7 @@
 # Branch of periodic motions of a system: RMS of the transmission error of each mesh, stable and unstable, with the sweeps (above);
 # largest modulus of the multipliers (below).
 # Variables from gear-plot: tsv, heading, note1.., notes, height, meshes, labels, stable, unstable, up, down (1: there are some), most,
-# largest, frequency_from, frequency_to.
+# largest, frequency_from, frequency_to, speed_label, level_label, level_low, level_high.
 set datafile separator tab
 set datafile commentschars "#"
 
@@ -18,9 +18,9 @@ set rmargin at screen 0.80
 middle = lift + 0.36 * (1 - lift)
 set tmargin at screen 1 - 100.0 / height
 set bmargin at screen middle + 0.05
-set yrange [0 : most]
-set xlabel "Mesh frequency (Hz)" offset 0, 0.3
-set ylabel "RMS of the transmission error (µm)"
+if (level_label eq "") { set yrange [0 : most] } else { set yrange [level_low : level_high] }
+set xlabel speed_label offset 0, 0.3
+set ylabel "RMS of the transmission error (" . (level_label eq "" ? "µm" : level_label) . ")"
 set key at screen 0.815, graph 1.02 left top Left reverse vertical samplen 2.4 spacing 1.3 font ",13" noenhanced
 # Meshes that are alike lie on each other: the wider line below shows.
 thick(m) = 2 + 1.2 * (meshes - m)

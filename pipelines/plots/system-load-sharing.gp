@@ -39,7 +39,7 @@ do for [k = 1:int(rows)] {
   set lmargin at screen 0.62
   set rmargin at screen 0.88
   set xlabel sprintf("Phase of %s (mesh periods)", value(sprintf("first%d", k))) offset 0, 0.3 noenhanced
-  set ylabel sprintf("Tooth loads, %s (N)", value(sprintf("first%d", k))) noenhanced
+  set ylabel "Tooth loads (N)"
   set yrange [0 : *]
   set xrange [0:1]
   set xtics 0.2

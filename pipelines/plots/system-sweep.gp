@@ -1,6 +1,6 @@
 # A system over its speeds: RMS of the transmission error and time without contact of each mesh, oscillating force on each bearing.
 # Variables from gear-plot: tsv, heading, line1.., height, frequency_from, frequency_to, sweeps_up, sweeps_down and, of each row k,
-# quantity1.., axis1.., unit1.., labels1.., curves1.., most1..; notes, their number.
+# quantity1.., axis1.., unit1.., labels1.., curves1.., most1..; notes, their number; speed_label, level_label, level_low, level_high.
 set datafile separator tab
 set datafile commentschars "#"
 
@@ -31,9 +31,10 @@ do for [k = 1:3] {
   thick(i) = 1.6 + 0.7 * (curves - i)
   set tmargin at screen 1 - (112.0 + row * (k - 1)) / height
   set bmargin at screen 1 - (row + 5.0 + row * (k - 1)) / height
-  set xlabel "Mesh frequency (Hz)" offset 0, 0.3
-  set ylabel sprintf("%s (%s)", axis, unit)
-  set yrange [0 : largest]
+  set xlabel speed_label offset 0, 0.3
+  in_levels = k == 1 && level_label ne ""
+  set ylabel sprintf("%s (%s)", axis, in_levels ? level_label : unit)
+  if (in_levels) { set yrange [level_low : level_high] } else { set yrange [0 : largest] }
   set key at graph 1.03, graph 1.02 left top Left reverse vertical samplen 2 spacing 1.2 font ",13" noenhanced
   drawn = ""
   do for [i = 1:curves] {

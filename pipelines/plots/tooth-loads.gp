@@ -1,6 +1,6 @@
 # Largest tooth load against mesh frequency for both directions of the sweep (a), and the loads of successive teeth over the mesh
 # phase at the speed with the largest RMS (b); shaded there, marked at the foot here: contact lost.
-# Variables from gear-plot: tsv, heading, note1, note2, height, frequency_from, frequency_to, speeds, load_max, worst_speed, contact_lost,
+# Variables from gear-plot: tsv, heading, note1, note2, height, frequency_from, frequency_to, speeds, load_max, worst_speed, contact_lost, beyond_backlash,
 # largest, static_force, phase_from, phase_to, first_tooth, last_tooth, title_b, result_b, lost_b, shown_b_0 ..
 set datafile separator tab
 set datafile commentschars "#"
@@ -44,6 +44,11 @@ if (contact_lost > 0) {
   drawn = drawn . ', ' . curve("down", '($4 > 0 ? 0.035 * high : NaN)') . ' with points pt 5 ps 0.6 lc rgb "#d55e00" notitle, ' \
     . curve("up", '($4 > 0 ? 0.015 * high : NaN)') . ' with points pt 5 ps 0.6 lc rgb "#0072b2" notitle, ' \
     . 'keyentry with points pt 5 ps 1 lc rgb "#444444" title "contact lost"'
+}
+if (beyond_backlash > 0) {
+  drawn = drawn . ', ' . curve("down", '($8 > 0 ? $6 : NaN)') . ' with points pt 6 ps 1.1 lw 1.4 lc rgb "#202020" notitle, ' \
+    . curve("up", '($8 > 0 ? $6 : NaN)') . ' with points pt 6 ps 1.1 lw 1.4 lc rgb "#202020" notitle, ' \
+    . 'keyentry with points pt 6 ps 1.1 lw 1.4 lc rgb "#202020" title "beyond backlash"'
 }
 eval("plot " . drawn)
 

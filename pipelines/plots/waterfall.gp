@@ -58,7 +58,7 @@ do for [r = 1:int(rows)] {
   # Ticks in micrometres on an axis of powers of ten.
   set cbtics ("" low)
   do for [t = int(ceil(low)):int(floor(log10(unit)))] { set cbtics add (sprintf("%g", 10.0 ** t) t) }
-  set cblabel "Amplitude (µm)" offset -0.6
+  set cblabel "Amplitude (µm)" offset 0.3
   x0 = 0.515
   foot = 1 - (175.0 + r * tall - 115) / height
   set colorbox user origin screen x0, foot + lift size screen 0.012, (tall - 115.0 - (rows > 1 ? 30 : 0)) / height
@@ -69,7 +69,7 @@ do for [r = 1:int(rows)] {
   unset arrow
   unset label
   set lmargin at screen 0.675
-  set rmargin at screen 0.985
+  set rmargin at screen 0.965
   set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
   set key at graph 1.0, graph 1.0 right top opaque Left reverse samplen 2 spacing 1.1 font ",14"
   set xlabel speed_label . " {/:Bold (" . letter(2 * r) . ")}"
