@@ -56,8 +56,8 @@ sed 's/^title = .*/title = "A planetary train"/' "$(dirname "$scene_of_paper")/l
 stage_train=("$bin/gear-scene" --scene scene-train.toml --output scene-train.mk --out out)
 stage_modes=("$bin/gear-modes" --params out/scene-train/params/system.toml --output out/scene-train/modes.h5)
 stage_modes_plot=("$bin/gear-plot" modes --plots "$plots" --output modes out/scene-train/modes.h5)
-sed 's/from = 1000, to = 5000, step = 50/from = 2000, to = 2100, step = 100/' "$(dirname "$scene_of_paper")/three-in-line.toml" > scene-inline.toml
-printf '[gear.idler.modification]\ncrowning_um = 5\n[fidelity]\nmodes = 15\ncontact = "line"\n[discretisation]\nelement_mm = 1.5\nelement_order = 1\npositions = 8\nsteps_per_period = 64\n' >> scene-inline.toml
+sed 's/from = 1000, to = 5000, step = 50/from = 2000, to = 2100, step = 100/; s/^element_mm = .*/element_mm = 1.5\nelement_order = 1\npositions = 8\nsteps_per_period = 64/' "$(dirname "$scene_of_paper")/three-in-line.toml" > scene-inline.toml
+printf '[gear.idler.modification]\ncrowning_um = 5\n[fidelity]\nmodes = 15\ncontact = "line"\n' >> scene-inline.toml
 stage_inline=("$bin/gear-scene" --scene scene-inline.toml --output scene-inline.mk --out out)
 inline_bodies() {
   for gear in pinion idler wheel; do

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "dynamics/impact.h"
 #include "gear/involute.h"
+#include "gear/rack_tip.h"
 #include "io/claim_sets.h"
 #include "io/impact_codec.h"
 #include "io/readings.h"

@@ -110,6 +110,84 @@ TEST_CASE("keys left out take the defaults of the structs") {
   CHECK(s.title == "x");
 }
 
+TEST_CASE("lengths that a scene leaves open go with the module of the gear, those that it gives stay") {
+  const SceneFile file;
+  const auto element = [&](const Scene& s, const std::string& gear) {
+    return read_body_parameters(file.path(body_parameters(s, gear), "body.toml")).discretisation;
+  };
+  const auto of_module = [&](const std::string& module, const std::string& sections = "") {
+    return file.read(scene_with("module_mm = 3", "module_mm = " + module) + sections);
+  };
+  const std::string matching = "[discretisation]\nnear_field = \"matching\"\n";
+  // Those of the pair of P2000, to the last bit.
+  CHECK(element(of_module("3"), "wheel").element_size == 0.4 / 1000);
+  CHECK(of_module("3").damping.undamped_depth == 0.5 / 1000);
+  CHECK(element(of_module("3", matching), "wheel").matching_depth == 1.0 / 1000);
+  for (const double module : {0.4, 20.0}) {
+    const std::string word = module < 1 ? "0.4" : "20";
+    CHECK(element(of_module(word), "pinion").element_size == relative(module * 1e-3 / 7.5, 1e-14));
+    CHECK(element(of_module(word, matching), "pinion").matching_depth == relative(module * 1e-3 / 3, 1e-14));
+    CHECK(of_module(word).damping.undamped_depth == relative(module * 1e-3 / 6, 1e-14));
+    const Scene given = of_module(word, matching +
+                                            "matching_depth_mm = 0.8\nelement_mm = 0.3\n[damping]\n"
+                                            "undamped_depth_mm = 0.7\n");
+    CHECK(element(given, "wheel").element_size == relative(0.3e-3, 1e-14));
+    CHECK(element(given, "wheel").matching_depth == relative(0.8e-3, 1e-14));
+    CHECK(given.damping.undamped_depth == relative(0.7e-3, 1e-14));
+  }
+  CHECK(
+      contains(file.rejection(with_section("[discretisation]\nelement_mm = 0\n")), "must be greater than 0"));
+  // Each gear by its own module.
+  const Scene two = file.read(scene_with("like = \"pinion\"", "like = \"pinion\"\nmodule_mm = 6"));
+  CHECK(element(two, "pinion").element_size == relative(0.4e-3, 1e-14));
+  CHECK(element(two, "wheel").element_size == relative(0.8e-3, 1e-14));
+}
+
+TEST_CASE("the default rack tip is cut to what fits, a given one is not, nor one taken over") {
+  const SceneFile file;
+  const auto radius = [&](const std::string& lines, size_t gear) {
+    const std::string path =
+        file.path(scene_with("pressure_angle_deg = 20", "pressure_angle_deg = 25\n" + lines));
+    return std::pair{read_scene(path).gears[gear].design.rack_tip_radius,
+                     gear_gives(path, gear ? "wheel" : "pinion", "rack_tip_radius")};
+  };
+  for (const size_t gear : {0, 1}) {
+    CHECK(radius("", gear) == std::pair{0.317, false});
+    CHECK(radius("rack_tip_radius = 0.38\n", gear) == std::pair{0.38, true});
+  }
+}
+
+TEST_CASE("words of other programs that have no key of their own lead to the right one") {
+  const SceneFile file;
+  const auto said = [&](const std::string& line) {
+    return file.rejection(scene_with("face_width_mm", line + " = 1\nface_width_mm"));
+  };
+  for (const auto& [word, meant] :
+       {std::pair{"web_thickness_mm", "did you mean 'bore_radius_mm' (there are no webs"},
+        std::pair{"inertia_kgm2", "did you mean 'total_inertia_kgm2'?"},
+        std::pair{"hob_tip_radius_mm", "did you mean 'rack_tip_radius' (in modules)?"},
+        std::pair{"rim_thickness_mm", "did you mean 'rim_outer_radius_mm' (of an internal gear"},
+        std::pair{"undercut", "follows from teeth, profile_shift"},
+        std::pair{"shaft", "those that share a shaft are not computed"},
+        std::pair{"span_width_mm", "did you mean 'tooth_thinning_mm'"},
+        std::pair{"tip_clearance", "did you mean 'dedendum'"},
+        std::pair{"name", "it belongs into [[carrier]]"}}) {
+    INFO(said(word));
+    CHECK(contains(said(word), meant));
+  }
+}
+
+TEST_CASE("a ring whose diameters ask for the shift of the other sign is told so") {
+  const SceneFile file;
+  // The tip circle of x = -1.2 by ISO 21771, with handbook sign: the addendum would be 0.8 - 2.4.
+  const std::string ring =
+      "like = \"pinion\"\nteeth = 120\ninternal = true\nrim_outer_radius_mm = 200\nprofile_shift = 1.2\n"
+      "tip_diameter_mm = 362.4\n";
+  const std::string said = file.rejection(scene_with("like = \"pinion\"\n", ring));
+  CHECK(contains(said, "'tip_diameter_mm' in [gear.wheel] = 362.4"));
+  CHECK(contains(said, "; profile_shift = -1.2 fits: handbooks"));
+}
+
 TEST_CASE("an empty scene is told what a scene needs") {
   const SceneFile file;
   const std::string said = file.rejection("");

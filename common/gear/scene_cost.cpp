@@ -31,8 +31,8 @@ double hunting(const Scene& scene) {
 // Bodies: unknowns grow with the square of 1 / element_mm, factors and modes with the cube of that.
 void tell_of_body(std::vector<std::string>& out, const std::string& gear, const BodyDiscretisation& body,
                   const GearDesign& design) {
-  const double coarseness = body.element_size / design.module;
-  if (coarseness < 0.04)
+  const double coarseness = body.element_size / design.module;  // 0: by the module, which takes seconds
+  if (coarseness > 0 && coarseness < 0.04)
     out.push_back(text("[gear.", gear, "]: element_mm = ", body.element_size * 1e3, " is ", coarseness,
                        " modules; mesh and modes take minutes and gigabytes below 0.04, and eight times the "
                        "unknowns for a third of it"));

@@ -9,28 +9,30 @@
 #include "gear/body_inertia.h"
 #include "gear/crack.h"
 #include "gear/face_width.h"
+#include "gear/handbook_sign.h"
 #include "gear/numbers.h"
 #include "gear/pair.h"
+#include "gear/remedy.h"
 #include "gear/undercut.h"
 
 namespace whine {
 namespace {
 
-// What `make` throws, with the place and the heading of a section before it.
+// What `make` throws, with the place and the heading of a section before it. The remedy is one of all gears of the scene.
 template <class Make>
 void in_section(const ScenePlace& where, const std::string& heading, const std::vector<std::string>& sections,
-                const Make& make) {
+                const DrawnGears& gears, const Make& make) {
   try {
     make();
   } catch (const Error& error) {
-    fail(error.kind(), where(sections, error.what()), ": ", heading, ": ", error.what());
+    fail(error.kind(), where(sections, error.what()), ": ", heading, ": ", with_remedy(error.what(), gears));
   }
 }
 
-void check_gear(const SceneGear& gear, const ScenePlace& where) {
+void check_gear(const SceneGear& gear, const DrawnGears& gears, const ScenePlace& where) {
   const auto in_part = [&](const std::string& part, const auto& make) {
     const std::string section = "gear." + gear.name + part;
-    in_section(where, "[" + section + "]", {section, "gear." + gear.name}, make);
+    in_section(where, "[" + section + "]", {section, "gear." + gear.name}, gears, make);
   };
   in_part("", [&] {
     const ToothGeometry tooth(gear.design);
@@ -43,22 +45,25 @@ void check_gear(const SceneGear& gear, const ScenePlace& where) {
 }  // namespace
 
 void check_system_geometry(const SystemScene& scene, const ScenePlace& where) {
-  for (const SystemScene::Gear& gear : scene.gears) check_gear(gear, where);
+  const DrawnGears gears = drawn_gears(scene);
+  for (const SystemScene::Gear& gear : scene.gears) check_gear(gear, gears, where);
 }
 
 void check_geometry(const Scene& scene, const ScenePlace& where) {
-  for (const SceneGear& gear : scene.gears) check_gear(gear, where);
-  in_section(where, "[[mesh]]", {"mesh", "gear." + scene.mesh.gear[1], "gear." + scene.mesh.gear[0]}, [&] {
-    GearPair pair(scene.gear(scene.mesh.gear[0]).design, scene.gear(scene.mesh.gear[1]).design,
-                  scene.mesh.centre_distance);
-  });
+  const DrawnGears gears = drawn_gears(scene);
+  for (const SceneGear& gear : scene.gears) check_gear(gear, gears, where);
+  in_section(where, "[[mesh]]", {"mesh", "gear." + scene.mesh.gear[1], "gear." + scene.mesh.gear[0]}, gears,
+             [&] {
+               GearPair pair(scene.gear(scene.mesh.gear[0]).design, scene.gear(scene.mesh.gear[1]).design,
+                             scene.mesh.centre_distance);
+             });
 }
 
 namespace {
 
 void check_gear_inertia(const SceneGear& gear, const ScenePlace& where) {
   const std::string section = "gear." + gear.name;
-  in_section(where, "[" + section + "]", {section}, [&] {
+  in_section(where, "[" + section + "]", {section}, {}, [&] {
     const double least = least_body_inertia(ToothGeometry(gear.design), gear.material);
     if (gear.total_inertia != 0 && gear.total_inertia < least)
       fail(Failure::input, too_light(gear.total_inertia, "by its drawing at least " + shown_number(least)));
@@ -109,10 +114,24 @@ void add_shortened_path(const AnyScene& scene, const GearMeshSpec& mesh, const S
   if (!words.empty()) out.push_back(where({"mesh"}, words) + ": " + words);
 }
 
+// Rings that mesh, but fit with the shift of the other sign.
+void warn_of_signs(const DrawnGears& gears, const ScenePlace& where, std::vector<std::string>& out) {
+  for (const DrawnGears::Mesh& mesh : gears.mesh) {
+    const GearDesign &first = gears.design[mesh.first], &second = gears.design[mesh.second];
+    const auto shift = shift_of_other_sign(first, second, mesh.centre_distance);
+    if (!shift) continue;
+    const std::string section = "gear." + gears.name[first.internal ? mesh.first : mesh.second];
+    out.push_back(where({section}, "profile_shift") + ": [" + section + "]: the backlash is " +
+                  millimetres(GearPair(first, second, mesh.centre_distance).backlash()) + "; " +
+                  other_sign_words(*shift));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> scene_warnings(const Scene& scene, const ScenePlace& where) {
   std::vector<std::string> out;
+  warn_of_signs(drawn_gears(scene), where, out);
   for (const SceneGear& gear : scene.gears)
     for (const std::string& words : {undercut_words(gear.design, gear.name), thin_rim(gear.design, gear.name),
                                      flywheel(gear.design, gear.material, gear.total_inertia, gear.name)})
@@ -162,6 +181,7 @@ std::vector<std::string> scene_remarks(const SystemScene& scene) {
 
 std::vector<std::string> scene_warnings(const SystemScene& scene, const ScenePlace& where) {
   std::vector<std::string> out;
+  warn_of_signs(drawn_gears(scene), where, out);
   if (scene.rigid()) return out;
   for (const SystemScene::Gear& gear : scene.gears)
     for (const std::string& words :

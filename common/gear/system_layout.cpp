@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "base/error.h"
 #include "base/units.h"
+#include "gear/remedy.h"
 
 namespace whine {
 namespace {
@@ -53,7 +55,8 @@ class Layout {
         throw;
       } catch (const Error& error) {
         const auto& gear = scene_.meshes[m].spec.gear;
-        reject("mesh", m, "[[mesh]] of '", gear[0], "' and '", gear[1], "': ", error.what());
+        reject("mesh", m, "[[mesh]] of '", gear[0], "' and '", gear[1],
+               "': ", with_remedy(error.what(), drawn_gears(scene_)));
       }
     }
     take_carriers();
@@ -192,6 +195,19 @@ class Layout {
     if (carrier >= 0) check_neighbours(static_cast<size_t>(carrier));
   }
 
+  // Whether meshes lead from one gear to another, in whatever order they are named.
+  bool meshes_join(const std::string& gear, const std::string& other) const {
+    std::set<std::string> reached{other};
+    for (size_t before = 0; before != reached.size();) {
+      before = reached.size();
+      for (const SystemScene::Mesh& mesh : scene_.meshes) {
+        const auto& [first, second] = mesh.spec.gear;
+        if (reached.contains(first) || reached.contains(second)) reached.insert({first, second});
+      }
+    }
+    return reached.contains(gear);
+  }
+
   // Sun, ring and carrier have one axis, so all meshes of a planet have one centre distance.
   void check_axis(size_t m, size_t c) const {
     const double distance = scene_.meshes[m].spec.centre_distance, other = pin_radius(c);
@@ -208,7 +224,12 @@ class Layout {
     const int a = placed(on), b = placed(to);
     if (a < 0)
       reject("mesh", m, "[[mesh]] of '", first.name, "' and '", second.name, "': '", first.name,
-             "' is driven by no mesh before it; name the gears in the order of the flow of power");
+             "' is driven by no mesh before it; ",
+             meshes_join(first.name, scene_.meshes[0].spec.gear[0])
+                 ? "name the gears in the order of the flow of power"
+                 : "no [[mesh]] joins it to '" + scene_.meshes[0].spec.gear[0] +
+                       "': gears that share a shaft are not computed, only gears in mesh; compute each stage "
+                       "by a scene of its own");
     if (b < 0) {
       add_driven_gear(system_, a, first.design, to, second.design, distance, direction, second.bearing);
       system_.bodies.back().inertia = inertia_of(second);

@@ -1,5 +1,6 @@
 #include "gear/train.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
@@ -54,8 +55,10 @@ System::Mesh mesh_on(System& system, int on, const GearPair& pair, int second, d
     first.angle = towards - from_tooth;
   } else {
     const double ahead = first.sense * (first.angle + from_tooth - towards) * first.teeth / (2 * kPi);
-    mesh.phase = ahead - std::floor(ahead);
-    mesh.side[0].first_tooth = -first.sense * static_cast<int>(std::floor(ahead));
+    constexpr double kRoundOff = 1e-9;  // pitches: a phase of 0 is 0, not 1
+    const double whole = std::floor(ahead + kRoundOff);
+    mesh.phase = std::max(0.0, ahead - whole);
+    mesh.side[0].first_tooth = -first.sense * static_cast<int>(whole);
   }
   return mesh;
 }

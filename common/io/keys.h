@@ -120,7 +120,8 @@ struct Key {
   const char* section;  // as in the scene: "gear", "material", "mesh", ...
   const char* name;     // in a scene, with the unit's suffix
   Unit unit;
-  const char* fallback;  // default in the scene's unit; nullptr: the key is required
+  // Default in the scene's unit; nullptr: the key is required; "module / 6": see io/module_lengths.h.
+  const char* fallback;
   double least, most;    // range in the scene's unit; of a range of speeds: of its two ends
   bool open;             // least itself is not allowed
   const char* choices;   // of a word, blank between; "" for numbers

@@ -9,7 +9,10 @@
 #include <utility>
 
 #include "base/error.h"
+#include "gear/handbook_sign.h"
+#include "gear/rack_tip.h"
 #include "io/keys.h"
+#include "io/module_lengths.h"
 #include "io/scene_sections.h"
 #include "io/section_reader.h"
 #include "io/suggestion.h"
@@ -268,12 +271,16 @@ void take_diameters(const Source& source, const toml::table& table, const std::s
     height = std::round(exact * kDigits) / kDigits;
     constexpr double kMost = 3;  // the range of addendum and dedendum
     if (height > 0 && height <= kMost) return;
+    // Of a ring whose shift is counted outwards.
+    const double other = height + outwards * 2 * d.profile_shift;
+    const bool other_sign = d.internal && other >= 0.6 && other <= 1.6;
     const double pitch = d.module * (d.teeth + 2 * out * d.profile_shift),
                  limit = pitch + outwards * out * 2 * kMost * d.module;
     source.reject(at, text("'", diameter_key, "' in [", label, "] = ", diameter * 1e3, ": with ", d.teeth,
                            " teeth, module_mm = ", d.module * 1e3, " and profile_shift = ", d.profile_shift,
                            " it must be between ", std::min(pitch, limit) * 1e3, " and ",
-                           std::max(pitch, limit) * 1e3, " mm (", height_key, " above 0, at most 3)"));
+                           std::max(pitch, limit) * 1e3, " mm (", height_key, " above 0, at most 3)",
+                           other_sign ? "; " + other_sign_words(-d.profile_shift) : ""));
   };
   take("tip_diameter_mm", "addendum", values.tip_diameter, d.addendum, 1);
   take("root_diameter_mm", "dedendum", values.root_diameter, d.dedendum, -1);
@@ -335,9 +342,10 @@ void read_gears(const Source& source, Scene& scene, bool rigid) {
     KeyValues values;
     GearDesign base_design;
     const toml::node* like = table->get("like");
+    const toml::table* model = nullptr;
     if (like && like->is_string()) {
       const std::string base = like->value<std::string>().value_or("");
-      const toml::table* model = table_of(base);
+      model = table_of(base);
       if (base == name) source.reject(*like, text("[gear.", name, "] is like itself"));
       if (!model)
         source.reject(
@@ -359,6 +367,8 @@ void read_gears(const Source& source, Scene& scene, bool rigid) {
       require_blank(source, *table, "gear." + name, values.design);
     require_rim_support(source, *table, "gear." + name, rigid, values.design);
     take_diameters(source, *table, "gear." + name, like ? &base_design : nullptr, values);
+    if (!table->contains("rack_tip_radius") && !(model && model->contains("rack_tip_radius")))
+      values.design.rack_tip_radius = default_rack_tip_radius(values.design);
     read_modification(source, *table, "gear." + name, values);
     read_errors(source, *table, "gear." + name, values);
     read_crack(source, *table, "gear." + name, values.design);
@@ -541,6 +551,7 @@ Scene scene_from(const Source& source) {
                                ": near_field is \"", values.body.near_field,
                                "\", which has no depth; set near_field = \"matching\" or take it out"));
   }
+  take_module(values, {Part::damping}, scene.gear(scene.mesh.gear[0]).design.module);
   scene.damping = values.damping;
   scene.operation = values.operation;
   scene.fidelity = values.fidelity;

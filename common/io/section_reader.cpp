@@ -380,7 +380,7 @@ void SectionReader::assign_range(const Key& key, const toml::node& node, const R
 void SectionReader::assign_fallback(const Key& key, const Slot& slot) const {
   const std::string word(key.fallback);
   if (const auto* number = std::get_if<double*>(&slot)) {
-    **number = key.to_si(std::strtod(key.fallback, nullptr));
+    **number = key.to_si(std::strtod(key.fallback, nullptr));  // 0 of one that goes with the module
   } else if (const auto* whole = std::get_if<int*>(&slot)) {
     **whole = static_cast<int>(std::strtol(key.fallback, nullptr, 10));
   } else if (const auto* flag = std::get_if<bool*>(&slot)) {

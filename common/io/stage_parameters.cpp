@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "io/keys.h"
+#include "io/module_lengths.h"
 #include "io/publish.h"
 #include "io/section_reader.h"
 #include "io/stage_parameters_text.h"
@@ -70,6 +71,7 @@ std::string body_parameters(const BodyParameters& chosen) {
   values.design = chosen.design;
   values.material = chosen.material;
   values.body = chosen.discretisation;
+  take_module(values, {Part::body, Part::near_field}, chosen.design.module);
   StageParametersText out(kBodyStage);
   out.add("gear", "gear", values,
           values.design.internal ? std::set{Part::design} : std::set{Part::design, Part::bore});

@@ -36,6 +36,26 @@ constexpr Synonym kSynonyms[] = {
     {"bore borediameter hubdiameter shaftdiameter innerdiameter holediameter", "bore_radius_mm",
      "half of the diameter"},
     {"hubradius shaftradius innerradius holeradius", "bore_radius_mm"},
+    {"webthickness web webwidth websthickness", "bore_radius_mm",
+     "there are no webs: the radius inside which the gear is as good as rigid, that of the web's root or of "
+     "the shaft"},
+    {"rimthickness rimwidth ringthickness", "rim_outer_radius_mm",
+     "of an internal gear: root radius plus the thickness; of an external one bore_radius_mm: root radius "
+     "less the thickness"},
+    {"hubwidth hublength keyway spline shaft shaftname onshaft", "",
+     "gears have one width and stand alone: those that share a shaft are not computed; take the line out"},
+    {"undercut undercutting cutterprotuberance protuberance protuberanceamount", "",
+     "what the rack cuts follows from teeth, profile_shift, dedendum and rack_tip_radius; take the line out"},
+    {"chamfer tipchamfer tipchamferwidth tiprounding edgebreak", "tip_diameter_mm",
+     "the diameter at which the flank ends"},
+    {"tipclearance clearance bottomclearance", "dedendum",
+     "in modules: the mate's addendum plus the clearance"},
+    {"basetangentlength spanmeasurement spanwidth wk md dimensionoverpins dimensionoverballs "
+     "toothwidthdeviation",
+     "tooth_thinning_mm", "the arc taken off at the pitch circle, for backlash"},
+    {"tooththickness sn circulartooththickness", "tooth_thinning_mm",
+     "module (pi / 2 + 2 profile_shift tan(pressure_angle)) less the tooth thickness"},
+    {"power inputpower", "torque_Nm", "power over the angular speed of the driver"},
     {"rim rimradius ringradius outerrimradius ringouterradius", "rim_outer_radius_mm"},
     {"rimdiameter ringdiameter ringouterdiameter", "rim_outer_radius_mm", "half of the diameter"},
     {"ring ringgear annulus internalgear internalteeth hollow", "internal", "true"},
@@ -45,8 +65,9 @@ constexpr Synonym kSynonyms[] = {
     {"rf rootradius dedendumradius", "root_diameter_mm", "twice the radius"},
     {"ha addendumcoefficient addendumfactor", "addendum", "in modules"},
     {"hf dedendumcoefficient dedendumfactor", "dedendum", "in modules"},
-    {"filletradius rootfillet rootfilletradius cuttertipradius tooltipradius rhof", "rack_tip_radius",
-     "in modules"},
+    {"filletradius rootfillet rootfilletradius cuttertipradius tooltipradius hobtipradius racktipradius "
+     "toolroundness rhof rhoap rhoa0 rhofp",
+     "rack_tip_radius", "in modules"},
     {"backlash thinning tooththicknessallowance", "tooth_thinning_mm",
      "on each gear; the backlash is the sum of both, and what the centre distance gives"},
     {"inertia momentofinertia massmoment totalinertia", "total_inertia_kgm2"},
@@ -139,7 +160,12 @@ bool of_gear(const std::string& section) {
 }
 
 std::string section_words(const Key& key) {
-  if (key.section == std::string("bearing")) return "[[bearing]]";
+  const std::string section(key.section);
+  for (const char* list : {"mesh", "bearing", "carrier", "drive"})
+    if (section == list) return text("[[", section, "]]");
+  if (section == "train_mesh") return "[[mesh]] of a system";
+  if (section == "rigid_gear") return "[gear.<name>] of a system with body = \"rigid\"";
+  if (section == "gear" || section == "material") return text("[", section, ".<name>]");
   return text("[", of_gear(key.section) ? "gear.<name>." : "", key.section, "]");
 }
 
@@ -177,12 +203,16 @@ const Key* meant_key(const std::string& word, std::string& note) {
 
 std::string advice_on_key(const std::string& word, const std::string& section,
                           const std::vector<std::string>& known) {
-  for (const Key& key : scene_keys())
-    if (word == key.name) return text("; it belongs into ", section_words(key));
+  const Synonym* synonym = synonym_of(word);
+  const Key* const meant = synonym ? key_called(synonym->key) : nullptr;
+  // What another section calls by this word may have another name here: the inertia of a carrier and that of a gear.
+  if (!meant || meant->section != section)
+    for (const Key& key : scene_keys())
+      if (word == key.name) return text("; it belongs into ", section_words(key));
   std::ptrdiff_t here = 0, anywhere = 0;
   const std::string near = nearest_within(word, known, here);
-  if (const Synonym* synonym = synonym_of(word)) {
-    const Key* key = key_called(synonym->key);
+  if (synonym) {
+    const Key* key = meant;
     if (!key) return text(": ", synonym->note);
     const std::string there = key->section == section ? "" : " of " + section_words(*key);
     return text("; did you mean '", key->name, "'", there,

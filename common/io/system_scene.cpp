@@ -6,6 +6,7 @@
 
 #include "gear/system_layout.h"
 #include "gear/tooth_errors.h"
+#include "io/module_lengths.h"
 #include "io/scene_sections.h"
 #include "io/variant.h"
 #include "system/system_rest.h"
@@ -236,7 +237,6 @@ void take_fidelity(const Source& source, KeyValues& values, SystemScene& scene) 
   }
   if (moves && values.fidelity.body != BodyModel::rigid) reject_in_motion(source, values.fidelity);
   scene.operation = values.operation;
-  scene.damping = values.damping;
   scene.time = values.time;
   scene.fidelity = values.fidelity;
   scene.body = values.body;
@@ -279,6 +279,10 @@ SystemScene read_system_scene(const std::string& path) {
   scene.title = values.title.empty() ? std::filesystem::path(path).stem().string() : values.title;
   take_fidelity(source, values, scene);
   take_gears(source, scene);
+  double largest = 0;
+  for (const SystemScene::Gear& gear : scene.gears) largest = std::max(largest, gear.design.module);
+  take_module(values, {Part::damping}, largest);
+  scene.damping = values.damping;
   take_carriers(source, scene);
   take_meshes(source, scene);
   take_bearings(source, scene);

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "dynamics/impact.h"
+#include "gear/rack_tip.h"
 #include "lumped/stiffness.h"
 #include "lumped/sweep.h"
 #include "signal/response.h"
@@ -96,12 +97,6 @@ Index row_of(const ImpactArtifact& impact, const std::string& state) {
 }
 
 }  // namespace
-
-double largest_rack_tip_radius(const GearDesign& d) {
-  const double slope = std::tan(d.pressure_angle);
-  return (0.25 * std::numbers::pi + d.tooth_thinning / (2 * d.module) - d.dedendum * slope) /
-         (1 / std::cos(d.pressure_angle) - slope);
-}
 
 BoreFamily::BoreFamily(const Scene& scene, const OpenChoices& choices)
     : scene_(scene), gear_(scene.gear(scene.mesh.gear[0])) {

@@ -34,10 +34,6 @@ struct ReadingLevel {
 };
 inline const ReadingLevel kConfirming{800, 3400, 20, ContactModel::strips};
 
-// modules: the largest tip radius that a rack's tooth holds (its tip is then one arc):
-// (pi/4 + thinning / 2m - h_f tan a) / (1 / cos a - tan a).
-double largest_rack_tip_radius(const GearDesign& design);
-
 // Bodies by bore for one tooth form and plane state, reduced at a coarse setting and kept.
 class BoreFamily {
  public:

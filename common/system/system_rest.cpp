@@ -7,6 +7,7 @@
 #include "gear/system_layout.h"
 #include "gear/tooth_errors.h"
 #include "signal/spectrum.h"
+#include "system/near_interference.h"
 #include "system/system_statics.h"
 
 namespace whine {
@@ -197,6 +198,9 @@ void check_at_rest(const SystemScene& scene, const System& layout) {
            kFlowOfPower);
   }
   if (!(balance.load.maxCoeff() > 0)) reject("drive", 0, kNoTorque);
+  for (const auto& [section, words] : near_interferences(scene, layout, ForceBound::least))
+    reject("mesh", section, "[[mesh]] of '", specs[section].gear[0], "' and '", specs[section].gear[1],
+           "': ", words);
 }
 
 namespace {

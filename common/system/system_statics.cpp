@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/model_range.h"
 #include "base/progress.h"
+#include "gear/involute_start.h"
 #include "gear/numbers.h"
 #include "system/rigid_system.h"
 
@@ -27,20 +28,23 @@ VectorXd loads_of_ranges(const SystemModel& system) {
 }
 
 // Of the pairs of a mesh the gear, side 0 or 1, whose involute ends at its root where force stands; -1: none does.
-int side_at_root(const MeshPosition& mesh, const VectorXd& p) {
+int side_of_strips(const GearPair& gears, const MeshPosition& mesh, const VectorXd& p) {
+  constexpr double kNowhere = std::numeric_limits<double>::infinity();
   for (size_t j = 0; j < mesh.pairs.size(); ++j) {
     const PairStrips& pair = mesh.pairs[j];
-    if (!pair.low_is_edge && pair.border[0] == pair.contact.x_min && p[mesh.first_strip[j]] > 0) return 0;
-    if (!pair.high_is_edge && pair.border[pair.border.size() - 1] == pair.contact.x_max &&
-        p[mesh.first_strip[j + 1] - 1] > 0)
-      return 1;
+    const bool low = !pair.low_is_edge && p[mesh.first_strip[j]] > 0,
+               high = !pair.high_is_edge && p[mesh.first_strip[j + 1] - 1] > 0;
+    if (!low && !high) continue;
+    const int side = side_at_root(gears, pair.contact, low ? pair.border[0] : kNowhere,
+                                  high ? pair.border[pair.border.size() - 1] : -kNowhere);
+    if (side >= 0) return side;
   }
   return -1;
 }
 
 // The same of lines: whose width reaches beyond the start of an involute. Deviations of flanks move a contact by less than its width,
 // which is left out.
-int side_at_root(const GearPair& gears, const MeshPosition& mesh, const VectorXd& p) {
+int side_of_lines(const GearPair& gears, const MeshPosition& mesh, const VectorXd& p) {
   for (size_t j = 0; j < mesh.pairs.size(); ++j) {
     const auto i = static_cast<Eigen::Index>(j);
     if (!(p[i] > 0)) continue;
@@ -54,8 +58,7 @@ int side_at_root(const GearPair& gears, const MeshPosition& mesh, const VectorXd
       low = driver ? edge - width : edge;
       high = low + width;
     }
-    if (low < contact.x_min && !std::isfinite(driven_tip)) return 0;
-    if (high > contact.x_max && !std::isfinite(driver_tip)) return 1;
+    if (const int side = side_at_root(gears, contact, low, high); side >= 0) return side;
   }
   return -1;
 }
@@ -282,7 +285,7 @@ void SystemStatics::take_strips(SystemSolution& solution) const {
   for (size_t m = 0; m < position_->mesh.size(); ++m) {
     const VectorXd own = p(position_->strips_of(m));
     solution.leaves_zone = solution.leaves_zone || position_->mesh[m].reaches_zone_end(own);
-    note_root(solution, m, side_at_root(position_->mesh[m], own));
+    note_root(solution, m, side_of_strips(system_.mesh[m].kinematics, position_->mesh[m], own));
   }
   for (const ContactSegment& segment : position_->segment) {
     const auto own = p.segment(segment.first_strip, segment.strips);
@@ -299,7 +302,7 @@ void SystemStatics::take_lines(SystemSolution& solution) const {
   for (size_t m = 0; m < position_->mesh.size(); ++m) {
     const VectorXd own = force(position_->strips_of(m));
     require_line_range(position_->mesh[m], own);
-    note_root(solution, m, side_at_root(system_.mesh[m].kinematics, position_->mesh[m], own));
+    note_root(solution, m, side_of_lines(system_.mesh[m].kinematics, position_->mesh[m], own));
   }
   for (const ContactSegment& segment : position_->segment) {
     const auto mesh = static_cast<size_t>(segment.mesh);

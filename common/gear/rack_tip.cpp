@@ -1,0 +1,48 @@
+#include "gear/rack_tip.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/units.h"
+#include "gear/involute.h"
+
+namespace whine {
+namespace {
+
+// rad: half of the root circle's arc between the two fillets of an internal gear, of this radius in modules; see
+// ToothGeometry::round_root_of_ring.
+double land_of_ring(const GearDesign& d, double radius) {
+  const double pitch = 0.5 * d.teeth, base = pitch * std::cos(d.pressure_angle),
+               root = pitch + d.dedendum - d.profile_shift, centre = root - radius,
+               string = std::sqrt(std::max(0.0, centre * centre - base * base));
+  const double thickness =
+      0.5 * kPi + 2 * d.profile_shift * std::tan(d.pressure_angle) - d.tooth_thinning / d.module;
+  const double half_base = thickness / (2 * pitch) - involute_function(d.pressure_angle);
+  return kPi / d.teeth - half_base - (string + radius) / base + std::atan2(string, base);
+}
+
+}  // namespace
+
+double largest_rack_tip_radius(const GearDesign& d) {
+  if (d.internal) {
+    constexpr double kMost = 1;  // the range of rack_tip_radius
+    if (land_of_ring(d, 0) < 0) return -1;
+    double low = 0, high = kMost;
+    if (land_of_ring(d, high) >= 0) return high;
+    for (int i = 0; i < 60; ++i) {  // the land shrinks as the fillets grow
+      const double middle = 0.5 * (low + high);
+      (land_of_ring(d, middle) < 0 ? high : low) = middle;
+    }
+    return low;
+  }
+  const double slope = std::tan(d.pressure_angle);
+  return (0.25 * kPi + d.tooth_thinning / (2 * d.module) - d.dedendum * slope) /
+         (1 / std::cos(d.pressure_angle) - slope);
+}
+
+double default_rack_tip_radius(const GearDesign& design) {
+  const double largest = largest_rack_tip_radius(design);
+  return largest >= kStandardRackTip ? kStandardRackTip : std::max(0.0, std::floor(largest * 1000) / 1000);
+}
+
+}  // namespace whine

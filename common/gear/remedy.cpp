@@ -1,0 +1,272 @@
+#include "gear/remedy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "base/error.h"
+#include "gear/handbook_sign.h"
+#include "gear/numbers.h"
+#include "gear/pair.h"
+
+namespace whine {
+namespace {
+
+constexpr double kStep = 0.01;  // modules, of a single change
+constexpr double kLeastHeight = 0.5,
+                 kLargestHeight = 2;  // modules, of the addenda and dedenda that are proposed
+constexpr double kLeastShift = -1, kLargestShift = 1.5;  // modules
+constexpr double kRound = 1e5;                           // m-1: centre distances and radii to 0.01 mm
+
+// A number of a drawing, or two that go together, and what a step of it costs against one of a profile shift.
+struct Lever {
+  double cost = 1;
+  // The changes that a step (modules) makes; none if it leads out of the ordinary.
+  std::function<std::vector<Change>(double)> at;
+};
+
+std::vector<Change> within(const Change& change, double least, double most) {
+  if (change.value < least || change.value > most) return {};
+  return {change};
+}
+
+double to_step(double modules) {
+  return std::round(modules * 1e4) / 1e4;
+}
+
+Change shift(const DrawnGears& gears, size_t g, double step) {
+  return {false, g, "profile_shift", &GearDesign::profile_shift,
+          to_step(gears.design[g].profile_shift + step)};
+}
+
+bool ordinary(const Change& shifted) {
+  return shifted.value >= kLeastShift && shifted.value <= kLargestShift;
+}
+
+// What holds the body: of an external gear its bore, of an internal one the outside of its rim.
+std::vector<Change> held(const GearDesign& d, size_t g, double step) {
+  const double root = d.module * (0.5 * d.teeth + (d.internal ? 1 : -1) * (d.dedendum - d.profile_shift));
+  const double radius = root + (d.internal ? 1 : -1) * std::abs(step) * d.module;
+  if (!(radius > 0)) return {};
+  return {{false, g, d.internal ? "rim_outer_radius_mm" : "bore_radius_mm",
+           d.internal ? &GearDesign::rim_outer_radius : &GearDesign::bore_radius,
+           std::round(radius * kRound) / kRound}};
+}
+
+void add_gear_levers(const DrawnGears& gears, size_t g, std::vector<Lever>& out) {
+  const GearDesign& d = gears.design[g];
+  out.push_back(
+      {1, [&gears, g](double step) { return within(shift(gears, g, step), kLeastShift, kLargestShift); }});
+  out.push_back({1, [&d, g](double step) {
+                   return within({false, g, "addendum", &GearDesign::addendum, to_step(d.addendum + step)},
+                                 kLeastHeight, kLargestHeight);
+                 }});
+  out.push_back({1.3, [&d, g](double step) {
+                   return within({false, g, "dedendum", &GearDesign::dedendum, to_step(d.dedendum + step)},
+                                 kLeastHeight, kLargestHeight);
+                 }});
+  out.push_back({0.5, [&d, g](double step) {
+                   return step < 0 ? within({false, g, "rack_tip_radius", &GearDesign::rack_tip_radius,
+                                             to_step(d.rack_tip_radius + step)},
+                                            0, 1)
+                                   : std::vector<Change>{};
+                 }});
+  const bool fits = d.internal ? d.rim_outer_radius > 0 : d.bore_radius > 0;
+  if (fits)
+    out.push_back(
+        {0.5, [&d, g](double step) { return step > 1 ? held(d, g, step) : std::vector<Change>{}; }});
+}
+
+// Of a pair: one shift against the other, the distance of the axes, a shift with the distance that keeps the backlash.
+void add_pair_levers(const DrawnGears& gears, std::vector<Lever>& out) {
+  const DrawnGears::Mesh& mesh = gears.mesh[0];
+  const GearDesign &a = gears.design[mesh.first], &b = gears.design[mesh.second];
+  const auto distance = [&mesh](double metres) {
+    return Change{true, 0, "centre_distance_mm", nullptr, std::round(metres * kRound) / kRound};
+  };
+  out.push_back({1.2, [&gears, &mesh](double step) {
+                   const Change up = shift(gears, mesh.first, step), down = shift(gears, mesh.second, -step);
+                   return ordinary(up) && ordinary(down) ? std::vector{up, down} : std::vector<Change>{};
+                 }});
+  out.push_back({0.8, [&a, &mesh, distance](double step) {
+                   return std::vector{distance(mesh.centre_distance + step * a.module)};
+                 }});
+  for (const size_t g : {mesh.first, mesh.second})
+    out.push_back({1.4, [&gears, &mesh, &a, &b, g, distance](double step) -> std::vector<Change> {
+                     const double teeth = (a.internal ? -1 : 1) * a.teeth + (b.internal ? -1 : 1) * b.teeth;
+                     const double base = 0.5 * std::abs(teeth) * a.module * std::cos(a.pressure_angle);
+                     const double cosine = base / mesh.centre_distance;
+                     if (!(cosine < 1)) return {};
+                     const double wanted =
+                         involute_function(std::acos(cosine)) + 2 * step * std::tan(a.pressure_angle) / teeth;
+                     if (!(wanted > 0)) return {};
+                     double low = 0, high = 1.5;  // rad: of the working pressure angle
+                     for (int i = 0; i < 60; ++i) {
+                       const double middle = 0.5 * (low + high);
+                       (involute_function(middle) < wanted ? low : high) = middle;
+                     }
+                     const Change shifted = shift(gears, g, step);
+                     if (!ordinary(shifted)) return {};
+                     // Rounded to the side on which there is more backlash.
+                     const double exact = base / std::cos(low) * kRound;
+                     Change to = distance(0);
+                     to.value = (teeth > 0 ? std::ceil(exact - 1e-6) : std::floor(exact + 1e-6)) / kRound;
+                     return {shifted, to};
+                   }});
+}
+
+struct Try {
+  double cost;
+  std::vector<Change> changes;
+};
+
+bool mends(const DrawnGears& gears, const std::vector<Change>& changes) {
+  DrawnGears changed = gears;
+  change(changed, changes);
+  return fault(changed).empty();
+}
+
+std::vector<Change> cheapest(const DrawnGears& gears, std::vector<Try>& tries) {
+  constexpr size_t kMost = 60000;
+  std::stable_sort(tries.begin(), tries.end(), [](const Try& a, const Try& b) { return a.cost < b.cost; });
+  for (size_t i = 0; i < std::min(kMost, tries.size()); ++i)
+    if (mends(gears, tries[i].changes)) return tries[i].changes;
+  return {};
+}
+
+// What no change of these numbers mends.
+bool beyond_help(const DrawnGears& gears) {
+  return std::any_of(gears.mesh.begin(), gears.mesh.end(), [&](const DrawnGears::Mesh& mesh) {
+    const GearDesign &a = gears.design[mesh.first], &b = gears.design[mesh.second];
+    const GearDesign &ring = a.internal ? a : b, &pinion = a.internal ? b : a;
+    const double base = a.module * std::cos(a.pressure_angle);
+    return (a.internal && b.internal) || (ring.internal && ring.teeth <= pinion.teeth) ||
+           std::abs(b.module * std::cos(b.pressure_angle) - base) > 1e-9 * base;
+  });
+}
+
+DrawnGears of_gears(const std::vector<const SceneGear*>& gears) {
+  DrawnGears out;
+  for (const SceneGear* gear : gears) {
+    out.name.push_back(gear->name);
+    out.design.push_back(gear->design);
+  }
+  return out;
+}
+
+void add_mesh(DrawnGears& out, const GearMeshSpec& mesh) {
+  const auto number = [&](const std::string& name) {
+    return static_cast<size_t>(std::find(out.name.begin(), out.name.end(), name) - out.name.begin());
+  };
+  const size_t first = number(mesh.gear[0]), second = number(mesh.gear[1]);
+  if (first < out.name.size() && second < out.name.size())
+    out.mesh.push_back({first, second, mesh.centre_distance});
+}
+
+}  // namespace
+
+DrawnGears drawn_gears(const Scene& scene) {
+  DrawnGears out = of_gears({&scene.gear(scene.mesh.gear[0]), &scene.gear(scene.mesh.gear[1])});
+  add_mesh(out, scene.mesh);
+  return out;
+}
+
+DrawnGears drawn_gears(const SystemScene& scene) {
+  std::vector<const SceneGear*> gears;
+  for (const SystemScene::Gear& gear : scene.gears) gears.push_back(&gear);
+  DrawnGears out = of_gears(gears);
+  for (const SystemScene::Mesh& mesh : scene.meshes) add_mesh(out, mesh.spec);
+  return out;
+}
+
+std::string fault(const DrawnGears& gears) {
+  try {
+    for (const GearDesign& design : gears.design) const ToothGeometry tooth(design);
+    for (const DrawnGears::Mesh& mesh : gears.mesh)
+      const GearPair pair(gears.design[mesh.first], gears.design[mesh.second], mesh.centre_distance);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+void change(DrawnGears& gears, const std::vector<Change>& changes) {
+  for (const Change& one : changes)
+    (one.of_mesh ? gears.mesh[one.number].centre_distance : gears.design[one.number].*one.member) = one.value;
+}
+
+std::vector<Change> remedy(const DrawnGears& gears) {
+  if (fault(gears).empty() || beyond_help(gears)) return {};
+  std::vector<Lever> levers;
+  for (size_t g = 0; g < gears.design.size(); ++g) add_gear_levers(gears, g, levers);
+  if (gears.mesh.size() == 1) add_pair_levers(gears, levers);
+
+  std::vector<Try> tries;
+  const auto add = [&](double cost, const std::vector<Change>& changes) {
+    if (!changes.empty()) tries.push_back({cost, changes});
+  };
+  constexpr int kSteps = 150;
+  for (const Lever& lever : levers)
+    for (int n = -kSteps; n <= kSteps; ++n)
+      if (n != 0) add(lever.cost * std::abs(n), lever.at(n * kStep));
+  if (std::vector<Change> one = cheapest(gears, tries); !one.empty()) return one;
+
+  // Two of them at once, in coarser steps.
+  constexpr int kCoarse = 10, kCoarseSteps = 12;
+  tries.clear();
+  for (size_t i = 0; i < levers.size(); ++i)
+    for (size_t j = i + 1; j < levers.size(); ++j)
+      for (int n = -kCoarseSteps; n <= kCoarseSteps; ++n)
+        for (int k = -kCoarseSteps; k <= kCoarseSteps; ++k) {
+          std::vector<Change> first = n ? levers[i].at(n * kCoarse * kStep) : std::vector<Change>{},
+                              second = k ? levers[j].at(k * kCoarse * kStep) : std::vector<Change>{};
+          if (first.empty() || second.empty()) continue;
+          const bool twice = std::any_of(first.begin(), first.end(), [&](const Change& a) {
+            return std::any_of(second.begin(), second.end(), [&](const Change& b) {
+              return a.of_mesh == b.of_mesh && a.number == b.number && a.member == b.member;
+            });
+          });
+          if (twice) continue;
+          first.insert(first.end(), second.begin(), second.end());
+          add(levers[i].cost * std::abs(n) + levers[j].cost * std::abs(k), first);
+        }
+  return cheapest(gears, tries);
+}
+
+std::string with_remedy(const std::string& words, const DrawnGears& gears) {
+  if (fault(gears).empty()) return words;
+  const std::string what = words.substr(0, words.rfind("; "));
+  for (const DrawnGears::Mesh& mesh : gears.mesh)
+    if (const auto shift =
+            shift_of_other_sign(gears.design[mesh.first], gears.design[mesh.second], mesh.centre_distance))
+      return what + "; " + other_sign_words(*shift);
+  const std::vector<Change> changes = remedy(gears);
+  if (changes.empty()) return words;
+  DrawnGears changed = gears;
+  change(changed, changes);
+  std::string out;
+  for (const Change& one : changes) {
+    out += out.empty() ? "; all checks pass with " : " and ";
+    if (one.of_mesh) {
+      out += text(one.key, " = ", shown_number(one.value * 1e3), " in [[mesh]]");
+      continue;
+    }
+    const bool length = std::string(one.key).ends_with("_mm");
+    out += text(one.key, " = ", shown_number(length ? one.value * 1e3 : one.value), " in [gear.",
+                gears.name[one.number], "]");
+    const GearDesign& d = changed.design[one.number];
+    const double side = d.internal ? -1 : 1, middle = d.teeth + 2 * side * d.profile_shift;
+    const bool shifted = one.member == &GearDesign::profile_shift;
+    std::string diameters;
+    if (shifted || one.member == &GearDesign::addendum)
+      diameters = text("tip_diameter_mm = ", shown_number(1e3 * d.module * (middle + 2 * side * d.addendum)));
+    if (shifted || one.member == &GearDesign::dedendum)
+      diameters +=
+          text(diameters.empty() ? "" : ", ",
+               "root_diameter_mm = ", shown_number(1e3 * d.module * (middle - 2 * side * d.dedendum)));
+    if (!diameters.empty()) out += " (" + diameters + ")";
+  }
+  return what + out;
+}
+
+}  // namespace whine

@@ -1,0 +1,117 @@
+#include "system/near_interference.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/units.h"
+#include "contact/half_plane_strip.h"
+#include "gear/involute_start.h"
+#include "gear/numbers.h"
+#include "gear/system_layout.h"
+#include "system/load_balance.h"
+
+namespace whine {
+namespace {
+
+struct NearEnd {
+  int side = -1;          // whose involute ends within the pressure; -1: none
+  double half_width = 0;  // m
+};
+
+// Share of the load that a pair has at a place (m) of its path.
+double share(const GearPair& gears, double path, ForceBound force) {
+  if (force == ForceBound::largest) return 1;
+  const double pairs = std::ceil(gears.contact_ratio()), least = 1 / (2 * pairs - 1),
+               from_end = std::min(path - gears.path_start(), gears.path_end() - path),
+               shared = (gears.contact_ratio() - pairs + 1) * gears.base_pitch();
+  return least * (1 + std::min(1.0, from_end / shared));
+}
+
+NearEnd near_end(const GearPair& gears, double coefficient, double load, ForceBound force) {
+  constexpr int kPlaces = 400;
+  for (int i = 0; i <= kPlaces; ++i) {
+    const double path = gears.path_start() + (gears.path_end() - gears.path_start()) * i / kPlaces;
+    const double half_width =
+        std::sqrt(2 * gears.relative_curvature_radius(path) * coefficient * load * share(gears, path, force));
+    const int side = side_at_root(gears, gears.contact(path / gears.base_pitch()), -half_width, half_width);
+    if (side >= 0) return {side, half_width};
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string near_interference(const SceneGear& driver, const SceneGear& driven, const GearMeshSpec& mesh,
+                              double load, ForceBound force) {
+  std::array<GearDesign, kSides> design{driver.design, driven.design};
+  const std::array<std::string, kSides> name{driver.name, driven.name};
+  double coefficient = 0;
+  for (const SceneGear* gear : {&driver, &driven})
+    coefficient +=
+        HalfPlaneSurface(in_contact_plane(gear->material, mesh.contact_plane), gear->design.face_width)
+            .coefficient();
+  const GearPair gears(design[0], design[1], mesh.centre_distance);
+  const NearEnd end = near_end(gears, coefficient, load, force);
+  if (end.side < 0) return "";
+  const auto own = static_cast<size_t>(end.side), mate = 1 - own;
+  const double reached = gears.nominal_roll(end.side, end.side == 0 ? gears.path_start() : gears.path_end());
+  // The highest addendum of the mate that leaves room.
+  constexpr double kStep = 0.01, kLeast = 0.5;
+  double room = 0;
+  while (room == 0 && design[mate].addendum > kLeast) {
+    design[mate].addendum = std::round((design[mate].addendum - kStep) * 1e4) / 1e4;
+    try {
+      if (near_end(GearPair(design[0], design[1], mesh.centre_distance), coefficient, load,
+                   ForceBound::largest)
+              .side < 0)
+        room = design[mate].addendum;
+    } catch (const Error&) {
+      break;
+    }
+  }
+  return text("under ", shown_number(load), " N the pressure, ", shown_number(end.half_width * 1e3),
+              " mm to each side, reaches the start of the involute of '", name[own], "' at roll angle ",
+              shown_number(gears.gear(end.side).form_roll_angle() * kInDegrees), " deg: the tip of '",
+              name[mate], "' comes to ", shown_number(reached * kInDegrees), " deg; ",
+              room > 0
+                  ? text("addendum = ", shown_number(room), " in [gear.", name[mate], "] is short enough")
+                  : text("shorten that tip or deepen the root (dedendum)"),
+              ", or lower the torque");
+}
+
+std::string near_interference(const Scene& scene, ForceBound force) {
+  const SceneGear &driver = scene.gear(scene.mesh.gear[0]), &driven = scene.gear(scene.mesh.gear[1]);
+  const double torque = *std::max_element(scene.operation.torques.begin(), scene.operation.torques.end());
+  return near_interference(driver, driven, scene.mesh, torque / ToothGeometry(driver.design).base_radius(),
+                           force);
+}
+
+std::vector<std::pair<size_t, std::string>> near_interferences(const SystemScene& scene, const System& layout,
+                                                               ForceBound force) {
+  std::vector<GearMeshSpec> specs;
+  for (const SystemScene::Mesh& mesh : scene.meshes) specs.push_back(mesh.spec);
+  const std::vector<std::string> gears = gears_of(scene, layout);
+  const std::vector<int> sections = sections_of(specs, gears, layout);
+  const LoadBalance balance = load_balance(layout);
+  const auto gear_of = [&](int body) -> const SceneGear& {
+    return *std::find_if(scene.gears.begin(), scene.gears.end(), [&](const SceneGear& gear) {
+      return gear.name == gears[static_cast<size_t>(body)];
+    });
+  };
+  std::vector<std::pair<size_t, std::string>> out;
+  for (size_t m = 0; m < layout.meshes.size(); ++m) {
+    const auto section = static_cast<size_t>(sections[m]);
+    const auto& side = layout.meshes[m].side;
+    // Planets are alike.
+    if (!out.empty() && out.back().first == section) continue;
+    const std::string words =
+        near_interference(gear_of(side[0].body), gear_of(side[1].body), specs[section],
+                          std::max(0.0, balance.load[static_cast<Eigen::Index>(m)]), force);
+    if (!words.empty()) out.emplace_back(section, words);
+  }
+  return out;
+}
+
+}  // namespace whine

@@ -1,0 +1,32 @@
+// Whether the pressure of a mesh under load leaves an involute at its root, told from the drawing before any body is made. At rest
+// side_at_root() judges the same of the pressure that is computed.
+//
+// Half-width by Hertz, a^2 = 2 R F C (C of both half-planes). F is not known before the bodies are: a pair has at least 1 / (2 n - 1) of
+// the load at the ends of its path, n pairs sharing it, growing to twice that where the next pair comes or goes (the sharing of spur
+// gears in ISO 6336), and at most all of it. What the least force lets reach the root is rejected, what only the largest does is
+// warned of; what passes both computes.
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gear/pair.h"
+#include "model/system_scene.h"
+
+namespace whine {
+
+enum class ForceBound { least, largest };
+
+// load: N along the line of action. "under ... the pressure reaches ..." with a remedy that even the largest force lets pass; "" if it does
+// not reach.
+std::string near_interference(const SceneGear& driver, const SceneGear& driven, const GearMeshSpec& mesh,
+                              double load, ForceBound force);
+
+// Of a pair under its largest torque.
+std::string near_interference(const Scene& scene, ForceBound force);
+
+// Of the meshes of a system of elastic gears that is in balance: number of the [[mesh]] section and words.
+std::vector<std::pair<size_t, std::string>> near_interferences(const SystemScene& scene, const System& layout,
+                                                               ForceBound force);
+
+}  // namespace whine

@@ -1,0 +1,231 @@
+// What a drawing is told: one remedy that all checks accept, the sign of a ring's shift, a rack tip that fits, contacts that come too
+// near to the root.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "gear/handbook_sign.h"
+#include "gear/pair.h"
+#include "gear/rack_tip.h"
+#include "gear/remedy.h"
+#include "gear/system_layout.h"
+#include "internal_pair.h"
+#include "message_of_input.h"
+#include "planetary_train.h"
+#include "relative.h"
+#include "solid/mesher.h"
+#include "solid/reduce.h"
+#include "system/near_interference.h"
+#include "system/statics.h"
+
+using namespace whine;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180, kModule = 2.5e-3;
+
+GearDesign gear(int teeth, double shift = 0, double dedendum = 1.25, double angle_deg = 20) {
+  GearDesign d;
+  d.teeth = teeth;
+  d.module = kModule;
+  d.pressure_angle = angle_deg * kDegree;
+  d.profile_shift = shift;
+  d.dedendum = dedendum;
+  d.face_width = 20e-3;
+  d.bore_radius = 0.2 * kModule * teeth;
+  d.rack_tip_radius = default_rack_tip_radius(d);
+  return d;
+}
+
+DrawnGears pair_of(const GearDesign& a, const GearDesign& b) {
+  DrawnGears out;
+  out.name = {"pinion", "wheel"};
+  out.design = {a, b};
+  out.mesh = {{0, 1, 0.5 * kModule * (b.internal ? b.teeth - a.teeth : a.teeth + b.teeth)}};
+  return out;
+}
+
+GearDesign ring_of(int teeth, double shift) {
+  GearDesign d = gear(teeth, shift);
+  d.internal = true;
+  d.addendum = 0.8;
+  d.bore_radius = 0;
+  d.rim_outer_radius = kModule * (0.5 * teeth + 5);
+  d.rack_tip_radius = default_rack_tip_radius(d);
+  return d;
+}
+
+}  // namespace
+
+TEST_CASE("the remedy of a drawing that is rejected, followed once, ends in gears that mesh") {
+  int faults = 0;
+  const auto follow = [&](DrawnGears gears) {
+    const std::string before = fault(gears);
+    if (before.empty()) return;
+    ++faults;
+    INFO(before);
+    const std::vector<Change> changes = remedy(gears);
+    REQUIRE(!changes.empty());
+    CHECK(changes.size() <= 4);
+    const std::string said = with_remedy(before, gears);
+    CHECK(said.find("; all checks pass with ") != std::string::npos);
+    CHECK(said.find(changes[0].key) != std::string::npos);
+    CHECK(said.find("raise ") == std::string::npos);  // no advice beside it
+    change(gears, changes);
+    CHECK(fault(gears).empty());
+  };
+  for (const int teeth : {8, 14, 30})
+    for (const double shift : {-0.5, 0.0, 0.8})
+      for (const double dedendum : {1.0, 1.4}) follow(pair_of(gear(teeth, shift, dedendum), gear(40)));
+  for (const double angle : {14.5, 25.0}) follow(pair_of(gear(12, 0, 1.25, angle), gear(60, 0, 1.0, angle)));
+  for (const double addendum : {0.3, 2.5}) {
+    DrawnGears odd = pair_of(gear(30), gear(45));
+    odd.design[1].addendum = addendum;
+    follow(odd);
+  }
+  DrawnGears bored = pair_of(gear(30), gear(45));
+  bored.design[0].bore_radius = 40e-3;
+  follow(bored);
+  for (const double distance : {-2.0, 1.0, 2.2}) {
+    DrawnGears apart = pair_of(gear(30), gear(45));
+    apart.mesh[0].centre_distance += distance * kModule;
+    follow(apart);
+  }
+  for (const int teeth : {40, 50}) follow(pair_of(gear(20), ring_of(teeth, 0.2)));
+  CHECK(faults >= 6);
+  // What no such number mends keeps its own words.
+  DrawnGears other = pair_of(gear(30), gear(45));
+  other.design[1].module *= 1.01;
+  CHECK(remedy(other).empty());
+  CHECK(with_remedy("a; b", other) == "a; b");
+  CHECK(remedy(pair_of(gear(30), gear(45))).empty());
+}
+
+TEST_CASE("a ring whose shift has the sign of handbooks is told so, one with the sign of ISO 21771 is not") {
+  const double distance = 0.5 * kModule * 40;
+  for (const double shift : {0.3, -0.2}) {
+    // One shift against the other: no backlash at the reference centre distance.
+    const GearDesign pinion = gear(30, shift), right = ring_of(70, -shift), wrong = ring_of(70, shift);
+    CHECK(std::abs(GearPair(pinion, right, distance).backlash()) < 1e-12);
+    CHECK(!shift_of_other_sign(pinion, right, distance));
+    REQUIRE(shift_of_other_sign(pinion, wrong, distance));
+    CHECK(*shift_of_other_sign(pinion, wrong, distance) == -shift);
+    CHECK(shift_of_other_sign(wrong, pinion, distance).value() == -shift);
+    // By its diameters, which stay.
+    GearDesign drawn = right;
+    drawn.profile_shift = shift;
+    drawn.addendum -= 2 * shift;
+    drawn.dedendum += 2 * shift;
+    CHECK(shift_of_other_sign(pinion, drawn, distance).value() == -shift);
+  }
+  const DrawnGears jammed = pair_of(gear(20, 0.3), ring_of(60, 0.3));
+  CHECK(with_remedy(fault(jammed), jammed).find("; profile_shift = -0.3 fits: handbooks") !=
+        std::string::npos);
+  CHECK(!shift_of_other_sign(gear(20, 0.3), gear(60, 0.3), 0.1));
+  CHECK(!shift_of_other_sign(planet_gear(), ring_gear(), kInternalDistance));
+}
+
+TEST_CASE("the default rack tip is the standard one or the largest that fits, of racks and of rings") {
+  CHECK(gear(30).rack_tip_radius == 0.38);
+  CHECK(gear(30, 0, 1.25, 25).rack_tip_radius == 0.317);
+  CHECK(largest_rack_tip_radius(gear(30, 0, 1.25, 25)) == relative(0.31788, 1e-4));
+  for (const int teeth : {30, 60, 100})
+    for (const double angle : {20.0, 22.5, 25.0}) {
+      GearDesign ring = ring_of(teeth, 0);
+      ring.pressure_angle = angle * kDegree;
+      const double largest = largest_rack_tip_radius(ring);
+      CHECK(default_rack_tip_radius(ring) == std::min(0.38, std::floor(1000 * largest) / 1000));
+      ring.rack_tip_radius = largest * (1 - 1e-9);
+      CHECK_NOTHROW(ToothGeometry{ring});
+      ring.rack_tip_radius = largest * (1 + 1e-9);
+      CHECK(message_of_input([&] { ToothGeometry{ring}; }).find("does not fit the space") !=
+            std::string::npos);
+    }
+}
+
+TEST_CASE("what the drawing says of pressure that reaches the root is what statics find") {
+  SceneGear pinion, wheel;
+  pinion.name = "pinion";
+  wheel.name = "wheel";
+  pinion.design = gear(20, 0, 1.4);
+  wheel.design = gear(60);
+  for (SceneGear* own : {&pinion, &wheel}) {
+    own->design.module = 3e-3;
+    own->design.face_width = 24e-3;
+    own->design.bore_radius = 0.25 * own->design.module * own->design.teeth;
+    own->material = {207e9, 0.3, 7850, true};
+  }
+  StaticParameters settings;
+  settings.mesh.gear = {"pinion", "wheel"};
+  settings.mesh.centre_distance = 120e-3;
+  settings.mesh.contact_plane = ContactPlane::strain;
+  settings.contact.positions = 64;
+  BodyDiscretisation coarse;
+  coarse.element_size = 0.8e-3;
+  coarse.modes = 5;
+  const auto body = [&](const SceneGear& own) {
+    return reduce(make_sector_mesh(own.design, coarse), own.material, coarse.modes);
+  };
+  const BodyArtifact of_pinion = body(pinion);
+  const double torque = 200, load = torque / ToothGeometry(pinion.design).base_radius();
+  const auto told = [&](ForceBound force) {
+    return near_interference(pinion, wheel, settings.mesh, load, force);
+  };
+  const auto found = [&]() -> std::string {
+    try {
+      static_transmission(of_pinion, body(wheel), settings, torque);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  wheel.design.addendum = 1.2;
+  CHECK(told(ForceBound::least).find("reaches the start of the involute of 'pinion'") != std::string::npos);
+  CHECK(found().find("the pressure reaches the start of the involute of 'pinion'") != std::string::npos);
+  // Its remedy passes all the way.
+  CHECK(told(ForceBound::least).find("; addendum = 1.05 in [gear.wheel] is short enough") !=
+        std::string::npos);
+  wheel.design.addendum = 1.05;
+  CHECK(told(ForceBound::largest).empty());
+  CHECK(found().empty());
+  // Between the bounds the drawing alone cannot tell.
+  wheel.design.addendum = 1.12;
+  CHECK(told(ForceBound::least).empty());
+  CHECK(!told(ForceBound::largest).empty());
+}
+
+TEST_CASE("gears that share a shaft are told that this is not computed, others to follow the flow of power") {
+  SystemScene scene;
+  for (const char* name : {"a", "b", "c", "d"}) {
+    SystemScene::Gear own;
+    own.name = name;
+    own.design = gear(30);
+    scene.gears.push_back(own);
+  }
+  const auto mesh = [&](const char* driver, const char* driven) {
+    SystemScene::Mesh out;
+    out.spec.gear = {driver, driven};
+    out.spec.centre_distance = 30 * kModule;
+    scene.meshes.push_back(out);
+  };
+  const auto said = [&] { return message_of_input([&] { layout_of(scene); }); };
+  mesh("a", "b");
+  mesh("c", "d");
+  CHECK(
+      said().find("'c' is driven by no mesh before it; no [[mesh]] joins it to 'a': gears that share a shaft "
+                  "are not computed") != std::string::npos);
+  mesh("b", "c");
+  CHECK(said().find("name the gears in the order of the flow of power") != std::string::npos);
+}
+
+TEST_CASE("a mesh phase of 0 is 0, not 1, whatever round-off the angles have") {
+  for (const int planets : {3, 4, 5}) {
+    const System train = layout_of(planetary_train(planets));
+    // Teeth of sun and ring are multiples of the planets' number: all planets are in phase with the first.
+    for (const System::Mesh& mesh : train.meshes) {
+      CHECK(mesh.phase >= 0);
+      CHECK(mesh.phase < 1 - 1e-9);
+    }
+  }
+}
