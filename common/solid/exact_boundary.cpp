@@ -81,7 +81,7 @@ Vec2 ExactBoundary::middle(Curve kind, const Vec2& a, const Vec2& b) const {
     const double from = roll_angle(a), to = roll_angle(b), middle = 0.5 * (from + to);
     // The arc length goes with the square of the roll angle: near the base circle the middle of the angle is that of the first
     // quarter of the side, where the element's map has no inverse at its end.
-    constexpr double kLeastShare = 0.4;
+    constexpr double kLeastShare = 0.35;
     const double share = (middle * middle - from * from) / (to * to - from * from);
     if (std::abs(share - 0.5) <= 0.5 - kLeastShare) return tooth_.flank_point(middle);
     return tooth_.flank_point(std::sqrt(0.5 * (from * from + to * to)));
