@@ -333,7 +333,7 @@ TEST_CASE(
     return std::string();
   };
   CHECK(said(1e7).empty());
-  CHECK(said(1e6).find("the transmission error of 'pinion' and 'wheel' is 4.26") != std::string::npos);
+  CHECK(said(1e6).find("the transmission error of pinion-wheel is 4.26") != std::string::npos);
   CHECK(said(1e6).find("above 0.75 mm, a quarter of the module") != std::string::npos);
   CHECK(said(1e6).find("raise stiffness_N_um in [[bearing]]") != std::string::npos);
 }

@@ -576,7 +576,7 @@ TEST_CASE("line contact: pairs without overlap carry nothing; what cannot be sol
 
 TEST_CASE("gears of plastic: tip edges are found as far as they bend, and all lengths are those of steel") {
   // A body of another modulus: flexibilities go with its inverse, and equal lengths with equal loads over the modulus.
-  constexpr double kPlastic = 2.8e9, kSoft = 2.8 / 207;
+  constexpr double kPlastic = 1e9, kSoft = 1.0 / 207;
   BodyArtifact steel = paper_body(40e-3, 1.2e-3, 12), plastic = steel;
   plastic.material.youngs_modulus = kPlastic;
   for (MatrixRM& r : plastic.compliance) r /= kSoft;
@@ -584,12 +584,12 @@ TEST_CASE("gears of plastic: tip edges are found as far as they bend, and all le
   const auto at_rest = [](const BodyArtifact& body, double torque) {
     return static_transmission(body, body, paper_statics(8), torque);
   };
-  for (const double torque : {2.0, 20.0, 60.0}) {
+  for (const double torque : {1.0, 8.0, 20.0}) {
     CAPTURE(torque);
     const StaticArtifact soft = at_rest(plastic, torque), hard = at_rest(steel, torque / kSoft);
     CHECK((soft.transmission_error - hard.transmission_error).norm() < 2e-3 * hard.transmission_error.norm());
     CHECK((soft.tooth_load.rowwise().sum() - hard.tooth_load.rowwise().sum() * kSoft).norm() <
           2e-3 * soft.tooth_load.norm());
   }
-  CHECK(at_rest(plastic, 60).transmission_error.maxCoeff() > 150e-6);
+  CHECK(at_rest(plastic, 20).transmission_error.maxCoeff() > 100e-6);
 }

@@ -89,8 +89,7 @@ void cut_system(const std::string& path, const std::string& stem, const std::str
 
 void cut_pair(const std::string& path, const std::string& stem, const std::string& folder,
               const std::string& ids, const std::string& output) {
-  // 1. The whole scene is checked before anything is written.
-  const Scene scene = read_scene(path);
+  const Scene scene = read_scene(path);  // 1. The whole scene is checked before anything is written.
   const ScenePlace where = place_in(path);
   check_geometry(scene, where);
   check_inertia(scene, where);
@@ -99,11 +98,9 @@ void cut_pair(const std::string& path, const std::string& stem, const std::strin
     fail(Failure::input, where({"mesh"}, ""), ": [[mesh]]: ", words);
   const std::string home = folder + "/" + stem;
   record_scene(home, path);
-
   // Together: program ids, results and stage parameters keep their order.
   if (const int moved = bring_to_present({home, folder + "/bodies", ids}); moved > 0)
     tell("gear-scene: ", home, ": ", moved, " files had times in the future and have those of now instead");
-
   // 2. Stage parameters and links; unchanged ones are left alone, so that make sees what did change.
   BodySettings settings;
   for (const SceneGear& gear : scene.gears)
@@ -168,7 +165,6 @@ void body(int argc, char** argv) {
   }
   if (path.empty() || output.empty())
     fail(Failure::usage, "--scene and --output are needed, or --keys; see --help");
-
   const std::string stem = checked_scene_stem(path);
   if (is_system_scene(path)) return cut_system(path, stem, folder, output);
   cut_pair(path, stem, folder, ids, output);
