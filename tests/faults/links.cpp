@@ -18,7 +18,8 @@ int main(int argc, char** argv) {
   H5Sget_simple_extent_dims(space, &count, nullptr);
   H5Dclose(old);
   herr_t done = H5Ldelete(file, name, H5P_DEFAULT);
-  if (kind == "soft") done |= H5Lcreate_soft("/unloaded_transmission_error", file, name, H5P_DEFAULT, H5P_DEFAULT);
+  if (kind == "soft")
+    done |= H5Lcreate_soft("/unloaded_transmission_error", file, name, H5P_DEFAULT, H5P_DEFAULT);
   if (kind == "external") done |= H5Lcreate_external(other, name, file, name, H5P_DEFAULT, H5P_DEFAULT);
   if (kind == "storage") done |= H5Pset_external(list, other, 0, count * 8);
   if (kind == "virtual") {
