@@ -87,7 +87,7 @@ do for [p = 1:panels] {
     end = high + (curves > 3 ? 0.6 : 0.36) * tall
     set yrange [low - room * tall : end]
     # Numbers of three digits push the name of the left axis beyond the edge.
-    set ylabel offset (side == 0 && end >= 100 ? 1.2 : 0), 0
+    set ylabel offset (side == 1 ? 0 : end >= 100 ? 1.2 : 0), 0
     key_font = side == 0 ? ",11" : ",13"
     set key at graph 0.995, graph 0.99 right top vertical samplen 1.5 spacing 1.1 font key_font noenhanced opaque
     c = side == 0 ? 2 : 3
