@@ -86,8 +86,11 @@ do for [p = 1:panels] {
     if (strip) { set border 2; set xzeroaxis lt 1 lw 1.6 lc rgb "black" } else { set border 3; unset xzeroaxis }
     end = high + (curves > 3 ? 0.6 : 0.36) * tall
     set yrange [low - room * tall : end]
+    # From 0: a number below it would stand in the strip and push the name of the axis over the edge.
+    step = 10 ** floor(log10(end / 6))
+    if (strip) { set ytics 0, step * (end / 6 / step > 5 ? 10 : end / 6 / step > 2 ? 5 : end / 6 / step > 1 ? 2 : 1) out nomirror } else { set ytics autofreq out nomirror }
     # Numbers of three digits push the name of the left axis beyond the edge.
-    set ylabel offset (side == 0 && end >= 100 ? 1.2 : 0), 0
+    set ylabel offset (side == 1 ? 0 : end >= 100 ? 1.2 : 0), 0
     key_font = side == 0 ? ",11" : ",13"
     set key at graph 0.995, graph 0.99 right top vertical samplen 1.5 spacing 1.1 font key_font noenhanced opaque
     c = side == 0 ? 2 : 3
