@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/model_range.h"
+#include "dynamics/dynamics.h"
 #include "dynamics/system_period_map.h"
 #include "orbits/periodic_motion.h"
 #include "orbits/recurrence.h"
@@ -255,6 +256,7 @@ SystemSweepArtifact system_sweep(const SystemSweepParameters& settings,
                                  const std::vector<BodyArtifact>& bodies, Direction direction,
                                  const std::function<void(long, long, const std::string&)>& report) {
   const std::vector<double> speeds = system_speeds(settings, direction);
+  require_relaxation_range(settings.damping, settings.fidelity.body, settings.frequency_to);
   require_memory_for(settings, whine::hunting_periods(settings), speeds.size());
   SystemSweeper sweeper(settings, bodies);
   const SystemRig& rig = sweeper.rig();
