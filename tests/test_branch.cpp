@@ -727,6 +727,7 @@ TEST_CASE("orbits: a sweep jumps where the branch folds, also across a change of
   CHECK(branch.segment_mismatch.size() == 3);
   CHECK(branch.segment_mismatch.maxCoeff() < 0.1);
   REQUIRE(branch.fold_frequency.size() == 2);
+  CHECK(branch.fold_width.minCoeff() >= kStepError * branch.fold_frequency.minCoeff());
   CHECK((branch.stable.array() == 0).any());
   for (const Direction direction : {Direction::down, Direction::up}) {
     const SweepArtifact swept =

@@ -44,8 +44,8 @@ VectorXd of_kind(const std::vector<SpecialPoint>& special, Special kind, double 
 VectorXd parameters_of(const std::vector<SpecialPoint>& special, Special kind) {
   return of_kind(special, kind, &SpecialPoint::parameter);
 }
-VectorXd widths_of(const std::vector<SpecialPoint>& special, Special kind) {
-  return of_kind(special, kind, &SpecialPoint::width);
+VectorXd widths_of(const std::vector<SpecialPoint>& special, Special kind, double least) {
+  return of_kind(special, kind, &SpecialPoint::width).cwiseMax(least * parameters_of(special, kind));
 }
 
 namespace {

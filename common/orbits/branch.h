@@ -54,9 +54,9 @@ struct SpecialPoint {
   size_t after_point = 0;  // it lies between this point of the branch and the next
 };
 
-// (special point of a kind)
+// (special point of a kind); least: width of a parameter, relative
 Eigen::VectorXd parameters_of(const std::vector<SpecialPoint>& special, Special kind);
-Eigen::VectorXd widths_of(const std::vector<SpecialPoint>& special, Special kind);
+Eigen::VectorXd widths_of(const std::vector<SpecialPoint>& special, Special kind, double least);
 
 struct BranchSettings {
   int multiple = 1;

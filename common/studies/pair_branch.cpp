@@ -106,12 +106,12 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
   a.segment_mismatch =
       Eigen::Map<const VectorXd>(mismatch.data(), static_cast<Eigen::Index>(mismatch.size()));
   a.fold_frequency = parameters_of(special, Special::fold);
-  a.fold_width = widths_of(special, Special::fold);
+  a.fold_width = widths_of(special, Special::fold, kStepError);
   a.fold_rms = Eigen::Map<const VectorXd>(fold_rms.data(), static_cast<Eigen::Index>(fold_rms.size()));
   a.flip_frequency = parameters_of(special, Special::flip);
-  a.flip_width = widths_of(special, Special::flip);
+  a.flip_width = widths_of(special, Special::flip, kStepError);
   a.torus_frequency = parameters_of(special, Special::torus);
-  a.torus_width = widths_of(special, Special::torus);
+  a.torus_width = widths_of(special, Special::torus, kStepError);
   a.grazing_frequency = parameters_of(special, Special::grazing);
   a.fold_smooth.resize(a.fold_frequency.size());
   a.fold_multiplier.resize(a.fold_frequency.size(), 2);

@@ -201,11 +201,11 @@ void store_point(const BranchPosition& p, int steps, Index i, SystemBranchArtifa
 
 void store_special(const std::vector<SpecialPoint>& special, SystemBranchArtifact& a) {
   a.fold_frequency = parameters_of(special, Special::fold);
-  a.fold_width = widths_of(special, Special::fold);
+  a.fold_width = widths_of(special, Special::fold, kStepError);
   a.flip_frequency = parameters_of(special, Special::flip);
-  a.flip_width = widths_of(special, Special::flip);
+  a.flip_width = widths_of(special, Special::flip, kStepError);
   a.torus_frequency = parameters_of(special, Special::torus);
-  a.torus_width = widths_of(special, Special::torus);
+  a.torus_width = widths_of(special, Special::torus, kStepError);
   a.fold_smooth.resize(a.fold_frequency.size());
   a.fold_multiplier.resize(a.fold_frequency.size(), 2);
   Index fold = 0;
