@@ -9,8 +9,8 @@ shift 3
 # frequency, kind, multipliers of each fold of a branch
 folds() {
   "$programs/gear-inspect" "$1" | awk '$1 == "fold" { kind = /at a kink/ ? "kink" : "smooth"
-    for (i = 1; i <= NF; ++i) { if ($i == "before") before = $(i - 1); if ($i == "after") after = $(i - 1) }
-    print $2, kind, before, after }'
+    for (i = 1; i <= NF; ++i) { if ($i == "before") before = $(i - 1); if ($i ~ /^after,?$/) after = $(i - 1); if ($i == "map") frequency = $(i + 1) }
+    print frequency, kind, before, after }'
 }
 
 printf '# Folds of the branches of %s over the mesh frequency; renewed by `make bifurcations`.\n' "$scene"

@@ -9,7 +9,7 @@ shift 3
 printf '# Jumps of the sweeps of %s beside the folds of the branch; renewed by `make jump-folds`.\n' "$scene"
 printf 'torque_Nm\tdirection\tjump_Hz\thalf_width_Hz\tfold_Hz\tdifference_Hz\n'
 for torque in "$@"; do
-  folds=$("$programs/gear-inspect" "$out/$scene/T$torque/branch.h5" | awk '$1 == "fold" { printf "%s ", $2 }')
+  folds=$("$programs/gear-inspect" "$out/$scene/T$torque/branch.h5" | awk '$1 == "fold" { for (i = 1; i <= NF; ++i) if ($i == "map") printf "%s ", $(i + 1) }')
   for direction in up down; do
     "$programs/gear-inspect" "$out/$scene/T$torque/$direction/jumps.h5" |
       awk -v folds="$folds" -v torque="$torque" -v direction="$direction" '$1 == "jumps" {

@@ -30,7 +30,7 @@ struct FrictionMotion {
           settings.damping.rayleigh_stiffness = eta;
           settings.fidelity.body = body;
           settings.fidelity.contact = statics.fidelity.contact;
-          return dynamic_parameters(statics, statics.mean_stiffness, settings);
+          return dynamic_parameters(statics, statics.mean_stiffness, settings, 0);
         }()) {}
   FrictionMotion(const FrictionMotion&) = delete;
   FrictionMotion& operator=(const FrictionMotion&) = delete;

@@ -23,6 +23,7 @@
 #include "paper_pair.h"
 #include "relative.h"
 #include "signal/response.h"
+#include "studies/branch_follower.h"
 #include "studies/jump_cause.h"
 #include "studies/pair_branch.h"
 #include "studies/sweep.h"
@@ -207,6 +208,7 @@ TEST_CASE("orbits: Lur'e's oscillator doubles its period where its multiplier is
   REQUIRE(flips.size() == 1);
   CHECK(flips[0].smooth);
   CHECK(flips[0].parameter == relative(0.6303020062, 2e-10));
+  CHECK(flips[0].width < 1e-8);
   CHECK(flips[0].start[0] == relative(-0.3744950861, 1e-8));
   CHECK(flips[0].start[1] == relative(0.5887162919, 1e-8));
   CHECK(branch.points.front().stable());
@@ -437,6 +439,79 @@ TEST_CASE("orbits: a piecewise linear map turns at its kink, where no multiplier
   }
 }
 
+// y^2 = p - 1: a fold at 1, where the branch comes back. Steps land on either side of it, wherever they begin.
+TEST_CASE("orbits: a branch that folds just beyond a limit ends at the limit, where it comes to it first") {
+  SmallMap map(1, [](const VectorXd& y, double p, MatrixXd& tangent, std::vector<ContactEvent>&) {
+    tangent = MatrixXd::Constant(1, 1, 1 - 0.4 * y[0]);
+    return VectorXd(VectorXd::Constant(1, y[0] + 0.2 * (p - 1 - y[0] * y[0])));
+  });
+  for (const double dip : {1e-6, 1e-4, 1e-3})
+    for (int i = 0; i < 20; ++i) {
+      const double start = 0.3 + 0.01 * i;
+      BranchSettings settings;
+      settings.low = 1 + dip;
+      settings.high = 2;
+      settings.largest_step = 0.25;
+      const PeriodicOrbit from = orbit_at(map, VectorXd::Constant(1, start), 1 + start * start);
+      const OrbitBranch branch = follow_branch(map, from, -1, settings);
+      INFO(dip << ", " << start << ": " << branch.end);
+      CHECK(branch.reached_limit == -1);
+      CHECK(branch.special.empty());
+      CHECK(branch.points.back().parameter == relative(settings.low, 1e-12));
+      CHECK(branch.points.back().start[0] == relative(std::sqrt(dip), 1e-4));
+      CHECK(branch.points.back().turn < 0);
+    }
+}
+
+TEST_CASE("orbits: the next segment of a branch has as many steps as the speeds beyond its limit want") {
+  TimeDiscretisation time;
+  time.steps_per_period = 32;
+  time.min_sample_rate = 250e3;
+  OrbitBranch down, up;
+  down.reached_limit = -1;
+  up.reached_limit = 1;
+  const auto next = [&](int steps, const OrbitBranch& branch) {
+    return steps_beyond(time, 1000, 8500, steps, branch).value_or(0);
+  };
+  CHECK(next(128, down) == 256);  // 1953 to 3906 Hz
+  CHECK(next(128, up) == 64);
+  CHECK(next(256, down) == 0);  // it would go on to 977 Hz
+  CHECK(next(32, down) == 64);  // 7812 Hz on
+  CHECK(next(32, up) == 0);
+  time.min_sample_rate = 1e9;
+  time.steps_per_period = 65536;
+  CHECK_THROWS_WITH_AS(steps_at(time, 1e-3), doctest::Contains("65536 at most"), Error);
+}
+
+// The multiplier is -(a + b y) but for a step at y = 0: without the step it passes -1 at y = (1 - a) / b.
+TEST_CASE("orbits: a period doubling at a kink is known to the step of the multiplier there") {
+  constexpr double kA = 1.005, kB = 0.5;
+  for (const double step : {0.0, 0.04}) {
+    SmallMap map(1, [step](const VectorXd& y, double p, MatrixXd& tangent, std::vector<ContactEvent>&) {
+      const double half = y[0] < 0 ? -0.5 * step : 0.5 * step;
+      tangent = MatrixXd::Constant(1, 1, -(kA + kB * y[0] + half));
+      return VectorXd(VectorXd::Constant(1, p - 1 - (kA + 0.5 * kB * y[0] + half) * y[0]));
+    });
+    const double smooth = (1 - kA) / kB, at_smooth = 1 + smooth + kA * smooth + 0.5 * kB * smooth * smooth;
+    BranchSettings settings;
+    settings.low = 0.5;
+    settings.high = 1.5;
+    map.set_parameter(1.4);
+    const OrbitSearch search = find_orbit(map, VectorXd::Constant(1, 0.19));
+    REQUIRE(search.found());
+    const auto flips = of_kind(follow_branch(map, search.orbit, -1, settings), Special::flip);
+    REQUIRE(flips.size() == 1);
+    CAPTURE(step);
+    CHECK(flips[0].parameter == relative(step > 0 ? 1 : at_smooth, 1e-9));
+    if (step > 0) {
+      CHECK(std::abs(at_smooth - flips[0].parameter) < flips[0].width);
+      CHECK(flips[0].width < 0.2);
+    } else {
+      CHECK(flips[0].width < 1e-9);
+    }
+  }
+}
+
 TEST_CASE("orbits: what cannot be found says why") {
   SmallMap map(1, [](const VectorXd& y, double p, MatrixXd& tangent, std::vector<ContactEvent>&) {
     tangent = MatrixXd::Constant(1, 1, 1 + 2 * y[0]);
@@ -652,6 +727,7 @@ TEST_CASE("orbits: a sweep jumps where the branch folds, also across a change of
   CHECK(branch.segment_mismatch.size() == 3);
   CHECK(branch.segment_mismatch.maxCoeff() < 0.1);
   REQUIRE(branch.fold_frequency.size() == 2);
+  CHECK(branch.fold_width.minCoeff() >= kStepError * branch.fold_frequency.minCoeff());
   CHECK((branch.stable.array() == 0).any());
   for (const Direction direction : {Direction::down, Direction::up}) {
     const SweepArtifact swept =

@@ -576,6 +576,7 @@ BranchArtifact small_branch() {
   a.stable = a.steps = a.period_multiple = Eigen::Vector2i(1, 1);
   a.part = Eigen::Vector2i(0, 1);
   a.fold_frequency = odd_vector(1, 2e3);
+  a.fold_width = odd_vector(1, 0.2);
   a.fold_rms = odd_vector(1, 1e-6);
   a.fold_smooth = Eigen::VectorXi::Ones(1);
   a.fold_multiplier = odd_matrix(1, 2, 1);
@@ -863,7 +864,9 @@ TEST_CASE("system_impact.h5 and system_branch.h5 give back every value bit by bi
   c.fold_frequency = Eigen::VectorXd::Constant(1, 1e4 / 7);
   c.fold_smooth = Eigen::VectorXi::Ones(1);
   c.fold_multiplier = MatrixRM::Constant(1, 2, 1.01);
+  c.fold_width = Eigen::VectorXd::Constant(1, 0.1 / 7);
   c.flip_frequency = c.torus_frequency = Eigen::Vector2d(1, 2) / 3;
+  c.flip_width = c.torus_width = Eigen::Vector2d(2, 1) / 70;
   c.end = "the parameter left its range";
   write("system_branch.h5", c, kMade);
   const SystemBranchArtifact d = read_system_branch("system_branch.h5");
@@ -878,6 +881,9 @@ TEST_CASE("system_impact.h5 and system_branch.h5 give back every value bit by bi
   CHECK(c.fold_frequency == d.fold_frequency);
   CHECK(c.fold_multiplier == d.fold_multiplier);
   CHECK(c.torus_frequency == d.torus_frequency);
+  CHECK(c.fold_width == d.fold_width);
+  CHECK(c.flip_width == d.flip_width);
+  CHECK(c.torus_width == d.torus_width);
   CHECK(c.end == d.end);
 }
 
@@ -2093,7 +2099,7 @@ TEST_CASE("an empty list of matrices is given back as such: a branch without a p
   BranchArtifact a = small_branch();
   for (Eigen::VectorXd* v :
        {&a.mesh_frequency, &a.dte_rms, &a.dte_mean, &a.residual, &a.fold_frequency, &a.fold_rms,
-        &a.mesh_force_held, &a.tooth_load_held, &a.root_stress_held[0], &a.root_stress_held[1],
+        &a.fold_width, &a.mesh_force_held, &a.tooth_load_held, &a.root_stress_held[0], &a.root_stress_held[1],
         &a.root_stress_angle[0], &a.root_stress_angle[1], &a.root_stress_phase[0], &a.root_stress_phase[1]})
     v->resize(0);
   a.dte_harmonic.resize(0, 3);

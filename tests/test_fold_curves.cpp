@@ -110,8 +110,8 @@ TEST_CASE("fold curves: of the lumped pair over damping, through its exact folds
   }
   CHECK(std::min(folds[0].parameter, folds[1].parameter) == relative(2464.654182, 1e-9));
   CHECK(std::max(folds[0].parameter, folds[1].parameter) == relative(2638.199272, 1e-9));
-  const FoldPair pair = follow_folds(family, folds[0], folds[1], {0.072, 0.074, 0.076, 0.078, 0.08, 0.09},
-                                     settings, [](const Fold&) { return true; });
+  const FoldPair pair =
+      follow_folds(family, folds[0], folds[1], {0.072, 0.074, 0.076, 0.078, 0.08, 0.09}, settings);
   INFO(pair.end);
   REQUIRE(pair.cusp);
   int at_eight = -1;
@@ -131,6 +131,42 @@ TEST_CASE("fold curves: of the lumped pair over damping, through its exact folds
   MESSAGE("cusp at a damping ratio of " << pair.cusp_value << " and " << pair.cusp_parameter << " Hz");
   CHECK(folds_at(pair.cusp_value * 0.999).size() == 2);
   CHECK(folds_at(pair.cusp_value * 1.001).empty());
+}
+
+TEST_CASE("fold curves: folds beyond the followed parameters are not reported") {
+  const auto begin = folds_at(0.07);
+  REQUIRE(begin.size() == 2);
+  FoldCurveSettings settings;
+  settings.scale = 2900;
+  settings.high = 2660;
+  Fold folds[2];
+  for (int side = 0; side < 2; ++side) {
+    folds[side].value = 0.07;
+    folds[side].parameter = begin[side].parameter;
+    folds[side].start = begin[side].start;
+    std::string failure;
+    LumpedPair pair(0.07);
+    const auto found = find_turn(pair, folds[side], settings, failure);
+    REQUIRE(found);
+    folds[side] = *found;
+  }
+  const MapFamily family = [](double ratio, double) { return std::make_unique<LumpedPair>(ratio); };
+  // The upper one comes to 2660 Hz between 0.07 and 0.08, where it stands at 2679 Hz.
+  const FoldPair pair = follow_folds(family, folds[0], folds[1], {0.072, 0.08}, settings);
+  INFO(pair.end);
+  CHECK(!pair.cusp);
+  CHECK(pair.low.size() == pair.high.size());
+  CHECK(pair.high.size() > 2);
+  for (const Fold& fold : pair.high) CHECK(fold.parameter <= 2660);
+  CHECK(pair.high.back().parameter > 2655);
+  CHECK(pair.end.find("lies outside of 0 to 2660") != std::string::npos);
+  // One that already lies beyond is none.
+  settings.high = 2600;
+  std::string failure;
+  LumpedPair there(0.07);
+  const bool upper = folds[1].parameter > folds[0].parameter;
+  CHECK(!find_turn(there, folds[upper ? 1 : 0], settings, failure));
+  CHECK(failure.find("lies outside of 0 to 2600") != std::string::npos);
 }
 
 TEST_CASE("fold curves: a fold belongs to the map of its own parameter, not to that of the guess") {
@@ -155,8 +191,7 @@ TEST_CASE("fold curves: a fold belongs to the map of its own parameter, not to t
     folds[side] = *found;
   }
   const auto low_at = [&](double value) {
-    const FoldPair pair =
-        follow_folds(family, folds[0], folds[1], {value}, settings, [](const Fold&) { return true; });
+    const FoldPair pair = follow_folds(family, folds[0], folds[1], {value}, settings);
     INFO(pair.end);
     REQUIRE(!pair.low.empty());
     CHECK(pair.low.back().value == relative(value, 1e-12));

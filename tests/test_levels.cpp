@@ -192,6 +192,29 @@ TEST_CASE("every mode against 61 modes and relaxed loads on the same mesh, both 
     }
 }
 
+TEST_CASE(
+    "relaxed loads: a Rayleigh time above a quarter of a mesh period is rejected before anything is "
+    "computed") {
+  Damping damping;
+  damping.rayleigh_stiffness = 1e-3;
+  const std::string message =
+      message_of_input([&] { require_relaxation_range(damping, BodyModel::modal, 4000); });
+  for (const char* words : {"rayleigh_stiffness_s = 0.001", "4 of a mesh period at 4000 Hz", "at most 0.25",
+                            "lower it to 6.25e-05", "mesh_frequency_Hz to 250 Hz"}) {
+    CAPTURE(words);
+    CHECK(message.find(words) != std::string::npos);
+  }
+  CHECK_THROWS_AS(require_relaxation_range(damping, BodyModel::lagged, 251), Error);
+  // Nothing rolls, nothing relaxes, or every mode has its own damping.
+  CHECK_NOTHROW(require_relaxation_range(damping, BodyModel::modal, 0));
+  for (const BodyModel body : {BodyModel::rigid, BodyModel::quasi_static, BodyModel::full})
+    CHECK_NOTHROW(require_relaxation_range(damping, body, 4000));
+  SweepParameters settings = coarse_sweep(2000, 4000, 100, BodyModel::modal, ContactModel::line);
+  CHECK_NOTHROW(dynamic_parameters(StaticArtifact(), 4e8, settings, settings.frequency_to));
+  settings.damping = damping;
+  CHECK_THROWS_AS(dynamic_parameters(StaticArtifact(), 4e8, settings, settings.frequency_to), Error);
+}
+
 TEST_CASE("model levels of the body: each is nearer to the one with the most modes than the level below it") {
   const BodyArtifact& body = paper_body(40e-3, 0.8e-3, 61);
   StaticParameters statics_parameters = paper_statics(128);

@@ -17,6 +17,7 @@
 #include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "io/scene.h"
+#include "signal/jump_words.h"
 #include "studies/pair_branch.h"
 
 namespace {
@@ -72,11 +73,9 @@ void body(int argc, char** argv) {
       },
       plan);
   whine::write(output, result, provenance);
-  std::string folds;
-  for (double f : result.fold_frequency) folds += whine::text(folds.empty() ? ", folds at " : ", ", f, " Hz");
   whine::tell("gear-orbit: ", result.torque, " N m, ", result.mesh_frequency.size(), " orbits, ",
               result.mesh_frequency.size() - result.stable.sum(), " of them unstable",
-              folds.empty() ? ", no fold" : folds, " -> ", output);
+              ", folds: ", whine::jump_words(result.fold_frequency, result.fold_width), " -> ", output);
   constexpr double kRoundOff = 1e-9;
   if (result.mesh_frequency.minCoeff() > settings.frequency_from * (1 + kRoundOff))
     whine::tell("gear-orbit: warning: the branch does not reach the lowest speed: ", result.end);

@@ -17,6 +17,7 @@
 #include "io/provenance.h"
 #include "io/system_branch_codec.h"
 #include "io/system_scene.h"
+#include "signal/jump_words.h"
 #include "studies/system_branch.h"
 
 namespace {
@@ -55,12 +56,9 @@ void body(int argc, char** argv) {
   progress.reset();
 
   whine::write(output, result, provenance);
-  std::string folds;
-  for (const double f : result.fold_frequency)
-    folds += whine::text(folds.empty() ? ", folds at " : ", ", f, " Hz");
   whine::tell("gear-system-orbit: ", result.mesh_frequency.size(), " orbits, ",
               result.mesh_frequency.size() - result.stable.sum(), " of them unstable",
-              folds.empty() ? ", no fold" : folds, " -> ", output);
+              ", folds: ", whine::jump_words(result.fold_frequency, result.fold_width), " -> ", output);
   constexpr double kRoundOff = 1e-9;
   if (result.mesh_frequency.minCoeff() > settings.frequency_from * (1 + kRoundOff))
     whine::tell("gear-system-orbit: warning: the branch does not reach the lowest speed: ", result.end);

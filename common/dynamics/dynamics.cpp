@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "base/dense.h"
@@ -31,13 +32,26 @@ void require_memory(double own, double beside, double most, const char* remedy, 
 }  // namespace
 
 DynamicParameters dynamic_parameters(const StaticArtifact& statics, double mean_stiffness,
-                                     const ImpactParameters& settings) {
+                                     const ImpactParameters& settings, double highest_frequency) {
+  require_relaxation_range(settings.damping, settings.fidelity.body, highest_frequency);
   return {statics.torque,
           {settings.inertia.begin(), settings.inertia.end()},
           mean_stiffness,
           settings.damping,
           settings.fidelity,
           statics.friction_coefficient > 0 ? (1 - statics.efficiency) / statics.friction_coefficient : 0};
+}
+
+void require_relaxation_range(const Damping& damping, BodyModel body, double highest_frequency) {
+  const double eta = damping.rayleigh_stiffness;
+  if ((body != BodyModel::modal && body != BodyModel::lagged) || eta * highest_frequency <= kMostRelaxation)
+    return;
+  fail(Failure::input, "rayleigh_stiffness_s = ", eta, " in [damping] is ", eta * highest_frequency,
+       " of a mesh period at ", highest_frequency, " Hz, at most ", kMostRelaxation,
+       " is computed: the damping ratio of a mode at the mesh frequency is then ",
+       std::numbers::pi * eta * highest_frequency, "; lower it to ", kMostRelaxation / highest_frequency,
+       " (make calibrate finds that of a damping ratio), or the largest mesh_frequency_Hz to ",
+       kMostRelaxation / eta, " Hz");
 }
 
 MotionBounds::MotionBounds(const GearMeshModel& model, const StaticArtifact& statics, double widening) {

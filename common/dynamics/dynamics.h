@@ -60,8 +60,13 @@ struct DynamicParameters {
 };
 
 // Those of the pair of `statics` at its torque, in motion; mean_stiffness: N m-1, sets the bearing dampers.
+// Throws as require_relaxation_range(); highest_frequency: Hz, largest mesh frequency of the motions, 0 of gears that do not roll.
 DynamicParameters dynamic_parameters(const StaticArtifact& statics, double mean_stiffness,
-                                     const ImpactParameters& settings);
+                                     const ImpactParameters& settings, double highest_frequency);
+// Throws Error(input) for bodies whose residual flexibility relaxes, if the Rayleigh time is more than kMostRelaxation of a mesh period:
+// a pair that comes in then meets the undamped compliance alone, which the motion depends on more than on all else.
+inline constexpr double kMostRelaxation = 0.25;
+void require_relaxation_range(const Damping& damping, BodyModel body, double highest_frequency);
 
 // What a motion at the torque of `statics` may want of its contact: 2.5 times the load and the deflection of rest, times
 // `widening`, which grows where a motion wants more.

@@ -116,7 +116,7 @@ class FixedPhasePair {
     GearMeshSpec still = statics.mesh;
     still.friction = {};  // nothing slides at a fixed phase
     const GearMeshModel model(driver, driven, still);
-    DynamicParameters parameters = dynamic_parameters(statics, mean_stiffness, settings);
+    DynamicParameters parameters = dynamic_parameters(statics, mean_stiffness, settings, 0);
     parameters.loss_per_friction = 0;
     parameters.damping.rayleigh_stiffness = 0;
     RollingDynamics dynamics(model, parameters);
@@ -475,7 +475,13 @@ ImpactArtifact calibrate(const BodyArtifact& driver, const BodyArtifact& driven,
     high *= 2;
     above = next;
   }
-  while ((above = excess(high)) < 0) high *= 1.01;  // the decay's own ratio is a little off the eigenvalue's
+  // The decay's own ratio is a little off the eigenvalue's.
+  constexpr int kMostRaises = 20;
+  for (int raises = 0; (above = excess(high)) < 0; ++raises, high *= 1.01)
+    if (raises == kMostRaises)
+      fail(Failure::numerical, "at ", high, " s the decay has a damping ratio of ", above + damping_ratio,
+           ", its eigenvalue one of ", frozen(high) + damping_ratio, ", and ", damping_ratio,
+           " is asked for");
   // Regula falsi, Illinois: an end that stays counts half.
   double eta = high, off = above;
   for (int side = 0, i = 0; std::abs(off) > 1e-7 * damping_ratio; ++i) {

@@ -8,7 +8,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kBranchSchema{"branch", 4};
+constexpr Schema kBranchSchema{"branch", 5};
 
 void describe_points(Codec& c, BranchArtifact& a) {
   c.dataset({"/mesh_frequency", "Hz", "mesh frequency along the branch", "point", kSpeed}, &a.mesh_frequency);

@@ -39,6 +39,10 @@ void describe_folds(Codec& c, Branch& a) {
   using namespace ranges;
   c.dataset({"/fold_frequency", "Hz", "mesh frequency at which the branch turns", "fold", kFrequency},
             &a.fold_frequency);
+  c.dataset({"/fold_width", "Hz",
+             "of the interval in which it lies; at a kink that in which a smooth map would have it", "fold",
+             kFrequency},
+            &a.fold_width);
   if constexpr (requires { a.fold_rms; })
     c.dataset({"/fold_rms", "m", "RMS of the oscillating transmission error there", "fold", kSize},
               &a.fold_rms);
@@ -50,10 +54,12 @@ void describe_folds(Codec& c, Branch& a) {
             &a.fold_multiplier);
   c.dataset({"/flip_frequency", "Hz", "mesh frequency at which a multiplier passes -1", "flip", kFrequency},
             &a.flip_frequency);
+  c.dataset({"/flip_width", "Hz", "as fold_width", "flip", kFrequency}, &a.flip_width);
   c.dataset(
       {"/torus_frequency", "Hz",
        "mesh frequency at which the modulus of a complex pair of multipliers passes 1", "torus", kFrequency},
       &a.torus_frequency);
+  c.dataset({"/torus_width", "Hz", "as fold_width", "torus", kFrequency}, &a.torus_width);
 }
 
 }  // namespace whine

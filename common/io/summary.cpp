@@ -308,16 +308,12 @@ void show(SummaryLines& lines, const BranchArtifact& a) {
         add(lines, "subharmonic", many, " orbits of ", periods, " mesh periods");
   }
   for (Eigen::Index i = 0; i < a.fold_frequency.size(); ++i)
-    add(lines, "fold", text(a.fold_frequency[i]), " Hz, ", a.fold_smooth[i] ? "smooth" : "at a kink",
-        ", multiplier ", text(a.fold_multiplier(i, 0)), " before and ", text(a.fold_multiplier(i, 1)),
-        " after");
-  const auto list = [&](const char* name, const Eigen::VectorXd& frequencies) {
-    std::string all;
-    for (double f : frequencies) all += (all.empty() ? "" : ", ") + text(f);
-    if (!all.empty()) add(lines, name, all, " Hz");
-  };
-  list("period doubling", a.flip_frequency);
-  list("torus", a.torus_frequency);
+    add(lines, "fold", jump_words(a.fold_frequency.segment(i, 1), a.fold_width.segment(i, 1)), ", ",
+        a.fold_smooth[i] ? "smooth" : "at a kink", ", multiplier ", text(a.fold_multiplier(i, 0)),
+        " before and ", text(a.fold_multiplier(i, 1)), " after, of this map ", text(a.fold_frequency[i]),
+        " Hz");
+  if (a.flip_frequency.size() > 0) add(lines, "period doubling", jump_words(a.flip_frequency, a.flip_width));
+  if (a.torus_frequency.size() > 0) add(lines, "torus", jump_words(a.torus_frequency, a.torus_width));
   if (a.grazing_frequency.size() > 0)
     add(lines, "grazing", a.grazing_frequency.size(), " places from ", a.grazing_frequency.minCoeff(), " to ",
         a.grazing_frequency.maxCoeff(), " Hz");

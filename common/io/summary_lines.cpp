@@ -8,6 +8,7 @@
 #include "io/system_impact_codec.h"
 #include "io/system_static_codec.h"
 #include "io/system_sweep_codec.h"
+#include "signal/jump_words.h"
 #include "system/rigid_system.h"
 
 namespace whine {
@@ -98,9 +99,8 @@ void show(SummaryLines& lines, const SystemBranchArtifact& a) {
       " of them unstable");
   if (a.mesh_frequency.size() > 0)
     add(lines, "mesh frequencies", a.mesh_frequency.minCoeff(), " to ", a.mesh_frequency.maxCoeff(), " Hz");
-  for (Eigen::Index i = 0; i < a.fold_frequency.size(); ++i) add(lines, "fold", a.fold_frequency[i], " Hz");
-  for (Eigen::Index i = 0; i < a.flip_frequency.size(); ++i)
-    add(lines, "period doubling", a.flip_frequency[i], " Hz");
+  if (a.fold_frequency.size() > 0) add(lines, "folds", jump_words(a.fold_frequency, a.fold_width));
+  if (a.flip_frequency.size() > 0) add(lines, "period doublings", jump_words(a.flip_frequency, a.flip_width));
   add(lines, "end", a.end);
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSystemBranchSchema{"system_branch", 1};
+constexpr Schema kSystemBranchSchema{"system_branch", 2};
 
 void describe_points(Codec& c, SystemBranchArtifact& a) {
   const char* const of_mesh = "point mesh_number";

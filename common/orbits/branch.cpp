@@ -32,6 +32,24 @@ const char* name(Special kind) {
 
 namespace {
 
+VectorXd of_kind(const std::vector<SpecialPoint>& special, Special kind, double SpecialPoint::*member) {
+  std::vector<double> found;
+  for (const SpecialPoint& p : special)
+    if (p.kind == kind) found.push_back(p.*member);
+  return Eigen::Map<const VectorXd>(found.data(), static_cast<Eigen::Index>(found.size()));
+}
+
+}  // namespace
+
+VectorXd parameters_of(const std::vector<SpecialPoint>& special, Special kind) {
+  return of_kind(special, kind, &SpecialPoint::parameter);
+}
+VectorXd widths_of(const std::vector<SpecialPoint>& special, Special kind, double least) {
+  return of_kind(special, kind, &SpecialPoint::width).cwiseMax(least * parameters_of(special, kind));
+}
+
+namespace {
+
 // What is written of a point.
 BranchPosition position(const Curve& curve, const CurvePoint& p, double arc) {
   BranchPosition b;
@@ -305,6 +323,22 @@ SpecialPoint special_at(Special kind, const BranchPosition& at, const BranchPosi
   return p;
 }
 
+// SpecialPoint::width. Between the branch's two points the test changes by `change` over an interval of the parameter and an arc.
+// scale: of the parameter, of a fold; 0 of others.
+double width_of(const Locator::Bracket& b, double interval, double arc, double change, double scale) {
+  constexpr double kRoundOff = 1e-10;
+  const double least = kRoundOff * b.low.position.parameter,
+               width = std::max(std::abs(b.high.position.parameter - b.low.position.parameter), least),
+               step = std::abs(b.value_high - b.value_low), low = std::abs(b.value_low),
+               high = std::abs(b.value_high);
+  if (!(step > 0) || !(change > 0)) return width;
+  // A secant from the nearer side; of a fold the bracket is what is left of the parameter.
+  if (b.smooth) return scale > 0 ? width : std::max(width * std::min(low, high) / step, least);
+  // The step at the kink as a part of the change, over which a smooth test would pass through zero. Over that arc the parameter of
+  // a fold changes by the turn.
+  return std::max(width, step / change * (scale > 0 ? 0.5 * std::max(low, high) * arc * scale : interval));
+}
+
 // What happens between two neighbouring points of a branch.
 void look_between(Curve& curve, const CurvePoint& from, const CurvePoint& to, const BranchPosition& a,
                   const BranchPosition& b, const BranchSettings& settings, std::vector<SpecialPoint>& found,
@@ -319,7 +353,8 @@ void look_between(Curve& curve, const CurvePoint& from, const CurvePoint& to, co
     found.push_back(
         special_at(kind, bracket.low_is_nearer() ? l : h, bracket.before, bracket.after, after_point));
     found.back().smooth = bracket.smooth;
-    found.back().width = std::abs(h.parameter - l.parameter);
+    found.back().width = width_of(bracket, std::abs(b.parameter - a.parameter), b.arc - a.arc,
+                                  std::abs(test(b) - test(a)), kind == Special::fold ? settings.scale : 0);
   };
   const Locator::Test turn = [](const BranchPosition&p) { return p.turn; },
                       flip = [](const BranchPosition&p) { return determinant_at(p.multipliers, -1); },
@@ -374,57 +409,33 @@ void note_contact_ahead(Curve& curve, const CurvePoint& here, double length, Orb
   branch.special.back().smooth = false;
 }
 
-// The point of the branch whose parameter is `limit`, between `here` and `next`; `next` if it has none there.
-CurvePoint at_limit(Curve& curve, const CurvePoint& here, const CurvePoint& next, double limit,
-                    double scale) {
+// The point between `here` and `next` at which the branch comes through `limit` first, in a direction of the parameter; none if it
+// is not found. Where the branch turns beyond the limit and comes back, Newton's method may find the point of its return.
+std::optional<CurvePoint> at_limit(Curve& curve, const CurvePoint& here, const CurvePoint& next, double limit,
+                                   int direction, double scale) {
   const Eigen::Index n = curve.size() - 1;
   const double share = (limit / scale - here.u[n]) / (next.u[n] - here.u[n]);
   VectorXd u = here.u + share * (next.u - here.u);
   u[n] = limit / scale;
   const VectorXd up = VectorXd::Unit(n + 1, n);
   auto point = curve.correct(u, up, &here);
-  if (!point || !curve.linearise(*point, up)) return next;
-  if (point->tangent.dot(next.tangent) < 0) {
+  if (!point || !curve.linearise(*point, up)) return std::nullopt;
+  if (point->tangent.dot(here.tangent) < 0) {
     point->tangent = -point->tangent;
     point->orientation = -point->orientation;
   }
-  return *point;
+  orient(here, *point);
+  if (point->tangent[n] * direction < 0) return std::nullopt;
+  return point;
 }
 
-}  // namespace
-
-bool passes(const BranchPosition& last, const BranchPosition& next, const VectorXd& start, double parameter,
-            double scale) {
-  constexpr double kBeside = 0.15;  // of the chord
-  if (start.size() != last.start.size() || start.size() != next.start.size()) return false;
-  const auto from_last = [&](const VectorXd& y, double at) {
-    VectorXd u(y.size() + 1);
-    u << y - last.start, (at - last.parameter) / scale;
-    return u;
-  };
-  const VectorXd chord = from_last(next.start, next.parameter), way = from_last(start, parameter);
-  const double share = way.dot(chord) / chord.squaredNorm();
-  return share > 0 && share <= 1 && (way - share * chord).norm() < kBeside * chord.norm();
-}
-
-bool becomes_half(const BranchPosition& last, const BranchPosition& next) {
-  const auto halves = [](const VectorXd& x) -> VectorXd {
-    return x.head(x.size() / 2) - x.tail(x.size() / 2);
-  };
-  return last.observable.size() == next.observable.size() &&
-         halves(last.observable).dot(halves(next.observable)) < 0;
-}
-
-OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int direction,
-                          const BranchSettings& settings,
-                          const std::function<void(const BranchPosition&)>& report) {
-  Curve curve(map, settings.multiple, settings.scale, settings.orbit);
-  OrbitBranch branch;
-  const int n = map.size();
+// From an orbit, in a direction of the parameter.
+CurvePoint first_point(Curve& curve, const PeriodicOrbit& from, int direction) {
+  const int n = curve.size() - 1;
   const VectorXd up = VectorXd::Unit(n + 1, n);
-  CurvePoint first;
-  first.slow = from.slow;
-  auto here = curve.correct(curve.point(from.start, from.parameter), up, &first);
+  CurvePoint near;
+  near.slow = from.slow;
+  auto here = curve.correct(curve.point(from.start, from.parameter), up, &near);
   if (!here || !curve.linearise(*here, up))
     fail(Failure::numerical, "no branch begins at ", from.parameter, ": ", curve.failure(),
          "; start from an orbit");
@@ -432,11 +443,29 @@ OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int directi
     here->tangent = -here->tangent;
     here->orientation = -here->orientation;
   }
-  const auto take = [&](const CurvePoint& p, double arc) {
-    branch.points.push_back(position(curve, p, arc));
-    if (report) report(branch.points.back());
-  };
-  take(*here, 0);
+  return *here;
+}
+
+// Whether a special point from number `first` on lies beyond the parameters.
+bool any_beyond(const std::vector<SpecialPoint>& special, size_t first, const BranchSettings& settings) {
+  constexpr double kRoundOff = 1e-12;
+  return std::any_of(
+      special.begin() + static_cast<std::ptrdiff_t>(first), special.end(), [&](const SpecialPoint& p) {
+        return p.parameter < settings.low * (1 - kRoundOff) || p.parameter > settings.high * (1 + kRoundOff);
+      });
+}
+
+}  // namespace
+
+OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int direction,
+                          const BranchSettings& settings,
+                          const std::function<void(const BranchPosition&)>& report) {
+  Curve curve(map, settings.multiple, settings.scale, settings.orbit);
+  OrbitBranch branch;
+  const int n = map.size();
+  std::optional<CurvePoint> here = first_point(curve, from, direction);
+  branch.points.push_back(position(curve, *here, 0));
+  if (report) report(branch.points.back());
   double length = settings.first_step;
   constexpr int kFew = 6, kMany = 9;  // corrections
   constexpr double kSharp =
@@ -462,20 +491,41 @@ OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int directi
       }
     }
     const double parameter = curve.parameter(next->u);
-    const bool below = parameter < settings.low, beyond = below || parameter > settings.high;
-    if (beyond) next = at_limit(curve, *here, *next, below ? settings.low : settings.high, settings.scale);
+    const int beyond = parameter < settings.low ? -1 : parameter > settings.high ? 1 : 0;
+    if (beyond != 0) {
+      const double limit = beyond < 0 ? settings.low : settings.high;
+      next = at_limit(curve, *here, *next, limit, beyond, settings.scale);
+      if (!next && length > settings.least_step) {
+        length = std::max(0.5 * length, settings.least_step);
+        continue;
+      }
+      if (!next) {
+        branch.end = text("the branch is followed to ", branch.points.back().parameter,
+                          ": no orbit of it is found where it leaves the parameters, at ", limit);
+        return branch;
+      }
+    }
     const double passed = (next->u - here->u).norm();
     next->bend = (next->tangent[n] - here->tangent[n]) / passed;
-    take(*next, branch.points.back().arc + passed);
+    const size_t known = branch.special.size();
+    branch.points.push_back(position(curve, *next, branch.points.back().arc + passed));
     add_special_points(curve, *here, *next, settings, branch);
+    // A step over a fold beyond the parameters and back: a shorter one ends at the limit.
+    if (any_beyond(branch.special, known, settings) && length > settings.least_step) {
+      branch.points.pop_back();
+      branch.special.resize(known);
+      length = std::max(0.5 * length, settings.least_step);
+      continue;
+    }
+    if (report) report(branch.points.back());
     if (settings.stop)
       branch.end = settings.stop(branch.points[branch.points.size() - 2], branch.points.back());
     if (!branch.end.empty()) {
       branch.stopped = true;
       return branch;
     }
-    if (beyond) {
-      branch.reached_limit = true;
+    if (beyond != 0) {
+      branch.reached_limit = beyond;
       branch.end = text("the parameter reached ", branch.points.back().parameter);
       return branch;
     }
@@ -488,97 +538,6 @@ OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int directi
   }
   branch.end = text(settings.most_points, " points were taken");
   return branch;
-}
-
-OrbitSearch orbit_beyond_flip(PeriodMap& map, const SpecialPoint& flip, int multiple, double scale,
-                              double distance) {
-  OrbitSearch search;
-  const int n = map.size();
-  try {
-    map.set_parameter(flip.parameter);
-    const OrbitSearch at = find_orbit(map, flip.start, multiple);
-    if (!at.found()) {
-      search.failure = "at the flip: " + at.failure;
-      return search;
-    }
-    // The eigenvector W c of -1, (V^T W + 1) c = 0, by inverse iteration.
-    const SlowTangent& slow = at.orbit.slow;
-    const auto p = slow.basis.cols();
-    constexpr double kBeside = 1e-7;  // of the eigenvalue, so that the matrix can be solved with
-    const Eigen::PartialPivLU<Eigen::MatrixXd> lu(slow.basis.transpose() * slow.image +
-                                                  (1 + kBeside) * Eigen::MatrixXd::Identity(p, p));
-    VectorXd c = VectorXd::Ones(p);
-    for (int i = 0; i < 4; ++i) c = lu.solve(c).normalized();
-    VectorXd across = VectorXd::Zero(n + 1);
-    across.head(n) = (slow.image * c).normalized();
-    Curve curve(map, 2 * multiple, scale, {});
-    const VectorXd from = curve.point(at.orbit.start, flip.parameter);
-    auto point = curve.correct(from + distance * across, across, nullptr);
-    if (!point) {
-      search.failure = "no orbit of twice the periods beside the flip: " + curve.failure();
-      return search;
-    }
-    map.set_parameter(curve.parameter(point->u));
-    search = find_orbit(map, curve.state(point->u), 2 * multiple);
-    if (search.found() &&
-        (image(map, search.orbit.start, multiple) - search.orbit.start).norm() < 0.1 * distance)
-      search.failure = "beside the flip only the orbit itself is found";
-  } catch (const Error& error) {
-    if (error.kind() != Failure::numerical) throw;
-    search.failure = error.what();
-  }
-  return search;
-}
-
-FoldSearch locate_fold(PeriodMap& map, const VectorXd& start, int multiple, double scale) {
-  FoldSearch search;
-  Curve curve(map, multiple, scale, {});
-  SlowTangent slow;
-  PeriodicOrbit passed;
-  const auto jacobian_at = [&](const VectorXd& at) {
-    SlowTangent found;
-    CurveJacobian jacobian = curve.jacobian(at, slow, found, passed);
-    slow = std::move(found);
-    return jacobian;
-  };
-  const int n = map.size();
-  VectorXd u = curve.point(start, map.parameter());
-  VectorXd across = VectorXd::Constant(n + 1, 1 / std::sqrt(n + 1.0));
-  const auto tangent_at = [&](const VectorXd& at) { return jacobian_at(at).tangent(across); };
-  try {
-    across = tangent_at(u);
-    double last = std::numeric_limits<double>::infinity();
-    constexpr int kMost = 40;
-    for (int i = 0; i < kMost; ++i) {
-      const VectorXd value = curve.residual(u), back = jacobian_at(u).solve(across, -value, 0);
-      u += back;
-      const VectorXd t = tangent_at(u);
-      across = t;
-      // The turn of the tangent per arc, at points off the curve by its square only.
-      constexpr double kStep = 1e-5;
-      const double rate = (tangent_at(u + kStep * t)[n] - tangent_at(u - kStep * t)[n]) / (2 * kStep);
-      constexpr double kFarthest = 0.05;
-      const double along = std::clamp(-t[n] / rate, -kFarthest, kFarthest);
-      if (!u.allFinite() || !std::isfinite(along)) {
-        search.failure = "the tangent does not turn";
-        return search;
-      }
-      u += along * t;
-      const double size = std::hypot(back.norm(), along);
-      if (size < 1e-12 || (size < 1e-8 && size > 0.5 * last)) {
-        search.start = u.head(n);
-        search.parameter = curve.parameter(u);
-        map.set_parameter(search.parameter);
-        return search;
-      }
-      last = size;
-    }
-    search.failure = text("no convergence: the last step was ", last);
-  } catch (const Error& error) {
-    if (error.kind() != Failure::numerical) throw;
-    search.failure = error.what();
-  }
-  return search;
 }
 
 }  // namespace whine

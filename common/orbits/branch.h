@@ -44,13 +44,19 @@ struct SpecialPoint {
   double parameter = 0, arc = 0;
   Eigen::VectorXd start;
   bool smooth = true;  // false: at a kink of the map
-  double width = 0;    // of the parameter: of the interval in which it lies; 0 for grazing
+  // Of the parameter: of the interval in which it lies; 0 for grazing. At a kink that in which a smooth map through the same two
+  // points would have it: where the kinks stand follows from time steps and strips.
+  double width = 0;
   // The multiplier that makes it what it is, on either side; not of grazing.
   std::complex<double> before, after;
   ContactEvent event;      // of grazing: the contact that is about to come or go
   bool comes = false;      // of grazing: it opens and closes from here on
   size_t after_point = 0;  // it lies between this point of the branch and the next
 };
+
+// (special point of a kind); least: width of a parameter, relative
+Eigen::VectorXd parameters_of(const std::vector<SpecialPoint>& special, Special kind);
+Eigen::VectorXd widths_of(const std::vector<SpecialPoint>& special, Special kind, double least);
 
 struct BranchSettings {
   int multiple = 1;
@@ -79,7 +85,7 @@ struct OrbitBranch {
   std::vector<BranchPosition> points;
   std::vector<SpecialPoint> special;  // in the order of the arc
   std::string end;                    // why it was followed no further
-  bool reached_limit = false;         // the parameter left [low, high]
+  int reached_limit = 0;              // the parameter left [low, high]: -1 through low, 1 through high
   bool stopped = false;               // by settings.stop
 };
 

@@ -86,6 +86,13 @@ void meet(FoldPair& pair, double cusp) {
   pair.end = text("the folds meet at ", cusp, ", followed to ", 100 * std::abs(cusp / at - 1), " % of it");
 }
 
+// Whether a parameter is one at which folds are looked for; if not `why` says so.
+bool within(const FoldCurveSettings& settings, double parameter, std::string& why) {
+  if (parameter > 0 && parameter >= settings.low && parameter <= settings.high) return true;
+  why = text("a fold at ", parameter, " lies outside of ", settings.low, " to ", settings.high);
+  return false;
+}
+
 }  // namespace
 
 std::optional<Fold> find_turn(PeriodMap& map, const Fold& guess, const FoldCurveSettings& settings,
@@ -126,6 +133,7 @@ std::optional<Fold> find_turn(PeriodMap& map, const Fold& guess, const FoldCurve
           return std::nullopt;
         }
         Fold fold;
+        if (!within(settings, curve.parameter(near->u), failure)) return std::nullopt;
         fold.value = guess.value;
         fold.parameter = curve.parameter(near->u);
         fold.start = curve.state(near->u);
@@ -168,9 +176,8 @@ std::optional<Fold> find_turn(PeriodMap& map, const Fold& guess, const FoldCurve
 
 FoldPair follow_folds(const MapFamily& family, const Fold& one, const Fold& other,
                       const std::vector<double>& values, const FoldCurveSettings& settings,
-                      const std::function<bool(const Fold&)>& wanted,
                       const std::function<void(double)>& report) {
-  constexpr int kMostHalvings = 5;
+  constexpr int kMostHalvings = 5, kMostSteps = 60;  // between two values
   constexpr double kAtCusp = 2e-3, kNearCusp = 0.02, kTowards = 0.7;
   FoldPair pair;
   const bool ordered = one.parameter < other.parameter;
@@ -181,10 +188,7 @@ FoldPair follow_folds(const MapFamily& family, const Fold& one, const Fold& othe
     for (int side = 0; side < 2; ++side) {
       const std::vector<Fold>& known = side == 0 ? pair.low : pair.high;
       const Fold guess = predicted(known, value);
-      if (!(guess.parameter > 0)) {
-        pair.end = text("at ", value, " the folds before lead to a parameter of ", guess.parameter);
-        return false;
-      }
+      if (!within(settings, guess.parameter, pair.end)) return false;
       auto fold = find_turn(*family(value, guess.parameter), guess, settings, pair.end);
       // The fold may lie where the family has another map than at the guess.
       if (fold && settings.one_map && !settings.one_map(guess.parameter, fold->parameter))
@@ -193,7 +197,7 @@ FoldPair follow_folds(const MapFamily& family, const Fold& one, const Fold& othe
       found[side] = std::move(*fold);
     }
     if (found[0].bend * found[1].bend > 0) {
-      pair.end = text("at ", value, " both folds bend the same way");
+      pair.end = "both folds bend the same way";
       return false;
     }
     pair.low.push_back(std::move(found[0]));
@@ -203,7 +207,7 @@ FoldPair follow_folds(const MapFamily& family, const Fold& one, const Fold& othe
   };
   for (const double value : values) {
     double to = value;
-    for (int halvings = 0;;) {
+    for (int halvings = 0, steps = 0;; ++steps) {
       const double at = pair.low.back().value;
       const auto cusp = cusp_ahead(pair);
       // Ahead of `to`: no further than a part of the way, so that both folds are there.
@@ -216,15 +220,17 @@ FoldPair follow_folds(const MapFamily& family, const Fold& one, const Fold& othe
         to = at + kTowards * (*cusp - at);
       }
       if (take(to)) {
-        if (!wanted(pair.low.back()) || !wanted(pair.high.back())) {
-          pair.end = text("a fold left the parameters that are wanted at ", to);
+        if (to == value) break;
+        if (steps == kMostSteps) {
+          pair.end = text("followed to ", to, ": a cusp seems to lie ahead and is not reached in ",
+                          kMostSteps, " steps");
           return pair;
         }
-        if (to == value) break;
         to = value;
         continue;
       }
       if (++halvings > kMostHalvings) {
+        pair.end = text("followed to ", at, "; at ", to, ": ", pair.end);
         // Kinks part the last folds in front of a cusp.
         if (cusp && (*cusp - at) * towards > 0 && std::abs(*cusp - at) < kNearCusp * std::abs(*cusp))
           meet(pair, *cusp);

@@ -7,6 +7,7 @@
 // apart by an arc that goes as the square root of c - value (Kuznetsov, Elements of Applied Bifurcation Theory, 2004, chapter 9).
 #pragma once
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,7 +29,9 @@ struct Fold {
 
 struct FoldCurveSettings {
   int multiple = 1;
-  double scale = 1;         // of the parameter in the arc length
+  double scale = 1;  // of the parameter in the arc length
+  // Of the parameter: a fold beyond is none of those that are looked for.
+  double low = 0, high = std::numeric_limits<double>::infinity();
   double tolerance = 1e-7;  // of the parameter, relative
   double farthest = 0.1;    // arc on which a fold is looked for at once
   OrbitSettings orbit{};
@@ -36,7 +39,8 @@ struct FoldCurveSettings {
   std::function<bool(double one, double other)> one_map{};
 };
 
-// The fold of the map near a guess, by its turn. Nothing if there is none within some steps of `farthest`; `failure` says why.
+// The fold of the map near a guess, by its turn. Nothing if there is none within some steps of `farthest`, or none between `low` and
+// `high`; `failure` says why.
 std::optional<Fold> find_turn(PeriodMap& map, const Fold& guess, const FoldCurveSettings& settings,
                               std::string& failure);
 
@@ -53,10 +57,9 @@ struct FoldPair {
 
 // From two folds at one value through `values`, in their order. A step at which a fold is not found is halved a few times; where
 // the arc between the two shows a cusp ahead they are followed up to 0.2 % of its value, or up to 2 % where kinks part the last
-// folds in front of it: `end` says how far. wanted(fold): whether one is still of interest.
+// folds in front of it: `end` says how far. Folds that leave the parameters end it.
 FoldPair follow_folds(const MapFamily& family, const Fold& one, const Fold& other,
                       const std::vector<double>& values, const FoldCurveSettings& settings,
-                      const std::function<bool(const Fold&)>& wanted,
                       const std::function<void(double value)>& report = {});
 
 }  // namespace whine

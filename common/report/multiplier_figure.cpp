@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "report/figure_words.h"
+#include "signal/jump_words.h"
 
 namespace whine {
 
@@ -29,7 +30,8 @@ Figure multiplier_figure(const BranchArtifact& b) {
   }
   figure.blocks = {std::move(plane), std::move(modulus)};
   for (Index i = 0; i < b.fold_frequency.size(); ++i)
-    figure.notes.push_back(text("fold at ", fixed(b.fold_frequency[i], 2), " Hz, ",
+    figure.notes.push_back(text("fold at ",
+                                jump_words(b.fold_frequency.segment(i, 1), b.fold_width.segment(i, 1)), ", ",
                                 b.fold_smooth[i] ? "smooth" : "at a kink",
                                 ": real multiplier nearest to 1: ", fixed(b.fold_multiplier(i, 0), 5),
                                 " before the fold, ", fixed(b.fold_multiplier(i, 1), 5), " after it"));

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "report/one_system.h"
+#include "signal/jump_words.h"
 #include "system/rigid_system.h"
 
 namespace whine {
@@ -83,8 +84,9 @@ Figure system_branch_figure(const SystemBranchArtifact& b, const std::vector<Sys
                               " period doublings, ", b.torus_frequency.size(), " tori; body \"",
                               b.settings.fidelity.body, "\", contact \"", b.settings.fidelity.contact, "\""));
   for (Index i = 0; i < std::min<Index>(b.fold_frequency.size(), 6); ++i)
-    figure.notes.push_back(
-        text("fold at ", fixed(b.fold_frequency[i], 2), " Hz, ", b.fold_smooth[i] ? "smooth" : "at a kink"));
+    figure.notes.push_back(text("fold at ",
+                                jump_words(b.fold_frequency.segment(i, 1), b.fold_width.segment(i, 1)), ", ",
+                                b.fold_smooth[i] ? "smooth" : "at a kink"));
   if (s.meshes.size() > meshes)
     figure.notes.push_back(text("the first ", meshes, " of ", s.meshes.size(), " meshes"));
   figure.numbers = {{"meshes", static_cast<double>(meshes)},

@@ -25,6 +25,24 @@ BranchSettings segment_speeds(const TimeDiscretisation& time, double from, doubl
   return settings;
 }
 
+void note_steps_change(OrbitBranch& branch, const std::string& failure) {
+  branch.end += text(", where the steps per mesh period change, and is followed no further: ", failure,
+                     "; raise steps_per_period or lower min_sample_rate_kHz until all speeds have as many");
+}
+
+std::optional<int> steps_beyond(const TimeDiscretisation& time, double from, double to, int steps,
+                                const OrbitBranch& branch) {
+  const BranchSettings own = segment_speeds(time, from, to, steps);
+  const bool up = branch.reached_limit > 0;
+  if (up ? own.high >= to : own.low <= from) return std::nullopt;
+  return up ? steps / 2 : steps * 2;
+}
+
+void note_most_segments(OrbitBranch& branch) {
+  branch.end += text("; of other steps per mesh period or in other candidate zones it was followed ",
+                     kMostSegments, " times, the most");
+}
+
 namespace {
 
 BranchSettings branch_settings(const SweepParameters& stage_settings, int steps, bool at_folds,
@@ -115,18 +133,25 @@ void BranchFollower::run(int steps, int direction, int part, const Report& repor
       segments.back().special_state.push_back(map_->state(p.start));
     const BranchPosition& last = branch.points.back();
     const double at = last.parameter;
-    direction = last.turn > 0 ? 1 : -1;
-    if (branch.stopped || segments.size() - before == kMostSegments) return;
+    direction = branch.reached_limit != 0 ? branch.reached_limit : last.turn > 0 ? 1 : -1;
+    if (branch.stopped) return;
+    if (segments.size() - before == kMostSegments) return note_most_segments(segments.back().branch);
     const RollingDynamics::State state = map_->state(last.start);  // while the zone is the map's own
-    if (!branch.reached_limit) {
+    if (branch.reached_limit == 0) {
       if (!map_->take_left_zone()) return;
       widen();
     } else {
-      constexpr double kRoundOff = 1e-12;  // of a parameter that went through its scale
-      if (direction > 0 ? at >= high * (1 - kRoundOff) : at <= low * (1 + kRoundOff)) return;
-      steps = direction > 0 ? steps / 2 : steps * 2;
+      const auto beyond = steps_beyond(settings_.time, low, high, steps, branch);
+      if (!beyond) return;
+      steps = *beyond;
     }
-    resume(state, last.start, at, steps, !branch.reached_limit);
+    try {
+      resume(state, last.start, at, steps, branch.reached_limit == 0);
+    } catch (const Error& error) {
+      if (error.kind() != Failure::numerical || branch.reached_limit == 0) throw;
+      note_steps_change(segments.back().branch, error.what());
+      return;
+    }
   }
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,9 +17,19 @@ namespace whine {
 
 inline constexpr int kKeptMultipliers = 8;  // of each orbit of a branch
 inline constexpr int kMostSegments = 64;    // of a branch
+// Of the frequency: least width of folds, period doublings and tori of a map with time steps. Half the step moves them by up to 0.3 %
+// (README of orbits), of which nothing shows at the point itself.
+inline constexpr double kStepError = 3e-3;
+// That a branch ends because it has as many, or because no orbit is found beyond a change of steps: a fold may stand in between.
+void note_most_segments(OrbitBranch& branch);
+void note_steps_change(OrbitBranch& branch, const std::string& failure);
 
 // The speeds (Hz) between which a branch of [from, to] has this number of steps per period, and the scale of all of it.
 BranchSettings segment_speeds(const TimeDiscretisation& time, double from, double to, int steps);
+// The steps per period of the segment that goes on where a branch of [from, to] has left one with `steps`; nothing where it has left
+// [from, to].
+std::optional<int> steps_beyond(const TimeDiscretisation& time, double from, double to, int steps,
+                                const OrbitBranch& branch);
 
 struct BranchSegment {
   OrbitBranch branch;

@@ -33,6 +33,8 @@ struct BranchArtifact : MotionParameters {
   Eigen::VectorXd fold_frequency, fold_rms;  // (fold) Hz, m: where the branch turns
   Eigen::VectorXi fold_smooth;               // (fold) 1: a multiplier is 1; 0: at a kink
   MatrixRM fold_multiplier;  // (fold, 2) 1: the real multiplier nearest to 1 before and after it
+  // (fold), (flip), (torus) Hz: of the interval in which it lies, see SpecialPoint::width
+  Eigen::VectorXd fold_width, flip_width, torus_width;
   Eigen::VectorXd flip_frequency, torus_frequency;   // Hz
   Eigen::VectorXd grazing_frequency, grazing_phase;  // (grazing) Hz, share of the mesh period
   Eigen::VectorXi grazing_pair,

@@ -76,8 +76,9 @@ class Family {
   // The pair at a raw value; its zone is not set.
   std::unique_ptr<PairAt> at(double raw) {
     own(raw);
-    DynamicParameters p = dynamic_parameters(own_statics_, bearing_stiffness_, settings_);
+    DynamicParameters p = dynamic_parameters(own_statics_, bearing_stiffness_, settings_, 0);
     if (plan_.quantity == FoldQuantity::damping) p.damping.rayleigh_stiffness = raw;
+    require_relaxation_range(p.damping, p.fidelity.body, plan_.to);
     return std::make_unique<PairAt>(driver_, driven_, own_statics_, p);
   }
   // For motions near a speed, with a zone of a level that holds them.
@@ -156,9 +157,9 @@ std::vector<std::pair<Fold, Fold>> pairs_of(const std::vector<BranchSegment>& se
       }
   if (!open.empty())
     end = text("the branch leaves the speeds beyond its fold at ", open[0].parameter,
-               " Hz, which is not followed");
+               " Hz, which is not followed; ", segments.back().branch.end);
   else if (pairs.empty())
-    end = "the branch has no folds";
+    end = "the branch has no folds; " + segments.back().branch.end;
   return pairs;
 }
 
@@ -281,14 +282,13 @@ FoldCurvesArtifact fold_curves(const BodyArtifact& driver, const BodyArtifact& d
 
   FoldCurveSettings fold_settings;
   fold_settings.scale = 0.5 * (plan.from + plan.to);
+  fold_settings.low = plan.from;
+  fold_settings.high = plan.to;
   fold_settings.tolerance = 1e-5;
   fold_settings.orbit.tolerance = 1e-8;
   fold_settings.one_map = [&](double one, double other) { return family.steps(one) == family.steps(other); };
   const int level = std::min(follower.level() + kWiderZones, kMostZoneLevel);
   const MapFamily maps = [&](double raw, double speed) { return family.map(raw, speed, level); };
-  const auto wanted = [&](const Fold& fold) {
-    return fold.parameter >= plan.from && fold.parameter <= plan.to;
-  };
   Rows rows;
   int number = 0;
   long done = 0;
@@ -300,7 +300,7 @@ FoldCurvesArtifact fold_curves(const BodyArtifact& driver, const BodyArtifact& d
       continue;
     }
     const auto followed = [&](const std::vector<double>& through) {
-      return follow_folds(maps, own->first, own->second, through, fold_settings, wanted, [&](double raw) {
+      return follow_folds(maps, own->first, own->second, through, fold_settings, [&](double raw) {
         report(std::min(++done, 2 * values), 2 * values, text(plan.quantity, " ", raw));
       });
     };

@@ -15,17 +15,6 @@ namespace whine {
 
 using Eigen::VectorXd;
 
-namespace {
-
-Eigen::VectorXd frequencies(const std::vector<SpecialPoint>& all, Special kind) {
-  std::vector<double> found;
-  for (const SpecialPoint& p : all)
-    if (p.kind == kind) found.push_back(p.parameter);
-  return Eigen::Map<const VectorXd>(found.data(), static_cast<Eigen::Index>(found.size()));
-}
-
-}  // namespace
-
 // NOLINTNEXTLINE(readability-function-size): segments of one branch, then its artifact
 BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& driven,
                            const StaticArtifact& statics, double mean_stiffness,
@@ -41,7 +30,8 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
          stage_settings.frequency_from, " to ", stage_settings.frequency_to, " Hz");
   require_inertia(statics.mesh, {driver.inertia, driven.inertia}, stage_settings.inertia);
   const GearMeshModel model(driver, driven, statics.mesh);
-  RollingDynamics dynamics(model, dynamic_parameters(statics, mean_stiffness, stage_settings));
+  RollingDynamics dynamics(
+      model, dynamic_parameters(statics, mean_stiffness, stage_settings, stage_settings.frequency_to));
   BranchFollower follower(dynamics, model, statics, stage_settings, BranchFollower::Look::close,
                           plan.tolerance);
   HeldPeaks peaks(model, stage_settings.time.steps_per_period);
@@ -102,9 +92,6 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
     }
     for (const SpecialPoint& p : s.branch.special) {
       special.push_back(p);
-      constexpr double kLocated = 1e-4;
-      if (p.width > kLocated * p.parameter)
-        a.end += text("; what happens near ", p.parameter, " Hz is located to ", p.width, " Hz only");
       if (p.kind != Special::fold) continue;
       // Between two points the RMS goes with the arc.
       const BranchPosition& before = own[p.after_point];
@@ -118,11 +105,14 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
   }
   a.segment_mismatch =
       Eigen::Map<const VectorXd>(mismatch.data(), static_cast<Eigen::Index>(mismatch.size()));
-  a.fold_frequency = frequencies(special, Special::fold);
+  a.fold_frequency = parameters_of(special, Special::fold);
+  a.fold_width = widths_of(special, Special::fold, kStepError);
   a.fold_rms = Eigen::Map<const VectorXd>(fold_rms.data(), static_cast<Eigen::Index>(fold_rms.size()));
-  a.flip_frequency = frequencies(special, Special::flip);
-  a.torus_frequency = frequencies(special, Special::torus);
-  a.grazing_frequency = frequencies(special, Special::grazing);
+  a.flip_frequency = parameters_of(special, Special::flip);
+  a.flip_width = widths_of(special, Special::flip, kStepError);
+  a.torus_frequency = parameters_of(special, Special::torus);
+  a.torus_width = widths_of(special, Special::torus, kStepError);
+  a.grazing_frequency = parameters_of(special, Special::grazing);
   a.fold_smooth.resize(a.fold_frequency.size());
   a.fold_multiplier.resize(a.fold_frequency.size(), 2);
   a.grazing_phase.resize(a.grazing_frequency.size());

@@ -66,8 +66,10 @@ class Runner {
         head_(head),
         sink_(sink),
         report_(report),
-        levels_(model, dynamic_parameters(statics, head.mean_stiffness, settings), statics,
-                steps_at(settings.time, std::min(wanted.ramp.from, wanted.ramp.to))),
+        levels_(model,
+                dynamic_parameters(statics, head.mean_stiffness, settings,
+                                   std::max(wanted.ramp.from, wanted.ramp.to)),
+                statics, steps_at(settings.time, std::min(wanted.ramp.from, wanted.ramp.to))),
         peaks_(model, settings.time.steps_per_period) {
     head.root_stress = peaks_.root_stress();
   }

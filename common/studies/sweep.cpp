@@ -37,10 +37,11 @@ int steps_at(const TimeDiscretisation& time, double mesh_frequency) {
   if (steps < 1)  // a scene cannot say so, stage parameters that were edited can
     fail(Failure::input, "steps_per_period = ", steps,
          " must be at least 1; write the stage parameters from a scene anew");
-  while (steps * mesh_frequency < time.min_sample_rate) steps *= 2;
+  while (steps <= kMostSteps && steps * mesh_frequency < time.min_sample_rate) steps *= 2;
   if (steps > kMostSteps)
     fail(Failure::input, "at ", mesh_frequency, " Hz min_sample_rate_kHz = ", time.min_sample_rate * 1e-3,
-         " needs ", steps, " steps per mesh period, ", kMostSteps,
+         " needs ", std::max<double>(steps, time.min_sample_rate / mesh_frequency),
+         " steps per mesh period, ", kMostSteps,
          " at most; raise the lowest mesh_frequency_Hz (Hz, not kHz), or lower min_sample_rate_kHz");
   return steps;
 }
@@ -500,7 +501,8 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
   require_inertia(statics.mesh, {driver.inertia, driven.inertia}, settings.inertia);
   const GearMeshModel model(driver, driven, statics.mesh);
   report(0, speeds, "candidate contact zone");
-  Sweeper sweeper(model, dynamic_parameters(statics, mean_stiffness, settings), statics, settings);
+  Sweeper sweeper(model, dynamic_parameters(statics, mean_stiffness, settings, settings.frequency_to),
+                  statics, settings);
 
   SweepArtifact result;
   set_motion(result, {driver, driven}, statics, settings);

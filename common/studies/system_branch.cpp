@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/model_range.h"
+#include "dynamics/dynamics.h"
 #include "dynamics/system_period_map.h"
 #include "orbits/branch.h"
 #include "orbits/periodic_motion.h"
@@ -93,20 +94,29 @@ class Follower {
       const OrbitBranch& branch = out.back().branch;
       const BranchPosition& last = branch.points.back();
       const double at = last.parameter;
-      direction = last.turn > 0 ? 1 : -1;
-      if (static_cast<int>(out.size()) == kMostSegments) return out;
+      direction = branch.reached_limit != 0 ? branch.reached_limit : last.turn > 0 ? 1 : -1;
+      if (static_cast<int>(out.size()) == kMostSegments) {
+        note_most_segments(out.back().branch);
+        return out;
+      }
       SystemDynamics::State state = map_->state(last.start);
-      const bool wider = !branch.reached_limit;
+      const bool wider = branch.reached_limit == 0;
       if (wider) {
         if (!map_->take_left_zone()) return out;
         state = rig_.widen(state);
       } else {
-        constexpr double kRoundOff = 1e-12;  // of a parameter that went through its scale
-        if (direction > 0 ? at >= high * (1 - kRoundOff) : at <= low * (1 + kRoundOff)) return out;
-        steps = direction > 0 ? steps / 2 : steps * 2;
+        const auto beyond = steps_beyond(settings_.time, low, high, steps, branch);
+        if (!beyond) return out;
+        steps = *beyond;
       }
       const VectorXd before = last.start;
-      resume(state, at, steps);
+      try {
+        resume(state, at, steps);
+      } catch (const Error& error) {
+        if (error.kind() != Failure::numerical || wider) throw;
+        note_steps_change(out.back().branch, error.what());
+        return out;
+      }
       // In other positions a state has other slots.
       if (!wider && before.size() == orbit_.start.size())
         mismatch_.push_back((orbit_.start - before).norm() / before.norm());
@@ -190,32 +200,19 @@ void store_point(const BranchPosition& p, int steps, Index i, SystemBranchArtifa
 }
 
 void store_special(const std::vector<SpecialPoint>& special, SystemBranchArtifact& a) {
-  std::vector<double> fold, flip, torus;
-  std::vector<const SpecialPoint*> folds;
-  for (const SpecialPoint& p : special) {
-    constexpr double kLocated = 1e-4;
-    if (p.width > kLocated * p.parameter)
-      a.end += text("; what happens near ", p.parameter, " Hz is located to ", p.width, " Hz only");
-    if (p.kind == Special::fold) {
-      fold.push_back(p.parameter);
-      folds.push_back(&p);
-    } else if (p.kind == Special::flip) {
-      flip.push_back(p.parameter);
-    } else if (p.kind == Special::torus) {
-      torus.push_back(p.parameter);
-    }
-  }
-  const auto list = [](const std::vector<double>& of) {
-    return VectorXd(Eigen::Map<const VectorXd>(of.data(), static_cast<Index>(of.size())));
-  };
-  a.fold_frequency = list(fold);
-  a.flip_frequency = list(flip);
-  a.torus_frequency = list(torus);
+  a.fold_frequency = parameters_of(special, Special::fold);
+  a.fold_width = widths_of(special, Special::fold, kStepError);
+  a.flip_frequency = parameters_of(special, Special::flip);
+  a.flip_width = widths_of(special, Special::flip, kStepError);
+  a.torus_frequency = parameters_of(special, Special::torus);
+  a.torus_width = widths_of(special, Special::torus, kStepError);
   a.fold_smooth.resize(a.fold_frequency.size());
   a.fold_multiplier.resize(a.fold_frequency.size(), 2);
-  for (size_t k = 0; k < folds.size(); ++k) {
-    a.fold_smooth[static_cast<Index>(k)] = folds[k]->smooth ? 1 : 0;
-    a.fold_multiplier.row(static_cast<Index>(k)) << folds[k]->before.real(), folds[k]->after.real();
+  Index fold = 0;
+  for (const SpecialPoint& p : special) {
+    if (p.kind != Special::fold) continue;
+    a.fold_smooth[fold] = p.smooth ? 1 : 0;
+    a.fold_multiplier.row(fold++) << p.before.real(), p.after.real();
   }
 }
 
@@ -231,6 +228,7 @@ SystemBranchArtifact system_branch(const SystemSweepParameters& settings,
     fail(Failure::input, "a branch needs speeds to go through: mesh_frequency_Hz is from ",
          settings.frequency_from, " to ", settings.frequency_to, " Hz");
   require_like_teeth(settings, "a branch of a system");
+  require_relaxation_range(settings.damping, settings.fidelity.body, settings.frequency_to);
   Follower follower(settings, bodies, plan.tolerance);
   const std::vector<Segment> segments = follower.follow(report);
   const auto meshes = static_cast<Index>(settings.layout.meshes.size()),

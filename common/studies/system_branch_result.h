@@ -29,6 +29,8 @@ struct SystemBranchArtifact {
   Eigen::VectorXd fold_frequency;    // (fold) Hz: where the branch turns
   Eigen::VectorXi fold_smooth;       // (fold) 1: a multiplier is 1; 0: at a kink
   MatrixRM fold_multiplier;          // (fold, 2) 1: the real multiplier nearest to 1 before and after it
+  // (fold), (flip), (torus) Hz: of the interval in which it lies, see SpecialPoint::width
+  Eigen::VectorXd fold_width, flip_width, torus_width;
   Eigen::VectorXd flip_frequency, torus_frequency;  // Hz
   std::string end;                                  // why the branch was followed no further
 };

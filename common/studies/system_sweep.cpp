@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/model_range.h"
+#include "dynamics/dynamics.h"
 #include "dynamics/system_period_map.h"
 #include "orbits/periodic_motion.h"
 #include "orbits/recurrence.h"
@@ -257,6 +258,7 @@ SystemSweepArtifact system_sweep(const SystemSweepParameters& settings,
                                  const std::vector<BodyArtifact>& bodies, Direction direction,
                                  const std::function<void(long, long, const std::string&)>& report) {
   const std::vector<double> speeds = system_speeds(settings, direction);
+  require_relaxation_range(settings.damping, settings.fidelity.body, settings.frequency_to);
   require_memory_for(settings, whine::hunting_periods(settings), speeds.size());
   report(0, static_cast<long>(speeds.size()), "at rest");
   SystemSweeper sweeper(settings, bodies);

@@ -133,7 +133,9 @@ inline StepWork step_work(const RollingDynamics::StepSizes& s, int loaded, int t
 class RollingRig {
  public:
   RollingRig(const GearMeshModel& model, const StaticArtifact& statics, const SweepParameters& settings)
-      : dynamics_(model, dynamic_parameters(statics, statics.mean_stiffness, settings)), settings_(settings) {
+      : dynamics_(model,
+                  dynamic_parameters(statics, statics.mean_stiffness, settings, settings.frequency_to)),
+        settings_(settings) {
     finest_ = settings.time.steps_per_period;
     while (finest_ * settings.frequency_from < settings.time.min_sample_rate) finest_ *= 2;
     dynamics_.set_zone(candidate_zone(model, statics, MotionBounds(model, statics)), finest_);
