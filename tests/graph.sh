@@ -275,7 +275,7 @@ rejected_by_make "a variant without a change" 'VARIANTS: ../..: write name:key=v
 rejected_by_make "a number that leads out of its folder" 'JUMP_MAP_TORQUES=../..: it holds /' JUMP_MAP_TORQUES=../.. jump-map
 make_ order-cuts; before=$(ls out/figures/order-cuts.*)
 FAIL=out/figures/order-cuts make_ DB=1e-6 order-cuts
-[ "$(ls out/figures/order-cuts.*)" = "$before" ] && [ "$(wc -l <<< "$before")" = 3 ] && ok "a figure that fails leaves all files of the earlier one" ||
+[ "$(ls out/figures/order-cuts.*)" = "$before" ] && [ "$(wc -l <<< "$before")" -ge 3 ] && ok "a figure that fails leaves all files of the earlier one" ||
   wrong "a figure that fails leaves all files of the earlier one" "$(ls out/figures/order-cuts.* 2>&1 | tr '\n' ' ')"
 rejected_by_make "a run-up at a rate that is none is told what it is" "RATE=fast: it is the change of the driver's speed in rpm/s" RATE=fast runup
 rejected_by_make "a run-up with one end is told to give both" 'give both or none' FROM=2400 runup
@@ -405,7 +405,7 @@ make_ -n SCENE=elsewhere/own.toml jump-map
 expect "a map of SCENE is at its own torques" "gear-folds*1 gear-jump-map*3 gear-lumped*8 gear-plot*2"
 sed -i -E 's/^torque_Nm = .*/torque_Nm = [600, 90, 80]/' elsewhere/own.toml
 make_ -n SCENE=elsewhere/own.toml fig05 fig12
-grep -q 'gear-plot fig05 .* out/own/T600/up/response.h5 out/own/T600/down/response.h5 out/own/T600/impact.h5$' "$log" && grep -q 'gear-plot fig12 .* out/own/T600/static.h5 out/own/T90/static.h5 out/own/T80/static.h5$' "$log" &&
+grep -q 'gear-plot fig05 .* out/own/T600/up/response.h5 out/own/T600/down/response.h5 out/own/T600/up/sweep.h5 out/own/T600/down/sweep.h5 out/own/T600/impact.h5$' "$log" && grep -q 'gear-plot fig12 .* out/own/T600/static.h5 out/own/T90/static.h5 out/own/T80/static.h5$' "$log" &&
   ok "a frequency response takes the first torque of SCENE, statics take them all" || wrong "a frequency response takes the first torque of SCENE, statics take them all" "$(grep gear-plot "$log")"
 make_ SCENE=elsewhere/own.toml fig12; sed -i -E 's/^torque_Nm = .*/torque_Nm = [600, 90]/' elsewhere/own.toml
 make_ -n SCENE=elsewhere/own.toml fig12

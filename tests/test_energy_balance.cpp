@@ -90,20 +90,18 @@ TEST_CASE(
     statics_parameters.contact.strips = 8;
     statics_parameters.fidelity.contact = contact;
     const StaticArtifact statics = static_transmission(paper_body(), paper_body(), statics_parameters, 150);
-    for (const double eta : {1e-4, 1e-3}) {
-      SweepParameters settings = paper_sweep(2500, 2500, 1);
-      settings.fidelity.contact = contact;
-      settings.damping.rayleigh_stiffness = eta;
-      const SweepArtifact result = sweep(paper_body(), paper_body(), statics, 463e6, settings, Direction::up,
-                                         [](long, long, const std::string&) {});
-      const double input = std::abs(result.energy(0, line("rolling"))),
-                   forgetting = result.energy(0, line("forgetting"));
-      INFO(contact << ", " << eta << " s: forgetting " << forgetting << " J of " << input);
-      CHECK(result.period_multiple[0] >= 1);
-      CHECK(result.energy_imbalance[0] < 1e-9);
-      // Without its line this much would be left over.
-      CHECK(-forgetting > (eta > 5e-4 ? 1e-4 : 1e-8) * input);
-    }
+    SweepParameters settings = paper_sweep(2500, 2500, 1);
+    settings.fidelity.contact = contact;
+    settings.damping.rayleigh_stiffness = 1e-4;  // a quarter of the mesh period, the most that is computed
+    const SweepArtifact result = sweep(paper_body(), paper_body(), statics, 463e6, settings, Direction::up,
+                                       [](long, long, const std::string&) {});
+    const double input = std::abs(result.energy(0, line("rolling"))),
+                 forgetting = result.energy(0, line("forgetting"));
+    INFO(contact << ": forgetting " << forgetting << " J of " << input);
+    CHECK(result.period_multiple[0] >= 1);
+    CHECK(result.energy_imbalance[0] < 1e-9);
+    // Without its line this much would be left over.
+    CHECK(-forgetting > 1e-8 * input);
   }
 }
 

@@ -87,15 +87,6 @@ TEST_CASE(
   // 0: as drawn.
   scene.gears[1].total_inertia = 0;
   CHECK(scene_warnings(scene, where).size() == 1);
-  // A damping ratio in place of the time: 314 times critical at 2000 Hz.
-  scene.operation.frequency_to = 2000;
-  scene.damping.rayleigh_stiffness = 7.7e-6;
-  CHECK(scene_warnings(scene, where).size() == 1);
-  scene.damping.rayleigh_stiffness = 0.05;
-  REQUIRE(scene_warnings(scene, where).size() == 2);
-  CHECK(scene_warnings(scene, where)[1].find("314.159 times its critical damping; `make calibrate") !=
-        std::string::npos);
-  CHECK(section == "damping");
 }
 
 TEST_CASE("torques are told as they were read: a decimal comma makes two of one") {

@@ -16,40 +16,20 @@
 #include "base/error.h"
 #include "base/tool.h"
 #include "gear/numbers.h"
-#include "gear/rack_tip.h"
-#include "gear/scene_cost.h"
-#include "gear/scene_geometry.h"
 #include "io/fit.h"
 #include "io/publish.h"
 #include "io/scene.h"
 #include "io/scene_fragment.h"
-#include "io/scene_place.h"
+#include "io/scene_remarks.h"
 #include "io/system_scene.h"
 #include "io/variant.h"
-#include "system/near_interference.h"
 #include "system/rigid_system.h"
-#include "system/undamped_depth.h"
 
 namespace {
 using namespace whine;
-ScenePlace place_in(const std::string& path) {
-  return
-      [path](const auto& sections, const std::string& words) { return scene_place(path, sections, words); };
-}
 
-// Defaults that are not what the table of keys says, since that does not fit.
-template <class Gear>
-void tell_defaults(const std::string& path, const std::vector<Gear>& gears) {
-  for (const Gear& gear : gears) {
-    const double radius = gear.design.rack_tip_radius;
-    if (radius == kStandardRackTip || gear_gives(path, gear.name, "rack_tip_radius")) continue;
-    const std::string section = "gear." + gear.name;
-    tell("gear-scene: note: ", scene_place(path, {section}, ""), ": [", section,
-         "]: rack_tip_radius = ", shown_number(radius), " in place of the default ", kStandardRackTip,
-         ", which does not fit ",
-         gear.design.internal ? "the space between its teeth" : "the tooth of its rack", " (largest ",
-         shown_number(largest_rack_tip_radius(gear.design)), ")");
-  }
+void tell_lines(const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) tell("gear-scene: ", line);
 }
 
 // A system (several meshes, carriers or drives): its stage parameters and its fragment.
@@ -63,10 +43,7 @@ void cut_system(const std::string& path, const std::string& stem, const std::str
     record_scene(home, path);
     publish_if_changed(home + "/params/system.toml", system_parameters(layout));
   } else {
-    check_system_geometry(scene, place_in(path));
-    check_inertia(scene, place_in(path));
-    check_at_rest_in(scene, layout, path);
-    check_undamped_depth(scene, layout, place_in(path));
+    check_scene(scene, layout, path);
     record_scene(home, path);
     for (const auto& [name, words] : elastic_parameters(scene, layout))
       publish_if_changed(home + "/params/" + name, words);
@@ -75,27 +52,14 @@ void cut_system(const std::string& path, const std::string& stem, const std::str
   publish(output,
           system_fragment(path, stem, publish_bodies(home, folder, body_parameters_of(scene)),
                           layout.meshes.size() > scene.meshes.size(), scene.operation.frequency_to > 0));
-  tell_defaults(path, scene.gears);
-  if (!scene.rigid())
-    for (const auto& [section, words] : near_interferences(scene, layout, ForceBound::largest))
-      tell("gear-scene: warning: ", path, ": [[mesh]] of '", scene.meshes[section].spec.gear[0], "' and '",
-           scene.meshes[section].spec.gear[1], "': statics may find that ", words);
-  for (const std::string& said : scene_warnings(scene, place_in(path))) tell("gear-scene: warning: ", said);
-  for (const std::string& remark : scene_remarks(scene)) tell("gear-scene: ", path, ": ", remark);
-  for (const std::string& cost : costs(scene, layout.meshes.size())) tell("gear-scene: ", path, ": ", cost);
-  for (const std::string& remark : motion_remarks(scene)) tell("gear-scene: ", remark);
+  tell_lines(scene_lines(scene, layout, path));
   tell("gear-scene: ", path, ": ", layout.bodies.size(), " bodies, ", layout.meshes.size(), " meshes");
 }
 
 void cut_pair(const std::string& path, const std::string& stem, const std::string& folder,
               const std::string& ids, const std::string& output) {
   const Scene scene = read_scene(path);  // 1. The whole scene is checked before anything is written.
-  const ScenePlace where = place_in(path);
-  check_geometry(scene, where);
-  check_inertia(scene, where);
-  check_undamped_depth(scene, where);
-  if (const std::string words = near_interference(scene, ForceBound::least); !words.empty())
-    fail(Failure::input, where({"mesh"}, ""), ": [[mesh]]: ", words);
+  check_scene(scene, path);
   const std::string home = folder + "/" + stem;
   record_scene(home, path);
   // Together: program ids, results and stage parameters keep their order.
@@ -117,12 +81,7 @@ void cut_pair(const std::string& path, const std::string& stem, const std::strin
   for (const auto& [file, content] : parameters) publish_if_changed(home + "/params/" + file, content);
   // 3. The fragment, always written.
   publish(output, scene_fragment(scene, path, stem, bodies));
-  tell_defaults(path, scene.gears);
-  if (const std::string words = near_interference(scene, ForceBound::largest); !words.empty())
-    tell("gear-scene: warning: ", where({"mesh"}, ""), ": statics may find that ", words);
-  for (const std::string& warning : scene_warnings(scene, where)) tell("gear-scene: warning: ", warning);
-  for (const std::string& remark : scene_remarks(scene)) tell("gear-scene: ", path, ": ", remark);
-  for (const std::string& cost : costs(scene)) tell("gear-scene: ", path, ": ", cost);
+  tell_lines(scene_lines(scene, path));
   tell("gear-scene: ", path, ": ", scene.gears.size(), " gears, ", different(bodies).size(),
        (different(bodies).size() == 1 ? " body, " : " bodies, "), torques_in_words(scene.operation.torques));
 }

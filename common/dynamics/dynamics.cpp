@@ -42,16 +42,21 @@ DynamicParameters dynamic_parameters(const StaticArtifact& statics, double mean_
           statics.friction_coefficient > 0 ? (1 - statics.efficiency) / statics.friction_coefficient : 0};
 }
 
-void require_relaxation_range(const Damping& damping, BodyModel body, double highest_frequency) {
+std::string beyond_relaxation_range(const Damping& damping, BodyModel body, double highest_frequency) {
   const double eta = damping.rayleigh_stiffness;
   if ((body != BodyModel::modal && body != BodyModel::lagged) || eta * highest_frequency <= kMostRelaxation)
-    return;
-  fail(Failure::input, "rayleigh_stiffness_s = ", eta, " in [damping] is ", eta * highest_frequency,
-       " of a mesh period at ", highest_frequency, " Hz, at most ", kMostRelaxation,
-       " is computed: the damping ratio of a mode at the mesh frequency is then ",
-       std::numbers::pi * eta * highest_frequency, "; lower it to ", kMostRelaxation / highest_frequency,
-       " (make calibrate finds that of a damping ratio), or the largest mesh_frequency_Hz to ",
-       kMostRelaxation / eta, " Hz");
+    return "";
+  return text("rayleigh_stiffness_s = ", eta, " in [damping] is ", eta * highest_frequency,
+              " of a mesh period at ", highest_frequency, " Hz, at most ", kMostRelaxation,
+              " is computed: the damping ratio of a mode at the mesh frequency is then ",
+              std::numbers::pi * eta * highest_frequency, "; lower it to ", kMostRelaxation / highest_frequency,
+              " (make calibrate finds that of a damping ratio), or the largest mesh_frequency_Hz to ",
+              kMostRelaxation / eta, " Hz");
+}
+
+void require_relaxation_range(const Damping& damping, BodyModel body, double highest_frequency) {
+  const std::string words = beyond_relaxation_range(damping, body, highest_frequency);
+  if (!words.empty()) fail(Failure::input, words);
 }
 
 MotionBounds::MotionBounds(const GearMeshModel& model, const StaticArtifact& statics, double widening) {

@@ -67,6 +67,8 @@ DynamicParameters dynamic_parameters(const StaticArtifact& statics, double mean_
 // a pair that comes in then meets the undamped compliance alone, which the motion depends on more than on all else.
 inline constexpr double kMostRelaxation = 0.25;
 void require_relaxation_range(const Damping& damping, BodyModel body, double highest_frequency);
+// The same in words; "" within the range.
+std::string beyond_relaxation_range(const Damping& damping, BodyModel body, double highest_frequency);
 
 // What a motion at the torque of `statics` may want of its contact: 2.5 times the load and the deflection of rest, times
 // `widening`, which grows where a motion wants more.

@@ -137,15 +137,6 @@ std::vector<std::string> scene_warnings(const Scene& scene, const ScenePlace& wh
                                      flywheel(gear.design, gear.material, gear.total_inertia, gear.name)})
       if (!words.empty()) out.push_back(where({"gear." + gear.name}, words) + ": " + words);
   add_shortened_path(scene, scene.mesh, where, out);
-  const double eta = scene.damping.rayleigh_stiffness, highest = scene.operation.frequency_to,
-               ratio = std::numbers::pi * highest * eta;
-  if (ratio > 1) {
-    const std::string words =
-        text("rayleigh_stiffness_s = ", eta, " is a time and damps a vibration at ", highest, " Hz with ",
-             shown_number(ratio),
-             " times its critical damping; `make calibrate DAMPING=0.05` finds the one for a ratio");
-    out.push_back(where({"damping"}, words) + ": " + words);
-  }
   return out;
 }
 

@@ -477,7 +477,7 @@ namespace {
 // A limit of a key, to the rounding of its unit, as a limit in SI.
 Range si_range(const Key& key) {
   constexpr double kRoundOff = 1e-9;
-  const double least = key.to_si(key.least), most = key.to_si(key.most);
+  const double least = key.or_zero ? 0 : key.to_si(key.least), most = key.to_si(key.most);
   return {least - kRoundOff * std::abs(least), most + kRoundOff * std::abs(most), key.open};
 }
 

@@ -257,13 +257,18 @@ const SystemSolution& SystemStatics::solve(double phase, int period, const Vecto
 // Gears are taken to stand where the drawing has them: displacements are small against the teeth.
 void SystemStatics::require_small(const SystemSolution& solution) const {
   constexpr double kMost = 0.25;  // modules
+  const auto& bodies = system_.layout.bodies;
+  const double torque = system_.layout.drives.empty() ? 0 : std::abs(system_.layout.drives.front().torque);
+  const bool elastic = std::any_of(bodies.begin(), bodies.end(),
+                                   [](const System::Body& body) { return body.bearing.elastic(); });
   const auto require = [&](double moved, const GearMeshModel& mesh, const auto&... what) {
     const double most = kMost * mesh.kinematics.gear(0).design().module;
     if (moved > most)
-      fail_outside_range(
-          Failure::input, what..., " is ", millimetres(moved), ", above ", millimetres(most),
-          ", a quarter of the module, up to which teeth may stand beside the place that the drawing "
-          "gives them; raise stiffness_N_um in [[bearing]], or lower the torque");
+      fail_outside_range(Failure::input, "at ", torque, " N m ", what..., " is ", millimetres(moved),
+                         ", above ", millimetres(most),
+                         ", a quarter of the module, up to which teeth may stand beside the place that the "
+                         "drawing gives them; lower the torque",
+                         elastic ? ", or raise stiffness_N_um in [[bearing]]" : "");
   };
   for (size_t m = 0; m < system_.mesh.size(); ++m)
     require(solution.transmission_error[m], system_.mesh[m], "the transmission error of ",
