@@ -257,19 +257,23 @@ const SystemSolution& SystemStatics::solve(double phase, int period, const Vecto
 // Gears are taken to stand where the drawing has them: displacements are small against the teeth.
 void SystemStatics::require_small(const SystemSolution& solution) const {
   constexpr double kMost = 0.25;  // modules
+  const auto& bodies = system_.layout.bodies;
+  const bool gives = std::any_of(bodies.begin(), bodies.end(),
+                                 [](const System::Body& body) { return body.bearing.elastic(); });
   const auto require = [&](double moved, const GearMeshModel& mesh, const auto&... what) {
     const double most = kMost * mesh.kinematics.gear(0).design().module;
     if (moved > most)
       fail_outside_range(
           Failure::input, what..., " is ", millimetres(moved), ", above ", millimetres(most),
           ", a quarter of the module, up to which teeth may stand beside the place that the drawing "
-          "gives them; raise stiffness_N_um in [[bearing]], or lower the torque");
+          "gives them; ",
+          gives ? "raise stiffness_N_um in [[bearing]], or lower the torque" : "lower the torque");
   };
   for (size_t m = 0; m < system_.mesh.size(); ++m)
     require(solution.transmission_error[m], system_.mesh[m], "the transmission error of ",
             mesh_name(system_.layout, m));
-  for (size_t b = 0; b < system_.layout.bodies.size(); ++b)
-    if (const System::Body& body = system_.layout.bodies[b]; body.bearing.elastic())
+  for (size_t b = 0; b < bodies.size(); ++b)
+    if (const System::Body& body = bodies[b]; body.bearing.elastic())
       require(solution.bearing_force[b].norm() / body.bearing.stiffness, system_.mesh[0],
               "the displacement of '", body.name, "' on its bearing");
 }
