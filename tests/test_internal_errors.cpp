@@ -351,3 +351,32 @@ TEST_CASE(
     CHECK(more[planet] > 0.004);  // the sun floats, which shares loads out
   }
 }
+
+TEST_CASE(
+    "internal pairs: a line of contact lies where flanks that are modified touch, on either gear's slope") {
+  for (const bool ring_drives : {false, true})
+    for (const size_t modified : {0, 1}) {
+      CAPTURE(ring_drives);
+      CAPTURE(modified);
+      GearMeshSpec spec;
+      spec.centre_distance = kInternalDistance;
+      spec.modification[modified].slope = 5e-6;
+      const BodyArtifact &planet = coarse(planet_gear()), &ring = coarse(ring_gear());
+      const GearMeshModel model(ring_drives ? ring : planet, ring_drives ? planet : ring, spec);
+      const MeshPosition at = make_line_position(model, 0, 1e-6, 1e-3, 300);
+      int seen = 0;
+      for (size_t j = 0; j < at.pairs.size(); ++j) {
+        const PairContact& contact = at.pairs[j].contact;
+        if (contact.corner) continue;
+        const double x = model.kinematics.nearest(contact, model.common_flanks());
+        if (std::abs(x) < 1e-6 || x == contact.x_min || x == contact.x_max) continue;
+        ++seen;
+        const auto weights = [&](double place) {
+          return VectorXd(model.gear[1].table().weights(model.kinematics.gap_at(contact, place).roll[1]));
+        };
+        const VectorXd found = at.table_weights[1].row(static_cast<Index>(j));
+        CHECK((found - weights(x)).norm() < 0.05 * (weights(-x) - weights(x)).norm());
+      }
+      CHECK(seen > 0);
+    }
+}

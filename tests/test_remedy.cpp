@@ -183,6 +183,11 @@ TEST_CASE("what the drawing says of pressure that reaches the root is what stati
   wheel.design.addendum = 1.2;
   CHECK(told(ForceBound::least).find("reaches the start of the involute of 'pinion'") != std::string::npos);
   CHECK(found().find("the pressure reaches the start of the involute of 'pinion'") != std::string::npos);
+  // What touches is the common width.
+  SceneGear wide = pinion;
+  wide.design.face_width *= 2;
+  for (const ForceBound force : {ForceBound::least, ForceBound::largest})
+    CHECK(near_interference(wide, wheel, settings.mesh, load, force) == told(force));
   // Its remedy passes all the way.
   CHECK(told(ForceBound::least).find("; addendum = 1.05 in [gear.wheel] is short enough") !=
         std::string::npos);

@@ -70,6 +70,8 @@ TEST_CASE(
     gear.material = paper_steel();
     gear.total_inertia = 0.0148;
   }
+  scene.mesh.gear = {"pinion", "wheel"};
+  scene.mesh.centre_distance = 150e-3;
   std::string section, key;
   const auto where = [&](const std::vector<std::string>& sections, const std::string& words) {
     section = sections.front();

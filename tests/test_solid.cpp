@@ -319,7 +319,7 @@ TEST_CASE("meshes that cannot be made or are broken are rejected") {
   CHECK(failure_of([&] { make_sector_mesh(kDefault, with(7e-3, 2)); }) == 3);
   CHECK(failure_of([&] { make_sector_mesh(kDefault, with(0, 2)); }) == 3);
   CHECK(failure_of([&] { make_sector_mesh(gear(50, 3e-3, 0), good); }) == 3);
-  CHECK(failure_of([&] { make_sector_mesh(gear(50, 3e-3, 72e-3), good); }) == 3);  // bore above the root
+  CHECK(failure_of([&] { make_sector_mesh(gear(50, 3e-3, 72e-3), good); }) == 3);      // bore above the root
   CHECK(failure_of([&] { make_sector_mesh(gear(5, 3e-3, 2e-3, -1.2), good); }) == 3);  // cut off
 
   const MeshArtifact mesh = make_sector_mesh(kDefault, good);

@@ -300,8 +300,6 @@ TEST_CASE(
     CHECK(std::abs(std::stod(lines[i][1]) - 20 * std::log10(100 / std::sqrt(2))) < 0.5);
     CHECK(std::abs(std::stod(lines[i][3]) + 20) < 0.5);
   }
-  const auto same = lines_of(sounds_of_runups({first, first}, "", nullptr).table);
-  for (size_t i = 2; i < same.size(); ++i) CHECK(std::stod(same[i][3]) == 0);
 
   const std::string short_one = written(brief, some_runup(0.05, 100));
   const auto few = lines_of(sounds_of_runups({short_one}, "", nullptr).table);
@@ -330,7 +328,7 @@ TEST_CASE("sounds of run-ups: none in common, other rates and silence are reject
     }
     return std::string();
   };
-  CHECK(said([](RunupArtifact&) {}).empty());
+  CHECK(said([](RunupArtifact&) {}).find("is heard already") != std::string::npos);
   CHECK(said([](RunupArtifact& a) {
           a.samples.mesh_frequency.array() += 1000;
         }).find("no mesh frequency in common") != std::string::npos);

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 
+#include "base/visible.h"
 #include "gear/system_layout.h"
 #include "io/modes_codec.h"
 #include "io/system_scene.h"
@@ -22,6 +23,7 @@
 #include "report/system_picture.h"
 #include "report/system_report.h"
 #include "report/system_sweep_figure.h"
+#include "report/text_width.h"
 #include "scene_file.h"
 #include "small_system.h"
 #include "system/mode_view.h"
@@ -306,6 +308,14 @@ TEST_CASE("odd names in the figures of a system: marks of gnuplot, names that ar
   CHECK(holds(words_of(system_static_figure(a), "labels1"), "'sun_gear-planet1' "));
   CHECK(short_name("planet12") == "planet12");
   CHECK(short_name(lengthy).size() < 34);
+  // Cut between characters: none is half of one.
+  std::string accented;
+  for (int n = 0; n < 30; ++n) {
+    accented += n % 2 ? "é" : "a";
+    CHECK(visible(short_name(accented)).find('?') == std::string::npos);
+  }
+  // A mark in front of a character that is not ASCII has no width, and the character its own.
+  CHECK(text_width("\\é") == text_width("é"));
   // A tower of gears is no taller than wide pictures are, and says what it leaves out.
   SystemScene tower;
   for (int i = 0; i < 6; ++i) {

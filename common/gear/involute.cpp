@@ -69,8 +69,12 @@ void ToothGeometry::cut_by_rack() {
 
   double length = 0;
   constexpr int kPieces = 200;
-  for (int i = 0; i < kPieces; ++i)
-    length += (trochoid(trochoid_end_ * (i + 1) / kPieces) - trochoid(trochoid_end_ * i / kPieces)).norm();
+  Vec2 last = trochoid(0);
+  for (int i = 0; i < kPieces; ++i) {
+    const Vec2 next = trochoid(trochoid_end_ * (i + 1) / kPieces);
+    length += (next - last).norm();
+    last = next;
+  }
   t_arc_ = length / (length + rf_ * tip_centre_side_ / rp_);
 }
 

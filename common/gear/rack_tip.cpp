@@ -40,9 +40,9 @@ double largest_rack_tip_radius(const GearDesign& d) {
          (1 / std::cos(d.pressure_angle) - slope);
 }
 
-double default_rack_tip_radius(const GearDesign& design) {
+double default_rack_tip_radius(const GearDesign& design, double standard) {
   const double largest = largest_rack_tip_radius(design);
-  return largest >= kStandardRackTip ? kStandardRackTip : std::max(0.0, std::floor(largest * 1000) / 1000);
+  return largest >= standard ? standard : std::max(0.0, std::floor(largest * 1000) / 1000);
 }
 
 }  // namespace whine

@@ -13,6 +13,6 @@ inline constexpr double kStandardRackTip = GearDesign{}.rack_tip_radius;
 double largest_rack_tip_radius(const GearDesign& design);
 
 // In modules: the standard one, or the largest that fits, rounded down to 0.001.
-double default_rack_tip_radius(const GearDesign& design);
+double default_rack_tip_radius(const GearDesign& design, double standard = kStandardRackTip);
 
 }  // namespace whine

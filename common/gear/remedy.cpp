@@ -77,6 +77,28 @@ void add_gear_levers(const DrawnGears& gears, size_t g, std::vector<Lever>& out)
         {0.5, [&d, g](double step) { return step > 1 ? held(d, g, step) : std::vector<Change>{}; }});
 }
 
+// Of both gears, below 0 of an internal one.
+double teeth_of(const GearDesign& a, const GearDesign& b) {
+  return (a.internal ? -1 : 1) * a.teeth + (b.internal ? -1 : 1) * b.teeth;
+}
+
+// m: of the axes, at a working pressure angle of 0.
+double base_distance(const GearDesign& a, const GearDesign& b) {
+  return 0.5 * std::abs(teeth_of(a, b)) * a.module * std::cos(a.pressure_angle);
+}
+
+// m: of the axes, where the involute function of the working pressure angle is `wanted`, above 0; rounded to the side on which there is more
+// backlash.
+double distance_at(const GearDesign& a, const GearDesign& b, double wanted) {
+  double low = 0, high = 1.5;  // rad
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (involute_function(middle) < wanted ? low : high) = middle;
+  }
+  const double exact = base_distance(a, b) / std::cos(low) * kRound;
+  return (teeth_of(a, b) > 0 ? std::ceil(exact - 1e-6) : std::floor(exact + 1e-6)) / kRound;
+}
+
 // Of a pair: one shift against the other, the distance of the axes, a shift with the distance that keeps the backlash.
 void add_pair_levers(const DrawnGears& gears, std::vector<Lever>& out) {
   const DrawnGears::Mesh& mesh = gears.mesh[0];
@@ -93,25 +115,13 @@ void add_pair_levers(const DrawnGears& gears, std::vector<Lever>& out) {
                  }});
   for (const size_t g : {mesh.first, mesh.second})
     out.push_back({1.4, [&gears, &mesh, &a, &b, g, distance](double step) -> std::vector<Change> {
-                     const double teeth = (a.internal ? -1 : 1) * a.teeth + (b.internal ? -1 : 1) * b.teeth;
-                     const double base = 0.5 * std::abs(teeth) * a.module * std::cos(a.pressure_angle);
-                     const double cosine = base / mesh.centre_distance;
+                     const double cosine = base_distance(a, b) / mesh.centre_distance;
                      if (!(cosine < 1)) return {};
-                     const double wanted =
-                         involute_function(std::acos(cosine)) + 2 * step * std::tan(a.pressure_angle) / teeth;
-                     if (!(wanted > 0)) return {};
-                     double low = 0, high = 1.5;  // rad: of the working pressure angle
-                     for (int i = 0; i < 60; ++i) {
-                       const double middle = 0.5 * (low + high);
-                       (involute_function(middle) < wanted ? low : high) = middle;
-                     }
+                     const double wanted = involute_function(std::acos(cosine)) +
+                                           2 * step * std::tan(a.pressure_angle) / teeth_of(a, b);
                      const Change shifted = shift(gears, g, step);
-                     if (!ordinary(shifted)) return {};
-                     // Rounded to the side on which there is more backlash.
-                     const double exact = base / std::cos(low) * kRound;
-                     Change to = distance(0);
-                     to.value = (teeth > 0 ? std::ceil(exact - 1e-6) : std::floor(exact + 1e-6)) / kRound;
-                     return {shifted, to};
+                     if (!(wanted > 0) || !ordinary(shifted)) return {};
+                     return {shifted, distance(distance_at(a, b, wanted))};
                    }});
 }
 
@@ -120,17 +130,84 @@ struct Try {
   std::vector<Change> changes;
 };
 
-bool mends(const DrawnGears& gears, const std::vector<Change>& changes) {
-  DrawnGears changed = gears;
-  change(changed, changes);
-  return fault(changed).empty();
+// The distance of the axes without backlash, where it is further away than steps lead: a distance of another pair, or in another unit.
+void add_far_distance(const DrawnGears& gears, double farthest, std::vector<Try>& tries) {
+  const DrawnGears::Mesh& mesh = gears.mesh[0];
+  const GearDesign &a = gears.design[mesh.first], &b = gears.design[mesh.second];
+  const double wanted = involute_function(a.pressure_angle) +
+                        2 * (a.profile_shift + b.profile_shift) * std::tan(a.pressure_angle) / teeth_of(a, b);
+  if (!(wanted > 0)) return;
+  const double distance = distance_at(a, b, wanted), away = std::abs(distance - mesh.centre_distance);
+  if (away > farthest * a.module)
+    tries.push_back({away / (a.module * kStep), {{true, 0, "centre_distance_mm", nullptr, distance}}});
 }
 
-std::vector<Change> cheapest(const DrawnGears& gears, std::vector<Try>& tries) {
+bool is_rejected(const std::function<void()>& make) {
+  try {
+    make();
+    return false;
+  } catch (const Error&) {
+    return true;
+  }
+}
+
+void make_mesh(const DrawnGears& gears, const DrawnGears::Mesh& mesh) {
+  const GearPair pair(gears.design[mesh.first], gears.design[mesh.second], mesh.centre_distance);
+}
+
+// What is rejected by itself: a gear, or a mesh of gears that exist. Each wants a change of its own, and the check of one is cheap beside
+// that of all.
+struct Fault {
+  std::vector<size_t> gears;  // one of which a change must be of
+  size_t mesh = 0;            // or of this mesh
+  bool of_mesh = false;
+
+  bool touched(const std::vector<Change>& changes) const {
+    return std::any_of(changes.begin(), changes.end(), [&](const Change& one) {
+      return one.of_mesh ? of_mesh && one.number == mesh
+                         : std::find(gears.begin(), gears.end(), one.number) != gears.end();
+    });
+  }
+  bool mended(const DrawnGears& changed) const {
+    return !is_rejected([&] {
+      if (of_mesh)
+        make_mesh(changed, changed.mesh[mesh]);
+      else
+        const ToothGeometry tooth(changed.design[gears[0]]);
+    });
+  }
+};
+
+std::vector<Fault> faults_of(const DrawnGears& gears) {
+  std::vector<Fault> out;
+  std::vector<char> exists(gears.design.size(), 1);
+  for (size_t g = 0; g < gears.design.size(); ++g)
+    if (is_rejected([&] { const ToothGeometry tooth(gears.design[g]); })) {
+      exists[g] = 0;
+      out.push_back({{g}});
+    }
+  for (size_t m = 0; m < gears.mesh.size(); ++m) {
+    const DrawnGears::Mesh& mesh = gears.mesh[m];
+    if (exists[mesh.first] && exists[mesh.second] && is_rejected([&] { make_mesh(gears, mesh); }))
+      out.push_back({{mesh.first, mesh.second}, m, true});
+  }
+  return out;
+}
+
+std::vector<Change> cheapest(const DrawnGears& gears, const std::vector<Fault>& faults,
+                             std::vector<Try>& tries) {
   constexpr size_t kMost = 60000;
   std::stable_sort(tries.begin(), tries.end(), [](const Try& a, const Try& b) { return a.cost < b.cost; });
-  for (size_t i = 0; i < std::min(kMost, tries.size()); ++i)
-    if (mends(gears, tries[i].changes)) return tries[i].changes;
+  for (size_t i = 0; i < std::min(kMost, tries.size()); ++i) {
+    const std::vector<Change>& changes = tries[i].changes;
+    if (!std::all_of(faults.begin(), faults.end(), [&](const Fault& one) { return one.touched(changes); }))
+      continue;
+    DrawnGears changed = gears;
+    change(changed, changes);
+    if (std::all_of(faults.begin(), faults.end(), [&](const Fault& one) { return one.mended(changed); }) &&
+        fault(changed).empty())
+      return changes;
+  }
   return {};
 }
 
@@ -196,7 +273,8 @@ void change(DrawnGears& gears, const std::vector<Change>& changes) {
 }
 
 std::vector<Change> remedy(const DrawnGears& gears) {
-  if (fault(gears).empty() || beyond_help(gears)) return {};
+  const std::vector<Fault> faults = faults_of(gears);
+  if (faults.empty() || beyond_help(gears)) return {};
   std::vector<Lever> levers;
   for (size_t g = 0; g < gears.design.size(); ++g) add_gear_levers(gears, g, levers);
   if (gears.mesh.size() == 1) add_pair_levers(gears, levers);
@@ -209,7 +287,8 @@ std::vector<Change> remedy(const DrawnGears& gears) {
   for (const Lever& lever : levers)
     for (int n = -kSteps; n <= kSteps; ++n)
       if (n != 0) add(lever.cost * std::abs(n), lever.at(n * kStep));
-  if (std::vector<Change> one = cheapest(gears, tries); !one.empty()) return one;
+  if (gears.mesh.size() == 1) add_far_distance(gears, kSteps * kStep, tries);
+  if (std::vector<Change> one = cheapest(gears, faults, tries); !one.empty()) return one;
 
   // Two of them at once, in coarser steps.
   constexpr int kCoarse = 10, kCoarseSteps = 12;
@@ -230,7 +309,7 @@ std::vector<Change> remedy(const DrawnGears& gears) {
           first.insert(first.end(), second.begin(), second.end());
           add(levers[i].cost * std::abs(n) + levers[j].cost * std::abs(k), first);
         }
-  return cheapest(gears, tries);
+  return cheapest(gears, faults, tries);
 }
 
 std::string with_remedy(const std::string& words, const DrawnGears& gears) {

@@ -25,11 +25,14 @@ double undercut_clearance(const GearPair& pair, int g) {
   constexpr int kPositions = 1200;
   constexpr double kReach = 1.5;  // mesh periods
   double least = std::numeric_limits<double>::infinity();
+  const Placement own_0 = placed(pair, g, 0), own_1 = placed(pair, g, 1), other_0 = placed(pair, other, 0),
+                  other_1 = placed(pair, other, 1);
   for (int i = 0; i <= kPositions; ++i) {
     const double phase = from + away * kReach * i / kPositions;
-    const Placement own = placed(pair, g, phase);
-    const Vec2 p =
-        mirrored(g, Eigen::Rotation2Dd(-own.angle) * (placed(pair, other, phase)(tip) - own.centre));
+    Placement own = own_0, at = other_0;  // angles go with the phase
+    own.angle += phase * (own_1.angle - own_0.angle);
+    at.angle += phase * (other_1.angle - other_0.angle);
+    const Vec2 p = mirrored(g, Eigen::Rotation2Dd(-own.angle) * (at(tip) - own.centre));
     const double r = p.norm();
     if (r > edge || r < tooth.root_radius()) continue;
     least = std::min(least, r * (std::atan2(-p.x(), p.y()) - tooth.half_span(r)));
@@ -40,14 +43,15 @@ double undercut_clearance(const GearPair& pair, int g) {
 std::string undercut_words(const GearDesign& design, const std::string& name) {
   const ToothGeometry tooth(design);
   if (!(tooth.undercut() > 0)) return "";
-  return text("[gear.", name, "] is undercut: the rack reaches ", millimetres(tooth.undercut()), " (",
-              shown_number(tooth.undercut() / design.module),
-              " modules) beyond the base circle's tangent point. The involute begins at a diameter of ",
-              millimetres(2 * tooth.flank_point(tooth.form_roll_angle()).norm()),
-              " (base circle: ", millimetres(2 * tooth.base_radius()), "), and below it the tooth is ",
-              millimetres(tooth.neck()), " wide at its neck; with profile_shift = ",
-              shown_number(std::ceil(1e4 * shift_without_undercut(design)) * 1e-4),
-              " or more there is no undercut");
+  const std::string start = millimetres(2 * tooth.flank_point(tooth.form_roll_angle()).norm()),
+                    base = millimetres(2 * tooth.base_radius());
+  return text(
+      "[gear.", name, "] is undercut: the rack reaches ", millimetres(tooth.undercut()), " (",
+      shown_number(tooth.undercut() / design.module),
+      " modules) beyond the base circle's tangent point. The involute begins at a diameter of ", start,
+      start == base ? ", the base circle's" : text(" (base circle: ", base, ")"),
+      ", and below it the tooth is ", millimetres(tooth.neck()), " wide at its neck; with profile_shift = ",
+      shown_number(std::ceil(1e4 * shift_without_undercut(design)) * 1e-4), " or more there is no undercut");
 }
 
 std::string shortened_path_words(const GearPair& pair, const std::array<std::string, 2>& name) {

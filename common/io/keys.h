@@ -122,10 +122,10 @@ struct Key {
   Unit unit;
   // Default in the scene's unit; nullptr: the key is required; "module / 6": see io/module_lengths.h.
   const char* fallback;
-  double least, most;    // range in the scene's unit; of a range of speeds: of its two ends
-  bool open;             // least itself is not allowed
-  const char* choices;   // of a word, blank between; "" for numbers
-  const char* meaning;   // one line
+  double least, most;   // range in the scene's unit; of a range of speeds: of its two ends
+  bool open;            // least itself is not allowed
+  const char* choices;  // of a word, blank between; "" for numbers
+  const char* meaning;  // one line
   Slot (*slot)(KeyValues&);
   const char* reason = "";  // why there is the lower limit, where that is not plain
   bool or_zero = false;     // 0 is allowed below the range

@@ -20,6 +20,7 @@ std::string short_name(const std::string& name) {
   size_t head = name.size(), tail = name.size();
   while (head > 0 && width(name.substr(0, head)) > kHead) --head;
   while (tail > 0 && width(name.substr(tail - 1)) <= kMost - 1 - kHead) --tail;
+  while (tail < name.size() && (static_cast<unsigned char>(name[tail]) & 0xc0) == 0x80) ++tail;  // UTF-8
   return name.substr(0, head) + "…" + name.substr(tail);
 }
 

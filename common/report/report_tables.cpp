@@ -291,7 +291,9 @@ class RemarksByTorque {
       auto at = std::find_if(said->places.begin(), said->places.end(),
                              [&](const Place& place) { return place.way == way; });
       if (at == said->places.end()) at = said->places.insert(said->places.end(), {way, {}});
-      at->torques.push_back(shown(torque, 6));
+      // One artifact may say the same of two places.
+      const std::string here = shown(torque, 6);
+      if (at->torques.empty() || at->torques.back() != here) at->torques.push_back(here);
     }
   }
 

@@ -15,6 +15,13 @@ constexpr std::array<int, 95> kAdvance{
     1300, 1300, 842,  1067, 803,  1298, 1212, 1675, 1212, 1212, 1075, 1303, 690,  1303, 1716};
 constexpr double kUnits = 2048, kOther = 0.7;
 
+// Of a byte: beyond ASCII the first one of a character has its width, the others none.
+double advance(char byte) {
+  const auto c = static_cast<unsigned char>(byte);
+  if (c >= 0xc0) return kOther;
+  return c >= ' ' && c < 0x7f ? kAdvance[c - ' '] / kUnits : 0;
+}
+
 // Behind the '{' at `at` what selects a font: "/:Bold " or "/*0.68 "; the place behind it.
 size_t after_font(const std::string& words, size_t at) {
   if (at + 1 >= words.size() || words[at + 1] != '/') return at + 1;
@@ -31,13 +38,11 @@ double text_width(const std::string& words) {
     if (c == '{') {
       i = after_font(words, i) - 1;
     } else if (c == '\\' && i + 1 < words.size()) {
-      width += kAdvance[static_cast<size_t>(words[++i]) - ' '] / kUnits;
+      width += advance(words[++i]);
     } else if (c == '}' || c == '_' || c == '^') {
       continue;
-    } else if (c < 0x80) {
-      if (c >= ' ' && c < 0x7f) width += kAdvance[c - ' '] / kUnits;
-    } else if (c >= 0xc0) {  // the first byte of a character
-      width += kOther;
+    } else {
+      width += advance(words[i]);
     }
   }
   return width;

@@ -81,7 +81,8 @@ SectorPlan plan_sector(const ToothGeometry& tooth, double h, double root) {
   plan.t_land = 1;
   // The sharp part of the root has elements of its own down to the root circle, which keeps those of size h.
   if (root < h) {
-    plan.n_fillet = std::max(least_fillet, static_cast<int>(std::ceil(root_length(tooth, 0, plan.t_split) / root)));
+    plan.n_fillet =
+        std::max(least_fillet, static_cast<int>(std::ceil(root_length(tooth, 0, plan.t_split) / root)));
     if (tooth.root_corner() < 1) plan.t_land = std::max(tooth.root_corner(), 0.5 * (plan.t_split + 1));
     plan.n_sharp =
         std::max(3, static_cast<int>(std::ceil(root_length(tooth, plan.t_split, plan.t_land) / root)));

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "contact/half_plane_strip.h"
+#include "gear/face_width.h"
 #include "gear/involute_start.h"
 #include "gear/numbers.h"
 #include "gear/system_layout.h"
@@ -47,11 +48,11 @@ std::string near_interference(const SceneGear& driver, const SceneGear& driven, 
                               double load, ForceBound force) {
   std::array<GearDesign, kSides> design{driver.design, driven.design};
   const std::array<std::string, kSides> name{driver.name, driven.name};
+  const double width = contact_width(driver.design, driven.design);
   double coefficient = 0;
   for (const SceneGear* gear : {&driver, &driven})
     coefficient +=
-        HalfPlaneSurface(in_contact_plane(gear->material, mesh.contact_plane), gear->design.face_width)
-            .coefficient();
+        HalfPlaneSurface(in_contact_plane(gear->material, mesh.contact_plane), width).coefficient();
   const GearPair gears(design[0], design[1], mesh.centre_distance);
   const NearEnd end = near_end(gears, coefficient, load, force);
   if (end.side < 0) return "";

@@ -256,7 +256,9 @@ LineGap line_gap(const GearPair& gears, const PairContact& contact, const PairDe
       const double x = middle + half_width * cosine;
       std::array<double, 2> roll;
       for (int g = 0; g < kSides; ++g) {  // along the flank's arc: x to 1e-4 of itself
-        const double rb = gears.gear(g).base_radius(), sign = g == 0 ? 1 : -1;
+        // Of gears of an internal pair both roll angles grow the same way.
+        const double rb = gears.gear(g).base_radius(),
+                     sign = gears.nominal_roll(g, rb) > gears.nominal_roll(g, 0) ? 1 : -1;
         roll[g] = std::sqrt(std::max(0.0, contact.roll[g] * contact.roll[g] + 2 * sign * x / rb));
       }
       const double d = deviation.at(roll) / kNodes;

@@ -273,8 +273,8 @@ void SystemStatics::require_small(const SystemSolution& solution) const {
   for (size_t m = 0; m < system_.mesh.size(); ++m)
     require(solution.transmission_error[m], system_.mesh[m], "the transmission error of ",
             mesh_name(system_.layout, m));
-  for (size_t b = 0; b < system_.layout.bodies.size(); ++b)
-    if (const System::Body& body = system_.layout.bodies[b]; body.bearing.elastic())
+  for (size_t b = 0; b < bodies.size(); ++b)
+    if (const System::Body& body = bodies[b]; body.bearing.elastic())
       require(solution.bearing_force[b].norm() / body.bearing.stiffness, system_.mesh[0],
               "the displacement of '", body.name, "' on its bearing");
 }
