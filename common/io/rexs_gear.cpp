@@ -10,6 +10,7 @@
 #include "base/tool.h"
 #include "gear/involute.h"
 #include "gear/pair.h"
+#include "gear/rack_tip.h"
 #include "io/rexs_stage.h"
 
 namespace whine {
@@ -75,20 +76,6 @@ std::pair<std::string, RexsNumber> root_of(RexsReader& reader, const RexsCompone
   return {"dedendum", {1.25, "ISO 53, profile A", true}};
 }
 
-// The largest radius up to `most`, in steps of a hundredth of a module, that the tooth space has room for.
-double fitting_radius(const RexsGear& gear, double most) {
-  for (int hundredths = static_cast<int>(std::lround(most * 100)); hundredths > 0; --hundredths) {
-    RexsGear tried = gear;
-    tried.root_radius.value = hundredths / 100.0;
-    try {
-      const ToothGeometry tooth(tried.design());
-      return tried.root_radius.value;
-    } catch (const Error&) {
-    }
-  }
-  return most;
-}
-
 void take_root_radius(RexsReader& reader, const RexsComponent* rack, const RexsComponent* cutter,
                       RexsGear& gear) {
   std::optional<RexsNumber> said;
@@ -99,9 +86,10 @@ void take_root_radius(RexsReader& reader, const RexsComponent* rack, const RexsC
     gear.root_radius = *said;
     return;
   }
-  const double standard = gear.internal ? 0.3 : 0.38, fits = fitting_radius(gear, standard);
-  const std::string of = gear.internal ? "fillet of a ring" : "ISO 53, profile A";
-  gear.root_radius = {fits, fits < standard ? text("the largest that fits; ", of, ": ", standard) : of, true};
+  const double fits = default_rack_tip_radius(gear.design());
+  const std::string of = "ISO 53, profile A";
+  gear.root_radius = {
+      fits, fits < kStandardRackTip ? text("the largest that fits; ", of, ": ", kStandardRackTip) : of, true};
 }
 
 // The one section of the shaft that a gear sits on; empty: there are several or none.
