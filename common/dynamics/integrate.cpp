@@ -51,11 +51,11 @@ bool RollingDynamics::integrate(State& state, Period& period, EnergyBalance* ene
   try {
     return integrate(state, period, energy_balance, nullptr);
   } catch (const Error& error) {
-    // Contact that fails on a range that the undamped half-plane does not hold: the likely cause, since the range has room.
+    // Where contact fails on a range that the undamped half-plane does not hold, that is the cause.
     const bool in_range = dynamic_cast<const ModelRangeError*>(&error) == nullptr;
     if (!beyond_depth_.empty() && in_range && error.kind() == Failure::numerical)
       fail_outside_range(error.kind(), "at mesh phase ", positions_[sample_ * stride_].mesh.phase, " ",
-                         error.what(), "; if ", beyond_depth_);
+                         beyond_depth_);
     fail_as(error, "at mesh phase ", positions_[sample_ * stride_].mesh.phase, " ", error.what());
   }
 }

@@ -275,6 +275,11 @@ PairContact GearPair::contact(double phase) const {
   };
   c.x_max = std::min(tangential(0, gear_[0].tip_roll_angle()), tangential(1, gear_[1].form_roll_angle()));
   c.x_min = std::max(tangential(0, gear_[0].form_roll_angle()), tangential(1, gear_[1].tip_roll_angle()));
+  // Far from the mesh flanks stand beside each other, not face to face.
+  if (c.corner && !(c.x_max > c.x_min)) {
+    c.on_flank = false;
+    c.gap = std::numeric_limits<double>::infinity();
+  }
   return c;
 }
 

@@ -85,10 +85,10 @@ void take_root_radius(RexsReader& reader, const RexsComponent* rack, const RexsC
     gear.root_radius = *said;
     return;
   }
-  const double standard = gear.internal ? 0.3 : kStandardRackTip,
-               fits = default_rack_tip_radius(gear.design(), standard);
-  const std::string of = gear.internal ? "fillet of a ring" : "ISO 53, profile A";
-  gear.root_radius = {fits, fits < standard ? text("the largest that fits; ", of, ": ", standard) : of, true};
+  const double fits = default_rack_tip_radius(gear.design());
+  const std::string of = "ISO 53, profile A";
+  gear.root_radius = {
+      fits, fits < kStandardRackTip ? text("the largest that fits; ", of, ": ", kStandardRackTip) : of, true};
 }
 
 // The one section of the shaft that a gear sits on; empty: there are several or none.
