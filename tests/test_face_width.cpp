@@ -202,3 +202,42 @@ TEST_CASE("unequal face widths are remarked with both and the common one") {
         "teeth of "
         "pinion carry it on 18 mm (at most a module more on either side)");
 }
+
+TEST_CASE("elements that are long beside the smallest module are remarked, those left open are not") {
+  Scene scene;
+  for (const char* name : {"pinion", "wheel"}) {
+    SceneGear gear;
+    gear.name = name;
+    gear.design = paper_gear();
+    gear.design.module = 4e-3;
+    scene.gears.push_back(gear);
+  }
+  scene.mesh.gear = {"pinion", "wheel"};
+  CHECK(scene_remarks(scene).empty());
+  scene.body.element_size = 1.14e-3;
+  CHECK(scene_remarks(scene).empty());
+  scene.body.element_size = 2e-3;
+  const std::vector<std::string> said = scene_remarks(scene);
+  REQUIRE(said.size() == 1);
+  CHECK(said[0] ==
+        "element_mm = 2 puts 2 elements of order 2 on a module of [gear.pinion]: with fewer than 3.5 root "
+        "stress is off by more than 1 %; leave it out (module / 7.5)");
+  scene.body.element_size = 0.57e-3;
+  scene.body.element_order = 1;
+  CHECK(scene_remarks(scene).empty());
+  scene.body.element_size = 0.58e-3;
+  CHECK(scene_remarks(scene).size() == 1);
+  SystemScene system;
+  for (const SceneGear& gear : scene.gears) {
+    SystemScene::Gear of;
+    static_cast<SceneGear&>(of) = gear;
+    system.gears.push_back(of);
+  }
+  system.gears[1].design.module = 1e-3;
+  system.body.element_size = 0.28e-3;
+  CHECK(scene_remarks(system).empty());
+  system.body.element_size = 0.4e-3;
+  REQUIRE(scene_remarks(system).size() == 1);
+  CHECK(scene_remarks(system)[0].starts_with(
+      "element_mm = 0.4 puts 2.5 elements of order 2 on a module of [gear.wheel]"));
+}

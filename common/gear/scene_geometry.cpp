@@ -150,12 +150,30 @@ void add_width_words(const GearMeshSpec& mesh, const GearOf& gear, std::vector<s
   if (!words.empty()) out.push_back(words);
 }
 
+// Elements that the scene gives and that are long beside the smallest module.
+template <class AnyScene>
+void add_coarse_elements(const AnyScene& scene, std::vector<std::string>& out) {
+  const double fewest =
+      scene.body.element_order == 1 ? 7 : 3.5;  // a module, measured: common/solid/README.md
+  const auto gear =
+      std::min_element(scene.gears.begin(), scene.gears.end(),
+                       [](const auto& a, const auto& b) { return a.design.module < b.design.module; });
+  if (gear == scene.gears.end()) return;
+  const double elements = gear->design.module / scene.body.element_size;  // infinite: left open
+  if (!(elements < fewest)) return;
+  out.push_back(text("element_mm = ", scene.body.element_size * 1e3, " puts ", shown_number(elements),
+                     " elements of order ", scene.body.element_order, " on a module of [gear.", gear->name,
+                     "]: with fewer than ", fewest,
+                     " root stress is off by more than 1 %; leave it out (module / 7.5)"));
+}
+
 }  // namespace
 
 std::vector<std::string> scene_remarks(const Scene& scene) {
   std::vector<std::string> out;
   add_width_words(
       scene.mesh, [&](const std::string& name) { return scene.gear(name); }, out);
+  add_coarse_elements(scene, out);
   return out;
 }
 
@@ -167,6 +185,7 @@ std::vector<std::string> scene_remarks(const SystemScene& scene) {
                          [&](const SystemScene::Gear& of) { return of.name == name; });
   };
   for (const SystemScene::Mesh& mesh : scene.meshes) add_width_words(mesh.spec, gear, out);
+  add_coarse_elements(scene, out);
   return out;
 }
 

@@ -30,7 +30,7 @@ std::vector<std::string> scene_warnings(const Scene& scene, const ScenePlace& wh
 std::vector<std::string> scene_warnings(const SystemScene& scene,
                                         const ScenePlace& where);  // thin rims and undercut of elastic gears
 
-// What to know of a scene that is as it should be: gears of unequal face widths.
+// What to know of a scene that is as it should be: gears of unequal face widths, elements long beside the module.
 std::vector<std::string> scene_remarks(const Scene& scene);
 std::vector<std::string> scene_remarks(const SystemScene& scene);  // of elastic gears
 
