@@ -182,6 +182,10 @@ inline std::vector<PictureText> texts_of_postscript(const std::string& bytes) {
     const char c = bytes[i];
     if (c == '(' || c == '<') {
       size_t end = i + 1;
+      if (bytes.compare(i, 2, "<<") == 0) {  // of a picture in it
+        i += 2;
+        continue;
+      }
       if (c == '<') {
         end = bytes.find('>', i);
         // Two letters a character.
@@ -210,6 +214,12 @@ inline std::vector<PictureText> texts_of_postscript(const std::string& bytes) {
       while (end < bytes.size() && !ends(bytes[end])) ++end;
       end += end == i ? 1 : 0;
       const std::string word = bytes.substr(i, end - i);
+      if (word == "cairo_image" || word == "cairo_imagemask") {
+        i = bytes.find("~>", end);
+        if (i == std::string::npos) break;
+        i += 2;
+        continue;
+      }
       if (word == "Tm" && words.size() >= 6) {
         const auto number = [&](size_t k) { return std::stod(words[words.size() - 6 + k]); };
         size = std::hypot(number(0), number(1));

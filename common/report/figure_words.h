@@ -10,7 +10,8 @@ namespace whine {
 // What gnuplot's word() finds one by one: 'a' 'b'.
 std::string quoted_labels(const std::vector<std::string>& names);
 
-// A name that fits into a key or a label: its first and last letters, "…" between, where it is wider than a legend.
+// A name that fits into a key or a label: its first and last letters, "…" between, where it is wider than a legend; of a mesh, "a-b",
+// those of either gear, so that meshes of planets stay apart.
 std::string short_name(const std::string& name);
 
 // Of a line of notes, in parts of the size of its letters: 1580 pixels at 16.

@@ -14,7 +14,7 @@ line_colour = "#0072b2"
 if (lines > 0) {
   set contour base
   unset surface
-  step = largest > 40 ? 10 : largest > 16 ? 4 : largest > 8 ? 2 : 1
+  step = largest > 80 ? step_of(largest / 8) : largest > 40 ? 10 : largest > 16 ? 4 : largest > 8 ? 2 : 1
   set cntrparam levels incremental step, step, 100 * step
   set cntrparam linear
   do for [p = 1:int(panels)] {
