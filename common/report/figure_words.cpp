@@ -42,7 +42,7 @@ std::string short_name(const std::string& name) {
 }
 
 std::vector<std::string> in_lines(const std::string& words) {
-  return broken_lines(words, kNoteWidth);
+  return broken_lines(words, kNoteWidth, name_width);
 }
 
 void add_lines(size_t plain, Figure& figure) {

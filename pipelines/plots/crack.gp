@@ -7,7 +7,7 @@ set datafile commentschars "#"
 lift = room(notes)
 
 set multiplot layout (cracked_gears > 0 ? 4 : 3), 1 title heading offset 0, -0.4 \
-  margins screen 0.1, 0.985, 0.1 + lift, 0.84 + lift spacing screen 0.09
+  margins screen 0.1, 0.98, 0.1 + lift, 0.84 + lift spacing screen 0.09
 set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set border 3 lw 1.6
 set tics out nomirror

@@ -87,6 +87,6 @@ if (printed > 0) {
   set label 15 "" at 0.785, 0.301 point pt 13 ps 2.2 lc rgb "#000000"
   set label 16 "P2000: jump printed at 7 %" at 0.797, 0.301 left font ",16"
 }
-do for [n = 1:int(notes)] { set label 20 + n value(sprintf("note%d", n)) at 0.02, 0.258 - 0.0285 * (n - 1) left noenhanced font ",13" }
+do for [n = 1:int(notes)] { set label 20 + n value(sprintf("note%d", n)) at 0.02, 0.258 - 0.0285 * (n - 1) left noenhanced font ",12" }
 plot NaN notitle
 unset multiplot

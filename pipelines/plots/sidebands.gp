@@ -5,7 +5,7 @@ set datafile commentschars "#"
 lift = room(2)
 
 set multiplot layout 3, 1 title heading offset 0, -0.4 \
-  margins screen 0.1, 0.985, 0.1 + lift, 0.835 + lift spacing screen 0.1
+  margins screen 0.1, 0.98, 0.1 + lift, 0.835 + lift spacing screen 0.1
 set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set border 3 lw 1.6
 set tics out nomirror
