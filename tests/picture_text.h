@@ -182,6 +182,10 @@ inline std::vector<PictureText> texts_of_postscript(const std::string& bytes) {
     const char c = bytes[i];
     if (c == '(' || c == '<') {
       size_t end = i + 1;
+      if (bytes.compare(i, 2, "<<") == 0) {  // of a picture in it
+        i += 2;
+        continue;
+      }
       if (c == '<') {
         end = bytes.find('>', i);
         // Two letters a character.
@@ -210,6 +214,12 @@ inline std::vector<PictureText> texts_of_postscript(const std::string& bytes) {
       while (end < bytes.size() && !ends(bytes[end])) ++end;
       end += end == i ? 1 : 0;
       const std::string word = bytes.substr(i, end - i);
+      if (word == "cairo_image" || word == "cairo_imagemask") {
+        i = bytes.find("~>", end);
+        if (i == std::string::npos) break;
+        i += 2;
+        continue;
+      }
       if (word == "Tm" && words.size() >= 6) {
         const auto number = [&](size_t k) { return std::stod(words[words.size() - 6 + k]); };
         size = std::hypot(number(0), number(1));
@@ -306,9 +316,12 @@ inline std::vector<PictureText> texts_of_svg(const std::string& bytes) {
 inline std::vector<std::string> faults_of(const std::vector<PictureText>& texts, double width,
                                           double height) {
   constexpr double kMargin = 3, kTouch = 1;  // pixels
+  // Letters of a PNG stand at whole pixels: its lines may be longer by this part of their length.
+  constexpr double kLonger = 0.006;
   std::vector<std::string> out;
   for (const PictureText& t : texts)
-    if (t.left < kMargin || t.right > width - kMargin || t.top < kMargin || t.bottom > height - kMargin)
+    if (t.left < kMargin || t.right + kLonger * (t.right - t.left) > width - kMargin || t.top < kMargin ||
+        t.bottom > height - kMargin)
       out.push_back(text("cut: '", t.words, "', ", std::round(t.left), " to ", std::round(t.right), ", ",
                          std::round(t.top), " to ", std::round(t.bottom), " of ", width, " x ", height));
   for (size_t i = 0; i < texts.size(); ++i)

@@ -13,19 +13,42 @@ std::string quoted_labels(const std::vector<std::string>& names) {
   return out;
 }
 
-std::string short_name(const std::string& name) {
-  constexpr double kMost = 11.2, kHead = 6;  // 194 and 104 pixels of letters of a legend
-  const auto width = [](const std::string& part) { return text_width(without_markup(part)); };
-  if (width(name) <= kMost) return name;
+namespace {
+
+double name_width(const std::string& name) {
+  return text_width(without_markup(name));
+}
+
+std::string shortened(const std::string& name, double most) {
+  if (name_width(name) <= most) return name;
+  constexpr double kDots = 1;
+  const double first = 0.59 * (most - kDots);
   size_t head = name.size(), tail = name.size();
-  while (head > 0 && width(name.substr(0, head)) > kHead) --head;
-  while (tail > 0 && width(name.substr(tail - 1)) <= kMost - 1 - kHead) --tail;
-  while (tail < name.size() && (static_cast<unsigned char>(name[tail]) & 0xc0) == 0x80) ++tail;  // UTF-8
+  while (head > 0 && name_width(name.substr(0, head)) > first) --head;
+  while (tail > 0 && name_width(name.substr(tail - 1)) <= most - kDots - first) --tail;
+  // Between characters of UTF-8.
+  const auto within = [&](size_t i) {
+    return i < name.size() && (static_cast<unsigned char>(name[i]) & 0xc0) == 0x80;
+  };
+  while (within(head)) --head;
+  while (within(tail)) ++tail;
   return name.substr(0, head) + "…" + name.substr(tail);
 }
 
+}  // namespace
+
+std::string short_name(const std::string& name) {
+  constexpr double kMost = 11.2;  // 194 pixels of letters of a legend
+  const size_t between = name.find('-');
+  if (name_width(name) <= kMost || between == std::string::npos) return shortened(name, kMost);
+  const std::string left = name.substr(0, between), right = name.substr(between + 1);
+  const double both = kMost - text_width("-"), half = both / 2;
+  return shortened(left, std::max(half, both - name_width(right))) + "-" +
+         shortened(right, std::max(half, both - name_width(left)));
+}
+
 std::vector<std::string> in_lines(const std::string& words) {
-  return broken_lines(words, kNoteWidth);
+  return broken_lines(words, kNoteWidth, name_width);
 }
 
 void add_lines(size_t plain, Figure& figure) {

@@ -29,6 +29,10 @@ std::string plain_path(const std::string& path) {
 // template writes `lift = room(2)`, adds lift to each vertical place on the screen, and ends with eval(below), which draws note1 and
 // note2 there (or what foot_name says), once, in a plot of its own without axes; a template that is no multiplot takes
 // eval(foot_labels) before its plot.
+// step_of(x): the step of numbers of an axis, 1, 2 or 5 times a power of ten and not below x > 0.
+constexpr const char* kStep =
+    R"(step_of(x) = 10 ** floor(log10(x)) * (x / 10 ** floor(log10(x)) > 5 ? 10 : x / 10 ** floor(log10(x)) > 2 ? 5 : x / 10 ** floor(log10(x)) > 1 ? 2 : 1); )";
+
 constexpr const char* kFoot =
     R"(foot_name = "note%d"; foot_rows(n) = sprintf("rows_" . foot_name, n); )"
     R"(room(lines) = 24.0 * (sum [n = 1:int(lines)] (exists(foot_rows(n)) ? value(foot_rows(n)) : 1)) / height; )"
@@ -77,6 +81,7 @@ std::string prelude(const Figure& figure, const std::string& tsv_path, Picture p
   script += text("height = real(", figure.height, "); ");
   script += text("tsv = ", gnuplot_string(plain_path(tsv_path)),
                  "; title = ", gnuplot_string(fitting(figure.title, 1)), "; ");
+  script += kStep;
   script += kFoot;
   // What engineering_axes() changes.
   script += "speed_label = 'Mesh frequency (Hz)'; speed_scale = 1.0; level_label = ''; ";

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "gear/pair.h"
 #include "io/summary.h"
+#include "report/figure_words.h"
 #include "report/text_width.h"
 #include "signal/response.h"
 #include "studies/jump_cause.h"
@@ -406,7 +407,7 @@ Figure bearing_force_figure(const std::vector<ResponseArtifact>& sweeps, const B
     const Bearing& bearing = mesh.bearing[g];
     if (!bearing.elastic()) continue;
     ++curves;
-    labels += text("'", mesh.gear[g], ", ", shown(bearing.stiffness * 1e-6, 4), " N/µm' ");
+    labels += text("'", short_name(mesh.gear[g]), ", ", shown(bearing.stiffness * 1e-6, 4), " N/µm' ");
     for (const ResponseArtifact* r : {curve.up, curve.down}) {
       const std::string name = text(curves, " ", r->direction);
       FigureBlock block{name,

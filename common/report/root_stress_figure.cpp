@@ -221,7 +221,8 @@ Figure root_stress_figure(const StaticArtifact& s, const std::vector<ResponseArt
   figure.blocks.push_back(rest_block(s, iso));
   figure.notes = notes_of(s, iso, !branches.empty());
   add_lines(figure.notes.size(), figure);
-  figure.words.emplace_back("labels", quoted_labels({s.mesh.gear[0], s.mesh.gear[1]}));
+  figure.words.emplace_back("labels",
+                            quoted_labels({short_name(s.mesh.gear[0]), short_name(s.mesh.gear[1])}));
   figure.numbers = {{"iso", iso.resonance ? 1.0 : 0.0},
                     {"iso_driver", iso.root_stress[0].value_or(0) * kInMegapascals},
                     {"iso_driven", iso.root_stress[1].value_or(0) * kInMegapascals},

@@ -298,9 +298,10 @@ void add_root_stress_of_teeth(const StaticArtifact& s, int g, int around, Figure
     teeth.rows.push_back({static_cast<double>(k), of(k) * kInMegapascals, intact * kInMegapascals});
   figure.blocks.push_back(teeth);
   figure.notes.push_back(text(
-      "largest root stress of ", of_gear, " ", shown(largest.maxCoeff() * kInMegapascals, 4), " MPa, ",
-      shown(100 * (largest.maxCoeff() / intact - 1), 2), " % above that of an intact tooth; beside the slit ",
-      shown(of(0) * kInMegapascals, 3), " MPa, not counting its tip, where stress is singular"));
+      "largest root stress of ", without_markup(of_gear), " ", shown(largest.maxCoeff() * kInMegapascals, 4),
+      " MPa, ", shown(100 * (largest.maxCoeff() / intact - 1), 2),
+      " % above that of an intact tooth; beside the slit ", shown(of(0) * kInMegapascals, 4),
+      " MPa, not counting its tip, where stress is singular"));
 }
 
 }  // namespace
@@ -360,12 +361,17 @@ Figure crack_figure(const StaticArtifact& s) {
   figure.blocks = {error, orders, without};
   for (int g = 0; g < kSides; ++g) add_root_stress_of_teeth(s, g, kAround, figure);
   std::vector<std::string> cracked;
-  for (size_t k = 3; k < figure.blocks.size(); ++k) cracked.push_back(figure.blocks[k].curve);
+  double stress_max = 0;  // MPa
+  for (size_t k = 3; k < figure.blocks.size(); ++k) {
+    cracked.push_back(figure.blocks[k].curve);
+    for (const auto& row : figure.blocks[k].rows) stress_max = std::max(stress_max, row[1]);
+  }
   figure.words = {{"labels", quoted_labels(cracked)}};
   figure.numbers = {{"around", kAround},
                     {"last_order", kLastOrder},
                     {"top", decade_above(orders)},
                     {"cracked_gears", static_cast<double>(cracked.size())},
+                    {"stress_max", stress_max > 0 ? stress_max : 1},
                     {"notes", static_cast<double>(figure.notes.size())}};
   figure.height = 1300;
   return figure;

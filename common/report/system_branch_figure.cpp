@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "report/figure_words.h"
 #include "report/one_system.h"
 #include "signal/jump_words.h"
 #include "system/rigid_system.h"
@@ -76,7 +77,7 @@ Figure system_branch_figure(const SystemBranchArtifact& b, const std::vector<Sys
   for (const MatrixRM& all : b.floquet_multiplier) largest = std::max(largest, all.row(0).norm());
   std::string labels;
   for (size_t m = 0; m < meshes; ++m) {
-    labels += "'" + mesh_name(s, m) + "' ";
+    labels += "'" + short_name(mesh_name(s, m)) + "' ";
     figure.levels.push_back({rms_column(s, m), false});
   }
   figure.notes.push_back(text(b.mesh_frequency.size(), " orbits, ", b.mesh_frequency.size() - b.stable.sum(),

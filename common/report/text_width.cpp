@@ -48,7 +48,8 @@ double text_width(const std::string& words) {
   return width;
 }
 
-std::vector<std::string> broken_lines(const std::string& words, double width) {
+std::vector<std::string> broken_lines(const std::string& words, double width,
+                                      double (*measure)(const std::string&)) {
   std::vector<std::string> out{""};
   for (size_t from = 0; from <= words.size();) {
     size_t end = from;
@@ -61,7 +62,7 @@ std::vector<std::string> broken_lines(const std::string& words, double width) {
     }
     const std::string word = words.substr(from, end - from),
                       longer = out.back().empty() ? word : out.back() + " " + word;
-    if (!out.back().empty() && text_width(longer) > width)
+    if (!out.back().empty() && measure(longer) > width)
       out.push_back(word);
     else
       out.back() = longer;

@@ -10,6 +10,8 @@ namespace whine {
 double text_width(const std::string& words);
 
 // In lines of at most `width`, broken at blanks that stand outside of braces; a word that is wider stands alone.
-std::vector<std::string> broken_lines(const std::string& words, double width);
+// measure: how wide words are.
+std::vector<std::string> broken_lines(const std::string& words, double width,
+                                      double (*measure)(const std::string&) = text_width);
 
 }  // namespace whine

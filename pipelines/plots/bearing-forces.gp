@@ -13,18 +13,19 @@ set border 3 lw 1.6
 set tics out nomirror
 set mxtics 5
 set grid lt 1 lc rgb "#e4e4e4" lw 1
-set lmargin at screen 0.1
-set rmargin at screen 0.80
+set lmargin at screen 0.11
+set rmargin at screen 0.76
 span = frequency_to - frequency_from
 span = span > 0 ? span : 0.2 * frequency_to
 set xrange [frequency_from - 0.02 * span : frequency_to + 0.02 * span]
 set xlabel speed_label
-set ylabel "Force (N)"
 array panel_title[2] = ["{/:Bold (a)} RMS of the oscillating part", "{/:Bold (b)} largest force"]
 array high[2] = [rms_max, force_max > static_force ? force_max : static_force]
 do for [p = 1:2] {
   set tmargin at screen (p == 1 ? 0.83 : 0.40) + lift
   set bmargin at screen (p == 1 ? 0.53 : 0.10) + lift
+  # Numbers of six digits push the name of the axis to the edge.
+  set ylabel "Force (N)" offset (high[p] >= 1e5 ? 0.5 : 0), 0
   set yrange [0 : 1.08 * (high[p] > 0 ? high[p] : 1)]
   set label 1 panel_title[p] at graph 0, graph 1 offset 0, 0.8 font ",14"
   unset arrow

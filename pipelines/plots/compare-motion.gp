@@ -23,13 +23,13 @@ set xrange [frequency_from - 0.01 * span : frequency_to + 0.01 * span]
 array high[3] = [rms_max, order_max, load_max]
 array axis[3] = [level_label eq "" ? "RMS of DTE (µm)" : "RMS of DTE (" . level_label . ")", \
   level_label eq "" ? "Order 1 of DTE (µm)" : "Order 1 of DTE (" . level_label . ")", "Tooth load / (T / r_b)"]
-array tops[3] = [0.085, 0.395, 0.7]
+array tops[3] = [designs > 3 ? 0.12 : 0.085, 0.395, 0.7]
 array foots[3] = [0.35, 0.655, 0.93]
 do for [p = 1:3] {
   set tmargin at screen top(tops[p])
   set bmargin at screen top(foots[p])
   if (level_label ne "" && p < 3) { set yrange [level_low : level_high] } else { set yrange [0 : 1.08 * (high[p] > 0 ? high[p] : 1)] }
-  set ylabel axis[p] . sprintf(" {/:Bold (%s)}", word("a b c", p))
+  set ylabel axis[p] . sprintf(" {/:Bold (%s)}", word("a b c", p)) font (level_label eq "" ? "" : ",15")
   if (p == 3) { set xlabel speed_label offset 0, 0.3 } else { unset xlabel }
   unset arrow
   unset label

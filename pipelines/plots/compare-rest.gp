@@ -36,7 +36,7 @@ set xlabel "Mesh phase" offset 0, 0.4
 plot for [i = 1:int(designs)] tsv index sprintf("[period %d]", i) using 1:3 with lines lt 1 lw 2.6 dt dash[i] lc rgb colour[i] notitle
 
 set tmargin at screen top(0.72)
-set bmargin at screen top(0.93)
+set bmargin at screen lift + 95.0 / height
 set xrange [0.4 : harmonics + 0.6]
 set xtics 1
 set yrange [0 : 1.1 * (largest > 0 ? largest : 1)]

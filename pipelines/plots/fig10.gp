@@ -13,11 +13,11 @@ set border 3 lw 1.6
 set tics out nomirror
 set mxtics 5
 set grid lt 1 lc rgb "#e4e4e4" lw 1
-set lmargin at screen 0.092
+set lmargin at screen (largest >= 1e5 ? 0.105 : 0.092)
 set rmargin at screen 0.84
 set xrange [phase_from:phase_to]
 set yrange [0 : 1.08 * largest]
-set ylabel "Force (N)" offset 0.5
+set ylabel "Force (N)" offset (largest >= 1e5 ? 1.3 : 0.5), 0
 colour(t) = t == 0 ? "#0072b2" : (t == 1 ? "#d55e00" : "#7f9fbf")
 each = (height - 120 - 24 * lines) / motions
 do for [m = 1:motions] {

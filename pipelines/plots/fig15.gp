@@ -28,7 +28,7 @@ letters = "a b"
 set tmargin at screen 0.87 - 0.023 * curves + lift
 set bmargin at screen 0.2 + 0.025 * curves + lift
 do for [p = 1:panels] {
-  set lmargin at screen 0.095 + (p - 1) * 0.48
+  set lmargin at screen p == 1 ? 0.118 : 0.575
   set rmargin at screen panels == 1 ? 0.965 : 0.485 + (p - 1) * 0.48
   set key at screen panels == 1 ? 0.535 : 0.29 + (p - 1) * 0.48, screen 0.012 + lift
   set xlabel "Time (mesh periods, 0: pitch point)\n{/:Bold (" . word(letters, p) . ")}"

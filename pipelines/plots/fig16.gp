@@ -89,6 +89,7 @@ do for [p = 1:panels] {
     # From 0: a number below it would stand in the strip and push the name of the axis over the edge.
     step = 10 ** floor(log10(end / 6))
     if (strip) { set ytics 0, step * (end / 6 / step > 5 ? 10 : end / 6 / step > 2 ? 5 : end / 6 / step > 1 ? 2 : 1) out nomirror } else { set ytics autofreq out nomirror }
+    if (side == 0 && end >= 1000) { set lmargin at screen 0.086 }
     # Numbers of three digits push the name of the left axis beyond the edge.
     set ylabel offset (side == 1 ? 0 : end >= 100 ? 1.2 : 0), 0
     key_font = side == 0 ? ",11" : ",13"

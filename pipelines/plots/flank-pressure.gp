@@ -30,7 +30,7 @@ do for [r = 1:rows] {
   set xrange [roll_from - half_wide : roll_to + half_wide]
   set yrange [frequency_from - half_tall : frequency_to + half_tall]
   set cbrange [0 : pressure_max]
-  set cblabel "Pressure (MPa)" offset -0.9
+  set cblabel "Pressure (MPa)" offset -0.1
   set colorbox user origin screen 0.508, foot(r) size screen 0.012, top(r) - foot(r)
   set xlabel (r == rows ? "Roll angle of " . word(labels, 1) . " (deg)" : "") offset 0, 0.3 noenhanced
   set ylabel "Mesh frequency (Hz)" offset 1
@@ -74,6 +74,7 @@ set tmargin at screen middle - gap
 set bmargin at screen lower
 set yrange [0 : edge_max > 0 ? 1.4 * edge_max : 1]
 set key left top at graph 0.02, graph 0.98
+set label 11 at natural_frequency, graph 0.6
 set ylabel "Load over a tip edge (N)" offset 0.6
 set label 1 (both == 1 ? "{/:Bold (d)}" : "{/:Bold (c)}") . " load of a pair over a tip edge"
 array colour[2] = ["#0072b2", "#d55e00"]

@@ -14,7 +14,7 @@ line_colour = "#0072b2"
 if (lines > 0) {
   set contour base
   unset surface
-  step = largest > 40 ? 10 : largest > 16 ? 4 : largest > 8 ? 2 : 1
+  step = largest > 80 ? step_of(largest / 8) : largest > 40 ? 10 : largest > 16 ? 4 : largest > 8 ? 2 : 1
   set cntrparam levels incremental step, step, 100 * step
   set cntrparam linear
   do for [p = 1:int(panels)] {
@@ -87,6 +87,6 @@ if (printed > 0) {
   set label 15 "" at 0.785, 0.301 point pt 13 ps 2.2 lc rgb "#000000"
   set label 16 "P2000: jump printed at 7 %" at 0.797, 0.301 left font ",16"
 }
-do for [n = 1:int(notes)] { set label 20 + n value(sprintf("note%d", n)) at 0.02, 0.258 - 0.0285 * (n - 1) left noenhanced font ",13" }
+do for [n = 1:int(notes)] { set label 20 + n value(sprintf("note%d", n)) at 0.02, 0.258 - 0.0285 * (n - 1) left noenhanced font ",12" }
 plot NaN notitle
 unset multiplot

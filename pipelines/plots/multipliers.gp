@@ -22,7 +22,7 @@ set xrange [-reach:reach]
 set yrange [-reach:reach]
 set xlabel "Real part" offset 0, 0.4
 set ylabel "Imaginary part" offset 1, 0
-set cblabel "Mesh frequency (Hz)" offset 0.5, 0
+set cblabel "Mesh frequency (Hz)" offset 1.6, 0
 set palette defined (0 "#1f4e9c", 0.5 "#1a9d8f", 1 "#e6a817")
 set colorbox vertical user origin screen 0.085 + (top - bottom) * height / 1600.0, screen bottom size screen 0.012, screen top - bottom
 set parametric
@@ -36,9 +36,7 @@ unset colorbox
 set lmargin at screen 0.73
 set rmargin at screen 0.965
 set autoscale x
-power(x) = 10 ** floor(log10(x))
-nice(raw) = power(raw) * (raw / power(raw) > 5 ? 10 : raw / power(raw) > 2 ? 5 : raw / power(raw) > 1 ? 2 : 1)
-if (speed_max > speed_min) { set xtics nice((speed_max - speed_min) / 4) }
+if (speed_max > speed_min) { set xtics step_of((speed_max - speed_min) / 4) }
 set yrange [0:1.15 * reach]
 set key top right
 set xlabel "Mesh frequency (Hz)"

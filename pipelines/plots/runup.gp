@@ -11,7 +11,7 @@ set palette defined (0 "#ffffff", 0.15 "#e8eef4", 0.4 "#9fc4de", 0.65 "#3a7fbb",
 set multiplot title heading offset 0, -0.4
 set border 3 lw 1.6
 set tics out nomirror
-set lmargin at screen 0.085
+set lmargin at screen (frequency_end >= 1e4 ? 0.095 : 0.085)
 set rmargin at screen 0.9
 set xrange [frequency_from : frequency_to]
 top(y) = 1 - y * (1 - lift)
@@ -25,7 +25,7 @@ set x2tics out
 set x2label (in_hertz ? "Speed of " . driver . " (rpm)" : "Mesh frequency (Hz)") offset 0, 0.3
 f_n = natural_frequency / speed_scale
 set format x ""
-set ylabel "Frequency (Hz) {/:Bold (a)}" offset 1.6, 0
+set ylabel "Frequency (Hz) {/:Bold (a)}" offset (frequency_end >= 1e4 ? 0.9 : 1.6), 0
 set yrange [0 : frequency_end]
 set cbrange [loudest - 60 : loudest]
 set cblabel "Mesh force (dB re 1 N RMS)" offset 0.9, 0

@@ -8,6 +8,8 @@ set border 3 lw 1.4
 set tics out nomirror
 set grid xtics lt 1 lc rgb "#e4e4e4" lw 1
 set style fill solid 0.9 noborder
+# The keys of a variant that two gears have in turn, a line each.
+two_lines(s) = strstrt(s, "; ") > 0 ? s[1:strstrt(s, "; ")] . "\n" . s[strstrt(s, "; ") + 2:*] : s
 set yrange [variants - 0.4:-0.6]
 set xtics font ",11.5"
 array column_of[6] = [2, 3, 4, 5, 6, 7]
@@ -21,7 +23,7 @@ do for [k = 1:6] {
   set rmargin at screen left + k * width - 0.02
   set xlabel name[k] font ",12.5"
   unset ytics
-  if (k == 1) { set ytics nomirror scale 0 noenhanced font ",12" ("" 0); do for [i = 1:int(variants)] { set ytics add (value(sprintf("label%d", i)) i - 1) } }
+  if (k == 1) { set ytics nomirror scale 0 noenhanced font ",12" ("" 0); do for [i = 1:int(variants)] { set ytics add (two_lines(value(sprintf("label%d", i))) i - 1) } }
   reach = 1.12 * value(sprintf("reach%d", k))
   set xrange [-reach:reach]
   set xtics autofreq

@@ -5,15 +5,16 @@ set datafile commentschars "#"
 lift = room(2)
 
 set multiplot layout 3, 1 title heading offset 0, -0.4 \
-  margins screen 0.085, 0.985, 0.1 + lift, 0.835 + lift spacing screen 0.1
+  margins screen 0.1, 0.98, 0.1 + lift, 0.835 + lift spacing screen 0.1
 set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set border 3 lw 1.6
 set tics out nomirror
 set key off
 
 set xlabel "Mesh periods {/:Bold (a)}"
-set ylabel "Static transmission\nerror (µm)"
-set ytics 10
+set ylabel "Static transmission\nerror (µm)" offset 0.3, 0
+stats tsv index "[transmission_error]" using 2 name "ERROR" nooutput
+if (ERROR_max > ERROR_min) { set ytics step_of((ERROR_max - ERROR_min) / 4) }
 set xrange [0:periods]
 plot tsv index "[transmission_error]" using 1:2 with lines lw 1.4 lc rgb "#1f4e9c"
 

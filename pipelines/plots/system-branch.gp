@@ -13,7 +13,7 @@ set tics out nomirror
 set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 span = frequency_to - frequency_from
 set xrange [frequency_from - 0.01 * span : frequency_to + 0.01 * span]
-set lmargin at screen 0.09
+set lmargin at screen 0.112
 set rmargin at screen 0.80
 middle = lift + 0.36 * (1 - lift)
 set tmargin at screen 1 - 100.0 / height

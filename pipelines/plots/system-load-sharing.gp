@@ -36,8 +36,8 @@ do for [k = 1:int(rows)] {
   set key at graph 1.03, graph 1.0 left top Left reverse vertical samplen 2 spacing 1.2 font ",13" noenhanced
   plot equal with lines lt 1 lw 1.4 dt (18, 8) lc rgb "#444444" title "equal", \
     for [i = 1:curves] tsv index sprintf("[share %d]", k) using 1:i + 1 with lines lt 1 dt dash(i) lw (periods > 1 ? 1.2 : 2 + 0.7 * (curves - i)) lc rgb of(i) title word(labels, i)
-  set lmargin at screen 0.62
-  set rmargin at screen 0.88
+  set lmargin at screen 0.64
+  set rmargin at screen 0.89
   set xlabel sprintf("Phase of %s (mesh periods)", value(sprintf("first%d", k))) offset 0, 0.3 noenhanced
   set ylabel "Tooth loads (N)"
   set yrange [0 : *]

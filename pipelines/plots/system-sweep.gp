@@ -19,8 +19,8 @@ mark(i) = i > 6 ? 4 : 6
 row = ((1 - lift) * height - 100) / 3
 span = frequency_to - frequency_from
 set xrange [frequency_from - 0.01 * span : frequency_to + 0.01 * span]
-set lmargin at screen 0.1
-set rmargin at screen 0.83
+set lmargin at screen 0.112
+set rmargin at screen 0.82
 do for [k = 1:3] {
   quantity = value(sprintf("quantity%d", k))
   axis = value(sprintf("axis%d", k))
@@ -35,7 +35,7 @@ do for [k = 1:3] {
   in_levels = k == 1 && level_label ne ""
   set ylabel sprintf("%s (%s)", axis, in_levels ? level_label : unit)
   if (in_levels) { set yrange [level_low : level_high] } else { set yrange [0 : largest] }
-  set key at graph 1.03, graph 1.02 left top Left reverse vertical samplen 2 spacing 1.2 font ",13" noenhanced
+  set key at graph 1.012, graph 1.02 left top Left reverse vertical samplen 2 spacing 1.2 font ",13" noenhanced
   drawn = ""
   do for [i = 1:curves] {
     if (sweeps_up) { drawn = drawn . sprintf('tsv index "[%s up]" using 1:%d with lines lt 1 dt %s lw %g lc rgb "%s" notitle, ', \

@@ -1,0 +1,346 @@
+// No text in the pictures of designs, maps and studies is cut at an edge or lies on other text.
+#include <doctest/doctest.h>
+
+#include "io/harris_map_codec.h"
+#include "paper/reading_figure.h"
+#include "picture_inputs.h"
+#include "report/animation.h"
+#include "report/compare_figures.h"
+#include "report/engineering_axes.h"
+#include "report/fold_curve_figure.h"
+#include "report/gear_figures.h"
+#include "report/harris_figure.h"
+#include "report/jump_map_figures.h"
+#include "report/motion_figures.h"
+#include "report/multiplier_figure.h"
+#include "report/response_figures.h"
+#include "report/root_stress_figure.h"
+#include "report/runup_figure.h"
+#include "report/sensitivity_figure.h"
+#include "report/static_figures.h"
+#include "report/study_figure.h"
+#include "signal/response.h"
+
+using namespace whine;
+using namespace whine::pictures;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+JumpMapArtifact map_at(double torque, bool corner) {
+  JumpMapArtifact a;
+  set_motions(a);
+  a.mesh.corner.enabled = corner;
+  a.torque = torque;
+  a.bearing_stiffness = a.mean_stiffness = 460e6;
+  a.first_harmonic = 46e6;
+  a.one_pair_frequency = 2480;
+  a.two_pair_frequency = 3040;
+  a.damping_ratio = VectorXd::LinSpaced(6, 0.02, 0.1);
+  a.rayleigh_stiffness = a.damping_ratio * 1.1e-4;
+  a.excitation = 0.05 * a.damping_ratio.cwiseInverse();
+  a.two_branches = Eigen::VectorXi{{1, 1, 1, 0, 0, 0}};
+  a.open_below = a.unsteady = Eigen::VectorXi::Zero(6);
+  a.branches_from = 1900 * a.two_branches.cast<double>();
+  a.branches_to = 2800 * a.two_branches.cast<double>();
+  a.loss_from = 1500 * a.two_branches.cast<double>();
+  a.loss_to = 3000 * a.two_branches.cast<double>();
+  a.peak_tooth_load = a.held_tooth_load = MatrixRM::Constant(6, 2, torque / 0.04);
+  a.mesh_frequency = VectorXd::LinSpaced(5, 1500, 3500);
+  for (int d = 0; d < 2; ++d) {
+    a.dte_rms[d] = MatrixRM::Constant(6, 5, 1e-6);
+    a.tooth_load_max[d] = MatrixRM::Constant(6, 5, torque / 0.04);
+    a.separation_fraction[d] = MatrixRM::Constant(6, 5, 0.1);
+  }
+  return a;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "pictures of teeth that differ, cracks, bearings, relief: no text is cut or lies on other "
+    "text") {
+  StaticArtifact differ = at_rest(9999);
+  constexpr int kPeriods = 50;
+  differ.hunting_periods = kPeriods;
+  differ.contact.positions = 8;
+  differ.mesh_phase = VectorXd::LinSpaced(8 * kPeriods, 0, kPeriods - 0.125);
+  differ.transmission_error = 1e-4 * (1 + 0.1 * (0.1 * differ.mesh_phase.array()).sin());
+  differ.transmission_error[100] += 3e-5;
+  differ.transmission_error_order = VectorXd::Constant(4 * kPeriods, 1e-6);
+  ResponseArtifact moving = response_at(9999, Direction::up);
+  moving.hunting_periods = kPeriods;
+  moving.dte_order = MatrixRM::Constant(moving.mesh_frequency.size(), 4 * kPeriods, 1e-6);
+  check(sidebands_figure(differ, moving), "sidebands");
+  for (int g = 0; g < kSides; ++g) differ.gear[g].design.crack = {12, 1.2345e-3};
+  differ.tooth_load = MatrixRM::Constant(8 * kPeriods, 3, 1e4);
+  differ.root_stress = {MatrixRM::Constant(8 * kPeriods, 3, 123e6),
+                        MatrixRM::Constant(8 * kPeriods, 3, 1234e6)};
+  check(crack_figure(differ), "crack");
+  std::vector<ResponseArtifact> on_bearings = both_ways(9999);
+  for (ResponseArtifact& r : on_bearings) r.mesh.bearing = {Bearing{1234.5e6, 0, 0}, Bearing{2345.6e6, 0, 0}};
+  check(bearing_force_figure(on_bearings, background_of(on_bearings)), "bearing-forces");
+  StaticArtifact relieved = at_rest(9999);
+  for (FlankModification& m : relieved.mesh.modification) m.tip = {123e-6, 0, 0, 2e-3};
+  check(profile_figure(relieved), "profile");
+}
+
+TEST_CASE("pictures of designs and of an error budget: no text is cut or lies on other text") {
+  std::vector<OfDesign<StaticArtifact>> rest;
+  std::vector<OfDesign<ResponseArtifact>> motion;
+  for (const char* name :
+       {"gearbox_of_the_first_variant_a", "gearbox_of_the_first_variant_b", "gearbox_of_the_third_variant",
+        "d", "fifth_variant_of_the_gearbox", "gearbox_of_the_sixth_variant"}) {
+    rest.push_back({name, at_rest(9999)});
+    for (const ResponseArtifact& r : both_ways(9999)) motion.push_back({name, r});
+  }
+  check(compared_rest_figure(rest), "compare-rest");
+  check(compared_motion_figure(motion), "compare-motion");
+  Figure turned = compared_motion_figure(motion);
+  apply({"rpm:driver", 1e-6}, turned);
+  check(turned, "compare-motion");
+  ErrorBudgetArtifact budget;
+  set_gears(budget);
+  budget.torque = 9999;
+  budget.refinement = {"strips, flank table, elements, positions",
+                       VectorXd::Constant(4, 1e-4),
+                       VectorXd::Constant(4, 3e-4),
+                       VectorXd::Constant(4, 5e-4),
+                       MatrixRM::Constant(4, 5, 2e-4),
+                       VectorXd::Constant(4, 7e-3)};
+  budget.choice = {"matching at 1 mm, contact line", VectorXd::Constant(2, 1e-2),
+                   VectorXd::Constant(2, 0.3),       VectorXd::Constant(2, 0.2),
+                   MatrixRM::Constant(2, 5, 2e-2),   VectorXd::Constant(2, 7e-3)};
+  budget.root = {Eigen::Vector4d(0.4e-3, 0.2e-3, 0.1e-3, 0.05e-3), MatrixRM(4, 2)};
+  budget.root.stress << 9e8, 8e8, 9.5e8, 8.5e8, 9.7e8, 8.7e8, 9.75e8, 8.75e8;
+  check(error_budget_figure(budget), "error-budget");
+}
+
+TEST_CASE("pictures of a run-up: no text is cut or lies on other text") {
+  RunupArtifact run;
+  set_motions(run);
+  run.torque = 9999;
+  run.natural_frequency = 5432.1;
+  run.ramp = {1000, 9000, 12345};
+  run.mesh_acceleration = 12345 / 60.0 * 50;
+  run.sample_rate = 48000;
+  run.pair = Eigen::Vector3i(-1, 0, 1);
+  const double seconds = 8000 / run.mesh_acceleration;
+  const auto samples = static_cast<Index>(seconds * run.sample_rate), periods = static_cast<Index>(200);
+  run.samples.time = VectorXd::LinSpaced(samples, 0, seconds);
+  run.samples.mesh_frequency = 1000 + run.mesh_acceleration * run.samples.time.array();
+  run.samples.mesh_force = run.samples.transmission_error = VectorXd(samples);
+  for (Index i = 0; i < samples; ++i) {
+    const double wave = std::cos(kTwoPi * run.mesh_phase(run.samples.time[i]));
+    run.samples.mesh_force[i] = 1.4e5 * (1 + 0.5 * wave);
+    run.samples.transmission_error[i] = 123e-6 * (1 + wave);
+  }
+  run.samples.tooth_load = MatrixRM::Constant(samples, 3, 1e5);
+  run.periods.time = VectorXd::LinSpaced(periods, 0, seconds);
+  run.periods.mesh_frequency = VectorXd::LinSpaced(periods, 1000, 9000);
+  run.periods.dte_rms = run.periods.dte_mean = VectorXd::Constant(periods, 1e-4);
+  run.periods.tooth_load_max = VectorXd::Constant(periods, 5e5);
+  run.periods.separation_fraction = VectorXd::Constant(periods, 0.3);
+  check(runup_figure(run, both_ways(9999)), "runup");
+}
+
+TEST_CASE("pictures of maps, branches and studies: no text is cut or lies on other text") {
+  HarrisMapArtifact map;
+  set_motions(map);
+  map.torque = VectorXd::LinSpaced(12, 1000, 9999);
+  map.relief = VectorXd::LinSpaced(30, 0, 150e-6);
+  map.design_torque = 5000;
+  map.length = VectorXd::LinSpaced(6, 1e-3, 4e-3);
+  map.optimum_relief = map.optimum_peak_to_peak = VectorXd::Constant(6, 30e-6);
+  map.start_roll = MatrixRM::Constant(6, 2, 0.4);
+  map.cusp = MatrixRM::Constant(6, 12, 12e-6);
+  map.unrelieved = VectorXd::LinSpaced(12, 30e-6, 200e-6);
+  MatrixRM values(12, 30);
+  for (Index t = 0; t < 12; ++t)
+    for (Index r = 0; r < 30; ++r) values(t, r) = 1e-6 + std::abs(map.relief[r] - 12e-9 * map.torque[t]);
+  map.peak_to_peak.assign(6, values);
+  for (auto& harmonic : map.harmonic) harmonic.assign(6, values);
+  check(harris_map_figure(map), "harris-map");
+  map.dynamic_rms.assign(6, values);
+  map.worst_frequency.assign(6, MatrixRM::Constant(12, 30, 5432));
+  check(harris_map_figure(map), "harris-map");
+  BranchArtifact branch;
+  set_motions(branch);
+  branch.torque = 9999;
+  constexpr Index n = 61;
+  branch.mesh_frequency = VectorXd::LinSpaced(n, 1000, 9000);
+  branch.dte_rms = branch.dte_mean = VectorXd::LinSpaced(n, 1e-6, 300e-6);
+  branch.stable = Eigen::VectorXi::Ones(n);
+  branch.stable.segment(20, 20).setZero();
+  branch.floquet_multiplier.assign(n, MatrixRM::Constant(4, 2, 0.6));
+  branch.steps = branch.period_multiple = Eigen::VectorXi::Ones(n);
+  branch.part = Eigen::VectorXi::Zero(n);
+  branch.fold_frequency = Eigen::Vector3d(4321.12, 5432.12, 6543.12);
+  branch.fold_width = Eigen::Vector3d::Constant(0.4);
+  branch.fold_rms = Eigen::Vector3d::Constant(1e-4);
+  branch.fold_smooth = Eigen::Vector3i(1, 0, 1);
+  branch.fold_multiplier = MatrixRM::Ones(3, 2);
+  branch.mesh_force_held = branch.tooth_load_held = VectorXd::LinSpaced(n, 1e5, 3e5);
+  branch.root_stress_held = {VectorXd::LinSpaced(n, 1e9, 3e9), VectorXd::LinSpaced(n, 1e9, 3e9)};
+  branch.root_stress_angle = branch.root_stress_phase = {VectorXd::Zero(n), VectorXd::Zero(n)};
+  branch.end = "leaves the speeds of the scene";
+  check(multiplier_figure(branch), "multipliers");
+  const std::vector<ResponseArtifact> one = both_ways(9999);
+  Background tell = background_of(one);
+  tell.branches = {branch};
+  check(response_figure(one, tell), "fig05");
+  check(root_stress_figure(at_rest(9999), one, {branch}), "root-stress");
+
+  std::vector<JumpMapArtifact> maps;
+  std::vector<FoldCurvesArtifact> curves;
+  for (const double torque : {1250.0, 2500.0, 5000.0, 9999.0})
+    for (const bool corner : {true, false}) {
+      maps.push_back(map_at(torque, corner));
+      if (!corner) continue;
+      FoldCurvesArtifact f;
+      set_motions(f);
+      f.torque = torque;
+      f.curve = Eigen::Vector3i::Zero();
+      f.value = Eigen::Vector3d(4e-6, 5e-6, 6e-6);
+      f.damping_ratio = Eigen::Vector3d(0.05, 0.06, 0.07);
+      f.fold_frequency = Eigen::Vector3d(2400, 2500, 2600);
+      f.fold_multiplier = MatrixRM::Ones(3, 2);
+      f.highest = Eigen::Vector3i::Ones();
+      f.cusp_value = f.cusp_frequency = VectorXd::Constant(1, 2600);
+      f.cusp_damping_ratio = VectorXd::Constant(1, 0.07);
+      f.cusp_curve = Eigen::VectorXi::Zero(1);
+      f.end = "leaves the range";
+      curves.push_back(f);
+    }
+  check(jump_map_figure(maps, curves), "jump-map");
+  check(fold_curve_figure(curves, {maps[0], maps[2]}), "fold-curves");
+}
+
+TEST_CASE("pictures of lumped models and of variants: no text is cut or lies on other text") {
+  std::vector<SweepArtifact> sweeps;
+  for (const char* model : {"rectangular", "pairs-hertz", "secant"})
+    for (const Direction direction : {Direction::up, Direction::down}) {
+      SweepArtifact s = sweep_at(9999, direction);
+      s.model = model;
+      s.lumped.mass = 1.2345;
+      s.lumped.damping_ratio = 0.0765;
+      s.lumped.cell_end = VectorXd::Ones(1);
+      s.lumped.stiffness = MatrixRM::Constant(1, 2, 293.9e6);
+      s.lumped.stiffness(0, 1) = 516.7e6;
+      s.lumped.gap = MatrixRM::Zero(1, 2);
+      s.mean_stiffness = 460e6;
+      s.jump_frequency = Eigen::Vector2d(4567.8, 5678.9);
+      sweeps.push_back(s);
+    }
+  check(mesh_force_figure(sweeps, {5500, 4500}), "fig15");
+  std::vector<JumpMapArtifact> lumped, variants;
+  for (const double torque : {1250.0, 2500.0, 5000.0, 9999.0}) {
+    JumpMapArtifact a = map_at(torque, true);
+    lumped.push_back(a);
+    for (const char* model : {"secant", "pairs-hertz", "rectangular", "rectangular-contact"}) {
+      a.model = model;
+      lumped.push_back(a);
+    }
+  }
+  check(lumped_jump_map_figure(lumped), "jump-map-lumped");
+  const JumpMapArtifact base = map_at(9999, true);
+  for (int i = 0; i < 12; ++i) {
+    JumpMapArtifact v = base;
+    v.gear[0].design.bore_radius += (1.2345 + i) * 1e-4;
+    v.inertia[1] *= 1.1;
+    v.mean_stiffness *= 1 + 0.01 * (i - 5);
+    v.one_pair_frequency += 123.4 * (i - 5);
+    v.branches_from *= 1 + 0.05 * i;
+    variants.push_back(v);
+  }
+  check(sensitivity_figure(base, variants), "sensitivity");
+}
+
+TEST_CASE("pictures of studies: no text is cut or lies on other text") {
+  const auto file = std::filesystem::temp_directory_path() / text("whine-study-", getpid(), ".toml");
+  std::ofstream(file) << "scene = '"
+                      << std::filesystem::absolute("data/scenes/parker2000-standard-tooth.toml").string()
+                      << "'\nstage = 'sweep'\ntitle = 'Tip relief and damping of the second variant'\n"
+                         "[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalues = [4e-6, 5.5e-6, 7e-6]\n"
+                         "[[vary]]\nkey = 'operation.torque_Nm'\nvalues = [1250, 5000, 9999]\n"
+                         "[[vary]]\nkey = 'gear.pinion.modification.tip_relief_um'\nvalues = [0, 5, 12.5]\n"
+                         "[[vary]]\nkey = 'gear.wheel.modification.tip_relief_um'\nvalues = [0, 5, 12.5]\n";
+  StudyArtifact a;
+  a.plan = read_study(file);
+  std::filesystem::remove(file);
+  for (int i = 0; i < 81; ++i) {
+    std::vector<std::string> values;
+    int rest = i;
+    for (const VariedKey& key : a.plan.keys) {
+      values.push_back(key.values[static_cast<size_t>(rest % 3)]);
+      rest /= 3;
+    }
+    a.variants.push_back({text("ab", i), values});
+  }
+  a.rejection.assign(81, "");
+  a.unsteady = Eigen::VectorXi::Zero(81);
+  a.quantity = 1e-3 * (MatrixRM::Random(81, static_cast<Index>(a.plan.quantities.size())).array() + 1);
+  for (size_t q = 0; q < a.plan.quantities.size(); ++q)
+    a.quantity.col(static_cast<Index>(q)) *= a.plan.quantities[q] == "mean_stiffness"  ? 5e11
+                                             : a.plan.quantities[q] == "contact_ratio" ? 1e3
+                                                                                       : 1;
+  check(study_figure(a), "study");
+  a.plan.random = true;
+  check(study_figure(a), "study");
+}
+
+TEST_CASE("pictures of readings and of work and precision: no text is cut or lies on other text") {
+  ReadingsArtifact readings;
+  Consistency found;
+  for (int i = 0; i < 40; ++i) {
+    Reading r;
+    r.choices.corner = {i % 4 > 0, (i % 4 == 1 ? 0.3 : i % 4 == 2 ? 2.0 : 90.0) * std::numbers::pi / 180};
+    r.level_ratio = 1.4 + 0.01 * i;
+    readings.readings.push_back(r);
+    found.order.push_back(static_cast<size_t>(i));
+    found.agreeing.push_back(20 + i % 30);
+  }
+  for (const ClaimSet& set : read_claim_sets("data/published/claim_sets.toml"))
+    found.sets.push_back({set, found.sets.empty() ? 1234 : 0, 0, 12, {"a", "b", "c"}});
+  check(reading_figure(readings, found), "reading");
+  Figure work;
+  work.title = "Error against CPU time, 9999 N m, η = 5.5e-6 s";
+  work.notes = {"one choice varied at a time about the scene's settings (ring), against its finest",
+                "3300 and 1350 Hz, 2400 Hz on both branches, 2000 Hz on the upper one"};
+  std::string labels;
+  for (const char* axis : {"steps, exact", "steps, Newmark", "strips", "modes", "flank table", "elements",
+                           "periodicity", "body", "contact", "scene"}) {
+    FigureBlock block{axis, {"steps", "s", "s", "s", "1", "1", "1", "Hz", "Hz"}, {}};
+    for (int k = 1; k < 5; ++k)
+      block.rows.push_back({1.0 * k, std::pow(10, k - 1), 1, 1, std::pow(10, -k), std::pow(10, -k),
+                            std::pow(10, -k), std::pow(10, -k), std::pow(10, -k)});
+    work.blocks.push_back(block);
+    labels += text("'", axis, "' ");
+  }
+  work.numbers = {{"axes", 9}, {"fold_width", 0.01}};
+  work.words = {{"labels", labels}};
+  check(work, "work-precision");
+}
+
+TEST_CASE("pictures of gears as they are drawn and of their motion: no text is cut or lies on other text") {
+  BodyDiscretisation coarse;
+  coarse.element_size = 2e-3;
+  const MeshArtifact mesh = make_sector_mesh(paper_gear(), coarse);
+  StaticArtifact rest = at_rest(9999);
+  for (auto& gear : rest.gear) gear.design.tooth_thinning = 0;
+  check(mesh_figure(mesh, mesh, rest), "fig01");
+  SweepArtifact moving = sweep_at(9999, Direction::up);
+  for (auto& gear : moving.gear) gear.design.tooth_thinning = 0;
+  Figure frames = animation_figure(mesh, mesh, moving, 0, 4);
+  frames.numbers.emplace_back("first_frame", 1);
+  frames.numbers.emplace_back("last_frame", 1);
+  check(frames, "animation");
+}
+
+TEST_CASE("pictures of the contact zone: no text is cut or lies on other text") {
+  const BodyArtifact& body = paper_body(40e-3, 1.2e-3, 1);
+  const MeshArtifact mesh = make_sector_mesh(body.design, body.discretisation);
+  const StaticArtifact loaded = static_transmission(body, body, paper_statics(2), 9999);
+  check(contact_zone_figure(mesh, mesh, loaded, contact_zone(body, body, loaded)), "fig03");
+}

@@ -1,0 +1,74 @@
+// No text in the pictures of trains is cut at an edge or lies on other text, with eight meshes.
+#include <doctest/doctest.h>
+
+#include "gear/system_layout.h"
+#include "picture_inputs.h"
+#include "report/campbell_figure.h"
+#include "report/engineering_axes.h"
+#include "report/modes_figure.h"
+#include "report/system_branch_figure.h"
+#include "report/system_figures.h"
+#include "report/system_impact_figure.h"
+#include "report/system_picture.h"
+#include "report/system_sweep_figure.h"
+#include "small_system.h"
+#include "system/natural_modes.h"
+
+using namespace whine;
+using namespace whine::pictures;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+TEST_CASE("pictures of trains: no text is cut or lies on other text, eight meshes and long names") {
+  SystemScene scene = planetary_train(4);
+  for (SystemScene::Gear& gear : scene.gears) gear.name += "_of_the_first_stage_01";
+  for (SystemScene::Mesh& mesh : scene.meshes)
+    for (std::string& gear : mesh.spec.gear) gear += "_of_the_first_stage_01";
+  scene.carriers[0].planet += "_of_the_first_stage_01";
+  scene.carriers[0].name += "_of_the_first_stage_01";
+  for (SystemScene::Drive& drive : scene.drives) drive.gear += "_of_the_first_stage_01";
+  SystemStaticArtifact rest = small_system(scene);
+  // Numbers of five digits, which differ over the mesh period.
+  rest.transmission_error = 23e-6 * (MatrixRM::Random(2, 8).array() + 2);
+  rest.mesh_force = 12345 * (MatrixRM::Random(2, 8).array() + 2);
+  rest.load_share = 0.25 * (0.2 * MatrixRM::Random(2, 8).array() + 1);
+  for (MatrixRM* all :
+       {&rest.tooth_load[0], &rest.tooth_load[1], &rest.bearing_force[0], &rest.bearing_force[1]})
+    *all = 12345 * (MatrixRM::Random(all->rows(), all->cols()).array() + 2);
+  REQUIRE(rest.settings.layout.meshes.size() == 8);
+  check(system_static_figure(rest), "system-static");
+  check(system_load_sharing_figure(rest), "system-load-sharing");
+  check(system_picture(rest), "system");
+  const std::vector<SystemSweepArtifact> sweeps{small_sweep(rest, Direction::up),
+                                                small_sweep(rest, Direction::down)};
+  check(system_sweep_figure(sweeps), "system-sweep");
+  Figure turned = system_sweep_figure(sweeps);
+  apply({"rpm:" + scene.gears[0].name, 1e-6}, turned);
+  check(turned, "system-sweep");
+  const ModesArtifact modes = natural_modes(rest.settings.layout);
+  check(modes_figure(modes), "modes");
+  check(campbell_figure(modes), "campbell");
+  SystemBranchArtifact branch;
+  branch.settings = sweeps[0].settings;
+  branch.torque = sweeps[0].torque;
+  constexpr Index n = 41;
+  branch.mesh_frequency = VectorXd::LinSpaced(n, 1000, 9000);
+  branch.dte_rms = 123e-6 * MatrixRM::Random(n, 8).cwiseAbs();
+  branch.floquet_multiplier.assign(n, MatrixRM::Constant(3, 2, 0.9));
+  branch.stable = Eigen::VectorXi::Ones(n);
+  branch.stable.segment(10, 12).setZero();
+  branch.fold_frequency = Eigen::Vector3d(2345.67, 3456.78, 4567.89);
+  branch.fold_width = Eigen::Vector3d::Constant(0.4);
+  branch.fold_smooth = Eigen::Vector3i(1, 0, 1);
+  check(system_branch_figure(branch, sweeps), "system-branch");
+  SystemImpactArtifact decay;
+  decay.settings = sweeps[0].settings;
+  decay.mesh_phase = Eigen::Vector2d(0, 0.5);
+  decay.natural_frequency = decay.eigen_frequency = MatrixRM(2, 6);
+  decay.damping_ratio = decay.eigen_damping_ratio = MatrixRM::Constant(2, 6, 0.0765);
+  for (Index k = 0; k < 6; ++k)
+    decay.natural_frequency.col(k).setConstant(1234.5 * static_cast<double>(k + 1));
+  decay.eigen_frequency = decay.natural_frequency;
+  decay.rigid_frequency = decay.natural_frequency.row(0).transpose();
+  check(system_impact_figure(decay), "system-ringdown");
+}
