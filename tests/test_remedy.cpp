@@ -9,6 +9,7 @@
 #include "gear/pair.h"
 #include "gear/rack_tip.h"
 #include "gear/remedy.h"
+#include "gear/scene_geometry.h"
 #include "gear/system_layout.h"
 #include "internal_pair.h"
 #include "message_of_input.h"
@@ -100,6 +101,73 @@ TEST_CASE("the remedy of a drawing that is rejected, followed once, ends in gear
   CHECK(remedy(other).empty());
   CHECK(with_remedy("a; b", other) == "a; b");
   CHECK(remedy(pair_of(gear(30), gear(45))).empty());
+}
+
+TEST_CASE("a remedy changes what is wrong: bores, low dedenda, undercut gears") {
+  const auto said = [](const DrawnGears& gears) { return with_remedy(fault(gears), gears); };
+  DrawnGears bored = pair_of(gear(30), gear(45));
+  bored.design[0].bore_radius = 36e-3;  // root 34.375
+  CHECK(
+      said(bored).find("; all checks pass with bore_radius_mm = 31.87 or less in [gear.pinion] (a rim of one "
+                       "module; 36 may be a diameter)") != std::string::npos);
+  DrawnGears thin = pair_of(gear(20), ring_of(60, 0));
+  thin.design[1].rim_outer_radius = ToothGeometry(thin.design[1]).root_radius() - 1e-3;
+  const std::vector<Change> rim = remedy(thin);
+  REQUIRE(rim.size() == 1);
+  CHECK(rim[0].value - ToothGeometry(ring_of(60, 0)).root_radius() == relative(kModule, 1e-2));
+
+  DrawnGears low = pair_of(gear(30, 0, 1), gear(45, 0, 1));
+  for (GearDesign& own : low.design) own.rack_tip_radius = 0.2;
+  low.mesh[0].centre_distance -= 1e-15;  // the round-off of other numbers
+  CHECK(fault(low).find("has no clearance from the root of the ") != std::string::npos);
+  CHECK(
+      said(low).find("; all checks pass with dedendum = 1.25 in [gear.pinion] (root_diameter_mm = 68.75) and "
+                     "dedendum = 1.25 in [gear.wheel]") != std::string::npos);
+
+  const DrawnGears small = pair_of(gear(10), gear(10));
+  REQUIRE(!fault(small).empty());
+  const std::vector<Change> shifts = remedy(small);
+  REQUIRE(shifts.size() >= 2);
+  for (size_t g = 0; g < 2; ++g) {
+    CHECK(shifts[g].member == &GearDesign::profile_shift);
+    CHECK(shifts[g].value > 0);
+  }
+}
+
+TEST_CASE(
+    "more backlash than drawings have is warned of, with the shift of the other sign where it is ordinary") {
+  const auto where = [](const std::vector<std::string>& sections, const std::string&) {
+    return "x.toml: " + sections.front();
+  };
+  const auto said = [&](const GearDesign& a, const GearDesign& b, double distance) {
+    SystemScene scene;
+    scene.gears.resize(2);
+    scene.gears[0].name = "pinion";
+    scene.gears[1].name = "wheel";
+    scene.gears[0].design = a;
+    scene.gears[1].design = b;
+    scene.meshes.resize(1);
+    scene.meshes[0].spec.gear = {"pinion", "wheel"};
+    scene.meshes[0].spec.centre_distance = distance;
+    std::string out;
+    for (const std::string& line : scene_warnings(scene, where))
+      if (line.find("backlash") != std::string::npos) out += line;
+    return out;
+  };
+  const std::string wrong = said(gear(17, -0.4), gear(60), 97.2e-3);
+  CHECK(wrong.find("x.toml: gear.pinion: the backlash of pinion-wheel is 1.3") == 0);
+  CHECK(wrong.find("; with profile_shift = 0.4 in [gear.pinion] it would be -0.0107881 mm, about none") !=
+        std::string::npos);
+  CHECK(said(gear(17, 0.4), gear(60), 97.23e-3).empty());
+  // One that is not of a sign.
+  GearDesign thinned = gear(30);
+  thinned.tooth_thinning = 0.3e-3;
+  CHECK(said(thinned, thinned, 30 * kModule)
+            .find("; check centre_distance_mm, profile_shift and tooth_thinning_mm") != std::string::npos);
+  thinned.tooth_thinning = 0.1e-3;
+  CHECK(said(thinned, thinned, 30 * kModule).empty());
+  CHECK(said(gear(20), ring_of(60, -0.5), 20 * kModule).find("(0.34202 modules) along the line of action") !=
+        std::string::npos);
 }
 
 TEST_CASE("a ring whose shift has the sign of handbooks is told so, one with the sign of ISO 21771 is not") {
@@ -217,9 +285,8 @@ TEST_CASE("gears that share a shaft are told that this is not computed, others t
   const auto said = [&] { return message_of_input([&] { layout_of(scene); }); };
   mesh("a", "b");
   mesh("c", "d");
-  CHECK(
-      said().find("'c' is driven by no mesh before it; no [[mesh]] joins it to 'a': gears that share a shaft "
-                  "are not computed") != std::string::npos);
+  CHECK(said().find("no [[mesh]] joins 'c' and 'd' to 'a': gears that share a shaft are not computed") !=
+        std::string::npos);
   mesh("b", "c");
   CHECK(said().find("name the gears in the order of the flow of power") != std::string::npos);
 }

@@ -16,8 +16,10 @@
 #include "io/publish.h"
 #include "io/scene.h"
 #include "io/scene_place.h"
+#include "io/scene_remarks.h"
 #include "relative.h"
 #include "scene_file.h"
+#include "system/near_interference.h"
 
 using namespace whine;
 namespace fs = std::filesystem;
@@ -165,6 +167,10 @@ TEST_CASE("words of other programs that have no key of their own lead to the rig
   for (const auto& [word, meant] :
        {std::pair{"web_thickness_mm", "did you mean 'bore_radius_mm' (there are no webs"},
         std::pair{"inertia_kgm2", "did you mean 'total_inertia_kgm2'?"},
+        std::pair{"inertia_kgmm2", "did you mean 'total_inertia_kgm2' (1 kg mm2 is 1e-6 kg m2)?"},
+        std::pair{"profile_shift_mm", "did you mean 'profile_shift' (in modules)?"},
+        std::pair{"addendum_mm", "did you mean 'addendum' (in modules)?"},
+        std::pair{"dedendum_mm", "did you mean 'dedendum' (in modules)?"},
         std::pair{"hob_tip_radius_mm", "did you mean 'rack_tip_radius' (in modules)?"},
         std::pair{"rim_thickness_mm", "did you mean 'rim_outer_radius_mm' (of an internal gear"},
         std::pair{"undercut", "follows from teeth, profile_shift"},
@@ -175,6 +181,37 @@ TEST_CASE("words of other programs that have no key of their own lead to the rig
     INFO(said(word));
     CHECK(contains(said(word), meant));
   }
+}
+
+TEST_CASE("a gear at the top of a scene is told its section, one in no mesh is warned of with its line") {
+  const SceneFile file;
+  CHECK(contains(file.rejection(scene_with("[gear.pinion]", "[pinion]")),
+                 "x.toml:1: unknown section 'pinion'; a gear is [gear.pinion]"));
+  const std::string path = file.path(with_section("[gear.wheel2]\nlike = \"pinion\"\n"));
+  const Scene scene = read_scene(path);
+  std::string said;
+  for (const std::string& line : scene_lines(scene, path)) said += line + "\n";
+  CHECK(contains(said,
+                 path + ":23: [gear.wheel2] is in no [[mesh]] and carries nothing; gears that share a shaft "
+                        "are not computed"));
+}
+
+TEST_CASE("a torque in N mm is named where a thousandth of it passes") {
+  const SceneFile file;
+  const auto words = [&](const std::string& torques) {
+    const std::string path = file.path(scene_with("[100, 150]", torques));
+    return near_interference(read_scene(path), ForceBound::least);
+  };
+  CHECK(contains(words("[200000]"), ". torque_Nm = 200000 may be N mm: 200 N m pass"));
+  CHECK(words("[200]").empty());
+  const std::string path = file.path(scene_with("[100, 150]", "[80000]"));
+  std::string said;
+  try {
+    check_scene(read_scene(path), path);
+  } catch (const Error& error) {
+    said = error.what();
+  }
+  CHECK(contains(said, "or lower the torque. torque_Nm = 80000 may be N mm: 80 N m pass"));
 }
 
 TEST_CASE("a ring whose diameters ask for the shift of the other sign is told so") {

@@ -142,6 +142,24 @@ TEST_CASE("stage parameters of a system: read as written, the same modes to the 
   CHECK_THROWS_AS(read_system_parameters(kShipped), Error);
 }
 
+TEST_CASE("stages on one shaft are told so before anything else that their scene lacks") {
+  const SceneFile file;
+  const std::string second =
+      "[gear.pinion2]\nlike = \"pinion\"\n[gear.wheel2]\nlike = \"pinion\"\n[[mesh]]\ndriver = "
+      "\"pinion2\"\ndriven = \"wheel2\"\ncentre_distance_mm = 150\n";
+  const std::string path = file.path(with_section(second));
+  std::string said;
+  try {
+    read_system_scene(path);
+  } catch (const Error& error) {
+    said = error.what();
+  }
+  CHECK(said ==
+        path +
+            ":27: no [[mesh]] joins 'pinion2' and 'wheel2' to 'pinion': gears that share a shaft are not "
+            "computed, only gears in mesh; compute each stage by a scene of its own");
+}
+
 TEST_CASE("faults of a scene of a system are rejected with their line") {
   const int carrier = line_of("[[carrier]]"), second = line_of("[[mesh]]", 2),
             pin = line_of("[[bearing]]", 2);
@@ -222,6 +240,9 @@ TEST_CASE("elastic systems: what their rest needs is checked with its line befor
         "[[carrier]]", "carrier 'carrier' may turn");
   check({{"driver = \"planet\"", "contact_plane = \"stress\"\ndriver = \"planet\""}},
         "[[mesh]]\ncontact_plane", "give all meshes the same");
+  // Before remedies are looked for, which see each mesh by itself.
+  check({{"centre_distance_mm = 88.9", "centre_distance_mm = 86.1"}}, "[[mesh]]\ndriver = \"planet\"",
+        "give both meshes of a planet one centre distance");
   check({{"[[bearing]]\ngear = \"sun\"",
           "[[mesh]]\ndriven = \"planet\"\ndriver = \"sun\"\ncentre_distance_mm = 88.9\n[[bearing]]\ngear = "
           "\"sun\""}},

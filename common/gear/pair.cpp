@@ -105,6 +105,7 @@ void GearPair::require_reach() const {
 }
 
 void GearPair::require_no_interference() const {
+  constexpr double kRoundOff = 1e-9;  // m
   const auto& [a, b] = gear_;
   for (int g = 0; g < kSides; ++g) {
     const ToothGeometry &own = gear_[g], &other = gear_[1 - g];
@@ -112,9 +113,10 @@ void GearPair::require_no_interference() const {
                              : g == ring_ ? own.tip_radius() - centre_distance_ - other.root_radius()
                                           : other.root_radius() - centre_distance_ - own.tip_radius();
     if (clearance < 0)
-      fail(Failure::input, "the gears jam: the tip of the ", kGearName[g], " stands ",
-           millimetres(-clearance), " inside the root of the ", kGearName[1 - g],
-           "; lower its addendum or raise the other's dedendum");
+      fail(Failure::input, "the gears jam: the tip of the ", kGearName[g],
+           clearance > -kRoundOff ? " has no clearance from"
+                                  : text(" stands ", millimetres(-clearance), " inside"),
+           " the root of the ", kGearName[1 - g], "; lower its addendum or raise the other's dedendum");
   }
   const double lost = path_lost_[0] + path_lost_[1];
   if (contact_ratio() < 1)

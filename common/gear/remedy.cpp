@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "base/error.h"
 #include "gear/handbook_sign.h"
@@ -43,14 +44,30 @@ bool ordinary(const Change& shifted) {
   return shifted.value >= kLeastShift && shifted.value <= kLargestShift;
 }
 
+double root_radius(const GearDesign& d) {
+  return d.module * (0.5 * d.teeth + (d.internal ? 1 : -1) * (d.dedendum - d.profile_shift));
+}
+
 // What holds the body: of an external gear its bore, of an internal one the outside of its rim.
 std::vector<Change> held(const GearDesign& d, size_t g, double step) {
-  const double root = d.module * (0.5 * d.teeth + (d.internal ? 1 : -1) * (d.dedendum - d.profile_shift));
-  const double radius = root + (d.internal ? 1 : -1) * std::abs(step) * d.module;
+  const double radius = root_radius(d) + (d.internal ? 1 : -1) * std::abs(step) * d.module;
   if (!(radius > 0)) return {};
   return {{false, g, d.internal ? "rim_outer_radius_mm" : "bore_radius_mm",
            d.internal ? &GearDesign::rim_outer_radius : &GearDesign::bore_radius,
-           std::round(radius * kRound) / kRound}};
+           (d.internal ? std::ceil(radius * kRound - 1e-6) : std::floor(radius * kRound + 1e-6)) / kRound}};
+}
+
+// Bores beyond their roots and rims within them: nothing of the teeth is wrong. A rim of one module.
+std::vector<Change> misheld(const DrawnGears& gears) {
+  std::vector<Change> out;
+  for (size_t g = 0; g < gears.design.size(); ++g) {
+    const GearDesign& d = gears.design[g];
+    if (d.held_radius() == 0 ||
+        (d.internal ? d.rim_outer_radius > root_radius(d) : d.bore_radius < root_radius(d)))
+      continue;
+    for (const Change& one : held(d, g, 1)) out.push_back(one);
+  }
+  return out;
 }
 
 void add_gear_levers(const DrawnGears& gears, size_t g, std::vector<Lever>& out) {
@@ -129,6 +146,54 @@ struct Try {
   double cost;
   std::vector<Change> changes;
 };
+
+// Roots that the mate's tips reach since the dedendum is low: that with a clearance of a quarter of a module, of all of them.
+std::vector<Change> deeper_roots(const DrawnGears& gears) {
+  constexpr double kOrdinary = 1.25, kClearance = 0.25, kNone = 1e-6;  // modules
+  std::vector<Change> out;
+  for (const DrawnGears::Mesh& mesh : gears.mesh)
+    for (const auto& [own, mate] : {std::pair{mesh.first, mesh.second}, std::pair{mesh.second, mesh.first}}) {
+      const GearDesign &d = gears.design[own], &other = gears.design[mate];
+      const double tip = other.module * (0.5 * other.teeth +
+                                         (other.internal ? -1 : 1) * (other.addendum + other.profile_shift));
+      const double clearance = (d.internal       ? root_radius(d) - mesh.centre_distance - tip
+                                : other.internal ? tip - mesh.centre_distance - root_radius(d)
+                                                 : mesh.centre_distance - tip - root_radius(d)) /
+                               d.module;
+      const Change deeper{false, own, "dedendum", &GearDesign::dedendum,
+                          to_step(d.dedendum + kClearance - clearance)};
+      if (d.dedendum < kOrdinary && clearance < kNone && deeper.value <= kLargestHeight &&
+          std::none_of(out.begin(), out.end(), [&](const Change& one) { return one.number == own; }))
+        out.push_back(deeper);
+    }
+  return out;
+}
+
+// Gears of a pair that are undercut get the shifts that undo it: against each other, or both with the distance of the axes that keeps
+// the backlash.
+void add_shifts_of_undercut(const DrawnGears& gears, std::vector<Try>& tries) {
+  const DrawnGears::Mesh& mesh = gears.mesh[0];
+  const GearDesign &a = gears.design[mesh.first], &b = gears.design[mesh.second];
+  std::vector<size_t> undercut;
+  for (const size_t g : {mesh.first, mesh.second})
+    if (!gears.design[g].internal && shift_without_undercut(gears.design[g]) > gears.design[g].profile_shift)
+      undercut.push_back(g);
+  constexpr int kMost = 60;
+  const double cosine = base_distance(a, b) / mesh.centre_distance;
+  for (int n = 1; n <= kMost && !undercut.empty() && cosine < 1; ++n) {
+    std::vector<Change> changes;
+    for (const size_t g : undercut) changes.push_back(shift(gears, g, n * kStep));
+    if (undercut.size() == 1)
+      changes.push_back(shift(gears, undercut[0] == mesh.first ? mesh.second : mesh.first, -n * kStep));
+    if (!std::all_of(changes.begin(), changes.end(), ordinary)) break;
+    if (undercut.size() == 2) {
+      const double wanted =
+          involute_function(std::acos(cosine)) + 4 * n * kStep * std::tan(a.pressure_angle) / teeth_of(a, b);
+      changes.push_back({true, 0, "centre_distance_mm", nullptr, distance_at(a, b, wanted)});
+    }
+    tries.push_back({n * 1.0, changes});
+  }
+}
 
 // The distance of the axes without backlash, where it is further away than steps lead: a distance of another pair, or in another unit.
 void add_far_distance(const DrawnGears& gears, double farthest, std::vector<Try>& tries) {
@@ -273,8 +338,21 @@ void change(DrawnGears& gears, const std::vector<Change>& changes) {
 }
 
 std::vector<Change> remedy(const DrawnGears& gears) {
+  if (std::vector<Change> holds = misheld(gears); !holds.empty()) {
+    DrawnGears held_right = gears;
+    change(held_right, holds);
+    if (fault(held_right).empty()) return holds;
+    const std::vector<Change> others = remedy(held_right);
+    if (!others.empty()) holds.insert(holds.end(), others.begin(), others.end());
+    return others.empty() ? others : holds;
+  }
   const std::vector<Fault> faults = faults_of(gears);
   if (faults.empty() || beyond_help(gears)) return {};
+  // What a designer does comes before the smallest change.
+  std::vector<Try> usual;
+  if (const std::vector<Change> deeper = deeper_roots(gears); !deeper.empty()) usual.push_back({0, deeper});
+  if (gears.mesh.size() == 1) add_shifts_of_undercut(gears, usual);
+  if (std::vector<Change> found = cheapest(gears, faults, usual); !found.empty()) return found;
   std::vector<Lever> levers;
   for (size_t g = 0; g < gears.design.size(); ++g) add_gear_levers(gears, g, levers);
   if (gears.mesh.size() == 1) add_pair_levers(gears, levers);
@@ -330,9 +408,12 @@ std::string with_remedy(const std::string& words, const DrawnGears& gears) {
       out += text(one.key, " = ", shown_number(one.value * 1e3), " in [[mesh]]");
       continue;
     }
-    const bool length = std::string(one.key).ends_with("_mm");
-    out += text(one.key, " = ", shown_number(length ? one.value * 1e3 : one.value), " in [gear.",
-                gears.name[one.number], "]");
+    const bool length = std::string(one.key).ends_with("_mm"), bore = one.member == &GearDesign::bore_radius;
+    out += text(one.key, " = ", shown_number(length ? one.value * 1e3 : one.value), bore ? " or less" : "",
+                " in [gear.", gears.name[one.number], "]");
+    const double given = gears.design[one.number].bore_radius;
+    if (bore && given > one.value && given / 2 <= one.value)
+      out += text(" (a rim of one module; ", shown_number(given * 1e3), " may be a diameter)");
     const GearDesign& d = changed.design[one.number];
     const double side = d.internal ? -1 : 1, middle = d.teeth + 2 * side * d.profile_shift;
     const bool shifted = one.member == &GearDesign::profile_shift;

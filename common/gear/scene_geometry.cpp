@@ -13,6 +13,7 @@
 #include "gear/numbers.h"
 #include "gear/pair.h"
 #include "gear/remedy.h"
+#include "gear/system_layout.h"
 #include "gear/undercut.h"
 
 namespace whine {
@@ -102,6 +103,8 @@ std::string flywheel(const GearDesign& design, const Material& material, double 
 
 namespace {
 
+constexpr double kOrdinaryBacklash = 0.1, kLargestBacklash = 0.2;  // modules, on the line of action
+
 template <class AnyScene>
 void add_shortened_path(const AnyScene& scene, const GearMeshSpec& mesh, const ScenePlace& where,
                         std::vector<std::string>& out) {
@@ -114,16 +117,49 @@ void add_shortened_path(const AnyScene& scene, const GearMeshSpec& mesh, const S
   if (!words.empty()) out.push_back(where({"mesh"}, words) + ": " + words);
 }
 
-// Rings that mesh, but fit with the shift of the other sign.
-void warn_of_signs(const DrawnGears& gears, const ScenePlace& where, std::vector<std::string>& out) {
+double backlash_of(const DrawnGears& gears, const DrawnGears::Mesh& mesh) {
+  return GearPair(gears.design[mesh.first], gears.design[mesh.second], mesh.centre_distance).backlash();
+}
+
+// The shift of a gear of the mesh that has the other sign in a drawing with an ordinary backlash; "" if there is none.
+std::string ordinary_with_other_sign(const DrawnGears& gears, const DrawnGears::Mesh& mesh) {
+  for (const size_t g : {mesh.first, mesh.second}) {
+    if (gears.design[g].profile_shift == 0) continue;
+    DrawnGears other = gears;
+    GearDesign& design = other.design[g];
+    design.profile_shift = -design.profile_shift;
+    // Distances of axes are rounded: a little less than none is meant as none.
+    constexpr double kRounded = 0.02;  // modules
+    design.tooth_thinning += kRounded * design.module;
+    if (!fault(other).empty()) continue;
+    const double backlash =
+        backlash_of(other, mesh) - kRounded * design.module * std::cos(design.pressure_angle);
+    if (backlash <= kOrdinaryBacklash * design.module)
+      return text("with profile_shift = ", shown_number(design.profile_shift), " in [gear.", gears.name[g],
+                  "] it would be ", millimetres(backlash), backlash < 0 ? ", about none" : "");
+  }
+  return "";
+}
+
+// Gears that mesh with more backlash than drawings have: an error of sign or of the distance of the axes leaves them so.
+void warn_of_backlash(const DrawnGears& gears, const ScenePlace& where, std::vector<std::string>& out) {
   for (const DrawnGears::Mesh& mesh : gears.mesh) {
     const GearDesign &first = gears.design[mesh.first], &second = gears.design[mesh.second];
-    const auto shift = shift_of_other_sign(first, second, mesh.centre_distance);
-    if (!shift) continue;
-    const std::string section = "gear." + gears.name[first.internal ? mesh.first : mesh.second];
-    out.push_back(where({section}, "profile_shift") + ": [" + section + "]: the backlash is " +
-                  millimetres(GearPair(first, second, mesh.centre_distance).backlash()) + "; " +
-                  other_sign_words(*shift));
+    const double backlash = backlash_of(gears, mesh), modules = backlash / first.module;
+    const std::string is = text("the backlash of ", gears.name[mesh.first], "-", gears.name[mesh.second],
+                                " is ", millimetres(backlash), " (", shown_number(modules), " modules)");
+    if (const auto shift = shift_of_other_sign(first, second, mesh.centre_distance)) {
+      const std::string section = "gear." + gears.name[first.internal ? mesh.first : mesh.second];
+      out.push_back(where({section}, "profile_shift") + ": [" + section + "]: " + is + "; " +
+                    other_sign_words(*shift));
+    } else if (modules > kLargestBacklash) {
+      const std::string other = ordinary_with_other_sign(gears, mesh);
+      out.push_back(
+          where({"gear." + gears.name[mesh.first], "gear." + gears.name[mesh.second]}, "profile_shift") +
+          ": " + is + " along the line of action, above " + shown_number(kLargestBacklash) +
+          ": drawings have below " + shown_number(kOrdinaryBacklash) + "; " +
+          (other.empty() ? "check centre_distance_mm, profile_shift and tooth_thinning_mm" : other));
+    }
   }
 }
 
@@ -131,12 +167,16 @@ void warn_of_signs(const DrawnGears& gears, const ScenePlace& where, std::vector
 
 std::vector<std::string> scene_warnings(const Scene& scene, const ScenePlace& where) {
   std::vector<std::string> out;
-  warn_of_signs(drawn_gears(scene), where, out);
+  warn_of_backlash(drawn_gears(scene), where, out);
   for (const SceneGear& gear : scene.gears)
     for (const std::string& words : {undercut_words(gear.design, gear.name), thin_rim(gear.design, gear.name),
                                      flywheel(gear.design, gear.material, gear.total_inertia, gear.name)})
       if (!words.empty()) out.push_back(where({"gear." + gear.name}, words) + ": " + words);
   add_shortened_path(scene, scene.mesh, where, out);
+  for (const SceneGear& gear : scene.gears)
+    if (gear.name != scene.mesh.gear[0] && gear.name != scene.mesh.gear[1])
+      out.push_back(text(where({"gear." + gear.name}, ""), ": [gear.", gear.name,
+                         "] is in no [[mesh]] and carries nothing; ", kOneShaft));
   return out;
 }
 
@@ -191,7 +231,7 @@ std::vector<std::string> scene_remarks(const SystemScene& scene) {
 
 std::vector<std::string> scene_warnings(const SystemScene& scene, const ScenePlace& where) {
   std::vector<std::string> out;
-  warn_of_signs(drawn_gears(scene), where, out);
+  warn_of_backlash(drawn_gears(scene), where, out);
   if (scene.rigid()) return out;
   for (const SystemScene::Gear& gear : scene.gears)
     for (const std::string& words :

@@ -24,11 +24,12 @@ void check_system_geometry(const SystemScene& scene, const ScenePlace& where);
 void check_inertia(const Scene& scene, const ScenePlace& where);
 void check_inertia(const SystemScene& scene, const ScenePlace& where);  // of elastic gears
 
-// What a scene may mean but hardly does, each with its place before it: thin rims, inertias of flywheels, undercut and what it takes
+// What a scene may mean but hardly does, each with its place before it: more backlash than 0.2 modules, gears in no mesh, thin rims, inertias of flywheels, undercut and what it takes
 // of the path of contact. Nothing is computed for it.
 std::vector<std::string> scene_warnings(const Scene& scene, const ScenePlace& where);
-std::vector<std::string> scene_warnings(const SystemScene& scene,
-                                        const ScenePlace& where);  // thin rims and undercut of elastic gears
+std::vector<std::string> scene_warnings(
+    const SystemScene& scene,
+    const ScenePlace& where);  // backlash; thin rims and undercut of elastic gears
 
 // What to know of a scene that is as it should be: gears of unequal face widths, elements long beside the module.
 std::vector<std::string> scene_remarks(const Scene& scene);

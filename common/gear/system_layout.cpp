@@ -47,6 +47,14 @@ class Layout {
   System make() {
     if (scene_.meshes.empty()) reject("mesh", 0, "a system needs one [[mesh]] at least");
     for (size_t c = 0; c < scene_.carriers.size(); ++c) check_carrier(c);
+    std::vector<std::array<std::string, 2>> meshes;
+    for (size_t m = 0; m < scene_.meshes.size(); ++m) {
+      meshes.push_back(scene_.meshes[m].spec.gear);
+      for (const std::string& name : meshes.back()) gear_called(name, m);
+    }
+    require_joined(meshes);
+    // Before remedies are looked for, which see each mesh by itself.
+    for (size_t c = 0; c < scene_.carriers.size(); ++c) check_axis(c);
     for (size_t m = 0; m < scene_.meshes.size(); ++m) {
       check_new(m);
       try {
@@ -180,7 +188,6 @@ class Layout {
       add_input_gear(system_, first->name, first->design, first->bearing);
       system_.bodies.back().inertia = inertia_of(*first);
     }
-    if (carrier >= 0) check_axis(m, static_cast<size_t>(carrier));
     const size_t planets = carrier < 0 ? 1 : positions_[static_cast<size_t>(carrier)].size();
     for (size_t n = 0; n < planets; ++n) {
       const auto called = [&](const SystemScene::Gear& gear) {
@@ -195,27 +202,20 @@ class Layout {
     if (carrier >= 0) check_neighbours(static_cast<size_t>(carrier));
   }
 
-  // Whether meshes lead from one gear to another, in whatever order they are named.
-  bool meshes_join(const std::string& gear, const std::string& other) const {
-    std::set<std::string> reached{other};
-    for (size_t before = 0; before != reached.size();) {
-      before = reached.size();
-      for (const SystemScene::Mesh& mesh : scene_.meshes) {
-        const auto& [first, second] = mesh.spec.gear;
-        if (reached.contains(first) || reached.contains(second)) reached.insert({first, second});
-      }
-    }
-    return reached.contains(gear);
-  }
-
   // Sun, ring and carrier have one axis, so all meshes of a planet have one centre distance.
-  void check_axis(size_t m, size_t c) const {
-    const double distance = scene_.meshes[m].spec.centre_distance, other = pin_radius(c);
-    if (other > 0 && !(std::abs(other - distance) < 1e-6 * distance))
-      reject("mesh", m, "[[mesh]] of '", scene_.meshes[m].spec.gear[0], "' and '",
-             scene_.meshes[m].spec.gear[1], "': centre_distance_mm = ", distance * 1e3, ", and ", other * 1e3,
-             " in the other [[mesh]] of the planets of carrier '", scene_.carriers[c].name,
-             "': central gears have one axis; give both meshes of a planet one centre distance");
+  void check_axis(size_t c) const {
+    double other = 0;
+    for (size_t m = 0; m < scene_.meshes.size(); ++m) {
+      const auto& [gear, distance] =
+          std::pair{scene_.meshes[m].spec.gear, scene_.meshes[m].spec.centre_distance};
+      if (gear[0] != scene_.carriers[c].planet && gear[1] != scene_.carriers[c].planet) continue;
+      if (other > 0 && !(std::abs(other - distance) < 1e-6 * distance))
+        reject("mesh", m, "[[mesh]] of '", gear[0], "' and '", gear[1],
+               "': centre_distance_mm = ", distance * 1e3, ", and ", other * 1e3,
+               " in the other [[mesh]] of the planets of carrier '", scene_.carriers[c].name,
+               "': central gears have one axis; give both meshes of a planet one centre distance");
+      other = distance;
+    }
   }
 
   void take_one(size_t m, const SystemScene::Gear& first, const std::string& on,
@@ -224,12 +224,7 @@ class Layout {
     const int a = placed(on), b = placed(to);
     if (a < 0)
       reject("mesh", m, "[[mesh]] of '", first.name, "' and '", second.name, "': '", first.name,
-             "' is driven by no mesh before it; ",
-             meshes_join(first.name, scene_.meshes[0].spec.gear[0])
-                 ? "name the gears in the order of the flow of power"
-                 : "no [[mesh]] joins it to '" + scene_.meshes[0].spec.gear[0] +
-                       "': gears that share a shaft are not computed, only gears in mesh; compute each stage "
-                       "by a scene of its own");
+             "' is driven by no mesh before it; name the gears in the order of the flow of power");
     if (b < 0) {
       add_driven_gear(system_, a, first.design, to, second.design, distance, direction, second.bearing);
       system_.bodies.back().inertia = inertia_of(second);
@@ -313,7 +308,8 @@ class Layout {
     }
     for (const SystemScene::Gear& gear : scene_.gears)
       if (placed(gear.name) < 0 && carrier_of(gear.name) < 0)
-        reject("mesh", 0, "[gear.", gear.name, "] is in no [[mesh]]; take it out, or give its mesh");
+        reject("mesh", 0, "[gear.", gear.name,
+               "] is in no [[mesh]]; take it out, or give its mesh: ", kOneShaft);
   }
 
   void take_drives() {
@@ -336,6 +332,20 @@ class Layout {
 };
 
 }  // namespace
+
+void require_joined(const std::vector<std::array<std::string, 2>>& meshes) {
+  if (meshes.empty()) return;
+  std::set<std::string> reached(meshes[0].begin(), meshes[0].end());
+  for (size_t before = 0; before != reached.size();) {
+    before = reached.size();
+    for (const auto& [first, second] : meshes)
+      if (reached.contains(first) || reached.contains(second)) reached.insert({first, second});
+  }
+  for (size_t m = 1; m < meshes.size(); ++m)
+    if (!reached.contains(meshes[m][0]))
+      reject("mesh", m, "no [[mesh]] joins '", meshes[m][0], "' and '", meshes[m][1], "' to '", meshes[0][0],
+             "': ", kOneShaft);
+}
 
 System layout_of(const SystemScene& scene) {
   return Layout(scene).make();

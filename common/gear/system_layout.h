@@ -4,6 +4,10 @@
 // meshes are ahead of each other by what tooth numbers and angles say (gear/train.h). N planets between a sun of z_s teeth and a
 // ring of z_r can be put in where (z_s + z_r) psi_n / (2 pi) is whole for all n, at equal spacing where (z_s + z_r) / N is.
 #pragma once
+#include <array>
+#include <string>
+#include <vector>
+
 #include "gear/train.h"
 #include "model/system_scene.h"
 
@@ -12,6 +16,13 @@ namespace whine {
 // Positions of a carrier that lie within this share of a step 2 pi / (z_s + z_r) from one that can be assembled are taken for it:
 // a drawing has 91.43 degrees, not 91.428571...
 inline constexpr double kPositionDigits = 0.05;
+
+// What to do where two gears share a shaft.
+inline constexpr const char* kOneShaft =
+    "gears that share a shaft are not computed, only gears in mesh; compute each stage by a scene of its own";
+
+// SystemSceneError at the first of the meshes (names of their gears) that no others join to the first mesh.
+void require_joined(const std::vector<std::array<std::string, 2>>& meshes);
 
 // Bodies stand in the order in which meshes name them, planets as <gear>1, <gear>2, ... in the order of their positions, carriers
 // last. Throws SystemSceneError with the section that is wrong: unknown names, gears that do not mesh, planets that cannot be

@@ -157,6 +157,9 @@ void SectionReader::reject_unknown(const std::vector<std::string>& others) const
     if (advice.empty()) advice = text("; known are: ", joined(known));
     const bool is_section = node.is_table() || node.is_array_of_tables();
     const bool top = label_.empty();
+    if (const toml::table* section = node.as_table();
+        top && section && (section->contains("teeth") || section->contains("like")))
+      advice = text("; a gear is [gear.", word, "]");
     source_.reject_line(name.source().begin.line,
                         text("unknown ", top && is_section ? "section" : "key", " '", word, "'",
                              top ? "" : text(" in [", label_, "]"), advice));

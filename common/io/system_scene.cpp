@@ -1,6 +1,7 @@
 #include "io/system_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <set>
 
@@ -247,6 +248,24 @@ void take_fidelity(const Source& source, KeyValues& values, SystemScene& scene) 
   if (scene.fidelity.body == BodyModel::full) scene.body.modes = kAllModes;
 }
 
+// Names of gears that share a shaft come first: what else a scene of them lacks leads nowhere.
+void require_one_train(const Source& source) {
+  const std::vector<const toml::table*> tables = list_of(source, "mesh");
+  const toml::table* gears = source.root()["gear"].as_table();
+  std::vector<std::array<std::string, 2>> meshes;
+  for (const toml::table* table : tables) {
+    meshes.push_back(
+        {(*table)["driver"].value_or(std::string()), (*table)["driven"].value_or(std::string())});
+    for (const std::string& name : meshes.back())
+      if (!gears || !gears->contains(name)) return;  // said where they are read
+  }
+  try {
+    require_joined(meshes);
+  } catch (const SystemSceneError& error) {
+    source.reject(*tables[error.number()], error.what());
+  }
+}
+
 }  // namespace
 
 bool is_system_scene(const std::string& path) {
@@ -261,6 +280,7 @@ SystemScene read_system_scene(const std::string& path) {
   const Source source(path);
   if (source.is_stage_parameters())
     source.reject("holds stage parameters, which gear-scene wrote from a scene; give the scene itself");
+  require_one_train(source);
   const SectionReader top(source, Dialect::scene, source.root(), "", "");
   if (const toml::node* node = source.root().get("friction"))
     source.reject(*node,

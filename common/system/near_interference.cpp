@@ -12,6 +12,7 @@
 #include "gear/numbers.h"
 #include "gear/system_layout.h"
 #include "system/load_balance.h"
+#include "system/undamped_depth.h"
 
 namespace whine {
 namespace {
@@ -83,10 +84,16 @@ std::string near_interference(const SceneGear& driver, const SceneGear& driven, 
 }
 
 std::string near_interference(const Scene& scene, ForceBound force) {
-  const SceneGear &driver = scene.gear(scene.mesh.gear[0]), &driven = scene.gear(scene.mesh.gear[1]);
   const double torque = *std::max_element(scene.operation.torques.begin(), scene.operation.torques.end());
-  return near_interference(driver, driven, scene.mesh, torque / ToothGeometry(driver.design).base_radius(),
-                           force);
+  const auto under = [&](double given, ForceBound bound) {
+    const SceneGear &driver = scene.gear(scene.mesh.gear[0]), &driven = scene.gear(scene.mesh.gear[1]);
+    return near_interference(driver, driven, scene.mesh, given / ToothGeometry(driver.design).base_radius(),
+                             bound);
+  };
+  const std::string words = under(torque, force);
+  return words.empty() ? words : words + torque_in_n_mm(torque, [&](double less) {
+                                   return under(less, ForceBound::largest).empty();
+                                 });
 }
 
 std::vector<std::pair<size_t, std::string>> near_interferences(const SystemScene& scene, const System& layout,

@@ -26,6 +26,13 @@ std::string beyond_undamped_depth(double half_width, double widest, double depth
       shown_number(depth * 1e3 * half_width / widest * 1.05), " or more, or lower the torque");
 }
 
+std::string torque_in_n_mm(double torque, const std::function<bool(double)>& passes) {
+  constexpr double kFewNewtonMetres = 1000;  // N mm are large numbers
+  if (torque < kFewNewtonMetres || !passes(torque / 1e3)) return "";
+  return text(". torque_Nm = ", shown_number(torque), " may be N mm: ", shown_number(torque / 1e3),
+              " N m pass");
+}
+
 namespace {
 
 // What of a scene in motion the judgement needs.
@@ -70,12 +77,15 @@ std::string judged(const SceneGear& driver, const SceneGear& driven, const GearM
 void check_undamped_depth(const Scene& scene, const ScenePlace& where) {
   const SceneGear &driver = scene.gear(scene.mesh.gear[0]), &driven = scene.gear(scene.mesh.gear[1]);
   if (scene.operation.torques.empty()) return;
-  const double torque = *std::max_element(scene.operation.torques.begin(), scene.operation.torques.end()),
-               force = torque / ToothGeometry(driver.design).base_radius();
-  const std::string words =
-      judged(driver, driven, scene.mesh, force, motion_of(scene, scene.fidelity.contact));
+  const double torque = *std::max_element(scene.operation.torques.begin(), scene.operation.torques.end());
+  const auto under = [&](double given) {
+    return judged(driver, driven, scene.mesh, given / ToothGeometry(driver.design).base_radius(),
+                  motion_of(scene, scene.fidelity.contact));
+  };
+  const std::string words = under(torque);
   if (words.empty()) return;
-  fail(Failure::input, where({"damping", "operation"}, words), ": at ", shown_number(torque), " N m ", words);
+  fail(Failure::input, where({"damping", "operation"}, words), ": at ", shown_number(torque), " N m ", words,
+       torque_in_n_mm(torque, [&](double less) { return under(less).empty(); }));
 }
 
 void check_undamped_depth(const SystemScene& scene, const System& layout, const ScenePlace& where) {

@@ -6,6 +6,7 @@
 // (the capacity w / 2 of an interval against the constant of C (ln(D / |x|) - k)); Hertz's law of a line is used up to exp(-1/8) of it.
 // Strips of a wider contact are solved as long as a time step is long against eta, for most of the rest then gives way within it.
 #pragma once
+#include <functional>
 #include <string>
 
 #include "contact/half_plane_strip.h"
@@ -19,6 +20,9 @@ double widest_half_width(const HalfPlaneSurface& driver, const HalfPlaneSurface&
 
 // Half-width (m) of a contact that is wider, in words with the remedy.
 std::string beyond_undamped_depth(double half_width, double widest, double depth);
+
+// ". torque_Nm = 80000 may be N mm: 80 N m pass" of a torque of 1000 N m or more, a thousandth of which passes; else "".
+std::string torque_in_n_mm(double torque, const std::function<bool(double)>& passes);
 
 // Throws Error(input), with its place, for a scene whose largest torque, carried by one pair of teeth, makes a contact by Hertz that its
 // motion cannot hold: of lines, or of strips with time steps shorter than eta.
