@@ -49,7 +49,8 @@ std::string beyond_relaxation_range(const Damping& damping, BodyModel body, doub
   return text("rayleigh_stiffness_s = ", eta, " in [damping] is ", eta * highest_frequency,
               " of a mesh period at ", highest_frequency, " Hz, at most ", kMostRelaxation,
               " is computed: the damping ratio of a mode at the mesh frequency is then ",
-              std::numbers::pi * eta * highest_frequency, "; lower it to ", kMostRelaxation / highest_frequency,
+              std::numbers::pi * eta * highest_frequency, "; lower it to ",
+              kMostRelaxation / highest_frequency,
               " (make calibrate finds that of a damping ratio), or the largest mesh_frequency_Hz to ",
               kMostRelaxation / eta, " Hz");
 }

@@ -258,7 +258,8 @@ const SystemSolution& SystemStatics::solve(double phase, int period, const Vecto
 void SystemStatics::require_small(const SystemSolution& solution) const {
   constexpr double kMost = 0.25;  // modules
   const auto& bodies = system_.layout.bodies;
-  const double torque = system_.layout.drives.empty() ? 0 : std::abs(system_.layout.drives.front().torque);
+  double torque = 0;
+  for (const System::Drive& drive : system_.layout.drives) torque = std::max(torque, std::abs(drive.torque));
   const bool elastic = std::any_of(bodies.begin(), bodies.end(),
                                    [](const System::Body& body) { return body.bearing.elastic(); });
   const auto require = [&](double moved, const GearMeshModel& mesh, const auto&... what) {
