@@ -456,6 +456,17 @@ TEST_CASE(
   swept.mesh_frequency = jump + (speeds.array() - speeds.mean()) * 0.03 * jump / step;
   CHECK(report_html(content).find(" % of the speed: with steps above 2 % a sweep may leave a branch") !=
         std::string::npos);
+  // Of two ways it is said once, with the speeds of both.
+  ReportContent two = content;
+  two.sweeps.push_back(two.sweeps[0]);
+  ResponseArtifact& other = two.sweeps[1].response;
+  other.direction = Direction::down;
+  other.mesh_frequency *= 1.1;
+  other.jump_frequency *= 1.1;
+  const std::string both = report_html(two), words = "a sweep may leave a branch before its end";
+  CHECK(both.find(words) == both.rfind(words));
+  CHECK(both.find("the motion jumps at " + fixed(jump, 0) + " and " + fixed(1.1 * jump, 0) + " Hz, where") !=
+        std::string::npos);
   swept.mesh_frequency = jump + (speeds.array() - speeds.mean()) * 0.015 * jump / step;
   CHECK(report_html(content).find("a sweep may leave a branch") == std::string::npos);
   swept.mesh_frequency = speeds;
