@@ -348,7 +348,7 @@ class RemarksByTorque {
         const auto less = [&](const NumberedWords& a, const NumberedWords& b) {
           return value(a.numbers[k]) < value(b.numbers[k]);
         };
-        if (all.front().speed(k) && all.front().between[k].ends_with(" at ")) {
+        if (all.front().speed(k) && (" " + all.front().between[k]).ends_with(" at ")) {
           std::vector<std::string> speeds;
           for (const NumberedWords& one : all)
             if (std::find(speeds.begin(), speeds.end(), one.numbers[k]) == speeds.end())
