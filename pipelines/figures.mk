@@ -144,7 +144,7 @@ $(if $(AXIS),$(if $(filter rpm:%,$(AXIS)),$(if $(filter 1,$(words $(AXIS))),,$(e
   $(error AXIS=$(AXIS): it is rpm:<gear>$(,) such as rpm:pinion or rpm:driver$(,) of a train rpm:<gear or carrier>)))
 $(if $(DB),$(if $(shell awk -v x='$(DB)' 'BEGIN { if (x ~ /^[0-9.]+([eE][-+]?[0-9]+)?$$/ && x + 0 > 0) print "yes" }'),,\
   $(error DB=$(DB): it is the length in m that is 0 dB$(,) such as 1e-6)))
-speed_figures := fig05 fig07 fig05-branches fig07-branches fig07-600 fig14 fig14-elastic fig16 relief-jumps waterfall order-cuts tooth-loads bearing-forces efficiency compare-motion runup-up runup-down campbell system-sweep system-branch
+speed_figures := fig05 fig07 fig05-branches fig07-branches fig07-600 fig14 fig14-elastic fig16 relief-jumps waterfall order-cuts tooth-loads bearing-forces efficiency root-stress root-stress-branches flank-pressure compare-motion runup-up runup-down campbell system-sweep system-branch
 level_figures := order-cuts compare-motion runup-up runup-down system-sweep system-branch
 # A figure that would not take them is not drawn without them; `modes` draws the Campbell diagram, too.
 not_drawn_with = $(filter-out $1,$(filter $(figures) table1 histories multipliers fold-curves jump-map sensitivity harris-map branches modes \

@@ -15,6 +15,7 @@
 #include "paper/table1.h"
 #include "paper_pair.h"
 #include "relative.h"
+#include "report/engineering_axes.h"
 #include "report/fold_curve_figure.h"
 #include "report/gear_figures.h"
 #include "report/gnuplot.h"
@@ -323,6 +324,19 @@ TEST_CASE(
     if (name == "jump_labels_b")
       CHECK(value ==
             "'300 N m: jumps rising 2250, falling 2250 Hz' '100 N m: jumps rising 2250, falling 2250 Hz' ");
+  }
+  // Beside an axis in rpm its keys are in rpm, what stands alone in both.
+  Figure turned = figure;
+  turned.words.emplace_back("title_b", "at 2250.5 Hz, rising 10, 20 and 3 more, falling 30 to 40 Hz");
+  apply({"rpm:driver"}, turned);
+  const double scale = 60.0 / sweeps[0].gear[0].design.teeth;
+  const auto rpm = [&](double frequency) { return fixed(frequency * scale, 0); };
+  for (const auto& [name, value] : turned.words) {
+    if (name == "jump_labels_a")
+      CHECK(value.starts_with("'300 N m: jumps rising " + rpm(2250) + ", falling " + rpm(2250) + " rpm' "));
+    if (name == "title_b")
+      CHECK(value == "at " + rpm(2250.5) + " rpm (2250.5 Hz), rising " + rpm(10) + ", " + rpm(20) +
+                         " and 3 more, falling " + rpm(30) + " to " + rpm(40) + " rpm");
   }
   sweeps.pop_back();
   CHECK(failure_of([&] { response_figure(sweeps); }) == Failure::input);

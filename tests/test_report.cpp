@@ -285,7 +285,7 @@ TEST_CASE(
   CHECK(count("<li>speed rising and speed falling, 200 N m: the same of all.") == 1);
   CHECK(count("speed rising, 100 and 150 N m: of two torques.") == 1);
   CHECK(count("100, 150, 200 and 300 N m: planet1 swings 1 to 3 µm of 5. Lower it.") == 1);
-  CHECK(count(" Hz.") == 4);
+  CHECK(count(": at 2000, 3000, 4000 and 6000 Hz.") == 1);
   CHECK(count("speed falling, 100, 150, 200 and 300 N m; speed rising, 300 N m: of other torques.") == 1);
 }
 
@@ -455,6 +455,17 @@ TEST_CASE(
         (step > 0.02 * jump));
   swept.mesh_frequency = jump + (speeds.array() - speeds.mean()) * 0.03 * jump / step;
   CHECK(report_html(content).find(" % of the speed: with steps above 2 % a sweep may leave a branch") !=
+        std::string::npos);
+  // Of two ways it is said once, with the speeds of both.
+  ReportContent two = content;
+  two.sweeps.push_back(two.sweeps[0]);
+  ResponseArtifact& other = two.sweeps[1].response;
+  other.direction = Direction::down;
+  other.mesh_frequency *= 1.1;
+  other.jump_frequency *= 1.1;
+  const std::string both = report_html(two), words = "a sweep may leave a branch before its end";
+  CHECK(both.find(words) == both.rfind(words));
+  CHECK(both.find("the motion jumps at " + fixed(jump, 0) + " and " + fixed(1.1 * jump, 0) + " Hz, where") !=
         std::string::npos);
   swept.mesh_frequency = jump + (speeds.array() - speeds.mean()) * 0.015 * jump / step;
   CHECK(report_html(content).find("a sweep may leave a branch") == std::string::npos);

@@ -129,6 +129,8 @@ TEST_CASE("lengths that a scene leaves open go with the module of the gear, thos
     const std::string word = module < 1 ? "0.4" : "20";
     CHECK(element(of_module(word), "pinion").element_size == relative(module * 1e-3 / 7.5, 1e-14));
     CHECK(element(of_module(word, matching), "pinion").matching_depth == relative(module * 1e-3 / 3, 1e-14));
+    // Without matching it is what an error budget tries.
+    CHECK(element(of_module(word), "pinion").matching_depth == relative(module * 1e-3 / 3, 1e-14));
     CHECK(of_module(word).damping.undamped_depth == relative(module * 1e-3 / 6, 1e-14));
     const Scene given = of_module(word, matching +
                                             "matching_depth_mm = 0.8\nelement_mm = 0.3\n[damping]\n"

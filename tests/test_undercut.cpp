@@ -16,6 +16,7 @@
 #include "solid/mesher.h"
 #include "solid/reduce.h"
 #include "solid/root_stress.h"
+#include "system/drawing_remarks.h"
 #include "system/statics.h"
 
 using namespace whine;
@@ -302,6 +303,13 @@ TEST_CASE(
   INFO(path);
   CHECK(path.starts_with("the undercut of [gear.pinion] shortens the path of contact by 3.97475 mm"));
   CHECK(shortened_path_words(standard_pair(17, 22), {"pinion", "wheel"}).empty());
+  // Results say both, as warnings.
+  const std::vector<Remark> said = drawing_remarks(standard_pair(10, 40), {"pinion", "wheel"});
+  REQUIRE(said.size() == 2);
+  CHECK(said[0].warning);
+  CHECK(said[0].words.starts_with("[gear.pinion] is undercut: "));
+  CHECK(said[1].warning);
+  CHECK(said[1].words == path);
   const std::string none = message_of_input([] { standard_pair(10, 10); });
   INFO(none);
   CHECK(none.find("the contact ratio is 0.815934 (undercut takes 0.553548), below 1") != std::string::npos);

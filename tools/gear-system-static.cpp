@@ -15,6 +15,7 @@
 #include "io/provenance.h"
 #include "io/system_scene.h"
 #include "io/system_static_codec.h"
+#include "system/drawing_remarks.h"
 #include "system/system_rest.h"
 
 namespace {
@@ -55,6 +56,8 @@ void body(int argc, char** argv) {
               " meshes, mean transmission errors ", te.row(0).minCoeff() * 1e6, " to ",
               te.row(0).maxCoeff() * 1e6, " µm, shares of the load up to ",
               result.load_share.maxCoeff() * 100, " %, bearing forces up to ", most, " N -> ", output);
+  for (const whine::Remark& remark : whine::drawing_remarks(result))
+    whine::tell("gear-system-static: ", remark.warning ? "warning: " : "", remark.words);
 }
 
 }  // namespace

@@ -62,11 +62,12 @@ void body(int argc, char** argv) {
     if (result.period_multiple[i] == 0)
       speeds += whine::text(speeds.empty() ? "" : ", ", result.mesh_frequency[i]);
   for (const whine::TurningCarrier& of : whine::turning_carriers(result))
-    if (of.turns && of.relative_force() > whine::kNotedCentrifugal)
+    if (of.relative_force() > (of.turns ? whine::kNotedCentrifugal : whine::kLargeCentrifugal))
       whine::tell("gear-system-sweep: left out of the pins of ",
                   settings.layout.bodies[static_cast<size_t>(of.carrier)].name,
-                  ", which turns: centrifugal forces of ", of.centrifugal_force, " N, ",
-                  100 * of.relative_force(), " % of the mesh force, at ", of.mesh_frequency, " Hz");
+                  of.turns ? "" : " in the machine", ", which turns: centrifugal forces of ",
+                  of.centrifugal_force, " N, ", 100 * of.relative_force(), " % of the mesh force, at ",
+                  of.mesh_frequency, " Hz");
   if (!speeds.empty())
     whine::tell("gear-system-sweep: the motion does not become periodic at ", speeds,
                 " Hz; raise damping, or periodicity in [discretisation]");

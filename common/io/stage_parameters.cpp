@@ -243,6 +243,9 @@ BodyParameters read_body_parameters(const std::string& path) {
   read_parameter_section(source, "discretisation", "discretisation", {Part::body}, values);
   if (source.section("discretisation")->contains("near_field"))
     read_parameter_section(source, "discretisation", "discretisation", {Part::near_field}, values);
+  else
+    values.body.matching_depth = 0;  // of the other near field that the error budget tries: its default
+  take_module(values, {Part::near_field}, values.design.module);
   return {values.design, values.material, values.body};
 }
 

@@ -203,7 +203,8 @@ void show(SummaryLines& lines, const ErrorBudgetArtifact& a) {
     std::string changes;
     for (Eigen::Index k = 0; k < root.change.rows(); ++k)
       changes += text(k ? ", " : "", std::round(root.change(k, g) * 1e5) / 1e3 + 0.0, " % from ",
-                      a.root.element_size[k] * 1e3, " to ", a.root.element_size[k + 1] * 1e3, " mm");
+                      std::round(a.root.element_size[k] * 1e6) / 1e3, " to ",
+                      std::round(a.root.element_size[k + 1] * 1e6) / 1e3, " mm");
     const double order = resolved_order(root, root.order.rows() - 1, g);
     add(lines, "root stress of " + a.mesh.gear[static_cast<size_t>(g)], changes,
         std::isfinite(order) ? text(", order ", std::round(order * 100) / 100) : "");

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <regex>
 
 #include "base/error.h"
 #include "base/tool.h"
@@ -16,8 +17,8 @@ constexpr double kSilence = 300;  // dB below it: what stands for a level of not
 
 // Numbers of templates that are mesh frequencies, by how they begin.
 bool is_speed(const std::string& number) {
-  constexpr std::array kSpeeds{"natural_frequency", "frequency_from", "frequency_to", "speed_step",
-                               "worst_speed"};
+  constexpr std::array kSpeeds{"natural_frequency", "frequency_from", "frequency_to",
+                               "speed_step",        "worst_speed",    "resonance"};
   return std::any_of(kSpeeds.begin(), kSpeeds.end(), [&](const char* s) { return number.starts_with(s); });
 }
 
@@ -54,6 +55,36 @@ const Shaft& shaft_of(const std::string& wanted, const Figure& figure) {
        "; there are ", known, roles);
 }
 
+// Words beside a curve whose Hz are those of its axis, by how their names begin.
+bool names_speeds(const std::string& word) {
+  constexpr std::array kWords{"jump_labels_", "title_b", "above_", "loss_", "caption"};
+  return std::any_of(kWords.begin(), kWords.end(), [&](const char* s) { return word.starts_with(s); });
+}
+
+// "at 5600 Hz" as "at 13440 rpm (5600 Hz)"; lists in rpm alone: "rising 5757, falling 5529 Hz" as "rising 13817, falling 13270 rpm".
+std::string speeds_in_rpm(const std::string& words, double scale) {
+  static const std::regex kSpeeds(
+      R"((\d+(\.\d+)?( and \d+ more)?((, | to | and )(rising |falling )?\d+(\.\d+)?( and \d+ more)?)*) Hz)"),
+      kNumber(R"(\d+(\.\d+)?(?! more)(?![\d.]))");
+  std::string out;
+  auto from = words.cbegin();
+  for (std::sregex_iterator list(words.begin(), words.end(), kSpeeds), end; list != end; ++list) {
+    out.append(from, (*list)[0].first);
+    const std::string speeds = (*list)[1];
+    auto rest = speeds.cbegin();
+    size_t count = 0;
+    for (std::sregex_iterator one(speeds.begin(), speeds.end(), kNumber); one != end; ++one, ++count) {
+      out.append(rest, (*one)[0].first);
+      out += fixed(std::stod(one->str()) * scale, 0);
+      rest = (*one)[0].second;
+    }
+    out.append(rest, speeds.cend());
+    out += count == 1 ? " rpm (" + speeds + " Hz)" : " rpm";
+    from = (*list)[0].second;
+  }
+  return out.append(from, words.cend());
+}
+
 void in_rpm(const Shaft& shaft, Figure& figure) {
   const double scale = 60 * std::abs(shaft.turns);
   const std::string whose = shaft.gear + (shaft.with.empty() ? "" : ", " + shaft.with);
@@ -67,6 +98,8 @@ void in_rpm(const Shaft& shaft, Figure& figure) {
     }
   for (auto& [name, value] : figure.numbers)
     if (is_speed(name)) value *= scale;
+  for (auto& [name, words] : figure.words)
+    if (names_speeds(name)) words = speeds_in_rpm(words, scale);
   constexpr std::string_view against = "against mesh frequency";
   if (const size_t at = figure.title.find(against); at != std::string::npos)
     figure.title.replace(at, against.size(), "against the speed of " + shaft.gear);

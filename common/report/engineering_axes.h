@@ -16,7 +16,7 @@ struct EngineeringAxes {
   std::optional<double> level_reference = {};  // m: levels in dB re this; none: in µm
 };
 
-// Columns, numbers and words of the figure; columns are renamed by their new unit, notes and lists of jumps stay in Hz. Axes of
+// Columns, numbers and words of the figure; columns are renamed by their new unit, so do the speeds in keys and above panels; notes stay in Hz. Axes of
 // levels reach down to the least, by 80 dB at most; an amplitude of nothing stands 300 dB below it. Throws Error(usage) for a
 // figure that is not against speed, gears that differ in teeth, a gear that it does not have or that stands still, a train of which it does not follow how its carrier turns, a figure without amplitudes of the
 // transmission error, a reference that is no length above 0.

@@ -97,6 +97,7 @@ Figure flank_pressure_figure(const StaticArtifact& s, const std::vector<Response
   Figure figure;
   figure.title = "Flank pressure (MPa) and loads over tip edges (N), " + torque_words(s.torque);
   figure.height = both ? 1200 : 900;
+  figure.shafts = shafts_of(s);
   const FlankPressure rest = flank_pressure(s);
   const GearPair pair(s);
   figure.blocks.push_back(map_block(up, pair));

@@ -42,6 +42,11 @@ std::vector<GeometryNumber> pair_geometry(const StaticArtifact& s) {
     add("diameter d_D" + of, "mm", at(3));
     add("form diameter, where the involute begins" + of, "mm",
         millimetres(2 * std::hypot(1.0, gear.form_roll_angle()) * gear.base_radius()));
+    if (gear.undercut() > 0) {
+      add("undercut: how far the rack reaches beyond the base circle's tangent point" + of, "mm",
+          millimetres(gear.undercut()));
+      add("path of contact lost to undercut" + of, "mm", millimetres(pair.path_lost(g)));
+    }
     add("tooth thickness at the tip" + of, "mm", millimetres(gear.thickness_at_radius(gear.tip_radius())));
   }
   return out;

@@ -40,8 +40,10 @@ constexpr PairGuideRow kRows[] = {
     {Needs::rest, "fig13", "Mesh stiffness",
      "Load over what it adds to the transmission error. It falls where fewer pairs carry. Per face width it "
      "compares with c-gamma of ISO 6336-1.",
-     "0.1 % for the drawing; ISO's formula is for solid discs: 10 to 30 % above where a bore or a thin body "
-     "is in the scene. The table of compliances says how much of it is of the body.",
+     "0.1 % for the drawing; ISO's formula is a fit for solid discs: it stands above where bodies twist "
+     "about "
+     "a bore, and may stand below under less than 100 N/mm, where ISO lowers its value. Compare it with the "
+     "column of bodies that do not twist; the table of compliances says how much is of the body.",
      "If it is far below ISO's, look at bore_radius_mm: inside it the gear is rigid."},
     {Needs::rest, "load-sharing", "Load sharing, static tooth load",
      "The part of the load that each pair carries. Load beyond the grey lines is carried by tip edges of "

@@ -62,6 +62,14 @@ std::string gears_table(const ReportContent& c) {
   both("reference diameter", "mm", [](G g) { return fixed(2 * g.pitch_radius() * kMilli, 3); });
   both("tip diameter", "mm", [](G g) { return fixed(2 * g.tip_radius() * kMilli, 3); });
   both("root diameter", "mm", [](G g) { return fixed(2 * g.root_radius() * kMilli, 3); });
+  both("diameter where the involute begins", "mm",
+       [](G g) { return fixed(2 * std::hypot(1.0, g.form_roll_angle()) * g.base_radius() * kMilli, 3); });
+  if (pair.gear(0).undercut() > 0 || pair.gear(1).undercut() > 0) {
+    both("undercut: how far the rack reaches beyond the base circle's tangent point", "mm",
+         [](G g) { return fixed(std::max(0.0, g.undercut()) * kMilli, 3); });
+    rows.push_back({"path of contact lost to undercut", "mm", fixed(pair.path_lost(0) * kMilli, 3),
+                    fixed(pair.path_lost(1) * kMilli, 3)});
+  }
   both("roll angle where the involute begins", "deg", [&](G g) { return degrees(g.form_roll_angle()); });
   both("roll angle at the tip", "deg", [&](G g) { return degrees(g.tip_roll_angle()); });
   both("tooth thickness at the tip", "mm",
@@ -267,13 +275,21 @@ struct NumberedWords {
       i += length;
     }
   }
-  // Of one kind: alike but for numbers that are sizes. Speeds are places: those of two torques have no range in common.
+  // Of one kind: alike but for numbers that are sizes. Speeds are places: those of two torques have no range in common, but
+  // can be listed.
   bool alike(const NumberedWords& other) const {
     if (between != other.between) return false;
     const bool speeds = std::any_of(between.begin(), between.end(), [](const std::string& words) {
       return words.find("Hz") != std::string::npos;
     });
-    return !speeds || numbers == other.numbers;
+    if (!speeds) return true;
+    for (size_t k = 0; k < numbers.size(); ++k)
+      if (numbers[k] != other.numbers[k] && !speed(k) && !between[k + 1].starts_with(" %")) return false;
+    return true;
+  }
+  // Whether a number is a speed by itself, no end of a range and none of a list.
+  bool speed(size_t k) const {
+    return between[k + 1].starts_with(" Hz") && !between[k].ends_with(" to ") && !between[k].ends_with(", ");
   }
 };
 
@@ -332,6 +348,16 @@ class RemarksByTorque {
         const auto less = [&](const NumberedWords& a, const NumberedWords& b) {
           return value(a.numbers[k]) < value(b.numbers[k]);
         };
+        if (all.front().speed(k) && (" " + all.front().between[k]).ends_with(" at ")) {
+          std::vector<std::string> speeds;
+          for (const NumberedWords& one : all)
+            if (std::find(speeds.begin(), speeds.end(), one.numbers[k]) == speeds.end())
+              speeds.push_back(one.numbers[k]);
+          std::sort(speeds.begin(), speeds.end(),
+                    [](const auto& a, const auto& b) { return value(a) < value(b); });
+          out += listed(speeds) + all.front().between[k + 1];
+          continue;
+        }
         const auto [low, high] = std::minmax_element(all.begin(), all.end(), less);
         out += low->numbers[k];
         if (value(low->numbers[k]) < value(high->numbers[k])) out += " to " + high->numbers[k];

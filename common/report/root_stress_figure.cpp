@@ -204,6 +204,7 @@ Figure root_stress_figure(const StaticArtifact& s, const std::vector<ResponseArt
   Figure figure;
   figure.title = "Root stress (MPa) and dynamic factors, " + torque_words(s.torque);
   figure.height = 1300;
+  figure.shafts = shafts_of(s);
   double high = 0, factor = 1;
   for (int g = 0; g < kSides; ++g) figure.blocks.push_back(cycle_block(s, g));
   const auto add_motions = [&](FigureBlock block) {

@@ -181,8 +181,8 @@ Remark left_out(const System& layout, const TurningCarrier& of) {
     return remark(of.relative_force() > kNotedCentrifugal, carrier, " ", turns, ", ", still,
                   " being held: ", sizes,
                   "; add the former, which are constant and point outwards, to the mean forces on the pins");
-  return remark(false, "motions are relative to ", carrier, ". In a machine in which ", still,
-                " stands still it ", turns, ": ", sizes);
+  return remark(of.relative_force() > kLargeCentrifugal, "motions are relative to ", carrier,
+                ". In a machine in which ", still, " stands still it ", turns, ": ", sizes);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "report/report_page.h"
 #include "report/system_figures.h"
 #include "report/system_motion_tables.h"
+#include "system/drawing_remarks.h"
 #include "system/rigid_system.h"
 #include "system/statics.h"
 
@@ -204,6 +205,11 @@ std::string drawings_table(const SystemStaticArtifact& a) {
   all("reference diameter", "mm", [&](G g) { return mm(2 * g.pitch_radius()); });
   all("tip diameter", "mm", [&](G g) { return mm(2 * g.tip_radius()); });
   all("root diameter", "mm", [&](G g) { return mm(2 * g.root_radius()); });
+  all("diameter where the involute begins", "mm",
+      [&](G g) { return mm(2 * std::hypot(1.0, g.form_roll_angle()) * g.base_radius()); });
+  if (std::any_of(gears.begin(), gears.end(), [](G g) { return g.undercut() > 0; }))
+    all("undercut: how far the rack reaches beyond the base circle's tangent point", "mm",
+        [&](G g) { return mm(std::max(0.0, g.undercut())); });
   all("tooth thickness at the tip", "mm", [&](G g) { return mm(g.thickness_at_radius(g.tip_radius())); });
   all("face width", "mm", [](G g) { return shown(g.design().face_width * kMilli, 6); });
   all("diameter on which it is held rigidly (bore, of a ring its rim)", "mm",
@@ -423,6 +429,7 @@ void remark_rest(const SystemStaticArtifact& a, std::vector<Remark>& out) {
   const System& s = a.settings.layout;
   constexpr double kSmall = 0.01;   // of the largest load of a pair
   constexpr double kUnequal = 1.3;  // of an equal share
+  out = drawing_remarks(a);
   // Once for all meshes of a [[mesh]].
   for (size_t k = 0; k < a.settings.mesh.size(); ++k) {
     const std::string name = a.settings.mesh[k].gear[0] + "-" + a.settings.mesh[k].gear[1];

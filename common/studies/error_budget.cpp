@@ -61,6 +61,12 @@ std::string from_to(const char* name, double from, double to, const char* unit =
   return text(name, " ", from, " to ", to, unit);
 }
 
+// A length (m) in mm, to three digits.
+double shown_length(double length) {
+  const double unit = std::pow(10, std::floor(std::log10(length * 1e3)) - 2);
+  return std::round(length * 1e3 / unit) * unit;
+}
+
 // The pair at rest, solved in other ways than the settings say.
 struct Alternatives {
   const BodyArtifact &driver, &driven;
@@ -109,8 +115,8 @@ NamedOutcomes refinements(const Alternatives& pair) {
   const auto flank_points = static_cast<int>(pair.driver.flank_position.size());
   refined.emplace_back(from_to("flank table", flank_points, 2 * flank_points, " points"),
                        pair.of_bodies([](BodyDiscretisation&) {}, 2));
-  const double element = pair.driver.discretisation.element_size * 1e3;
-  refined.emplace_back(from_to("elements", element, 0.5 * element, " mm"),
+  const double element = pair.driver.discretisation.element_size;
+  refined.emplace_back(from_to("elements", shown_length(element), shown_length(0.5 * element), " mm"),
                        pair.of_bodies([](BodyDiscretisation& body) { body.element_size *= 0.5; }));
   if (pair.driver.discretisation.element_order == 1 || pair.driven.discretisation.element_order == 1)
     refined.emplace_back(from_to("order", 1, 2),
@@ -136,7 +142,7 @@ NamedOutcomes other_choices(const Alternatives& pair, std::string& missing) {
   };
   const BodyDiscretisation& present = pair.driver.discretisation;
   const bool matched = present.near_field == NearField::matching;
-  choose(matched ? "subtraction" : text("matching at ", present.matching_depth * 1e3, " mm"), [&] {
+  choose(matched ? "subtraction" : text("matching at ", shown_length(present.matching_depth), " mm"), [&] {
     return pair.of_bodies([&](BodyDiscretisation& body) {
       body.near_field = matched ? NearField::subtraction : NearField::matching;
     });

@@ -25,6 +25,8 @@ struct TurningCarrier {
 
 // Above this share of the mesh forces a sweep warns of what it leaves out. Its pin forces are then no loads to design by.
 inline constexpr double kNotedCentrifugal = 0.05;
+// The same where the carrier is held and turns in the machine alone.
+inline constexpr double kLargeCentrifugal = 0.1;
 
 // Carriers whose planets mesh with a held gear, or that turn. Planets without a mass count as weightless.
 std::vector<TurningCarrier> turning_carriers(const SystemSweepArtifact& sweep);

@@ -12,11 +12,11 @@
 #include "base/error.h"
 #include "base/model_range.h"
 #include "base/progress.h"
-#include "gear/face_width.h"
 #include "gear/internal_mesh.h"
 #include "gear/losses.h"
 #include "gear/numbers.h"
 #include "system/compliance_split.h"
+#include "system/drawing_remarks.h"
 #include "system/flank_pressure.h"
 #include "system/root_stress.h"
 
@@ -221,10 +221,8 @@ std::vector<Remark> remarks(const StaticArtifact& s) {
   if (s.hunting_periods > 1)
     add(false, "teeth differ: ", s.hunting_periods, " mesh periods, after which the same ones meet, of ",
         s.contact.positions, " positions each");
-  if (const std::string widths =
-          width_words(s.gear[0].design, s.mesh.gear[0], s.gear[1].design, s.mesh.gear[1]);
-      !widths.empty())
-    add(false, widths);
+  const std::vector<Remark> drawn = drawing_remarks(GearPair(s), s.mesh.gear);
+  out.insert(out.end(), drawn.begin(), drawn.end());
   if (!s.mesh.corner.enabled)
     add(false, "corner contact is off: only pairs on the line of action carry load");
   if (s.gear[0].design.internal || s.gear[1].design.internal) {

@@ -33,7 +33,7 @@ do for [r = 1:rows] {
   set cblabel "Pressure (MPa)" offset -0.1
   set colorbox user origin screen 0.508, foot(r) size screen 0.012, top(r) - foot(r)
   set xlabel (r == rows ? "Roll angle of " . word(labels, 1) . " (deg)" : "") offset 0, 0.3 noenhanced
-  set ylabel "Mesh frequency (Hz)" offset 1
+  set ylabel speed_label offset 1.9
   set label 1 (r == 1 ? "{/:Bold (a)} speed rising" : "{/:Bold (b)} speed falling") at graph 0, graph 1 offset 0, 0.8 font ",14"
   set arrow 5 from path_from, graph 0 to path_from, graph 1 nohead front lt 1 lw 1.2 lc rgb "#505050"
   set arrow 6 from path_to, graph 0 to path_to, graph 1 nohead front lt 1 lw 1.2 lc rgb "#505050"
@@ -55,6 +55,10 @@ set rmargin at screen 0.985
 set grid lt 1 lc rgb "#e4e4e4" lw 1
 set key at graph 0.99, graph 0.04 right bottom Left reverse vertical samplen 2 spacing 1.2 font ",13" noenhanced
 set xrange [frequency_from - 0.02 * span : frequency_to + 0.02 * span]
+# At most six numbers: those of high speeds are wide.
+raw = span / 5
+power = 10 ** floor(log10(raw))
+set xtics power * (raw / power > 5 ? 10 : raw / power > 2 ? 5 : raw / power > 1 ? 2 : 1)
 unset xlabel
 if (natural_frequency > frequency_from && natural_frequency < frequency_to) {
   set arrow 1 from natural_frequency, graph 0 to natural_frequency, graph 1 nohead back lt 1 lc rgb "#9a9a9a" lw 1.2 dt (18, 10)
@@ -69,7 +73,7 @@ plot tsv index "[speed up]" using 1:($2 > 0 ? $2 : NaN) with lines lt 1 lw 2.6 l
   tsv index "[speed down]" using 1:($2 > 0 ? $2 : NaN) with lines lt 1 lw 1.8 dt (10, 5) lc rgb "#d55e00" title "falling", \
   pressure_rest > 0 ? pressure_rest : NaN with lines lt 1 lw 1.4 dt (4, 4) lc rgb "#505050" title "at rest"
 
-set xlabel "Mesh frequency (Hz)" offset 0, 0.3 enhanced
+set xlabel speed_label offset 0, 0.3 enhanced
 set tmargin at screen middle - gap
 set bmargin at screen lower
 set yrange [0 : edge_max > 0 ? 1.4 * edge_max : 1]

@@ -41,7 +41,7 @@ eval("plot " . drawn)
 span = frequency_to - frequency_from
 span = span > 0 ? span : 0.2 * frequency_to
 set xrange [frequency_from - 0.02 * span : frequency_to + 0.02 * span]
-set xlabel "Mesh frequency (Hz)" offset 0, 0.3
+set xlabel speed_label offset 0, 0.3
 unset arrow
 if (natural_frequency > frequency_from && natural_frequency < frequency_to) {
   set arrow from natural_frequency, graph 0 to natural_frequency, graph 1 nohead back lt 1 lc rgb "#9a9a9a" lw 1.2 dt (18, 10)
@@ -88,7 +88,7 @@ if (branches > 0) {
 if (iso == 1) { drawn = drawn . 'tsv index "[iso]" using 1:2 with lines lt 1 lw 2.2 dt (4, 4) lc rgb "#aa4499" title "K_v, ISO 6336-1 method B", ' }
 # in the key: beside the line a curve would cross the words
 if (iso == 1 && resonance > frequency_from && resonance < frequency_to) {
-  drawn = drawn . sprintf('keyentry with lines lt 1 lw 1.6 lc rgb "#aa4499" title "upright: N = 1 (ISO), %.0f Hz", ', resonance)
+  drawn = drawn . sprintf('keyentry with lines lt 1 lw 1.6 lc rgb "#aa4499" title "upright: N = 1 (ISO), %.0f %s", ', resonance, speed_scale == 1.0 ? "Hz" : "rpm")
 }
 eval("plot " . drawn)
 eval(below)

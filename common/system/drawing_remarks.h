@@ -1,0 +1,19 @@
+// What the drawings of gears in mesh say of their computation: face widths that differ, undercut.
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "gear/pair.h"
+#include "system/statics.h"
+#include "system/system_static_result.h"
+
+namespace whine {
+
+// Of gears of these names.
+std::vector<Remark> drawing_remarks(const GearPair& pair, const std::array<std::string, 2>& name);
+
+// Of all meshes of a system, each remark once.
+std::vector<Remark> drawing_remarks(const SystemStaticArtifact& system);
+
+}  // namespace whine
