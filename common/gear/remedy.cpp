@@ -163,7 +163,7 @@ std::vector<Change> deeper_roots(const DrawnGears& gears) {
       const Change deeper{false, own, "dedendum", &GearDesign::dedendum,
                           to_step(d.dedendum + kClearance - clearance)};
       if (d.dedendum < kOrdinary && clearance < kNone && deeper.value <= kLargestHeight &&
-          std::none_of(out.begin(), out.end(), [&](const Change& one) { return one.number == own; }))
+          std::none_of(out.begin(), out.end(), [own = own](const Change& one) { return one.number == own; }))
         out.push_back(deeper);
     }
   return out;

@@ -395,7 +395,7 @@ struct Reader::Impl {
   bool leads_to_object(const std::string& path) const {
     for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
       const std::string part = path.substr(0, end);
-      H5L_info_t link;
+      H5L_info_t link{};
       if (part != "/" && H5Lget_info(file, part.c_str(), &link, H5P_DEFAULT) < 0) return false;
       if (part != "/") require_hard(part, link.type);
       if (end == std::string::npos) return true;
