@@ -340,7 +340,7 @@ void wide_contact(Table& table) {
   table.relative("largest pressure, GPa", 1e-9 * 2 * line / (kPi * 1e-3), 1e-9 * one.contact_pressure(0, 1),
                  0.03);
   table.rejected("50000 N m at 128 positions, some of whose contacts are wider than the flanks",
-                 "at 50000 N m contact leaves the flanks",
+                 "at 50000 N m the transmission error",
                  [&] { static_transmission(strain, strain, static_parameters(128, true), 5e4); });
 }
 
@@ -888,16 +888,19 @@ void stiff_damping(Table& table) {
     };
     return line("forgetting") / line("rolling");
   };
-  for (double eta : {3e-5, 1e-4, 1e-3}) {
+  for (double eta : {3e-5, 1e-4}) {
     SweepParameters settings = sweep_parameters(2500, 2500, 1, eta), finer = settings;
     finer.time.steps_per_period = 512;
     const SweepArtifact usual = run_sweep(settings, 150), fine = run_sweep(finer, 150);
     const std::string at = text("Rayleigh stiffness factor ", eta, " s, 2500 Hz: ");
     table.at_least(at + "period multiple (0: not steady)", 1, usual.period_multiple[0]);
     table.relative(at + "RMS, um, against 512 steps a period", 1e6 * rms(fine.transmission_error.row(0)),
-                   1e6 * rms(usual.transmission_error.row(0)), eta < 1e-3 ? 0.0015 : 0.007);
+                   1e6 * rms(usual.transmission_error.row(0)), 0.0015);
     table.at_most(at + "energy balance, relative", 1e-9, usual.energy_imbalance[0]);
   }
+  table.rejected("Rayleigh stiffness factor 0.001 s, 2500 Hz: beyond a quarter of the mesh period",
+                 "is 2.5 of a mesh period at 2500 Hz",
+                 [&] { run_sweep(sweep_parameters(2500, 2500, 1, 1e-3), 150); });
   table.at_least("1e-4 s, 2500 Hz: energy in the relaxed loads of dropped teeth, over the work of rolling",
                  1e-8, std::abs(dropped(1e-4, 2500)));
   table.at_most("that at 1250 over 2500 Hz, falls with exp(-2 T / eta)", std::exp(-8.0),
