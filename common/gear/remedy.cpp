@@ -182,6 +182,7 @@ void add_shifts_of_undercut(const DrawnGears& gears, std::vector<Try>& tries) {
   const double cosine = base_distance(a, b) / mesh.centre_distance;
   for (int n = 1; n <= kMost && !undercut.empty() && cosine < 1; ++n) {
     std::vector<Change> changes;
+    changes.reserve(undercut.size() + 1);
     for (const size_t g : undercut) changes.push_back(shift(gears, g, n * kStep));
     if (undercut.size() == 1)
       changes.push_back(shift(gears, undercut[0] == mesh.first ? mesh.second : mesh.first, -n * kStep));
