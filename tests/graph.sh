@@ -276,7 +276,7 @@ rejected_by_make "a number that leads out of its folder" 'JUMP_MAP_TORQUES=../..
 make_ order-cuts; before=$(ls out/figures/order-cuts.*)
 FAIL=out/figures/order-cuts make_ DB=1e-6 order-cuts
 [ "$(ls out/figures/order-cuts.*)" = "$before" ] && [ "$(wc -l <<< "$before")" -ge 3 ] && ok "a figure that fails leaves all files of the earlier one" ||
-  wrong "a figure that fails leaves all files of the earlier one" "$(ls out/figures/order-cuts.* 2>&1 | tr '\n' ' ')"
+  wrong "a figure that fails leaves all files of the earlier one" "$(printf '%s ' out/figures/order-cuts.*)"
 rejected_by_make "a run-up at a rate that is none is told what it is" "RATE=fast: it is the change of the driver's speed in rpm/s" RATE=fast runup
 rejected_by_make "a run-up with one end is told to give both" 'give both or none' FROM=2400 runup
 make_ -n RATE=500 WAY=down FROM=2800 TO=2400 TORQUE=100 runup
