@@ -20,7 +20,7 @@ set ylabel "Change (%)"
 set yrange [1e-5:top]
 set xrange [-0.6:entries + (choices > 0 ? choices + 0.1 : -0.4)]
 set xtics ()
-two_lines(s) = strstrt(s, "|") > 0 ? s[1:strstrt(s, "|") - 1] . "\n{/*0.8 " . s[strstrt(s, "|") + 1:*] . "}" : s
+two_lines(s) = strstrt(s, "|") > 0 ? s[1:strstrt(s, "|") - 1] . "\n{/*0.66 " . s[strstrt(s, "|") + 1:*] . "}" : s
 do for [i = 1:entries] { set xtics add (two_lines(word(labels, i)) i - 1) }
 first_choice = entries + 0.5
 do for [i = 1:choices] { set xtics add (two_lines(word(choice_labels, i)) first_choice + i - 1) }
