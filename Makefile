@@ -107,7 +107,7 @@ unit_expressions := base/dense=base/dense.* base/eigen_templates=base/eigen_temp
   io/codecs=io/.*_codec io/scenes=io/(rexs|scene|section|stage|study|system|toml|variant).* \
   report/system=report/(system|teeth|root|flank|runup|order|sound|wire).* report/report=report/(report|html|compare|exported).*
 # A program waits for the units behind the headers that it includes, and for no other.
-links := $(shell awk -v units='$(unit_expressions)' -f pipelines/sources.awk $(wildcard common/*/*.h common/*/*.cpp tools/*.cpp tests/fuzz/*.cpp))
+links := $(shell awk -v units='$(unit_expressions)' -f pipelines/sources.awk $(wildcard common/*/*.h common/*/*.cpp common/*/*/*.h common/*/*/*.cpp tools/*.cpp tests/fuzz/*.cpp))
 # Sorted, here and below: the order of `wildcard` follows the locale, and another order would compile everything anew.
 sources_of = $(sort $(patsubst $1=%,common/%.cpp,$(filter $1=%,$(links))))
 units := $(sort $(foreach l,$(links),$(if $(findstring =,$l),$(firstword $(subst =, ,$l)))))
@@ -278,10 +278,10 @@ test-slow: ## run those that tests/slow lists
 test-all: ## run both, and the few cases that take half a minute each
 
 format: ## lay out the C++ sources with clang-format
-	clang-format -i $(wildcard common/*/*.h common/*/*.cpp tools/*.cpp tests/*.h tests/*.cpp tests/*/*.h tests/*/*.cpp)
+	clang-format -i $(wildcard common/*/*.h common/*/*.cpp common/*/*/*.h common/*/*/*.cpp tools/*.cpp tests/*.h tests/*.cpp tests/*/*.h tests/*/*.cpp)
 
 check-format: ## fail if clang-format would change a source
-	clang-format --dry-run -Werror $(wildcard common/*/*.h common/*/*.cpp tools/*.cpp tests/*.h tests/*.cpp tests/*/*.h tests/*/*.cpp)
+	clang-format --dry-run -Werror $(wildcard common/*/*.h common/*/*.cpp common/*/*/*.h common/*/*/*.cpp tools/*.cpp tests/*.h tests/*.cpp tests/*/*.h tests/*/*.cpp)
 
 .PHONY: help clean clean-figures clean-studies clean-motion clean-out
 help: ## print this list (its order: pipelines/help.txt)

@@ -81,12 +81,12 @@ lint: $(lint_checked) check-format ## clang-tidy (.clang-tidy says which checks 
 FUZZ_SECONDS ?= 60
 fuzz_targets := scene study rexs transfer artifact sealed
 # Dense decompositions take clang minutes and a gigabyte, and no reader uses one; what expands a study, fits a lumped model or sets inertias as drawn calls physics.
-fuzz_sources := $(filter-out common/base/dense% common/io/study_expansion.cpp common/io/lumped_inputs.cpp common/io/pair_inputs.cpp common/io/scene_remarks.cpp,$(wildcard common/base/*.cpp common/model/*.cpp common/io/*.cpp))
+fuzz_sources := $(filter-out common/base/dense% common/io/study_expansion.cpp common/io/lumped_inputs.cpp common/io/pair_inputs.cpp common/io/scene_remarks.cpp,$(wildcard common/base/*.cpp common/model/*.cpp common/io/*.cpp common/io/rexs/*.cpp))
 fuzz_flags := -std=c++20 -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined
 
 $(B)/fuzz/ $(B)/fuzz/found/:
 	@mkdir -p $@
-$(fuzz_sources:%.cpp=$(B)/fuzz/%.o): $(B)/fuzz/%.o: %.cpp $(wildcard common/base/*.h common/model/*.h common/solid/*.h common/signal/*.h common/system/*.h common/dynamics/*.h common/studies/*.h common/io/*.h) | $(filter deps-fuzz,$(goals)) $(with_deps)
+$(fuzz_sources:%.cpp=$(B)/fuzz/%.o): $(B)/fuzz/%.o: %.cpp $(wildcard common/base/*.h common/model/*.h common/results/*.h common/solid/*.h common/signal/*.h common/system/*.h common/dynamics/*.h common/studies/*.h common/io/*.h common/io/rexs/*.h) | $(filter deps-fuzz,$(goals)) $(with_deps)
 	@mkdir -p $(@D)
 	clang++ $(CPPFLAGS) $(HDF5_CFLAGS) $(fuzz_flags) -c -o $@ $<
 

@@ -1,6 +1,6 @@
 # What is compiled together, and what a program is linked from, read off the #include lines.
 #
-#   awk -v units='io/codecs=io/.*_codec ...' -f pipelines/sources.awk common/*/*.h common/*/*.cpp tools/*.cpp
+#   awk -v units='io/codecs=io/.*_codec ...' -f pipelines/sources.awk common/*/*.h common/*/*.cpp common/*/*/*.h common/*/*/*.cpp tools/*.cpp
 #
 # prints `unit=layer/source` for each source of common/ and `program:unit` for each unit that a program is linked from. A source is
 # of the first unit whose expression fits it, else of <layer>/rest. A program needs the sources that implement the headers which it

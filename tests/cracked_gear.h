@@ -21,7 +21,7 @@ inline GearDesign cracked_gear(double depth, int teeth = 50, double bore = 40e-3
   return d;
 }
 
-inline MeshArtifact sector_of(const GearDesign& design, double element, int order = 2) {
+inline SectorGrid sector_of(const GearDesign& design, double element, int order = 2) {
   BodyDiscretisation discretisation;
   discretisation.element_size = element;
   discretisation.element_order = order;

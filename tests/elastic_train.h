@@ -32,9 +32,9 @@ inline whine::SystemMotion motion_of(const whine::SystemModel& system, double st
 }
 
 // Coarse bodies, each reduced once.
-inline const whine::BodyArtifact& train_body(int teeth, bool internal) {
+inline const whine::ReducedBody& train_body(int teeth, bool internal) {
   using namespace whine;
-  static std::map<std::pair<int, bool>, BodyArtifact> known;
+  static std::map<std::pair<int, bool>, ReducedBody> known;
   const auto at = known.find({teeth, internal});
   if (at != known.end()) return at->second;
   GearDesign design = rigid_gear(teeth, internal);
@@ -70,7 +70,7 @@ inline whine::SystemModel train(const std::array<int, 3>& teeth, int planets = 3
   scene.fidelity = {BodyModel::modal, ContactModel::line, Integrator::exact};
   if (change) change(scene);
   System layout = layout_of(scene);
-  std::vector<BodyArtifact> bodies;
+  std::vector<ReducedBody> bodies;
   for (System::Body& body : layout.bodies) {
     if (body.kind == System::BodyKind::carrier) continue;
     bodies.push_back(train_body(body.teeth, body.teeth == teeth[2]));

@@ -34,7 +34,7 @@ title = "Two loads, two dampings"
 scene = "own.toml"
 stage = "sweep"
 plan = "grid"
-answers = ["te_peak_to_peak", "rms_max_up"]
+quantities = ["te_peak_to_peak", "rms_max_up"]
 [[vary]]
 key = "operation.torque_Nm"
 values = [100, 150]

@@ -11,7 +11,7 @@
 namespace whine {
 
 // Hz: rigid gears (kg m2) on the mean mesh stiffness.
-inline double natural_frequency(const StaticArtifact& statics, const std::array<double, kSides>& inertia) {
+inline double natural_frequency(const StaticResult& statics, const std::array<double, kSides>& inertia) {
   const GearPair pair(statics);
   double per_mass = 0;
   for (int g = 0; g < kSides; ++g)
@@ -22,7 +22,7 @@ inline double natural_frequency(const StaticArtifact& statics, const std::array<
 // The dynamics keep a reference to the model beside them.
 struct FrictionMotion {
   // eta: s, of stiffness-proportional damping.
-  FrictionMotion(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& at_rest,
+  FrictionMotion(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& at_rest,
                  const std::array<double, kSides>& of_gears, BodyModel body, double eta)
       : statics(at_rest), model(driver, driven, statics.mesh), inertia(of_gears), dynamics(model, [&] {
           ImpactParameters settings;
@@ -47,7 +47,7 @@ struct FrictionMotion {
     FAIL("no candidate zone holds the motion");
   }
 
-  StaticArtifact statics;
+  StaticResult statics;
   GearMeshModel model;
   std::array<double, kSides> inertia;
   RollingDynamics dynamics;

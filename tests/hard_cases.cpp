@@ -19,7 +19,7 @@
 #include "contact/complementarity.h"
 #include "dynamics/dynamics.h"
 #include "dynamics/fixed_phase_motion.h"
-#include "dynamics/propagator.h"
+#include "dynamics/newmark.h"
 #include "paper_pair.h"
 #include "signal/spectrum.h"
 #include "solid/elements.h"
@@ -120,8 +120,8 @@ double rms(const VectorXd& samples) {
 const double kBaseRadius = 75e-3 * std::cos(20 * kPi / 180);
 constexpr double kFaceWidth = 25.4e-3, kYoung = 207e9, kPoisson = 0.3;
 
-const MeshArtifact& paper_mesh() {
-  static const MeshArtifact mesh = [] {
+const SectorGrid& paper_mesh() {
+  static const SectorGrid mesh = [] {
     BodyDiscretisation discretisation;
     discretisation.element_size = 0.8e-3;
     return make_sector_mesh(paper_gear(), discretisation);
@@ -131,8 +131,8 @@ const MeshArtifact& paper_mesh() {
 Material steel(bool plane_stress) {
   return {kYoung, kPoisson, 7600, plane_stress};
 }
-const BodyArtifact& paper_body() {
-  static const BodyArtifact body = reduce(paper_mesh(), steel(true), 5);
+const ReducedBody& paper_body() {
+  static const ReducedBody body = reduce(paper_mesh(), steel(true), 5);
   return body;
 }
 
@@ -145,7 +145,7 @@ StaticParameters static_parameters(int positions, bool corner) {
   settings.contact.positions = positions;
   return settings;
 }
-StaticArtifact statics(double torque, int positions = 128, bool corner = true) {
+StaticResult statics(double torque, int positions = 128, bool corner = true) {
   return static_transmission(paper_body(), paper_body(), static_parameters(positions, corner), torque);
 }
 
@@ -159,9 +159,9 @@ SweepParameters sweep_parameters(double from, double to, double step, double ray
   settings.frequency_step = step;
   return settings;
 }
-SweepArtifact run_sweep(const SweepParameters& settings, double torque, Direction direction = Direction::up,
-                        const BodyArtifact& body = paper_body()) {
-  const StaticArtifact at = static_transmission(body, body, static_parameters(128, true), torque);
+SweepResult run_sweep(const SweepParameters& settings, double torque, Direction direction = Direction::up,
+                      const ReducedBody& body = paper_body()) {
+  const StaticResult at = static_transmission(body, body, static_parameters(128, true), torque);
   return sweep(body, body, at, 463e6, settings, direction, [](long, long, const std::string&) {});
 }
 
@@ -188,7 +188,7 @@ struct Rolling {
 // --- the cases
 
 void rigid_rotation(Table& table) {
-  const MeshArtifact& mesh = paper_mesh();
+  const SectorGrid& mesh = paper_mesh();
   const PlaneSystem system = assemble(mesh.node_position, mesh.element_node, steel(true), kFaceWidth);
   const VectorXd turn = rotation_field(mesh.node_position);
   table.at_most("rigid rotation makes no force: |K phi| / (|K| |phi|)", 1e-13,
@@ -327,14 +327,14 @@ void all_modes(Table& table) {
 }
 
 void wide_contact(Table& table) {
-  const BodyArtifact strain = reduce(paper_mesh(), steel(false), 1);
+  const ReducedBody strain = reduce(paper_mesh(), steel(false), 1);
   // 1 / R: pitch point, both flanks r_b tan 20 deg.
   const double radius = 0.5 * 75e-3 * std::sin(20 * kPi / 180),
                modulus = kYoung / (2 * (1 - kPoisson * kPoisson));
   const double line = 1e-6 * kPi * modulus / (4 * radius), torque = line * kFaceWidth * kBaseRadius;
   table.relative("torque for a half-width of 1 mm at the pitch point, one pair, plane strain, N m", 12467.7,
                  torque, 1e-5);
-  const StaticArtifact one = static_transmission(strain, strain, static_parameters(8, false), torque);
+  const StaticResult one = static_transmission(strain, strain, static_parameters(8, false), torque);
   table.relative("half-width that strips find there, mm (curvature changes over the contact)", 1,
                  1e3 * one.contact_half_width(0, 1), 0.03);
   table.relative("largest pressure, GPa", 1e-9 * 2 * line / (kPi * 1e-3), 1e-9 * one.contact_pressure(0, 1),
@@ -373,7 +373,7 @@ void torque_without_size(Table& table) {
   double attraction = 0;
   for (int i = 0; i < 3; ++i) {
     backward.dynamics.integrate(state, period);
-    attraction = std::max(attraction, period.pair_load.cwiseAbs().maxCoeff());
+    attraction = std::max(attraction, period.tooth_pair_load.cwiseAbs().maxCoeff());
   }
   table.at_most("torque turned round while rolling: tooth load after two mesh periods, N", 0, attraction);
   const double root_mass = 1 / std::sqrt(2 * kBaseRadius * kBaseRadius / 0.0148);
@@ -548,8 +548,8 @@ void step_lengths(Table& table) {
 
   SweepParameters slow = sweep_parameters(5, 5, 1, 7.7e-6);
   slow.time.min_sample_rate = 1;
-  const StaticArtifact fixed = statics(150);
-  const SweepArtifact crawl = run_sweep(slow, 150);
+  const StaticResult fixed = statics(150);
+  const SweepResult crawl = run_sweep(slow, 150);
   table.at_most(
       "rolling at 5 Hz in 128 steps of 4 T: DTE less static, over its mean", 3.5e-3,
       (crawl.transmission_error.row(0).transpose() - fixed.transmission_error).cwiseAbs().maxCoeff() /
@@ -846,7 +846,7 @@ void perturbation(Table& table) {
 }
 
 void near_fold(Table& table) {
-  const SweepArtifact up = run_sweep(sweep_parameters(2760, 2810, 10, 5.5e-6), 150);
+  const SweepResult up = run_sweep(sweep_parameters(2760, 2810, 10, 5.5e-6), 150);
   table.absolute("gears at 150 N m, 5.5e-6 s, up: jumps found between 2760 and 2810 Hz", 1,
                  static_cast<double>(up.jump_frequency.size()), 0);
   if (up.jump_frequency.size() != 1) return;
@@ -854,17 +854,17 @@ void near_fold(Table& table) {
   SweepParameters other = sweep_parameters(2760, 2810, 10, 5.5e-6);
   other.fidelity.integrator = Integrator::newmark;
   other.time.steps_per_period = 512;
-  const SweepArtifact newmark = run_sweep(other, 150);
+  const SweepResult newmark = run_sweep(other, 150);
   // 128 exact steps leave 0.1 Hz, Newmark with 512 as much, and the search 0.16 Hz.
   table.absolute("the jump, Hz, against Newmark with 512 steps a period",
                  newmark.jump_frequency.size() == 1 ? newmark.jump_frequency[0] : 0, jump, 0.5);
   table.at_most("its width, Hz", 1, up.jump_width[0]);
   // Steps that go just past it.
   const double fine = std::floor(jump) - 2;
-  const SweepArtifact past = run_sweep(sweep_parameters(fine, fine + 6, 1, 5.5e-6), 150);
+  const SweepResult past = run_sweep(sweep_parameters(fine, fine + 6, 1, 5.5e-6), 150);
   SweepParameters plain = sweep_parameters(fine, fine + 6, 1, 5.5e-6);
   plain.time.steady_state = SteadyState::integrate;
-  const SweepArtifact integrated = run_sweep(plain, 150);
+  const SweepResult integrated = run_sweep(plain, 150);
   double largest = 0;
   for (int i = 0; i < past.period_multiple.size(); ++i)
     largest = std::max(
@@ -880,18 +880,18 @@ void near_fold(Table& table) {
 
 void stiff_damping(Table& table) {
   const auto dropped = [](double eta, double frequency) {  // energy, of the orbit's work of the rolling
-    const SweepArtifact result = run_sweep(sweep_parameters(frequency, frequency, 1, eta), 150);
+    const SweepResult result = run_sweep(sweep_parameters(frequency, frequency, 1, eta), 150);
     const auto line = [&](const std::string& name) {
       size_t i = 0;
       while (kEnergyLines[i].name != name) ++i;
       return result.energy(0, static_cast<Eigen::Index>(i));
     };
-    return line("forgetting") / line("rolling");
+    return line("dropped") / line("rolling");
   };
   for (double eta : {3e-5, 1e-4}) {
     SweepParameters settings = sweep_parameters(2500, 2500, 1, eta), finer = settings;
     finer.time.steps_per_period = 512;
-    const SweepArtifact usual = run_sweep(settings, 150), fine = run_sweep(finer, 150);
+    const SweepResult usual = run_sweep(settings, 150), fine = run_sweep(finer, 150);
     const std::string at = text("Rayleigh stiffness factor ", eta, " s, 2500 Hz: ");
     table.at_least(at + "period multiple (0: not steady)", 1, usual.period_multiple[0]);
     table.relative(at + "RMS, um, against 512 steps a period", 1e6 * rms(fine.transmission_error.row(0)),
@@ -908,14 +908,14 @@ void stiff_damping(Table& table) {
 }
 
 void ten_times_the_torque(Table& table) {
-  const SweepArtifact result = run_sweep(sweep_parameters(2600, 3000, 200, 7.7e-6), 1500);
+  const SweepResult result = run_sweep(sweep_parameters(2600, 3000, 200, 7.7e-6), 1500);
   table.at_least("1500 N m, 2600 to 3000 Hz: least period multiple (0: not steady)", 1,
                  result.period_multiple.minCoeff());
   table.at_most("energy balance, relative", 1e-9, result.energy_imbalance.maxCoeff());
   SweepParameters other = sweep_parameters(2600, 3000, 200, 7.7e-6);
   other.fidelity.integrator = Integrator::newmark;
   other.time.steps_per_period = 512;
-  const SweepArtifact newmark = run_sweep(other, 1500);
+  const SweepResult newmark = run_sweep(other, 1500);
   for (int i = 0; i < 3; ++i)
     table.relative(
         text("RMS at ", result.mesh_frequency[i], " Hz, um, against Newmark with 512 steps a period"),
@@ -923,7 +923,7 @@ void ten_times_the_torque(Table& table) {
   table.at_most("strips that overlap, m", 1e-14, -result.least_gap);
   SweepParameters slow = sweep_parameters(5, 5, 1, 7.7e-6);
   slow.time.min_sample_rate = 1;
-  const StaticArtifact fixed = statics(1500);
+  const StaticResult fixed = statics(1500);
   // The slope of the static error steps where a pair comes in, which rings at f_n: 0.0033 at either torque.
   table.at_most("rolling at 5 Hz: DTE less static, over its mean", 3.5e-3,
                 (run_sweep(slow, 1500).transmission_error.row(0).transpose() - fixed.transmission_error)
@@ -933,11 +933,11 @@ void ten_times_the_torque(Table& table) {
 }
 
 void many_modes(Table& table) {
-  const BodyArtifact body = reduce(paper_mesh(), steel(true), 61);
+  const ReducedBody body = reduce(paper_mesh(), steel(true), 61);
   table.at_least("body with 61 modes: modes", 61, static_cast<double>(body.eigenfrequency.size()));
   SweepParameters settings = sweep_parameters(2800, 2900, 100, 5.5e-6);
-  const SweepArtifact many = run_sweep(settings, 150, Direction::down, body),
-                      few = run_sweep(settings, 150, Direction::down);
+  const SweepResult many = run_sweep(settings, 150, Direction::down, body),
+                    few = run_sweep(settings, 150, Direction::down);
   table.at_most("61 modes a gear, contact lost at 2900 Hz: energy balance, relative", 1e-9,
                 many.energy_imbalance.maxCoeff());
   table.at_most("least mesh force, N", 0, many.mesh_force.minCoeff());

@@ -6,17 +6,18 @@ declare -A below=(
   [base]="base"
   [model]="base model"
   [gear]="base model gear"
-  [solid]="base model gear solid"
-  [contact]="base model gear solid contact"
-  [signal]="base model signal"
+  [solid]="base model gear contact solid results"
+  [contact]="base model gear contact"
+  [results]="base model results"
+  [signal]="base model results signal"
   [orbits]="base orbits"
-  [system]="base model gear solid contact signal system"
-  [dynamics]="base model gear solid contact signal orbits system dynamics"
-  [studies]="base model gear solid contact signal orbits system dynamics studies"
-  [lumped]="base model gear solid contact signal orbits lumped"
-  [io]="base model gear solid contact signal orbits system dynamics studies lumped io"
-  [report]="base model gear solid contact signal orbits system dynamics studies lumped io report"
-  [paper]="base model gear solid contact signal orbits system dynamics studies lumped io report paper"
+  [system]="base model gear contact solid results signal system"
+  [dynamics]="base model gear contact solid results signal orbits system dynamics"
+  [studies]="base model gear contact solid results signal orbits system dynamics studies"
+  [lumped]="base model gear contact solid results signal orbits lumped"
+  [io]="base model gear contact solid results signal orbits system dynamics studies lumped io"
+  [report]="base model gear contact solid results signal orbits system dynamics studies lumped io report"
+  [paper]="base model gear contact solid results signal orbits system dynamics studies lumped io report paper"
 )
 # One process for all files: a shell that starts one for each takes half a minute.
 faults=$(for layer in "${!below[@]}"; do echo "$layer ${below[$layer]}"; done | awk '
@@ -25,13 +26,13 @@ faults=$(for layer in "${!below[@]}"; do echo "$layer ${below[$layer]}"; done | 
   !/^#include "/ || !(layer in place) { next }
   { split($0, quoted, "\""); slash = index(quoted[2], "/"); other = substr(quoted[2], 1, slash - 1)
     if (!slash) print FILENAME " includes \"" quoted[2] "\" without its layer"
-    else if (!((layer, other) in below)) print FILENAME " includes " other "/, which is not below " layer "/" }' - common/*/*.h common/*/*.cpp)
+    else if (!((layer, other) in below)) print FILENAME " includes " other "/, which is not below " layer "/" }' - common/*/*.h common/*/*.cpp common/*/*/*.h common/*/*/*.cpp)
 if [ -z "$faults" ]; then echo "ok: layers include only layers below them"; else echo "FAILED: $faults"; fi
 
 # confined <header> <pattern of files that may include it>
 confined() {
   local found
-  found=$(grep -l "#include <$1" common/*/* tools/* tests/*.cpp | grep -v -E "^($2)$" | tr '\n' ' ')
+  found=$(grep -s -d skip -l "#include <$1" common/*/* common/*/*/* tools/* tests/*.cpp | grep -v -E "^($2)$" | tr '\n' ' ')
   if [ -z "$found" ]; then echo "ok: only $2 includes $1"; else echo "FAILED: $1 is included by $found"; fi
 }
 confined hdf5 'common/io/.*\.cpp|common/io/h5(_handle)?\.h'
@@ -39,13 +40,13 @@ confined gmsh 'common/solid/gmsh_mesh\.cpp'
 confined cholmod 'common/solid/.*\.cpp'
 confined fftw3 'common/signal/.*\.cpp'
 confined toml 'common/io/.*\.cpp|common/io/toml\.h'
-confined pugixml 'common/io/rexs(_results)?\.cpp'
-confined jsoncpp 'common/io/rexs(_results|_json)?\.cpp|tests/rexs_models\.h'
-confined zip 'common/io/rexs_archive\.cpp|tests/(rexs_models\.h|test_rexs\.cpp)'
+confined pugixml 'common/io/rexs/(rexs|results)\.cpp'
+confined jsoncpp 'common/io/rexs/(rexs|results|json)\.cpp|tests/rexs_models\.h'
+confined zip 'common/io/rexs/archive\.cpp|tests/(rexs_models\.h|test_rexs\.cpp)'
 confined sndfile 'common/io/wav\.cpp|tests/test_sound\.cpp'
 confined CLI/ 'common/base/options\.cpp'
 
-found=$(grep -n -E '__DATE__|__TIME__|__TIMESTAMP__|std::format' common/*/* tools/* | head -3)
+found=$(grep -n -E '__DATE__|__TIME__|__TIMESTAMP__|std::format' -s -d skip common/*/* common/*/*/* tools/* | head -3)
 if [ -z "$found" ]; then echo "ok: no date is compiled in"; else echo "FAILED: a date or std::format: $found"; fi
 # gmsh's library has an Eigen of its own, compiled for another processor: a template that a program exports would take its place.
 programs=$(find "$B/bin" -name 'gear-*' -o -name 'whine-*' 2> /dev/null)
@@ -71,9 +72,9 @@ if [ -x "$B/bin/whine-tests" ]; then
   if [ -z "$found" ]; then echo "ok: each line of tests/slow and tests/unsanitized is a file or a case"; else echo "FAILED: tests/slow, tests/unsanitized: not one case: $found"; fi
 fi
 # An equation of P2000 is found by its number, `grep -rnw "Eq. 18" common`.
-found=$(grep -n -E 'Eqs?\. *$' common/*/*.h common/*/*.cpp tools/*.cpp | head -3)
+found=$(grep -n -E 'Eqs?\. *$' common/*/*.h common/*/*.cpp common/*/*/*.h common/*/*/*.cpp tools/*.cpp | head -3)
 if [ -z "$found" ]; then echo "ok: no equation is parted from its number by the end of a line"; else echo "FAILED: put the number beside 'Eq.': $found"; fi
-named=$(grep -h -o -w -E 'Eq\. [0-9]+' common/*/*.h common/*/*.cpp | sort -u)
+named=$(grep -h -o -w -E 'Eq\. [0-9]+' common/*/*.h common/*/*.cpp common/*/*/*.h common/*/*/*.cpp | sort -u)
 found=$(for number in {1..23}; do [[ $'\n'$named$'\n' == *$'\n'"Eq. $number"$'\n'* ]] || echo "Eq. $number"; done)
 if [ -z "$found" ]; then echo "ok: each of the 23 equations of P2000 is named in a source"; else echo "FAILED: no source names ${found//$'\n'/, }"; fi
 found=$(grep -n -w Approx tests/*.h tests/*.cpp tests/*/*.h tests/*/*.cpp | grep -v '^tests/relative\.h:' | head -3)

@@ -37,8 +37,8 @@ inline Material paper_steel() {
 // The paper's gear at the default discretisation but for the number of modes, which statics do not see; reduced once per
 // bore, element size and number of modes. WHINE_TEST_BODIES, which tests/run sets, is a folder in which one run of the test
 // program finds the bodies of another.
-inline const BodyArtifact& paper_body(double bore = 40e-3, double element = 0.4e-3, int modes = 5) {
-  static std::map<std::tuple<double, double, int>, BodyArtifact> cache;
+inline const ReducedBody& paper_body(double bore = 40e-3, double element = 0.4e-3, int modes = 5) {
+  static std::map<std::tuple<double, double, int>, ReducedBody> cache;
   const auto key = std::make_tuple(bore, element, modes);
   if (!cache.count(key)) {
     const char* folder = std::getenv("WHINE_TEST_BODIES");
@@ -77,7 +77,7 @@ inline SweepParameters paper_sweep(double from, double to, double step) {
   return settings;
 }
 
-inline double rms(const SweepArtifact& sweep, int row) {
+inline double rms(const SweepResult& sweep, int row) {
   const Eigen::VectorXd te = sweep.transmission_error.row(row);
   return std::sqrt((te.array() - te.mean()).square().mean());
 }

@@ -30,8 +30,7 @@ using Eigen::VectorXd;
 inline constexpr double kTwoPi = 2 * std::numbers::pi;
 inline const std::array<std::string, 2> kLong{"intermediate_shaft_pinion_02", "output_shaft_wheel_stage_002"};
 inline constexpr const char* kScene =
-    "gearbox_of_the_second_variant.toml: Intermediate and output shaft of the second variant, ground, with "
-    "tip relief";
+    "gearbox_of_the_second_variant.toml: Intermediate and output shaft of the second variant, ground, with tip relief";
 inline constexpr std::array kTorques{1250.0, 2500.0, 3750.0, 5000.0, 7500.0, 9999.0};
 
 // What is wrong with the picture that a template makes of a figure, a line each; laid out as the PNG and as the SVG.
@@ -72,7 +71,7 @@ inline void check(const Figure& figure, const std::string& name) {
   CHECK_MESSAGE(found.empty(), name, ", ", figure.title, lines);
 }
 
-inline void set_gears(PairParameters& pair, const std::array<std::string, 2>& names = kLong) {
+inline void set_gears(GearPairParameters& pair, const std::array<std::string, 2>& names = kLong) {
   pair.gear[0].design = pair.gear[1].design = paper_gear();
   pair.gear[0].material = pair.gear[1].material = paper_steel();
   pair.gear[0].design.tooth_thinning = pair.gear[1].design.tooth_thinning = 30e-6;
@@ -89,9 +88,9 @@ inline void set_motions(MotionParameters& motion) {
   motion.inertia = {0.0148, 0.0148};
 }
 
-inline StaticArtifact at_rest(double torque) {
+inline StaticResult at_rest(double torque) {
   constexpr int n = 128;
-  StaticArtifact s;
+  StaticResult s;
   set_gears(s);
   s.torque = torque;
   s.contact_ratio = 1.7547;
@@ -128,9 +127,9 @@ inline StaticArtifact at_rest(double torque) {
 }
 
 // Speeds of four digits; peaks of hundreds of micrometres at f_n and its fractions, contact lost and jumps beside them.
-inline ResponseArtifact response_at(double torque, Direction direction, double eta = 7.65432e-6) {
+inline ResponseResult response_at(double torque, Direction direction, double eta = 7.65432e-6) {
   constexpr int n = 81;
-  ResponseArtifact r;
+  ResponseResult r;
   set_motions(r);
   r.damping.rayleigh_stiffness = eta;
   r.torque = torque;
@@ -153,8 +152,8 @@ inline ResponseArtifact response_at(double torque, Direction direction, double e
   r.separations_per_period = (r.separation_fraction.array() > 0).cast<double>();
   r.period_multiple = Eigen::VectorXi::Ones(n);
   const VectorXd force = torque / 0.07 * (1 + 1e3 * r.dte_rms.array());
-  r.tooth_load_max = r.mesh_force_max = r.tooth_load_held = r.mesh_force_held = force;
-  r.root_stress_max = r.root_stress_held = {5e3 * force, 6e3 * force};
+  r.tooth_load_max = r.mesh_force_max = r.tooth_load_sustained = r.mesh_force_sustained = force;
+  r.root_stress_max = r.root_stress_sustained = {5e3 * force, 6e3 * force};
   r.root_stress_angle = r.root_stress_phase = {VectorXd::Constant(n, 0.5), VectorXd::Constant(n, 0.5)};
   r.bearing_force_max = {force, force};
   r.bearing_force_rms = {0.1 * force, 0.1 * force};
@@ -167,7 +166,7 @@ inline ResponseArtifact response_at(double torque, Direction direction, double e
   r.flank_roll.col(0) = r.flank_roll.col(1) = VectorXd::LinSpaced(41, 0.2, 0.5);
   r.flank_pressure = 5e6 * force.cwiseSqrt() * Eigen::RowVectorXd::Ones(41);
   r.edge_load_there = MatrixRM::Zero(n, 41);
-  r.flank_pressure_held = 5e6 * force.cwiseSqrt();
+  r.flank_pressure_sustained = 5e6 * force.cwiseSqrt();
   r.edge_load = {0.1 * force, 0.2 * force};
   r.jump_frequency =
       direction == Direction::up ? Eigen::Vector3d(2050, 3050, 5750) : Eigen::Vector3d(1950, 2850, 4950);
@@ -175,8 +174,8 @@ inline ResponseArtifact response_at(double torque, Direction direction, double e
   return r;
 }
 
-inline ImpactArtifact ring_down_at(double torque) {
-  ImpactArtifact a;
+inline ImpactResult ring_down_at(double torque) {
+  ImpactResult a;
   set_motions(a);
   a.torque = torque;
   a.contact_state = {ContactState::one, ContactState::two, ContactState::mean};
@@ -187,9 +186,9 @@ inline ImpactArtifact ring_down_at(double torque) {
   return a;
 }
 
-inline SweepArtifact sweep_at(double torque, Direction direction) {
+inline SweepResult sweep_at(double torque, Direction direction) {
   constexpr int n = 64, speeds = 33;
-  SweepArtifact s;
+  SweepResult s;
   set_motions(s);
   s.torque = torque;
   s.direction = direction;
@@ -219,31 +218,31 @@ inline SweepArtifact sweep_at(double torque, Direction direction) {
   return s;
 }
 
-inline std::vector<ResponseArtifact> both_ways(double torque, double eta = 7.65432e-6) {
+inline std::vector<ResponseResult> both_ways(double torque, double eta = 7.65432e-6) {
   return {response_at(torque, Direction::up, eta), response_at(torque, Direction::down, eta)};
 }
 
 // Of the pictures of one torque and of all: rings where motions go beyond the backlash.
-inline Background background_of(const std::vector<ResponseArtifact>& sweeps) {
-  Background b;
+inline CaptionSources background_of(const std::vector<ResponseResult>& sweeps) {
+  CaptionSources b;
   b.scenes.assign(sweeps.size(), kScene);
   std::set<double> seen;
-  for (const ResponseArtifact& r : sweeps) {
+  for (const ResponseResult& r : sweeps) {
     if (seen.insert(r.torque).second) b.impacts.push_back(ring_down_at(r.torque));
     b.backlash.emplace_back(30e-6 - r.dte_rms.array());
   }
   return b;
 }
 
-inline std::vector<ResponseArtifact> six_torques() {
-  std::vector<ResponseArtifact> all;
+inline std::vector<ResponseResult> six_torques() {
+  std::vector<ResponseResult> all;
   for (const double torque : kTorques)
-    for (ResponseArtifact& r : both_ways(torque)) all.push_back(std::move(r));
+    for (ResponseResult& r : both_ways(torque)) all.push_back(std::move(r));
   return all;
 }
 
-inline std::vector<StaticArtifact> six_at_rest(size_t count = kTorques.size()) {
-  std::vector<StaticArtifact> all;
+inline std::vector<StaticResult> six_at_rest(size_t count = kTorques.size()) {
+  std::vector<StaticResult> all;
   for (size_t i = 0; i < count; ++i) all.push_back(at_rest(kTorques[i]));
   return all;
 }

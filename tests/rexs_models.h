@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "base/error.h"
-#include "io/rexs.h"
-#include "io/rexs_scene.h"
+#include "io/rexs/rexs.h"
+#include "io/rexs/scene.h"
 #include "io/scene.h"
 
 namespace whine {

@@ -4,11 +4,11 @@
 
 #include "io/system_scene.h"
 #include "planetary_train.h"
-#include "studies/system_sweep_result.h"
-#include "system/system_static_result.h"
+#include "results/system_static.h"
+#include "results/system_sweep.h"
 
 // A train at two phases, numbers without meaning.
-inline whine::SystemStaticArtifact small_system(whine::SystemScene scene = planetary_train(3)) {
+inline whine::SystemStaticResult small_system(whine::SystemScene scene = planetary_train(3)) {
   using namespace whine;
   scene.fidelity = {BodyModel::modal, ContactModel::line, Integrator::exact};
   // Of sun and planet, one of them in two meshes, and none of the ring.
@@ -25,7 +25,7 @@ inline whine::SystemStaticArtifact small_system(whine::SystemScene scene = plane
   const SystemStaticParameters settings = static_parameters_of(scene, layout_of(scene));
   const auto bodies = static_cast<Eigen::Index>(settings.layout.bodies.size()),
              meshes = static_cast<Eigen::Index>(settings.layout.meshes.size());
-  SystemStaticArtifact a;
+  SystemStaticResult a;
   a.settings = settings;
   for (const SystemScene::Gear& gear : scene.gears) {
     a.drawing.push_back({gear.design, Material{206e9, 0.3, 7850, true}, {}});
@@ -51,10 +51,10 @@ inline whine::SystemStaticArtifact small_system(whine::SystemScene scene = plane
 }
 
 // Of the same torques, at two speeds.
-inline whine::SystemSweepArtifact small_sweep(const whine::SystemStaticArtifact& rest,
-                                              whine::Direction direction) {
+inline whine::SystemSweepResult small_sweep(const whine::SystemStaticResult& rest,
+                                            whine::Direction direction) {
   using namespace whine;
-  SystemSweepArtifact a;
+  SystemSweepResult a;
   static_cast<SystemStaticParameters&>(a.settings) = rest.settings;
   a.settings.damping.rayleigh_stiffness = 2e-6;
   a.direction = direction;

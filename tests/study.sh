@@ -60,7 +60,7 @@ elif make_ SCENE=own.toml out/own/T150/up/response.h5; then
   rms=$(number /dte_rms out/own/T150/up/response.h5 | sort -g | tail -n 1) load=$(number /tooth_load_max out/own/T150/up/response.h5 | sort -g | tail -n 1)
   stiffness=$(number /mean_stiffness out/own/T150/static.h5)
   # Row of 7.7e-6 s at 150 N m: the last.
-  row() { number "/answer/$1" out/studies/small/study.h5 | tail -n 1; }
+  row() { number "/quantity/$1" out/studies/small/study.h5 | tail -n 1; }
   if [ -n "$rms" ] && [ "$rms $load $stiffness" = "$(row rms_max_up) $(row tooth_load_max_up) $(row mean_stiffness)" ]; then ok "answers of a variant are those of the stages, bit by bit"
   else wrong "answers of a variant are those of the stages, bit by bit" "$rms $load $stiffness against $(row rms_max_up) $(row tooth_load_max_up) $(row mean_stiffness)"; fi
 else wrong "the stages of the same scene run" "$(tail -n 1 "$log")"; fi
@@ -122,17 +122,17 @@ rejected "a share that is none" 'SHARE=3/2: it is i/n' STUDY=small.toml SHARE=3/
 printf 'scene = "own.toml"\n[[vary]]\nkey = "operation.torque_Nm"\nvalues = [100, 900000]\n' > heavy.toml
 rejected "a variant outside the model's range, by its values" "gear-variant: error: .*: variant 1 \(operation.torque_Nm = 900000\): at 900000 N m the transmission error of pinion-wheel is [0-9.]* mm, above 0.75 mm, a quarter of the module" -k STUDY=heavy.toml study
 [ "$(find out/studies/heavy -name '*.h5' | wc -l)" = 1 ] && ok "make -k computes the others, but no table" || wrong "make -k computes the others, but no table" "$(find out/studies/heavy -name '*.h5')"
-sed -i '1i refusals = "mark"' heavy.toml
+sed -i '1i outside_model = "mark"' heavy.toml
 if make_ STUDY=heavy.toml study && grep -q 'warning: variant 1 (operation.torque_Nm = 900000) lies outside the model.s range: ' "$log" && grep -q '^# outside the model.s range (1): ' out/studies/heavy/study.tsv; then
-  ok "refusals = \"mark\": a line of the table that says so"; else wrong "refusals = \"mark\"" "$(tail -n 2 "$log" | tr '\n' ' ')"; fi
-sed -i 's/^refusals = .*/refusals = "stop"/' heavy.toml
-rejected "refusals = \"stop\" again: what was marked is an error, by variant and reason" \
+  ok "outside_model = \"mark\": a line of the table that says so"; else wrong "outside_model = \"mark\"" "$(tail -n 2 "$log" | tr '\n' ' ')"; fi
+sed -i 's/^outside_model = .*/outside_model = "stop"/' heavy.toml
+rejected "outside_model = \"stop\" again: what was marked is an error, by variant and reason" \
   'gear-study: error: out/studies/heavy/plan.toml: variant 1 \(operation.torque_Nm = 900000\) lies outside the model.s range: .*a quarter of the module' STUDY=heavy.toml study
 
 # Marked is what lies outside the model's range, not what this machine or a setting does.
 cat > large.toml <<'STUDY'
 scene = "own.toml"
-refusals = "mark"
+outside_model = "mark"
 [set]
 "gear.pinion.error.iso_class" = 5
 "discretisation.positions" = 65536
@@ -140,11 +140,11 @@ refusals = "mark"
 key = "operation.torque_Nm"
 values = [100, 150]
 STUDY
-rejected "refusals = \"mark\" does not mark a setting that asks for too much" 'gear-variant: error: .*: variant [01] .* positions, at most 2097152 are allowed' -k STUDY=large.toml study
+rejected "outside_model = \"mark\" does not mark a setting that asks for too much" 'gear-variant: error: .*: variant [01] .* positions, at most 2097152 are allowed' -k STUDY=large.toml study
 [ -z "$(find out/studies/large -name '*.h5')" ] && ok "nor leaves it as an artifact" || wrong "nor leaves it as an artifact" "$(find out/studies/large -name '*.h5')"
 
 # --- what the stages warn of: here a motion that hardly anything damps
-sed 's/^values = \[5.*/values = [1e-10, 2e-10]/; s/^values = \[100.*/values = [100]/; s/^directions.*/&\n[set]\n"discretisation.steady_state" = "march"/' small.original > restless.toml
+sed 's/^values = \[5.*/values = [1e-10, 2e-10]/; s/^values = \[100.*/values = [100]/; s/^directions.*/&\n[set]\n"discretisation.steady_state" = "integrate"/' small.original > restless.toml
 if make_ STUDY=restless.toml study; then
   grep -q -E 'gear-variant: warning: variant 1 \(damping.rayleigh_stiffness_s = 2e-10, .*\): speed up: at [0-9]* Hz the motion is not periodic' "$log" &&
     ok "a variant warns of what gear-sweep warns of, by its name" || wrong "a variant warns of what gear-sweep warns of, by its name" "$(grep -m1 warning "$log")"

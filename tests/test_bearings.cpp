@@ -24,7 +24,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kLoad = 150 / 70.476944e-3;  // N, of 150 N m: rounded
 
-const BodyArtifact& coarse_body() {
+const ReducedBody& coarse_body() {
   return paper_body(40e-3, 1.2e-3, 12);
 }
 
@@ -42,7 +42,7 @@ StaticParameters statics_on(const std::array<Bearing, 2>& bearing, bool corner,
   return settings;
 }
 
-StaticArtifact at_rest(const StaticParameters& settings, const BodyArtifact& body = coarse_body()) {
+StaticResult at_rest(const StaticParameters& settings, const ReducedBody& body = coarse_body()) {
   return static_transmission(body, body, settings, 150);
 }
 
@@ -53,7 +53,7 @@ double force_along(const GearMeshModel& model) {
 // A pair in motion on a range that holds several times the load.
 struct Rig {
   Rig(const StaticParameters& settings, const DynamicParameters& parameters, int steps = 64,
-      const BodyArtifact& body = coarse_body())
+      const ReducedBody& body = coarse_body())
       : model(body, body, settings.mesh), dynamics(model, parameters) {
     const double load = force_along(model);
     dynamics.set_zone(candidate_zone(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
@@ -93,9 +93,9 @@ VectorXd lumped_frequencies(const GearMeshModel& model, const std::vector<double
 TEST_CASE(
     "bearings at rest stand in series with the mesh, press as the load does, and are rigid in the limit") {
   for (const auto contact : {ContactModel::strips, ContactModel::line}) {
-    const StaticArtifact rigid = at_rest(statics_on({}, false, contact)),
-                         on = at_rest(statics_on(soft(), false, contact)),
-                         stiff = at_rest(statics_on(soft(0, 1e8), false, contact));
+    const StaticResult rigid = at_rest(statics_on({}, false, contact)),
+                       on = at_rest(statics_on(soft(), false, contact)),
+                       stiff = at_rest(statics_on(soft(0, 1e8), false, contact));
     const GearMeshModel model(coarse_body(), coarse_body(), on.mesh);
     const double load = force_along(model), give = load / 200e6 + load / 120e6;
     CHECK(rigid.bearing_force[0].size() == 0);
@@ -113,7 +113,7 @@ TEST_CASE(
     }
   }
   // With corners, whose normals are tilted, the forces still are those of the teeth: nearly along the line of action.
-  const StaticArtifact on = at_rest(statics_on(soft(), true)), rigid = at_rest(statics_on({}, true));
+  const StaticResult on = at_rest(statics_on(soft(), true)), rigid = at_rest(statics_on({}, true));
   for (int i = 0; i < 16; ++i) {
     CHECK(on.bearing_force[0].row(i).norm() == relative(kLoad, 3e-3));
     // Hubs that give way along the line of action part a tilted corner by a little less.
@@ -153,7 +153,7 @@ TEST_CASE(
   BodyDiscretisation discretisation;
   discretisation.element_size = 1.2e-3;
   discretisation.modes = 12;
-  const BodyArtifact body = reduce(make_sector_mesh(paper_gear(), discretisation), light, 12);
+  const ReducedBody body = reduce(make_sector_mesh(paper_gear(), discretisation), light, 12);
   std::array<Bearing, 2> bearing = soft();
   bearing[0].mass = 2.5;
   bearing[1].mass = 3.5;
@@ -172,7 +172,7 @@ TEST_CASE(
 }
 
 TEST_CASE("at rest all levels of body give the transmission error of rigid axes and the bearings in series") {
-  for (const auto level : {BodyModel::rigid, BodyModel::quasi_static, BodyModel::lagged, BodyModel::modal})
+  for (const auto level : {BodyModel::rigid, BodyModel::quasi_static, BodyModel::relaxed, BodyModel::modal})
     for (const auto contact : {ContactModel::strips, ContactModel::line}) {
       const DynamicParameters parameters = parameters_of(level, contact);
       const auto settings = [&](const std::array<Bearing, 2>& bearing) {
@@ -181,7 +181,7 @@ TEST_CASE("at rest all levels of body give the transmission error of rigid axes 
       const auto settled = [&](const StaticParameters& of) {
         const GearMeshModel model(coarse_body(), coarse_body(), of.mesh);
         RollingDynamics dynamics(model, parameters);
-        const StaticArtifact statics = at_rest(of);
+        const StaticResult statics = at_rest(of);
         dynamics.set_zone(candidate_zone(model, statics, MotionBounds(model, statics)), 16);
         dynamics.rest();
         return dynamics.static_deflection();
@@ -213,7 +213,7 @@ TEST_CASE(
   const auto swept = [](BodyModel level, const std::array<Bearing, 2>& bearing) {
     StaticParameters rest = statics_on(bearing, false);
     rest.contact.positions = 32;
-    const StaticArtifact statics = at_rest(rest);
+    const StaticResult statics = at_rest(rest);
     SweepParameters settings = paper_sweep(1200, 1400, 200);
     settings.fidelity.body = level;
     settings.time.steps_per_period = 32;
@@ -223,9 +223,9 @@ TEST_CASE(
     return sweep(coarse_body(), coarse_body(), statics, statics.mean_stiffness, settings, Direction::up,
                  no_report);
   };
-  const SweepArtifact on = swept(BodyModel::modal, soft(4000));
+  const SweepResult on = swept(BodyModel::modal, soft(4000));
   const double load = 150 / ToothGeometry(paper_gear()).base_radius();
-  const ResponseArtifact heard = response(on);
+  const ResponseResult heard = response(on);
   for (int g = 0; g < kSides; ++g)
     for (int f = 0; f < 2; ++f) {
       const MatrixRM& force = on.bearing_force[g][f];
@@ -245,7 +245,7 @@ TEST_CASE(
   // Rigid axes are the limit, of first order in the flexibility of the bearings. With them one-diameter modes stand in another
   // frame, see dynamics.h, which leaves 3e-7 here.
   for (const auto level : {BodyModel::rigid, BodyModel::modal}) {
-    const SweepArtifact rigid = swept(level, {});
+    const SweepResult rigid = swept(level, {});
     const auto off = [&](double factor) {
       return (swept(level, soft(0, factor)).transmission_error - rigid.transmission_error)
                  .cwiseAbs()
@@ -261,13 +261,13 @@ TEST_CASE("ring-down on bearings: the decay has the eigenvalue that the frozen c
   StaticParameters rest = statics_on(soft(2000), true);
   rest.contact.positions = 64;
   rest.contact.strips = 15;
-  const StaticArtifact statics = at_rest(rest);
+  const StaticResult statics = at_rest(rest);
   ImpactParameters settings;
   settings.inertia[0] = settings.inertia[1] = 0.0148;
   settings.damping.rayleigh_stiffness = 7.7e-6;
   settings.reference_torque = 100;
-  const ImpactArtifact result = impact(coarse_body(), coarse_body(), statics, 463e6, settings,
-                                       {ImpactPlan().torque_step, 16}, no_report);
+  const ImpactResult result = impact(coarse_body(), coarse_body(), statics, 463e6, settings,
+                                     {ImpactPlan().torque_step, 16}, no_report);
   for (int i = 0; i < 16; ++i) {
     CHECK(result.phase_natural_frequency[i] == relative(result.eigen_frequency[i], 1e-4));
     CHECK(result.phase_damping_ratio[i] == relative(result.eigen_damping_ratio[i], 1e-3));
@@ -339,7 +339,7 @@ TEST_CASE(
 }
 
 TEST_CASE("bearings are rejected where they cannot be: a mass below the body's, too few modes, every mode") {
-  const auto rejection = [](const Bearing& bearing, const BodyArtifact& body, BodyModel level) {
+  const auto rejection = [](const Bearing& bearing, const ReducedBody& body, BodyModel level) {
     const GearMeshModel model(body, body, statics_on({bearing, {}}, true).mesh);
     try {
       RollingDynamics(model, parameters_of(level));
@@ -353,8 +353,8 @@ TEST_CASE("bearings are rejected where they cannot be: a mass below the body's, 
   CHECK(rejection({1e8, 0, 0.5}, coarse_body(), BodyModel::rigid)
             .find("mass_kg = 0.5 in the [[bearing]] of the driver") == 0);
   CHECK(rejection({1e8, 0, 0}, coarse_body(), BodyModel::full).find("has no bearings") != std::string::npos);
-  BodyArtifact torsion = paper_body(40e-3, 1.2e-3, 0);
-  CHECK(rejection({1e8, 0, 0}, torsion, BodyModel::lagged).find("none of them has one nodal diameter") !=
+  ReducedBody torsion = paper_body(40e-3, 1.2e-3, 0);
+  CHECK(rejection({1e8, 0, 0}, torsion, BodyModel::relaxed).find("none of them has one nodal diameter") !=
         std::string::npos);
   CHECK(rejection({1e8, 0, 0}, torsion, BodyModel::rigid).empty());
 }

@@ -167,7 +167,7 @@ SmallMap impact_oscillator(double c) {
 
 PeriodicOrbit orbit_at(PeriodMap& map, const VectorXd& start, double parameter, int multiple = 1) {
   map.set_parameter(parameter);
-  const OrbitSearch search = find_orbit(map, start, multiple);
+  const OrbitSearch search = newton_orbit(map, start, multiple);
   INFO(search.failure);
   REQUIRE(search.found());
   return search.orbit;
@@ -497,7 +497,7 @@ TEST_CASE("orbits: a period doubling at a kink is known to the step of the multi
     settings.low = 0.5;
     settings.high = 1.5;
     map.set_parameter(1.4);
-    const OrbitSearch search = find_orbit(map, VectorXd::Constant(1, 0.19));
+    const OrbitSearch search = newton_orbit(map, VectorXd::Constant(1, 0.19));
     REQUIRE(search.found());
     const auto flips = of_kind(follow_branch(map, search.orbit, -1, settings), Special::flip);
     REQUIRE(flips.size() == 1);
@@ -518,7 +518,7 @@ TEST_CASE("orbits: what cannot be found says why") {
     return VectorXd(VectorXd::Constant(1, y[0] + y[0] * y[0] + p));
   });
   map.set_parameter(0.1);
-  const OrbitSearch search = find_orbit(map, VectorXd::Constant(1, 1));
+  const OrbitSearch search = newton_orbit(map, VectorXd::Constant(1, 1));
   CHECK(!search.found());
   CHECK(search.failure.find("residual") != std::string::npos);
   CHECK(search.orbit.residual >= 0.1);
@@ -553,7 +553,7 @@ TEST_CASE("orbits: the branch of the rectangular lumped pair through its exact f
       const FoldSearch exact = locate_fold(map, fold.start, 1, 2900);
       REQUIRE(exact.found());
       map.apply(exact.start);
-      const SlowTangent tangent{MatrixXd::Identity(2, 2), map.tangent()};
+      const MonodromyMatrix tangent{MatrixXd::Identity(2, 2), map.tangent()};
       CHECK(tangent.multipliers()[0].real() == relative(1, 1e-8));
     }
     // The part between the folds is unstable, and it alone.
@@ -617,7 +617,7 @@ TEST_CASE("orbits: the verdict on a lumped orbit does not depend on where its pe
       const Eigen::VectorXd close = fine.record(at, energy_balance).x;
       const double slope =
           (close[(1000 * sample + 1) % 20000] - close[1000 * sample - 1]) * 0.5 * 20000 * nearest->parameter;
-      const OrbitSearch found = find_orbit(other, other.flat({x[sample], slope}));
+      const OrbitSearch found = newton_orbit(other, other.flat({x[sample], slope}));
       REQUIRE(found.found());
       CHECK(other.state(found.orbit.start)[0] == relative(x[sample], 1e-9));
       const Eigen::VectorXcd multipliers = found.orbit.multipliers();
@@ -627,7 +627,7 @@ TEST_CASE("orbits: the verdict on a lumped orbit does not depend on where its pe
 }
 
 TEST_CASE("orbits: the branch of the elastic pair through both folds, beside integration") {
-  const StaticArtifact statics = static_transmission(paper_body(), paper_body(), paper_statics(128), 150);
+  const StaticResult statics = static_transmission(paper_body(), paper_body(), paper_statics(128), 150);
   const GearMeshModel model(paper_body(), paper_body(), statics.mesh);
   DynamicParameters parameters = paper_parameters(statics.mean_stiffness);
   parameters.damping.rayleigh_stiffness = 5.5e-6;
@@ -636,7 +636,7 @@ TEST_CASE("orbits: the branch of the elastic pair through both folds, beside int
   RollingPeriodMap map(dynamics, 128);
   map.set_parameter(2900);
   RollingDynamics::State state = dynamics.rest();
-  REQUIRE(find_periodic_orbit(dynamics, state, 1e-8, SteadyState::extrapolate));
+  REQUIRE(iterate_to_orbit(dynamics, state, 1e-8, SteadyState::extrapolate));
   BranchSettings settings;
   settings.low = 1700;
   settings.high = 2950;
@@ -690,16 +690,16 @@ TEST_CASE("orbits: the branch of the elastic pair through both folds, beside int
 
 // (f / scale) scale is not f in these ranges; what is left points along the branch.
 TEST_CASE("orbits: a branch does not close on the orbit that it begins with") {
-  const BodyArtifact& body = paper_body();
+  const ReducedBody& body = paper_body();
   StaticParameters coarse = paper_statics(128);
   coarse.contact.strips = 8;
-  const StaticArtifact statics = static_transmission(body, body, coarse, 150);
+  const StaticResult statics = static_transmission(body, body, coarse, 150);
   for (const double from : {2600.0, 2750.0}) {
     SweepParameters settings = paper_sweep(from, 3600, 50);
     settings.fidelity.contact = ContactModel::line;
     settings.time.steps_per_period = 64;
     settings.time.min_sample_rate = 0;
-    const BranchArtifact branch = pair_branch(body, body, statics, 463e6, settings, no_report);
+    const BranchResult branch = pair_branch(body, body, statics, 463e6, settings, no_report);
     CAPTURE(from);
     CAPTURE(branch.end);
     CHECK(branch.mesh_frequency.tail(1)[0] == relative(from, 1e-9));
@@ -707,17 +707,17 @@ TEST_CASE("orbits: a branch does not close on the orbit that it begins with") {
 }
 
 TEST_CASE("orbits: a sweep jumps where the branch folds, also across a change of steps") {
-  const BodyArtifact& body = paper_body();
+  const ReducedBody& body = paper_body();
   StaticParameters coarse = paper_statics(128);
   coarse.contact.strips = 8;
-  const StaticArtifact statics = static_transmission(body, body, coarse, 150);
+  const StaticResult statics = static_transmission(body, body, coarse, 150);
   SweepParameters stage_settings = paper_sweep(1700, 2950, 50);
   stage_settings.damping.rayleigh_stiffness = 5.5e-6;
   stage_settings.time.periodicity = 1e-6;
   // 64 steps above 2400 Hz, 128 below.
   stage_settings.time.steps_per_period = 64;
   stage_settings.time.min_sample_rate = 64 * 2400;
-  const BranchArtifact branch = pair_branch(body, body, statics, 463e6, stage_settings, no_report);
+  const BranchResult branch = pair_branch(body, body, statics, 463e6, stage_settings, no_report);
   INFO(branch.end);
   CHECK(branch.mesh_frequency[0] == relative(2950, 1e-12));
   CHECK(branch.mesh_frequency.tail(1)[0] == relative(1700, 1e-12));
@@ -730,7 +730,7 @@ TEST_CASE("orbits: a sweep jumps where the branch folds, also across a change of
   CHECK(branch.fold_width.minCoeff() >= kStepError * branch.fold_frequency.minCoeff());
   CHECK((branch.stable.array() == 0).any());
   for (const Direction direction : {Direction::down, Direction::up}) {
-    const SweepArtifact swept =
+    const SweepResult swept =
         sweep(body, body, statics, 463e6, stage_settings, direction, no_report, nullptr, 0.02);
     REQUIRE(swept.jump_frequency.size() == 1);
     const double fold = branch.fold_frequency[direction == Direction::down ? 0 : 1];
@@ -743,7 +743,7 @@ TEST_CASE("orbits: a sweep jumps where the branch folds, also across a change of
     CHECK(cause.frequency == fold);
     CHECK(cause_of_jump(branch, fold + 50, 1).cause == JumpCause::basin);
     // Stable orbits are the sweep's.
-    const ResponseArtifact response = whine::response(swept);
+    const ResponseResult response = whine::response(swept);
     double apart = 0, held = 0;
     Eigen::Array2d place = Eigen::Array2d::Zero();  // rad; mesh periods
     int compared = 0;
@@ -759,21 +759,21 @@ TEST_CASE("orbits: a sweep jumps where the branch folds, also across a change of
           held = std::max(held, std::abs(((1 - share) * along[k] + share * along[k + 1]) / swept_value - 1));
         };
         for (size_t g = 0; g < kSides; ++g)
-          held_apart(branch.root_stress_held[g], response.root_stress_held[g][i]);
+          held_apart(branch.root_stress_sustained[g], response.root_stress_sustained[g][i]);
         // Where that stress stands: at the nearer orbit, as the largest may go over to another tooth.
         const Eigen::Index near = share < 0.5 ? k : k + 1;
         for (size_t g = 0; g < kSides; ++g)
           place = place.max(
               Eigen::Array2d(std::abs(branch.root_stress_angle[g][near] - response.root_stress_angle[g][i]),
                              std::abs(branch.root_stress_phase[g][near] - response.root_stress_phase[g][i])));
-        held_apart(branch.tooth_load_held, response.tooth_load_held[i]);
-        held_apart(branch.mesh_force_held, response.mesh_force_held[i]);
+        held_apart(branch.tooth_load_sustained, response.tooth_load_sustained[i]);
+        held_apart(branch.mesh_force_sustained, response.mesh_force_sustained[i]);
         ++compared;
         break;
       }
     CHECK(compared > 20);
     CHECK(apart < 1e-2);
-    MESSAGE("held loads and root stress: " << held);
+    MESSAGE("sustained loads and root stress: " << held);
     CHECK(held < 2e-2);
     MESSAGE("place of the root stress: " << place[0] << " rad, " << place[1] << " mesh periods");
     CHECK(place[0] < 0.01);
@@ -782,7 +782,7 @@ TEST_CASE("orbits: a sweep jumps where the branch folds, also across a change of
   // What is written is read.
   const std::string path = (std::filesystem::temp_directory_path() / "whine-branch-test.h5").string();
   write(path, branch, {});
-  const BranchArtifact again = read_branch(path);
+  const BranchResult again = read_branch(path);
   std::filesystem::remove(path);
   CHECK(again.mesh_frequency == branch.mesh_frequency);
   CHECK(again.floquet_multiplier.back() == branch.floquet_multiplier.back());

@@ -30,8 +30,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-ResponseArtifact some_response(Direction direction, int driven_teeth = 40) {
-  ResponseArtifact r;
+ResponseResult some_response(Direction direction, int driven_teeth = 40) {
+  ResponseResult r;
   r.gear[0].design = paper_gear(50);
   r.gear[1].design = paper_gear(driven_teeth);
   r.mesh.gear[0] = "pinion_1";
@@ -55,7 +55,7 @@ ResponseArtifact some_response(Direction direction, int driven_teeth = 40) {
   return r;
 }
 
-std::vector<ResponseArtifact> both_ways() {
+std::vector<ResponseResult> both_ways() {
   return {some_response(Direction::up), some_response(Direction::down)};
 }
 
@@ -79,13 +79,13 @@ std::string word(const Figure& figure, const std::string& name) {
   return "";
 }
 
-StaticArtifact at_rest(double torque, double crowning = 0) {
+StaticResult at_rest(double torque, double crowning = 0) {
   StaticParameters settings = paper_statics(16);
   settings.mesh.gear[0] = crowning > 0 ? "sun" : "pinion";
   settings.mesh.gear[1] = "wheel";
   settings.mesh.modification[0].crowning = crowning;
-  const BodyArtifact& body = paper_body(40e-3, 0.8e-3);
-  StaticArtifact s = static_transmission(body, body, settings, torque);
+  const ReducedBody& body = paper_body(40e-3, 0.8e-3);
+  StaticResult s = static_transmission(body, body, settings, torque);
   const Harmonics h = harmonics(s.transmission_error, 4);
   s.transmission_error_harmonic.resize(5);
   s.transmission_error_harmonic << h.mean, h.amplitude;
@@ -142,7 +142,7 @@ TEST_CASE(
   CHECK_THROWS_WITH_AS(train_speeds(layout_of(scene)),
                        doctest::Contains("how fast 'carrier' turns does not follow"), Error);
 
-  const SystemStaticArtifact rest = small_system();
+  const SystemStaticResult rest = small_system();
   const Figure hertz =
       system_sweep_figure({small_sweep(rest, Direction::up), small_sweep(rest, Direction::down)});
   Figure rpm = hertz;
@@ -221,8 +221,8 @@ TEST_CASE(
   CHECK(word(small, "level_label") == "dB re 2 nm RMS");
   CHECK(block(small, "orders up").rows[0][1] == relative(20 * std::log10(500) - half, 1e-12));
   // An RMS stays one: of a motion that is a cosine it has the level of its first order.
-  ResponseArtifact up = some_response(Direction::up), down = some_response(Direction::down);
-  for (ResponseArtifact* r : {&up, &down}) r->dte_rms.setConstant(1e-6 / std::numbers::sqrt2);
+  ResponseResult up = some_response(Direction::up), down = some_response(Direction::down);
+  for (ResponseResult* r : {&up, &down}) r->dte_rms.setConstant(1e-6 / std::numbers::sqrt2);
   Figure motion = compared_motion_figure({{"a", up}, {"a", down}, {"b", up}, {"b", down}});
   apply({"", 1e-6}, motion);
   CHECK(motion.blocks[0].rows[0][1] == relative(-half, 1e-12));
@@ -247,8 +247,8 @@ TEST_CASE("axes that a figure does not have are rejected by what it has") {
                                                  {"b", some_response(Direction::down, 41)}});
   CHECK(rejected(designs, {"rpm:driver", {}}) == Failure::usage);
   // The same teeth under other names: by their role.
-  ResponseArtifact other_up = some_response(Direction::up), other_down = some_response(Direction::down);
-  for (ResponseArtifact* r : {&other_up, &other_down}) r->mesh.gear[0] = "sun";
+  ResponseResult other_up = some_response(Direction::up), other_down = some_response(Direction::down);
+  for (ResponseResult* r : {&other_up, &other_down}) r->mesh.gear[0] = "sun";
   Figure named = compared_motion_figure({{"a", some_response(Direction::up)},
                                          {"a", some_response(Direction::down)},
                                          {"b", other_up},
@@ -306,9 +306,8 @@ TEST_CASE("designs: what differs, with its change; gears by their role; keys of 
   CHECK(differences({first, first}).empty());
   // Names of which one begins with the other, as imports make them, and names that are words of the table.
   Design numbered = first, mesh = first;
-  for (StaticArtifact& s : numbered.content.statics)
-    s.mesh.gear[0] = "stirnrad", s.mesh.gear[1] = "stirnrad_2";
-  for (StaticArtifact& s : mesh.content.statics) s.mesh.gear[0] = "mesh", s.mesh.gear[1] = "driver";
+  for (StaticResult& s : numbered.content.statics) s.mesh.gear[0] = "stirnrad", s.mesh.gear[1] = "stirnrad_2";
+  for (StaticResult& s : mesh.content.statics) s.mesh.gear[0] = "mesh", s.mesh.gear[1] = "driver";
   CHECK(differences({first, numbered}).empty());
   CHECK(differences({numbered, mesh}).empty());
   CHECK(compare_html({first, second}, {}).find("* At this speed") == std::string::npos);

@@ -137,8 +137,7 @@ TEST_CASE("strips of any widths: compliance symmetric, equal to the mean of read
 }
 
 TEST_CASE(
-    "Hertz line contact that grows: a grid a quarter strip off has a quarter of the ripple of a centred "
-    "one") {
+    "Hertz line contact that grows: a grid a quarter strip off has a quarter of the ripple of a centred one") {
   // Force at the approach that Hertz's closed form gives, while the half width grows by one strip from 12 strips across.
   // With a set of strips that stays, force is linear in the approach; at 12 strips a centred grid adds both ends at once.
   const double face = 25.4e-3, radius = 12.8257552e-3, depth = 1e-3, line = 0.5 / 0.7;
@@ -577,16 +576,16 @@ TEST_CASE("line contact: pairs without overlap carry nothing; what cannot be sol
 TEST_CASE("gears of plastic: tip edges are found as far as they bend, and all lengths are those of steel") {
   // A body of another modulus: flexibilities go with its inverse, and equal lengths with equal loads over the modulus.
   constexpr double kPlastic = 1e9, kSoft = 1.0 / 207;
-  BodyArtifact steel = paper_body(40e-3, 1.2e-3, 12), plastic = steel;
+  ReducedBody steel = paper_body(40e-3, 1.2e-3, 12), plastic = steel;
   plastic.material.youngs_modulus = kPlastic;
   for (MatrixRM& r : plastic.compliance) r /= kSoft;
   plastic.far_compliance /= kSoft;
-  const auto at_rest = [](const BodyArtifact& body, double torque) {
+  const auto at_rest = [](const ReducedBody& body, double torque) {
     return static_transmission(body, body, paper_statics(8), torque);
   };
   for (const double torque : {1.0, 8.0, 20.0}) {
     CAPTURE(torque);
-    const StaticArtifact soft = at_rest(plastic, torque), hard = at_rest(steel, torque / kSoft);
+    const StaticResult soft = at_rest(plastic, torque), hard = at_rest(steel, torque / kSoft);
     CHECK((soft.transmission_error - hard.transmission_error).norm() < 2e-3 * hard.transmission_error.norm());
     CHECK((soft.tooth_load.rowwise().sum() - hard.tooth_load.rowwise().sum() * kSoft).norm() <
           2e-3 * soft.tooth_load.norm());

@@ -17,8 +17,8 @@ constexpr double kPi = std::numbers::pi, kNu = 0.3;
 
 // A coarse mesh of the paper's gear and its body in plane stress or strain, once each.
 struct Coarse {
-  MeshArtifact mesh;
-  BodyArtifact body;
+  SectorGrid mesh;
+  ReducedBody body;
 };
 const Coarse& coarse(bool plane_stress, double matching_depth = 0) {
   static std::map<std::pair<bool, double>, Coarse> made;
@@ -32,7 +32,7 @@ const Coarse& coarse(bool plane_stress, double matching_depth = 0) {
     }
     Material material = paper_steel();
     material.plane_stress = plane_stress;
-    const MeshArtifact mesh = make_sector_mesh(paper_gear(), discretisation);
+    const SectorGrid mesh = make_sector_mesh(paper_gear(), discretisation);
     made[key] = {mesh, reduce(mesh, material, 0)};
   }
   return made[key];
@@ -45,8 +45,8 @@ StaticParameters statics_with(ContactPlane contact_plane, ContactModel contact =
   return settings;
 }
 
-StaticArtifact solved(const BodyArtifact& body, ContactPlane contact_plane,
-                      ContactModel contact = ContactModel::strips) {
+StaticResult solved(const ReducedBody& body, ContactPlane contact_plane,
+                    ContactModel contact = ContactModel::strips) {
   return static_transmission(body, body, statics_with(contact_plane, contact), 150);
 }
 
@@ -54,8 +54,8 @@ StaticArtifact solved(const BodyArtifact& body, ContactPlane contact_plane,
 
 TEST_CASE(
     "contact plane: strain in bodies of plane stress gives Hertz's pressure and width of plane strain") {
-  const BodyArtifact& body = coarse(true).body;
-  const StaticArtifact own = solved(body, ContactPlane::body), strain = solved(body, ContactPlane::strain);
+  const ReducedBody& body = coarse(true).body;
+  const StaticResult own = solved(body, ContactPlane::body), strain = solved(body, ContactPlane::strain);
   // One pair at the pitch point carries the same load; Hertz: p ~ sqrt(E*), a ~ 1 / sqrt(E*), E* = E / 2 (1 - nu^2).
   CHECK(strain.tooth_load(0, 1) == relative(own.tooth_load(0, 1), 1e-9));
   const double ratio = std::sqrt(1 - kNu * kNu);
@@ -75,7 +75,7 @@ TEST_CASE("contact plane: the approach changes by Hertz's law of both states rel
                radius = 75e-3 * std::sin(20 * kPi / 180) / 2;
   for (const double matching : {0.0, 1.25e-3}) {
     CAPTURE(matching);
-    const BodyArtifact& body = coarse(true, matching).body;
+    const ReducedBody& body = coarse(true, matching).body;
     const double depth = matching > 0 ? matching : kPi / 4 * 3e-3;  // half a tooth's thickness
     CHECK(ElasticGear(body, ContactPlane::strain).contact_depth() == relative(depth, 1e-15));
     const auto approach = [&](ContactPlane plane) {
@@ -94,9 +94,8 @@ TEST_CASE("contact plane: the approach changes by Hertz's law of both states rel
 }
 
 TEST_CASE(
-    "contact plane: the state of the bodies, named, changes no bit, nor does the depth of near and far "
-    "field") {
-  const BodyArtifact &stress = coarse(true).body, &strain = coarse(false).body;
+    "contact plane: the state of the bodies, named, changes no bit, nor does the depth of near and far field") {
+  const ReducedBody &stress = coarse(true).body, &strain = coarse(false).body;
   CHECK(solved(stress, ContactPlane::stress).transmission_error ==
         solved(stress, ContactPlane::body).transmission_error);
   CHECK(solved(strain, ContactPlane::strain).transmission_error ==
@@ -113,8 +112,8 @@ TEST_CASE(
 
 TEST_CASE("contact plane: the whole field of loaded gears gives the separations of the strips") {
   const Coarse& gear = coarse(true);
-  const StaticArtifact statics = solved(gear.body, ContactPlane::strain);
-  const LoadedArtifact at = loaded_pair(gear.mesh, gear.mesh, gear.body, gear.body, statics, 0.25, 0);
+  const StaticResult statics = solved(gear.body, ContactPlane::strain);
+  const LoadedResult at = loaded_pair(gear.mesh, gear.mesh, gear.body, gear.body, statics, 0.25, 0);
   Eigen::Index i = 0;
   for (const ContactZone& zone : contact_zones(gear.body, gear.body, statics, 0.25, 0)) {
     if (!(zone.force.sum() > 0)) continue;

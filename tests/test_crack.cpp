@@ -17,6 +17,7 @@
 
 #include "base/dense.h"
 #include "base/error.h"
+#include "contact/half_plane.h"
 #include "cracked_gear.h"
 #include "failure_of.h"
 #include "gear/crack.h"
@@ -28,7 +29,6 @@
 #include "solid/crack.h"
 #include "solid/elements.h"
 #include "solid/flank_table.h"
-#include "solid/half_plane.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
 #include "solid/root_stress.h"
@@ -206,10 +206,10 @@ TEST_CASE("a crack that does not fit its tooth is rejected by name") {
 TEST_CASE("the slit doubles the nodes on it and nothing else") {
   for (int order : {1, 2})
     for (double depth : {0.3e-3, 2e-3, 5e-3}) {
-      const MeshArtifact sector = sector_of(cracked_gear(depth), 0.6e-3, order);
+      const SectorGrid sector = sector_of(cracked_gear(depth), 0.6e-3, order);
       REQUIRE(sector.cracked_tooth.size() == 1);
-      const MeshArtifact &open = sector.cracked_tooth[0], closed = close_slit(open);
-      const auto borders = [](const MeshArtifact& mesh) {
+      const SectorGrid &open = sector.cracked_tooth[0], closed = close_slit(open);
+      const auto borders = [](const SectorGrid& mesh) {
         std::map<std::pair<int, int>, int> owners;
         for (Index e = 0; e < mesh.element_node.rows(); ++e)
           for (int k = 0; k < 4; ++k) {
@@ -275,9 +275,9 @@ TEST_CASE("condensed teeth give the compliance and the root stress that cyclic s
   for (int teeth : {9, 50}) {
     GearDesign design = cracked_gear(0, teeth, 0.25 * 3e-3 * teeth);
     if (teeth < 17) design.profile_shift = 0.6;
-    const MeshArtifact sector = sector_of(design, 1e-3);
+    const SectorGrid sector = sector_of(design, 1e-3);
     CHECK(sector.cracked_tooth.empty());
-    const BodyArtifact body = reduce(sector, kSteel, 0);
+    const ReducedBody body = reduce(sector, kSteel, 0);
     CHECK(body.crack_compliance.size() == 0);
     const int reach = body.offsets;
     const TeethTables tables = teeth_tables(sector, sector, kSteel, body.flank_position, reach);
@@ -305,7 +305,7 @@ TEST_CASE("condensed teeth give the compliance and the root stress that cyclic s
 namespace {
 
 // (root, load) Pa N-1: along the root of the driving flank, at the points of RootReader, from the strain inside the elements there.
-Eigen::MatrixXd surface_stress(const MeshArtifact& mesh, const Material& material, const Eigen::MatrixXd& u) {
+Eigen::MatrixXd surface_stress(const SectorGrid& mesh, const Material& material, const Eigen::MatrixXd& u) {
   const ToothGeometry tooth(mesh.design);
   const RootPoints points = root_points(tooth);
   const double e = material.youngs_modulus, nu = material.poisson_ratio;
@@ -348,8 +348,8 @@ TEST_CASE("condensed teeth give what the whole gear with its crack gives in one 
   GearDesign design = cracked_gear(2e-3, teeth, 4e-3);
   design.profile_shift = 0.6;
   design.crack.tooth = tooth;
-  const MeshArtifact sector = sector_of(design, 0.8e-3);
-  const MeshArtifact& cracked = sector.cracked_tooth.at(0);
+  const SectorGrid sector = sector_of(design, 0.8e-3);
+  const SectorGrid& cracked = sector.cracked_tooth.at(0);
   const Eigen::VectorXd xi = table_of(design, 8);
   const Index points = xi.size();
 
@@ -374,7 +374,7 @@ TEST_CASE("condensed teeth give what the whole gear with its crack gives in one 
   const SparseReal stiffness = assemble(position, element, kSteel, design.face_width).stiffness;
   std::vector<char> held(static_cast<size_t>(stiffness.rows()), 0);
   for (Index i = 0; i < stiffness.rows(); ++i) held[static_cast<size_t>(i)] = stiffness.coeff(i, i) == 0;
-  const auto mesh_of = [&](int j) -> const MeshArtifact& { return j == tooth ? cracked : sector; };
+  const auto mesh_of = [&](int j) -> const SectorGrid& { return j == tooth ? cracked : sector; };
   const auto node_of = [&](int j, int node) {
     return j == tooth ? own[static_cast<size_t>(node)] : gear.node(j, node);
   };
@@ -401,7 +401,7 @@ TEST_CASE("condensed teeth give what the whole gear with its crack gives in one 
   MatrixRM found(window * points, window * points), stress(window * kRootPoints, window * points);
   for (int k = 0; k < window; ++k) {
     const int j = tooth_at(k);
-    const MeshArtifact& mesh = mesh_of(j);
+    const SectorGrid& mesh = mesh_of(j);
     Eigen::MatrixXd local(2 * mesh.node_position.rows(), u.cols());
     for (Index i = 0; i < mesh.node_position.rows(); ++i)
       local.middleRows(2 * i, 2) = turn(j).transpose() * u.middleRows(2 * node_of(j, static_cast<int>(i)), 2);
@@ -447,7 +447,7 @@ TEST_CASE("a crack adds flexibility, the more the deeper, and none of it without
     const MatrixRM share = crack_tables(sector_of(cracked_gear(depth), element), kSteel, xi, 3).compliance;
     return share(4 * n - 1, 4 * n - 1);
   };
-  const MeshArtifact sector = sector_of(cracked_gear(2e-3), 0.6e-3);
+  const SectorGrid sector = sector_of(cracked_gear(2e-3), 0.6e-3);
   const MatrixRM share = crack_tables(sector, kSteel, xi, 3).compliance;
   const SymmetricEigen eigen = symmetric_eigenvalues(Eigen::MatrixXd(share));
   CHECK(eigen.values[0] > -1e-7 * eigen.values[7 * n - 1]);
@@ -472,8 +472,8 @@ TEST_CASE("a crack adds flexibility, the more the deeper, and none of it without
 
 namespace {
 
-const BodyArtifact& coarse_body(double depth, int tooth = 0) {
-  static std::map<std::pair<double, int>, BodyArtifact> cache;
+const ReducedBody& coarse_body(double depth, int tooth = 0) {
+  static std::map<std::pair<double, int>, ReducedBody> cache;
   const auto [found, fresh] = cache.try_emplace({depth, tooth});
   if (fresh) {
     GearDesign design = cracked_gear(depth);
@@ -488,13 +488,13 @@ const BodyArtifact& coarse_body(double depth, int tooth = 0) {
 TEST_CASE("statics over a turn: the cracked tooth's own softness where it works, nothing elsewhere") {
   constexpr int kPositions = 8, kTeeth = 50;
   const double torque = 150;
-  const StaticArtifact intact =
+  const StaticResult intact =
       static_transmission(coarse_body(0), coarse_body(0), paper_statics(kPositions), torque);
   CHECK(intact.hunting_periods == 1);
   for (const int gear : {0, 1})
     for (const int tooth : {0, 3}) {
-      const BodyArtifact& cracked = coarse_body(2e-3, tooth);
-      const StaticArtifact s =
+      const ReducedBody& cracked = coarse_body(2e-3, tooth);
+      const StaticResult s =
           gear == 0 ? static_transmission(cracked, coarse_body(0), paper_statics(kPositions), torque)
                     : static_transmission(coarse_body(0), cracked, paper_statics(kPositions), torque);
       REQUIRE(s.hunting_periods == kTeeth);
@@ -532,11 +532,11 @@ TEST_CASE("statics over a turn: the cracked tooth's own softness where it works,
 }
 
 TEST_CASE("lines and strips see the same crack, and motion rejects it") {
-  const BodyArtifact &cracked = coarse_body(2e-3, 0), &plain = coarse_body(0);
+  const ReducedBody &cracked = coarse_body(2e-3, 0), &plain = coarse_body(0);
   StaticParameters settings = paper_statics(8);
-  const StaticArtifact strips = static_transmission(cracked, plain, settings, 150);
+  const StaticResult strips = static_transmission(cracked, plain, settings, 150);
   settings.fidelity.contact = ContactModel::line;
-  const StaticArtifact lines = static_transmission(cracked, plain, settings, 150);
+  const StaticResult lines = static_transmission(cracked, plain, settings, 150);
   double most = 0;
   for (Index i = 0; i < strips.transmission_error.size(); ++i) {
     CHECK(lines.transmission_error[i] == relative(strips.transmission_error[i], 1e-2));
@@ -570,11 +570,11 @@ TEST_CASE("artifacts of a cracked gear give back every value bit by bit") {
   const Folder folder;
   GearDesign design = cracked_gear(2e-3);
   design.crack.tooth = 7;
-  const MeshArtifact mesh = sector_of(design, 1e-3);
+  const SectorGrid mesh = sector_of(design, 1e-3);
   write(folder.file("mesh.h5"), mesh, {"test", "test", {}});
-  const MeshArtifact again = read_mesh(folder.file("mesh.h5"));
+  const SectorGrid again = read_mesh(folder.file("mesh.h5"));
   REQUIRE(again.cracked_tooth.size() == 1);
-  const MeshArtifact &a = again.cracked_tooth[0], &b = mesh.cracked_tooth[0];
+  const SectorGrid &a = again.cracked_tooth[0], &b = mesh.cracked_tooth[0];
   CHECK(a.node_position == b.node_position);
   CHECK(a.element_node == b.element_node);
   CHECK(a.element_region == b.element_region);
@@ -588,9 +588,9 @@ TEST_CASE("artifacts of a cracked gear give back every value bit by bit") {
     CHECK(d.crack.start == design.crack.start);
     CHECK(d.crack.angle == design.crack.angle);
   }
-  const BodyArtifact body = reduce(again, kSteel, 1);
+  const ReducedBody body = reduce(again, kSteel, 1);
   write(folder.file("body.h5"), body, {"test", "test", {}});
-  const BodyArtifact back = read_body(folder.file("body.h5"));
+  const ReducedBody back = read_body(folder.file("body.h5"));
   CHECK(back.crack_compliance == body.crack_compliance);
   CHECK(back.crack_root_stress == body.crack_root_stress);
   CHECK(back.design.crack.tooth == 7);

@@ -4,7 +4,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "dynamics/propagator.h"
+#include "dynamics/newmark.h"
 #include "relative.h"
 
 using namespace whine;

@@ -59,8 +59,8 @@ class Blocks {
     return number;
   }
 
-  MeshArtifact mesh() const {
-    MeshArtifact mesh;
+  SectorGrid mesh() const {
+    SectorGrid mesh;
     mesh.node_position.resize(static_cast<int>(node_.size()), 2);
     for (size_t i = 0; i < node_.size(); ++i) mesh.node_position.row(static_cast<int>(i)) = node_[i];
     mesh.element_node.resize(static_cast<int>(element_.size()), order_ == 1 ? 4 : 9);
@@ -168,7 +168,7 @@ CantileverResult solve(const Cantilever& beam, int order, int rows, bool tractio
   Blocks blocks(order, beam.length);
   const Eigen::MatrixXi grid = blocks.add(
       4 * rows, rows, [&](double s, double t) { return Vec2(beam.length * s, beam.depth * (t - 0.5)); });
-  const MeshArtifact mesh = blocks.mesh();
+  const SectorGrid mesh = blocks.mesh();
   const SparseReal stiffness = assemble(mesh.node_position, mesh.element_node, beam.material, 1).stiffness;
   const auto unknowns = static_cast<size_t>(stiffness.rows());
 
@@ -242,7 +242,7 @@ CantileverResult solve(const Cantilever& beam, int order, int rows, bool tractio
 }
 
 // A quarter of a disc, x and y >= 0: a core and two blocks around it, k x k elements each.
-MeshArtifact quarter_disc(int order, int k, double radius) {
+SectorGrid quarter_disc(int order, int k, double radius) {
   Blocks blocks(order, radius);
   const Vec2 right(0.5 * radius, 0), corner(0.4 * radius, 0.4 * radius), top(0, 0.5 * radius);
   blocks.add(k, k, [&](double s, double t) -> Vec2 {
@@ -261,7 +261,7 @@ MeshArtifact quarter_disc(int order, int k, double radius) {
 // Frequencies of the disc's modes that are even or odd in the mirror y -> -y and in x -> -x. Such a family
 // holds each frequency once (see modes.h): cos(n phi) fields with n even (both even), sin with n even (both odd), cos with
 // n odd (even, odd).
-Eigen::VectorXd disc_frequencies(const MeshArtifact& mesh, const Material& material, bool even_y, bool even_x,
+Eigen::VectorXd disc_frequencies(const SectorGrid& mesh, const Material& material, bool even_y, bool even_x,
                                  int count, double shift) {
   const PlaneSystem system = assemble(mesh.node_position, mesh.element_node, material, 1);
   std::vector<char> fixed(static_cast<size_t>(system.mass.rows()), 0);
@@ -276,22 +276,22 @@ Eigen::VectorXd disc_frequencies(const MeshArtifact& mesh, const Material& mater
 }
 
 // One of `sectors` equal sectors of a free annulus: columns x rows elements, rows over the thickness.
-MeshArtifact annulus_sector(int order, int sectors, double inner, double outer, int columns, int rows) {
+SectorGrid annulus_sector(int order, int sectors, double inner, double outer, int columns, int rows) {
   Blocks blocks(order, outer);
   const Eigen::MatrixXi number = blocks.add(rows, columns, [&](double s, double t) {
     // Rings in geometric progression: the fields of the bore fall like powers of the radius.
     const double radius = inner * std::pow(outer / inner, s), angle = kPi / 2 + (2 * t - 1) * kPi / sectors;
     return Vec2(radius * std::cos(angle), radius * std::sin(angle));
   });
-  MeshArtifact mesh = blocks.mesh();
+  SectorGrid mesh = blocks.mesh();
   mesh.design.teeth = sectors;
   mesh.side_node.resize(number.cols(), 2);
   mesh.side_node << number.row(0).transpose(), number.row(number.rows() - 1).transpose();
   return mesh;
 }
 
-Eigen::VectorXd annulus_frequencies(const MeshArtifact& mesh, const Material& material, int harmonic,
-                                    int count, double shift) {
+Eigen::VectorXd annulus_frequencies(const SectorGrid& mesh, const Material& material, int harmonic, int count,
+                                    double shift) {
   const CyclicSector sector(mesh, assemble(mesh.node_position, mesh.element_node, material, 1));
   return frequencies(sector.stiffness(harmonic), sector.mass(harmonic), count, shift);
 }
@@ -390,7 +390,7 @@ TEST_CASE("free solid disc: all frequencies of each symmetry and their order") {
 }
 
 TEST_CASE("free steel disc of 75 mm: plane stress and plane strain, in hertz") {
-  const MeshArtifact mesh = quarter_disc(2, 8, 75e-3);
+  const SectorGrid mesh = quarter_disc(2, 8, 75e-3);
   const double shift = std::pow(2 * kPi * 1e4, 2);
   auto hertz = [&](const Material& material, bool even_x, int mode) {
     return disc_frequencies(mesh, material, true, even_x, mode + 1, shift)[mode] / (2 * kPi);
@@ -432,7 +432,7 @@ TEST_CASE("thin ring: 4-node elements lock, 9-node elements give 514.321 Hz") {
   // sqrt(E I / (rho A R^4) n^2 (n^2 - 1)^2 / (n^2 + 1)), gives 514.712 Hz.
   const double exact = 514.321;
   auto error = [&](int order, int around, int through) {
-    const MeshArtifact mesh = annulus_sector(order, 12, 49e-3, 51e-3, around / 12, through);
+    const SectorGrid mesh = annulus_sector(order, 12, 49e-3, 51e-3, around / 12, through);
     return annulus_frequencies(mesh, kSteel, 2, 1, std::pow(2 * kPi * 500, 2))[0] / (2 * kPi * exact) - 1;
   };
   const double nine = error(2, 96, 1), nine_fine = error(2, 144, 2);
@@ -460,7 +460,7 @@ TEST_CASE("thin ring on an even elastic support of its outside: frequencies of h
   // The theory is right to (n thickness / R)^2.
   const double radius = 50e-3, half = 1e-3, section = 2 * half, bending = std::pow(section, 3) / 12;
   for (const auto [radial, across] : {std::array{2e7, 2e7}, {5e8, 3e7}, {3e7, 5e8}}) {
-    MeshArtifact mesh = annulus_sector(2, 12, radius - half, radius + half, 8, 1);
+    SectorGrid mesh = annulus_sector(2, 12, radius - half, radius + half, 8, 1);
     mesh.design.internal = true;
     mesh.design.rim_radial_stiffness = radial;
     mesh.design.rim_tangential_stiffness = across;

@@ -26,9 +26,9 @@ bool drawn(const Figure& figure, const std::string& recipe) {
   return picture.find("</svg>") != std::string::npos;
 }
 
-StaticArtifact flat_statics() {
+StaticResult flat_statics() {
   constexpr int kPhases = 16, kHarmonics = 11;
-  StaticArtifact s;
+  StaticResult s;
   s.gear[0].design = s.gear[1].design = paper_gear();
   s.mesh = paper_statics(32).mesh;
   s.torque = 150;
@@ -42,8 +42,8 @@ StaticArtifact flat_statics() {
   return s;
 }
 
-ResponseArtifact at_one_speed(Direction direction) {
-  ResponseArtifact r;
+ResponseResult at_one_speed(Direction direction) {
+  ResponseResult r;
   r.torque = 150;
   r.direction = direction;
   r.model = "finite elements";
@@ -58,7 +58,7 @@ ResponseArtifact at_one_speed(Direction direction) {
 }  // namespace
 
 TEST_CASE("figures: at one speed and without vibration, of a constant stiffness, they are drawn") {
-  const std::vector<ResponseArtifact> sweeps{at_one_speed(Direction::up), at_one_speed(Direction::down)};
+  const std::vector<ResponseResult> sweeps{at_one_speed(Direction::up), at_one_speed(Direction::down)};
   CHECK(drawn(response_figure(sweeps), "fig05"));
   CHECK(drawn(transmission_error_figure({flat_statics()}), "fig12"));
   CHECK(drawn(mesh_stiffness_figure({flat_statics()}), "fig13"));
@@ -66,8 +66,8 @@ TEST_CASE("figures: at one speed and without vibration, of a constant stiffness,
 
 namespace {
 
-StaticArtifact flat_losses() {
-  StaticArtifact s = flat_statics();
+StaticResult flat_losses() {
+  StaticResult s = flat_statics();
   s.mesh.friction.coefficient = s.friction_coefficient = 0.05;
   s.efficiency = 0.995;
   s.loss_factor = 0.1;
@@ -75,9 +75,9 @@ StaticArtifact flat_losses() {
   return s;
 }
 
-std::vector<ResponseArtifact> losses_at(double mesh_frequency) {
-  std::vector<ResponseArtifact> sweeps{at_one_speed(Direction::up), at_one_speed(Direction::down)};
-  for (ResponseArtifact& r : sweeps) {
+std::vector<ResponseResult> losses_at(double mesh_frequency) {
+  std::vector<ResponseResult> sweeps{at_one_speed(Direction::up), at_one_speed(Direction::down)};
+  for (ResponseResult& r : sweeps) {
     r.mesh_frequency[0] = mesh_frequency;
     r.friction.coefficient = VectorXd::Constant(1, 0.05);
     r.friction.power = VectorXd::Constant(1, 190);
@@ -96,7 +96,7 @@ TEST_CASE("figures: losses at one speed, the same at rest, are drawn") {
 TEST_CASE("figures: losses mark the speeds at which the motion goes beyond the backlash") {
   std::vector<SweepBacklash> backlash{{150, Direction::up, VectorXd::Constant(1, 20e-6)},
                                       {150, Direction::down, VectorXd::Constant(1, -1e-6)}};
-  const std::vector<ResponseArtifact> sweeps = losses_at(2000);
+  const std::vector<ResponseResult> sweeps = losses_at(2000);
   const Figure marked = efficiency_figure({flat_losses()}, sweeps, backlash);
   CHECK(marked.blocks[0].columns.back() == "beyond_backlash [1]");
   CHECK(marked.blocks[0].rows[0].back() == 0);
@@ -117,7 +117,7 @@ TEST_CASE("figures: losses mark the speeds at which the motion goes beyond the b
 }
 
 TEST_CASE("figures: losses say where Schlenk's formula is beyond its tests") {
-  StaticArtifact s = flat_losses();
+  StaticResult s = flat_losses();
   const auto notes = [&](double mesh_frequency) {
     std::string all;
     for (const std::string& note : efficiency_figure({s}, losses_at(mesh_frequency)).notes)

@@ -17,7 +17,7 @@ using Eigen::MatrixXd;
 namespace {
 
 // The same gear of another width: a plane body's stiffness, mass and inertia go with it.
-BodyArtifact of_width(BodyArtifact body, double width) {
+ReducedBody of_width(ReducedBody body, double width) {
   const double wider = width / body.design.face_width, root = std::sqrt(wider);
   body.design.face_width = width;
   for (double* x : {&body.inertia, &body.mass}) *x *= wider;
@@ -34,11 +34,11 @@ BodyArtifact of_width(BodyArtifact body, double width) {
 
 constexpr double kNarrow = 15e-3, kWide = 40e-3, kCarries = kNarrow + 2 * 3e-3;  // m; module 3 mm
 
-BodyArtifact paper_body_of(double width) {
+ReducedBody paper_body_of(double width) {
   return of_width(paper_body(40e-3, 1.2e-3, 12), width);
 }
 
-StaticArtifact at_rest(double driver, double driven, ContactModel contact = ContactModel::line) {
+StaticResult at_rest(double driver, double driven, ContactModel contact = ContactModel::line) {
   StaticParameters settings = paper_statics(8);
   settings.fidelity.contact = contact;
   return static_transmission(paper_body_of(driver), paper_body_of(driven), settings, 150);
@@ -52,15 +52,15 @@ TEST_CASE("face widths: a body of another width is the one that is reduced in it
   coarse.modes = 12;
   GearDesign design = paper_gear();
   design.face_width = kWide;
-  const BodyArtifact drawn = reduce(make_sector_mesh(design, coarse), paper_steel(), coarse.modes),
-                     scaled = paper_body_of(kWide);
+  const ReducedBody drawn = reduce(make_sector_mesh(design, coarse), paper_steel(), coarse.modes),
+                    scaled = paper_body_of(kWide);
   CHECK((drawn.compliance[1] - scaled.compliance[1]).norm() < 1e-9 * scaled.compliance[1].norm());
   CHECK((drawn.root_stress[3] - scaled.root_stress[3]).norm() < 1e-9 * scaled.root_stress[3].norm());
   CHECK(drawn.inertia == relative(scaled.inertia, 1e-9));
 }
 
 TEST_CASE("unequal face widths: pressure and width of the contact are those of the narrower gear's pair") {
-  const StaticArtifact even = at_rest(kNarrow, kNarrow), wide = at_rest(kWide, kNarrow);
+  const StaticResult even = at_rest(kNarrow, kNarrow), wide = at_rest(kWide, kNarrow);
   for (Eigen::Index i = 0; i < even.tooth_load.rows(); ++i)
     for (Eigen::Index k = 0; k < even.tooth_load.cols(); ++k) {
       if (!(wide.contact_pressure(i, k) > 0)) continue;
@@ -104,7 +104,7 @@ TEST_CASE("unequal face widths: nothing jumps where the widths become equal, and
 }
 
 TEST_CASE("unequal face widths: roots carry on a module more to either side, as in ISO 6336-3") {
-  const StaticArtifact even = at_rest(kNarrow, kNarrow), wide = at_rest(kWide, kNarrow);
+  const StaticResult even = at_rest(kNarrow, kNarrow), wide = at_rest(kWide, kNarrow);
   // One pair at the pitch point.
   CHECK(wide.root_stress[0](0, 1) * kCarries == relative(even.root_stress[0](0, 1) * kNarrow, 1e-9));
   CHECK(wide.root_stress[1](0, 1) == relative(even.root_stress[1](0, 1), 1e-9));
@@ -124,8 +124,8 @@ TEST_CASE("unequal face widths: what a narrow contact adds to a tooth stands in 
 
 TEST_CASE("unequal face widths: chords of Hertz's law in a lumped model are those of the common width") {
   Eigen::VectorXi numbers;
-  const StaticArtifact wide = at_rest(kWide, kNarrow);
-  StaticArtifact as_narrow = wide;
+  const StaticResult wide = at_rest(kWide, kNarrow);
+  StaticResult as_narrow = wide;
   as_narrow.gear[0].design.face_width = kNarrow;
   CHECK(cells_of_pairs(wide, 8, numbers, 4).stiffness == cells_of_pairs(as_narrow, 8, numbers, 4).stiffness);
 }
@@ -136,11 +136,11 @@ TEST_CASE("unequal face widths: flanks of the loaded gears close by the whole fi
   GearDesign narrow = paper_gear(), wide = paper_gear();
   narrow.face_width = kNarrow;
   wide.face_width = kWide;
-  const MeshArtifact mesh[2] = {make_sector_mesh(wide, coarse), make_sector_mesh(narrow, coarse)};
-  const BodyArtifact body = reduce(mesh[0], paper_steel(), 0), other = of_width(body, kNarrow);
-  const StaticArtifact statics = static_transmission(body, other, paper_statics(4), 150);
+  const SectorGrid mesh[2] = {make_sector_mesh(wide, coarse), make_sector_mesh(narrow, coarse)};
+  const ReducedBody body = reduce(mesh[0], paper_steel(), 0), other = of_width(body, kNarrow);
+  const StaticResult statics = static_transmission(body, other, paper_statics(4), 150);
   for (const double phase : {0.0, 0.5}) {
-    const LoadedArtifact at = loaded_pair(mesh[0], mesh[1], body, other, statics, phase, 0);
+    const LoadedResult at = loaded_pair(mesh[0], mesh[1], body, other, statics, phase, 0);
     Eigen::Index i = 0;
     for (const ContactZone& zone : contact_zones(body, other, statics, phase, 0)) {
       if (!(zone.force.sum() > 0)) continue;
@@ -157,7 +157,7 @@ TEST_CASE("a planetary train of three face widths: forces at rest are those of i
   const SystemModel even = train({26, 37, 100});
   const std::array<int, 3> teeth{26, 37, 100};
   const std::array<double, 3> width{60e-3, 25e-3, 12e-3};
-  std::vector<BodyArtifact> bodies;
+  std::vector<ReducedBody> bodies;
   for (const System::Body& body : even.layout.bodies)
     for (size_t g = 0; g < 3; ++g)
       if (body.kind == System::BodyKind::gear && body.teeth == teeth[g])
@@ -197,10 +197,9 @@ TEST_CASE("unequal face widths are remarked with both and the common one") {
   scene.gears[1].design.face_width = 12e-3;
   const std::vector<std::string> said = scene_remarks(scene);
   REQUIRE(said.size() == 1);
-  CHECK(said[0] ==
-        "the faces of pinion and wheel are 25.4 and 12 mm wide: contact is over the common 12 mm, and the "
-        "teeth of "
-        "pinion carry it on 18 mm (at most a module more on either side)");
+  CHECK(
+      said[0] ==
+      "the faces of pinion and wheel are 25.4 and 12 mm wide: contact is over the common 12 mm, and the teeth of pinion carry it on 18 mm (at most a module more on either side)");
 }
 
 TEST_CASE("elements that are long beside the smallest module are remarked, those left open are not") {
@@ -219,9 +218,9 @@ TEST_CASE("elements that are long beside the smallest module are remarked, those
   scene.body.element_size = 2e-3;
   const std::vector<std::string> said = scene_remarks(scene);
   REQUIRE(said.size() == 1);
-  CHECK(said[0] ==
-        "element_mm = 2 puts 2 elements of order 2 on a module of [gear.pinion]: with fewer than 3.5 root "
-        "stress is off by more than 1 %; leave it out (module / 7.5)");
+  CHECK(
+      said[0] ==
+      "element_mm = 2 puts 2 elements of order 2 on a module of [gear.pinion]: with fewer than 3.5 root stress is off by more than 1 %; leave it out (module / 7.5)");
   scene.body.element_size = 0.57e-3;
   scene.body.element_order = 1;
   CHECK(scene_remarks(scene).empty());

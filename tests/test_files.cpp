@@ -23,9 +23,9 @@
 #include "io/artifact_place.h"
 #include "io/body_codec.h"
 #include "io/branch_codec.h"
+#include "io/compatibility.h"
 #include "io/datasets.h"
 #include "io/error_budget_codec.h"
-#include "io/fit.h"
 #include "io/h5.h"
 #include "io/harris_map_codec.h"
 #include "io/impact_codec.h"
@@ -196,8 +196,8 @@ bool same_pair(const Artifact& a, const Artifact& b) {
 
 // A ring sector of two four-node elements, one on the other, closing exactly after a turn of 360/teeth
 // degrees.
-MeshArtifact small_mesh() {
-  MeshArtifact a;
+SectorGrid small_mesh() {
+  SectorGrid a;
   a.design = odd_design(12);
   a.discretisation = {0.0004 / 1.3, 1, 7};
   const double half = std::numbers::pi / a.design.teeth;
@@ -218,8 +218,8 @@ MeshArtifact small_mesh() {
   return a;
 }
 
-BodyArtifact small_body() {
-  BodyArtifact a;
+ReducedBody small_body() {
+  ReducedBody a;
   a.design = odd_design(50);
   a.material = {207e9 / 1.1, 0.3 / 1.1, 7600 / 1.1, false};
   a.discretisation = {0.0004 / 1.3, 2, 5, NearField::matching, 0.001 / 1.3};
@@ -253,8 +253,8 @@ BodyArtifact small_body() {
   return a;
 }
 
-StaticArtifact small_static() {
-  StaticArtifact a;
+StaticResult small_static() {
+  StaticResult a;
   set_pair(a);
   a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, 0.05 / 3}};
   a.contact = {17, 128};
@@ -284,8 +284,8 @@ StaticArtifact small_static() {
   return a;
 }
 
-ErrorBudgetArtifact small_budget() {
-  ErrorBudgetArtifact a;
+ErrorBudgetResult small_budget() {
+  ErrorBudgetResult a;
   set_pair(a);
   a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, 0.05 / 3}, ContactPlane::strain};
   a.fidelity.contact = ContactModel::line;
@@ -303,11 +303,11 @@ ErrorBudgetArtifact small_budget() {
   return a;
 }
 
-ImpactArtifact small_impact() {
-  ImpactArtifact a;
+ImpactResult small_impact() {
+  ImpactResult a;
   set_pair(a);
   a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, 0.1 / 3}};
-  a.fidelity = {BodyModel::lagged, ContactModel::strips, Integrator::newmark};
+  a.fidelity = {BodyModel::relaxed, ContactModel::strips, Integrator::newmark};
   a.contact = {17, 128};
   a.damping = {1.0 / 3, 7.7e-6 / 1.1, 0.5e-3 / 1.1, 0.005 / 1.1};
   a.torque = 150;
@@ -336,11 +336,11 @@ ImpactArtifact small_impact() {
   return a;
 }
 
-SweepArtifact small_pair_sweep() {
-  SweepArtifact a;
+SweepResult small_pair_sweep() {
+  SweepResult a;
   set_pair(a);
   a.mesh = {"pinion", "wheel", 0.15 / 1.1, {false, std::numeric_limits<double>::infinity()}};
-  a.fidelity = {BodyModel::lagged, ContactModel::strips, Integrator::newmark};
+  a.fidelity = {BodyModel::relaxed, ContactModel::strips, Integrator::newmark};
   a.contact = {17, 128};
   a.time = {64, 250e3 / 1.1, 1e-6 / 3};
   a.damping = {1.0 / 3, 7.7e-6 / 1.1, 0.5e-3 / 1.1, 0.005 / 1.1};
@@ -377,10 +377,10 @@ SweepArtifact small_pair_sweep() {
 }
 
 // Records are stored in single precision.
-RunupArtifact small_runup() {
+RunupResult small_runup() {
   const auto single = [](const auto& x) { return x.template cast<float>().template cast<double>().eval(); };
-  const SweepArtifact other = small_pair_sweep();
-  RunupArtifact a;
+  const SweepResult other = small_pair_sweep();
+  RunupResult a;
   static_cast<MotionParameters&>(a) = other;
   a.torque = 150;
   a.mean_stiffness = other.mean_stiffness;
@@ -404,7 +404,7 @@ RunupArtifact small_runup() {
   p.dte_mean = single(odd_vector(5, 1e-5));
   p.tooth_load_max = single(odd_vector(5, 4e3));
   p.separation_fraction = single(odd_vector(5, 0.01));
-  p.root_stress_held = {single(odd_vector(5, 2e8)), single(odd_vector(5, 1e8))};
+  p.root_stress_sustained = {single(odd_vector(5, 2e8)), single(odd_vector(5, 1e8))};
   a.root_stress = true;
   a.least_gap = 1e-10 / 3;
   a.least_force = 1e-4 / 3;
@@ -414,8 +414,8 @@ RunupArtifact small_runup() {
   return a;
 }
 
-ResponseArtifact small_response() {
-  ResponseArtifact a;
+ResponseResult small_response() {
+  ResponseResult a;
   set_pair(a);
   a.inertia[0] = 0.0148 / 1.1;
   a.inertia[1] = 0.0148 / 1.3;
@@ -430,16 +430,16 @@ ResponseArtifact small_response() {
   a.dte_harmonic = odd_matrix(2, 10, 1e-6);
   a.tooth_load_max = odd_vector(2, 4e3);
   a.root_stress_max = {odd_vector(2, 3e8), odd_vector(2, 2e8)};
-  a.root_stress_held = {odd_vector(2, 2.5e8), odd_vector(2, 1.5e8)};
+  a.root_stress_sustained = {odd_vector(2, 2.5e8), odd_vector(2, 1.5e8)};
   a.root_stress_angle = {odd_vector(2, 0.7), odd_vector(2, 0.8)};
   a.root_stress_phase = {odd_vector(2, 0.3), odd_vector(2, -0.4)};
-  a.tooth_load_held = odd_vector(2, 4e3).cwiseAbs();
-  a.mesh_force_held = odd_vector(2, 6e3).cwiseAbs();
+  a.tooth_load_sustained = odd_vector(2, 4e3).cwiseAbs();
+  a.mesh_force_sustained = odd_vector(2, 6e3).cwiseAbs();
   a.pair_phase = odd_vector(3, 0.5);
   a.flank_roll = odd_matrix(3, 2, 0.3);
   a.flank_pressure = odd_matrix(2, 3, 1e9).cwiseAbs();
   a.edge_load_there = odd_matrix(2, 3, 700).cwiseAbs();
-  a.flank_pressure_held = odd_vector(2, 1.1e9).cwiseAbs();
+  a.flank_pressure_sustained = odd_vector(2, 1.1e9).cwiseAbs();
   a.edge_load = {odd_vector(2, 900).cwiseAbs(), odd_vector(2, 800).cwiseAbs()};
   a.loss_factor = odd_vector(2, 0.1).cwiseAbs();
   a.mesh_force_max = odd_vector(2, 7e3);
@@ -455,8 +455,8 @@ ResponseArtifact small_response() {
   return a;
 }
 
-LoadedArtifact small_loaded() {
-  LoadedArtifact a;
+LoadedResult small_loaded() {
+  LoadedResult a;
   set_pair(a);
   a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, 0.05 / 3}};
   a.contact = {17, 128};
@@ -483,11 +483,11 @@ LoadedArtifact small_loaded() {
 }
 
 // Two starts, two torques, three reliefs; at rest and in motion.
-HarrisMapArtifact small_harris_map() {
-  HarrisMapArtifact a;
+HarrisMapResult small_harris_map() {
+  HarrisMapResult a;
   set_pair(a);
   a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, 0.05 / 3}};
-  a.fidelity = {BodyModel::lagged, ContactModel::strips, Integrator::newmark};
+  a.fidelity = {BodyModel::relaxed, ContactModel::strips, Integrator::newmark};
   a.contact = {17, 128};
   a.relieved = Relieved::both;
   a.shape = ReliefShape::parabolic;
@@ -519,11 +519,11 @@ HarrisMapArtifact small_harris_map() {
   return a;
 }
 
-VariantArtifact small_variant() {
-  VariantArtifact a;
+VariantResult small_variant() {
+  VariantResult a;
   set_pair(a);
   a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, 0.05 / 3}};
-  a.fidelity = {BodyModel::lagged, ContactModel::strips, Integrator::newmark};
+  a.fidelity = {BodyModel::relaxed, ContactModel::strips, Integrator::newmark};
   a.contact = {17, 128};
   a.time = {64, 250e3 / 1.1, 1e-6 / 3};
   a.damping = {1.0 / 3, 7.7e-6 / 1.1, 0.5e-3 / 1.1, 0.005 / 1.1};
@@ -539,8 +539,8 @@ VariantArtifact small_variant() {
   return a;
 }
 
-StudyArtifact small_study() {
-  StudyArtifact a;
+StudyResult small_study() {
+  StudyResult a;
   a.plan.title = "A study";
   a.plan.scene = "data/scenes/parker2000.toml";
   a.plan.directions = {Direction::up};
@@ -559,16 +559,16 @@ StudyArtifact small_study() {
   return a;
 }
 
-BranchArtifact small_branch() {
-  BranchArtifact a;
+BranchResult small_branch() {
+  BranchResult a;
   set_pair(a);
   a.mesh = small_static().mesh;
   a.torque = 150;
   a.inertia[0] = a.inertia[1] = 0.01;
   a.mesh_frequency = odd_vector(2, 2e3);
   a.dte_rms = a.dte_mean = a.residual = odd_vector(2, 1e-6);
-  a.mesh_force_held = a.tooth_load_held = odd_vector(2, 5e3).cwiseAbs();
-  a.root_stress_held = {odd_vector(2, 2.5e8), odd_vector(2, 1.5e8)};
+  a.mesh_force_sustained = a.tooth_load_sustained = odd_vector(2, 5e3).cwiseAbs();
+  a.root_stress_sustained = {odd_vector(2, 2.5e8), odd_vector(2, 1.5e8)};
   a.root_stress_angle = {odd_vector(2, 0.7), odd_vector(2, 0.8)};
   a.root_stress_phase = {odd_vector(2, 0.3), odd_vector(2, -0.4)};
   a.dte_harmonic = odd_matrix(2, 3, 1e-6);
@@ -584,8 +584,8 @@ BranchArtifact small_branch() {
   return a;
 }
 
-JumpMapArtifact small_jump_map() {
-  JumpMapArtifact a;
+JumpMapResult small_jump_map() {
+  JumpMapResult a;
   set_pair(a);
   a.mesh = small_static().mesh;
   a.torque = 150;
@@ -593,7 +593,7 @@ JumpMapArtifact small_jump_map() {
   a.rayleigh_stiffness = a.damping_ratio = a.branches_from = a.branches_to = a.loss_from = a.loss_to =
       a.excitation = odd_vector(2, 1);
   a.two_branches = a.open_below = a.unsteady = Eigen::Vector2i(1, 0);
-  a.peak_tooth_load = a.held_tooth_load = odd_matrix(2, 2, 3e3);
+  a.peak_tooth_load = a.sustained_tooth_load = odd_matrix(2, 2, 3e3);
   a.jump_case = a.jump_direction = Eigen::VectorXi::Ones(1);
   a.jump_frequency = a.jump_width = odd_vector(1, 2e3);
   a.mesh_frequency = odd_vector(3, 2e3);
@@ -605,8 +605,8 @@ JumpMapArtifact small_jump_map() {
   return a;
 }
 
-ReadingsArtifact small_readings() {
-  ReadingsArtifact a;
+ReadingsResult small_readings() {
+  ReadingsResult a;
   a.title = "odd";
   a.claim = {"one", "two"};
   Reading r;
@@ -619,7 +619,7 @@ ReadingsArtifact small_readings() {
 
 const Provenance kMade{"gear-test", "gear-test --output x.h5", {}};
 
-void write_streamed(const std::string& path, const RunupArtifact& a) {
+void write_streamed(const std::string& path, const RunupResult& a) {
   RunupFile file(path, kMade);
   file.begin(a, a.samples.size(), a.periods.size());
   if (a.samples.size() > 0) file.take(a.samples);
@@ -643,9 +643,9 @@ void write_static_like(const std::string& path, const std::function<void(h5::Wri
 
 TEST_CASE("mesh.h5 gives back every value bit by bit") {
   Folder folder;
-  const MeshArtifact a = small_mesh();
+  const SectorGrid a = small_mesh();
   write("mesh.h5", a, kMade);
-  const MeshArtifact b = read_mesh("mesh.h5");
+  const SectorGrid b = read_mesh("mesh.h5");
   CHECK(same(a.design, b.design));
   CHECK(same(a.discretisation, b.discretisation));
   CHECK(a.node_position == b.node_position);
@@ -660,9 +660,9 @@ TEST_CASE("mesh.h5 gives back every value bit by bit") {
 
 TEST_CASE("body.h5 gives back every value bit by bit") {
   Folder folder;
-  const BodyArtifact a = small_body();
+  const ReducedBody a = small_body();
   write("body.h5", a, kMade);
-  const BodyArtifact b = read_body("body.h5");
+  const ReducedBody b = read_body("body.h5");
   CHECK(same(a.design, b.design));
   CHECK(same(a.discretisation, b.discretisation));
   CHECK(a.material.youngs_modulus == b.material.youngs_modulus);
@@ -710,9 +710,9 @@ TEST_CASE("body.h5 gives back every value bit by bit") {
 
 TEST_CASE("modes.h5 gives back every value bit by bit") {
   Folder folder;
-  const ModesArtifact a = natural_modes(layout_of(planetary_train(3)));
+  const ModesResult a = natural_modes(layout_of(planetary_train(3)));
   write("modes.h5", a, kMade);
-  const ModesArtifact b = read_modes("modes.h5");
+  const ModesResult b = read_modes("modes.h5");
   CHECK(a.natural_frequency == b.natural_frequency);
   CHECK(a.type == b.type);
   CHECK(a.planet_harmonic == b.planet_harmonic);
@@ -725,7 +725,7 @@ TEST_CASE("modes.h5 gives back every value bit by bit") {
   // The system as it is stored has the same modes.
   CHECK(natural_modes(b.layout).shape == a.shape);
   // Springs have no energy below 0; elastic bodies may join meshes that have.
-  ModesArtifact negative = a;
+  ModesResult negative = a;
   negative.mesh_energy(0, 0) = -0.5;
   write("negative.h5", negative, kMade);
   CHECK_THROWS_WITH(read_modes("negative.h5"), doctest::Contains("mesh_energy"));
@@ -740,21 +740,21 @@ TEST_CASE("modes.h5 gives back every value bit by bit") {
 
 TEST_CASE("system_static.h5 gives back every value bit by bit") {
   Folder folder;
-  const SystemStaticArtifact a = small_system();
+  const SystemStaticResult a = small_system();
   write("system_static.h5", a, kMade);
-  const SystemStaticArtifact b = read_system_static("system_static.h5");
-  for (const auto member : {&SystemStaticArtifact::rotation, &SystemStaticArtifact::torque,
-                            &SystemStaticArtifact::transmission_error, &SystemStaticArtifact::mesh_deflection,
-                            &SystemStaticArtifact::mesh_force, &SystemStaticArtifact::load_share,
-                            &SystemStaticArtifact::transmission_error_harmonic})
+  const SystemStaticResult b = read_system_static("system_static.h5");
+  for (const auto member :
+       {&SystemStaticResult::rotation, &SystemStaticResult::torque, &SystemStaticResult::transmission_error,
+        &SystemStaticResult::mesh_deflection, &SystemStaticResult::mesh_force,
+        &SystemStaticResult::load_share, &SystemStaticResult::transmission_error_harmonic})
     CHECK(a.*member == b.*member);
-  for (const auto member : {&SystemStaticArtifact::translation, &SystemStaticArtifact::bearing_force,
-                            &SystemStaticArtifact::tooth_load, &SystemStaticArtifact::contact_pressure,
-                            &SystemStaticArtifact::mesh_stiffness})
+  for (const auto member :
+       {&SystemStaticResult::translation, &SystemStaticResult::bearing_force, &SystemStaticResult::tooth_load,
+        &SystemStaticResult::contact_pressure, &SystemStaticResult::mesh_stiffness})
     CHECK(a.*member == b.*member);
-  for (const auto member : {&SystemStaticArtifact::contact_ratio, &SystemStaticArtifact::mesh_phase,
-                            &SystemStaticArtifact::least_gap, &SystemStaticArtifact::least_force,
-                            &SystemStaticArtifact::torque_residual})
+  for (const auto member :
+       {&SystemStaticResult::contact_ratio, &SystemStaticResult::mesh_phase, &SystemStaticResult::least_gap,
+        &SystemStaticResult::least_force, &SystemStaticResult::torque_residual})
     CHECK(a.*member == b.*member);
   CHECK(a.pair == b.pair);
   CHECK(a.settings.gear == b.settings.gear);
@@ -779,7 +779,7 @@ TEST_CASE("system_static.h5 gives back every value bit by bit") {
   of_pair.schema = "whine/static";
   CHECK(misplaced("out/train/system_static.h5", of_pair).find("'whine/system_static'") != std::string::npos);
   // Names that no gear has.
-  SystemStaticArtifact wrong = a;
+  SystemStaticResult wrong = a;
   wrong.settings.gear[1] = "moon";
   write("system_static.h5", wrong, kMade);
   CHECK_THROWS_AS(read_system_static("system_static.h5"), Error);
@@ -819,7 +819,7 @@ TEST_CASE("artifacts of systems belong to their scene and, sweeps, to their dire
 
 TEST_CASE("system_impact.h5 and system_branch.h5 give back every value bit by bit") {
   Folder folder;
-  SystemImpactArtifact a;
+  SystemImpactResult a;
   static_cast<SystemStaticParameters&>(a.settings) = small_system().settings;
   a.settings.damping.rayleigh_stiffness = 2e-6;
   const auto bodies = static_cast<Eigen::Index>(a.settings.layout.bodies.size()),
@@ -832,13 +832,13 @@ TEST_CASE("system_impact.h5 and system_branch.h5 give back every value bit by bi
   a.loaded_pairs = MatrixRM::Constant(2, meshes, 2);
   double value = 1.0 / 3;
   const std::array of_modes{
-      &SystemImpactArtifact::undamped_frequency, &SystemImpactArtifact::rayleigh_damping_ratio,
-      &SystemImpactArtifact::eigen_frequency,    &SystemImpactArtifact::eigen_damping_ratio,
-      &SystemImpactArtifact::natural_frequency,  &SystemImpactArtifact::damping_ratio,
-      &SystemImpactArtifact::fit_residual,       &SystemImpactArtifact::contact_changes};
+      &SystemImpactResult::undamped_frequency, &SystemImpactResult::rayleigh_damping_ratio,
+      &SystemImpactResult::eigen_frequency,    &SystemImpactResult::eigen_damping_ratio,
+      &SystemImpactResult::natural_frequency,  &SystemImpactResult::damping_ratio,
+      &SystemImpactResult::fit_residual,       &SystemImpactResult::contact_changes};
   for (const auto member : of_modes) a.*member = MatrixRM::Constant(2, 5, value *= 0.9);
   write("system_impact.h5", a, kMade);
-  const SystemImpactArtifact b = read_system_impact("system_impact.h5");
+  const SystemImpactResult b = read_system_impact("system_impact.h5");
   for (const auto member : of_modes) CHECK(a.*member == b.*member);
   CHECK(a.rigid_frequency == b.rigid_frequency);
   CHECK(a.loaded_pairs == b.loaded_pairs);
@@ -846,14 +846,14 @@ TEST_CASE("system_impact.h5 and system_branch.h5 give back every value bit by bi
   CHECK(a.torque == b.torque);
   CHECK(b.settings.damping.rayleigh_stiffness == 2e-6);
 
-  SystemBranchArtifact c;
+  SystemBranchResult c;
   c.settings = a.settings;
   c.torque = a.torque;
   c.axis_frequency = a.axis_frequency;
   c.mesh_frequency = Eigen::Vector2d(2000, 1000) / 3;
-  const std::array of_points{&SystemBranchArtifact::dte_rms, &SystemBranchArtifact::dte_mean,
-                             &SystemBranchArtifact::mesh_force_max, &SystemBranchArtifact::tooth_force_max,
-                             &SystemBranchArtifact::separation_fraction};
+  const std::array of_points{&SystemBranchResult::dte_rms, &SystemBranchResult::dte_mean,
+                             &SystemBranchResult::mesh_force_max, &SystemBranchResult::tooth_force_max,
+                             &SystemBranchResult::separation_fraction};
   for (const auto member : of_points) c.*member = MatrixRM::Constant(2, meshes, value *= 0.9);
   c.bearing_force_rms = MatrixRM::Constant(2, bodies, value);
   c.floquet_multiplier.assign(2, MatrixRM::Constant(3, 2, -1.0 / 3));
@@ -869,7 +869,7 @@ TEST_CASE("system_impact.h5 and system_branch.h5 give back every value bit by bi
   c.flip_width = c.torus_width = Eigen::Vector2d(2, 1) / 70;
   c.end = "the parameter left its range";
   write("system_branch.h5", c, kMade);
-  const SystemBranchArtifact d = read_system_branch("system_branch.h5");
+  const SystemBranchResult d = read_system_branch("system_branch.h5");
   for (const auto member : of_points) CHECK(c.*member == d.*member);
   CHECK(c.mesh_frequency == d.mesh_frequency);
   CHECK(c.bearing_force_rms == d.bearing_force_rms);
@@ -889,20 +889,20 @@ TEST_CASE("system_impact.h5 and system_branch.h5 give back every value bit by bi
 
 TEST_CASE("system_sweep.h5 gives back every value bit by bit") {
   Folder folder;
-  const SystemSweepArtifact a = small_sweep(small_system(), Direction::down);
+  const SystemSweepResult a = small_sweep(small_system(), Direction::down);
   write("system_sweep.h5", a, kMade);
   CHECK(read_system_sweep("system_sweep.h5").mesh_deflection == a.mesh_deflection);
-  const SystemSweepArtifact b = read_system_sweep("system_sweep.h5");
+  const SystemSweepResult b = read_system_sweep("system_sweep.h5");
   for (const auto member :
-       {&SystemSweepArtifact::dte_rms, &SystemSweepArtifact::dte_mean, &SystemSweepArtifact::mesh_force_max,
-        &SystemSweepArtifact::tooth_force_max, &SystemSweepArtifact::load_share_max,
-        &SystemSweepArtifact::separation_fraction, &SystemSweepArtifact::bearing_force_max,
-        &SystemSweepArtifact::bearing_force_rms, &SystemSweepArtifact::energy, &SystemSweepArtifact::rolling,
-        &SystemSweepArtifact::bearing_damping, &SystemSweepArtifact::holding_torque})
+       {&SystemSweepResult::dte_rms, &SystemSweepResult::dte_mean, &SystemSweepResult::mesh_force_max,
+        &SystemSweepResult::tooth_force_max, &SystemSweepResult::load_share_max,
+        &SystemSweepResult::separation_fraction, &SystemSweepResult::bearing_force_max,
+        &SystemSweepResult::bearing_force_rms, &SystemSweepResult::energy, &SystemSweepResult::rolling,
+        &SystemSweepResult::bearing_damping, &SystemSweepResult::holding_torque})
     CHECK(a.*member == b.*member);
   for (const auto member :
-       {&SystemSweepArtifact::torque, &SystemSweepArtifact::mesh_frequency, &SystemSweepArtifact::residual,
-        &SystemSweepArtifact::energy_imbalance, &SystemSweepArtifact::drift_force})
+       {&SystemSweepResult::torque, &SystemSweepResult::mesh_frequency, &SystemSweepResult::residual,
+        &SystemSweepResult::energy_imbalance, &SystemSweepResult::drift_force})
     CHECK(a.*member == b.*member);
   CHECK(a.transmission_error == b.transmission_error);
   CHECK(a.mesh_force == b.mesh_force);
@@ -917,10 +917,10 @@ TEST_CASE("system_sweep.h5 gives back every value bit by bit") {
 
 TEST_CASE("modes.h5 whose bodies stand on nothing, or whose meshes join none, is rejected with its dataset") {
   Folder folder;
-  const ModesArtifact good = natural_modes(layout_of(planetary_train(3)));
+  const ModesResult good = natural_modes(layout_of(planetary_train(3)));
   const int carrier = good.layout.bodies[1].on;
   const auto said = [&](const auto& spoil) {
-    ModesArtifact a = good;
+    ModesResult a = good;
     spoil(a.layout);
     write("modes.h5", a, kMade);
     try {
@@ -955,7 +955,7 @@ TEST_CASE(
     "system_static.h5 without a pair, or with the drawing of another gear, is rejected with its dataset") {
   Folder folder;
   const auto said = [&](const auto& spoil) {
-    SystemStaticArtifact a = small_system();
+    SystemStaticResult a = small_system();
     spoil(a);
     try {
       write("system_static.h5", a, kMade);
@@ -969,23 +969,23 @@ TEST_CASE(
     CAPTURE(message);
     CHECK(message.find(words) != std::string::npos);
   };
-  CHECK(said([](SystemStaticArtifact&) {}).empty());
-  has(said([](SystemStaticArtifact& a) {
+  CHECK(said([](SystemStaticResult&) {}).empty());
+  has(said([](SystemStaticResult& a) {
         const auto meshes = static_cast<Eigen::Index>(a.settings.layout.meshes.size());
         a.pair.resize(0);
         for (auto* list : {&a.tooth_load, &a.contact_pressure}) list->assign(2, MatrixRM(meshes, 0));
       }),
       "dataset /pair holds no pair");
-  has(said([](SystemStaticArtifact& a) { a.drawing[0].design.teeth += 1; }),
+  has(said([](SystemStaticResult& a) { a.drawing[0].design.teeth += 1; }),
       "dataset /body/teeth holds 27 of body 0, and its drawing has 28");
   write("system_static.h5", small_system(), kMade);
 }
 
 TEST_CASE("static.h5 gives back every value bit by bit") {
   Folder folder;
-  StaticArtifact a = small_static();
+  StaticResult a = small_static();
   write("static.h5", a, kMade);
-  const StaticArtifact b = read_static("static.h5");
+  const StaticResult b = read_static("static.h5");
   CHECK(same_pair(a, b));
   CHECK(same(a.mesh, b.mesh));
   CHECK(a.fidelity.contact == b.fidelity.contact);
@@ -1020,14 +1020,14 @@ TEST_CASE("static.h5 gives back every value bit by bit") {
 
 TEST_CASE("error_budget.h5 gives back every value bit by bit, errors and choices apart") {
   Folder folder;
-  ErrorBudgetArtifact a = small_budget();
+  ErrorBudgetResult a = small_budget();
   write("error_budget.h5", a, kMade);
   const auto same_changes = [](const StaticChanges& one, const StaticChanges& other) {
     return one.entry == other.entry && one.mean_stiffness_change == other.mean_stiffness_change &&
            one.peak_to_peak_change == other.peak_to_peak_change &&
            one.harmonic_change == other.harmonic_change && one.root_stress_change == other.root_stress_change;
   };
-  const ErrorBudgetArtifact b = read_error_budget("error_budget.h5");
+  const ErrorBudgetResult b = read_error_budget("error_budget.h5");
   CHECK(same_pair(a, b));
   CHECK(same(a.mesh, b.mesh));
   CHECK(b.fidelity.contact == ContactModel::line);
@@ -1043,7 +1043,7 @@ TEST_CASE("error_budget.h5 gives back every value bit by bit, errors and choices
   a.choice_missing = "matching at 1 mm: leaves the tooth";
   a.root = {};
   write("without.h5", a, kMade);
-  const ErrorBudgetArtifact c = read_error_budget("without.h5");
+  const ErrorBudgetResult c = read_error_budget("without.h5");
   CHECK(same_changes(a.choice, c.choice));
   CHECK(c.choice_missing == a.choice_missing);
   CHECK(c.root.element_size.size() == 0);
@@ -1053,9 +1053,9 @@ TEST_CASE("error_budget.h5 gives back every value bit by bit, errors and choices
 
 TEST_CASE("sweep.h5 gives back every value bit by bit, and an empty list of jumps") {
   Folder folder;
-  SweepArtifact a = small_pair_sweep();
+  SweepResult a = small_pair_sweep();
   write("sweep.h5", a, kMade);
-  const SweepArtifact b = read_sweep("sweep.h5");
+  const SweepResult b = read_sweep("sweep.h5");
   CHECK(same_pair(a, b));
   CHECK(same(a.mesh, b.mesh));
   CHECK(same(a.damping, b.damping));
@@ -1102,9 +1102,9 @@ TEST_CASE("sweep.h5 gives back every value bit by bit, and an empty list of jump
 
 TEST_CASE("runup.h5 gives back every value bit by bit, and is rejected without samples or mesh periods") {
   Folder folder;
-  const RunupArtifact a = small_runup();
+  const RunupResult a = small_runup();
   write_streamed("runup.h5", a);
-  const RunupArtifact b = read_runup("runup.h5");
+  const RunupResult b = read_runup("runup.h5");
   CHECK(same_pair(a, b));
   CHECK(same(a.mesh, b.mesh));
   CHECK(same(a.damping, b.damping));
@@ -1129,19 +1129,19 @@ TEST_CASE("runup.h5 gives back every value bit by bit, and is rejected without s
         &RunupPeriods::tooth_load_max, &RunupPeriods::separation_fraction})
     CHECK(a.periods.*member == b.periods.*member);
   CHECK(a.root_stress == b.root_stress);
-  CHECK(a.periods.root_stress_held == b.periods.root_stress_held);
+  CHECK(a.periods.root_stress_sustained == b.periods.root_stress_sustained);
   CHECK(a.least_gap == b.least_gap);
   CHECK(a.least_force == b.least_force);
   CHECK(a.fallbacks == b.fallbacks);
   CHECK(a.drift_force == b.drift_force);
   CHECK(a.backlash_margin == b.backlash_margin);
 
-  RunupArtifact still = a;
+  RunupResult still = a;
   still.periods = RunupPeriods();
   write_streamed("still.h5", still);
   CHECK(caught([] { read_runup("still.h5"); }).says("40 samples and 0 mesh periods"));
   CHECK(caught([] { summary("still.h5", "whine/runup"); }).says("40 samples and 0 mesh periods"));
-  RunupArtifact silent = a;
+  RunupResult silent = a;
   silent.samples = RunupSamples();
   silent.samples.tooth_load.resize(0, 3);
   write_streamed("silent.h5", silent);
@@ -1150,9 +1150,9 @@ TEST_CASE("runup.h5 gives back every value bit by bit, and is rejected without s
 
 TEST_CASE("impact.h5 gives back every value bit by bit, and rejects rows that do not fit") {
   Folder folder;
-  ImpactArtifact a = small_impact();
+  ImpactResult a = small_impact();
   write("impact.h5", a, kMade);
-  const ImpactArtifact b = read_impact("impact.h5");
+  const ImpactResult b = read_impact("impact.h5");
   CHECK(same_pair(a, b));
   CHECK(same(a.mesh, b.mesh));
   CHECK(same(a.damping, b.damping));
@@ -1192,11 +1192,11 @@ TEST_CASE(
     "bearings and their forces pass through static.h5, sweep.h5 and response.h5, under the gear's name") {
   Folder folder;
   const Bearing own{1e8 / 3, 900 / 1.1, 5 / 1.1};
-  StaticArtifact rest = small_static();
+  StaticResult rest = small_static();
   rest.mesh.bearing[1] = own;
   rest.bearing_force[1] = odd_matrix(3, 2, 2e3);
   write("static.h5", rest, kMade);
-  const StaticArtifact at = read_static("static.h5");
+  const StaticResult at = read_static("static.h5");
   CHECK(!at.mesh.bearing[0].elastic());
   CHECK(at.mesh.bearing[1].stiffness == own.stiffness);
   CHECK(at.mesh.bearing[1].damping == own.damping);
@@ -1206,25 +1206,25 @@ TEST_CASE(
   CHECK(h5::Reader(read_bytes("static.h5"), "static.h5", "").shape("/body/wheel/bearing_force") ==
         h5::Shape{3, 2});
 
-  SweepArtifact moving = small_pair_sweep();
+  SweepResult moving = small_pair_sweep();
   moving.mesh.bearing = {own, own};
   for (auto& force : moving.bearing_force) force = {odd_matrix(64, 2, 1e3), odd_matrix(64, 2, 2e3)};
   write("sweep.h5", moving, kMade);
-  const SweepArtifact on = read_sweep("sweep.h5");
+  const SweepResult on = read_sweep("sweep.h5");
   for (int g = 0; g < kSides; ++g)
     for (int f = 0; f < 2; ++f) CHECK(on.bearing_force[g][f] == moving.bearing_force[g][f]);
   moving.bearing_force[1].pop_back();
   CHECK_THROWS_WITH(write("other.h5", moving, kMade),
                     doctest::Contains("bearing_force has 1 rows, expected 2"));
 
-  ResponseArtifact heard = small_response();
+  ResponseResult heard = small_response();
   heard.mesh = moving.mesh;
   for (int g = 0; g < kSides; ++g) {
     heard.bearing_force_max[g] = odd_vector(2, 3e3);
     heard.bearing_force_rms[g] = odd_vector(2, 1e3);
   }
   write("response.h5", heard, kMade);
-  const ResponseArtifact back = read_response("response.h5");
+  const ResponseResult back = read_response("response.h5");
   for (int g = 0; g < kSides; ++g) {
     CHECK(back.bearing_force_max[g] == heard.bearing_force_max[g]);
     CHECK(back.bearing_force_rms[g] == heard.bearing_force_rms[g]);
@@ -1259,9 +1259,9 @@ TEST_CASE("bodies are given by the names of their gears, in any order, one for e
 
 TEST_CASE("response.h5 gives back every value bit by bit") {
   Folder folder;
-  const ResponseArtifact a = small_response();
+  const ResponseResult a = small_response();
   write("response.h5", a, kMade);
-  const ResponseArtifact b = read_response("response.h5");
+  const ResponseResult b = read_response("response.h5");
   CHECK(a.torque == b.torque);
   CHECK(a.direction == b.direction);
   CHECK(a.model == b.model);
@@ -1272,16 +1272,16 @@ TEST_CASE("response.h5 gives back every value bit by bit") {
   CHECK(a.tooth_load_max == b.tooth_load_max);
   CHECK(a.mesh_force_max == b.mesh_force_max);
   CHECK(a.root_stress_max == b.root_stress_max);
-  CHECK(a.root_stress_held == b.root_stress_held);
+  CHECK(a.root_stress_sustained == b.root_stress_sustained);
   CHECK(a.root_stress_angle == b.root_stress_angle);
   CHECK(a.root_stress_phase == b.root_stress_phase);
-  CHECK(a.tooth_load_held == b.tooth_load_held);
-  CHECK(a.mesh_force_held == b.mesh_force_held);
+  CHECK(a.tooth_load_sustained == b.tooth_load_sustained);
+  CHECK(a.mesh_force_sustained == b.mesh_force_sustained);
   CHECK(a.pair_phase == b.pair_phase);
   CHECK(a.flank_roll == b.flank_roll);
   CHECK(a.flank_pressure == b.flank_pressure);
   CHECK(a.edge_load_there == b.edge_load_there);
-  CHECK(a.flank_pressure_held == b.flank_pressure_held);
+  CHECK(a.flank_pressure_sustained == b.flank_pressure_sustained);
   CHECK(a.edge_load == b.edge_load);
   CHECK(a.loss_factor == b.loss_factor);
   CHECK(a.separation_fraction == b.separation_fraction);
@@ -1304,9 +1304,9 @@ TEST_CASE("response.h5 gives back every value bit by bit") {
 
 TEST_CASE("loaded.h5 gives back every value bit by bit") {
   Folder folder;
-  const LoadedArtifact a = small_loaded();
+  const LoadedResult a = small_loaded();
   write("loaded.h5", a, kMade);
-  const LoadedArtifact b = read_loaded("loaded.h5");
+  const LoadedResult b = read_loaded("loaded.h5");
   CHECK(same_pair(a, b));
   CHECK(same(a.mesh, b.mesh));
   CHECK(same(a.contact, b.contact));
@@ -1332,8 +1332,8 @@ TEST_CASE("loaded.h5 gives back every value bit by bit") {
 
 TEST_CASE("harris_map.h5 gives back every value bit by bit, with and without motion") {
   Folder folder;
-  HarrisMapArtifact a = small_harris_map();
-  const auto same_at_rest = [&](const HarrisMapArtifact& b) {
+  HarrisMapResult a = small_harris_map();
+  const auto same_at_rest = [&](const HarrisMapResult& b) {
     return same_pair(a, b) && same(a.mesh, b.mesh) && a.fidelity.contact == b.fidelity.contact &&
            same(a.contact, b.contact) && a.relieved == b.relieved && a.shape == b.shape &&
            a.torque == b.torque && a.relief == b.relief && a.length == b.length &&
@@ -1344,7 +1344,7 @@ TEST_CASE("harris_map.h5 gives back every value bit by bit, with and without mot
            a.largest_error == b.largest_error;
   };
   write("harris_map.h5", a, kMade);
-  const HarrisMapArtifact b = read_harris_map("harris_map.h5");
+  const HarrisMapResult b = read_harris_map("harris_map.h5");
   CHECK(same_at_rest(b));
   CHECK(a.dynamic_rms == b.dynamic_rms);
   CHECK(a.worst_frequency == b.worst_frequency);
@@ -1365,9 +1365,9 @@ TEST_CASE("harris_map.h5 gives back every value bit by bit, with and without mot
 
 TEST_CASE("variant.h5 gives back every value bit by bit, and a refusal instead") {
   Folder folder;
-  VariantArtifact a = small_variant();
+  VariantResult a = small_variant();
   write("variant.h5", a, kMade);
-  const VariantArtifact b = read_variant("variant.h5");
+  const VariantResult b = read_variant("variant.h5");
   CHECK(same_pair(a, b));
   CHECK(same(a.mesh, b.mesh));
   CHECK(a.fidelity.body == b.fidelity.body);
@@ -1388,16 +1388,16 @@ TEST_CASE("variant.h5 gives back every value bit by bit, and a refusal instead")
   CHECK(b.rejection == "");
   a.rejection = "it jams";
   write("refused.h5", a, kMade);
-  const VariantArtifact rejected = read_variant("refused.h5");
+  const VariantResult rejected = read_variant("refused.h5");
   CHECK(rejected.rejection == "it jams");
   CHECK(rejected.quantity.size() == 0);
 }
 
 TEST_CASE("study.h5 gives back every value bit by bit") {
   Folder folder;
-  const StudyArtifact a = small_study();
+  const StudyResult a = small_study();
   write("study.h5", a, kMade);
-  const StudyArtifact b = read_study_artifact("study.h5");
+  const StudyResult b = read_study_artifact("study.h5");
   CHECK(a.plan.title == b.plan.title);
   CHECK(a.plan.scene == b.plan.scene);
   CHECK(a.plan.directions == b.plan.directions);
@@ -1424,7 +1424,7 @@ TEST_CASE("two writes of the same values give the same bytes, another value othe
   write("a.h5", small_body(), kMade);
   write("b.h5", small_body(), kMade);
   CHECK(read_bytes("a.h5") == read_bytes("b.h5"));
-  BodyArtifact changed = small_body();
+  ReducedBody changed = small_body();
   changed.inertia = std::nextafter(changed.inertia, 1.0);
   write("c.h5", changed, kMade);
   CHECK(read_bytes("a.h5") != read_bytes("c.h5"));
@@ -1434,7 +1434,7 @@ TEST_CASE("two writes of the same values give the same bytes, another value othe
 }
 
 TEST_CASE("the whole gear closes: teeth copies with shared edges, counter-clockwise, all on their radii") {
-  MeshArtifact sector = small_mesh();
+  SectorGrid sector = small_mesh();
   const VtkGrid gear = whole_gear(sector);
   CHECK(gear.point.rows() == 12 * 3);  // 6 nodes less 3 shared ones
   CHECK(gear.cell.rows() == 12 * 2);
@@ -1482,7 +1482,7 @@ TEST_CASE("provenance names tool, command, inputs with their SHA-256, and the st
   CHECK(origin.history[0] == "gear-mesh 0.1.0: gear-mesh --params out/body.toml");
 
   CHECK_NOTHROW(require_made_from("out/body.h5", "mesh", "out/mesh.h5"));
-  MeshArtifact other = small_mesh();
+  SectorGrid other = small_mesh();
   other.design.addendum = 1;
   write("out/mesh.h5", other, kMade);
   const Caught stale = caught([] { require_made_from("out/body.h5", "mesh", "out/mesh.h5"); });
@@ -1517,7 +1517,7 @@ TEST_CASE("an artifact outside the working folder is rejected without a make tar
 }
 
 TEST_CASE("a mesh of another gear, element size or order is rejected with both values; modes do not matter") {
-  const MeshArtifact mesh = small_mesh();
+  const SectorGrid mesh = small_mesh();
   const BodyParameters own{mesh.design, {}, mesh.discretisation};
   CHECK(caught([&] { require_mesh(mesh, own, "out/a/mesh.h5"); }).kind == 0);
   BodyParameters other = own;
@@ -1543,13 +1543,13 @@ TEST_CASE("a mesh of another gear, element size or order is rejected with both v
 TEST_CASE(
     "a body read back has the hash of its stage parameters, and another body is rejected with both hashes") {
   Folder folder;
-  const BodyArtifact body = small_body();
+  const ReducedBody body = small_body();
   write("body.h5", body, kMade);
   const std::string hash = body_hash(body_parameters({body.design, body.material, body.discretisation}));
   CHECK(hash.size() == 16);
   CHECK(caught([&] { require_body(read_body("body.h5"), hash, "driver", "body.h5"); }).kind == 0);
   CHECK(caught([&] { require_body(body, "", "driver", "body.h5"); }).kind == 0);
-  BodyArtifact other = body;
+  ReducedBody other = body;
   other.material.density *= 2;
   const Caught rejected = caught([&] { require_body(other, hash, "driven", "out/s/wheel/body.h5"); });
   CHECK(rejected.kind == kInput);
@@ -1559,7 +1559,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a static result of another contact level than a later stage's is rejected with both") {
-  StaticArtifact statics = small_static();
+  StaticResult statics = small_static();
   statics.fidelity.contact = ContactModel::line;
   Fidelity wanted;
   wanted.contact = ContactModel::line;
@@ -1763,7 +1763,7 @@ TEST_CASE(
     INFO(message);
     return message.find(part) != std::string::npos;
   };
-  BodyArtifact body = small_body();
+  ReducedBody body = small_body();
   body.offsets = -1;
   body.far_compliance = odd_matrix(4 * (25 + 1), 4, 1e-11);
   body.compliance.clear();
@@ -1777,7 +1777,7 @@ TEST_CASE(
   body = small_body();
   body.nodal_diameter[1] = -3;
   CHECK(says(said(body, read_body), "dataset /nodal_diameter holds -3, allowed is 0 to 2000"));
-  StaticArtifact statics = small_static();
+  StaticResult statics = small_static();
   statics.torque = 1e300;
   CHECK(says(said(statics, read_static),
              "dataset /parameters/operation/torque holds 1e+300, allowed is more than 0"));
@@ -1787,16 +1787,16 @@ TEST_CASE(
   statics = small_static();
   statics.hunting_periods = 1 << 30;
   CHECK(says(said(statics, read_static), "dataset /hunting_periods holds 1073741824, allowed is 1 to "));
-  SweepArtifact sweep = small_pair_sweep();
+  SweepResult sweep = small_pair_sweep();
   sweep.tooth_load[1](0, 0) = 1e18;
   CHECK(says(said(sweep, read_sweep), "dataset /tooth_load holds 1e+18, allowed is "));
   sweep = small_pair_sweep();
   sweep.mesh_frequency[0] = 0;
   CHECK(says(said(sweep, read_sweep), "dataset /mesh_frequency holds 0, allowed is more than 0 to "));
-  SystemStaticArtifact rest = small_system();
+  SystemStaticResult rest = small_system();
   rest.settings.layout.bodies[0].radius = 1e-300;
   CHECK(says(said(rest, read_system_static), "dataset /body/radius holds 1e-300, allowed is 1e-06 to 10"));
-  SystemSweepArtifact motion = small_sweep(small_system(), Direction::up);
+  SystemSweepResult motion = small_sweep(small_system(), Direction::up);
   motion.residual[0] = 1e300;
   CHECK(says(said(motion, read_system_sweep), "dataset /residual holds 1e+300, allowed is 0 to 1e+12"));
   motion = small_sweep(small_system(), Direction::up);
@@ -1874,7 +1874,7 @@ TEST_CASE("an input that was replaced, before or while a stage ran, is named and
   fs::remove("slice.toml");  // what is not there contradicts nothing
   CHECK(caught([] { require_fresh("out/body.h5"); }).kind == 0);
 
-  BodyArtifact other = small_body();
+  ReducedBody other = small_body();
   other.inertia *= 2;
   write("out/body.h5", other, kMade);
   const Caught replaced = caught([&] { write("static.h5", small_static(), now); });
@@ -1902,8 +1902,7 @@ TEST_CASE("a file that is absent, empty, no HDF5 or cut at any of many places is
 }
 
 TEST_CASE(
-    "a missing dataset, a wrong shape, a value that is not finite, an index that leads nowhere: rejected by "
-    "name") {
+    "a missing dataset, a wrong shape, a value that is not finite, an index that leads nowhere: rejected by name") {
   Folder folder;
   const auto head = [](h5::Writer& file) {
     file.attribute("/", "schema", std::string("whine/mesh"));
@@ -1915,7 +1914,7 @@ TEST_CASE(
   CHECK(none.says("/parameters/gear/teeth"));
   CHECK(none.says("is missing"));
 
-  BodyArtifact ragged = small_body();
+  ReducedBody ragged = small_body();
   ragged.flank_mode = odd_matrix(4, 2, 1);
   const Caught written = caught([&] { write("ragged.h5", ragged, kMade); });
   CHECK(written.kind == kNumerical);
@@ -1938,22 +1937,21 @@ TEST_CASE(
   CHECK(shape.kind == kInput);
   CHECK(shape.says("/value has shape 1 x 3, expected any x 2"));
 
-  StaticArtifact broken = small_static();
+  StaticResult broken = small_static();
   broken.transmission_error[1] = std::nan("");
   const Caught nan = caught([&] { write("nan.h5", broken, kMade); });
   CHECK(nan.kind == kNumerical);
   CHECK(nan.says("/transmission_error"));
   CHECK_FALSE(fs::exists("nan.h5"));
 
-  MeshArtifact lost = small_mesh();
+  SectorGrid lost = small_mesh();
   lost.flank_node[1] = 99;
   write("lost.h5", lost, kMade);
   CHECK(caught([] { read_mesh("lost.h5"); }).says("/sector/flank_node holds the number 99"));
 }
 
 TEST_CASE(
-    "what a killed process left beside a file goes with its next write; what a living one or another machine "
-    "writes stays") {
+    "what a killed process left beside a file goes with its next write; what a living one or another machine writes stays") {
   Folder folder;
   const pid_t gone = fork();
   if (gone == 0) _exit(0);
@@ -2042,7 +2040,7 @@ TEST_CASE("an unchanged file or link is left alone, a changed one replaced") {
 
 TEST_CASE("the summary names the key numbers in an engineer's units") {
   Folder folder;
-  StaticArtifact a = small_static();
+  StaticResult a = small_static();
   a.mean_stiffness = 463.5e6;
   a.transmission_error = Eigen::VectorXd{{4e-6, 6e-6, 5e-6}};
   write("static.h5", a, kMade);
@@ -2050,7 +2048,7 @@ TEST_CASE("the summary names the key numbers in an engineer's units") {
   for (const auto& [name, words] : summary("static.h5", "whine/static")) all += name + ": " + words + "\n";
   CHECK(all.find("463.5 N/µm") != std::string::npos);
   CHECK(all.find("5 µm mean, 2 µm peak to peak") != std::string::npos);
-  ErrorBudgetArtifact budget = small_budget();
+  ErrorBudgetResult budget = small_budget();
   budget.refinement.mean_stiffness_change = Eigen::VectorXd{{1e-4, -2e-4, 3e-4}};
   budget.choice.mean_stiffness_change = Eigen::VectorXd{{0.5, 0.25}};
   budget.root = {Eigen::Vector3d(8e-4, 4e-4, 2e-4), MatrixRM::Constant(3, 2, 1e8)};
@@ -2096,11 +2094,12 @@ TEST_CASE("a tool's exit status says the kind of failure") {
 // tests/xarray.sh opens what WHINE_KEEP keeps of this case.
 TEST_CASE("an empty list of matrices is given back as such: a branch without a point") {
   Folder folder;
-  BranchArtifact a = small_branch();
+  BranchResult a = small_branch();
   for (Eigen::VectorXd* v :
        {&a.mesh_frequency, &a.dte_rms, &a.dte_mean, &a.residual, &a.fold_frequency, &a.fold_rms,
-        &a.fold_width, &a.mesh_force_held, &a.tooth_load_held, &a.root_stress_held[0], &a.root_stress_held[1],
-        &a.root_stress_angle[0], &a.root_stress_angle[1], &a.root_stress_phase[0], &a.root_stress_phase[1]})
+        &a.fold_width, &a.mesh_force_sustained, &a.tooth_load_sustained, &a.root_stress_sustained[0],
+        &a.root_stress_sustained[1], &a.root_stress_angle[0], &a.root_stress_angle[1],
+        &a.root_stress_phase[0], &a.root_stress_phase[1]})
     v->resize(0);
   a.dte_harmonic.resize(0, 3);
   a.floquet_multiplier.clear();
@@ -2108,7 +2107,7 @@ TEST_CASE("an empty list of matrices is given back as such: a branch without a p
   a.fold_smooth.resize(0);
   a.fold_multiplier.resize(0, 2);
   write("branch.h5", a, kMade);
-  const BranchArtifact b = read_branch("branch.h5");
+  const BranchResult b = read_branch("branch.h5");
   CHECK(b.floquet_multiplier.empty());
   CHECK(b.mesh_frequency.size() == 0);
   CHECK(b.dte_harmonic.cols() == 3);
@@ -2148,7 +2147,7 @@ TEST_CASE("axes of each kind of artifact are dimension scales, the numbers of ha
   CHECK(read_branch("branch.h5").floquet_multiplier[1] == small_branch().floquet_multiplier[1]);
   CHECK(read_jump_map("jump_map.h5").dte_rms[1] == small_jump_map().dte_rms[1]);
 
-  SweepArtifact sweep = small_pair_sweep();
+  SweepResult sweep = small_pair_sweep();
   sweep.pair.conservativeResize(sweep.pair.size() - 1);
   CHECK(caught([&] { write("x.h5", sweep, kMade); }).says("along pair"));
 }

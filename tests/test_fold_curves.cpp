@@ -10,7 +10,7 @@
 #include "lumped/stiffness.h"
 #include "orbits/branch.h"
 #include "orbits/fold_curve.h"
-#include "orbits/slow_tangent.h"
+#include "orbits/monodromy_matrix.h"
 #include "paper_pair.h"
 #include "relative.h"
 #include "studies/fold_curves.h"
@@ -59,7 +59,7 @@ std::vector<SpecialPoint> folds_at(double ratio) {
   settings.low = 2000;
   settings.high = 3500;
   settings.scale = 2900;
-  const OrbitSearch search = find_orbit(pair, y);
+  const OrbitSearch search = newton_orbit(pair, y);
   REQUIRE(search.found());
   std::vector<SpecialPoint> folds;
   for (const SpecialPoint& p : follow_branch(pair, search.orbit, -1, settings).special)
@@ -241,7 +241,7 @@ TEST_CASE("slow tangent: the largest multipliers of a long state are those of it
     ++products;
     return MatrixXd(tangent * directions);
   };
-  const SlowTangent first = slow_tangent(kSize, {}, {}, 1e-9, times);
+  const MonodromyMatrix first = slow_tangent(kSize, {}, {}, 1e-9, times);
   const Eigen::VectorXcd multipliers = first.multipliers();
   CHECK(std::abs(multipliers[0]) == relative(std::hypot(0.9, 0.8), 1e-8));
   CHECK(multipliers[2].real() == relative(1.2 * 0.64, 1e-3));
@@ -251,7 +251,7 @@ TEST_CASE("slow tangent: the largest multipliers of a long state are those of it
   CHECK(first.basis.cols() >= 9);
   CHECK(first.basis.cols() <= 24);
   const int before = products;
-  const SlowTangent again = slow_tangent(kSize, first, {}, 1e-9, times);
+  const MonodromyMatrix again = slow_tangent(kSize, first, {}, 1e-9, times);
   CHECK(products - before <= 2);
 }
 
@@ -272,7 +272,7 @@ TEST_CASE(
   }
   const MatrixXd tangent = shear * turns * shear.inverse();
   const auto times = [&](const MatrixXd& directions) { return MatrixXd(tangent * directions); };
-  const SlowTangent t = slow_tangent(kSize, {}, {}, 1e-8, times);
+  const MonodromyMatrix t = slow_tangent(kSize, {}, {}, 1e-8, times);
   CHECK(t.basis.cols() >= kKept + kAlike);
   const Eigen::VectorXcd multipliers = t.multipliers();
   CHECK(std::abs(multipliers[0]) == relative(0.95, 1e-7));
@@ -281,7 +281,7 @@ TEST_CASE(
 
 // Independent of the curve: the whole branch at each torque, from rest.
 TEST_CASE("fold curves: of an elastic pair over torque they are the folds of its branch at each torque") {
-  const BodyArtifact& body = paper_body();
+  const ReducedBody& body = paper_body();
   StaticParameters at_rest = paper_statics(128);
   at_rest.contact.strips = 8;
   SweepParameters settings = paper_sweep(1700, 2950, 50);
@@ -295,14 +295,14 @@ TEST_CASE("fold curves: of an elastic pair over torque they are the folds of its
   plan.values = {140, 150, 165};
   plan.from = 1700;
   plan.to = 2950;
-  const FoldCurvesArtifact a = fold_curves(body, body, at_rest, 150, settings, plan, no_report);
+  const FoldCurvesResult a = fold_curves(body, body, at_rest, 150, settings, plan, no_report);
   INFO(a.end);
   const auto torques = static_cast<Eigen::Index>(plan.values.size());
   REQUIRE(a.value.size() >= 2 * torques);
   const double dampers = static_transmission(body, body, at_rest, 100).mean_stiffness;
   for (const double torque : plan.values) {
-    const BranchArtifact branch = pair_branch(body, body, static_transmission(body, body, at_rest, torque),
-                                              dampers, settings, no_report);
+    const BranchResult branch = pair_branch(body, body, static_transmission(body, body, at_rest, torque),
+                                            dampers, settings, no_report);
     REQUIRE(branch.fold_frequency.size() >= 2);
     for (Eigen::Index i = 0; i < a.value.size(); ++i) {
       if (a.value[i] != torque) continue;

@@ -24,7 +24,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-const BodyArtifact& coarse_body() {
+const ReducedBody& coarse_body() {
   return paper_body(40e-3, 1.2e-3, 12);
 }
 
@@ -38,7 +38,7 @@ StaticParameters statics_with(double coefficient, ContactModel contact, bool cor
   return settings;
 }
 
-StaticArtifact at_rest(const StaticParameters& settings, double torque = 150) {
+StaticResult at_rest(const StaticParameters& settings, double torque = 150) {
   return static_transmission(coarse_body(), coarse_body(), settings, torque);
 }
 
@@ -200,7 +200,7 @@ TEST_CASE("friction: 1e5 random complementarity problems are certified or refuse
 TEST_CASE("friction at rest: work put in less work given is the integral of mu s N v, and moments balance") {
   for (const auto contact : {ContactModel::strips, ContactModel::line})
     for (const bool corner : {false, true}) {
-      const StaticArtifact s = at_rest(statics_with(0.06, contact, corner));
+      const StaticResult s = at_rest(statics_with(0.06, contact, corner));
       const GearPair pair(s);
       INFO(contact << ", corner contact " << corner);
       double given = 0;  // N m per angle of the driver
@@ -274,7 +274,7 @@ TEST_CASE("friction at rest: losses over mu tend to the loss factor, of first or
 
 TEST_CASE(
     "friction at rest: equal gears see each other's moment with the opposite sign as the phase runs back") {
-  const StaticArtifact s = at_rest(statics_with(1e-4, ContactModel::strips, false));
+  const StaticResult s = at_rest(statics_with(1e-4, ContactModel::strips, false));
   const Index n = s.mesh_phase.size();
   const double most = s.friction_moment[0].cwiseAbs().maxCoeff();
   for (Index i = 1; i < n; ++i)
@@ -285,8 +285,7 @@ TEST_CASE(
 // Between pairs on the line of action n . tau = 0, so that what friction adds by way of bearings vanishes but for round-off. Tip
 // edges have other normals.
 TEST_CASE(
-    "friction at rest on elastic bearings: the whole problem holds, and its force lies off the line of "
-    "action") {
+    "friction at rest on elastic bearings: the whole problem holds, and its force lies off the line of action") {
   for (const auto contact : {ContactModel::strips, ContactModel::line}) {
     StaticParameters settings = statics_with(0.2, contact, true);
     settings.mesh.bearing = {Bearing{60e6}, Bearing{40e6}};
@@ -330,13 +329,13 @@ TEST_CASE(
 }
 
 TEST_CASE("friction: without it nothing changes, and static.h5 keeps it") {
-  const StaticArtifact without = at_rest(statics_with(0, ContactModel::strips, true)),
-                       with = at_rest(statics_with(0.05, ContactModel::strips, true));
+  const StaticResult without = at_rest(statics_with(0, ContactModel::strips, true)),
+                     with = at_rest(statics_with(0.05, ContactModel::strips, true));
   CHECK(without.friction_loss.size() == 0);
   CHECK(without.efficiency == 1);
   // Bits, whatever else the section holds; of a small coefficient the results tend to them.
-  const StaticArtifact none = at_rest(statics_with(0, ContactModel::strips, true, 0.5)),
-                       little = at_rest(statics_with(1e-9, ContactModel::strips, true));
+  const StaticResult none = at_rest(statics_with(0, ContactModel::strips, true, 0.5)),
+                     little = at_rest(statics_with(1e-9, ContactModel::strips, true));
   CHECK(none.tooth_load == without.tooth_load);
   CHECK(none.transmission_error == without.transmission_error);
   CHECK(none.stiffness_tangent == without.stiffness_tangent);
@@ -346,10 +345,10 @@ TEST_CASE("friction: without it nothing changes, and static.h5 keeps it") {
   CHECK(with.friction_coefficient == 0.05);
   CHECK((with.tooth_load - without.tooth_load).norm() > 1e-4 * without.tooth_load.norm());
   const std::string path = (std::filesystem::temp_directory_path() / "whine-friction-static.h5").string();
-  StaticArtifact stored = with;
+  StaticResult stored = with;
   stored.transmission_error_harmonic = stored.stiffness_harmonic = VectorXd::Ones(2);
   write(path, stored, Provenance());
-  const StaticArtifact read = read_static(path);
+  const StaticResult read = read_static(path);
   std::filesystem::remove(path);
   CHECK(read.friction_loss == with.friction_loss);
   CHECK(read.friction_moment[1] == with.friction_moment[1]);
@@ -357,7 +356,7 @@ TEST_CASE("friction: without it nothing changes, and static.h5 keeps it") {
   CHECK(read.friction_coupling == with.friction_coupling);
   CHECK(read.mesh.friction.coefficient == 0.05);
   // A mesh with friction and a file without its losses do not go together.
-  StaticArtifact torn = stored;
+  StaticResult torn = stored;
   torn.friction_loss.resize(0);
   CHECK_THROWS_WITH_AS(write(path, torn, Provenance()), doctest::Contains("/friction_loss"), Error);
   torn = stored;
@@ -373,7 +372,7 @@ TEST_CASE("friction: without it nothing changes, and static.h5 keeps it") {
   };
   CHECK(friction_remarks(without, 150).empty());
   CHECK(contains(said(remarks(with)), "it bends no teeth here"));
-  StaticArtifact schlenk = with;
+  StaticResult schlenk = with;
   schlenk.mesh.friction.law = FrictionLaw::schlenk;
   CHECK(schlenk_speed_remarks(with, 1, 1e5).empty());
   CHECK(said(schlenk_speed_remarks(schlenk, 1000, 4000)).find("m/s") == std::string::npos);

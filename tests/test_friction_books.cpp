@@ -33,8 +33,8 @@ GearDesign external(int teeth) {
   return paper_gear(teeth, teeth < 25 ? 15e-3 : 25e-3);
 }
 
-const BodyArtifact& body_of(const GearDesign& design) {
-  static std::map<std::pair<int, bool>, BodyArtifact> cache;
+const ReducedBody& body_of(const GearDesign& design) {
+  static std::map<std::pair<int, bool>, ReducedBody> cache;
   const auto key = std::make_pair(design.teeth, design.internal);
   if (!cache.count(key)) {
     BodyDiscretisation discretisation;
@@ -101,8 +101,7 @@ Books books(const GearPair& pair, const SystemPosition& position, const VectorXd
 }  // namespace
 
 TEST_CASE(
-    "friction at rest: work put in less work given is mu N v by vectors, of unequal gears and internal "
-    "pairs") {
+    "friction at rest: work put in less work given is mu N v by vectors, of unequal gears and internal pairs") {
   constexpr double kTorque = 100;
   for (const Gears* gears : {&kDown, &kUp, &kPlanetDrives, &kRingDrives})
     for (const auto contact : {ContactModel::strips, ContactModel::line}) {
@@ -134,10 +133,10 @@ TEST_CASE(
 }
 
 TEST_CASE("friction at rest: with driver and driven gear exchanged moments change places and sign") {
-  const StaticArtifact a = static_transmission(body_of(kDown.driver), body_of(kDown.driven),
-                                               settings_of(kDown, 1e-4, ContactModel::strips, false), 100),
-                       b = static_transmission(body_of(kUp.driver), body_of(kUp.driven),
-                                               settings_of(kUp, 1e-4, ContactModel::strips, false), 150);
+  const StaticResult a = static_transmission(body_of(kDown.driver), body_of(kDown.driven),
+                                             settings_of(kDown, 1e-4, ContactModel::strips, false), 100),
+                     b = static_transmission(body_of(kUp.driver), body_of(kUp.driven),
+                                             settings_of(kUp, 1e-4, ContactModel::strips, false), 150);
   const Index n = a.mesh_phase.size();
   const double most = a.friction_moment[1].cwiseAbs().maxCoeff();
   for (Index i = 1; i < n; ++i)
@@ -155,8 +154,8 @@ FrictionMotion motion_of(const Gears& gears, double torque, ContactModel contact
                          bool bearings = false) {
   StaticParameters settings = settings_of(gears, kFriction, contact, true);
   if (bearings) settings.mesh.bearing = {Bearing{200e6, 500, 0}, Bearing{120e6, 700, 0}};
-  const BodyArtifact &driver = body_of(gears.driver), &driven = body_of(gears.driven);
-  const StaticArtifact statics = static_transmission(driver, driven, settings, torque);
+  const ReducedBody &driver = body_of(gears.driver), &driven = body_of(gears.driven);
+  const StaticResult statics = static_transmission(driver, driven, settings, torque);
   const std::array<double, kSides> inertia{3 * driver.inertia, 2 * driven.inertia};
   const double eta = 0.03 / (2 * std::numbers::pi * natural_frequency(statics, inertia));
   return FrictionMotion(driver, driven, statics, inertia, body, body == BodyModel::rigid ? 0 : eta);
@@ -201,7 +200,7 @@ TEST_CASE("friction in motion: torques and angular momentum of unequal gears lea
         double least = 1;
         for (int i = 0; i < 10; ++i) {
           REQUIRE(motion.dynamics.integrate(motion.state, motion.period, &l));
-          least = std::min(least, motion.period.pair_load.colwise().sum().minCoeff());
+          least = std::min(least, motion.period.tooth_pair_load.colwise().sum().minCoeff());
         }
         INFO(gears->driver.teeth << " drives " << gears->driven.teeth << ", " << contact << ", bearings "
                                  << bearings << ": friction " << l.friction << " J, rolling "
@@ -228,7 +227,8 @@ TEST_CASE(
       REQUIRE(motion.dynamics.integrate(motion.state, now, &balance));
       // Sample 0 of a period is its end, in the names of the next; the turns of rigid gears go as r / I.
       const auto load = [&](int step) -> VectorXd {
-        return step == 0 ? VectorXd(before.pair_load.col(0)) : VectorXd(now.pair_load.col(step % kSteps));
+        return step == 0 ? VectorXd(before.tooth_pair_load.col(0))
+                         : VectorXd(now.tooth_pair_load.col(step % kSteps));
       };
       const auto error = [&](int step) {
         return step == 0 ? before.transmission_error[0] : now.transmission_error[step % kSteps];
@@ -272,16 +272,17 @@ TEST_CASE(
 
 TEST_CASE("friction in motion: losses of unequal gears are mu times the loss factor of their loads") {
   for (const Gears* gears : {&kDown, &kUp}) {
-    FrictionMotion motion = motion_of(*gears, 60, ContactModel::line, BodyModel::lagged);
+    FrictionMotion motion = motion_of(*gears, 60, ContactModel::line, BodyModel::relaxed);
     start(motion, 0.13, 256, 60);
     EnergyBalance balance;
     REQUIRE(motion.dynamics.integrate(motion.state, motion.period, &balance));
-    const Index steps = motion.period.pair_load.cols(), reach = motion.period.pair_load.rows() / 2;
+    const Index steps = motion.period.tooth_pair_load.cols(),
+                reach = motion.period.tooth_pair_load.rows() / 2;
     const auto last = static_cast<int>(reach);
     const double factor =
         loss_factor(motion.model.kinematics, Eigen::VectorXi::LinSpaced(2 * reach + 1, -last, last),
                     VectorXd::LinSpaced(steps, 0, 1 - 1 / static_cast<double>(steps)),
-                    MatrixRM(motion.period.pair_load.transpose()), 60);
+                    MatrixRM(motion.period.tooth_pair_load.transpose()), 60);
     const double taken = balance.friction / (60 * 2 * std::numbers::pi / gears->driver.teeth);
     INFO(gears->driver.teeth << " drives " << gears->driven.teeth << ": " << taken << ", mu H_V "
                              << kFriction * factor);
@@ -330,10 +331,10 @@ TEST_CASE("friction at rest: what its forces would bend, beside what its moments
   };
   StaticParameters settings = paper_statics(64);
   settings.mesh.friction.smoothing = kSmoothing;
-  const StaticArtifact without =
+  const StaticResult without =
       static_transmission(paper_body(40e-3, 1.2e-3, 12), paper_body(40e-3, 1.2e-3, 12), settings, 150);
   settings.mesh.friction.coefficient = 0.05;
-  const StaticArtifact with =
+  const StaticResult with =
       static_transmission(paper_body(40e-3, 1.2e-3, 12), paper_body(40e-3, 1.2e-3, 12), settings, 150);
   const VectorXd moments = with.transmission_error - without.transmission_error;
   VectorXd bending = VectorXd::Zero(moments.size());

@@ -24,7 +24,7 @@ namespace {
 
 constexpr double kFriction = 0.06;
 
-const BodyArtifact& coarse_body() {
+const ReducedBody& coarse_body() {
   return paper_body(40e-3, 1.2e-3, 12);
 }
 
@@ -57,8 +57,8 @@ TEST_CASE(
       double least = 1, loads = 0;
       for (int i = 0; i < 20; ++i) {
         REQUIRE(rig.dynamics.integrate(rig.state, rig.period, &balance));
-        least = std::min(least, rig.period.pair_load.colwise().sum().minCoeff());
-        loads += rig.period.pair_load.sum() / 128;
+        least = std::min(least, rig.period.tooth_pair_load.colwise().sum().minCoeff());
+        loads += rig.period.tooth_pair_load.sum() / 128;
       }
       INFO(contact << ", bearings " << bearings << ": " << left_over(balance) << " J of "
                    << balance.throughput << ", friction " << balance.friction << " J, rolling "
@@ -74,8 +74,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "friction in motion: work put in less work given is the integral of mu N v, by the motion of rigid "
-    "gears") {
+    "friction in motion: work put in less work given is the integral of mu N v, by the motion of rigid gears") {
   for (const auto contact : {ContactModel::strips, ContactModel::line}) {
     constexpr int kSteps = 128;
     constexpr double kFrequency = 2500;
@@ -88,14 +87,14 @@ TEST_CASE(
     // Equal gears and inertias: both turn by half of the transmission error.
     const double rb = pair.gear(0).base_radius(), turn = 2 * std::numbers::pi / 50 / kSteps;
     double loss = 0, in = 0, out = 0;
-    const int reach = static_cast<int>(now.pair_load.rows()) / 2;
+    const int reach = static_cast<int>(now.tooth_pair_load.rows()) / 2;
     const auto at = [&](int step) {  // sample 0 of a period is its end, in the names of the next
       struct {
         VectorXd load;
         double error;
-      } sample{step == kSteps ? VectorXd(now.pair_load.col(0))
-               : step == 0    ? VectorXd(before.pair_load.col(0))
-                              : VectorXd(now.pair_load.col(step)),
+      } sample{step == kSteps ? VectorXd(now.tooth_pair_load.col(0))
+               : step == 0    ? VectorXd(before.tooth_pair_load.col(0))
+                              : VectorXd(now.tooth_pair_load.col(step)),
                step == kSteps ? now.transmission_error[0]
                : step == 0    ? before.transmission_error[0]
                               : now.transmission_error[step]};
@@ -168,8 +167,7 @@ double check_problem(const RollingDynamics::ContactProblem& problem, const Vecto
 
 // Beside the recorded problems those with gaps that are off by up to a fifth, ten of each.
 TEST_CASE(
-    "friction in motion: recorded problems of steps hold as a whole, at speeds with and without contact "
-    "loss") {
+    "friction in motion: recorded problems of steps hold as a whole, at speeds with and without contact loss") {
   FrictionMotion rig = motion_of(0.1, ContactModel::strips, BodyModel::modal, true);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(0.8, 1.2);
@@ -226,13 +224,13 @@ TEST_CASE("friction in motion: the tangent of the period map is that of central 
 }
 
 TEST_CASE("friction in motion: slow and light, losses are those at rest; a sweep keeps them") {
-  const StaticArtifact s =
+  const StaticResult s =
       static_transmission(coarse_body(), coarse_body(), with_friction(kFriction, ContactModel::line), 150);
   SweepParameters settings = paper_sweep(100, 100, 1);
   settings.fidelity.contact = ContactModel::line;
-  settings.fidelity.body = BodyModel::lagged;
+  settings.fidelity.body = BodyModel::relaxed;
   settings.time.min_sample_rate = 20e3;
-  const SweepArtifact slow =
+  const SweepResult slow =
       sweep(coarse_body(), coarse_body(), s, s.mean_stiffness, settings, Direction::up, no_report);
   INFO("efficiency " << slow.friction.efficiency[0] << ", at rest " << s.efficiency);
   CHECK(1 - slow.friction.efficiency[0] == relative(1 - s.efficiency, 0.01));
@@ -242,7 +240,7 @@ TEST_CASE("friction in motion: slow and light, losses are those at rest; a sweep
   CHECK(slow.energy_imbalance[0] < 1e-9);
   const std::string path = (std::filesystem::temp_directory_path() / "whine-friction-sweep.h5").string();
   write(path, slow, Provenance());
-  const SweepArtifact read = read_sweep(path);
+  const SweepResult read = read_sweep(path);
   std::filesystem::remove(path);
   CHECK(read.friction.power == slow.friction.power);
   CHECK(read.friction_work == slow.friction_work);
@@ -255,16 +253,16 @@ TEST_CASE(
     const auto swept = [&](double coefficient, double smoothing) {
       StaticParameters statics = with_friction(coefficient, contact);
       statics.mesh.friction.smoothing = smoothing;
-      const StaticArtifact s = static_transmission(coarse_body(), coarse_body(), statics, 150);
+      const StaticResult s = static_transmission(coarse_body(), coarse_body(), statics, 150);
       SweepParameters settings = paper_sweep(2300, 2300, 1);
       settings.fidelity.contact = contact;
-      settings.fidelity.body = BodyModel::lagged;
+      settings.fidelity.body = BodyModel::relaxed;
       settings.time.min_sample_rate = 20e3;
       return sweep(coarse_body(), coarse_body(), s, s.mean_stiffness, settings, Direction::up, no_report);
     };
     const Friction untouched;
-    const SweepArtifact without = swept(0, untouched.smoothing), none = swept(0, 0.5),
-                        little = swept(1e-9, untouched.smoothing);
+    const SweepResult without = swept(0, untouched.smoothing), none = swept(0, 0.5),
+                      little = swept(1e-9, untouched.smoothing);
     CHECK(none.transmission_error == without.transmission_error);
     CHECK(none.mesh_force == without.mesh_force);
     CHECK(none.tooth_load == without.tooth_load);
@@ -284,12 +282,12 @@ TEST_CASE("friction in motion: with Schlenk's formula the energy balance closes 
   friction.viscosity = 0.015;
   friction.roughness = 0.5e-6;
   friction.static_frequency = 600;
-  const StaticArtifact s = static_transmission(coarse_body(), coarse_body(), statics, 150);
+  const StaticResult s = static_transmission(coarse_body(), coarse_body(), statics, 150);
   SweepParameters settings = paper_sweep(800, 1400, 600);
   settings.fidelity.contact = ContactModel::line;
-  settings.fidelity.body = BodyModel::lagged;
+  settings.fidelity.body = BodyModel::relaxed;
   settings.time.min_sample_rate = 20e3;
-  const SweepArtifact swept =
+  const SweepResult swept =
       sweep(coarse_body(), coarse_body(), s, s.mean_stiffness, settings, Direction::up, no_report);
   REQUIRE(swept.energy_imbalance.size() == 2);
   CHECK(s.friction_coefficient > swept.friction.coefficient[0]);
@@ -302,7 +300,7 @@ TEST_CASE("friction in motion: with Schlenk's formula the energy balance closes 
 
 TEST_CASE("friction in motion: losses over mu tend to a limit of first order") {
   const auto loss = [](double mu) {
-    FrictionMotion rig = motion_of(mu, ContactModel::line, BodyModel::lagged, false, 7.7e-6);
+    FrictionMotion rig = motion_of(mu, ContactModel::line, BodyModel::relaxed, false, 7.7e-6);
     rig.start(2000, 64, 60);
     EnergyBalance balance;
     REQUIRE(rig.dynamics.integrate(rig.state, rig.period, &balance));

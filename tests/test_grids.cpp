@@ -18,7 +18,7 @@ using namespace whine;
 namespace {
 constexpr double kPi = std::numbers::pi;
 
-double least_jacobian_of(const MeshArtifact& mesh) {
+double least_jacobian_of(const SectorGrid& mesh) {
   return least_jacobian(mesh.node_position, mesh.element_node);
 }
 

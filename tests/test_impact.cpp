@@ -44,11 +44,11 @@ FixedPhaseMesh relaxed_mass() {
   return mesh;
 }
 
-const BodyArtifact& coarse_body(int modes = 5) {
+const ReducedBody& coarse_body(int modes = 5) {
   return paper_body(40e-3, 0.8e-3, modes);
 }
 
-StaticArtifact coarse_statics(double torque, int strips = 15) {
+StaticResult coarse_statics(double torque, int strips = 15) {
   StaticParameters settings;
   settings.mesh.gear[0] = "pinion";
   settings.mesh.gear[1] = "wheel";
@@ -66,7 +66,7 @@ ImpactParameters coarse_impact() {
   return settings;
 }
 
-ImpactArtifact ring(const ImpactParameters& settings, double torque_step = ImpactPlan().torque_step) {
+ImpactResult ring(const ImpactParameters& settings, double torque_step = ImpactPlan().torque_step) {
   return impact(coarse_body(), coarse_body(), coarse_statics(150), 463e6, settings, {torque_step, 16},
                 no_report);
 }
@@ -86,7 +86,7 @@ struct UnequalPair {
     settings.damping.rayleigh_stiffness = 3.06e-6;
     settings.reference_torque = torque;
   }
-  static BodyArtifact body(int teeth, double shift, double bore, double element) {
+  static ReducedBody body(int teeth, double shift, double bore, double element) {
     GearDesign design = paper_gear(teeth, bore);
     design.module = 6e-3;
     design.profile_shift = shift;
@@ -97,11 +97,11 @@ struct UnequalPair {
     discretisation.modes = 21;
     return reduce(make_sector_mesh(design, discretisation), paper_steel(), 21);
   }
-  ImpactArtifact ring(double torque_step, int phases = 8) const {
+  ImpactResult ring(double torque_step, int phases = 8) const {
     return impact(pinion, wheel, statics, statics.mean_stiffness, settings, {torque_step, phases}, no_report);
   }
-  BodyArtifact pinion, wheel;
-  StaticArtifact statics;
+  ReducedBody pinion, wheel;
+  StaticResult statics;
   ImpactParameters settings;
 };
 
@@ -212,28 +212,27 @@ TEST_CASE("mass on an elastic and a relaxing spring: roots of its cubic, by eige
 }
 
 TEST_CASE(
-    "pair at a fixed phase: ring-down against the eigenvalues of the system with frozen contact, on every "
-    "model level") {
+    "pair at a fixed phase: ring-down against the eigenvalues of the system with frozen contact, on every model level") {
   struct Level {
     BodyModel body;
     Integrator integrator;
   };
   for (const Level& level :
        {Level{BodyModel::modal, Integrator::exact}, Level{BodyModel::modal, Integrator::newmark},
-        Level{BodyModel::lagged, Integrator::exact}, Level{BodyModel::quasi_static, Integrator::exact},
+        Level{BodyModel::relaxed, Integrator::exact}, Level{BodyModel::quasi_static, Integrator::exact},
         Level{BodyModel::rigid, Integrator::exact}}) {
     INFO(level.body << " " << level.integrator);
     ImpactParameters settings = coarse_impact();
     settings.fidelity.body = level.body;
     settings.fidelity.integrator = level.integrator;
     // Small enough that hardly a strip comes or goes.
-    const ImpactArtifact a = ring(settings, 1e-4);
+    const ImpactResult a = ring(settings, 1e-4);
     CHECK(furthest(a.phase_natural_frequency, a.eigen_frequency) < 1e-4);
     CHECK(furthest(a.phase_damping_ratio, a.eigen_damping_ratio) < 1e-3);
     CHECK(a.fit_residual.maxCoeff() < 1e-4);
     // Without damping the eigenvalues are the undamped frequencies, found another way.
     settings.damping.rayleigh_stiffness = settings.damping.bearing_ratio = 0;
-    const ImpactArtifact undamped = ring(settings, 1e-4);
+    const ImpactResult undamped = ring(settings, 1e-4);
     CHECK(furthest(undamped.eigen_frequency, undamped.phase_undamped_frequency) < 1e-9);
     CHECK(furthest(undamped.phase_natural_frequency, undamped.phase_undamped_frequency) < 1e-4);
     CHECK(undamped.phase_damping_ratio.cwiseAbs().maxCoeff() < 1e-4);
@@ -241,7 +240,7 @@ TEST_CASE(
 }
 
 TEST_CASE("pair at a fixed phase: one and two pairs, their mean, and no dependence on what is let go") {
-  const ImpactArtifact a = ring(coarse_impact());
+  const ImpactResult a = ring(coarse_impact());
   REQUIRE(a.contact_state == std::vector{ContactState::one, ContactState::two, ContactState::mean});
   CHECK(a.state_phase == Eigen::Vector2d(0, 0.5));
   CHECK(a.natural_frequency[0] < a.natural_frequency[2]);
@@ -255,7 +254,7 @@ TEST_CASE("pair at a fixed phase: one and two pairs, their mean, and no dependen
   CHECK(two.tail(33).cwiseAbs().maxCoeff() <
         1.5 * two[0] * std::exp(-2 * kPi * a.damping_ratio[1] * (oscillations - 1)));
   for (double step : {1e-7, 1e-5, 1e-4}) {
-    const ImpactArtifact other = ring(coarse_impact(), step);
+    const ImpactResult other = ring(coarse_impact(), step);
     INFO("let go " << step);
     CHECK(other.least_mesh_force == relative(1 - 0.85 * step, 0.1 * step));
     for (int state = 0; state < 3; ++state) {
@@ -272,19 +271,18 @@ TEST_CASE("pair at a fixed phase: one and two pairs, their mean, and no dependen
 }
 
 TEST_CASE(
-    "pair at a fixed phase: a phase and its mirror image, equal gears, agree the better the finer the "
-    "strips" *
+    "pair at a fixed phase: a phase and its mirror image, equal gears, agree the better the finer the strips" *
     doctest::skip()) {
   // The candidate zones stand a quarter strip off the contact point, which a reflection turns to the other side.
   double before_frequency = 5e-3, before_damping = 1e-2, before_error = 7e-3;
   const auto at = [](int strips) {
-    StaticArtifact statics = coarse_statics(150);
+    StaticResult statics = coarse_statics(150);
     statics.contact.strips = strips;
     return impact(coarse_body(), coarse_body(), statics, 463e6, coarse_impact(), {1e-6, 32}, no_report);
   };
-  const ImpactArtifact fine = at(120);
+  const ImpactResult fine = at(120);
   for (int strips : {15, 60}) {
-    const ImpactArtifact a = at(strips);
+    const ImpactResult a = at(strips);
     const VectorXd f = a.phase_natural_frequency.tail(31), ratio = a.phase_damping_ratio.tail(31);
     const double frequency = furthest(f, f.reverse()), damping = furthest(ratio, ratio.reverse()),
                  error = furthest(a.phase_damping_ratio, fine.phase_damping_ratio);
@@ -321,50 +319,47 @@ TEST_CASE("pair at a fixed phase: contact beyond what the mesh holds is rejected
 }
 
 TEST_CASE(
-    "pair at a fixed phase with 61 modes, the scene's own: eigenvalues, ring-down and calibration see the "
-    "same root") {
+    "pair at a fixed phase with 61 modes, the scene's own: eigenvalues, ring-down and calibration see the same root") {
   // Modes near critical damping oscillate more slowly than the mesh, and undamped ones never leave a decay.
-  const BodyArtifact& body = coarse_body(61);
-  const StaticArtifact statics = coarse_statics(150);
-  const ImpactArtifact a = impact(body, body, statics, 463e6, coarse_impact(), {1e-6, 8}, no_report);
+  const ReducedBody& body = coarse_body(61);
+  const StaticResult statics = coarse_statics(150);
+  const ImpactResult a = impact(body, body, statics, 463e6, coarse_impact(), {1e-6, 8}, no_report);
   CHECK(furthest(a.phase_natural_frequency, a.eigen_frequency) < 1e-4);
   CHECK(furthest(a.phase_damping_ratio, a.eigen_damping_ratio) < 1e-3);
-  const ImpactArtifact found =
+  const ImpactResult found =
       calibrate(body, body, statics, 463e6, coarse_impact(), {1e-6, 8}, 0.07, ContactState::two, no_report);
   CHECK(found.damping_ratio[1] == relative(0.07, 1e-6));
   CHECK(found.damping.rayleigh_stiffness == relative(7.75e-6, 0.01));
 }
 
 TEST_CASE(
-    "ring-down of a pinion of 25 teeth and a wheel of 76: many damped modes beside that of the mesh, which "
-    "keeps its damping") {
+    "ring-down of a pinion of 25 teeth and a wheel of 76: many damped modes beside that of the mesh, which keeps its damping") {
   const UnequalPair pair(25, 76, 0.2485, 35e-3, 70e-3, 2e-3, 1624.77);
   for (const double torque_step : {1e-8, 1e-6, 1e-4}) {
     INFO("torque step " << torque_step);
-    const ImpactArtifact a = pair.ring(torque_step);
+    const ImpactResult a = pair.ring(torque_step);
     CHECK(furthest(a.phase_natural_frequency, a.eigen_frequency) < 1e-5);
     CHECK(furthest(a.phase_damping_ratio, a.eigen_damping_ratio) < 3e-5);
     CHECK(a.fit_residual.maxCoeff() < 1e-6);
   }
-  const ImpactArtifact found = calibrate(pair.pinion, pair.wheel, pair.statics, pair.statics.mean_stiffness,
-                                         pair.settings, {1e-6, 8}, 0.05, ContactState::two, no_report);
+  const ImpactResult found = calibrate(pair.pinion, pair.wheel, pair.statics, pair.statics.mean_stiffness,
+                                       pair.settings, {1e-6, 8}, 0.05, ContactState::two, no_report);
   CHECK(found.damping_ratio[1] == relative(0.05, 1e-6));
   // Round-off of the static error stands in the samples of a decay this small.
   CHECK_THROWS_WITH_AS(pair.ring(1e-12), doctest::Contains("contact stays as it is"), Error);
 }
 
 TEST_CASE(
-    "ring-down of a pinion of 20 teeth and a wheel of 130: modes of the wheel that no torque moves lie below "
-    "that of the mesh") {
+    "ring-down of a pinion of 20 teeth and a wheel of 130: modes of the wheel that no torque moves lie below that of the mesh") {
   const UnequalPair pair(20, 130, 0, 30e-3, 40e-3, 5e-3, 300);
-  const ImpactArtifact a = pair.ring(1e-6, 2);
+  const ImpactResult a = pair.ring(1e-6, 2);
   CHECK(furthest(a.phase_natural_frequency, a.eigen_frequency) < 1e-5);
   CHECK(furthest(a.phase_damping_ratio, a.eigen_damping_ratio) < 3e-5);
   CHECK(furthest(a.phase_undamped_frequency, a.eigen_frequency) < 1e-3);
 }
 
 TEST_CASE("calibration: the factor that it finds gives the ratio, what cannot be is rejected") {
-  const StaticArtifact statics = coarse_statics(150);
+  const StaticResult statics = coarse_statics(150);
   const auto calibrated = [&](const ImpactParameters& settings, double ratio, ContactState state) {
     return calibrate(coarse_body(), coarse_body(), statics, 463e6, settings, {1e-6, 16}, ratio, state,
                      no_report);
@@ -372,7 +367,7 @@ TEST_CASE("calibration: the factor that it finds gives the ratio, what cannot be
   for (const auto& [state, row] :
        {std::pair{ContactState::one, 0}, {ContactState::two, 1}, {ContactState::mean, 2}}) {
     ImpactParameters settings = coarse_impact();
-    const ImpactArtifact found = calibrated(settings, 0.05, state);
+    const ImpactResult found = calibrated(settings, 0.05, state);
     settings.damping.rayleigh_stiffness = found.damping.rayleigh_stiffness;
     CHECK(ring(settings).damping_ratio[row] == relative(0.05, 1e-6));
     // It does not depend on the factor that the scene has now.

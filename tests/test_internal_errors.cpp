@@ -27,9 +27,9 @@ namespace {
 constexpr double kPi = std::numbers::pi, kMicro = 1e-6;
 constexpr int kPlanet = 35, kRing = 99;
 
-const BodyArtifact& coarse(const GearDesign& design) {
-  static std::array<BodyArtifact, 2> known;
-  BodyArtifact& body = known[design.internal ? 1 : 0];
+const ReducedBody& coarse(const GearDesign& design) {
+  static std::array<ReducedBody, 2> known;
+  ReducedBody& body = known[design.internal ? 1 : 0];
   if (body.flank_mode.size() == 0) {
     BodyDiscretisation elements;
     elements.element_size = 3e-3;
@@ -47,7 +47,7 @@ GearMeshSpec spec_of(const ToothErrors& of_planet, const ToothErrors& of_ring, b
 }
 
 GearMeshModel model_of(const ToothErrors& of_planet, const ToothErrors& of_ring, bool ring_drives = false) {
-  const BodyArtifact &planet = coarse(planet_gear()), &ring = coarse(ring_gear());
+  const ReducedBody &planet = coarse(planet_gear()), &ring = coarse(ring_gear());
   const GearMeshSpec spec = spec_of(of_planet, of_ring, ring_drives);
   return ring_drives ? GearMeshModel(ring, planet, spec) : GearMeshModel(planet, ring, spec);
 }
@@ -134,8 +134,7 @@ TEST_CASE("pitch errors of planet and ring without load: the flank that is ahead
 }
 
 TEST_CASE(
-    "a ring whose flanks all stand alike ahead has turned; an error of the planet is the opposite one of the "
-    "ring") {
+    "a ring whose flanks all stand alike ahead has turned; an error of the planet is the opposite one of the ring") {
   const double ahead = 3 * kMicro;
   for (const double phase : {0.0, 0.2, 0.5, 0.8}) {
     CAPTURE(phase);
@@ -200,8 +199,7 @@ TEST_CASE("every kind of error: the ring drives a planet as that drives it, seen
 }
 
 TEST_CASE(
-    "deviations of a ring: slopes are derivatives; eccentric flanks have the pitch of a displaced circle; a "
-    "class has its limits") {
+    "deviations of a ring: slopes are derivatives; eccentric flanks have the pitch of a displaced circle; a class has its limits") {
   const ToothGeometry gear(ring_gear());
   ToothErrors errors = mixed(kRing);
   errors.eccentricity = 20 * kMicro;
@@ -252,12 +250,11 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a train whose ring stands ahead: all of it has turned; one tooth is felt by the planet that it meets, "
-    "and torques balance") {
+    "a train whose ring stands ahead: all of it has turned; one tooth is felt by the planet that it meets, and torques balance") {
   constexpr std::array<int, 3> kTeeth{26, 37, 100};
   const auto with = [&](const ToothErrors& of_ring) {
     SystemModel exact = train(kTeeth);
-    std::vector<BodyArtifact> bodies;
+    std::vector<ReducedBody> bodies;
     std::vector<GearMeshSpec> specs;
     for (const System::Body& body : exact.layout.bodies)
       if (body.kind == System::BodyKind::gear)
@@ -361,7 +358,7 @@ TEST_CASE(
       GearMeshSpec spec;
       spec.centre_distance = kInternalDistance;
       spec.modification[modified].slope = 5e-6;
-      const BodyArtifact &planet = coarse(planet_gear()), &ring = coarse(ring_gear());
+      const ReducedBody &planet = coarse(planet_gear()), &ring = coarse(ring_gear());
       const GearMeshModel model(ring_drives ? ring : planet, ring_drives ? planet : ring, spec);
       const MeshPosition at = make_line_position(model, 0, 1e-6, 1e-3, 300);
       int seen = 0;

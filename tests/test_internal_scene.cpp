@@ -66,8 +66,7 @@ TEST_CASE("what makes no sense in an internal gear is rejected with its line and
   const SceneFile file;
   CHECK(contains(
       file.rejection(with_ring(kRing + "bore_radius_mm = 30\n")),
-      "x.toml:15: [gear.wheel] is internal and gives 'bore_radius_mm'; its ring is held outside: give "
-      "'rim_outer_radius_mm' in its place"));
+      "x.toml:15: [gear.wheel] is internal and gives 'bore_radius_mm'; its ring is held outside: give 'rim_outer_radius_mm' in its place"));
   CHECK(contains(file.rejection(ring_with("rim_outer_radius_mm = 200\n", "")),
                  "[gear.wheel] lacks 'rim_outer_radius_mm' (no default)"));
   CHECK(contains(
@@ -99,8 +98,7 @@ TEST_CASE("what makes no sense in an internal gear is rejected with its line and
 }
 
 TEST_CASE(
-    "the elastic support of a rim: its parameters come back, a rigid one has none, half a support is "
-    "rejected") {
+    "the elastic support of a rim: its parameters come back, a rigid one has none, half a support is rejected") {
   const SceneFile file;
   const std::string radial = "rim_radial_stiffness_N_mm2 = 300\n",
                     tangential = "rim_tangential_stiffness_N_mm2 = 700\n";
@@ -152,20 +150,20 @@ TEST_CASE("artifacts of an internal gear come back as they were; those of extern
   BodyDiscretisation coarse;
   coarse.element_size = 2.7e-3;
   coarse.element_order = 1;
-  const MeshArtifact mesh = make_sector_mesh(ring_gear(), coarse);
+  const SectorGrid mesh = make_sector_mesh(ring_gear(), coarse);
   const std::string path = file.path("", "mesh.h5");
   write(path, mesh, Provenance());
-  const MeshArtifact back = read_mesh(path);
+  const SectorGrid back = read_mesh(path);
   CHECK(back.design.internal);
   CHECK(back.design.rim_outer_radius == mesh.design.rim_outer_radius);
   CHECK(back.design.bore_radius == 0);
   CHECK(back.node_position == mesh.node_position);
   CHECK(back.bore_node == mesh.bore_node);
 
-  const BodyArtifact body = reduce(mesh, {206e9, 0.3, 7850, true}, 1);
+  const ReducedBody body = reduce(mesh, {206e9, 0.3, 7850, true}, 1);
   const std::string body_path = file.path("", "body.h5");
   write(body_path, body, Provenance());
-  const BodyArtifact body_back = read_body(body_path);
+  const ReducedBody body_back = read_body(body_path);
   CHECK(body_back.design.internal);
   CHECK(body_back.design.rim_outer_radius == mesh.design.rim_outer_radius);
   CHECK(body_back.flank_position == body.flank_position);

@@ -30,7 +30,7 @@ using Complex = std::complex<double>;
 
 const Material kSteel{206e9, 0.3, 7850, true};
 
-PlaneSystem system_of(const MeshArtifact& mesh) {
+PlaneSystem system_of(const SectorGrid& mesh) {
   return assemble(mesh.node_position, mesh.element_node, kSteel, mesh.design.face_width);
 }
 
@@ -42,7 +42,7 @@ TEST_CASE("sector of a ring: exact boundary, images, orientation and area for ma
     for (const int order : {1, 2}) {
       CAPTURE(design.teeth);
       CAPTURE(order);
-      const MeshArtifact mesh = make_sector_mesh(design, elements(0.2 * design.module, order));
+      const SectorGrid mesh = make_sector_mesh(design, elements(0.2 * design.module, order));
       const ToothGeometry tooth(design);
       CHECK(least_jacobian(mesh.node_position, mesh.element_node) > 0.05);
       double off = 0, image = 0;
@@ -68,8 +68,7 @@ TEST_CASE("sector of a ring: exact boundary, images, orientation and area for ma
 }
 
 TEST_CASE(
-    "area of a ring's sector: a sector of the rim less half of an external tooth's space and less its "
-    "fillets") {
+    "area of a ring's sector: a sector of the rim less half of an external tooth's space and less its fillets") {
   // Without fillet the space is bounded by two involutes, whose area has a closed form: from the centre, the involute from
   // roll angle 0 to xi sweeps r_b^2 xi^3 / 6.
   GearDesign design = ring_gear();
@@ -86,7 +85,7 @@ TEST_CASE(
 }
 
 TEST_CASE("all modes of a ring together: its rigid rotation about the rim moves every flank point by r_b") {
-  const MeshArtifact mesh = make_sector_mesh(ring_of(99, 3e-3, 165e-3), elements(1.2e-3, 1));
+  const SectorGrid mesh = make_sector_mesh(ring_of(99, 3e-3, 165e-3), elements(1.2e-3, 1));
   const ToothGeometry tooth(mesh.design);
   const PlaneSystem system = system_of(mesh);
   const CyclicSector sector(mesh, system);
@@ -102,10 +101,9 @@ TEST_CASE("all modes of a ring together: its rigid rotation about the rim moves 
 }
 
 TEST_CASE(
-    "reduced ring: compliance positive and symmetric, both flanks reciprocal, inertia of its drawing, "
-    "refined") {
+    "reduced ring: compliance positive and symmetric, both flanks reciprocal, inertia of its drawing, refined") {
   const GearDesign design = ring_gear();
-  const BodyArtifact body = reduce(make_sector_mesh(design, elements(1.6e-3)), kSteel, 4);
+  const ReducedBody body = reduce(make_sector_mesh(design, elements(1.6e-3)), kSteel, 4);
   const ToothGeometry ring(design);
   for (Eigen::Index i = 1; i < body.flank_position.size(); ++i)
     CHECK(body.flank_position[i] > body.flank_position[i - 1]);
@@ -117,23 +115,22 @@ TEST_CASE(
   // The tip gives way more than the root.
   CHECK(body.compliance[0](0, 0) > body.compliance[0](23, 23));
   // A force on one tooth turns all others in its own sense: a rigid rim alone would leave them still.
-  const BodyArtifact finer = reduce(make_sector_mesh(design, elements(0.8e-3)), kSteel, 4);
+  const ReducedBody finer = reduce(make_sector_mesh(design, elements(0.8e-3)), kSteel, 4);
   const double change = (body.compliance[0] - finer.compliance[0]).norm() / finer.compliance[0].norm();
   CHECK(change < 1.5e-3);
   for (int i = 0; i < 4; ++i) CHECK(body.eigenfrequency[i] == relative(finer.eigenfrequency[i], 1e-3));
 }
 
 TEST_CASE(
-    "a ring whose teeth are all loaded alike: between two rim radii it is a thick ring under torsion and "
-    "pressure") {
+    "a ring whose teeth are all loaded alike: between two rim radii it is a thick ring under torsion and pressure") {
   // Equal unit forces on all teeth are harmonic 0, the sum of the tables of all offsets. From a narrow rim to a wider one the
   // teeth cancel. Per unit normal force, of which cos(alpha) turns the rim and sin(alpha) presses on it (alpha: pressure angle
   // at the flank point), remain
   //   r_b^2 / (4 pi G b) (1 / r_1^2 - 1 / r_2^2)   and   sin^2(alpha) (U(r_2) - U(r_1)) / (2 pi r_f b),
   // U(r) = u / p of Lame's ring with pressure p at the root circle r_f and its outside r held.
   const double narrow = 152e-3, wide = 180e-3, nu = kSteel.poisson_ratio, e = kSteel.youngs_modulus;
-  const BodyArtifact a = reduce(make_sector_mesh(ring_of(99, 2.778e-3, narrow), elements(1.6e-3)), kSteel, 1),
-                     b = reduce(make_sector_mesh(ring_of(99, 2.778e-3, wide), elements(1.6e-3)), kSteel, 1);
+  const ReducedBody a = reduce(make_sector_mesh(ring_of(99, 2.778e-3, narrow), elements(1.6e-3)), kSteel, 1),
+                    b = reduce(make_sector_mesh(ring_of(99, 2.778e-3, wide), elements(1.6e-3)), kSteel, 1);
   const ToothGeometry ring(a.design);
   const double rb = ring.base_radius(), rf = ring.root_radius(), width = a.design.face_width;
   const double twist =
@@ -154,12 +151,12 @@ TEST_CASE(
 
 namespace {
 
-const BodyArtifact& planet_body() {
-  static const BodyArtifact body = reduce(make_sector_mesh(planet_gear(), elements(1.2e-3)), kSteel, 1);
+const ReducedBody& planet_body() {
+  static const ReducedBody body = reduce(make_sector_mesh(planet_gear(), elements(1.2e-3)), kSteel, 1);
   return body;
 }
-const BodyArtifact& ring_body() {
-  static const BodyArtifact body = reduce(make_sector_mesh(ring_gear(), elements(1.2e-3)), kSteel, 1);
+const ReducedBody& ring_body() {
+  static const ReducedBody body = reduce(make_sector_mesh(ring_gear(), elements(1.2e-3)), kSteel, 1);
   return body;
 }
 
@@ -181,7 +178,7 @@ TEST_CASE(
   for (const bool ring_drives : {false, true}) {
     CAPTURE(ring_drives);
     const int positions = 64;
-    const StaticArtifact s =
+    const StaticResult s =
         static_transmission(ring_drives ? ring_body() : planet_body(),
                             ring_drives ? planet_body() : ring_body(), at_rest(positions), 1e-6);
     CHECK(s.transmission_error.cwiseAbs().maxCoeff() < 1e-12);
@@ -197,7 +194,7 @@ TEST_CASE(
     "a planet in its ring: Hertz with the difference of curvatures, shares of the load, torque balance") {
   StaticParameters settings = at_rest(32);
   settings.contact.strips = 16;
-  const StaticArtifact s = static_transmission(planet_body(), ring_body(), settings, kTorque);
+  const StaticResult s = static_transmission(planet_body(), ring_body(), settings, kTorque);
   const GearPair pair(planet_gear(), ring_gear(), kInternalDistance);
   const double force = kTorque / pair.gear(0).base_radius();
   int inside = 0;
@@ -237,8 +234,8 @@ TEST_CASE("a ring that drives its planet is the planet that drives the ring, bac
   const double ratio = 99.0 / 35;
   StaticParameters settings = at_rest(32, ContactModel::line);
   settings.mesh.corner.enabled = false;  // at a tip edge the lever arms of the two gears differ
-  const StaticArtifact forward = static_transmission(planet_body(), ring_body(), settings, kTorque),
-                       backward = static_transmission(ring_body(), planet_body(), settings, kTorque * ratio);
+  const StaticResult forward = static_transmission(planet_body(), ring_body(), settings, kTorque),
+                     backward = static_transmission(ring_body(), planet_body(), settings, kTorque * ratio);
   const Eigen::Index n = forward.transmission_error.size();
   for (Eigen::Index i = 0; i < n; ++i)
     CHECK(backward.transmission_error[i] == relative(forward.transmission_error[(n - i) % n], 1e-9));
@@ -256,16 +253,15 @@ GearDesign sun_gear() {
   return d;
 }
 
-const BodyArtifact& sun_body() {
-  static const BodyArtifact body = reduce(make_sector_mesh(sun_gear(), elements(1.2e-3)), kSteel, 1);
+const ReducedBody& sun_body() {
+  static const ReducedBody body = reduce(make_sector_mesh(sun_gear(), elements(1.2e-3)), kSteel, 1);
   return body;
 }
 
 }  // namespace
 
 TEST_CASE(
-    "sun, planet, ring on fixed axes: forces and torques of every body balance at every phase, in both "
-    "senses") {
+    "sun, planet, ring on fixed axes: forces and torques of every body balance at every phase, in both senses") {
   constexpr double kSunTorque = 120;
   Bearing soft;
   soft.stiffness = 300e6;
@@ -309,9 +305,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a ring under pressure on one tooth: its field, by another way, gives way as its tables say, and its rim "
-    "holds the torque") {
-  const MeshArtifact mesh = make_sector_mesh(ring_gear(), elements(1.2e-3));
+    "a ring under pressure on one tooth: its field, by another way, gives way as its tables say, and its rim holds the torque") {
+  const SectorGrid mesh = make_sector_mesh(ring_gear(), elements(1.2e-3));
   const ToothGeometry ring(mesh.design);
   const FlankTable table(ring, kFlankPoints);
   const double roll = 0.5 * (ring.tip_roll_angle() + ring.form_roll_angle()), width = 0.1e-3, force = 1000;
@@ -330,14 +325,14 @@ TEST_CASE("a ring by matching at a depth gives way as by subtraction, but for th
   BodyDiscretisation discretisation = elements(1.2e-3);
   discretisation.near_field = NearField::matching;
   discretisation.matching_depth = 0.8e-3;
-  const BodyArtifact matched = reduce(make_sector_mesh(ring_gear(), discretisation), kSteel, 1);
+  const ReducedBody matched = reduce(make_sector_mesh(ring_gear(), discretisation), kSteel, 1);
   // Both less the half-plane relative to the reference depth. The tip comes first.
   const MatrixRM &found = matched.compliance[0], &exact = ring_body().compliance[0];
   for (const int i : {12, 16, 20}) CHECK(found(i, i) == relative(exact(i, i), 0.05));
 }
 
 TEST_CASE("a result says where a pinion cannot be put into its ring by a radial movement") {
-  StaticArtifact s;
+  StaticResult s;
   s.gear[1].design = ring_gear();
   for (BodyParameters& gear : s.gear) gear.material = kSteel;
   s.mean_stiffness = 5e8;
@@ -389,7 +384,7 @@ SystemModel elastic_train(const std::vector<int>& steps) {
                   {"ring", System::DriveKind::held, 0, 0},
                   {"carrier", System::DriveKind::held, 0, 0}};
   const System layout = layout_of(scene);
-  std::vector<BodyArtifact> bodies;
+  std::vector<ReducedBody> bodies;
   for (const System::Body& body : layout.bodies)
     if (body.kind == System::BodyKind::gear)
       bodies.push_back(body.teeth == 27 ? sun_body() : body.teeth == 35 ? planet_body() : ring_body());

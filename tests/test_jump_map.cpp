@@ -25,7 +25,7 @@ using namespace whine;
 
 namespace {
 
-const BodyArtifact& coarse() {
+const ReducedBody& coarse() {
   return paper_body(40e-3, 0.8e-3);
 }
 
@@ -51,8 +51,8 @@ JumpMapPlan plan(double from, double to, double step) {
   return plan;
 }
 
-JumpMapArtifact small_map(double torque, bool corner, std::vector<double> ratios, double lost_below) {
-  JumpMapArtifact a;
+JumpMapResult small_map(double torque, bool corner, std::vector<double> ratios, double lost_below) {
+  JumpMapResult a;
   a.gear[0].design = a.gear[1].design = coarse().design;
   a.gear[0].material = a.gear[1].material = {207e9, 0.3, 7600, true};
   a.gear[0].discretisation = a.gear[1].discretisation = coarse().discretisation;
@@ -75,11 +75,11 @@ JumpMapArtifact small_map(double torque, bool corner, std::vector<double> ratios
   a.loss_to = 3000 * (a.damping_ratio.array() < lost_below).cast<double>();
   a.loss_from = 0.9 * a.loss_to;
   a.peak_tooth_load = MatrixRM::Constant(n, 2, 40 * torque);
-  a.held_tooth_load = MatrixRM::Constant(n, 2, 32 * torque);
+  a.sustained_tooth_load = MatrixRM::Constant(n, 2, 32 * torque);
   a.mesh_frequency = Eigen::VectorXd{{2000, 2400, 2800}};
   a.load_frequency = 2400;
   a.tooth_load = MatrixRM::Constant(n, 2, 20 * torque);
-  a.held_load_there = MatrixRM::Constant(n, 2, 16 * torque);
+  a.sustained_load_there = MatrixRM::Constant(n, 2, 16 * torque);
   a.dte_rms_there = MatrixRM::Constant(n, 2, 1e-6);
   for (int d = 0; d < 2; ++d) {
     a.dte_rms[d] = MatrixRM::Constant(n, 3, 1e-6);
@@ -118,21 +118,21 @@ TEST_CASE(
   cases.damping_ratio = {0.10};
   cases.load_frequency = 2400;
   long reports = 0;
-  const JumpMapArtifact map = jump_map(coarse(), coarse(), rest(), 150, motion(), cases,
-                                       [&](long done, long total, const std::string&) {
-                                         CHECK(done == ++reports);
-                                         CHECK(total == 4);
-                                       });
+  const JumpMapResult map = jump_map(coarse(), coarse(), rest(), 150, motion(), cases,
+                                     [&](long done, long total, const std::string&) {
+                                       CHECK(done == ++reports);
+                                       CHECK(total == 4);
+                                     });
   CHECK(reports == 4);
   REQUIRE(map.mesh_frequency.size() == 14);
-  const StaticArtifact statics = static_transmission(coarse(), coarse(), rest(), 150);
+  const StaticResult statics = static_transmission(coarse(), coarse(), rest(), 150);
   SweepParameters settings = motion();
   settings.frequency_from = 1700;
   settings.frequency_to = 3000;
   settings.frequency_step = 100;
   settings.damping.rayleigh_stiffness = 5.5e-6;
   for (const Direction direction : {Direction::up, Direction::down}) {
-    const SweepArtifact alone =
+    const SweepResult alone =
         sweep(coarse(), coarse(), statics, statics.mean_stiffness, settings, direction, no_report);
     REQUIRE(alone.jump_frequency.size() == 1);
     const int d = direction == Direction::up ? 0 : 1;
@@ -140,8 +140,8 @@ TEST_CASE(
     const int row = d == 0 ? 7 : 6;  // 2400 Hz
     REQUIRE(alone.mesh_frequency[row] == 2400);
     CHECK(map.tooth_load(0, d) == alone.tooth_load[row].maxCoeff());
-    CHECK(map.held_load_there(0, d) == held_load(alone.tooth_load[row], 128));
-    CHECK(map.held_load_there(0, d) == relative(map.tooth_load(0, d), 2e-2));
+    CHECK(map.sustained_load_there(0, d) == sustained_load(alone.tooth_load[row], 128));
+    CHECK(map.sustained_load_there(0, d) == relative(map.tooth_load(0, d), 2e-2));
     CHECK(map.dte_rms_there(0, d) == relative(rms(alone, row), 1e-12));
   }
   CHECK(map.two_branches[0] == 1);
@@ -155,7 +155,7 @@ TEST_CASE(
   // Where the branches go on below the least speed.
   JumpMapPlan cut = plan(2200, 2900, 100);
   cut.rayleigh_stiffness = {5.5e-6};
-  const JumpMapArtifact open = jump_map(coarse(), coarse(), rest(), 150, motion(), cut, no_report);
+  const JumpMapResult open = jump_map(coarse(), coarse(), rest(), 150, motion(), cut, no_report);
   CHECK(open.two_branches[0] == 1);
   CHECK(open.open_below[0] == 1);
   CHECK(open.branches_from[0] == 2200);
@@ -163,14 +163,14 @@ TEST_CASE(
 
   StaticParameters on_strips = rest();
   on_strips.fidelity.contact = ContactModel::strips;
-  const StaticArtifact fixed = static_transmission(coarse(), coarse(), on_strips, 150);
+  const StaticResult fixed = static_transmission(coarse(), coarse(), on_strips, 150);
   ImpactPlan impact_plan;
   impact_plan.phases = 16;
   for (int c = 0; c < 2; ++c) {
     ImpactParameters ring = motion();
     ring.fidelity.contact = ContactModel::strips;
     ring.damping.rayleigh_stiffness = map.rayleigh_stiffness[c];
-    const ImpactArtifact decay =
+    const ImpactResult decay =
         impact(coarse(), coarse(), fixed, map.bearing_stiffness, ring, impact_plan, [](long, long) {});
     for (size_t s = 0; s < decay.contact_state.size(); ++s)
       if (decay.contact_state[s] == ContactState::two) {
@@ -182,27 +182,28 @@ TEST_CASE(
   CHECK(map.damping_ratio[1] == relative(0.10, 1e-8));
 }
 
-TEST_CASE("a held load leaves out what lasts no longer than 1/64 of a period, in one pair as in the other") {
+TEST_CASE(
+    "a sustained load leaves out what lasts no longer than 1/64 of a period, in one pair as in the other") {
   MatrixRM load = MatrixRM::Constant(128, 2, 10);
   load.col(1).setConstant(5);
   load(40, 1) = load(41, 1) = 100;
-  CHECK(held_load(load, 128) == 10);
+  CHECK(sustained_load(load, 128) == 10);
   load(42, 1) = 50;
-  CHECK(held_load(load, 128) == 50);
+  CHECK(sustained_load(load, 128) == 50);
   load(127, 0) = load(126, 0) = 200;  // whatever stands at the ends
-  CHECK(held_load(load, 128) == 50);
-  CHECK(held_load(load.topRows(64), 64) == 100);  // two samples of 64 are as long
+  CHECK(sustained_load(load, 128) == 50);
+  CHECK(sustained_load(load.topRows(64), 64) == 100);  // two samples of 64 are as long
   // Where the motion repeats its end is followed by its begin; what stands behind it is not looked at.
   load(0, 0) = 150;
-  CHECK(held_load(load, 128) == 50);
-  CHECK(held_load(load, 128, 1) == 150);
-  CHECK(held_load(load, 64, 1) == 100);
+  CHECK(sustained_load(load, 128) == 50);
+  CHECK(sustained_load(load, 128, 1) == 150);
+  CHECK(sustained_load(load, 64, 1) == 100);
   // 64 does not divide 100: three samples span 0.02 of a period, two would span less than 1/64.
   MatrixRM other = MatrixRM::Constant(100, 1, 10);
   other(30, 0) = other(31, 0) = 100;
-  CHECK(held_load(other, 100) == 10);
+  CHECK(sustained_load(other, 100) == 10);
   other(32, 0) = 70;
-  CHECK(held_load(other, 100) == 70);
+  CHECK(sustained_load(other, 100) == 70);
 }
 
 TEST_CASE("maps that cannot be are rejected with what, value and limit") {
@@ -235,16 +236,16 @@ TEST_CASE("maps that cannot be are rejected with what, value and limit") {
 }
 
 TEST_CASE("a map that was written reads back, and tells what differs from another") {
-  const JumpMapArtifact a = small_map(150, true, {0.04, 0.06}, 0.05);
+  const JumpMapResult a = small_map(150, true, {0.04, 0.06}, 0.05);
   const std::string path = (std::filesystem::temp_directory_path() / "whine_jump_map.h5").string();
   write(path, a, {"test", "test", {}});
-  JumpMapArtifact b = read_jump_map(path);
+  JumpMapResult b = read_jump_map(path);
   std::filesystem::remove(path);
   CHECK(a.damping_ratio == b.damping_ratio);
   CHECK(a.two_branches == b.two_branches);
   CHECK(a.tooth_load == b.tooth_load);
-  CHECK(a.held_load_there == b.held_load_there);
-  CHECK(a.held_tooth_load == b.held_tooth_load);
+  CHECK(a.sustained_load_there == b.sustained_load_there);
+  CHECK(a.sustained_tooth_load == b.sustained_tooth_load);
   CHECK(a.separation_fraction[1] == b.separation_fraction[1]);
   CHECK(a.jump_frequency == b.jump_frequency);
   CHECK(a.gear[0].design.bore_radius == b.gear[0].design.bore_radius);
@@ -259,17 +260,16 @@ TEST_CASE("a map that was written reads back, and tells what differs from anothe
 }
 
 TEST_CASE("the map's figure says what its data say") {
-  std::vector<JumpMapArtifact> maps;
+  std::vector<JumpMapResult> maps;
   for (const double torque : {100.0, 150.0, 600.0}) {
     maps.push_back(small_map(torque, true, {0.05, 0.07, 0.09}, torque < 150 ? 0.08 : 0.06));
     maps.push_back(small_map(torque, false, {0.05, 0.07, 0.09}, 0.15));
   }
   Figure figure = jump_map_figure(maps);
   CHECK(says(figure, "at 7 %, corner contact: two branches at no torque, contact lost at 100 N m"));
-  CHECK(says(figure,
-             "at 7 %, no corner contact: two branches at every torque from 100 to 600 N m, contact lost at "
-             "every torque "
-             "from 100 to 600 N m"));
+  CHECK(says(
+      figure,
+      "at 7 %, no corner contact: two branches at every torque from 100 to 600 N m, contact lost at every torque from 100 to 600 N m"));
   CHECK(says(figure, "contact is lost at every torque with: no corner contact; P2000"));
   CHECK(says(figure, "single samples reach 1.25 times as much"));
   CHECK(says(figure, "P2000 prints 3.00 and 4.85; corner contact 2.4; no corner contact 2.4 and 2.4"));
@@ -277,14 +277,14 @@ TEST_CASE("the map's figure says what its data say") {
   CHECK(says(figure, "above 1.67 (median of 3 limits"));
   CHECK(figure.blocks[0].rows.size() == 11);
   CHECK(figure.blocks[1].rows[0][6] == 2);
-  for (JumpMapArtifact& a : maps)
+  for (JumpMapResult& a : maps)
     if (!a.mesh.corner.enabled && a.torque == 600) a.loss_to.setZero();
   figure = jump_map_figure(maps);
   CHECK(says(figure, "contact is lost at every torque with: none of these"));
-  std::vector<JumpMapArtifact> split = maps;
-  for (JumpMapArtifact& a : split) a.damping.rayleigh_mass = 1337;
+  std::vector<JumpMapResult> split = maps;
+  for (JumpMapResult& a : split) a.damping.rayleigh_mass = 1337;
   CHECK(says(jump_map_figure(split), "no corner contact, mu 1337 1/s: two branches"));
-  for (JumpMapArtifact& a : maps) a.gear[0].design.teeth = 40;
+  for (JumpMapResult& a : maps) a.gear[0].design.teeth = 40;
   CHECK(!says(jump_map_figure(maps), "P2000"));
   maps.push_back(maps[0]);
   CHECK(thrown([&] { jump_map_figure(maps); }).second.find("two maps of 100 N m") != std::string::npos);
@@ -295,12 +295,12 @@ TEST_CASE("the map's figure says what its data say") {
 }
 
 TEST_CASE("the figure of lumped models tells which keep contact, and how they agree with the elastic pair") {
-  std::vector<JumpMapArtifact> maps;
+  std::vector<JumpMapResult> maps;
   for (const double torque : {100.0, 200.0, 300.0}) {
-    JumpMapArtifact elastic = small_map(torque, true, {0.06, 0.08, 0.10}, torque < 150 ? 0.09 : 0.07);
+    JumpMapResult elastic = small_map(torque, true, {0.06, 0.08, 0.10}, torque < 150 ? 0.09 : 0.07);
     maps.push_back(elastic);
     maps.push_back(small_map(torque, false, {0.06, 0.08, 0.10}, 0.15));  // another corner rule: left out
-    JumpMapArtifact secant = elastic;
+    JumpMapResult secant = elastic;
     secant.model = "secant";
     if (torque == 300) secant.loss_to.setZero();  // one cell of nine differs
     maps.push_back(secant);
@@ -312,22 +312,22 @@ TEST_CASE("the figure of lumped models tells which keep contact, and how they ag
   Figure figure = lumped_jump_map_figure(maps);
   for (const std::string& note : figure.notes) INFO(note);
   CHECK(figure.blocks.size() == 3);
-  CHECK(says(figure,
-             "two branches at every torque: rectangular, damper in contact; contact lost at every "
-             "torque: rectangular, damper in contact"));
+  CHECK(says(
+      figure,
+      "two branches at every torque: rectangular, damper in contact; contact lost at every torque: rectangular, damper in contact"));
   CHECK(says(figure, "kept at 200 and 300 N m: elastic pair, corner contact; secant"));
   // Lost in 4 cells of 9 of the elastic pair, 3 of secant, 9 of the other; two branches in 0, 0 and 9. First harmonic 0.1 of
   // the mean; 6 % is kept by secant alone.
-  CHECK(says(figure,
-             "elastic pair, corner contact: at 8 % two branches at no torque, contact lost at 100 N m; "
-             "(a) 1.25/1.25; (c) 8 %"));
-  CHECK(says(figure,
-             "secant: at 8 % two branches at no torque, contact lost at 100 N m; (a) 1.25/1.67; (b) "
-             "89/100 %; (c) 8 %"));
+  CHECK(says(
+      figure,
+      "elastic pair, corner contact: at 8 % two branches at no torque, contact lost at 100 N m; (a) 1.25/1.25; (c) 8 %"));
+  CHECK(says(
+      figure,
+      "secant: at 8 % two branches at no torque, contact lost at 100 N m; (a) 1.25/1.67; (b) 89/100 %; (c) 8 %"));
   CHECK(says(figure, "at every torque from 100 to 300 N m; (a) 1/-; (b) 44/0 %; (c) none"));
-  for (JumpMapArtifact& a : maps) a.gear[0].design.teeth = 40;
+  for (JumpMapResult& a : maps) a.gear[0].design.teeth = 40;
   CHECK(!says(lumped_jump_map_figure(maps), "P2000's second"));
-  std::erase_if(maps, [](const JumpMapArtifact& a) { return a.model == "finite elements"; });
+  std::erase_if(maps, [](const JumpMapResult& a) { return a.model == "finite elements"; });
   figure = lumped_jump_map_figure(maps);
   CHECK(figure.blocks.size() == 2);
   CHECK(!says(figure, "as the elastic pair"));
@@ -340,8 +340,8 @@ TEST_CASE("the figure of lumped models tells which keep contact, and how they ag
 }
 
 TEST_CASE("sensitivity: changes against the base, rows of one key together") {
-  const JumpMapArtifact base = small_map(150, true, {0.05}, 0.2);
-  JumpMapArtifact bore = base, stiff = base, corner = base;
+  const JumpMapResult base = small_map(150, true, {0.05}, 0.2);
+  JumpMapResult bore = base, stiff = base, corner = base;
   bore.gear[0].design.bore_radius = bore.gear[1].design.bore_radius = 35e-3;
   bore.mean_stiffness = 437e6;
   bore.branches_from[0] = 1850;

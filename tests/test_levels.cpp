@@ -23,8 +23,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 // 20 teeth on a thin rim, four-node elements as coarse as they get; reduced once per number of modes.
-const BodyArtifact& coarse_body(int modes) {
-  static std::map<int, BodyArtifact> cache;
+const ReducedBody& coarse_body(int modes) {
+  static std::map<int, ReducedBody> cache;
   if (!cache.count(modes)) {
     BodyDiscretisation discretisation;
     discretisation.element_size = 3e-3;
@@ -57,8 +57,8 @@ SweepParameters coarse_sweep(double from, double to, double step, BodyModel body
 
 TEST_CASE("every mode: their sum is the flexibility of the mesh, solved for on the whole gear, to 1e-9" *
           doctest::skip()) {
-  const BodyArtifact& body = coarse_body(kAllModes);
-  const MeshArtifact mesh = make_sector_mesh(body.design, body.discretisation);
+  const ReducedBody& body = coarse_body(kAllModes);
+  const SectorGrid mesh = make_sector_mesh(body.design, body.discretisation);
   const WholeGear whole = replicate(mesh);
   const PlaneSystem full =
       assemble(whole.node_position, whole.element_node, body.material, body.design.face_width);
@@ -103,7 +103,7 @@ TEST_CASE("every mode: their sum is the flexibility of the mesh, solved for on t
     CHECK((sum - (on_tooth(tooth).transpose() * solution).real()).norm() < 1e-9 * norm);
   }
   // The lowest are those that the sparse eigensolver finds, in the same order.
-  const BodyArtifact& few = coarse_body(21);
+  const ReducedBody& few = coarse_body(21);
   for (int c = 0; c < few.eigenfrequency.size(); ++c)
     CHECK(body.eigenfrequency[c] == relative(few.eigenfrequency[c], 1e-9));
   CHECK((body.flank_mode.leftCols(21).cwiseAbs() - few.flank_mode.leftCols(21).cwiseAbs()).norm() <
@@ -114,14 +114,14 @@ TEST_CASE("every mode: their sum is the flexibility of the mesh, solved for on t
 TEST_CASE("every mode: a mesh that is too fine is rejected with its numbers and with one that is not") {
   BodyDiscretisation fine;
   fine.element_size = 0.4e-3;
-  const MeshArtifact mesh = make_sector_mesh(coarse_body(21).design, fine);
+  const SectorGrid mesh = make_sector_mesh(coarse_body(21).design, fine);
   const std::string message = message_of_input([&] { reduce(mesh, coarse_body(21).material, kAllModes); });
   INFO(message);
   CHECK(message.find("unknowns; at most 1500 are found") != std::string::npos);
   CHECK(message.find("element_order = 1 and element_mm = ") != std::string::npos);
   // Other model levels know no such limit, and "full" does not go without.
-  const BodyArtifact& few = coarse_body(21);
-  const StaticArtifact statics = static_transmission(few, few, coarse_statics(ContactModel::line), 50);
+  const ReducedBody& few = coarse_body(21);
+  const StaticResult statics = static_transmission(few, few, coarse_statics(ContactModel::line), 50);
   const std::string lacking = message_of_input([&] {
     sweep(few, few, statics, statics.mean_stiffness,
           coarse_sweep(3000, 3000, 1, BodyModel::full, ContactModel::line), Direction::up, no_report);
@@ -138,9 +138,9 @@ TEST_CASE("every mode: a mesh that is too fine is rejected with its numbers and 
 }
 
 TEST_CASE("every mode: at rest the static transmission error, on lines and strips") {
-  const BodyArtifact& body = coarse_body(kAllModes);
+  const ReducedBody& body = coarse_body(kAllModes);
   for (const auto contact : {ContactModel::strips, ContactModel::line}) {
-    const StaticArtifact statics = static_transmission(body, body, coarse_statics(contact), 50, 2);
+    const StaticResult statics = static_transmission(body, body, coarse_statics(contact), 50, 2);
     const GearMeshModel model(body, body, statics.mesh);
     const double load = 50 / model.kinematics.gear(0).base_radius();
     DynamicParameters parameters = paper_parameters(statics.mean_stiffness, BodyModel::full, contact);
@@ -160,28 +160,28 @@ TEST_CASE("every mode: at rest the static transmission error, on lines and strip
 
 TEST_CASE("every mode against 61 modes and relaxed loads on the same mesh, both integrators" *
           doctest::skip()) {
-  const BodyArtifact &all = coarse_body(kAllModes), &some = coarse_body(61);
-  const StaticArtifact statics = static_transmission(all, all, coarse_statics(ContactModel::line), 50);
+  const ReducedBody &all = coarse_body(kAllModes), &some = coarse_body(61);
+  const StaticResult statics = static_transmission(all, all, coarse_statics(ContactModel::line), 50);
   for (const double frequency : {2500.0, 4000.0, 6000.0})
     for (const auto integrator : {Integrator::exact, Integrator::newmark}) {
       SweepParameters settings = coarse_sweep(frequency, frequency, 1, BodyModel::full, ContactModel::line);
       settings.fidelity.integrator = integrator;
-      const SweepArtifact full =
+      const SweepResult full =
           sweep(all, all, statics, statics.mean_stiffness, settings, Direction::up, no_report);
       settings.fidelity.body = BodyModel::modal;
-      const SweepArtifact modal =
+      const SweepResult modal =
           sweep(some, some, statics, statics.mean_stiffness, settings, Direction::up, no_report);
       INFO(frequency << " Hz, " << integrator);
       CHECK(rms(full, 0) == relative(rms(modal, 0), 0.03));  // 2.1, 0.2, 0.3 %
       CHECK(rms(full, 0) != rms(modal, 0));
-      const auto peak = [](const SweepArtifact& of) { return of.tooth_load[0].maxCoeff(); };
+      const auto peak = [](const SweepResult& of) { return of.tooth_load[0].maxCoeff(); };
       if (frequency < 5000) {
         CHECK(peak(full) == relative(peak(modal), 0.03));
       } else {
         // The largest load is that of a pair that comes in, and the higher the less of the compliance is undamped: 1583 N
         // at a depth of 0.5 mm, 1882 N at 0.1 mm, 2056 N with every mode; with 512 steps 1598, 1859, 2075 N.
         settings.damping.undamped_depth = 0.1e-3;
-        const SweepArtifact shallow =
+        const SweepResult shallow =
             sweep(some, some, statics, statics.mean_stiffness, settings, Direction::up, no_report);
         CHECK(peak(shallow) > 1.1 * peak(modal));
         CHECK(peak(full) > 1.05 * peak(shallow));
@@ -193,8 +193,7 @@ TEST_CASE("every mode against 61 modes and relaxed loads on the same mesh, both 
 }
 
 TEST_CASE(
-    "relaxed loads: a Rayleigh time above a quarter of a mesh period is rejected before anything is "
-    "computed") {
+    "relaxed loads: a Rayleigh time above a quarter of a mesh period is rejected before anything is computed") {
   Damping damping;
   damping.rayleigh_stiffness = 1e-3;
   const std::string message =
@@ -204,22 +203,22 @@ TEST_CASE(
     CAPTURE(words);
     CHECK(message.find(words) != std::string::npos);
   }
-  CHECK_THROWS_AS(require_relaxation_range(damping, BodyModel::lagged, 251), Error);
+  CHECK_THROWS_AS(require_relaxation_range(damping, BodyModel::relaxed, 251), Error);
   // Nothing rolls, nothing relaxes, or every mode has its own damping.
   CHECK_NOTHROW(require_relaxation_range(damping, BodyModel::modal, 0));
   for (const BodyModel body : {BodyModel::rigid, BodyModel::quasi_static, BodyModel::full})
     CHECK_NOTHROW(require_relaxation_range(damping, body, 4000));
   SweepParameters settings = coarse_sweep(2000, 4000, 100, BodyModel::modal, ContactModel::line);
-  CHECK_NOTHROW(dynamic_parameters(StaticArtifact(), 4e8, settings, settings.frequency_to));
+  CHECK_NOTHROW(dynamic_parameters(StaticResult(), 4e8, settings, settings.frequency_to));
   settings.damping = damping;
-  CHECK_THROWS_AS(dynamic_parameters(StaticArtifact(), 4e8, settings, settings.frequency_to), Error);
+  CHECK_THROWS_AS(dynamic_parameters(StaticResult(), 4e8, settings, settings.frequency_to), Error);
 }
 
 TEST_CASE("model levels of the body: each is nearer to the one with the most modes than the level below it") {
-  const BodyArtifact& body = paper_body(40e-3, 0.8e-3, 61);
+  const ReducedBody& body = paper_body(40e-3, 0.8e-3, 61);
   StaticParameters statics_parameters = paper_statics(128);
   statics_parameters.fidelity.contact = ContactModel::line;
-  const StaticArtifact statics = static_transmission(body, body, statics_parameters, 150);
+  const StaticResult statics = static_transmission(body, body, statics_parameters, 150);
   // At 3500 Hz the rigid gears, which next to nothing damps, wander through hundreds of periods before they settle: the last
   // digits of a start decide on which motion, and one start in twenty comes upon loads beyond Hertz's law on the way.
   for (const double frequency : {1350.0, 3300.0}) {
@@ -229,32 +228,32 @@ TEST_CASE("model levels of the body: each is nearer to the one with the most mod
       settings.fidelity.body = level;
       return rms(sweep(body, body, statics, statics.mean_stiffness, settings, Direction::up, no_report), 0);
     };
-    const double modal = with(BodyModel::modal), lagged = std::abs(with(BodyModel::lagged) / modal - 1),
+    const double modal = with(BodyModel::modal), relaxed = std::abs(with(BodyModel::relaxed) / modal - 1),
                  at_once = std::abs(with(BodyModel::quasi_static) / modal - 1),
                  rigid = std::abs(with(BodyModel::rigid) / modal - 1);
-    CHECK(lagged > 0);
-    CHECK(lagged < 0.03);
-    CHECK(lagged < at_once);
+    CHECK(relaxed > 0);
+    CHECK(relaxed < 0.03);
+    CHECK(relaxed < at_once);
     CHECK(at_once < 0.5 * rigid);
   }
 }
 
 TEST_CASE("what the next model level changes: its sweeps are those of a scene one model level up") {
-  const BodyArtifact& body = paper_body();
+  const ReducedBody& body = paper_body();
   StaticParameters line = paper_statics(128);
   line.contact.strips = 8;
   line.fidelity.contact = ContactModel::line;
-  const StaticArtifact statics = static_transmission(body, body, line, 150),
-                       reference = static_transmission(body, body, line, 100);
+  const StaticResult statics = static_transmission(body, body, line, 150),
+                     reference = static_transmission(body, body, line, 100);
   SweepParameters settings = paper_sweep(1300, 1400, 50);
   settings.fidelity.contact = ContactModel::line;
-  settings.fidelity.body = BodyModel::lagged;
+  settings.fidelity.body = BodyModel::relaxed;
   const std::vector<NextSweep> next = next_sweeps(body, body, statics, reference, settings);
   REQUIRE(next.size() == 2);
   CHECK(next[0].key == "contact");
   CHECK(next[0].to == "strips");
   CHECK(next[0].settings.fidelity.contact == ContactModel::strips);
-  CHECK(next[0].settings.fidelity.body == BodyModel::lagged);
+  CHECK(next[0].settings.fidelity.body == BodyModel::relaxed);
   line.fidelity.contact = ContactModel::strips;
   CHECK(next[0].statics.transmission_error == static_transmission(body, body, line, 150).transmission_error);
   CHECK(next[0].mean_stiffness == static_transmission(body, body, line, 100).mean_stiffness);
@@ -263,9 +262,9 @@ TEST_CASE("what the next model level changes: its sweeps are those of a scene on
   CHECK(next[1].settings.fidelity.contact == ContactModel::line);
   CHECK(next[1].mean_stiffness == reference.mean_stiffness);
 
-  const SweepArtifact here =
+  const SweepResult here =
       sweep(body, body, statics, reference.mean_stiffness, settings, Direction::up, no_report);
-  SweepArtifact there = here;
+  SweepResult there = here;
   const SweepChange none = sweep_change(here, there);
   CHECK(none.compared == 3);
   CHECK(none.apart + none.uneven == 0);
@@ -294,8 +293,8 @@ TEST_CASE("what the next model level changes: its sweeps are those of a scene on
 
 TEST_CASE("what the next model level changes: after the last one, and where the mesh is too fine for it" *
           doctest::skip()) {
-  const BodyArtifact& fine = paper_body();
-  const StaticArtifact statics = static_transmission(fine, fine, paper_statics(16), 150);
+  const ReducedBody& fine = paper_body();
+  const StaticResult statics = static_transmission(fine, fine, paper_statics(16), 150);
   const std::string both =
       message_of_input([&] { next_sweeps(fine, fine, statics, statics, paper_sweep(2000, 2000, 1)); });
   INFO(both);
@@ -308,8 +307,8 @@ TEST_CASE("what the next model level changes: after the last one, and where the 
           next_sweeps(fine, fine, statics, statics, last);
         }).find("body = \"full\" is the last model level of body") != std::string::npos);
 
-  const BodyArtifact& coarse = coarse_body(61);
-  const StaticArtifact at = static_transmission(coarse, coarse, coarse_statics(ContactModel::strips), 50);
+  const ReducedBody& coarse = coarse_body(61);
+  const StaticResult at = static_transmission(coarse, coarse, coarse_statics(ContactModel::strips), 50);
   const std::vector<NextSweep> next = next_sweeps(
       coarse, coarse, at, at, coarse_sweep(4000, 4000, 1, BodyModel::modal, ContactModel::strips));
   REQUIRE(next.size() == 1);

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "contact/half_plane.h"
 #include "failure_of.h"
 #include "io/h5.h"
 #include "io/loaded_codec.h"
@@ -17,7 +18,6 @@
 #include "io/static_codec.h"
 #include "paper_pair.h"
 #include "relative.h"
-#include "solid/half_plane.h"
 #include "solid/loaded_gear.h"
 #include "system/loaded_pair.h"
 
@@ -31,27 +31,26 @@ const PlaneModuli kModuli = plane_strain_equivalent(paper_steel());
 
 // A coarse mesh of the paper's gear and its body, once.
 struct Coarse {
-  MeshArtifact mesh;
-  BodyArtifact body;
+  SectorGrid mesh;
+  ReducedBody body;
 };
 const Coarse& coarse() {
   static const Coarse made = [] {
     BodyDiscretisation discretisation;
     discretisation.element_size = 0.8e-3;
-    const MeshArtifact mesh = make_sector_mesh(paper_gear(), discretisation);
+    const SectorGrid mesh = make_sector_mesh(paper_gear(), discretisation);
     return Coarse{mesh, reduce(mesh, paper_steel(), 0)};
   }();
   return made;
 }
 
-const StaticArtifact& coarse_statics() {
-  static const StaticArtifact made =
-      static_transmission(coarse().body, coarse().body, paper_statics(16), 150);
+const StaticResult& coarse_statics() {
+  static const StaticResult made = static_transmission(coarse().body, coarse().body, paper_statics(16), 150);
   return made;
 }
 
-const LoadedArtifact& loaded_at(double phase) {
-  static std::map<double, LoadedArtifact> made;
+const LoadedResult& loaded_at(double phase) {
+  static std::map<double, LoadedResult> made;
   if (!made.count(phase))
     made[phase] =
         loaded_pair(coarse().mesh, coarse().mesh, coarse().body, coarse().body, coarse_statics(), phase, 0);
@@ -59,7 +58,7 @@ const LoadedArtifact& loaded_at(double phase) {
 }
 
 // What is rounded for the view: near load to 4 nm and 1.3e-4 of each value, elsewhere to 2 um and 1/64 of the largest value there.
-void check_digits(const std::string& path, const LoadedArtifact& at) {
+void check_digits(const std::string& path, const LoadedResult& at) {
   std::ifstream in(path, std::ios::binary);
   const h5::Reader file(std::string(std::istreambuf_iterator<char>(in), {}), path, "");
   std::vector<bool> near(static_cast<size_t>(at.vtk_point.rows()), false);
@@ -144,7 +143,7 @@ TEST_CASE("loaded: hubs hold the torque, energy is the work, flanks give way as 
   double with_corner = 0;
   for (double phase : {0.0, 0.25, 0.5, 0.9}) {
     CAPTURE(phase);
-    const LoadedArtifact& at = loaded_at(phase);
+    const LoadedResult& at = loaded_at(phase);
     const double base_radius = ToothGeometry(paper_gear()).base_radius();
     for (int g = 0; g < kSides; ++g) {
       CAPTURE(g);
@@ -175,7 +174,7 @@ TEST_CASE("loaded: hubs hold the torque, energy is the work, flanks give way as 
 }
 
 TEST_CASE("loaded: both gears stand in mesh, and strips lie on each other's flanks") {
-  const LoadedArtifact& at = loaded_at(0.25);
+  const LoadedResult& at = loaded_at(0.25);
   const Eigen::Index strips = at.strip_force.size(), lines = at.vtk_line.rows();
   REQUIRE(lines == 2 * strips);
   const auto field = [&](const char* name) -> const MatrixRM& {
@@ -216,7 +215,7 @@ TEST_CASE("loaded: both gears stand in mesh, and strips lie on each other's flan
 }
 
 TEST_CASE("loaded: what is shown has mid nodes about the loaded teeth alone, and no point that nothing has") {
-  const LoadedArtifact& at = loaded_at(0.25);
+  const LoadedResult& at = loaded_at(0.25);
   std::vector<bool> used(static_cast<size_t>(at.vtk_point.rows()), false);
   const MatrixRM &gear = at.vtk_cell_data[0].values, &tooth = at.vtk_cell_data[1].values;
   Eigen::Index coarse = 0;
@@ -242,11 +241,11 @@ TEST_CASE("loaded: what is shown has mid nodes about the loaded teeth alone, and
 }
 
 TEST_CASE("loaded: artifacts are read as they were written, and what cannot be shown is rejected") {
-  const LoadedArtifact& at = loaded_at(0.25);
+  const LoadedResult& at = loaded_at(0.25);
   const std::string path =
       (std::filesystem::temp_directory_path() / text("whine_loaded_", getpid(), ".h5")).string();
   write(path, at, {"test", "test", {}});
-  const LoadedArtifact back = read_loaded(path);
+  const LoadedResult back = read_loaded(path);
   CHECK(back.strip_pressure == at.strip_pressure);
   CHECK(back.strip_deflection == at.strip_deflection);
   CHECK(back.root_stress == at.root_stress);
@@ -263,7 +262,7 @@ TEST_CASE("loaded: artifacts are read as they were written, and what cannot be s
 
   CHECK(failure_of([] { loaded_at(1.0); }) == Failure::input);
   CHECK(failure_of([] { loaded_gear(coarse().mesh, paper_steel(), {}); }) == Failure::input);
-  MeshArtifact cracked = coarse().mesh;
+  SectorGrid cracked = coarse().mesh;
   cracked.design.crack.depth = 1e-3;
   CHECK(failure_of([&] { loaded_gear(cracked, paper_steel(), {{0, 0.4, 1e-4, 1.0}}); }) == Failure::input);
 }

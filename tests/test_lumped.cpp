@@ -52,7 +52,7 @@ std::vector<double> speeds(double from, double to, double step) {
 
 LumpedOrbit steady(LumpedOscillator& o, double mesh_frequency) {
   o.set_speed(mesh_frequency);
-  return find_periodic_orbit(o, o.rest(), 1e-6, false);
+  return iterate_to_orbit(o, o.rest(), 1e-6, false);
 }
 
 // Ends of the two branches: where a sweep down and a sweep up leave theirs.
@@ -216,7 +216,7 @@ TEST_CASE("lumped: a slow transient near twice its natural frequency is no subha
   for (double periodicity : {1e-5, 1e-6})
     for (double f : {0.99 * twice, 0.997 * twice, twice, 1.003 * twice}) {
       light.set_speed(f);
-      const LumpedOrbit orbit = find_periodic_orbit(light, light.rest(), periodicity, true);
+      const LumpedOrbit orbit = iterate_to_orbit(light, light.rest(), periodicity, true);
       INFO((f / twice) << " of twice, " << orbit.periods << " periods");
       CHECK(orbit.multiple == 1);
     }
@@ -391,7 +391,7 @@ TEST_CASE("lumped: cells that carry the means of a curve converge with their squ
 }
 
 TEST_CASE("lumped: models from a static result") {
-  const StaticArtifact s = static_transmission(paper_body(), paper_body(), paper_statics(128), 150);
+  const StaticResult s = static_transmission(paper_body(), paper_body(), paper_statics(128), 150);
   const double force = 150 / kRadius;
   // A spring per pair: at rest at the static positions.
   Eigen::VectorXi numbers;
@@ -422,7 +422,7 @@ TEST_CASE("lumped: models from a static result") {
         : model == "rectangular"
             ? cells_of(rectangular_wave(s))
             : cells_of(model == "secant" ? s.stiffness_secant : s.stiffness_tangent, 128);
-    const SweepArtifact a =
+    const SweepResult a =
         lumped_sweep(s, springs, model == "pairs" ? numbers : Eigen::VectorXi::Zero(1).eval(), o, no_report);
     CHECK(a.mesh_frequency[0] == 2200);
     CHECK(a.period_multiple.minCoeff() == 1);
@@ -432,7 +432,7 @@ TEST_CASE("lumped: models from a static result") {
     if (model == "secant" || model == "pairs") CHECK(a.mean_stiffness == relative(s.mean_stiffness, 1e-4));
     // The mean force over an orbit is the static one: the mass gains nothing and the damper's mean is 0.
     CHECK(a.mesh_force.row(0).mean() == relative(force, 2e-3));
-    const ResponseArtifact r = response(a);
+    const ResponseResult r = response(a);
     CHECK(r.model == model);
     CHECK(r.separation_fraction.maxCoeff() == 0);
   }
@@ -450,7 +450,7 @@ TEST_CASE("lumped: models from a static result") {
 TEST_CASE(
     "lumped: pairs under Hertz's law, as a polygon, against Runge and Kutta's method on the law itself") {
   const int cells = 128;
-  const StaticArtifact s = static_transmission(paper_body(), paper_body(), paper_statics(cells), 150);
+  const StaticResult s = static_transmission(paper_body(), paper_body(), paper_statics(cells), 150);
   const double force = 150 / kRadius;
   Eigen::VectorXi pair_numbers, spring_numbers;
   const LumpedParameters linear = cells_of_pairs(s, cells, pair_numbers);
@@ -547,14 +547,14 @@ TEST_CASE(
   o.frequency_from = o.frequency_to = 2000;
   o.frequency_step = 100;
   const LumpedParameters springs = cells_of_pairs(s, cells, spring_numbers, 16);
-  const SweepArtifact a = lumped_sweep(s, springs, spring_numbers, o, no_report);
+  const SweepResult a = lumped_sweep(s, springs, spring_numbers, o, no_report);
   REQUIRE(a.pair == pair_numbers);
   REQUIRE(a.tooth_load[0].cols() == pairs);
   CHECK(a.mesh_force.row(0).mean() == relative(force, 2e-3));
 }
 
 TEST_CASE("lumped: figures hold the numbers of their sweeps") {
-  const StaticArtifact s = static_transmission(paper_body(), paper_body(), paper_statics(128), 150);
+  const StaticResult s = static_transmission(paper_body(), paper_body(), paper_statics(128), 150);
   const RectangularWave wave = stated_wave(s, 2.93973e8, 5.16658e8, 0.755);
   LumpedOptions o;
   o.mass = 1.4;
@@ -562,8 +562,8 @@ TEST_CASE("lumped: figures hold the numbers of their sweeps") {
   o.frequency_from = 2100;
   o.frequency_to = 2600;
   o.frequency_step = 50;
-  std::vector<SweepArtifact> sweeps;
-  std::vector<ResponseArtifact> responses;
+  std::vector<SweepResult> sweeps;
+  std::vector<ResponseResult> responses;
   for (const Direction direction : {Direction::down, Direction::up}) {
     o.direction = direction;
     sweeps.push_back(lumped_sweep(s, cells_of(wave), Eigen::VectorXi::Zero(1), o, no_report));
@@ -580,16 +580,16 @@ TEST_CASE("lumped: figures hold the numbers of their sweeps") {
   CHECK(forces.notes[1].find("jump at 2525.3 Hz") != std::string::npos);
   for (const auto& [name, value] : forces.words) {
     if (name == "labels_a")
-      CHECK(value ==
-            "'2200 Hz, ratio 1.758, before its jump at 2172 Hz' '2200 Hz, ratio 1.758, before its "
-            "jump at 2525 Hz' ");
+      CHECK(
+          value ==
+          "'2200 Hz, ratio 1.758, before its jump at 2172 Hz' '2200 Hz, ratio 1.758, before its jump at 2525 Hz' ");
     if (name == "labels_b")
-      CHECK(value ==
-            "'2150 Hz, ratio 1.758, after its jump at 2172 Hz' '2150 Hz, ratio 1.758, before its "
-            "jump at 2525 Hz' ");
+      CHECK(
+          value ==
+          "'2150 Hz, ratio 1.758, after its jump at 2172 Hz' '2150 Hz, ratio 1.758, before its jump at 2525 Hz' ");
   }
 
-  const Background captions{{}, {sweeps[0].lumped, sweeps[1].lumped}, {}};
+  const CaptionSources captions{{}, {sweeps[0].lumped, sweeps[1].lumped}, {}};
   const Figure curves = response_figure(responses, captions);
   REQUIRE(curves.blocks.size() == 4);
   CHECK(curves.blocks[0].name == "a 150 N m up");
@@ -603,7 +603,7 @@ TEST_CASE("lumped: figures hold the numbers of their sweeps") {
   CHECK(curves.notes[2].find("(a) 150 N m: jumps rising 2525, falling 2172 Hz; ") == 0);
   CHECK_THROWS_AS(mesh_force_figure({}, {2200}), Error);
   CHECK_THROWS_AS(mesh_force_figure({sweeps[0]}, {}), Error);
-  CHECK_THROWS_AS(mesh_force_figure({SweepArtifact{}}, {2200}), Error);
+  CHECK_THROWS_AS(mesh_force_figure({SweepResult{}}, {2200}), Error);
 }
 
 TEST_CASE("lumped: what is no model is rejected by name") {
@@ -634,7 +634,7 @@ TEST_CASE("lumped: what is no model is rejected by name") {
   says([](auto& p) { p.cell_end[0] = 1.2; }, "must ascend");
   says([](auto& p) { p.gap.resize(1, 1); }, "of gaps");
   says([](auto&) {}, "force is 0 N", 0);
-  StaticArtifact place;
+  StaticResult place;
   place.gear[0].design = place.gear[1].design = paper_gear();
   place.mesh.centre_distance = 0.15;
   place.torque = 150;
@@ -656,7 +656,7 @@ TEST_CASE("lumped: what is no model is rejected by name") {
 }
 
 TEST_CASE("lumped: a cell of a map of jumps is what sweeps up and down of that model say") {
-  StaticArtifact statics;
+  StaticResult statics;
   statics.gear[0].design = statics.gear[1].design = paper_body(40e-3, 0.8e-3).design;
   statics.mesh = paper_statics(128).mesh;
   statics.torque = 150;
@@ -674,11 +674,11 @@ TEST_CASE("lumped: a cell of a map of jumps is what sweeps up and down of that m
   const LumpedParameters springs = wave(kLow, kHigh, 0.75, 0.07);
   const Eigen::VectorXi numbers = Eigen::VectorXi::Zero(1);
   long reports = 0;
-  const JumpMapArtifact map = lumped_jump_map(statics, springs, numbers, o, range, {0.07, 0.2},
-                                              [&](long done, long total, const std::string&) {
-                                                CHECK(done == ++reports);
-                                                CHECK(total == 4);
-                                              });
+  const JumpMapResult map = lumped_jump_map(statics, springs, numbers, o, range, {0.07, 0.2},
+                                            [&](long done, long total, const std::string&) {
+                                              CHECK(done == ++reports);
+                                              CHECK(total == 4);
+                                            });
   CHECK(reports == 4);
   CHECK(map.model == "rectangular");
   // Folds at 7 % from another program, see above; at 20 % contact is kept.
@@ -696,7 +696,7 @@ TEST_CASE("lumped: a cell of a map of jumps is what sweeps up and down of that m
   o.damping_ratio = 0.07;
   for (const Direction direction : {Direction::up, Direction::down}) {
     o.direction = direction;
-    const SweepArtifact alone = lumped_sweep(statics, springs, numbers, o, no_report);
+    const SweepResult alone = lumped_sweep(statics, springs, numbers, o, no_report);
     REQUIRE(alone.jump_frequency.size() == 1);
     const int d = direction == Direction::up ? 0 : 1;
     CHECK((d == 0 ? map.branches_to : map.branches_from)[0] == alone.jump_frequency[0]);

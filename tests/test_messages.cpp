@@ -78,10 +78,9 @@ TEST_CASE("a number may be written as a whole float; a decimal comma and a numbe
   const auto torques = [&](const std::string& list) {
     return scene_with("torque_Nm = [100, 150]", "torque_Nm = " + list);
   };
-  CHECK(contains(file.rejection(torques("[1624,77, 800]")),
-                 "holds 1624,77 without a blank and others with one: numbers have a decimal point, 1624.77; "
-                 "two numbers are "
-                 "written 1624, 77"));
+  CHECK(contains(
+      file.rejection(torques("[1624,77, 800]")),
+      "holds 1624,77 without a blank and others with one: numbers have a decimal point, 1624.77; two numbers are written 1624, 77"));
   for (const char* list :
        {"[1624, 77, 800]", "[1624,77,800]", "[1624.5,77, 800]", "[100,\n150,\n200]", "[1624,77]"}) {
     CAPTURE(list);
@@ -121,9 +120,9 @@ TEST_CASE("diameters of tip and root stand for addendum and dedendum") {
                  "gives 'tip_diameter_mm' and 'addendum', which say the same; give one of them"));
   CHECK(contains(file.rejection(with("root_diameter_mm = 144\ndedendum = 1.0\n")),
                  "gives 'root_diameter_mm' and 'dedendum'"));
-  CHECK(contains(file.rejection(with("tip_diameter_mm = 151.5\n")),
-                 "x.toml:3: 'tip_diameter_mm' in [gear.pinion] = 151.5: with 50 teeth, module_mm = 3 and "
-                 "profile_shift = 0.25 it must be between 151.5 and 169.5 mm"));
+  CHECK(contains(
+      file.rejection(with("tip_diameter_mm = 151.5\n")),
+      "x.toml:3: 'tip_diameter_mm' in [gear.pinion] = 151.5: with 50 teeth, module_mm = 3 and profile_shift = 0.25 it must be between 151.5 and 169.5 mm"));
   CHECK(
       contains(file.rejection(with("root_diameter_mm = 133.4\n")), "it must be between 133.5 and 151.5 mm"));
   std::string other = with("tip_diameter_mm = 157.5\n");

@@ -210,7 +210,7 @@ TEST_CASE("a carrier that turns is in the period map, pushed and turned by what 
   SystemDynamics& dynamics = turning().dynamics;
   SystemPeriodMap map(dynamics, kSteps);
   map.set_parameter(2600);
-  const PeriodicMotion motion = find_periodic_motion(map, map.rest(), {1e-10, 3000, true});
+  const PeriodicMotion motion = iterate_to_orbit(map, map.rest(), {1e-10, 3000, true});
   REQUIRE(motion.multiple == 1);
   map.apply(motion.state);
   const SystemDynamics::Period period = map.period();
@@ -371,10 +371,9 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "what a sweep leaves out of a carrier that turns: forces at the highest speed, by which gear stands "
-    "still") {
+    "what a sweep leaves out of a carrier that turns: forces at the highest speed, by which gear stands still") {
   const auto of = [](const Drives& drives) {
-    SystemSweepArtifact sweep;
+    SystemSweepResult sweep;
     sweep.settings.layout = train_with(drives, 0).layout;
     sweep.mesh_frequency = Eigen::Vector2d(3000, 1000);
     sweep.mesh_force.assign(2, MatrixRM::Constant(4, 6, 500));
@@ -411,8 +410,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "the shipped train whose carrier turns is the one whose carrier is held, with the carrier of Lin and "
-    "Parker") {
+    "the shipped train whose carrier turns is the one whose carrier is held, with the carrier of Lin and Parker") {
   const SystemScene held = read_system_scene("data/scenes/oh58-planetary.toml"),
                     scene = read_system_scene("data/scenes/oh58-planetary-carrier.toml"),
                     rigid = read_system_scene("data/scenes/lin-parker-planetary.toml");

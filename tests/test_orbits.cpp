@@ -9,7 +9,7 @@
 #include "failure_of.h"
 #include "paper_pair.h"
 #include "relative.h"
-#include "signal/branch_end.h"
+#include "signal/jumps.h"
 #include "signal/response.h"
 #include "studies/sweep.h"
 
@@ -34,12 +34,12 @@ struct Rig {
                                      6 * statics.transmission_error.maxCoeff()),
                       finest);
   }
-  static StaticArtifact at_rest(bool corner) {
+  static StaticResult at_rest(bool corner) {
     StaticParameters settings = paper_statics(128);
     settings.mesh.corner.enabled = corner;
     return static_transmission(paper_body(), paper_body(), settings, 150);
   }
-  static DynamicParameters parameters(const StaticArtifact& statics, double eta, Integrator integrator) {
+  static DynamicParameters parameters(const StaticResult& statics, double eta, Integrator integrator) {
     DynamicParameters p = paper_parameters(statics.mean_stiffness);
     p.damping.rayleigh_stiffness = eta;
     p.fidelity.integrator = integrator;
@@ -51,12 +51,12 @@ struct Rig {
     const double step = to > from ? width : -width;
     for (double f = from; step * (to - f) >= 0; f += step) {
       dynamics.set_speed(f, steps);
-      REQUIRE(find_periodic_orbit(dynamics, state, 1e-6, SteadyState::integrate));
+      REQUIRE(iterate_to_orbit(dynamics, state, 1e-6, SteadyState::integrate));
     }
     return state;
   }
 
-  StaticArtifact statics;
+  StaticResult statics;
   GearMeshModel model;
   RollingDynamics dynamics;
 };
@@ -77,15 +77,14 @@ VectorXd envelope(VectorXd error) {
 }  // namespace
 
 TEST_CASE(
-    "integrating and extrapolating end on the same orbit, on both branches; the second in a third of the "
-    "periods") {
+    "integrating and extrapolating end on the same orbit, on both branches; the second in a third of the periods") {
   Rig rig(128);
   for (const double from : {2000.0, 2900.0}) {  // lower and upper branch at 2400 Hz
     const State start = rig.carried(from, from < 2400 ? 2350 : 2450, 128);
     rig.dynamics.set_speed(2400, 128);
     State integrated = start, extrapolated = start;
-    const auto slow = find_periodic_orbit(rig.dynamics, integrated, 1e-9, SteadyState::integrate),
-               fast = find_periodic_orbit(rig.dynamics, extrapolated, 1e-9, SteadyState::extrapolate);
+    const auto slow = iterate_to_orbit(rig.dynamics, integrated, 1e-9, SteadyState::integrate),
+               fast = iterate_to_orbit(rig.dynamics, extrapolated, 1e-9, SteadyState::extrapolate);
     REQUIRE(slow);
     REQUIRE(fast);
     INFO("from " << from << " Hz: " << slow->periods << " and " << fast->periods << " periods");
@@ -104,9 +103,9 @@ TEST_CASE("the columns of one speed save periods at the next, on the same orbits
   AndersonAcceleration acceleration;
   for (double f = 2120; f <= 2400; f += 20) {
     rig.dynamics.set_speed(f, 128);
-    const auto one = find_periodic_orbit(rig.dynamics, state, 1e-7, SteadyState::extrapolate),
-               other = find_periodic_orbit(rig.dynamics, shared_state, 1e-7, SteadyState::extrapolate, {},
-                                           &acceleration);
+    const auto one = iterate_to_orbit(rig.dynamics, state, 1e-7, SteadyState::extrapolate),
+               other = iterate_to_orbit(rig.dynamics, shared_state, 1e-7, SteadyState::extrapolate, {},
+                                        &acceleration);
     REQUIRE(one);
     REQUIRE(other);
     INFO(f << " Hz: " << one->periods << " and " << other->periods << " periods");
@@ -127,12 +126,12 @@ TEST_CASE("where mesh periods alternate, extrapolation does not stay on the unst
   for (double f = 5500; f <= 6200; f += 200) {
     rig.dynamics.set_speed(f, 128);
     const State start = state;
-    const auto slow = find_periodic_orbit(rig.dynamics, state, 1e-6, SteadyState::integrate);
+    const auto slow = iterate_to_orbit(rig.dynamics, state, 1e-6, SteadyState::integrate);
     REQUIRE(slow);
     for (AndersonAcceleration* known : {static_cast<AndersonAcceleration*>(nullptr), &acceleration}) {
       State extrapolated = start;
       const auto fast =
-          find_periodic_orbit(rig.dynamics, extrapolated, 1e-6, SteadyState::extrapolate, {}, known);
+          iterate_to_orbit(rig.dynamics, extrapolated, 1e-6, SteadyState::extrapolate, {}, known);
       REQUIRE(fast);
       INFO(f << " Hz: orbits of " << slow->multiple << " and " << fast->multiple << " mesh periods, "
              << (known ? "with" : "without") << " the columns of other speeds");
@@ -146,7 +145,7 @@ TEST_CASE("where mesh periods alternate, extrapolation does not stay on the unst
       State later = state;
       for (int k = 0; k < 2; ++k) REQUIRE(rig.dynamics.integrate(later, period));
       CHECK(rig.dynamics.distance(later, state) < 1e-14);
-      const auto again = find_periodic_orbit(rig.dynamics, state, 1e-6, SteadyState::integrate);
+      const auto again = iterate_to_orbit(rig.dynamics, state, 1e-6, SteadyState::integrate);
       REQUIRE(again);
       CHECK(again->multiple == 2);
     }
@@ -156,8 +155,7 @@ TEST_CASE("where mesh periods alternate, extrapolation does not stay on the unst
 }
 
 TEST_CASE(
-    "where mesh periods begin to alternate, an orbit of one period that is found stays one when integrated "
-    "on") {
+    "where mesh periods begin to alternate, an orbit of one period that is found stays one when integrated on") {
   Rig rig(128, 2e-6, false);
   State state = rig.carried(5500, 5600, 128);
   AndersonAcceleration acceleration;
@@ -165,7 +163,7 @@ TEST_CASE(
   for (double f = 5610; f <= 5720; f += 10) {
     rig.dynamics.set_speed(f, 128);
     const auto orbit =
-        find_periodic_orbit(rig.dynamics, state, 1e-5, SteadyState::extrapolate, {}, &acceleration);
+        iterate_to_orbit(rig.dynamics, state, 1e-5, SteadyState::extrapolate, {}, &acceleration);
     REQUIRE(orbit);
     single += orbit->multiple == 1;
     alternating += orbit->multiple == 2;
@@ -196,12 +194,12 @@ TEST_CASE(
     newmark.dynamics.rest();  // sets the scale of distances
     State reference = state;
     newmark.dynamics.set_speed(2400, kReference);
-    const auto referred = find_periodic_orbit(newmark.dynamics, reference, 1e-10, SteadyState::extrapolate);
+    const auto referred = iterate_to_orbit(newmark.dynamics, reference, 1e-10, SteadyState::extrapolate);
     REQUIRE(referred);
     VectorXd error(5), rms_error(5);
     for (int i = 0; i < 5; ++i) {
       exact.dynamics.set_speed(2400, static_cast<int>(steps[i]));
-      const auto orbit = find_periodic_orbit(exact.dynamics, state, 1e-10, SteadyState::extrapolate);
+      const auto orbit = iterate_to_orbit(exact.dynamics, state, 1e-10, SteadyState::extrapolate);
       REQUIRE(orbit);
       error[i] = exact.dynamics.distance(state, reference);
       rms_error[i] = std::abs(orbit->rms / referred->rms - 1);
@@ -229,7 +227,7 @@ TEST_CASE("second order in the time step: where the upper branch ends, an envelo
     std::vector<State> reached;
     const auto run = [&](double f) {
       rig.dynamics.set_speed(f, steps);
-      const auto orbit = find_periodic_orbit(rig.dynamics, state, 1e-8, SteadyState::extrapolate);
+      const auto orbit = iterate_to_orbit(rig.dynamics, state, 1e-8, SteadyState::extrapolate);
       REQUIRE(orbit);
       return BranchMotion{f, orbit->rms, orbit->multiple};
     };
@@ -264,12 +262,12 @@ TEST_CASE("second order in the time step: where the upper branch ends, an envelo
 
 TEST_CASE(
     "a motion that never repeats is reported as such: by its sweep, its response and the summary of either") {
-  const BodyArtifact& body = paper_body();
-  const StaticArtifact statics = static_transmission(body, body, paper_statics(128), 150);
+  const ReducedBody& body = paper_body();
+  const StaticResult statics = static_transmission(body, body, paper_statics(128), 150);
   SweepParameters settings = paper_sweep(6000, 6000, 20);
   settings.damping.rayleigh_stiffness = 2e-7;
   settings.damping.bearing_ratio = 1e-4;
-  const SweepArtifact swept = sweep(body, body, statics, 463e6, settings, Direction::up, no_report);
+  const SweepResult swept = sweep(body, body, statics, 463e6, settings, Direction::up, no_report);
   REQUIRE(swept.period_multiple[0] == 0);
   CHECK(swept.residual[0] > 1e-3);
   CHECK(swept.periods[0] == 3000);
@@ -282,22 +280,22 @@ TEST_CASE(
     for (int j = 0; j < i; ++j)
       CHECK((row.segment(i * samples, samples) - row.segment(j * samples, samples)).cwiseAbs().maxCoeff() >
             1e-2 * size);
-  const ResponseArtifact observable = response(swept);
+  const ResponseResult observable = response(swept);
   CHECK(observable.period_multiple[0] == 0);
   CHECK(observable.dte_rms[0] == relative(rms(swept, 0), 1e-12));  // of all that is stored, not of one period
   CHECK(observable.jump_frequency.size() == 0);
 }
 
 TEST_CASE("the end of a branch does not depend on the steps of the sweep that left it early") {
-  const BodyArtifact& body = paper_body();
+  const ReducedBody& body = paper_body();
   StaticParameters coarse = paper_statics(128);
   coarse.contact.strips = 8;
-  const StaticArtifact statics = static_transmission(body, body, coarse, 150);
+  const StaticResult statics = static_transmission(body, body, coarse, 150);
   std::vector<double> ends;
   for (const double step : {20.0, 50.0}) {
     SweepParameters settings = paper_sweep(1700, 2900, step);
     settings.damping.rayleigh_stiffness = kLightDamping;
-    const SweepArtifact down = sweep(body, body, statics, 463e6, settings, Direction::down, no_report);
+    const SweepResult down = sweep(body, body, statics, 463e6, settings, Direction::down, no_report);
     REQUIRE(down.jump_frequency.size() == 1);
     CHECK(down.jump_width[0] < 1);
     ends.push_back(down.jump_frequency[0]);
@@ -307,12 +305,11 @@ TEST_CASE("the end of a branch does not depend on the steps of the sweep that le
 }
 
 TEST_CASE(
-    "a sweep that predicts the next speed keeps a branch to its end; one that integrates on leaves it "
-    "earlier") {
-  const BodyArtifact& body = paper_body();
+    "a sweep that predicts the next speed keeps a branch to its end; one that integrates on leaves it earlier") {
+  const ReducedBody& body = paper_body();
   StaticParameters coarse = paper_statics(128);
   coarse.contact.strips = 8;
-  const StaticArtifact statics = static_transmission(body, body, coarse, 150);
+  const StaticResult statics = static_transmission(body, body, coarse, 150);
   const auto swept = [&](SteadyState method) {
     SweepParameters settings = paper_sweep(1700, 2900, 20);
     settings.time.periodicity = 1e-6;
@@ -320,8 +317,8 @@ TEST_CASE(
     settings.time.steady_state = method;
     return response(sweep(body, body, statics, 463e6, settings, Direction::down, no_report));
   };
-  const ResponseArtifact predicted = swept(SteadyState::extrapolate),
-                         integrated = swept(SteadyState::integrate);
+  const ResponseResult predicted = swept(SteadyState::extrapolate),
+                       integrated = swept(SteadyState::integrate);
   REQUIRE(predicted.jump_frequency.size() == 1);
   REQUIRE(integrated.jump_frequency.size() == 1);
   CHECK(std::abs(integrated.jump_frequency[0] - predicted.jump_frequency[0]) < 1);
@@ -349,16 +346,16 @@ TEST_CASE(
 }
 
 TEST_CASE("on one branch sweeps up and down agree, though one of them came from motions with wider contact") {
-  const BodyArtifact& body = paper_body();
+  const ReducedBody& body = paper_body();
   StaticParameters coarse = paper_statics(128);
   coarse.contact.strips = 8;
-  const StaticArtifact statics = static_transmission(body, body, coarse, 150);
+  const StaticResult statics = static_transmission(body, body, coarse, 150);
   SweepParameters settings = paper_sweep(1350, 2900, 50);
   settings.damping.rayleigh_stiffness = 6e-6;
   settings.time.periodicity = 1e-6;
-  const ResponseArtifact up = response(sweep(body, body, statics, 463e6, settings, Direction::up, no_report)),
-                         down = response(
-                             sweep(body, body, statics, 463e6, settings, Direction::down, no_report));
+  const ResponseResult up = response(sweep(body, body, statics, 463e6, settings, Direction::up, no_report)),
+                       down =
+                           response(sweep(body, body, statics, 463e6, settings, Direction::down, no_report));
   REQUIRE(down.jump_frequency.size() == 1);
   REQUIRE(up.jump_frequency.size() == 1);
   double apart = 0;
@@ -376,10 +373,10 @@ TEST_CASE("on one branch sweeps up and down agree, though one of them came from 
 }
 
 TEST_CASE("near the cusp: a jump of less than 20 % is found from wide steps, where fine steps have it") {
-  const BodyArtifact& body = paper_body();
+  const ReducedBody& body = paper_body();
   StaticParameters coarse = paper_statics(128);
   coarse.contact.strips = 8;
-  const StaticArtifact statics = static_transmission(body, body, coarse, 150);
+  const StaticResult statics = static_transmission(body, body, coarse, 150);
   const auto swept = [&](double from, double to, double step, Direction direction) {
     SweepParameters settings = paper_sweep(from, to, step);
     settings.damping.rayleigh_stiffness = 7.25e-6;
@@ -387,13 +384,13 @@ TEST_CASE("near the cusp: a jump of less than 20 % is found from wide steps, whe
   };
   for (const Direction direction : {Direction::up, Direction::down}) {
     // Of steps of 1 Hz the one with the largest change.
-    const ResponseArtifact fine = swept(2820, 2880, 1, direction);
+    const ResponseResult fine = swept(2820, 2880, 1, direction);
     Eigen::Index at = 0;
     const VectorXd change = (fine.dte_rms.tail(60).array() / fine.dte_rms.head(60).array()).log().abs();
     const double most = change.maxCoeff(&at),
                  there = 0.5 * (fine.mesh_frequency[at] + fine.mesh_frequency[at + 1]);
     for (const double step : {20.0, 50.0}) {
-      const ResponseArtifact wide = swept(2700, 3000, step, direction);
+      const ResponseResult wide = swept(2700, 3000, step, direction);
       MESSAGE(direction << ": " << most << " of RMS at " << there << " Hz; steps of " << step
                         << " Hz: " << wide.jump_frequency.transpose());
       REQUIRE(wide.jump_frequency.size() == 1);

@@ -39,7 +39,7 @@ struct Rig {
         dynamics(model, parameters(statics, kind, eta)) {
     dynamics.set_zone(candidate_zone(model, statics, MotionBounds(model, statics, 2.56)), 128);
   }
-  static DynamicParameters parameters(const StaticArtifact& statics, const Kind& kind, double eta) {
+  static DynamicParameters parameters(const StaticResult& statics, const Kind& kind, double eta) {
     DynamicParameters p = paper_parameters(statics.mean_stiffness, kind.body, kind.contact);
     p.damping.rayleigh_stiffness = eta;
     p.fidelity.integrator = kind.integrator;
@@ -51,7 +51,7 @@ struct Rig {
     for (int i = 0; i < periods; ++i) REQUIRE(dynamics.integrate(state, period));
     return state;
   }
-  StaticArtifact statics;
+  StaticResult statics;
   GearMeshModel model;
   RollingDynamics dynamics;
   RollingDynamics::Period period;
@@ -88,8 +88,8 @@ std::vector<double> newton(PeriodMap& map, VectorXd& y, int steps) {
 const Kind kKinds[] = {{BodyModel::modal, ContactModel::strips, Integrator::exact},
                        {BodyModel::modal, ContactModel::strips, Integrator::newmark},
                        {BodyModel::modal, ContactModel::line, Integrator::exact},
-                       {BodyModel::lagged, ContactModel::strips, Integrator::exact},
-                       {BodyModel::lagged, ContactModel::line, Integrator::newmark},
+                       {BodyModel::relaxed, ContactModel::strips, Integrator::exact},
+                       {BodyModel::relaxed, ContactModel::line, Integrator::newmark},
                        {BodyModel::quasi_static, ContactModel::strips, Integrator::exact},
                        {BodyModel::rigid, ContactModel::strips, Integrator::exact}};
 
@@ -203,7 +203,7 @@ TEST_CASE("period map: the verdict is that of any cut at 50 orbits of a branch")
   Rig rig(kKinds[0], 5.5e-6);
   RollingPeriodMap map(rig.dynamics, 128);
   map.set_parameter(2900);
-  const OrbitSearch first = find_orbit(map, map.flat(rig.after(60)));
+  const OrbitSearch first = newton_orbit(map, map.flat(rig.after(60)));
   REQUIRE(first.found());
   BranchSettings settings;
   settings.low = 1700;
@@ -260,7 +260,7 @@ TEST_CASE("period map: contact that leaves its zone is rejected") {
 TEST_CASE("period map: a state is of the zone of its map, and goes into a wider one decoded") {
   StaticParameters at_rest = paper_statics(128);
   at_rest.mesh.corner = {};
-  const StaticArtifact statics = static_transmission(paper_body(), paper_body(), at_rest, 50);
+  const StaticResult statics = static_transmission(paper_body(), paper_body(), at_rest, 50);
   const GearMeshModel model(paper_body(), paper_body(), statics.mesh);
   RollingDynamics dynamics(model, Rig::parameters(statics, kKinds[0], 5.5e-6));
   const auto widen = [&](double by) {

@@ -7,9 +7,9 @@
 #include <set>
 
 #include "picture_inputs.h"
-#include "report/drawings.h"
 #include "report/efficiency_figure.h"
 #include "report/engineering_axes.h"
+#include "report/figure_registry.h"
 #include "report/flank_pressure_figure.h"
 #include "report/motion_figures.h"
 #include "report/order_figure.h"
@@ -32,7 +32,7 @@ TEST_CASE("pictures of a pair at rest: no text is cut or lies on other text, one
 }
 
 TEST_CASE("pictures of responses over speed: no text is cut or lies on other text, one torque and six") {
-  const std::vector<ResponseArtifact> one = both_ways(9999), six = six_torques();
+  const std::vector<ResponseResult> one = both_ways(9999), six = six_torques();
   check(response_figure(one, background_of(one)), "fig05");
   check(response_figure(six, background_of(six)), "fig05");
   check(response_figure(six, background_of(six)), "fig16");
@@ -43,19 +43,19 @@ TEST_CASE("pictures of responses over speed: no text is cut or lies on other tex
 }
 
 TEST_CASE("pictures of spectra over speed: no text is cut or lies on other text") {
-  const std::vector<SweepArtifact> sweeps{sweep_at(9999, Direction::up), sweep_at(9999, Direction::down)};
+  const std::vector<SweepResult> sweeps{sweep_at(9999, Direction::up), sweep_at(9999, Direction::down)};
   check(waterfall_figure(sweeps), "waterfall");
   check(waterfall_figure({sweeps[0]}), "waterfall");
 }
 
 TEST_CASE("pictures of motions: no text is cut or lies on other text") {
-  const std::vector<ResponseArtifact> one = both_ways(9999), six = six_torques();
+  const std::vector<ResponseResult> one = both_ways(9999), six = six_torques();
   check(order_figure(one), "order-cuts");
   Figure levels = order_figure(one);
   apply({"rpm:" + kLong[1], 1e-6}, levels);
   check(levels, "order-cuts");
-  const std::vector<SweepArtifact> sweeps{sweep_at(9999, Direction::up), sweep_at(9999, Direction::down)};
-  Background tell;
+  const std::vector<SweepResult> sweeps{sweep_at(9999, Direction::up), sweep_at(9999, Direction::down)};
+  CaptionSources tell;
   tell.impacts = {ring_down_at(9999)};
   tell.scenes.assign(2, kScene);
   check(dynamic_load_figure(sweeps, tell), "tooth-loads");

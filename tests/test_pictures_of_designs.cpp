@@ -28,8 +28,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-JumpMapArtifact map_at(double torque, bool corner) {
-  JumpMapArtifact a;
+JumpMapResult map_at(double torque, bool corner) {
+  JumpMapResult a;
   set_motions(a);
   a.mesh.corner.enabled = corner;
   a.torque = torque;
@@ -46,7 +46,7 @@ JumpMapArtifact map_at(double torque, bool corner) {
   a.branches_to = 2800 * a.two_branches.cast<double>();
   a.loss_from = 1500 * a.two_branches.cast<double>();
   a.loss_to = 3000 * a.two_branches.cast<double>();
-  a.peak_tooth_load = a.held_tooth_load = MatrixRM::Constant(6, 2, torque / 0.04);
+  a.peak_tooth_load = a.sustained_tooth_load = MatrixRM::Constant(6, 2, torque / 0.04);
   a.mesh_frequency = VectorXd::LinSpaced(5, 1500, 3500);
   for (int d = 0; d < 2; ++d) {
     a.dte_rms[d] = MatrixRM::Constant(6, 5, 1e-6);
@@ -58,10 +58,8 @@ JumpMapArtifact map_at(double torque, bool corner) {
 
 }  // namespace
 
-TEST_CASE(
-    "pictures of teeth that differ, cracks, bearings, relief: no text is cut or lies on other "
-    "text") {
-  StaticArtifact differ = at_rest(9999);
+TEST_CASE("pictures of teeth that differ, cracks, bearings, relief: no text is cut or lies on other text") {
+  StaticResult differ = at_rest(9999);
   constexpr int kPeriods = 50;
   differ.hunting_periods = kPeriods;
   differ.contact.positions = 8;
@@ -69,7 +67,7 @@ TEST_CASE(
   differ.transmission_error = 1e-4 * (1 + 0.1 * (0.1 * differ.mesh_phase.array()).sin());
   differ.transmission_error[100] += 3e-5;
   differ.transmission_error_order = VectorXd::Constant(4 * kPeriods, 1e-6);
-  ResponseArtifact moving = response_at(9999, Direction::up);
+  ResponseResult moving = response_at(9999, Direction::up);
   moving.hunting_periods = kPeriods;
   moving.dte_order = MatrixRM::Constant(moving.mesh_frequency.size(), 4 * kPeriods, 1e-6);
   check(sidebands_figure(differ, moving), "sidebands");
@@ -78,29 +76,29 @@ TEST_CASE(
   differ.root_stress = {MatrixRM::Constant(8 * kPeriods, 3, 123e6),
                         MatrixRM::Constant(8 * kPeriods, 3, 1234e6)};
   check(crack_figure(differ), "crack");
-  std::vector<ResponseArtifact> on_bearings = both_ways(9999);
-  for (ResponseArtifact& r : on_bearings) r.mesh.bearing = {Bearing{1234.5e6, 0, 0}, Bearing{2345.6e6, 0, 0}};
+  std::vector<ResponseResult> on_bearings = both_ways(9999);
+  for (ResponseResult& r : on_bearings) r.mesh.bearing = {Bearing{1234.5e6, 0, 0}, Bearing{2345.6e6, 0, 0}};
   check(bearing_force_figure(on_bearings, background_of(on_bearings)), "bearing-forces");
-  StaticArtifact relieved = at_rest(9999);
+  StaticResult relieved = at_rest(9999);
   for (FlankModification& m : relieved.mesh.modification) m.tip = {123e-6, 0, 0, 2e-3};
   check(profile_figure(relieved), "profile");
 }
 
 TEST_CASE("pictures of designs and of an error budget: no text is cut or lies on other text") {
-  std::vector<OfDesign<StaticArtifact>> rest;
-  std::vector<OfDesign<ResponseArtifact>> motion;
+  std::vector<OfDesign<StaticResult>> rest;
+  std::vector<OfDesign<ResponseResult>> motion;
   for (const char* name :
        {"gearbox_of_the_first_variant_a", "gearbox_of_the_first_variant_b", "gearbox_of_the_third_variant",
         "d", "fifth_variant_of_the_gearbox", "gearbox_of_the_sixth_variant"}) {
     rest.push_back({name, at_rest(9999)});
-    for (const ResponseArtifact& r : both_ways(9999)) motion.push_back({name, r});
+    for (const ResponseResult& r : both_ways(9999)) motion.push_back({name, r});
   }
   check(compared_rest_figure(rest), "compare-rest");
   check(compared_motion_figure(motion), "compare-motion");
   Figure turned = compared_motion_figure(motion);
   apply({"rpm:driver", 1e-6}, turned);
   check(turned, "compare-motion");
-  ErrorBudgetArtifact budget;
+  ErrorBudgetResult budget;
   set_gears(budget);
   budget.torque = 9999;
   budget.refinement = {"strips, flank table, elements, positions",
@@ -118,7 +116,7 @@ TEST_CASE("pictures of designs and of an error budget: no text is cut or lies on
 }
 
 TEST_CASE("pictures of a run-up: no text is cut or lies on other text") {
-  RunupArtifact run;
+  RunupResult run;
   set_motions(run);
   run.torque = 9999;
   run.natural_frequency = 5432.1;
@@ -146,7 +144,7 @@ TEST_CASE("pictures of a run-up: no text is cut or lies on other text") {
 }
 
 TEST_CASE("pictures of maps, branches and studies: no text is cut or lies on other text") {
-  HarrisMapArtifact map;
+  HarrisMapResult map;
   set_motions(map);
   map.torque = VectorXd::LinSpaced(12, 1000, 9999);
   map.relief = VectorXd::LinSpaced(30, 0, 150e-6);
@@ -165,7 +163,7 @@ TEST_CASE("pictures of maps, branches and studies: no text is cut or lies on oth
   map.dynamic_rms.assign(6, values);
   map.worst_frequency.assign(6, MatrixRM::Constant(12, 30, 5432));
   check(harris_map_figure(map), "harris-map");
-  BranchArtifact branch;
+  BranchResult branch;
   set_motions(branch);
   branch.torque = 9999;
   constexpr Index n = 61;
@@ -181,24 +179,24 @@ TEST_CASE("pictures of maps, branches and studies: no text is cut or lies on oth
   branch.fold_rms = Eigen::Vector3d::Constant(1e-4);
   branch.fold_smooth = Eigen::Vector3i(1, 0, 1);
   branch.fold_multiplier = MatrixRM::Ones(3, 2);
-  branch.mesh_force_held = branch.tooth_load_held = VectorXd::LinSpaced(n, 1e5, 3e5);
-  branch.root_stress_held = {VectorXd::LinSpaced(n, 1e9, 3e9), VectorXd::LinSpaced(n, 1e9, 3e9)};
+  branch.mesh_force_sustained = branch.tooth_load_sustained = VectorXd::LinSpaced(n, 1e5, 3e5);
+  branch.root_stress_sustained = {VectorXd::LinSpaced(n, 1e9, 3e9), VectorXd::LinSpaced(n, 1e9, 3e9)};
   branch.root_stress_angle = branch.root_stress_phase = {VectorXd::Zero(n), VectorXd::Zero(n)};
   branch.end = "leaves the speeds of the scene";
   check(multiplier_figure(branch), "multipliers");
-  const std::vector<ResponseArtifact> one = both_ways(9999);
-  Background tell = background_of(one);
+  const std::vector<ResponseResult> one = both_ways(9999);
+  CaptionSources tell = background_of(one);
   tell.branches = {branch};
   check(response_figure(one, tell), "fig05");
   check(root_stress_figure(at_rest(9999), one, {branch}), "root-stress");
 
-  std::vector<JumpMapArtifact> maps;
-  std::vector<FoldCurvesArtifact> curves;
+  std::vector<JumpMapResult> maps;
+  std::vector<FoldCurvesResult> curves;
   for (const double torque : {1250.0, 2500.0, 5000.0, 9999.0})
     for (const bool corner : {true, false}) {
       maps.push_back(map_at(torque, corner));
       if (!corner) continue;
-      FoldCurvesArtifact f;
+      FoldCurvesResult f;
       set_motions(f);
       f.torque = torque;
       f.curve = Eigen::Vector3i::Zero();
@@ -218,10 +216,10 @@ TEST_CASE("pictures of maps, branches and studies: no text is cut or lies on oth
 }
 
 TEST_CASE("pictures of lumped models and of variants: no text is cut or lies on other text") {
-  std::vector<SweepArtifact> sweeps;
+  std::vector<SweepResult> sweeps;
   for (const char* model : {"rectangular", "pairs-hertz", "secant"})
     for (const Direction direction : {Direction::up, Direction::down}) {
-      SweepArtifact s = sweep_at(9999, direction);
+      SweepResult s = sweep_at(9999, direction);
       s.model = model;
       s.lumped.mass = 1.2345;
       s.lumped.damping_ratio = 0.0765;
@@ -234,9 +232,9 @@ TEST_CASE("pictures of lumped models and of variants: no text is cut or lies on 
       sweeps.push_back(s);
     }
   check(mesh_force_figure(sweeps, {5500, 4500}), "fig15");
-  std::vector<JumpMapArtifact> lumped, variants;
+  std::vector<JumpMapResult> lumped, variants;
   for (const double torque : {1250.0, 2500.0, 5000.0, 9999.0}) {
-    JumpMapArtifact a = map_at(torque, true);
+    JumpMapResult a = map_at(torque, true);
     lumped.push_back(a);
     for (const char* model : {"secant", "pairs-hertz", "rectangular", "rectangular-contact"}) {
       a.model = model;
@@ -244,9 +242,9 @@ TEST_CASE("pictures of lumped models and of variants: no text is cut or lies on 
     }
   }
   check(lumped_jump_map_figure(lumped), "jump-map-lumped");
-  const JumpMapArtifact base = map_at(9999, true);
+  const JumpMapResult base = map_at(9999, true);
   for (int i = 0; i < 12; ++i) {
-    JumpMapArtifact v = base;
+    JumpMapResult v = base;
     v.gear[0].design.bore_radius += (1.2345 + i) * 1e-4;
     v.inertia[1] *= 1.1;
     v.mean_stiffness *= 1 + 0.01 * (i - 5);
@@ -266,7 +264,7 @@ TEST_CASE("pictures of studies: no text is cut or lies on other text") {
                          "[[vary]]\nkey = 'operation.torque_Nm'\nvalues = [1250, 5000, 9999]\n"
                          "[[vary]]\nkey = 'gear.pinion.modification.tip_relief_um'\nvalues = [0, 5, 12.5]\n"
                          "[[vary]]\nkey = 'gear.wheel.modification.tip_relief_um'\nvalues = [0, 5, 12.5]\n";
-  StudyArtifact a;
+  StudyResult a;
   a.plan = read_study(file);
   std::filesystem::remove(file);
   for (int i = 0; i < 81; ++i) {
@@ -291,7 +289,7 @@ TEST_CASE("pictures of studies: no text is cut or lies on other text") {
 }
 
 TEST_CASE("pictures of readings and of work and precision: no text is cut or lies on other text") {
-  ReadingsArtifact readings;
+  ReadingsResult readings;
   Consistency found;
   for (int i = 0; i < 40; ++i) {
     Reading r;
@@ -326,11 +324,11 @@ TEST_CASE("pictures of readings and of work and precision: no text is cut or lie
 TEST_CASE("pictures of gears as they are drawn and of their motion: no text is cut or lies on other text") {
   BodyDiscretisation coarse;
   coarse.element_size = 2e-3;
-  const MeshArtifact mesh = make_sector_mesh(paper_gear(), coarse);
-  StaticArtifact rest = at_rest(9999);
+  const SectorGrid mesh = make_sector_mesh(paper_gear(), coarse);
+  StaticResult rest = at_rest(9999);
   for (auto& gear : rest.gear) gear.design.tooth_thinning = 0;
   check(mesh_figure(mesh, mesh, rest), "fig01");
-  SweepArtifact moving = sweep_at(9999, Direction::up);
+  SweepResult moving = sweep_at(9999, Direction::up);
   for (auto& gear : moving.gear) gear.design.tooth_thinning = 0;
   Figure frames = animation_figure(mesh, mesh, moving, 0, 4);
   frames.numbers.emplace_back("first_frame", 1);
@@ -339,8 +337,8 @@ TEST_CASE("pictures of gears as they are drawn and of their motion: no text is c
 }
 
 TEST_CASE("pictures of the contact zone: no text is cut or lies on other text") {
-  const BodyArtifact& body = paper_body(40e-3, 1.2e-3, 1);
-  const MeshArtifact mesh = make_sector_mesh(body.design, body.discretisation);
-  const StaticArtifact loaded = static_transmission(body, body, paper_statics(2), 9999);
+  const ReducedBody& body = paper_body(40e-3, 1.2e-3, 1);
+  const SectorGrid mesh = make_sector_mesh(body.design, body.discretisation);
+  const StaticResult loaded = static_transmission(body, body, paper_statics(2), 9999);
   check(contact_zone_figure(mesh, mesh, loaded, contact_zone(body, body, loaded)), "fig03");
 }

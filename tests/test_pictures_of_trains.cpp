@@ -27,7 +27,7 @@ TEST_CASE("pictures of trains: no text is cut or lies on other text, eight meshe
   scene.carriers[0].planet += "_of_the_first_stage_01";
   scene.carriers[0].name += "_of_the_first_stage_01";
   for (SystemScene::Drive& drive : scene.drives) drive.gear += "_of_the_first_stage_01";
-  SystemStaticArtifact rest = small_system(scene);
+  SystemStaticResult rest = small_system(scene);
   // Numbers of five digits, which differ over the mesh period.
   rest.transmission_error = 23e-6 * (MatrixRM::Random(2, 8).array() + 2);
   rest.mesh_force = 12345 * (MatrixRM::Random(2, 8).array() + 2);
@@ -39,16 +39,16 @@ TEST_CASE("pictures of trains: no text is cut or lies on other text, eight meshe
   check(system_static_figure(rest), "system-static");
   check(system_load_sharing_figure(rest), "system-load-sharing");
   check(system_picture(rest), "system");
-  const std::vector<SystemSweepArtifact> sweeps{small_sweep(rest, Direction::up),
-                                                small_sweep(rest, Direction::down)};
+  const std::vector<SystemSweepResult> sweeps{small_sweep(rest, Direction::up),
+                                              small_sweep(rest, Direction::down)};
   check(system_sweep_figure(sweeps), "system-sweep");
   Figure turned = system_sweep_figure(sweeps);
   apply({"rpm:" + scene.gears[0].name, 1e-6}, turned);
   check(turned, "system-sweep");
-  const ModesArtifact modes = natural_modes(rest.settings.layout);
+  const ModesResult modes = natural_modes(rest.settings.layout);
   check(modes_figure(modes), "modes");
   check(campbell_figure(modes), "campbell");
-  SystemBranchArtifact branch;
+  SystemBranchResult branch;
   branch.settings = sweeps[0].settings;
   branch.torque = sweeps[0].torque;
   constexpr Index n = 41;
@@ -61,7 +61,7 @@ TEST_CASE("pictures of trains: no text is cut or lies on other text, eight meshe
   branch.fold_width = Eigen::Vector3d::Constant(0.4);
   branch.fold_smooth = Eigen::Vector3i(1, 0, 1);
   check(system_branch_figure(branch, sweeps), "system-branch");
-  SystemImpactArtifact decay;
+  SystemImpactResult decay;
   decay.settings = sweeps[0].settings;
   decay.mesh_phase = Eigen::Vector2d(0, 0.5);
   decay.natural_frequency = decay.eigen_frequency = MatrixRM(2, 6);

@@ -43,8 +43,8 @@ GearDesign standard_gear() {
 }
 
 // Two levels with rounded steps; what a static stage would give, near enough for the drawing.
-StaticArtifact some_static(double torque) {
-  StaticArtifact s;
+StaticResult some_static(double torque) {
+  StaticResult s;
   s.gear[0].design = s.gear[1].design = standard_gear();
   s.mesh.centre_distance = 0.15;
   s.torque = torque;
@@ -68,8 +68,8 @@ StaticArtifact some_static(double torque) {
   return s;
 }
 
-ResponseArtifact some_response(Direction direction) {
-  ResponseArtifact r;
+ResponseResult some_response(Direction direction) {
+  ResponseResult r;
   r.torque = 150;
   r.direction = direction;
   r.model = "finite elements";
@@ -94,9 +94,9 @@ const FigureBlock& block(const Figure& figure, const std::string& name) {
 }
 
 // A ring of 6 "teeth", 2 x 2 four-node or nine-node elements a sector, radii 1 to 2 m.
-MeshArtifact ring(int order) {
+SectorGrid ring(int order) {
   const int teeth = 6, across = 2 * order + 1;
-  MeshArtifact m;
+  SectorGrid m;
   m.design.teeth = teeth;
   m.design.bore_radius = 1.0;
   m.discretisation.element_order = order;
@@ -146,7 +146,7 @@ TEST_CASE("which figure of P2000 a figure is beside, by its name") {
 
 TEST_CASE(
     "rectangular wave: switches at the ends of the path of contact, levels in the middle of the zones") {
-  const StaticArtifact s = some_static(100);
+  const StaticResult s = some_static(100);
   const RectangularWave wave = rectangular_wave(s);
   // equal gears: contact ratio 1.7547, both zones centred on the pitch point and half a period from it
   CHECK(wave.high_end - wave.high_begin == relative(0.7547, 1e-4));
@@ -196,7 +196,7 @@ TEST_CASE("templates: above a picture stand its title and its scene, in two line
 
 TEST_CASE(
     "statics figures: torques as the scene lists them, the period closes, units are micrometre and N/µm") {
-  const StaticArtifact low = some_static(100), high = some_static(300);
+  const StaticResult low = some_static(100), high = some_static(300);
   const Figure te = transmission_error_figure({high, low});
   const FigureBlock& curve = block(te, "transmission_error");
   REQUIRE(curve.rows.size() == 129);
@@ -225,21 +225,20 @@ TEST_CASE(
   CHECK(failure_of([] { transmission_error_figure({}); }) == Failure::input);
   CHECK(failure_of([] { mesh_stiffness_figure({some_static(100), some_static(100)}); }) == Failure::input);
   CHECK(failure_of([] {
-          StaticArtifact other = some_static(200);
+          StaticResult other = some_static(200);
           other.mesh_phase[5] += 1e-3;
           transmission_error_figure({some_static(100), other});
         }) == Failure::input);
   CHECK(failure_of([] {
-          std::vector<StaticArtifact> many;
+          std::vector<StaticResult> many;
           for (int i = 1; i <= 7; ++i) many.push_back(some_static(100 * i));
           transmission_error_figure(many);
         }) == Failure::input);
 }
 
 TEST_CASE(
-    "response figure: order of the inputs does not matter, the pen lifts at a jump, the arrow follows the "
-    "sweep") {
-  const ResponseArtifact up = some_response(Direction::up), down = some_response(Direction::down);
+    "response figure: order of the inputs does not matter, the pen lifts at a jump, the arrow follows the sweep") {
+  const ResponseResult up = some_response(Direction::up), down = some_response(Direction::down);
   const Figure figure = response_figure({down, up});
   CHECK(plot_data(figure) == plot_data(response_figure({up, down})));
   const auto& rows = block(figure, "a 150 N m up").rows;
@@ -255,14 +254,13 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "response figure: two of one direction, other torques, other choices, a jump outside the sweep are "
-    "rejected") {
+    "response figure: two of one direction, other torques, other choices, a jump outside the sweep are rejected") {
   const auto rejected = [](auto change) {
-    ResponseArtifact up = some_response(Direction::up), down = some_response(Direction::down);
+    ResponseResult up = some_response(Direction::up), down = some_response(Direction::down);
     change(up, down);
     return failure_of([&] { response_figure({up, down}); }) == Failure::input;
   };
-  using R = ResponseArtifact;
+  using R = ResponseResult;
   CHECK_FALSE(rejected([](R&, R&) {}));
   CHECK(rejected([](R&, R& down) { down.direction = Direction::up; }));
   CHECK(rejected([](R& up, R&) { up.torque = 200; }));
@@ -272,7 +270,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a curve breaks at a sudden change of the RMS, but not over steps that cross a resonance") {
-  ResponseArtifact r = some_response(Direction::up);
+  ResponseResult r = some_response(Direction::up);
   r.jump_frequency.resize(0);
   r.jump_width.resize(0);
   r.dte_rms = Eigen::VectorXd::Constant(5, 1e-6);
@@ -281,7 +279,7 @@ TEST_CASE("a curve breaks at a sudden change of the RMS, but not over steps that
   const std::vector<bool> at_change{false, true, false, false, false};
   CHECK(broken_after(r) == at_change);
   // What both directions find on either side is of one branch, but for a jump that one of them has recorded.
-  ResponseArtifact down = some_response(Direction::down);
+  ResponseResult down = some_response(Direction::down);
   down.jump_frequency.resize(0);
   down.jump_width.resize(0);
   down.mesh_frequency = r.mesh_frequency.reverse();
@@ -299,9 +297,8 @@ TEST_CASE("a curve breaks at a sudden change of the RMS, but not over steps that
 }
 
 TEST_CASE(
-    "response figure: a panel for each set of choices, a curve for each torque, numbers as in the "
-    "artifacts") {
-  std::vector<ResponseArtifact> sweeps;
+    "response figure: a panel for each set of choices, a curve for each torque, numbers as in the artifacts") {
+  std::vector<ResponseResult> sweeps;
   for (double eta : {7.7e-6, 4e-6})
     for (double torque : {300.0, 100.0})
       for (const Direction direction : {Direction::up, Direction::down}) {
@@ -347,7 +344,7 @@ TEST_CASE(
 
 TEST_CASE("response figure: a curve breaks where it changes branch without a jump, not on a steep slope") {
   const auto rows_of = [](const Eigen::VectorXd& rms) {
-    ResponseArtifact up = some_response(Direction::up), down = some_response(Direction::down);
+    ResponseResult up = some_response(Direction::up), down = some_response(Direction::down);
     up.jump_frequency.resize(0);
     up.jump_width.resize(0);
     up.dte_rms = rms;
@@ -364,7 +361,7 @@ TEST_CASE("response figure: a curve breaks where it changes branch without a jum
 }
 
 TEST_CASE("response figure: a curve stops where the sweep left its branch, steps before the branch ends") {
-  ResponseArtifact up = some_response(Direction::up), down = some_response(Direction::down);
+  ResponseResult up = some_response(Direction::up), down = some_response(Direction::down);
   // falling from 2400 Hz: off the branch after 2300, which ends at 2050 Hz
   down.dte_rms << 5e-6, 6e-6, 1e-6, 1.1e-6, 1.2e-6;
   down.jump_frequency[0] = 2050;
@@ -385,9 +382,9 @@ TEST_CASE("response figure: a curve stops where the sweep left its branch, steps
 
 // Sweep at 1000 and 1100 Hz; at 1100 Hz both directions are alike, at 1000 Hz the falling one is `factor` times as large.
 // A tooth carries load(its own phase), of period `multiple` in its amplitude.
-SweepArtifact some_sweep(Direction direction, double factor, int multiple = 1) {
+SweepResult some_sweep(Direction direction, double factor, int multiple = 1) {
   constexpr int n = 64;
-  SweepArtifact s;
+  SweepResult s;
   s.gear[0].design = s.gear[1].design = standard_gear();
   s.mesh.centre_distance = 0.15;
   s.torque = 150;
@@ -426,7 +423,7 @@ std::string word_of(const Figure& figure, const std::string& name) {
 }
 
 TEST_CASE("branches at one speed: two columns where up and down differ, one that says so where they agree") {
-  const std::vector<SweepArtifact> sweeps{some_sweep(Direction::up, 3), some_sweep(Direction::down, 3)};
+  const std::vector<SweepResult> sweeps{some_sweep(Direction::up, 3), some_sweep(Direction::down, 3)};
   const Figure two = vibration_figure(sweeps, 1000);
   CHECK(word_of(two, "title_a").find("upper branch, speed falling") != std::string::npos);
   CHECK(word_of(two, "title_b").find("lower branch, speed rising") != std::string::npos);
@@ -461,8 +458,7 @@ TEST_CASE("branches at one speed: two columns where up and down differ, one that
 }
 
 TEST_CASE(
-    "tooth loads: every tooth keeps its own load from period to period, loss of contact where no tooth "
-    "carries") {
+    "tooth loads: every tooth keeps its own load from period to period, loss of contact where no tooth carries") {
   const Figure figure =
       tooth_load_figure({some_sweep(Direction::up, 3), some_sweep(Direction::down, 3)}, 1000);
   for (int t : {-1, 0, 1, 2}) {
@@ -485,9 +481,9 @@ TEST_CASE(
 }
 
 TEST_CASE("tooth loads of rolling gears pass from period to period without a step") {
-  const BodyArtifact& body = paper_body();
-  const StaticArtifact statics = static_transmission(body, body, paper_statics(128), 150);
-  std::vector<SweepArtifact> sweeps;
+  const ReducedBody& body = paper_body();
+  const StaticResult statics = static_transmission(body, body, paper_statics(128), 150);
+  std::vector<SweepResult> sweeps;
   for (const Direction direction : {Direction::up, Direction::down})
     sweeps.push_back(sweep(body, body, statics, statics.mean_stiffness, paper_sweep(2400, 2400, 20),
                            direction, no_report));
@@ -508,8 +504,8 @@ TEST_CASE("tooth loads of rolling gears pass from period to period without a ste
 
 TEST_CASE(
     "contact zone: complementary, the force of the static stage, points of the flanks, Hertz's pressure") {
-  const BodyArtifact& body = paper_body();
-  const StaticArtifact statics = static_transmission(body, body, paper_statics(8), 150);
+  const ReducedBody& body = paper_body();
+  const StaticResult statics = static_transmission(body, body, paper_statics(8), 150);
   const ContactZone zone = contact_zone(body, body, statics);
   CHECK(zone.force.sum() == relative(statics.tooth_load(0, 1), 1e-9));
   CHECK(zone.approach == relative(statics.transmission_error[0], 1e-9));
@@ -518,7 +514,7 @@ TEST_CASE(
     CHECK(zone.separation[i] > -1e-15);
     if (zone.force[i] > 0) CHECK(std::abs(zone.separation[i]) < 1e-14);
   }
-  MeshArtifact mesh = make_sector_mesh(body.design, body.discretisation);
+  SectorGrid mesh = make_sector_mesh(body.design, body.discretisation);
   const Figure figure = contact_zone_figure(mesh, mesh, statics, zone);
   const GearPair pair(statics.gear[0].design, statics.gear[1].design, 0.15);
   const auto& rows = block(figure, "candidate pairs").rows;
@@ -538,8 +534,8 @@ TEST_CASE(
   CHECK(failure_of([&] { contact_zone_figure(mesh, mesh, statics, zone); }) == Failure::input);
 }
 
-ImpactArtifact some_impact(double torque) {
-  ImpactArtifact a;
+ImpactResult some_impact(double torque) {
+  ImpactResult a;
   a.gear[0].design = a.gear[1].design = standard_gear();
   a.mesh.centre_distance = 0.15;
   a.torque = torque;
@@ -587,15 +583,15 @@ TEST_CASE("table of natural frequencies: both means, deviations from what is pub
         }) == Failure::input);
   CHECK(failure_of([&] { natural_frequency_table({some_impact(300)}, printed); }) == Failure::input);
   CHECK(failure_of([] {
-          ImpactArtifact a = some_impact(100);
+          ImpactResult a = some_impact(100);
           a.contact_state[0] = ContactState::two;
           natural_frequency_table({a}, {});
         }) == Failure::input);
 }
 
 TEST_CASE("response figure: scene and measured damping ratio stand at the panel that they belong to") {
-  std::vector<ResponseArtifact> sweeps;
-  Background captions;
+  std::vector<ResponseResult> sweeps;
+  CaptionSources captions;
   for (double eta : {7.7e-6, 4e-6})
     for (double torque : {100.0, 300.0}) {
       for (const Direction direction : {Direction::up, Direction::down}) {
@@ -607,7 +603,7 @@ TEST_CASE("response figure: scene and measured damping ratio stand at the panel 
         captions.scenes.push_back(eta > 5e-6 ? "first: a_b" : "second");
       }
       if (eta < 5e-6 && torque > 200) continue;
-      ImpactArtifact impact = some_impact(torque);
+      ImpactResult impact = some_impact(torque);
       impact.damping.rayleigh_stiffness = eta;
       // fewest pairs first: at 300 N m contact of three pairs occurs, two is what is asked for
       impact.contact_state = {ContactState::one, ContactState::two, ContactState::three, ContactState::mean};
@@ -616,13 +612,14 @@ TEST_CASE("response figure: scene and measured damping ratio stand at the panel 
       captions.impacts.push_back(impact);
     }
   const Figure figure = response_figure(sweeps, captions);
-  CHECK(figure.notes[1].find("(a) first: a_b; 100, 300 N m; damping ratio 1.00, 1.00 % with one pair, 7.03, "
-                             "7.23 % with two pairs in "
-                             "contact, by ring-down; Rayleigh") == 0);
+  CHECK(
+      figure.notes[1].find(
+          "(a) first: a_b; 100, 300 N m; damping ratio 1.00, 1.00 % with one pair, 7.03, 7.23 % with two pairs in contact, by ring-down; Rayleigh") ==
+      0);
   CHECK(
       figure.notes[3].find(
-          "(b) second; 100, 300 N m; damping ratio 1.00 % with one pair, 3.70 % at 100 N m with two pairs in "
-          "contact, by ring-down; Rayleigh") == 0);
+          "(b) second; 100, 300 N m; damping ratio 1.00 % with one pair, 3.70 % at 100 N m with two pairs in contact, by ring-down; Rayleigh") ==
+      0);
   CHECK(word_of(figure, "caption1") == "{/:Bold (a)} first: a\\_b");
   CHECK(word_of(figure, "above_a").find("100, 300 N m;") == 0);
   captions.impacts[0].mesh.corner.enabled = !captions.impacts[0].mesh.corner.enabled;
@@ -631,19 +628,21 @@ TEST_CASE("response figure: scene and measured damping ratio stand at the panel 
 }
 
 TEST_CASE("response figure: a lumped model is not described as elastic gears") {
-  ResponseArtifact up = some_response(Direction::up), down = some_response(Direction::down);
+  ResponseResult up = some_response(Direction::up), down = some_response(Direction::down);
   up.model = down.model = "secant";
   up.separation_fraction[1] = up.separation_fraction[2] = down.separation_fraction[0] = 0.1;
   LumpedParameters lumped;
   lumped.mass = 1.4;
   lumped.damping_ratio = 0.08;
   lumped.damper_acts = DamperActs::always;
-  Background captions;
+  CaptionSources captions;
   captions.lumped = {lumped, lumped};
   const Figure figure = response_figure({up, down}, captions);
   CHECK(figure.notes[0] == "f_n: natural frequency of the mass on the mean stiffness");
-  CHECK(figure.notes[1].find("(a) 150 N m; mass 1.4 kg, damping ratio 8 %, damper always on; one degree of "
-                             "freedom (Eq. 23), mesh stiffness: secant") == 0);
+  CHECK(
+      figure.notes[1].find(
+          "(a) 150 N m; mass 1.4 kg, damping ratio 8 %, damper always on; one degree of freedom (Eq. 23), mesh stiffness: secant") ==
+      0);
   CHECK(word_of(figure, "loss_a") == "contact lost at 150 N m: rising 2100 to 2200, falling 2400 or more Hz");
   CHECK(response_figure({up, down}).notes[1].find("Rayleigh") == std::string::npos);
   captions.lumped[1].damping_ratio = 0.05;
@@ -653,7 +652,7 @@ TEST_CASE("response figure: a lumped model is not described as elastic gears") {
 }
 
 TEST_CASE("response figure: speeds beyond the backlash are marked where they are known, and said") {
-  ResponseArtifact up = some_response(Direction::up), down = some_response(Direction::down);
+  ResponseResult up = some_response(Direction::up), down = some_response(Direction::down);
   const auto number = [](const Figure& figure, const std::string& name) {
     for (const auto& [key, value] : figure.numbers)
       if (key == name) return value;
@@ -664,7 +663,7 @@ TEST_CASE("response figure: speeds beyond the backlash are marked where they are
   CHECK(number(unknown, "beyond_backlash_a") == 0);
   CHECK(word_of(unknown, "loss_a").ends_with("; speeds beyond the backlash: known with sweep.h5 alone"));
   CHECK(block(unknown, "a 150 N m up").columns.size() == 7);
-  Background background;
+  CaptionSources background;
   background.backlash.assign(2, Eigen::VectorXd::Constant(5, 1e-6));
   CHECK(number(response_figure({up, down}, background), "beyond_backlash_a") == 0);
   CHECK(word_of(response_figure({up, down}, background), "loss_a").find("backlash") == std::string::npos);
@@ -684,7 +683,7 @@ TEST_CASE("response figure: speeds beyond the backlash are marked where they are
 }
 
 TEST_CASE("error budget: choices stand apart from the errors and in no sum") {
-  ErrorBudgetArtifact budget;
+  ErrorBudgetResult budget;
   budget.torque = 150;
   budget.refinement = {"strips, flank table", Eigen::Vector2d(1e-4, -2e-4), Eigen::Vector2d(3e-4, 1e-4),
                        Eigen::Vector2d(4e-4, 2e-4), MatrixRM::Constant(2, 5, -1e-4)};
@@ -745,8 +744,8 @@ TEST_CASE("wireframe: the outline is closed, on the outer radius, and moves with
 TEST_CASE("mesh figure: at the default discretisation its picture has less than 5 MB") {
   BodyDiscretisation usual;
   usual.element_size = 0.4e-3;
-  const MeshArtifact mesh = make_sector_mesh(paper_gear(), usual);
-  StaticArtifact statics = some_static(100);
+  const SectorGrid mesh = make_sector_mesh(paper_gear(), usual);
+  StaticResult statics = some_static(100);
   statics.gear[0].design = statics.gear[1].design = paper_gear();
   const auto table = std::filesystem::temp_directory_path() / text("whine-mesh-", getpid(), ".tsv");
   const Figure figure = mesh_figure(mesh, mesh, statics);
@@ -758,7 +757,7 @@ TEST_CASE("mesh figure: at the default discretisation its picture has less than 
 }
 
 TEST_CASE("mesh figure: meshes of other gears than the pair's are rejected") {
-  const MeshArtifact mesh = ring(2);
+  const SectorGrid mesh = ring(2);
   CHECK(failure_of([&] { mesh_figure(mesh, mesh, some_static(100)); }) == Failure::input);
 }
 
@@ -856,7 +855,7 @@ TEST_CASE("draw: spectra below the least decade of their axis are drawn, not an 
 }
 
 TEST_CASE("fold curves: jumps beyond all curves and cells on the wrong side of a cusp are counted as such") {
-  FoldCurvesArtifact a;
+  FoldCurvesResult a;
   a.quantity = FoldQuantity::damping;
   a.torque = 150;
   a.curve = Eigen::Vector3i::Zero();
@@ -868,7 +867,7 @@ TEST_CASE("fold curves: jumps beyond all curves and cells on the wrong side of a
   a.cusp_value = a.cusp_frequency = Eigen::VectorXd::Constant(1, 2600);
   a.cusp_damping_ratio = Eigen::VectorXd::Constant(1, 0.07);
   a.cusp_curve = Eigen::VectorXi::Zero(1);
-  JumpMapArtifact m;
+  JumpMapResult m;
   static_cast<MotionParameters&>(m) = a;
   m.torque = 150;
   m.damping_ratio = Eigen::Vector3d(0.055, 0.065, 0.08);
@@ -879,9 +878,9 @@ TEST_CASE("fold curves: jumps beyond all curves and cells on the wrong side of a
   const std::vector<std::string> notes = fold_curve_figure({a}, {m}).notes;
   REQUIRE(notes.size() == 3);
   CHECK(notes[1] == "cells of the jump maps: 2 of 3 on the right side of the cusps; not: 150 N m at 6.50 %");
-  CHECK(notes[2] ==
-        "jumps of the sweeps: 1 of 3 within 1 Hz and their width of a curve, the farthest 10.0 Hz; 1 at a "
-        "damping ratio without a curve");
+  CHECK(
+      notes[2] ==
+      "jumps of the sweeps: 1 of 3 within 1 Hz and their width of a curve, the farthest 10.0 Hz; 1 at a damping ratio without a curve");
   a.cusp_damping_ratio.resize(0);
   a.cusp_value.resize(0);
   CHECK(fold_curve_figure({a}, {m}).notes[1] == "3 cells stand beside curves without a cusp");

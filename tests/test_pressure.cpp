@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-const BodyArtifact& body() {
+const ReducedBody& body() {
   return paper_body(40e-3, 0.8e-3);
 }
 
@@ -32,7 +32,7 @@ StaticParameters relieved(ReliefShape shape, int strips) {
   return settings;
 }
 
-StaticArtifact solved(const StaticParameters& settings) {
+StaticResult solved(const StaticParameters& settings) {
   return static_transmission(body(), body(), settings, 150);
 }
 
@@ -92,12 +92,12 @@ TEST_CASE("pressure: ridges of a flank are convex kinks, with the slope that the
 TEST_CASE("pressure: of loaded gears the tip edge's strips are told apart from contact inside the flanks") {
   BodyDiscretisation discretisation;
   discretisation.element_size = 0.8e-3;
-  const MeshArtifact mesh = make_sector_mesh(paper_gear(), discretisation);
-  const StaticArtifact statics = static_transmission(body(), body(), paper_statics(16), 300);
+  const SectorGrid mesh = make_sector_mesh(paper_gear(), discretisation);
+  const StaticResult statics = static_transmission(body(), body(), paper_statics(16), 300);
   bool seen = false;
   for (const double phase : {0.0, 0.0625, 0.125, 0.25}) {
     CAPTURE(phase);
-    const LoadedArtifact at = loaded_pair(mesh, mesh, body(), body(), statics, phase, 0);
+    const LoadedResult at = loaded_pair(mesh, mesh, body(), body(), statics, phase, 0);
     const LoadedPressure pressure = largest_pressure(at);
     const auto row = static_cast<Eigen::Index>(phase * 16);
     // Windows of strips stand elsewhere when contact is solved again: 0.2 %.

@@ -120,14 +120,14 @@ TEST_CASE("readings: the largest tip radius of a rack is where its tooth becomes
 }
 
 TEST_CASE("readings: eigenvalues of the frozen contact stand for ring-downs in a search") {
-  const BodyArtifact& body = paper_body(40e-3, 1e-3, 21);
-  const StaticArtifact statics = static_transmission(body, body, paper_statics(64), 150);
+  const ReducedBody& body = paper_body(40e-3, 1e-3, 21);
+  const StaticResult statics = static_transmission(body, body, paper_statics(64), 150);
   ImpactParameters settings = paper_sweep(0, 0, 0);
   settings.damping.rayleigh_mass = 300;
   ImpactPlan plan;
   plan.phases = 16;
-  const ImpactArtifact level = impact(body, body, statics, statics.mean_stiffness, settings, plan, no_report);
-  const ImpactArtifact frozen =
+  const ImpactResult level = impact(body, body, statics, statics.mean_stiffness, settings, plan, no_report);
+  const ImpactResult frozen =
       frozen_impact(body, body, statics, statics.mean_stiffness, settings, plan.phases);
   REQUIRE(frozen.contact_state == level.contact_state);
   for (Eigen::Index i = 0; i + 1 < level.natural_frequency.size(); ++i) {
@@ -142,7 +142,7 @@ TEST_CASE("readings: eigenvalues of the frozen contact stand for ring-downs in a
 
 TEST_CASE("readings: an artifact gives back what it was given") {
   const ReadingPlan plan = read_reading_plan(file_of(kPlan));
-  ReadingsArtifact a;
+  ReadingsResult a;
   a.title = "t";
   a.claim = {"a", "b", "c"};
   a.outside = 2;
@@ -152,7 +152,7 @@ TEST_CASE("readings: an artifact gives back what it was given") {
   a.readings[1].bore_radius = 0.047;
   const std::string path = (std::filesystem::temp_directory_path() / "whine-test-readings.h5").string();
   write(path, a, {"test", "test", {}});
-  const ReadingsArtifact b = read_readings(path);
+  const ReadingsResult b = read_readings(path);
   std::filesystem::remove(path);
   CHECK(b.claim == a.claim);
   CHECK(b.outside == 2);
@@ -167,7 +167,7 @@ TEST_CASE("readings: an artifact gives back what it was given") {
 }
 
 TEST_CASE("consistency: sets that hold, the closest reading of those that do not, claims that never meet") {
-  ReadingsArtifact a;
+  ReadingsResult a;
   a.claim = {"a", "b", "c"};
   // a and b hold in one reading each and never together; c never.
   a.readings = {reading_with({0, 1, 1}), reading_with({1, 0, 1}), reading_with({0, 1, 1})};
@@ -210,7 +210,7 @@ claims = ["b"]
 }
 
 TEST_CASE("consistency: the project's sets name claims that there are") {
-  ReadingsArtifact a;
+  ReadingsResult a;
   for (const Claim& c : read_claims("data/published/claims.toml")) a.claim.push_back(c.id);
   Reading r;
   r.verdict.assign(a.claim.size(), 1);

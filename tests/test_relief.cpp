@@ -142,8 +142,7 @@ TEST_CASE("flank deviations: closed forms of each part, starts said in three way
 }
 
 TEST_CASE(
-    "monotone cubic: through its points, monotone where they are, one slope from either side, a parabola's "
-    "values") {
+    "monotone cubic: through its points, monotone where they are, one slope from either side, a parabola's values") {
   const std::vector<std::array<double, 2>> points{{{0, 0}}, {{1, 0}},   {{1.5, 3}},
                                                   {{2, 8}}, {{4, 8.1}}, {{5, 2}}};
   const MonotoneCubic curve(points);
@@ -207,8 +206,7 @@ TEST_CASE("flank deviations reject a relief that starts off the flank or is long
 }
 
 TEST_CASE(
-    "unloaded transmission error of relieved pairs is the envelope of the pairs' least gaps, from closed "
-    "forms") {
+    "unloaded transmission error of relieved pairs is the envelope of the pairs' least gaps, from closed forms") {
   struct Case {
     FlankModification driver, driven;
   };
@@ -299,7 +297,7 @@ TEST_CASE("statics of a relieved pair under a vanishing load have its unloaded t
         c.contact == ContactModel::line ? 6e-11 : 0;  // m: error of what lines take for the gap
     double before = 0;
     for (const double torque : {1.0, 1e-2, 1e-3}) {
-      const StaticArtifact s = static_transmission(paper_body(), paper_body(), settings, torque);
+      const StaticResult s = static_transmission(paper_body(), paper_body(), settings, torque);
       const Eigen::VectorXd off = s.transmission_error - s.unloaded_error;
       CHECK(off.minCoeff() > -parabola);
       // The deflection goes with the load, but for Hertz's logarithm.
@@ -338,11 +336,11 @@ TEST_CASE("modifications of nothing leave every number as it is") {
   for (const auto contact : {ContactModel::strips, ContactModel::line}) {
     settings.fidelity.contact = contact;
     settings.mesh.modification = {};
-    const StaticArtifact plain = static_transmission(paper_body(), paper_body(), settings, 150);
+    const StaticResult plain = static_transmission(paper_body(), paper_body(), settings, 150);
     FlankModification nothing = tip_relief(0, 22);
     nothing.points = {{{20 * kDegree, 0}}, {{25 * kDegree, 0}}};
     settings.mesh.modification = {nothing, nothing};
-    const StaticArtifact same = static_transmission(paper_body(), paper_body(), settings, 150);
+    const StaticResult same = static_transmission(paper_body(), paper_body(), settings, 150);
     CHECK(plain.transmission_error == same.transmission_error);
     CHECK(plain.stiffness_secant == same.stiffness_secant);
     CHECK(plain.stiffness_tangent == same.stiffness_tangent);
@@ -359,10 +357,10 @@ TEST_CASE("contact lines of relieved pairs against fine strips: 0.15 % of the me
     for (const double torque : {50.0, 150.0, 300.0}) {
       settings.fidelity.contact = ContactModel::line;
       settings.contact.strips = 8;
-      const StaticArtifact line = static_transmission(paper_body(), paper_body(), settings, torque);
+      const StaticResult line = static_transmission(paper_body(), paper_body(), settings, torque);
       settings.fidelity.contact = ContactModel::strips;
       settings.contact.strips = 24;
-      const StaticArtifact strips = static_transmission(paper_body(), paper_body(), settings, torque);
+      const StaticResult strips = static_transmission(paper_body(), paper_body(), settings, torque);
       const Eigen::VectorXd off = line.transmission_error - strips.transmission_error;
       const double range = strips.transmission_error.maxCoeff() - strips.transmission_error.minCoeff();
       MESSAGE(torque, " N m: lines off by ", off.cwiseAbs().maxCoeff() * 1e9, " nm at most, ",
@@ -403,8 +401,7 @@ TEST_CASE("a contact followed through all loads has the forces and approaches of
 }
 
 TEST_CASE(
-    "Harris map: within 0.5 % of finer strips and positions; relief that makes up for the deflection leaves "
-    "a third; the cusp at the design torque") {
+    "Harris map: within 0.5 % of finer strips and positions; relief that makes up for the deflection leaves a third; the cusp at the design torque") {
   StaticParameters settings = paper_statics(128);
   HarrisPlan plan;
   plan.torque = {20, 60, 90, 150, 225, 300};
@@ -439,7 +436,7 @@ TEST_CASE(
   CHECK(deflection > 2e-6);
 
   plan.relief = {0, 0.5 * deflection, deflection, 1.5 * deflection};
-  HarrisMapArtifact map = harris_map(paper_body(), paper_body(), settings, plan, no_report);
+  HarrisMapResult map = harris_map(paper_body(), paper_body(), settings, plan, no_report);
   const auto at = [&](int t, int r) { return map.peak_to_peak[0](t, r); };
   MESSAGE("at 150 N m ", at(3, 0) * 1e6, " um without relief, ", at(3, 2) * 1e6, " with; optimum ",
           map.optimum_relief[0] * 1e6, " um leave ", map.optimum_peak_to_peak[0] * 1e6);

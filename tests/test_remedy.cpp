@@ -108,8 +108,9 @@ TEST_CASE("a remedy changes what is wrong: bores, low dedenda, undercut gears") 
   DrawnGears bored = pair_of(gear(30), gear(45));
   bored.design[0].bore_radius = 36e-3;  // root 34.375
   CHECK(
-      said(bored).find("; all checks pass with bore_radius_mm = 31.87 or less in [gear.pinion] (a rim of one "
-                       "module; 36 may be a diameter)") != std::string::npos);
+      said(bored).find(
+          "; all checks pass with bore_radius_mm = 31.87 or less in [gear.pinion] (a rim of one module; 36 may be a diameter)") !=
+      std::string::npos);
   DrawnGears thin = pair_of(gear(20), ring_of(60, 0));
   thin.design[1].rim_outer_radius = ToothGeometry(thin.design[1]).root_radius() - 1e-3;
   const std::vector<Change> rim = remedy(thin);
@@ -121,8 +122,9 @@ TEST_CASE("a remedy changes what is wrong: bores, low dedenda, undercut gears") 
   low.mesh[0].centre_distance -= 1e-15;  // the round-off of other numbers
   CHECK(fault(low).find("has no clearance from the root of the ") != std::string::npos);
   CHECK(
-      said(low).find("; all checks pass with dedendum = 1.25 in [gear.pinion] (root_diameter_mm = 68.75) and "
-                     "dedendum = 1.25 in [gear.wheel]") != std::string::npos);
+      said(low).find(
+          "; all checks pass with dedendum = 1.25 in [gear.pinion] (root_diameter_mm = 68.75) and dedendum = 1.25 in [gear.wheel]") !=
+      std::string::npos);
 
   const DrawnGears small = pair_of(gear(10), gear(10));
   REQUIRE(!fault(small).empty());
@@ -235,7 +237,7 @@ TEST_CASE("what the drawing says of pressure that reaches the root is what stati
   const auto body = [&](const SceneGear& own) {
     return reduce(make_sector_mesh(own.design, coarse), own.material, coarse.modes);
   };
-  const BodyArtifact of_pinion = body(pinion);
+  const ReducedBody of_pinion = body(pinion);
   const double torque = 200, load = torque / ToothGeometry(pinion.design).base_radius();
   const auto told = [&](ForceBound force) {
     return near_interference(pinion, wheel, settings.mesh, load, force);

@@ -38,9 +38,9 @@ const FigureBlock& block(const Figure& figure, const std::string& name) {
   return figure.blocks.front();
 }
 
-StaticArtifact statics_of_paper(double torque) {
+StaticResult statics_of_paper(double torque) {
   constexpr int kPositions = 64;
-  StaticArtifact s = static_transmission(paper_body(), paper_body(), paper_statics(kPositions), torque);
+  StaticResult s = static_transmission(paper_body(), paper_body(), paper_statics(kPositions), torque);
   const Harmonics h = harmonics(s.transmission_error, 10), k = harmonics(s.stiffness_secant, 10);
   s.transmission_error_harmonic.resize(11);
   s.transmission_error_harmonic << h.mean, h.amplitude;
@@ -52,9 +52,9 @@ StaticArtifact statics_of_paper(double torque) {
 // Speeds of 1000, 1100, ... Hz; the transmission error has 3 um of order 1, 2 um of order 2 and, at the second speed, whose
 // motion repeats after two periods, 1 um of order 1/2. One pair carries the load, 10 N more at each speed, 5 N more in the
 // second of two periods.
-SweepArtifact some_sweep(Direction direction, int speeds = 4) {
+SweepResult some_sweep(Direction direction, int speeds = 4) {
   constexpr int kSteps = 32;
-  SweepArtifact s;
+  SweepResult s;
   s.gear[0].design = s.gear[1].design = paper_gear();
   s.mesh.gear[0] = "pinion";
   s.mesh.gear[1] = "wheel";
@@ -89,8 +89,8 @@ SweepArtifact some_sweep(Direction direction, int speeds = 4) {
   return s;
 }
 
-ResponseArtifact curve(const std::vector<double>& rms) {
-  ResponseArtifact r;
+ResponseResult curve(const std::vector<double>& rms) {
+  ResponseResult r;
   const auto n = static_cast<Eigen::Index>(rms.size());
   r.mesh_frequency = Eigen::VectorXd::LinSpaced(n, 1000, 1000 + 100 * static_cast<double>(n - 1));
   r.dte_rms = Eigen::Map<const Eigen::VectorXd>(rms.data(), n);
@@ -100,7 +100,7 @@ ResponseArtifact curve(const std::vector<double>& rms) {
 }  // namespace
 
 TEST_CASE("load sharing: shares at a mesh phase add up to the whole load, periods follow each other") {
-  const StaticArtifact light = statics_of_paper(100), heavy = statics_of_paper(300);
+  const StaticResult light = statics_of_paper(100), heavy = statics_of_paper(300);
   const Figure figure = load_sharing_figure({heavy, light});
   const FigureBlock& share = block(figure, "share");
   std::map<long, std::array<double, 2>> sums;  // by mesh phase
@@ -136,8 +136,7 @@ TEST_CASE("load sharing: shares at a mesh phase add up to the whole load, period
 }
 
 TEST_CASE(
-    "waterfall: lines stand at the orders of what is known, half orders where the motion repeats after two "
-    "periods") {
+    "waterfall: lines stand at the orders of what is known, half orders where the motion repeats after two periods") {
   const Figure figure = waterfall_figure({some_sweep(Direction::up)});
   std::map<std::pair<double, double>, double> lines;
   for (const auto& row : block(figure, "spectra up").rows) lines[{row[0], row[1]}] = row[2];
@@ -167,7 +166,7 @@ TEST_CASE(
   CHECK(both.blocks[0].rows == block(figure, "spectra up").rows);
   CHECK(block(both, "orders down").rows.front()[0] == 1300);
   CHECK_THROWS_AS(waterfall_figure({some_sweep(Direction::up), some_sweep(Direction::up)}), Error);
-  SweepArtifact heavier = some_sweep(Direction::down);
+  SweepResult heavier = some_sweep(Direction::down);
   heavier.torque = 300;
   CHECK_THROWS_AS(waterfall_figure({some_sweep(Direction::up), heavier}), Error);
 }
@@ -175,8 +174,8 @@ TEST_CASE(
 TEST_CASE("tooth loads against speed: those of the sweeps, the period of the largest load in the middle") {
   const Figure figure = dynamic_load_figure({some_sweep(Direction::down), some_sweep(Direction::up)});
   for (const Direction direction : {Direction::up, Direction::down}) {
-    const SweepArtifact sweep = some_sweep(direction);
-    const ResponseArtifact r = response(sweep);
+    const SweepResult sweep = some_sweep(direction);
+    const ResponseResult r = response(sweep);
     size_t i = 0;
     for (const auto& row : block(figure, name_of(direction)).rows) {
       if (row.empty()) continue;
@@ -187,10 +186,10 @@ TEST_CASE("tooth loads against speed: those of the sweeps, the period of the lar
   // The half order has the largest RMS; at 1100 Hz on the way up, with 115 N in the second period.
   for (const auto& row : block(figure, "b tooth i+0").rows)
     if (!row.empty() && row[0] >= 0 && row[0] < 1) CHECK(row[1] == 115);
-  SweepArtifact other = some_sweep(Direction::down);
+  SweepResult other = some_sweep(Direction::down);
   other.torque = 200;
   CHECK(failure_of([&] { dynamic_load_figure({some_sweep(Direction::up), other}); }) == Failure::input);
-  SweepArtifact second = some_sweep(Direction::up);
+  SweepResult second = some_sweep(Direction::up);
   second.torque = 200;
   CHECK(failure_of([&] {
           dynamic_load_figure({some_sweep(Direction::up), some_sweep(Direction::down), second, other});
@@ -207,7 +206,7 @@ TEST_CASE("resonances: peaks that stand out, no end of a sweep, in either order 
   CHECK(at({1, 3, 5}).empty());
   CHECK(at({1, 5, 4.9, 5.1, 1}) == std::vector<long>{3});  // two tips of one
   CHECK(at({1, 2, 2, 1}) == std::vector<long>{1});
-  ResponseArtifact down = curve({1, 3, 1, 1, 1, 5, 2});
+  ResponseResult down = curve({1, 3, 1, 1, 1, 5, 2});
   down.mesh_frequency.reverseInPlace();
   CHECK(resonances(down) == std::vector<Eigen::Index>{5, 1});  // ascending in frequency
 }
@@ -223,8 +222,7 @@ TEST_CASE("report: numbers of the artifacts, words that are no marks, figures on
   ReportContent content;
   content.scene = "pair: <Gears> & \"teeth\"";
   content.statics = {statics_of_paper(150), statics_of_paper(100)};
-  const ResponseArtifact up = response(some_sweep(Direction::up)),
-                         down = response(some_sweep(Direction::down));
+  const ResponseResult up = response(some_sweep(Direction::up)), down = response(some_sweep(Direction::down));
   content.sweeps = {{up, {remark(true, "back flanks < touch")}}, {down, {}}};
   content.pictures = {{"fig12", "\x89PNG"}};
   const std::string page = report_html(content);
@@ -263,7 +261,7 @@ TEST_CASE(
   content.scene = "pair: gears";
   for (const double torque : {100.0, 150.0, 200.0, 300.0})
     for (const Direction direction : {Direction::up, Direction::down}) {
-      ResponseArtifact r = response(some_sweep(direction));
+      ResponseResult r = response(some_sweep(direction));
       r.torque = torque;
       std::vector<Remark> found{remark(true, "the same of all")};
       if (direction == Direction::up && torque < 180) found.push_back(remark(false, "of two torques"));
@@ -280,8 +278,10 @@ TEST_CASE(
     return n;
   };
   CHECK(count("the same of all") == 2);
-  CHECK(count("<strong>Warning.</strong> speed rising and speed falling, 100, 150, 200 and 300 N m: the same "
-              "of all.") == 1);
+  CHECK(
+      count(
+          "<strong>Warning.</strong> speed rising and speed falling, 100, 150, 200 and 300 N m: the same of all.") ==
+      1);
   CHECK(count("<li>speed rising and speed falling, 200 N m: the same of all.") == 1);
   CHECK(count("speed rising, 100 and 150 N m: of two torques.") == 1);
   CHECK(count("100, 150, 200 and 300 N m: planet1 swings 1 to 3 µm of 5. Lower it.") == 1);
@@ -293,9 +293,9 @@ TEST_CASE("report: the inertia that moves stands beside that of the drawing") {
   ReportContent content;
   content.scene = "pair: gears";
   content.statics = {statics_of_paper(150)};
-  const StaticArtifact& s = content.statics[0];
+  const StaticResult& s = content.statics[0];
   CHECK(report_html(content).find("inertia in motion") == std::string::npos);
-  ImpactArtifact a;
+  ImpactResult a;
   a.gear[0].design = s.gear[0].design;
   a.gear[1].design = s.gear[1].design;
   a.gear[0].material = s.gear[0].material;
@@ -379,7 +379,7 @@ TEST_CASE("report: numbers of motions beyond the backlash are marked, with the s
   content.scene = "pair: gears";
   content.statics = {statics_of_paper(150)};
   content.pictures = {{"fig07", "\x89PNG"}};
-  SweepArtifact up = some_sweep(Direction::up), down = some_sweep(Direction::down);
+  SweepResult up = some_sweep(Direction::up), down = some_sweep(Direction::down);
   // The half order at the second speed swings farthest back.
   up.backlash_margin = -1e-7;
   down.backlash_margin = std::numeric_limits<double>::infinity();
@@ -392,7 +392,7 @@ TEST_CASE("report: numbers of motions beyond the backlash are marked, with the s
   CHECK(std::any_of(said.begin(), said.end(), [](const Remark& r) {
     return r.warning && r.words.find("at 1100 Hz the motion goes up to 0.1 µm beyond") != std::string::npos;
   }));
-  for (const SweepArtifact& s : {up, down})
+  for (const SweepResult& s : {up, down})
     content.sweeps.push_back({response(s), remarks(s, content.statics[0]), backlash_left(s)});
   const std::string table = report_tsv(content), page = report_html(content);
   CHECK(table.find("mesh frequency of that RMS, speed rising\t1100\tHz\tbeyond the backlash\n") !=
@@ -408,8 +408,8 @@ TEST_CASE("report: numbers of motions beyond the backlash are marked, with the s
 }
 
 TEST_CASE("an energy balance that does not close is warned of, with its speed and its size") {
-  SweepArtifact sweep = some_sweep(Direction::up);
-  const StaticArtifact statics = statics_of_paper(150);
+  SweepResult sweep = some_sweep(Direction::up);
+  const StaticResult statics = statics_of_paper(150);
   const auto warned = [&] {
     const std::vector<Remark> said = remarks(sweep, statics);
     return std::any_of(said.begin(), said.end(), [](const Remark& r) {
@@ -425,15 +425,14 @@ TEST_CASE("an energy balance that does not close is warned of, with its speed an
 }
 
 TEST_CASE(
-    "report: Hertz's pressure of the largest load is that of the statics, and warned of where no steel "
-    "carries it") {
+    "report: Hertz's pressure of the largest load is that of the statics, and warned of where no steel carries it") {
   ReportContent content;
   content.scene = "pair: gears";
   content.statics = {statics_of_paper(150)};
-  const StaticArtifact& s = content.statics[0];
+  const StaticResult& s = content.statics[0];
   Eigen::Index pair = 0;
   const double load = s.tooth_load.row(0).maxCoeff(&pair);  // at the pitch point, of one pair alone
-  SweepArtifact sweep = some_sweep(Direction::up);
+  SweepResult sweep = some_sweep(Direction::up);
   for (MatrixRM& loads : sweep.tooth_load) loads.setConstant(load);
   sweep.mesh_force.setConstant(load);
   content.sweeps = {{response(sweep), {}}};
@@ -446,7 +445,7 @@ TEST_CASE(
 
   CHECK(report_html(content).find("hardened steel") == std::string::npos);
   // A jump between speeds that stand wide apart, and between near ones.
-  ResponseArtifact& swept = content.sweeps[0].response;
+  ResponseResult& swept = content.sweeps[0].response;
   const Eigen::VectorXd speeds = swept.mesh_frequency;
   REQUIRE(speeds.size() > 1);
   const double step = std::abs(speeds[1] - speeds[0]), jump = 0.5 * (speeds[0] + speeds[1]);
@@ -459,7 +458,7 @@ TEST_CASE(
   // Of two ways it is said once, with the speeds of both.
   ReportContent two = content;
   two.sweeps.push_back(two.sweeps[0]);
-  ResponseArtifact& other = two.sweeps[1].response;
+  ResponseResult& other = two.sweeps[1].response;
   other.direction = Direction::down;
   other.mesh_frequency *= 1.1;
   other.jump_frequency *= 1.1;
@@ -471,7 +470,7 @@ TEST_CASE(
   CHECK(report_html(content).find("a sweep may leave a branch") == std::string::npos);
   swept.mesh_frequency = speeds;
   swept.jump_frequency = swept.jump_width = Eigen::VectorXd(0);
-  StaticArtifact pressed = s;
+  StaticResult pressed = s;
   pressed.contact_pressure(0, pair) = 1.6e9;
   const std::vector<Remark> said = remarks(pressed);
   CHECK(std::any_of(said.begin(), said.end(), [](const Remark& r) {
@@ -487,7 +486,7 @@ TEST_CASE("keys of a scene from its artifacts: in the scene's units, motion only
       if (key.name == name) return key.value[0] + "|" + key.value[1];
     return std::string("none");
   };
-  StaticArtifact s = statics_of_paper(100);
+  StaticResult s = statics_of_paper(100);
   const std::vector<SceneKey> keys = scene_keys_of(s);
   CHECK(value(keys, "teeth") == "50|50");
   CHECK(value(keys, "youngs_modulus_GPa") == "207|207");
@@ -500,7 +499,7 @@ TEST_CASE("keys of a scene from its artifacts: in the scene's units, motion only
   s.mesh.errors[0].single_pitch = {1e-6, -1e-6};
   CHECK(value(scene_keys_of(s), "points") == "|[[17.1887, 1], [22.9183, 2]]");
   CHECK(value(scene_keys_of(s), "single_pitch_um") == "[1, -1]|");
-  const ResponseArtifact r = response(some_sweep(Direction::up));
+  const ResponseResult r = response(some_sweep(Direction::up));
   CHECK(value(scene_keys_of(r), "total_inertia_kgm2") == "0.0148|0.0148");
   CHECK(value(scene_keys_of(r), "undamped_depth_mm") == "0.5|");
 }

@@ -10,8 +10,8 @@
 
 #include "base/error.h"
 #include "gear/scene_geometry.h"
-#include "io/rexs.h"
-#include "io/rexs_scene.h"
+#include "io/rexs/rexs.h"
+#include "io/rexs/scene.h"
 #include "io/scene.h"
 #include "relative.h"
 #include "rexs_models.h"
@@ -188,13 +188,13 @@ TEST_CASE(
   CHECK(said().find("is_driving_gear is true of both gears of cylindrical_stage 12 'First stage'") !=
         std::string::npos);
   set(box, 51, "is_driving_gear", "", "perhaps");
-  CHECK(said().find("'is_driving_gear' of cylindrical_stage_gear_data 51 = 'perhaps' is neither true nor "
-                    "false") != std::string::npos);
+  CHECK(said().find(
+            "'is_driving_gear' of cylindrical_stage_gear_data 51 = 'perhaps' is neither true nor false") !=
+        std::string::npos);
 }
 
 TEST_CASE(
-    "REXS: the flank that carries load is that of the load case; where none is said the left one, and that "
-    "is said") {
+    "REXS: the flank that carries load is that of the load case; where none is said the left one, and that is said") {
   const Folder folder;
   Gearbox box = first_pair();
   for (const auto& [id, flank, depth] : {std::tuple{50, 20, "4"}, std::tuple{51, 21, "7"}}) {
@@ -269,8 +269,7 @@ TEST_CASE("REXS: what a model says and a scene cannot hold is listed; texts of t
 }
 
 TEST_CASE(
-    "REXS: names that are cut, of folders of results, and bytes that are no UTF-8 give a scene that its own "
-    "reader accepts") {
+    "REXS: names that are cut, of folders of results, and bytes that are no UTF-8 give a scene that its own reader accepts") {
   const Folder folder;
   Gearbox box = first_pair();
   for (size_t letters = 0; letters < 4; ++letters)
@@ -419,48 +418,46 @@ TEST_CASE("REXS: what is said twice is rejected with both values, in XML and in 
     const char* message;
     void (*change)(Gearbox&);
   };
-  for (const Case& c :
-       {Case{"'normal_module' of cylindrical_gear 10 'Pinion A' stands twice: '2.5' and '3",
-             [](Gearbox& b) {
-               b.parts[1].attributes.push_back({"normal_module", "mm", "3"});
-             }},
-        Case{"'torque_around_u_axis' of external_load 41 'Load' stands twice: '-60",
-             [](Gearbox& b) {
-               b.load[1].attributes.push_back({"torque_around_u_axis", "N m", "70"});
-             }},
-        Case{"two components have the id 10: cylindrical_gear 10 'Pinion A' and cylindrical_gear 10 'Other'",
-             [](Gearbox& b) {
-               b.parts.push_back({10, "cylindrical_gear", "Other", {}});
-             }},
-        Case{"a relation 'stage' pairs a gear with itself: stage = cylindrical_stage 12 'First stage', "
-             "gear_1 = "
-             "cylindrical_gear 10 'Pinion A', gear_2 = cylindrical_gear 10 'Pinion A'",
-             [](Gearbox& b) { b.links[0].refs[2].second = 10; }},
-        Case{"a relation 'stage' has the role 'gear_1' twice: cylindrical_gear 10 'Pinion A' and "
-             "cylindrical_gear 11",
-             [](Gearbox& b) { b.links[0].refs[2].first = "gear_1"; }},
-        Case{"two relations say one thing: 'stage' (stage = cylindrical_stage 12 'First stage', gear_1 = "
-             "cylindrical_gear 10 'Pinion A', gear_2 = cylindrical_gear 11 'Wheel B') and 'stage' (stage = "
-             "cylindrical_stage 12 'First stage', gear_1 = cylindrical_gear 11 'Wheel B', gear_2 = "
-             "cylindrical_gear 10",
-             [](Gearbox& b) {
-               b.links.push_back({"stage", {{"stage", 12}, {"gear_1", 11}, {"gear_2", 10}}});
-             }},
-        Case{"two relations say one thing: 'flank' (gear = cylindrical_gear 10 'Pinion A', left = "
-             "cylindrical_gear_flank 20",
-             [](Gearbox& b) {
-               b.links.push_back({"flank", {{"gear", 10}, {"left", 22}, {"right", 23}}});
-             }},
-        Case{"two relations say one thing: 'stage_gear_data'",
-             [](Gearbox& b) {
-               set_stage_gear_data(b, 50, 10);
-               set_stage_gear_data(b, 51, 10);
-             }},
-        Case{"cylindrical_gear 10 'Pinion A' has two materials, material 31 'Steel' and material 32 'Bronze'",
-             [](Gearbox& b) {
-               b.parts.push_back({32, "material", "Bronze", {}});
-               b.links.push_back({"reference", {{"origin", 10}, {"referenced", 32}}});
-             }}}) {
+  for (
+      const Case& c :
+      {Case{"'normal_module' of cylindrical_gear 10 'Pinion A' stands twice: '2.5' and '3",
+            [](Gearbox& b) {
+              b.parts[1].attributes.push_back({"normal_module", "mm", "3"});
+            }},
+       Case{"'torque_around_u_axis' of external_load 41 'Load' stands twice: '-60",
+            [](Gearbox& b) {
+              b.load[1].attributes.push_back({"torque_around_u_axis", "N m", "70"});
+            }},
+       Case{"two components have the id 10: cylindrical_gear 10 'Pinion A' and cylindrical_gear 10 'Other'",
+            [](Gearbox& b) {
+              b.parts.push_back({10, "cylindrical_gear", "Other", {}});
+            }},
+       Case{
+           "a relation 'stage' pairs a gear with itself: stage = cylindrical_stage 12 'First stage', gear_1 = cylindrical_gear 10 'Pinion A', gear_2 = cylindrical_gear 10 'Pinion A'",
+           [](Gearbox& b) { b.links[0].refs[2].second = 10; }},
+       Case{
+           "a relation 'stage' has the role 'gear_1' twice: cylindrical_gear 10 'Pinion A' and cylindrical_gear 11",
+           [](Gearbox& b) { b.links[0].refs[2].first = "gear_1"; }},
+       Case{
+           "two relations say one thing: 'stage' (stage = cylindrical_stage 12 'First stage', gear_1 = cylindrical_gear 10 'Pinion A', gear_2 = cylindrical_gear 11 'Wheel B') and 'stage' (stage = cylindrical_stage 12 'First stage', gear_1 = cylindrical_gear 11 'Wheel B', gear_2 = cylindrical_gear 10",
+           [](Gearbox& b) {
+             b.links.push_back({"stage", {{"stage", 12}, {"gear_1", 11}, {"gear_2", 10}}});
+           }},
+       Case{
+           "two relations say one thing: 'flank' (gear = cylindrical_gear 10 'Pinion A', left = cylindrical_gear_flank 20",
+           [](Gearbox& b) {
+             b.links.push_back({"flank", {{"gear", 10}, {"left", 22}, {"right", 23}}});
+           }},
+       Case{"two relations say one thing: 'stage_gear_data'",
+            [](Gearbox& b) {
+              set_stage_gear_data(b, 50, 10);
+              set_stage_gear_data(b, 51, 10);
+            }},
+       Case{"cylindrical_gear 10 'Pinion A' has two materials, material 31 'Steel' and material 32 'Bronze'",
+            [](Gearbox& b) {
+              b.parts.push_back({32, "material", "Bronze", {}});
+              b.links.push_back({"reference", {{"origin", 10}, {"referenced", 32}}});
+            }}}) {
     CAPTURE(c.message);
     Gearbox box = first_pair();
     c.change(box);

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "io/publish.h"
-#include "io/rexs_results.h"
+#include "io/rexs/results.h"
 #include "rexs_models.h"
 
 using namespace whine;
@@ -175,9 +175,11 @@ TEST_CASE("REXS: results of another pair, of no stage, or that are no numbers ar
     return pair;
   };
   CHECK(said("12", kPair) == "no error");
-  CHECK(said("12", changed([](RexsPair& p) { p.teeth[1] = 46; }))
-            .find("has 30 and 45 teeth of module 2.5 mm at 94.5 mm, pressure angles 20 and 20 deg, profile "
-                  "shifts 0.25 and 0.05; the results are of 30 and 46") != std::string::npos);
+  CHECK(
+      said("12", changed([](RexsPair& p) { p.teeth[1] = 46; }))
+          .find(
+              "has 30 and 45 teeth of module 2.5 mm at 94.5 mm, pressure angles 20 and 20 deg, profile shifts 0.25 and 0.05; the results are of 30 and 46") !=
+      std::string::npos);
   CHECK(said("12", changed([](RexsPair& p) { p.module[1] = 2e-3; })).find("the results are of") !=
         std::string::npos);
   CHECK(said("12", changed([](RexsPair& p) { p.centre_distance = 94.6e-3; })).find("at 94.6 mm") !=

@@ -59,9 +59,7 @@ void place(Gearbox& box, int id, double v, double w) {
 }  // namespace
 
 TEST_CASE(
-    "REXS: a planetary stage gives a system with its torques, its held ring and the mesh frequency against "
-    "the "
-    "carrier") {
+    "REXS: a planetary stage gives a system with its torques, its held ring and the mesh frequency against the carrier") {
   const Folder folder;
   const Gearbox box = planetary();
   const Train train = train_in(folder, box);
@@ -144,8 +142,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "REXS: a single mesh of a planetary stage has its share of the torque and its speed against the "
-    "carrier") {
+    "REXS: a single mesh of a planetary stage has its share of the torque and its speed against the carrier") {
   const Folder folder;
   struct Case {
     const char *stage, *driver;
@@ -172,8 +169,7 @@ TEST_CASE(
   std::erase_if(box.links,
                 [](const Link& link) { return link.type == "assembly" && link.refs[0].second == 9; });
   CHECK(says(scene_in(folder, box, "Sun 0").assumed,
-             "torque_Nm = 300.0: the whole torque, and cylindrical_gear 10 'Sun' "
-             "takes part in 3 stages"));
+             "torque_Nm = 300.0: the whole torque, and cylindrical_gear 10 'Sun' takes part in 3 stages"));
   // A stage of two suns is no train; its meshes can be imported, and what is not known of them is said.
   box = planetary();
   box.parts.push_back(box.parts[7]);
@@ -222,8 +218,7 @@ TEST_CASE("REXS: the dedendum of a hob is not the addendum of its gear; tip circ
 }
 
 TEST_CASE(
-    "REXS: centre distance from positions and shifts from the centre distance, by the equation of ISO "
-    "21771") {
+    "REXS: centre distance from positions and shifts from the centre distance, by the equation of ISO 21771") {
   const Folder folder;
   Gearbox box = first_pair();
   unset(box, 12, "center_distance");
@@ -231,9 +226,9 @@ TEST_CASE(
     place(box, id, v, w);
   const auto pair = [&] { return read_scene(folder.file("pair.toml", scene_in(folder, box).text)); };
   CHECK(pair().mesh.centre_distance == 94.5e-3);
-  CHECK(says(scene_in(folder, box).assumed,
-             "mesh.centre_distance_mm = 94.5: the model has no center_distance; from "
-             "cylindrical_gear 10 'Pinion A', support_vector"));
+  CHECK(says(
+      scene_in(folder, box).assumed,
+      "mesh.centre_distance_mm = 94.5: the model has no center_distance; from cylindrical_gear 10 'Pinion A', support_vector"));
   set(box, 11, "reference_component_for_position", "", "40");
   CHECK(said(folder, box).find("no support_vector in the same coordinates") != std::string::npos);
 
@@ -337,28 +332,26 @@ TEST_CASE("REXS: a planetary stage that cannot be a scene is rejected with both 
     const char* message;
     void (*change)(Gearbox&);
   };
-  for (const Case& c : {
-           Case{"the planets differ, and a scene has one gear for all of them: cylindrical_gear 20 'Planet "
-                "0' has "
-                "face_width_mm = 20.0, cylindrical_gear 21 'Planet 1' has face_width_mm = 22.0",
-                [](Gearbox& b) { set(b, 21, "face_width", "mm", "22"); }},
-           Case{"cannot turn: ring: switchable_coupling 8 'Brake' holds it in gear_casing 2 'Casing', and "
-                "carrier: shaft 42 "
-                "'Carrier shaft', rotational_speed = 0",
-                [](Gearbox& b) { set(b, 42, "rotational_speed", "1 / min", "0"); }},
-           Case{"rotational_speed = 1500 1/min and shaft 42 'Carrier shaft', rotational_speed = 300 1/min, "
-                "which would be "
-                "312.5 1/min",
-                [](Gearbox& b) { set(b, 42, "rotational_speed", "1 / min", "300"); }},
-           Case{"holds no member in its gear_casing (sun 1500 1/min, carrier 300 1/min)",
-                [](Gearbox& b) {
-                  set(b, 42, "rotational_speed", "1 / min", "300");
-                  set(b, 8, "is_engaged", "", "false");
-                }},
-           Case{"59 mm from the sun (cylindrical_stage 50 'Sun 0', center_distance) and 60 mm from the ring",
-                [](Gearbox& b) { set(b, 50, "center_distance", "mm", "59"); }},
-           Case{"is helical", [](Gearbox& b) { set(b, 22, "helix_angle_reference_diameter", "deg", "9"); }},
-       }) {
+  for (
+      const Case& c : {
+          Case{
+              "the planets differ, and a scene has one gear for all of them: cylindrical_gear 20 'Planet 0' has face_width_mm = 20.0, cylindrical_gear 21 'Planet 1' has face_width_mm = 22.0",
+              [](Gearbox& b) { set(b, 21, "face_width", "mm", "22"); }},
+          Case{
+              "cannot turn: ring: switchable_coupling 8 'Brake' holds it in gear_casing 2 'Casing', and carrier: shaft 42 'Carrier shaft', rotational_speed = 0",
+              [](Gearbox& b) { set(b, 42, "rotational_speed", "1 / min", "0"); }},
+          Case{
+              "rotational_speed = 1500 1/min and shaft 42 'Carrier shaft', rotational_speed = 300 1/min, which would be 312.5 1/min",
+              [](Gearbox& b) { set(b, 42, "rotational_speed", "1 / min", "300"); }},
+          Case{"holds no member in its gear_casing (sun 1500 1/min, carrier 300 1/min)",
+               [](Gearbox& b) {
+                 set(b, 42, "rotational_speed", "1 / min", "300");
+                 set(b, 8, "is_engaged", "", "false");
+               }},
+          Case{"59 mm from the sun (cylindrical_stage 50 'Sun 0', center_distance) and 60 mm from the ring",
+               [](Gearbox& b) { set(b, 50, "center_distance", "mm", "59"); }},
+          Case{"is helical", [](Gearbox& b) { set(b, 22, "helix_angle_reference_diameter", "deg", "9"); }},
+      }) {
     CAPTURE(c.message);
     Gearbox box = planetary();
     c.change(box);

@@ -63,7 +63,7 @@ TEST_CASE(
   REQUIRE(tables.size() == 2);
   for (const auto& [planets, rows] : tables) {
     CAPTURE(planets);
-    const ModesArtifact a = natural_modes(layout_of(planetary_train(planets)));
+    const ModesResult a = natural_modes(layout_of(planetary_train(planets)));
     REQUIRE(a.natural_frequency.size() == 9 + 3 * planets);
     for (const char type : {'R', 'T', 'P'}) {
       CAPTURE(type);
@@ -111,7 +111,7 @@ TEST_CASE("torsional planetary train with a fixed ring: closed numbers") {
     scene.meshes[m].stiffness = (m == 0 ? 7 : 11) / (c * c);
   }
   scene.drives = {{"ring", System::DriveKind::held, 0, 0}};
-  const ModesArtifact a = natural_modes(layout_of(scene));
+  const ModesResult a = natural_modes(layout_of(scene));
   const std::array<double, 5> expected{0, 0.3898484006, 0.3898484006, 0.5087290, 0.7078868};
   const std::array<double, 5> digits{0, 5.1e-11, 5.1e-11, 5.1e-8, 5.1e-8};
   REQUIRE(a.natural_frequency.size() == 5);
@@ -135,7 +135,7 @@ TEST_CASE("modes have unit modal mass, are orthogonal and solve the equations; e
   for (const int planets : {3, 4, 5}) {
     const System layout = layout_of(planetary_train(planets));
     const RigidSystem system = rigid_system(layout);
-    const ModesArtifact a = natural_modes(layout);
+    const ModesResult a = natural_modes(layout);
     const Eigen::Index n = system.freedoms();
     REQUIRE(a.natural_frequency.size() == n);
     Eigen::MatrixXd all(n, n);
@@ -159,7 +159,7 @@ TEST_CASE("modes have unit modal mass, are orthogonal and solve the equations; e
 
 TEST_CASE("types are those of the structure: what central members and planets do in each") {
   const int planets = 5;
-  const ModesArtifact a = natural_modes(layout_of(planetary_train(planets)));
+  const ModesResult a = natural_modes(layout_of(planetary_train(planets)));
   const int sun = 0, ring = planets + 1, carrier = planets + 2;
   int rotational = 0, translational = 0, planet = 0;
   for (size_t i = 0; i < a.type.size(); ++i) {
@@ -192,13 +192,12 @@ TEST_CASE("types are those of the structure: what central members and planets do
 }
 
 TEST_CASE(
-    "where planets stand does not change the modes of equal spacing; unequal planets are typed by their "
-    "motion") {
-  const ModesArtifact equal = natural_modes(layout_of(planetary_train(4)));
+    "where planets stand does not change the modes of equal spacing; unequal planets are typed by their motion") {
+  const ModesResult equal = natural_modes(layout_of(planetary_train(4)));
   SystemScene turned = planetary_train(4);
   turned.carriers[0].planets = 0;
   for (int n = 0; n < 4; ++n) turned.carriers[0].positions.push_back(0.3 + n * kPi / 2);
-  const ModesArtifact rotated = natural_modes(layout_of(turned));
+  const ModesResult rotated = natural_modes(layout_of(turned));
   for (Eigen::Index i = 1; i < equal.natural_frequency.size(); ++i) {
     CHECK(rotated.natural_frequency[i] == relative(equal.natural_frequency[i], 1e-9));
     CHECK(rotated.type[static_cast<size_t>(i)] == equal.type[static_cast<size_t>(i)]);
@@ -215,7 +214,7 @@ TEST_CASE(
   const System layout = layout_of(opposite);
   CHECK(std::atan2(layout.bodies[2].centre[1], layout.bodies[2].centre[0]) ==
         relative(32 * 2 * kPi / 126, 1e-12));
-  const ModesArtifact split = natural_modes(layout);
+  const ModesResult split = natural_modes(layout);
   std::map<ModeType, int> count;
   for (const ModeType type : split.type) ++count[type];
   CHECK(count[ModeType::rotational] == 6);
@@ -231,7 +230,7 @@ TEST_CASE("the way that power flows does not change the modes: a ring that drive
   const System layout = layout_of(reversed);
   CHECK(layout.bodies[0].name == "ring");
   CHECK(layout.bodies.back().sense == layout.bodies[0].sense);
-  const ModesArtifact a = natural_modes(layout), b = natural_modes(layout_of(planetary_train(3)));
+  const ModesResult a = natural_modes(layout), b = natural_modes(layout_of(planetary_train(3)));
   CHECK(a.natural_frequency[0] == 0);
   for (Eigen::Index i = 1; i < a.natural_frequency.size(); ++i) {
     CHECK(a.natural_frequency[i] == relative(b.natural_frequency[i], 1e-9));
@@ -240,19 +239,18 @@ TEST_CASE("the way that power flows does not change the modes: a ring that drive
 }
 
 TEST_CASE(
-    "planets on rigid pins are masses of the carrier: the limit of stiff pins, of first order in their "
-    "flexibility") {
+    "planets on rigid pins are masses of the carrier: the limit of stiff pins, of first order in their flexibility") {
   SystemScene rigid = planetary_train(3);
   rigid.gears[1].bearing = {};
   rigid.carriers[0].equivalent_mass += 3 * 0.66;
   rigid.carriers[0].bearing.mass += 3 * 0.66;
-  const ModesArtifact b = natural_modes(layout_of(rigid));
+  const ModesResult b = natural_modes(layout_of(rigid));
   REQUIRE(b.natural_frequency.size() == 12);
   double before = 0;
   for (const double stiff : {1e12, 1e13}) {
     SystemScene scene = planetary_train(3);
     scene.gears[1].bearing.stiffness = stiff;
-    const ModesArtifact a = natural_modes(layout_of(scene));
+    const ModesResult a = natural_modes(layout_of(scene));
     double error = 0;
     for (Eigen::Index i = 1; i < 12; ++i)
       error = std::max(error, std::abs(a.natural_frequency[i] / b.natural_frequency[i] - 1));
@@ -278,7 +276,7 @@ TEST_CASE("a pair of rigid gears: the closed form of one degree of freedom; stif
   mesh.stiffness = 3e8;
   scene.meshes = {mesh};
   const double expected = std::sqrt(3e8 * (1 / 0.4 + 1 / 0.9)) / (2 * kPi);
-  const ModesArtifact a = natural_modes(layout_of(scene));
+  const ModesResult a = natural_modes(layout_of(scene));
   REQUIRE(a.natural_frequency.size() == 2);
   CHECK(a.natural_frequency[0] == 0);
   CHECK(a.natural_frequency[1] == relative(expected, 1e-13));
@@ -316,8 +314,7 @@ TEST_CASE("what a system scene says wrong is named, with the section that says i
   layout.bodies.back().on = static_cast<int>(layout.bodies.size()) - 1;
   CHECK_THROWS_WITH_AS(
       natural_modes(layout),
-      "'planet1' stands on number 6, which is no carrier on the ground; a rigid system has no "
-      "other place for it",
+      "'planet1' stands on number 6, which is no carrier on the ground; a rigid system has no other place for it",
       Error);
   for (const char* planet : {"planet", "planet1", "planet4"}) {
     scene.drives[0].gear = planet;

@@ -33,8 +33,7 @@ GearDesign supported(GearDesign ring, double radial, double tangential) {
 TEST_CASE("elastic support of a rim: stiffness of a whole rim that turns or moves, none of a rigid one") {
   const double radial = 3e8, across = 7e8;
   for (const int order : {1, 2}) {
-    const MeshArtifact mesh =
-        make_sector_mesh(supported(ring_gear(), radial, across), elements(1.6e-3, order));
+    const SectorGrid mesh = make_sector_mesh(supported(ring_gear(), radial, across), elements(1.6e-3, order));
     SparseReal support(2 * mesh.node_position.rows(), 2 * mesh.node_position.rows());
     add_rim_support(mesh, support);
     CHECK((support - SparseReal(support.transpose())).norm() <= 1e-15 * support.norm());
@@ -55,15 +54,13 @@ TEST_CASE("elastic support of a rim: stiffness of a whole rim that turns or move
 }
 
 TEST_CASE(
-    "a ring on a stiff support is one whose rim is rigid, to the first order of its flexibility; on a soft "
-    "one it turns "
-    "and moves as a rigid body") {
-  const BodyArtifact rigid = reduce(make_sector_mesh(ring_gear(), elements(2.4e-3, 1)), kSteel, 4);
+    "a ring on a stiff support is one whose rim is rigid, to the first order of its flexibility; on a soft one it turns and moves as a rigid body") {
+  const ReducedBody rigid = reduce(make_sector_mesh(ring_gear(), elements(2.4e-3, 1)), kSteel, 4);
   const auto on = [](double stiffness) {
     return reduce(make_sector_mesh(supported(ring_gear(), stiffness, 2 * stiffness), elements(2.4e-3, 1)),
                   kSteel, 4);
   };
-  const BodyArtifact stiff = on(1e14), half = on(5e13);
+  const ReducedBody stiff = on(1e14), half = on(5e13);
   const Eigen::MatrixXd once = stiff.compliance[0] - rigid.compliance[0],
                         twice = half.compliance[0] - rigid.compliance[0];
   CHECK(once.norm() < 0.05 * rigid.compliance[0].norm());
@@ -73,7 +70,7 @@ TEST_CASE(
 
   // N m-1 per m; the softer the support, the more the lowest modes are motions of a rigid ring.
   const double soft = 1e6, r = ring_gear().rim_outer_radius;
-  const BodyArtifact floats = on(soft);
+  const ReducedBody floats = on(soft);
   const double turning = std::sqrt(2 * kPi * r * r * r * 2 * soft / floats.inertia) / (2 * kPi),
                moving = std::sqrt(kPi * r * 3 * soft / floats.mass) / (2 * kPi);
   // Two of its translation, one of its rotation.
@@ -89,7 +86,7 @@ TEST_CASE(
   const GearDesign ring = ring_gear();
   const std::array<std::array<double, 2>, 3> support{
       {{1e11, 3e9}, {1e11, 3e10}, {1e12, 3e9}}};  // radial, tangential
-  std::vector<BodyArtifact> body;
+  std::vector<ReducedBody> body;
   for (const auto& [radial, across] : support)
     body.push_back(reduce(make_sector_mesh(supported(ring, radial, across), elements(2.4e-3, 1)), kSteel, 1));
   const ToothGeometry tooth(ring);
@@ -124,22 +121,21 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a planet in a ring on a soft support: the ring gives way as a rigid body on springs, teeth far apart "
-    "alike") {
+    "a planet in a ring on a soft support: the ring gives way as a rigid body on springs, teeth far apart alike") {
   // Along the line of action, per force: r_b^2 / (2 pi r^3 k_t) + 1 / (pi r (k_r + k_t)).
   const double radial = 2e6, across = 1e6, torque = 0.2;
   const GearDesign design = supported(ring_of(99, kInternalDistance / 32, 200e-3), radial, across);
-  const BodyArtifact ring = reduce(make_sector_mesh(design, elements(2.4e-3, 1)), kSteel, 1);
+  const ReducedBody ring = reduce(make_sector_mesh(design, elements(2.4e-3, 1)), kSteel, 1);
   const double rb = ToothGeometry(design).base_radius(), r = design.rim_outer_radius;
   const double springs = rb * rb / (2 * kPi * r * r * r * across) + 1 / (kPi * r * (radial + across));
-  const BodyArtifact planet = reduce(make_sector_mesh(planet_gear(), elements(2.4e-3, 1)), kSteel, 1),
-                     held = reduce(make_sector_mesh(ring_gear(), elements(2.4e-3, 1)), kSteel, 1);
+  const ReducedBody planet = reduce(make_sector_mesh(planet_gear(), elements(2.4e-3, 1)), kSteel, 1),
+                    held = reduce(make_sector_mesh(ring_gear(), elements(2.4e-3, 1)), kSteel, 1);
   StaticParameters settings;
   settings.mesh.gear = {"planet", "ring"};
   settings.mesh.centre_distance = kInternalDistance;
   settings.contact.positions = 8;
-  const StaticArtifact soft = static_transmission(planet, ring, settings, torque),
-                       rigid = static_transmission(planet, held, settings, torque);
+  const StaticResult soft = static_transmission(planet, ring, settings, torque),
+                     rigid = static_transmission(planet, held, settings, torque);
   const double force = torque / ToothGeometry(planet_gear()).base_radius();
   CHECK((soft.transmission_error.mean() - rigid.transmission_error.mean()) / force ==
         relative(springs, 0.01));

@@ -16,13 +16,13 @@
 #include "report/flank_pressure_figure.h"
 #include "report/iso_comparison.h"
 #include "report/root_stress_figure.h"
+#include "results/error_budget.h"
 #include "signal/branches.h"
 #include "signal/no_root_stress.h"
 #include "signal/response.h"
 #include "solid/loaded_gear.h"
 #include "solid/root_stress.h"
-#include "studies/error_budget_result.h"
-#include "studies/held_peaks.h"
+#include "studies/sustained_peaks.h"
 #include "studies/sweep.h"
 #include "studies/sweep_losses.h"
 #include "studies/sweep_pressure.h"
@@ -34,15 +34,15 @@ using namespace whine;
 namespace {
 
 struct Coarse {
-  MeshArtifact mesh;
-  BodyArtifact body;
+  SectorGrid mesh;
+  ReducedBody body;
 };
 
 Coarse made(const GearDesign& design, double element, int order = 2) {
   BodyDiscretisation discretisation;
   discretisation.element_size = element;
   discretisation.element_order = order;
-  const MeshArtifact mesh = make_sector_mesh(design, discretisation);
+  const SectorGrid mesh = make_sector_mesh(design, discretisation);
   return {mesh, reduce(mesh, paper_steel(), 0)};
 }
 
@@ -52,14 +52,14 @@ const Coarse& coarse() {
 }
 
 // (2 root) Pa N-1: of tooth `offset` under a force at a share of the flank, 0 at its lower end.
-Eigen::VectorXd under_force(const BodyArtifact& body, double share, int offset = 0) {
+Eigen::VectorXd under_force(const ReducedBody& body, double share, int offset = 0) {
   const ToothGeometry tooth(body.design);
   const FlankTable table(tooth, static_cast<int>(body.flank_position.size()));
   const double xi = table.lowest() + share * (table.highest() - table.lowest());
   return body.root_stress[static_cast<size_t>(offset + body.offsets)] * table.weights(xi).transpose();
 }
 
-double largest(const BodyArtifact& body, double share) {
+double largest(const ReducedBody& body, double share) {
   return under_force(body, share).head(body.root_angle.size()).maxCoeff();
 }
 
@@ -69,7 +69,7 @@ double largest(const BodyArtifact& body, double share) {
 Eigen::Vector3d section_imbalance(const GearDesign& design, double element, double share) {
   BodyDiscretisation discretisation;
   discretisation.element_size = element;
-  const MeshArtifact mesh = make_sector_mesh(design, discretisation);
+  const SectorGrid mesh = make_sector_mesh(design, discretisation);
   const ToothGeometry tooth(design);
   const FlankTable table(tooth, 24);
   const double xi = table.lowest() + share * (table.highest() - table.lowest());
@@ -145,7 +145,7 @@ TEST_CASE("root stress: rigid motions give none, an even expansion gives E' time
     for (const bool plane_stress : {true, false}) {
       BodyDiscretisation discretisation;
       discretisation.element_size = 0.8e-3;
-      const MeshArtifact mesh = make_sector_mesh(design, discretisation);
+      const SectorGrid mesh = make_sector_mesh(design, discretisation);
       Material steel = paper_steel();
       steel.plane_stress = plane_stress;
       const RootReader reader(mesh, steel);
@@ -203,7 +203,7 @@ TEST_CASE(
 }
 
 TEST_CASE("root stress: a tooth bends: tension beside the loaded flank, compression on the other side") {
-  const BodyArtifact& body = coarse().body;
+  const ReducedBody& body = coarse().body;
   const Eigen::Index points = body.root_angle.size();
   for (const double share : {0.3, 0.6, 0.9}) {
     const Eigen::VectorXd stress = under_force(body, share);
@@ -214,7 +214,7 @@ TEST_CASE("root stress: a tooth bends: tension beside the loaded flank, compress
 }
 
 TEST_CASE("root stress: elements of 0.8 mm against 0.4 mm") {
-  const BodyArtifact fine = made(paper_gear(), 0.4e-3).body;
+  const ReducedBody fine = made(paper_gear(), 0.4e-3).body;
   for (const double share : {0.35, 0.65, 0.95}) {
     CHECK(largest(coarse().body, share) == relative(largest(fine, share), 0.02));
   }
@@ -296,8 +296,8 @@ TEST_CASE("root stress: finer elements on the root leave all else of a body as i
 }
 
 TEST_CASE("root stress at rest: histories, their maximum, and Y_F Y_S of ISO 6336-3") {
-  const BodyArtifact& body = coarse().body;
-  const StaticArtifact s = static_transmission(body, body, paper_statics(32), 150);
+  const ReducedBody& body = coarse().body;
+  const StaticResult s = static_transmission(body, body, paper_statics(32), 150);
   const GearPair pair(s);
   for (int g = 0; g < kSides; ++g) {
     CAPTURE(g);
@@ -318,9 +318,8 @@ TEST_CASE("root stress at rest: histories, their maximum, and Y_F Y_S of ISO 633
 }
 
 TEST_CASE(
-    "root stress of a mesh: one pair is its table times its force, teeth without load carry none of their "
-    "own") {
-  const BodyArtifact& body = coarse().body;
+    "root stress of a mesh: one pair is its table times its force, teeth without load carry none of their own") {
+  const ReducedBody& body = coarse().body;
   const StaticParameters settings = paper_statics(32);
   const GearMeshModel model(body, body, settings.mesh);
   RootStresses roots(model, {0.0, 0.3});
@@ -346,7 +345,7 @@ TEST_CASE(
 
 TEST_CASE(
     "root stress of a mesh: the load of the next tooth adds its table on its own side, of either gear") {
-  const BodyArtifact& body = coarse().body;
+  const ReducedBody& body = coarse().body;
   const StaticParameters settings = paper_statics(32);
   const GearMeshModel model(body, body, settings.mesh);
   constexpr double kPhase = 0.1;
@@ -377,23 +376,22 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "root stress: what is held across the start of a mesh period counts, in motions of one and of several "
-    "periods and in those that never repeat") {
-  const BodyArtifact& body = coarse().body;
+    "root stress: what is sustained across the start of a mesh period counts, in motions of one and of several periods and in those that never repeat") {
+  const ReducedBody& body = coarse().body;
   const StaticParameters settings = paper_statics(32);
   const GearMeshModel model(body, body, settings.mesh);
   constexpr int kSteps = 128, kPeriods = 3;
   // A load that stands for two samples on either side of each start of a period, highest across that of period 1.
   const auto period = [&](double before, double after) {
     RollingDynamics::Period out;
-    out.pair_load = Eigen::MatrixXd::Constant(3, kSteps, 100);
-    out.pair_load.row(1).head(2).setConstant(after);
-    out.pair_load.row(1).tail(2).setConstant(before);
+    out.tooth_pair_load = Eigen::MatrixXd::Constant(3, kSteps, 100);
+    out.tooth_pair_load.row(1).head(2).setConstant(after);
+    out.tooth_pair_load.row(1).tail(2).setConstant(before);
     return out;
   };
   const std::array periods{period(3000, 2000), period(1500, 3000), period(2000, 1500)};
   const auto largest_of = [&](int repeats) {
-    HeldPeaks peaks(model, kSteps);
+    SustainedPeaks peaks(model, kSteps);
     Eigen::VectorXd most;
     for (int k = 0; k < kPeriods; ++k) most = peaks.so_far(periods[static_cast<size_t>(k)], k, repeats);
     return most;
@@ -401,21 +399,21 @@ TEST_CASE(
   MatrixRM force(kPeriods * kSteps, 1);
   for (int k = 0; k < kPeriods; ++k)
     force.middleRows(k * kSteps, kSteps) =
-        periods[static_cast<size_t>(k)].pair_load.colwise().sum().transpose();
-  CHECK(largest_of(kPeriods)[0] == held_load(force, kSteps, kPeriods));
+        periods[static_cast<size_t>(k)].tooth_pair_load.colwise().sum().transpose();
+  CHECK(largest_of(kPeriods)[0] == sustained_load(force, kSteps, kPeriods));
   CHECK(largest_of(kPeriods)[0] == 3200);
-  CHECK(largest_of(HeldPeaks::kNever)[0] == held_load(force, kSteps));
-  CHECK(largest_of(kPeriods)[2] > 1.1 * HeldPeaks(model, kSteps).of(periods[1])[2]);
+  CHECK(largest_of(SustainedPeaks::kNever)[0] == sustained_load(force, kSteps));
+  CHECK(largest_of(kPeriods)[2] > 1.1 * SustainedPeaks(model, kSteps).of(periods[1])[2]);
   // The place goes with the largest of the periods, not with the last one, and it is not the largest place.
-  HeldPeaks following(model, kSteps);
+  SustainedPeaks following(model, kSteps);
   Eigen::VectorXd alone[kPeriods], together;
   for (int k = 0; k < kPeriods; ++k) {
-    HeldPeaks own(model, kSteps);
+    SustainedPeaks own(model, kSteps);
     for (int before = 0; before < k; ++before) own.of(periods[static_cast<size_t>(before)], before, kPeriods);
     alone[k] = own.of(periods[static_cast<size_t>(k)], k, kPeriods);
     together = following.so_far(periods[static_cast<size_t>(k)], k, kPeriods);
   }
-  REQUIRE(together.size() == HeldPeaks::kRows);
+  REQUIRE(together.size() == SustainedPeaks::kRows);
   for (int g = 0; g < kSides; ++g) {
     int most = 0;
     for (int k = 1; k < kPeriods; ++k)
@@ -428,22 +426,21 @@ TEST_CASE(
     CHECK(std::min(std::abs(phase), std::abs(phase - 1)) <= 2.0 / kSteps);
   }
   // A motion of one period meets its own start.
-  CHECK(HeldPeaks(model, kSteps).of(periods[0])[0] == 2200);
-  CHECK(HeldPeaks(model, kSteps).of(periods[0], 0, HeldPeaks::kNever)[0] == 300);
+  CHECK(SustainedPeaks(model, kSteps).of(periods[0])[0] == 2200);
+  CHECK(SustainedPeaks(model, kSteps).of(periods[0], 0, SustainedPeaks::kNever)[0] == 300);
   // Last and first period of three.
-  HeldPeaks once(model, kSteps);
+  SustainedPeaks once(model, kSteps);
   for (int k = 0; k + 1 < kPeriods; ++k) once.of(periods[static_cast<size_t>(k)], k, kPeriods);
   CHECK(once.of(periods[2], 2, kPeriods)[0] == 2200);
 }
 
 TEST_CASE(
-    "root stress in motion: crawling gears have that at rest, held values are no larger, the figure shows "
-    "both") {
-  const BodyArtifact& body = paper_body(40e-3, 0.8e-3);
-  const StaticArtifact s = static_transmission(body, body, paper_statics(128), 150);
+    "root stress in motion: crawling gears have that at rest, sustained values are no larger, the figure shows both") {
+  const ReducedBody& body = paper_body(40e-3, 0.8e-3);
+  const StaticResult s = static_transmission(body, body, paper_statics(128), 150);
   SweepParameters crawling = paper_sweep(10, 10, 1);
   crawling.time.min_sample_rate = 60e3;
-  const SweepArtifact up = sweep(body, body, s, s.mean_stiffness, crawling, Direction::up, no_report);
+  const SweepResult up = sweep(body, body, s, s.mean_stiffness, crawling, Direction::up, no_report);
   for (size_t g = 0; g < kSides; ++g) {
     REQUIRE(up.root_stress[g].cols() == s.root_stress[g].rows());
     const Eigen::VectorXd difference =
@@ -458,7 +455,7 @@ TEST_CASE(
     CHECK(std::abs(up.root_stress_phase[g][0] - s.root_stress_phase[at]) <= 1.0 / 64);
     CHECK(std::abs(up.root_stress_angle[g][0] - s.root_stress_angle[at]) < 5e-3);
   }
-  ResponseArtifact r = response(up);
+  ResponseResult r = response(up);
   r.loss_factor = loss_factors(up);
   add_flank_pressure(up, r);
   // Hertz's of the loads at rest, strips are within 2.1 % of it; where one pair carries all and clear of the edges.
@@ -490,24 +487,24 @@ TEST_CASE(
     edges += edge > 0;
   }
   CHECK(edges > 2);
-  CHECK(r.flank_pressure_held[0] >= r.flank_pressure.maxCoeff() * (1 - 1e-3));
-  CHECK(r.flank_pressure_held[0] == relative(r.flank_pressure.maxCoeff(), 0.02));
+  CHECK(r.flank_pressure_sustained[0] >= r.flank_pressure.maxCoeff() * (1 - 1e-3));
+  CHECK(r.flank_pressure_sustained[0] == relative(r.flank_pressure.maxCoeff(), 0.02));
   // Windows over three samples against places of two, where the load goes to 0 within some of them.
   const double there = r.edge_load_there.maxCoeff();
   CHECK(std::max(r.edge_load[0][0], r.edge_load[1][0]) > 0.9 * there);
   CHECK(std::max(r.edge_load[0][0], r.edge_load[1][0]) <= up.tooth_load[0].maxCoeff());
   CHECK(r.loss_factor[0] == relative(s.loss_factor, 2e-3));
   for (size_t g = 0; g < kSides; ++g) {
-    CHECK(r.root_stress_held[g][0] <= r.root_stress_max[g][0]);
+    CHECK(r.root_stress_sustained[g][0] <= r.root_stress_max[g][0]);
     CHECK(r.root_stress_angle[g] == up.root_stress_angle[g]);
     CHECK(r.root_stress_phase[g] == up.root_stress_phase[g]);
-    CHECK(r.root_stress_held[g][0] == relative(r.root_stress_max[g][0], 0.02));
+    CHECK(r.root_stress_sustained[g][0] == relative(r.root_stress_max[g][0], 0.02));
   }
-  CHECK(r.tooth_load_held[0] <= r.tooth_load_max[0]);
-  CHECK(r.mesh_force_held[0] <= r.mesh_force_max[0]);
+  CHECK(r.tooth_load_sustained[0] <= r.tooth_load_max[0]);
+  CHECK(r.mesh_force_sustained[0] <= r.mesh_force_max[0]);
 
   const Figure pressures = flank_pressure_figure(s, {r, [&] {
-                                                       ResponseArtifact other = r;
+                                                       ResponseResult other = r;
                                                        other.direction = Direction::down;
                                                        return other;
                                                      }()});
@@ -516,7 +513,7 @@ TEST_CASE(
   for (const FigureBlock& b : pressures.blocks)
     for (const auto& row : b.rows) CHECK((row.empty() || row.size() == b.columns.size()));
 
-  ResponseArtifact back = r;
+  ResponseResult back = r;
   back.direction = Direction::down;
   const Figure figure = root_stress_figure(s, {r, back});
   const auto block = [&](const std::string& name) {
@@ -551,26 +548,26 @@ TEST_CASE(
     CHECK(*iso.root_stress[static_cast<size_t>(g)] == iso_6336_root_stress(pair, g, force));
   CHECK(rest.rows[0][3] == relative(*iso.root_stress[0] * 1e-6, 1e-12));
   CHECK(block("iso").rows.front()[1] == *iso.dynamic_factor(block("iso").rows.front()[0]));
-  StaticArtifact high = s;
+  StaticResult high = s;
   high.contact_ratio = 0.9;
   const IsoComparison none = iso_comparison(high, r.inertia);
   CHECK(none.missing == "K_v");
   CHECK(!none.dynamic_factor(1000));
 
   const auto without = [&](const auto& take) {
-    ResponseArtifact lacking = r;
+    ResponseResult lacking = r;
     take(lacking);
     return failure_of([&] { root_stress_figure(s, {lacking, back}); });
   };
-  CHECK(without([](ResponseArtifact&) {}) == static_cast<Failure>(0));
-  CHECK(without([](ResponseArtifact& a) { a.root_stress_held[1].resize(0); }) == Failure::input);
-  CHECK(without([](ResponseArtifact& a) { a.mesh_force_held.resize(0); }) == Failure::input);
-  CHECK(without([](ResponseArtifact& a) { a.tooth_load_held.resize(0); }) == Failure::input);
-  CHECK(without([](ResponseArtifact& a) { a.loss_factor.resize(0); }) == Failure::input);
+  CHECK(without([](ResponseResult&) {}) == static_cast<Failure>(0));
+  CHECK(without([](ResponseResult& a) { a.root_stress_sustained[1].resize(0); }) == Failure::input);
+  CHECK(without([](ResponseResult& a) { a.mesh_force_sustained.resize(0); }) == Failure::input);
+  CHECK(without([](ResponseResult& a) { a.tooth_load_sustained.resize(0); }) == Failure::input);
+  CHECK(without([](ResponseResult& a) { a.loss_factor.resize(0); }) == Failure::input);
 }
 
 TEST_CASE("root stress: a pair at rest without it says what to do") {
-  StaticArtifact s;
+  StaticResult s;
   s.mesh.gear = {"pinion", "wheel"};
   CHECK(why_no_root_stress(s).find("make the bodies anew") != std::string::npos);
   CHECK(failure_of([&] { root_stress_figure(s, {}); }) == Failure::input);

@@ -25,11 +25,11 @@ using Eigen::VectorXd;
 
 namespace {
 
-const BodyArtifact& body() {
+const ReducedBody& body() {
   return paper_body(40e-3, 0.8e-3);
 }
-const StaticArtifact& statics() {
-  static const StaticArtifact at_rest = static_transmission(body(), body(), paper_statics(128), 150);
+const StaticResult& statics() {
+  static const StaticResult at_rest = static_transmission(body(), body(), paper_statics(128), 150);
   return at_rest;
 }
 
@@ -42,10 +42,10 @@ VectorXd joined(const VectorXd& a, const VectorXd& b) {
 
 // Keeps all of it.
 struct Kept : RunupSink {
-  RunupArtifact all;
+  RunupResult all;
   Index samples = 0, periods = 0;
   RunupSink* other = nullptr;
-  void begin(const RunupArtifact& head, Index n, Index m) override {
+  void begin(const RunupResult& head, Index n, Index m) override {
     all = head;
     samples = n;
     periods = m;
@@ -70,10 +70,10 @@ struct Kept : RunupSink {
           &RunupPeriods::tooth_load_max, &RunupPeriods::separation_fraction})
       a.*member = joined(a.*member, p.*member);
     for (size_t g = 0; g < kSides; ++g)
-      a.root_stress_held[g] = joined(a.root_stress_held[g], p.root_stress_held[g]);
+      a.root_stress_sustained[g] = joined(a.root_stress_sustained[g], p.root_stress_sustained[g]);
     if (other) other->take(p);
   }
-  void end(const RunupArtifact& tail) override {
+  void end(const RunupResult& tail) override {
     all.least_gap = tail.least_gap;
     if (other) other->end(tail);
   }
@@ -112,7 +112,7 @@ struct InNewFolder {
 }  // namespace
 
 TEST_CASE("a slow run-up shows the motions of the sweep, in its mesh periods and in its samples") {
-  const SweepArtifact periodic =
+  const SweepResult periodic =
       sweep(body(), body(), statics(), 463e6, paper_sweep(3350, 3350, 20), Direction::up, no_report);
   const Harmonics known = harmonics(periodic.transmission_error.row(0).transpose(), 3);
   const double mean_load = statics().torque / (75e-3 * std::cos(20 * std::numbers::pi / 180));
@@ -123,11 +123,11 @@ TEST_CASE("a slow run-up shows the motions of the sweep, in its mesh periods and
     const Index at = here.period_at(3350);
     CHECK(here.all.periods.dte_rms[at] == relative(known.rms, 2e-3));
     CHECK(here.all.periods.dte_mean[at] == relative(known.mean, 1e-4));
-    CHECK(here.all.periods.tooth_load_max[at] == relative(held_load(periodic.tooth_load[0], 128), 2e-3));
+    CHECK(here.all.periods.tooth_load_max[at] == relative(sustained_load(periodic.tooth_load[0], 128), 2e-3));
     REQUIRE(here.all.root_stress);
     for (size_t g = 0; g < kSides; ++g)
-      CHECK(here.all.periods.root_stress_held[g][at] ==
-            relative(held_load(periodic.root_stress[g].transpose(), 128, 1), 2e-3));
+      CHECK(here.all.periods.root_stress_sustained[g][at] ==
+            relative(sustained_load(periodic.root_stress[g].transpose(), 128, 1), 2e-3));
     // Samples: the first order, the mean load, loads of pairs that add up.
     const RunupSamples& s = here.all.samples;
     const VectorXd phase = s.time.unaryExpr([&](double t) { return here.all.mesh_phase(t); });
@@ -145,12 +145,12 @@ TEST_CASE("a slow run-up shows the motions of the sweep, in its mesh periods and
 
 TEST_CASE(
     "tooth loads are filtered pair by pair: where one pair carries all, each has the load of the sweep") {
-  const SweepArtifact periodic =
+  const SweepResult periodic =
       sweep(body(), body(), statics(), 463e6, paper_sweep(1200, 1200, 20), Direction::up, no_report);
   const MatrixRM& known = periodic.tooth_load[0];  // (sample, pair)
   const double mean_load = statics().torque / (75e-3 * std::cos(20 * std::numbers::pi / 180));
   for (const bool up : {true, false}) {
-    const RunupArtifact a = (up ? run(1197, 1203, 200) : run(1203, 1197, 200)).all;
+    const RunupResult a = (up ? run(1197, 1203, 200) : run(1203, 1197, 200)).all;
     double worst = 0;
     Index compared = 0;
     for (Index i = 0; i < a.samples.size(); ++i) {
@@ -185,8 +185,8 @@ TEST_CASE("ramps through a change of the number of steps have the samples of one
           .all;
     };
     // 256 steps up to 250 kHz / 128 = 1953 Hz and 128 above it; 128 throughout; 256 throughout.
-    const RunupArtifact both = record(250e3), coarse = record(200e3), fine = record(400e3);
-    for (const RunupArtifact* one : {&coarse, &fine}) {
+    const RunupResult both = record(250e3), coarse = record(200e3), fine = record(400e3);
+    for (const RunupResult* one : {&coarse, &fine}) {
       REQUIRE(both.samples.size() == one->samples.size());
       // Of the amplitude: 1.2e-3 and 5e-3 are seen. Without the blend of the two rules it is 2.8e-3 and 6.9e-3 at least.
       const auto off = [&](const VectorXd& x, const VectorXd& y) {
@@ -214,7 +214,7 @@ TEST_CASE("a jump comes later the faster the ramp, and at the fold for a slow on
   constexpr double kLight = 5.5e-6;  // s: two branches at 150 N m
   SweepParameters settings = paper_sweep(2700, 2860, 20);
   settings.damping.rayleigh_stiffness = kLight;
-  const SweepArtifact steps = sweep(body(), body(), statics(), 463e6, settings, Direction::up, no_report);
+  const SweepResult steps = sweep(body(), body(), statics(), 463e6, settings, Direction::up, no_report);
   REQUIRE(steps.jump_frequency.size() == 1);
   const double fold = steps.jump_frequency[0];
   // Half-way from the motion before the jump to the one behind it.
@@ -236,14 +236,13 @@ TEST_CASE("a jump comes later the faster the ramp, and at the fold for a slow on
 }
 
 TEST_CASE(
-    "runup.h5: what was given, bit for bit in single precision; the same bytes again; nothing without its "
-    "end") {
+    "runup.h5: what was given, bit for bit in single precision; the same bytes again; nothing without its end") {
   const InNewFolder folder;
   RunupFile file(folder("a.h5"), Provenance()), again(folder("b.h5"), Provenance());
   const Kept kept = run(3300, 3400, 2000, 7.7e-6, 2e-4, &file);
   run(3300, 3400, 2000, 7.7e-6, 2e-4, &again);
   CHECK(read_bytes(folder("a.h5")) == read_bytes(folder("b.h5")));
-  const RunupArtifact a = read_runup(folder("a.h5"));
+  const RunupResult a = read_runup(folder("a.h5"));
   const auto single = [](const auto& x) { return x.template cast<float>().template cast<double>().eval(); };
   CHECK(a.samples.time == kept.all.samples.time);
   CHECK(a.samples.transmission_error == single(kept.all.samples.transmission_error));

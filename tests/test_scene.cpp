@@ -193,9 +193,10 @@ TEST_CASE("a gear at the top of a scene is told its section, one in no mesh is w
   const Scene scene = read_scene(path);
   std::string said;
   for (const std::string& line : scene_lines(scene, path)) said += line + "\n";
-  CHECK(contains(said,
-                 path + ":23: [gear.wheel2] is in no [[mesh]] and carries nothing; gears that share a shaft "
-                        "are not computed"));
+  CHECK(contains(
+      said,
+      path +
+          ":23: [gear.wheel2] is in no [[mesh]] and carries nothing; gears that share a shaft are not computed"));
 }
 
 TEST_CASE("a torque in N mm is named where a thousandth of it passes") {
@@ -273,9 +274,9 @@ TEST_CASE("a missing key is rejected, all of a section in one line") {
 
 TEST_CASE("a value outside its range is rejected with value and limit") {
   const SceneFile file;
-  CHECK(file.rejection(scene_with("module_mm = 3", "module_mm = -3")) ==
-        "x.toml:3: 'module_mm' in [gear.pinion] = -3: must be at least 0.05 mm: drawings have 0.05 to 50 mm; "
-        "0.003 would be 3 mm in metres");
+  CHECK(
+      file.rejection(scene_with("module_mm = 3", "module_mm = -3")) ==
+      "x.toml:3: 'module_mm' in [gear.pinion] = -3: must be at least 0.05 mm: drawings have 0.05 to 50 mm; 0.003 would be 3 mm in metres");
   CHECK(contains(file.rejection(scene_with("module_mm = 3", "module_mm = 0.003")), "at least 0.05 mm"));
   CHECK(contains(file.rejection(scene_with("face_width_mm = 25.4", "face_width_mm = 0.025")),
                  "0.025 would be 25 mm in metres"));
@@ -295,7 +296,7 @@ TEST_CASE("a value outside its range is rejected with value and limit") {
   CHECK(contains(file.rejection(scene_with("step = 20", "step = 1e-9")), "100000 speeds"));
   CHECK(contains(file.rejection(with_section("[discretisation]\nelement_order = 3\n")), "at most 2"));
   CHECK(contains(file.rejection(with_section("[fidelity]\nbody = \"whole\"\n")),
-                 "must be one of: rigid, quasi-static, lagged, modal, full"));
+                 "must be one of: rigid, quasi-static, relaxed, modal, full"));
   CHECK(contains(file.rejection(with_section("[fidelity]\ncontact = \"point\"\n")),
                  "must be one of: line, strips"));
   CHECK(file.read(with_section("[fidelity]\ncontact = \"line\"\n")).fidelity.contact == ContactModel::line);
@@ -304,8 +305,7 @@ TEST_CASE("a value outside its range is rejected with value and limit") {
         file.rejection(
             with_section("[discretisation]\n" + std::string(near_field) + "matching_depth_mm = 2.0\n")),
         std::string(*near_field ? "x.toml:25:" : "x.toml:24:") +
-            " 'matching_depth_mm' in [discretisation] = 2: near_field is \"subtraction\", which has "
-            "no depth"));
+            " 'matching_depth_mm' in [discretisation] = 2: near_field is \"subtraction\", which has no depth"));
   CHECK(file.read(with_section("[discretisation]\nmatching_depth_mm = 2.0\nnear_field = \"matching\"\n"))
             .body.matching_depth == 2e-3);
   CHECK(contains(file.rejection(with_section("[fidelity]\nintegrator = \"euler\"\n")),
@@ -433,14 +433,10 @@ TEST_CASE("stage parameters depend on values, not on comments, order, spelling o
   const SceneFile file;
   const Scene plain = file.read(kScene);
   const std::string dressed =
-      "# comment\n[discretisation]\nstrips = 8\nelement_mm = 0.40\n[operation]\nmesh_frequency_Hz = { step "
-      "= 20.0, to = 4e3, from = 600 }\n"
-      "torque_Nm = [100.0, 150]\n[[mesh]]\ncentre_distance_mm = 150.0 # c\ndriven = \"wheel\"\ndriver = "
-      "'pinion'\n"
-      "[material.steel]\nplane = \"stress\"\ndensity_kgm3 = 7.6e3\npoisson_ratio = 0.3\nyoungs_modulus_GPa = "
-      "207.0\n"
-      "[gear.wheel]\nlike = \"pinion\"\n[gear.pinion]\nmaterial = \"steel\"\naddendum = "
-      "1\ntotal_inertia_kgm2 = 0.0148\n"
+      "# comment\n[discretisation]\nstrips = 8\nelement_mm = 0.40\n[operation]\nmesh_frequency_Hz = { step = 20.0, to = 4e3, from = 600 }\n"
+      "torque_Nm = [100.0, 150]\n[[mesh]]\ncentre_distance_mm = 150.0 # c\ndriven = \"wheel\"\ndriver = 'pinion'\n"
+      "[material.steel]\nplane = \"stress\"\ndensity_kgm3 = 7.6e3\npoisson_ratio = 0.3\nyoungs_modulus_GPa = 207.0\n"
+      "[gear.wheel]\nlike = \"pinion\"\n[gear.pinion]\nmaterial = \"steel\"\naddendum = 1\ntotal_inertia_kgm2 = 0.0148\n"
       "bore_radius_mm = 40.0\nface_width_mm = 25.4\npressure_angle_deg = 20.0\nmodule_mm = 3.0\nteeth = 50\n"
       "[damping]\nbearing_ratio = 5e-3\n";
   const Scene other = file.read(dressed);
@@ -471,7 +467,7 @@ TEST_CASE("each key moves the stage parameters of the stages that depend on it a
       {scene_with("plane = \"stress\"", "plane = \"strain\""), true, true, false, false, false, false},
       {section("[discretisation]\nelement_mm = 0.5\n"), true, true, false, false, false, false},
       {section("[fidelity]\nmodes = 9\n"), true, true, false, false, false, false},
-      {section("[fidelity]\nbody = \"lagged\"\n"), false, false, true, true, false, false},
+      {section("[fidelity]\nbody = \"relaxed\"\n"), false, false, true, true, false, false},
       {section("[fidelity]\nbody = \"full\"\n"), true, true, true, true, false, false},
       {section("[discretisation]\nnear_field = \"matching\"\n"), true, true, false, false, false, false},
       {mesh_key("corner_contact = false"), false, true, false, false, false, false},
@@ -489,7 +485,7 @@ TEST_CASE("each key moves the stage parameters of the stages that depend on it a
       {section("[fidelity]\nintegrator = \"newmark\"\n"), false, false, true, true, false, false},
       {section("[fidelity]\ncontact = \"line\"\n"), false, true, true, true, true, true},
       {section("[discretisation]\nperiodicity = 1e-8\n"), false, false, false, true, true, true},
-      {section("[discretisation]\nsteady_state = \"march\"\n"), false, false, false, true, true, true},
+      {section("[discretisation]\nsteady_state = \"integrate\"\n"), false, false, false, true, true, true},
       {scene_with("step = 20", "step = 10"), false, false, false, true, true, false},
       {scene_with("[100, 150]", "[150, 100]"), false, false, true, true, true,
        true},  // another reference torque
@@ -520,7 +516,7 @@ TEST_CASE("body = \"full\" takes every mode, whatever 'modes' says; the ladder e
   std::string ladder;
   for (std::optional level = BodyModel::rigid; level; level = next_of(*level))
     ladder += name_of(*level) + " ";
-  CHECK(ladder == "rigid quasi-static lagged modal full ");
+  CHECK(ladder == "rigid quasi-static relaxed modal full ");
   CHECK(next_of(ContactModel::line) == ContactModel::strips);
   CHECK(!next_of(ContactModel::strips));
   CHECK(choice_of<ContactModel>("line") == ContactModel::line);
@@ -532,7 +528,7 @@ TEST_CASE("stage parameters read back bit by bit") {
   const Scene s = file.read(
       scene_with("driver = \"pinion\"", "driver = \"pinion\"\ncorner_contact = 1.7") +
       "[damping]\nrayleigh_mass_per_s = 0.7\nrayleigh_stiffness_s = 5.55555e-6\nundamped_depth_mm = 0.37\n"
-      "[fidelity]\nbody = \"lagged\"\nintegrator = \"newmark\"\nmodes = 11\n"
+      "[fidelity]\nbody = \"relaxed\"\nintegrator = \"newmark\"\nmodes = 11\n"
       "[discretisation]\nelement_mm = 0.37\nmin_sample_rate_kHz = 333.3\nsteps_per_period = 200\n"
       "near_field = \"matching\"\nmatching_depth_mm = 0.77\n");
   const BodyParameters body = read_body_parameters(file.path(body_parameters(s, "wheel"), "body.toml"));
@@ -581,7 +577,7 @@ TEST_CASE("stage parameters read back bit by bit") {
   CHECK(sweep.frequency_from == 600);
   CHECK(sweep.frequency_to == 4000);
   CHECK(sweep.frequency_step == 20);
-  CHECK(sweep.fidelity.body == BodyModel::lagged);
+  CHECK(sweep.fidelity.body == BodyModel::relaxed);
   CHECK(sweep.fidelity.integrator == Integrator::newmark);
   CHECK(sweep.time.steps_per_period == 200);
   CHECK(sweep.time.min_sample_rate == s.time.min_sample_rate);
@@ -596,7 +592,7 @@ TEST_CASE("stage parameters read back bit by bit") {
   CHECK(impact.damping.undamped_depth == s.damping.undamped_depth);
   CHECK(impact.damping.bearing_ratio == s.damping.bearing_ratio);
   CHECK(impact.reference_torque == 100);
-  CHECK(impact.fidelity.body == BodyModel::lagged);
+  CHECK(impact.fidelity.body == BodyModel::relaxed);
   CHECK(impact.fidelity.integrator == Integrator::newmark);
 
   const SweepParameters lumped =
@@ -771,8 +767,7 @@ TEST_CASE("errors of teeth from a measured file, as TOML and as CSV, beside the 
   const std::string small = scene_with("teeth = 50", "teeth = 5"), names = "[gear.wheel.error]\nfile = ";
   file.path("cumulative_pitch_um = [0, 1.5, -2, 3, 0.5]\nprofile_slope_um = [1, 1, 1, 1, 1]\n", "teeth.toml");
   file.path(
-      "# measured\ntooth, cumulative_pitch_um, profile_slope_um\n0, 0, 1\n1, 1.5, 1\n2, -2, 1\n3, 3, 1\n4, "
-      "0.5, 1\n",
+      "# measured\ntooth, cumulative_pitch_um, profile_slope_um\n0, 0, 1\n1, 1.5, 1\n2, -2, 1\n3, 3, 1\n4, 0.5, 1\n",
       "teeth.csv");
   for (const char* name : {"teeth.toml", "teeth.csv"}) {
     const ToothErrors errors =

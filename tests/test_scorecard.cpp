@@ -51,8 +51,8 @@ Verdict verdict_at(Scale scale, double printed, double tolerance, double value) 
 }
 
 // Speeds of 20 Hz; RMS 1 µm and a pure first harmonic unless changed.
-ResponseArtifact flat_response(double torque, Direction direction) {
-  ResponseArtifact r;
+ResponseResult flat_response(double torque, Direction direction) {
+  ResponseResult r;
   r.torque = torque;
   r.direction = direction;
   r.model = "finite elements";
@@ -71,7 +71,7 @@ ResponseArtifact flat_response(double torque, Direction direction) {
   return r;
 }
 
-Eigen::Index row_of(const ResponseArtifact& r, double f) {
+Eigen::Index row_of(const ResponseResult& r, double f) {
   Eigen::Index row;
   (r.mesh_frequency.array() - f).abs().minCoeff(&row);
   return row;
@@ -81,15 +81,15 @@ Eigen::Index row_of(const ResponseArtifact& r, double f) {
 SceneResults flat_results() {
   SceneResults s;
   s.name = "flat";
-  StaticArtifact& statics = s.statics["T150/static.h5"];
+  StaticResult& statics = s.statics["T150/static.h5"];
   statics.gear[0].design = statics.gear[1].design = paper_gear();
   statics.contact_ratio = 1.7547;
   statics.stiffness_harmonic = Eigen::Vector3d(460e6, 46e6, 1e6);
   statics.mean_stiffness = 460e6;
   for (const Direction direction : {Direction::up, Direction::down}) {
     const std::string folder = text("T150/", direction);
-    const ResponseArtifact& r = s.responses[folder + "/response.h5"] = flat_response(150, direction);
-    SweepArtifact& sweep = s.sweeps[folder + "/sweep.h5"];
+    const ResponseResult& r = s.responses[folder + "/response.h5"] = flat_response(150, direction);
+    SweepResult& sweep = s.sweeps[folder + "/sweep.h5"];
     sweep.time.steps_per_period = 128;
     sweep.tooth_load.assign(static_cast<size_t>(r.mesh_frequency.size()), MatrixRM::Constant(128, 1, 3000));
   }
@@ -245,8 +245,8 @@ TEST_CASE("scorecard: one branch: what the paper says of either of two has no va
 
 TEST_CASE("scorecard: two branches with known loads, losses and harmonics") {
   SceneResults s = flat_results();
-  ResponseArtifact& down = s.responses["T150/down/response.h5"];
-  ResponseArtifact& up = s.responses["T150/up/response.h5"];
+  ResponseResult& down = s.responses["T150/down/response.h5"];
+  ResponseResult& up = s.responses["T150/up/response.h5"];
   const Eigen::Index primary = row_of(down, 2400), secondary = row_of(down, 1300);
   down.dte_rms[primary] = 7e-6;
   down.dte_harmonic(primary, 0) = 0.96 * 7e-6 * std::numbers::sqrt2;
@@ -276,12 +276,12 @@ TEST_CASE("scorecard: two branches with known loads, losses and harmonics") {
         std::string::npos);
   CHECK(claim("load-lower").find(s).reading == "one tooth");
   CHECK(claim("load-increase").find(s).value == relative(50, 1e-12));
-  // ... or what a tooth holds for 1/64 of a period: a spike of one sample is left out
+  // ... or what a tooth sustains for 1/64 of a period: a spike of one sample is left out
   MatrixRM& held = s.sweeps["T150/down/sweep.h5"].tooth_load[static_cast<size_t>(primary)];
   held.setConstant(4850);
   held(7, 0) = 9000;
   CHECK(claim("load-upper").find(s).value == 4850);
-  CHECK(claim("load-upper").find(s).reading == "one tooth, held for 1/64 of a period");
+  CHECK(claim("load-upper").find(s).reading == "one tooth, sustained for 1/64 of a period");
   CHECK(claim("upper-loses-contact-2400").find(s).value == 1);
   CHECK(claim("upper-two-losses-1300").find(s).value == 2);
   CHECK(claim("upper-harmonic-1").find(s).value == 1);
@@ -308,7 +308,7 @@ TEST_CASE("scorecard: two branches with known loads, losses and harmonics") {
 
 TEST_CASE("scorecard: shares of harmonics and the tolerance of the increase are what decides the verdict") {
   SceneResults s = flat_results();
-  ResponseArtifact& down = s.responses["T150/down/response.h5"];
+  ResponseResult& down = s.responses["T150/down/response.h5"];
   const Eigen::Index primary = row_of(down, 2400);
   down.dte_rms[primary] = 2e-6;
   const Claim& increase = claim("load-increase");
@@ -324,16 +324,15 @@ TEST_CASE("scorecard: shares of harmonics and the tolerance of the increase are 
 }
 
 TEST_CASE(
-    "scorecard: the lower branch of the primary resonance is looked at, not that of the resonance at half "
-    "its speed") {
+    "scorecard: the lower branch of the primary resonance is looked at, not that of the resonance at half its speed") {
   SceneResults s = flat_results();
   for (int torque : {100, 200, 300})
     for (const Direction direction : {Direction::up, Direction::down})
       s.responses[text("T", torque, "/", direction, "/response.h5")] = flat_response(torque, direction);
   const auto two_at = [&](int torque, double f, double lower_loss) {
-    ResponseArtifact& down = s.responses[text("T", torque, "/down/response.h5")];
+    ResponseResult& down = s.responses[text("T", torque, "/down/response.h5")];
     down.dte_rms[row_of(down, f)] = 4e-6;
-    ResponseArtifact& up = s.responses[text("T", torque, "/up/response.h5")];
+    ResponseResult& up = s.responses[text("T", torque, "/up/response.h5")];
     up.separation_fraction[row_of(up, f)] = lower_loss;
   };
   const Claim& never = claim("lower-never-loses");
@@ -351,8 +350,8 @@ TEST_CASE(
 TEST_CASE(
     "scorecard: two states stand just below 2500 Hz if all speeds and jumps of the band of f_n are near it") {
   SceneResults s = flat_results();
-  ResponseArtifact& down = s.responses["T150/down/response.h5"];
-  ResponseArtifact& up = s.responses["T150/up/response.h5"];
+  ResponseResult& down = s.responses["T150/down/response.h5"];
+  ResponseResult& up = s.responses["T150/up/response.h5"];
   const Claim& below = claim("two-states-below-2500");
   const auto two = [&](double from, double to) {
     for (Eigen::Index i = 0; i < down.dte_rms.size(); ++i)
@@ -419,9 +418,9 @@ TEST_CASE("scorecard: the bottom line counts what the rows say, in every renderi
   const Scorecard card = score(claims, {scene}, {{"x", "eta", {"f"}}});
   REQUIRE(bottom_line(card).size() == 1);
   const std::string line = bottom_line(card)[0];
-  CHECK(line ==
-        "x: 2 agree, 1 differ, 2 given or fitted, 1 cannot be compared, 1 misprint of P2000; 1 numbers "
-        "fitted to 1 claims");
+  CHECK(
+      line ==
+      "x: 2 agree, 1 differ, 2 given or fitted, 1 cannot be compared, 1 misprint of P2000; 1 numbers fitted to 1 claims");
   CHECK(scorecard_text(card).find(line) != std::string::npos);
   CHECK(scorecard_tsv(card, {"out/x/T100/static.h5"}).find("# " + line + "\n# from out/x/T100/static.h5\n") !=
         std::string::npos);

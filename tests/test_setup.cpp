@@ -6,8 +6,8 @@
 #include <map>
 #include <numbers>
 
+#include "base/format.h"
 #include "gear/body_inertia.h"
-#include "gear/numbers.h"
 #include "gear/scene_geometry.h"
 #include "io/scene_keys.h"
 #include "io/study.h"
@@ -20,8 +20,8 @@ using namespace whine;
 
 namespace {
 
-StaticArtifact at_rest(double bore) {
-  const BodyArtifact& body = paper_body(bore, 0.8e-3);
+StaticResult at_rest(double bore) {
+  const ReducedBody& body = paper_body(bore, 0.8e-3);
   return static_transmission(body, body, paper_statics(32), 150);
 }
 
@@ -34,7 +34,7 @@ bool says(const std::vector<Remark>& remarks, const std::string& words) {
 
 TEST_CASE(
     "compliance: the parts add up, and a wider bore changes the mesh by what the ring between twists less") {
-  const StaticArtifact narrow = at_rest(25e-3), wide = at_rest(27.5e-3);
+  const StaticResult narrow = at_rest(25e-3), wide = at_rest(27.5e-3);
   const ComplianceSplit split = compliance_split(narrow);
   CHECK(split.body[0] + split.body[1] + split.contact + split.teeth ==
         relative(1 / narrow.mean_stiffness, 1e-12));
@@ -53,7 +53,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a rim thinner than a module is warned of") {
-  StaticArtifact s = at_rest(40e-3);
+  StaticResult s = at_rest(40e-3);
   CHECK_FALSE(says(body_remarks(s), "less than a module"));
   s.gear[1].design.bore_radius = ToothGeometry(s.gear[1].design).root_radius() - 0.5e-3;
   CHECK(says(body_remarks(s), "[gear.wheel] are 0.5 mm, less than a module"));
@@ -98,7 +98,7 @@ TEST_CASE("torques are told as they were read: a decimal comma makes two of one"
 }
 
 TEST_CASE("a face too wide for plane stress is warned of, by gear") {
-  StaticArtifact s = at_rest(40e-3);
+  StaticResult s = at_rest(40e-3);
   const auto of_face = [&] {
     std::string all;
     for (const Remark& remark : body_remarks(s))
@@ -122,9 +122,8 @@ TEST_CASE("the keys of a result hold the tip and root diameters that addendum an
 }
 
 TEST_CASE(
-    "inertias out of all proportion and a damping that nobody chose are warned of; as drawn is the body's "
-    "own") {
-  StaticArtifact s = at_rest(40e-3);
+    "inertias out of all proportion and a damping that nobody chose are warned of; as drawn is the body's own") {
+  StaticResult s = at_rest(40e-3);
   const Damping damping;  // eta 0, which somebody chose
   CHECK(setup_remarks(s, {0.0148, 0.0148}, damping, {}).empty());
   CHECK(says(setup_remarks(s, {0.0148, 700}, damping, {}), "total_inertia_kgm2 = 700 of [gear.wheel]"));
@@ -134,7 +133,7 @@ TEST_CASE(
   s.gear[0].design.teeth = 49;
   CHECK(says(setup_remarks(s, {0.0148, 0.0148}, left_out, {}), "the default, is for the gears of P2000"));
 
-  const BodyArtifact& body = paper_body(40e-3, 0.8e-3);
+  const ReducedBody& body = paper_body(40e-3, 0.8e-3);
   ImpactParameters settings;
   settings.inertia[1] = 0.0148;
   as_drawn(settings, {body.inertia, body.inertia});
@@ -146,7 +145,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a study answers the peak to peak within a mesh period beside that over the hunting period") {
-  const BodyArtifact& body = paper_body(40e-3, 0.8e-3);
+  const ReducedBody& body = paper_body(40e-3, 0.8e-3);
   const auto quantities = [&](double eccentricity) {
     VariantParameters settings;
     settings.statics = paper_statics(16);

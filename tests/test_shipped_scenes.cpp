@@ -84,13 +84,13 @@ TEST_CASE("the page of the scenes shows what fzg-c and nasa28 give at rest and b
       const SceneGear& g = scene.gear(gear);
       return reduce(make_sector_mesh(g.design, scene.body), g.material, scene.body.modes);
     };
-    const BodyArtifact driver = body(scene.mesh.gear[0]), driven = body(scene.mesh.gear[1]);
+    const ReducedBody driver = body(scene.mesh.gear[0]), driven = body(scene.mesh.gear[1]);
     StaticParameters statics;
     statics.mesh = scene.mesh;
     statics.contact = scene.contact;
     statics.contact.positions = 128;
-    const StaticArtifact s = static_transmission(driver, driven, statics, torque);
-    const StaticArtifact reference =
+    const StaticResult s = static_transmission(driver, driven, statics, torque);
+    const StaticResult reference =
         static_transmission(driver, driven, statics, scene.operation.torques.front());
     ImpactParameters settings;
     for (size_t g = 0; g < kSides; ++g) settings.inertia[g] = scene.gear(scene.mesh.gear[g]).total_inertia;
@@ -98,7 +98,7 @@ TEST_CASE("the page of the scenes shows what fzg-c and nasa28 give at rest and b
     settings.fidelity = scene.fidelity;
     settings.reference_torque = reference.torque;
     as_drawn(settings, {driver.inertia, driven.inertia});
-    const ImpactArtifact rung =
+    const ImpactResult rung =
         impact(driver, driven, s, reference.mean_stiffness, settings, ImpactPlan(), no_report);
 
     const size_t at = column + 1;
@@ -113,18 +113,17 @@ TEST_CASE("the page of the scenes shows what fzg-c and nasa28 give at rest and b
   }
 }
 
-// What the default scene shows may be quoted: its RMS, the load that a tooth holds for 1/64 of a period, and its largest load.
+// What the default scene shows may be quoted: its RMS, the load that a tooth sustains for 1/64 of a period, and its largest load.
 TEST_CASE(
     "the default scene is resolved: 1024 steps a period leave RMS and loads at 2400 Hz, on both branches") {
   const Scene scene = read_scene("data/scenes/parker2000.toml");
   const SceneGear& gear = scene.gear(scene.mesh.gear[0]);
-  const BodyArtifact body =
-      reduce(make_sector_mesh(gear.design, scene.body), gear.material, scene.body.modes);
+  const ReducedBody body = reduce(make_sector_mesh(gear.design, scene.body), gear.material, scene.body.modes);
   StaticParameters at_rest;
   at_rest.mesh = scene.mesh;
   at_rest.contact = scene.contact;
   at_rest.contact.positions = 128;
-  const StaticArtifact statics = static_transmission(body, body, at_rest, 150);
+  const StaticResult statics = static_transmission(body, body, at_rest, 150);
   const double stiffness =
       static_transmission(body, body, at_rest, scene.operation.torques.front()).mean_stiffness;
   // At 2400 Hz as sweeps come to it: falling along the upper branch, which alone is there at 2900 Hz; rising on the lower one.
@@ -146,12 +145,12 @@ TEST_CASE(
   double rms[2];
   for (const Direction direction : {Direction::up, Direction::down}) {
     CAPTURE(direction);
-    const ResponseArtifact shown = motion(direction, scene.time), fine = motion(direction, finer);
+    const ResponseResult shown = motion(direction, scene.time), fine = motion(direction, finer);
     const Eigen::Index last = shown.mesh_frequency.size() - 1;
     REQUIRE(shown.mesh_frequency[last] == 2400);
     rms[direction == Direction::down] = shown.dte_rms[last];
     CHECK(shown.dte_rms[last] == relative(fine.dte_rms[last], 0.006));
-    CHECK(shown.tooth_load_held[last] == relative(fine.tooth_load_held[last], 0.04));
+    CHECK(shown.tooth_load_sustained[last] == relative(fine.tooth_load_sustained[last], 0.04));
     CHECK(shown.tooth_load_max[last] == relative(fine.tooth_load_max[last], 0.10));
   }
   CHECK(rms[1] > 1.2 * rms[0]);

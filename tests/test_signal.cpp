@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "failure_of.h"
 #include "relative.h"
-#include "signal/branch_end.h"
+#include "signal/jumps.h"
 #include "signal/response.h"
 #include "signal/spectrum.h"
 
@@ -36,8 +36,8 @@ double known_signal(double t) {
   return x;
 }
 
-SweepArtifact small_sweep() {
-  SweepArtifact s;
+SweepResult small_sweep() {
+  SweepResult s;
   s.gear[0].design.teeth = s.gear[1].design.teeth = 50;
   s.gear[0].design.module = s.gear[1].design.module = 3e-3;
   s.gear[0].design.pressure_angle = s.gear[1].design.pressure_angle = 20.0 * std::numbers::pi / 180.0;
@@ -175,7 +175,7 @@ TEST_CASE("separations: intervals are counted on the cyclic period, one that wra
 }
 
 TEST_CASE("response: mean, RMS, harmonics, loads and separations of a sweep made by hand") {
-  const ResponseArtifact r = response(small_sweep());
+  const ResponseResult r = response(small_sweep());
   CHECK(r.torque == 150);
   CHECK(r.direction == Direction::down);
   CHECK(r.model == "finite elements");
@@ -202,30 +202,30 @@ TEST_CASE("response: mean, RMS, harmonics, loads and separations of a sweep made
 
 TEST_CASE(
     "response: a fundamental orbit in rows made long by another speed's subharmonic keeps its harmonics") {
-  SweepArtifact s = small_sweep();
-  const ResponseArtifact wide = response(s);
+  SweepResult s = small_sweep();
+  const ResponseResult wide = response(s);
   s.transmission_error = MatrixRM(s.transmission_error.topLeftCorner(1, 32));
   s.mesh_force = MatrixRM(s.mesh_force.topLeftCorner(1, 32));
   s.tooth_load = {MatrixRM(s.tooth_load[0].topRows(32))};
   s.mesh_frequency.conservativeResize(1);
   s.period_multiple.conservativeResize(1);
-  const ResponseArtifact narrow = response(s);
+  const ResponseResult narrow = response(s);
   CHECK((wide.dte_harmonic.row(0) - narrow.dte_harmonic.row(0)).norm() < 1e-19);
   CHECK(wide.dte_rms[0] == relative(narrow.dte_rms[0], 1e-14));
   CHECK(wide.separations_per_period[0] == narrow.separations_per_period[0]);
 }
 
 TEST_CASE("response: a motion that is not periodic counts with all that is stored of it") {
-  SweepArtifact s = small_sweep();
+  SweepResult s = small_sweep();
   s.period_multiple[1] = 0;
-  const ResponseArtifact r = response(s);
+  const ResponseResult r = response(s);
   CHECK(r.period_multiple[1] == 0);
   CHECK(r.dte_rms[1] == relative(std::sqrt(12.5) * 1e-6, 1e-13));
   CHECK(r.separation_fraction[1] == 12.0 / 64);
 }
 
 TEST_CASE("response: fewer harmonics where a period has few samples, rejected where none is left") {
-  SweepArtifact s = small_sweep();
+  SweepResult s = small_sweep();
   s.time.steps_per_period = 8;
   CHECK(response(s).dte_harmonic.cols() == 3);  // below half of 8
   s.time.steps_per_period = 2;
@@ -237,21 +237,21 @@ TEST_CASE("response: fewer harmonics where a period has few samples, rejected wh
 
 TEST_CASE("response: sweeps whose arrays disagree or hold impossible values are rejected") {
   const auto rejected = [](auto change) {
-    SweepArtifact s = small_sweep();
+    SweepResult s = small_sweep();
     change(s);
     return failure_of([&] { response(s); }) == Failure::input;
   };
-  CHECK(rejected([](SweepArtifact& s) { s.mesh_frequency.resize(0); }));
-  CHECK(rejected([](SweepArtifact& s) { s.mesh_force.conservativeResize(1, 64); }));
-  CHECK(rejected([](SweepArtifact& s) { s.mesh_force.conservativeResize(2, 63); }));
-  CHECK(rejected([](SweepArtifact& s) { s.tooth_load.pop_back(); }));
-  CHECK(rejected([](SweepArtifact& s) { s.tooth_load[0](3, 1) = std::numeric_limits<double>::infinity(); }));
-  CHECK(rejected([](SweepArtifact& s) { s.period_multiple[0] = -1; }));
-  CHECK(rejected([](SweepArtifact& s) { s.mesh_force(0, 5) = -1; }));
+  CHECK(rejected([](SweepResult& s) { s.mesh_frequency.resize(0); }));
+  CHECK(rejected([](SweepResult& s) { s.mesh_force.conservativeResize(1, 64); }));
+  CHECK(rejected([](SweepResult& s) { s.mesh_force.conservativeResize(2, 63); }));
+  CHECK(rejected([](SweepResult& s) { s.tooth_load.pop_back(); }));
+  CHECK(rejected([](SweepResult& s) { s.tooth_load[0](3, 1) = std::numeric_limits<double>::infinity(); }));
+  CHECK(rejected([](SweepResult& s) { s.period_multiple[0] = -1; }));
+  CHECK(rejected([](SweepResult& s) { s.mesh_force(0, 5) = -1; }));
   CHECK(rejected(
-      [](SweepArtifact& s) { s.transmission_error(1, 5) = std::numeric_limits<double>::quiet_NaN(); }));
-  CHECK(rejected([](SweepArtifact& s) { s.jump_width.resize(0); }));
-  CHECK(rejected([](SweepArtifact& s) { s.time.steps_per_period = 0; }));
+      [](SweepResult& s) { s.transmission_error(1, 5) = std::numeric_limits<double>::quiet_NaN(); }));
+  CHECK(rejected([](SweepResult& s) { s.jump_width.resize(0); }));
+  CHECK(rejected([](SweepResult& s) { s.time.steps_per_period = 0; }));
 }
 
 namespace {
@@ -307,8 +307,7 @@ FoundEnds ends_of(const Cusp& cusp, double first, double last, double step) {
 }  // namespace
 
 TEST_CASE(
-    "ends of branches: a jump is what stays as the speed step shrinks, however small; a steep flank is "
-    "none") {
+    "ends of branches: a jump is what stays as the speed step shrinks, however small; a steep flank is none") {
   // From one branch to the other x goes by 3 sqrt(b / 3): 15, 30 and 55 % of RMS.
   for (const double b : {0.8, 3.0, 10.0})
     for (const double step : {5.0, 20.0, 50.0})

@@ -73,8 +73,7 @@ TEST_CASE("sound: three cosines of a record are three cosines at the rate of the
 }
 
 TEST_CASE(
-    "sound: nothing is folded back from above half the rate, and nothing comes from outside the transfer "
-    "function") {
+    "sound: nothing is folded back from above half the rate, and nothing comes from outside the transfer function") {
   VectorXd record(64);
   for (int j = 0; j < 64; ++j) record[j] = std::cos(kTwoPi * 3 * j / 64.0);
   CHECK(sound(record, 9000, nullptr, 48000, 480).cwiseAbs().maxCoeff() < 1e-12);  // 27 kHz
@@ -221,8 +220,8 @@ namespace {
 constexpr double kFrom = 1000, kTo = 1400;  // Hz
 
 // A run-up whose mesh force is a cosine of the mesh phase above a mean.
-RunupArtifact some_runup(double seconds, double amplitude, Direction direction = Direction::up) {
-  RunupArtifact a;
+RunupResult some_runup(double seconds, double amplitude, Direction direction = Direction::up) {
+  RunupResult a;
   for (auto& gear : a.gear) {
     gear.design = paper_gear(50);
     gear.material = {206e9, 0.3, 7850, true};
@@ -260,7 +259,7 @@ RunupArtifact some_runup(double seconds, double amplitude, Direction direction =
   return a;
 }
 
-std::string written(const Temporary& at, const RunupArtifact& a) {
+std::string written(const Temporary& at, const RunupResult& a) {
   RunupFile file(at.path(), Provenance{"gear-test", "gear-test --output x.h5", {}});
   file.begin(a, a.samples.size(), a.periods.size());
   file.take(a.samples);
@@ -283,8 +282,7 @@ std::vector<std::vector<std::string>> lines_of(const std::string& table) {
 }  // namespace
 
 TEST_CASE(
-    "sounds of run-ups: levels in bands of two of known amplitude, up and down; short ones have fewer "
-    "bands") {
+    "sounds of run-ups: levels in bands of two of known amplitude, up and down; short ones have fewer bands") {
   const Temporary quiet(""), loud(""), brief(""), tiny("");
   // 0.1 of the force of the first: -20 dB in every band, whatever the direction.
   const std::string first = written(loud, some_runup(1, 100)),
@@ -318,7 +316,7 @@ TEST_CASE("sounds of run-ups: none in common, other rates and silence are reject
   const Temporary one(""), other("");
   const std::string first = written(one, some_runup(0.1, 100));
   const auto said = [&](const auto& change) {
-    RunupArtifact a = some_runup(0.1, 100);
+    RunupResult a = some_runup(0.1, 100);
     change(a);
     const std::string path = written(other, a);
     try {
@@ -328,15 +326,15 @@ TEST_CASE("sounds of run-ups: none in common, other rates and silence are reject
     }
     return std::string();
   };
-  CHECK(said([](RunupArtifact&) {}).find("is heard already") != std::string::npos);
-  CHECK(said([](RunupArtifact& a) {
+  CHECK(said([](RunupResult&) {}).find("is heard already") != std::string::npos);
+  CHECK(said([](RunupResult& a) {
           a.samples.mesh_frequency.array() += 1000;
         }).find("no mesh frequency in common") != std::string::npos);
-  CHECK(said([](RunupArtifact& a) { a.sample_rate = 44100; }).find("has 44100 samples a second") !=
+  CHECK(said([](RunupResult& a) { a.sample_rate = 44100; }).find("has 44100 samples a second") !=
         std::string::npos);
-  CHECK(said([](RunupArtifact& a) { a.sample_rate = 44100.5; }).find("a sound a whole number") !=
+  CHECK(said([](RunupResult& a) { a.sample_rate = 44100.5; }).find("a sound a whole number") !=
         std::string::npos);
-  CHECK(said([](RunupArtifact& a) {
+  CHECK(said([](RunupResult& a) {
           a.samples.mesh_force.setConstant(2000);
         }).find("nothing is heard of up_2") != std::string::npos);
   VectorXd broken = VectorXd::Ones(10);

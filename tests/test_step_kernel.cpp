@@ -39,7 +39,7 @@ struct Rig {
     dynamics.set_zone(candidate_zone(model, statics, MotionBounds(model, statics, 2.56)), 2 * kSteps);
     dynamics.set_speed(kind.frequency, kSteps);
   }
-  static const BodyArtifact& body() { return paper_body(40e-3, 1.2e-3, 12); }
+  static const ReducedBody& body() { return paper_body(40e-3, 1.2e-3, 12); }
   static StaticParameters settings(const Kind& kind) {
     StaticParameters s = paper_statics(16);
     s.fidelity.contact = kind.contact;
@@ -50,14 +50,14 @@ struct Rig {
     }
     return s;
   }
-  static DynamicParameters parameters(const StaticArtifact& statics, const Kind& kind) {
+  static DynamicParameters parameters(const StaticResult& statics, const Kind& kind) {
     DynamicParameters p = paper_parameters(statics.mean_stiffness, kind.body, kind.contact);
     p.damping.rayleigh_stiffness = 5.5e-6;
     p.fidelity.integrator = kind.integrator;
     if (kind.friction > 0) p.loss_per_friction = (1 - statics.efficiency) / kind.friction;
     return p;
   }
-  StaticArtifact statics;
+  StaticResult statics;
   GearMeshModel model;
   RollingDynamics dynamics;
 };
@@ -87,8 +87,8 @@ const Kind kKinds[] = {{BodyModel::modal, ContactModel::strips, Integrator::exac
                        {BodyModel::modal, ContactModel::strips, Integrator::newmark},
                        {BodyModel::modal, ContactModel::line, Integrator::exact},
                        {BodyModel::modal, ContactModel::line, Integrator::newmark},
-                       {BodyModel::lagged, ContactModel::strips, Integrator::exact},
-                       {BodyModel::lagged, ContactModel::line, Integrator::newmark},
+                       {BodyModel::relaxed, ContactModel::strips, Integrator::exact},
+                       {BodyModel::relaxed, ContactModel::line, Integrator::newmark},
                        {BodyModel::quasi_static, ContactModel::strips, Integrator::exact},
                        {BodyModel::quasi_static, ContactModel::line, Integrator::exact},
                        {BodyModel::rigid, ContactModel::strips, Integrator::exact},
@@ -98,7 +98,7 @@ const Kind kKinds[] = {{BodyModel::modal, ContactModel::strips, Integrator::exac
                        {BodyModel::modal, ContactModel::strips, Integrator::exact, false, 1400},
                        {BodyModel::modal, ContactModel::strips, Integrator::exact, true, 2600, 0.1},
                        {BodyModel::modal, ContactModel::line, Integrator::newmark, true, 2600, 0.1},
-                       {BodyModel::lagged, ContactModel::line, Integrator::exact, false, 2600, 0.1}};
+                       {BodyModel::relaxed, ContactModel::line, Integrator::exact, false, 2600, 0.1}};
 
 // Random numbers that are the same on every machine.
 struct Random {
@@ -136,7 +136,7 @@ struct RandomSteps {
     const StepKernel::ShapeBasis& basis = StepKernel::shape_basis();
     for (StepPosition& position : positions) {
       const int nodes = position.mesh.nodes();
-      position.at_once = random.definite(nodes, kCompliance);
+      position.instantaneous_compliance = random.definite(nodes, kCompliance);
       position.relaxed = random.definite(nodes, kCompliance);
       position.participation = random.matrix(nodes, coordinates, 1);
       position.participation.col(0).setConstant(2);
@@ -211,7 +211,7 @@ TEST_CASE(
       kernel.set_speed(data.propagators, data.relaxed, kSteps, data.positions);
       const StepReference reference(kernel.system(), data.propagators, data.relaxed);
       StepState found = data.state, expected = data.state;
-      kernel.take(found);
+      kernel.load_state(found);
       int touched = 0, parted = 0;
       double worst = 0;
       for (int i = 1; i < kSteps; ++i) {
@@ -221,10 +221,10 @@ TEST_CASE(
           kernel.rename();
           reference.rename(expected);
         }
-        kernel.begin(i);
-        const StepKernel::End end = kernel.finish(i, -1);
+        kernel.predict(i);
+        const StepKernel::End end = kernel.correct(i, -1);
         REQUIRE(end.contact != StepKernel::Contact::zone_end);
-        kernel.give(found, position.mesh.strips());
+        kernel.store_state(found, position.mesh.strips());
         const double error = reference.step(expected, position);
         REQUIRE(std::isfinite(end.error));
         const double terms = data.system.error_weight.cwiseAbs().dot(expected.z.cwiseAbs());
@@ -232,22 +232,22 @@ TEST_CASE(
         touched += (expected.p.array() > 0).any();
         parted += (expected.p.array() == 0).any();
         found = expected;
-        kernel.take(found);
+        kernel.load_state(found);
       }
       CHECK(worst < 1e-12);
       // Steps that begin in the pass that ends the one before, of as many pairs as there are.
       expected = data.state;
-      kernel.take(expected);
-      kernel.begin(1);
+      kernel.load_state(expected);
+      kernel.predict(1);
       double drift = 0;
       for (int i = 1; i < kSteps; ++i) {
-        const StepKernel::End end = kernel.finish(i, i + 1 < kSteps ? i + 1 : -1);
+        const StepKernel::End end = kernel.correct(i, i + 1 < kSteps ? i + 1 : -1);
         const double error = reference.step(expected, data.positions[static_cast<size_t>(2 * i)]);
         REQUIRE(std::isfinite(end.error));
         const double terms = data.system.error_weight.cwiseAbs().dot(expected.z.cwiseAbs());
         drift = std::max(drift, std::abs(end.error - error) / terms);
       }
-      kernel.give(found, static_cast<int>(expected.p.size()));
+      kernel.store_state(found, static_cast<int>(expected.p.size()));
       CHECK(drift < 1e-10);
       CHECK(off(found, expected) < 1e-10);
       CHECK(touched > 10);

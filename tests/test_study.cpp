@@ -104,8 +104,7 @@ TEST_CASE("a study that says nothing sensible is rejected by line, value and lim
   rejects("[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalues = [1e-6, 2]\n", "must be at most 1 s");
   rejects(kDamping + kDamping, "varies twice, as 'damping.rayleigh_stiffness_s' in line 3");
   rejects(
-      "[[vary]]\nkey = 'bore_radius_mm'\nvalues = [38, 40]\n[[vary]]\nkey = "
-      "'gear.wheel.bore_radius_mm'\nvalues = [38, 40]\n",
+      "[[vary]]\nkey = 'bore_radius_mm'\nvalues = [38, 40]\n[[vary]]\nkey = 'gear.wheel.bore_radius_mm'\nvalues = [38, 40]\n",
       "varies twice");
   rejects("[set]\n'damping.rayleigh_stiffness_s' = 1e-6\n" + kDamping, "varies and is in [set]");
   rejects("[set]\n'damping.rayleigh' = 1e-6\n" + kDamping,
@@ -135,8 +134,8 @@ TEST_CASE("a study that says nothing sensible is rejected by line, value and lim
   rejects("plan = 'sample'\n" + kDamping, "lacks samples");
   rejects("plan = 'sample'\nsamples = 0\n" + kDamping, "must be a whole number from 1 to 200000");
   rejects("samples = 5\n" + kDamping, "is of a sample");
-  rejects("answers = ['te_peak_to_peek']\n" + kDamping, "did you mean 'te_peak_to_peak'?");
-  rejects("answers = ['rms_max_up']\n" + kDamping,
+  rejects("quantities = ['te_peak_to_peek']\n" + kDamping, "did you mean 'te_peak_to_peak'?");
+  rejects("quantities = ['rms_max_up']\n" + kDamping,
           "there is no response quantity of this stage 'rms_max_up'");
   rejects("[figure]\nkeys = ['damping']\n" + kDamping, "there is no varied key");
   rejects("[figure]\nkeys = ['gear.pinion.error.seed']\n" + kDamping +
@@ -144,8 +143,7 @@ TEST_CASE("a study that says nothing sensible is rejected by line, value and lim
           "there is no varied key");
   rejects("tilte = 'x'\n" + kDamping, ":2: unknown key 'tilte'; did you mean 'title'?");
   rejects(
-      "plan = 'sample'\nsamples = 5\n[[vary]]\nkey = 'operation.torque_Nm'\nmean = 100\ndeviation = 1\nleast "
-      "= 150\n",
+      "plan = 'sample'\nsamples = 5\n[[vary]]\nkey = 'operation.torque_Nm'\nmean = 100\ndeviation = 1\nleast = 150\n",
       "leave hardly a draw");
   rejects("title\n", ":2: is not valid TOML");
   std::string wide = "[[vary]]\nkey = 'operation.torque_Nm'\nfrom = 1\nto = 1000\nstep = 1\n";
@@ -177,8 +175,7 @@ TEST_CASE("a grid holds all combinations, the last key fastest") {
 
 TEST_CASE("variants are the scene as if their keys were edited in it") {
   const Study study = study_of(
-      "[set]\n[set.fidelity]\ncontact = 'line'\n[[vary]]\nkey = 'gear.wheel.bore_radius_mm'\nvalues = [35, "
-      "40]\n"
+      "[set]\n[set.fidelity]\ncontact = 'line'\n[[vary]]\nkey = 'gear.wheel.bore_radius_mm'\nvalues = [35, 40]\n"
       "[[vary]]\nkey = 'mesh.corner_contact'\nvalues = [true, 5.0]\n");
   const Scene base = read_scene(kScene), first = study_variant(study, 1, variant_values(study, 1)).scene,
               last = study_variant(study, 2, variant_values(study, 2)).scene;
@@ -193,8 +190,7 @@ TEST_CASE("variants are the scene as if their keys were edited in it") {
 }
 
 TEST_CASE(
-    "draws keep within their bounds, are what their seed says, and a longer sample begins with a shorter "
-    "one") {
+    "draws keep within their bounds, are what their seed says, and a longer sample begins with a shorter one") {
   const auto sample = [](int samples, int seed) {
     return study_of("plan = 'sample'\nsamples = " + std::to_string(samples) +
                     "\nseed = " + std::to_string(seed) +
@@ -269,7 +265,7 @@ TEST_CASE("plans come back as they were written") {
   CHECK(plan_text(plan, back) == plan_text(study, variants));
   CHECK(plan.keys[0].units == "s");
   CHECK(!plan.marks_outside);
-  const Study marking = study_of("refusals = 'mark'\n" + kDamping);
+  const Study marking = study_of("outside_model = 'mark'\n" + kDamping);
   const Written marked(plan_text(marking, {{"abcd0", variant_values(marking, 0)}}), "plan.toml");
   CHECK(read_plan(marked.path).first.marks_outside);
   const Written other("title = 'x'\n", "plan.toml");
@@ -277,7 +273,7 @@ TEST_CASE("plans come back as they were written") {
 }
 
 TEST_CASE("a plan with a response quantity, direction or key that the study does not have is rejected") {
-  const Study study = study_of("stage = 'sweep'\nanswers = ['rms_max_up', 'jumps_up']\n" + kDamping);
+  const Study study = study_of("stage = 'sweep'\nquantities = ['rms_max_up', 'jumps_up']\n" + kDamping);
   std::vector<GatheredVariant> variants;
   for (long i = 0; i < study.variants; ++i)
     variants.push_back({"abcd" + std::to_string(i), variant_values(study, i)});
@@ -302,8 +298,7 @@ TEST_CASE("a plan with a response quantity, direction or key that the study does
 
 TEST_CASE("no figure of a study stands against a seed, as long as anything else varies") {
   const std::string seeds =
-      "[[vary]]\nkey = 'gear.pinion.error.seed'\nvalues = [1, 2]\n[[vary]]\nkey = "
-      "'gear.wheel.error.seed'\nvalues = [3, 4]\n";
+      "[[vary]]\nkey = 'gear.pinion.error.seed'\nvalues = [1, 2]\n[[vary]]\nkey = 'gear.wheel.error.seed'\nvalues = [3, 4]\n";
   const Study study = study_of(seeds + kDamping);
   CHECK(study.figure_keys == std::vector<std::string>{"damping.rayleigh_stiffness_s"});
   CHECK(study.figure_colour.empty());
@@ -321,7 +316,7 @@ TEST_CASE("the study of tolerances draws the errors of both gears") {
 }
 
 TEST_CASE("what is gathered of a study comes back from its artifact") {
-  StudyArtifact a;
+  StudyResult a;
   a.plan = study_of("stage = 'sweep'\n" + kDamping +
                     "[[vary]]\nkey = 'mesh.corner_contact'\nvalues = [true, 5.0]\n");
   a.plan.quantities = {"rms_max_up", "jumps_up"};
@@ -335,7 +330,7 @@ TEST_CASE("what is gathered of a study comes back from its artifact") {
   a.unsteady = Eigen::Vector4i(0, 3, 0, 0);
   const Written file("", "study.h5");
   write(file.path, a, {"test", "test", {}, {}});
-  const StudyArtifact b = read_study_artifact(file.path);
+  const StudyResult b = read_study_artifact(file.path);
   CHECK(b.quantity == a.quantity);
   CHECK(b.rejection == a.rejection);
   CHECK(b.unsteady == a.unsteady);
@@ -356,10 +351,10 @@ TEST_CASE("what is gathered of a study comes back from its artifact") {
   }
   CHECK(drawn == 3);
   CHECK(crossed == 1);
-  StudyArtifact steady = b;
+  StudyResult steady = b;
   steady.unsteady.setZero();
   CHECK(study_figure(steady).notes[0].find("settle") == std::string::npos);
-  StudyArtifact none = b;
+  StudyResult none = b;
   none.rejection = {"a", "b", "c", "d"};
   CHECK_THROWS_AS(study_figure(none), Error);
 }
@@ -378,7 +373,7 @@ TEST_CASE("keys without effect: those of variants that differ in them alone and 
 }
 
 TEST_CASE("a study's figure has no panel for what never varies and no column for a key that does nothing") {
-  StudyArtifact a;
+  StudyResult a;
   a.plan = study_of(kDamping + "[[vary]]\nkey = 'operation.torque_Nm'\nvalues = [100, 200]\n");
   REQUIRE(a.plan.quantities[0] == "contact_ratio");
   for (const char* eta : {"4e-06", "5e-06"})
@@ -411,7 +406,7 @@ TEST_CASE("a study's figure shows words of the study and runs none of them") {
   const std::string mark =
       (std::filesystem::temp_directory_path() / text("whine-study-mark-", ::getpid())).string();
   const std::string command = "touch " + mark;
-  StudyArtifact a;
+  StudyResult a;
   a.plan = study_of("[[vary]]\nkey = 'fidelity.contact'\nvalues = ['strips', 'line']\n");
   a.plan.title = "`" + command + "`";
   const std::vector<std::string> levels{"5 % of _it_", "`" + command + "`",
@@ -429,9 +424,9 @@ TEST_CASE("a study's figure shows words of the study and runs none of them") {
 }
 
 TEST_CASE("a study's figure: vibration from 0 on, units as text has them") {
-  StudyArtifact a;
+  StudyResult a;
   a.plan = study_of(
-      "stage = 'sweep'\nanswers = ['rms_max_up']\n"
+      "stage = 'sweep'\nquantities = ['rms_max_up']\n"
       "[[vary]]\nkey = 'gear.pinion.modification.tip_relief_um'\nvalues = [5, 10]\n");
   for (const char* level : {"5", "10"}) a.variants.push_back({std::string("ab") + level, {level}});
   a.rejection.resize(2);
@@ -447,7 +442,7 @@ TEST_CASE("a study's figure: vibration from 0 on, units as text has them") {
 }
 
 TEST_CASE("a study's figure of many keys: numbers below an axis stand apart") {
-  StudyArtifact a;
+  StudyResult a;
   a.plan = study_of(kDamping +
                     "[[vary]]\nkey = 'operation.torque_Nm'\nvalues = [100, 200, 300, 400]\n"
                     "[[vary]]\nkey = 'damping.bearing_ratio'\nvalues = [0.2, 0.4, 0.7, 1.0]\n"

@@ -26,8 +26,8 @@ SweepParameters lightly_damped(double from, double to, double step) {
   return settings;
 }
 
-const StaticArtifact& coarse_statics() {
-  static const StaticArtifact statics = [] {
+const StaticResult& coarse_statics() {
+  static const StaticResult statics = [] {
     StaticParameters coarse = paper_statics(64);
     coarse.contact.strips = 8;
     return static_transmission(paper_body(), paper_body(), coarse, 150);
@@ -39,8 +39,8 @@ const StaticArtifact& coarse_statics() {
 
 TEST_CASE("subharmonics: beyond a period doubling the branch of two mesh periods is the motion of a sweep") {
   const SweepParameters settings = lightly_damped(5300, 6300, 50);
-  const BranchArtifact branch = pair_branch(paper_body(), paper_body(), coarse_statics(), 463e6, settings,
-                                            no_report, {.most_periods = 2});
+  const BranchResult branch = pair_branch(paper_body(), paper_body(), coarse_statics(), 463e6, settings,
+                                          no_report, {.most_periods = 2});
   INFO(branch.end);
   REQUIRE(branch.flip_frequency.size() >= 2);
   const double high = branch.flip_frequency[0], low = branch.flip_frequency[1];
@@ -56,11 +56,11 @@ TEST_CASE("subharmonics: beyond a period doubling the branch of two mesh periods
   CHECK(twice > 5);
   // A sweep in small steps through a part of the range settles into the orbit of two periods.
   const double at = 0.5 * (low + high);
-  const SweepArtifact swept = sweep(paper_body(), paper_body(), coarse_statics(), 463e6,
-                                    lightly_damped(at, at, 50), Direction::down, no_report);
+  const SweepResult swept = sweep(paper_body(), paper_body(), coarse_statics(), 463e6,
+                                  lightly_damped(at, at, 50), Direction::down, no_report);
   REQUIRE(swept.period_multiple[0] == 2);
-  const ResponseArtifact response = whine::response(swept);
-  double nearest = 1, held = 1;  // of the RMS; of what is held for 1/64 of a mesh period
+  const ResponseResult response = whine::response(swept);
+  double nearest = 1, held = 1;  // of the RMS; of what is sustained for 1/64 of a mesh period
   for (Eigen::Index i = 0; i + 1 < branch.mesh_frequency.size(); ++i) {
     const double a = branch.mesh_frequency[i], b = branch.mesh_frequency[i + 1];
     if (branch.period_multiple[i] != 2 || branch.part[i] != branch.part[i + 1] || (a - at) * (b - at) > 0)
@@ -72,8 +72,9 @@ TEST_CASE("subharmonics: beyond a period doubling the branch of two mesh periods
     const auto beside = [&](const Eigen::VectorXd& along, double swept_value) {
       apart = std::max(apart, std::abs(((1 - share) * along[i] + share * along[i + 1]) / swept_value - 1));
     };
-    beside(branch.mesh_force_held, response.mesh_force_held[0]);
-    for (size_t g = 0; g < kSides; ++g) beside(branch.root_stress_held[g], response.root_stress_held[g][0]);
+    beside(branch.mesh_force_sustained, response.mesh_force_sustained[0]);
+    for (size_t g = 0; g < kSides; ++g)
+      beside(branch.root_stress_sustained[g], response.root_stress_sustained[g][0]);
     held = std::min(held, apart);
   }
   CHECK(nearest < 0.01);
@@ -82,8 +83,7 @@ TEST_CASE("subharmonics: beyond a period doubling the branch of two mesh periods
 }
 
 TEST_CASE(
-    "subharmonics: a branch from a sweep's motion is one that the branch from the highest speed is not "
-    "joined to") {
+    "subharmonics: a branch from a sweep's motion is one that the branch from the highest speed is not joined to") {
   SweepParameters settings = lightly_damped(2300, 3000, 50);
   settings.damping.rayleigh_stiffness = 5.5e-6;
   const auto follow = [&](const BranchPlan& plan) {
@@ -91,7 +91,7 @@ TEST_CASE(
   };
   // From the highest speed it leaves the range on the upper branch.
   CHECK(follow({}).fold_frequency.size() == 0);
-  const BranchArtifact lower = follow({.sweep = Direction::up, .at = 2500});
+  const BranchResult lower = follow({.sweep = Direction::up, .at = 2500});
   CHECK(lower.mesh_frequency[0] == relative(2500, 1e-12));
   CHECK(lower.stable[0]);
   REQUIRE(lower.fold_frequency.size() == 1);
@@ -106,7 +106,7 @@ TEST_CASE(
   }
   SweepParameters up = settings;
   up.frequency_to = 2500;
-  const SweepArtifact swept =
+  const SweepResult swept =
       sweep(paper_body(), paper_body(), coarse_statics(), 463e6, up, Direction::up, no_report);
   CHECK(lower.dte_rms[0] == relative(whine::response(swept).dte_rms.tail(1)[0], 1e-4));
   // What cannot be done is said.

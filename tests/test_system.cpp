@@ -30,9 +30,9 @@ GearDesign train_gear(size_t b) {
   return d;
 }
 
-const std::vector<BodyArtifact>& train_bodies() {
-  static const std::vector<BodyArtifact> bodies = [] {
-    std::vector<BodyArtifact> out;
+const std::vector<ReducedBody>& train_bodies() {
+  static const std::vector<ReducedBody> bodies = [] {
+    std::vector<ReducedBody> out;
     for (size_t b = 0; b < 3; ++b) {
       BodyDiscretisation discretisation;
       discretisation.element_size = 1.5e-3;
@@ -185,7 +185,7 @@ SystemModel first_mesh(size_t driver, double torque, double direction, bool corn
 }
 
 TEST_CASE("a pair is a system of two bodies: the same numbers in any direction") {
-  const StaticArtifact statics = [] {
+  const StaticResult statics = [] {
     StaticParameters settings;
     settings.mesh = train_mesh(0);
     settings.contact.positions = 8;
@@ -258,8 +258,7 @@ TEST_CASE("a third gear without torque: the first two are the pair, the second m
 }
 
 TEST_CASE(
-    "three gears in line: torques of all bodies balance at every phase, each mesh has its transmission "
-    "error") {
+    "three gears in line: torques of all bodies balance at every phase, each mesh has its transmission error") {
   const SystemModel system = loaded_train(train(), 2);
   const double force = kTorque / system.base_radius(0);
   const Eigen::VectorXd loads = mesh_loads(system);
@@ -309,8 +308,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "meshes that nothing joins are pairs, each at its own phase: the multi-freedom search against the scalar "
-    "one") {
+    "meshes that nothing joins are pairs, each at its own phase: the multi-freedom search against the scalar one") {
   const SystemModel system = loaded_train(train(0.9), 2, false);
   const std::array depth{1e-3, 1e-3};
   const SystemTables tables = compliance_tables(system, depth);
@@ -333,8 +331,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "an idler in line loads its bearing with twice the tangential force, and moves by that over its "
-    "stiffness") {
+    "an idler in line loads its bearing with twice the tangential force, and moves by that over its stiffness") {
   Bearing idler;
   idler.stiffness = 3e8;
   const SystemModel system = loaded_train(train(0, idler), 2, false), rigid = loaded_train(train(), 2, false);

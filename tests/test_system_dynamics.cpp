@@ -35,7 +35,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-const BodyArtifact& coarse_body() {
+const ReducedBody& coarse_body() {
   return paper_body(40e-3, 1.2e-3, 12);
 }
 
@@ -120,8 +120,8 @@ SystemModel internal_pair(bool ring_drives, int sense) {
   add_input_gear(layout, "a", design[0]);
   layout.bodies[0].sense = sense;
   add_driven_gear(layout, 0, design[0], "b", design[1], spec.centre_distance, 0.7);
-  const std::vector<BodyArtifact> bodies = {train_body(teeth[0], ring_drives),
-                                            train_body(teeth[1], !ring_drives)};
+  const std::vector<ReducedBody> bodies = {train_body(teeth[0], ring_drives),
+                                           train_body(teeth[1], !ring_drives)};
   const double torque = teeth[0] * kTorque / 26;
   layout.drives = {{0, System::DriveKind::torque, torque},
                    {1, System::DriveKind::torque, -torque * teeth[1] / teeth[0]}};
@@ -147,8 +147,7 @@ Planetary& planetary() {
 }  // namespace
 
 TEST_CASE(
-    "a planetary train: forces at rest are those of its statics, and so is slow motion, to the first order "
-    "of the speed") {
+    "a planetary train: forces at rest are those of its statics, and so is slow motion, to the first order of the speed") {
   Planetary& rig = planetary();
   const std::vector<SystemSolution> statics = rest_over_period(rig.system, ContactModel::line, 8, 16);
   check_rest(rig.dynamics, statics);
@@ -201,14 +200,14 @@ TEST_CASE(
   SystemDynamics& dynamics = planetary().dynamics;
   SystemPeriodMap map(dynamics, kSteps);
   map.set_parameter(2600);
-  const PeriodicMotion plain = find_periodic_motion(map, map.rest(), {1e-10, 3000, false}),
-                       quick = find_periodic_motion(map, map.rest(), {1e-10, 3000, true});
+  const PeriodicMotion plain = iterate_to_orbit(map, map.rest(), {1e-10, 3000, false}),
+                       quick = iterate_to_orbit(map, map.rest(), {1e-10, 3000, true});
   REQUIRE(plain.multiple == 1);
   REQUIRE(quick.multiple == 1);
   CHECK(quick.periods < plain.periods);
   CHECK((plain.state - quick.state).norm() < 1e-7);
   check_tangent(map, quick.state, 2 * dynamics.coordinates().size());
-  const OrbitSearch orbit = find_orbit(map, plain.state, 1, {1e-9, 25});
+  const OrbitSearch orbit = newton_orbit(map, plain.state, 1, {1e-9, 25});
   INFO(orbit.failure);
   CHECK(orbit.found());
   CHECK((orbit.orbit.start - quick.state).norm() < 1e-7);
@@ -302,7 +301,7 @@ TEST_CASE("planets in motion, both flanks: the forced response of rigid gears on
   };
   SystemPeriodMap map(rig.dynamics, kSteps);
   map.set_parameter(kFrequency);
-  const PeriodicMotion motion = find_periodic_motion(map, map.rest(), {1e-6, 3000, true});
+  const PeriodicMotion motion = iterate_to_orbit(map, map.rest(), {1e-6, 3000, true});
   REQUIRE(motion.multiple == 1);
   map.apply(motion.state);
   for (Index m = 0; m < 6; ++m) {
@@ -327,7 +326,7 @@ TEST_CASE("a third gear without torque: the first two move as a pair") {
     if (count == 3) add_driven_gear(layout, 1, idler, "c", design, distance, 1.5);
     layout.drives = {{0, System::DriveKind::torque, kTorque},
                      {1, System::DriveKind::torque, -kTorque * 37 / 26}};
-    std::vector<BodyArtifact> bodies;
+    std::vector<ReducedBody> bodies;
     std::vector<GearMeshSpec> specs;
     for (size_t b = 0; b < count; ++b) {
       bodies.push_back(train_body(teeth[b], false));
@@ -447,7 +446,7 @@ TEST_CASE("a ring that floats on a bearing: rest, frozen modes, energy, and the 
   }
   SystemPeriodMap map(rig.dynamics, kSteps);
   map.set_parameter(2600);
-  const PeriodicMotion motion = find_periodic_motion(map, map.rest(), {1e-9, 3000, true});
+  const PeriodicMotion motion = iterate_to_orbit(map, map.rest(), {1e-9, 3000, true});
   REQUIRE(motion.multiple == 1);
   map.apply(motion.state);
   // Phases of planets cancel on the ring as on the sun.

@@ -76,9 +76,9 @@ SystemScene line(ContactModel contact = ContactModel::line) {
   return scene;
 }
 
-const std::vector<BodyArtifact>& line_bodies() {
-  static const std::vector<BodyArtifact> bodies = [] {
-    std::vector<BodyArtifact> out;
+const std::vector<ReducedBody>& line_bodies() {
+  static const std::vector<ReducedBody> bodies = [] {
+    std::vector<ReducedBody> out;
     const SystemScene scene = line();
     out.reserve(scene.gears.size());
     for (const SystemScene::Gear& gear : scene.gears)
@@ -88,11 +88,11 @@ const std::vector<BodyArtifact>& line_bodies() {
   return bodies;
 }
 
-SystemStaticArtifact rest_of(const SystemScene& scene) {
+SystemStaticResult rest_of(const SystemScene& scene) {
   return system_at_rest(static_parameters_of(scene, layout_of(scene)), line_bodies());
 }
 
-SystemSweepArtifact swept(const SystemScene& scene) {
+SystemSweepResult swept(const SystemScene& scene) {
   return system_sweep(sweep_parameters_of(scene, layout_of(scene)), line_bodies(), Direction::up, no_report);
 }
 
@@ -135,7 +135,7 @@ const FigureBlock& block(const Figure& figure, const std::string& name) {
 }
 
 // Of the teeth that meet in a mesh at a row, those of one side, that carry load.
-std::vector<int> loaded_teeth(const SystemStaticArtifact& a, Index row, size_t m, size_t side) {
+std::vector<int> loaded_teeth(const SystemStaticResult& a, Index row, size_t m, size_t side) {
   const System::Mesh& mesh = a.settings.layout.meshes[m];
   const int before = static_cast<int>(std::floor(a.mesh_phase[row] + mesh.phase));
   const int teeth = a.settings.layout.bodies[static_cast<size_t>(mesh.side[side].body)].teeth;
@@ -176,8 +176,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "errors drawn within a class: each flank has its own, the wave of one revolution is that of one "
-    "displacement") {
+    "errors drawn within a class: each flank has its own, the wave of one revolution is that of one displacement") {
   ToothErrors errors;
   errors.iso_class = 6;
   const GearDesign design = paper_gear(400);
@@ -211,13 +210,13 @@ TEST_CASE("two gears as a system have the transmission errors of the pair with t
     scene.drives[1].gear = "b";
     scene.gears[0].errors = mixed(30);
     scene.gears[1].errors = mixed(20);
-    const SystemStaticArtifact a = rest_of(scene);
+    const SystemStaticResult a = rest_of(scene);
     StaticParameters settings;
     settings.mesh = scene.meshes[0].spec;
     settings.mesh.errors = {mixed(30), mixed(20)};
     settings.fidelity.contact = contact;
     settings.contact = scene.contact;
-    const StaticArtifact pair = static_transmission(line_bodies()[0], line_bodies()[1], settings, 60);
+    const StaticResult pair = static_transmission(line_bodies()[0], line_bodies()[1], settings, 60);
     CHECK(a.hunting_periods == 60);
     REQUIRE(a.mesh_phase.size() == pair.mesh_phase.size());
     CHECK(a.mesh_phase == pair.mesh_phase);
@@ -232,7 +231,7 @@ TEST_CASE("two gears as a system have the transmission errors of the pair with t
 TEST_CASE("two gears as a system move as the pair with the same errors, from tooth to tooth") {
   GearMeshSpec spec = paper_statics(16).mesh;
   spec.errors = {mixed(50), mixed(50)};
-  const BodyArtifact& body = paper_body(40e-3, 1.2e-3, 12);
+  const ReducedBody& body = paper_body(40e-3, 1.2e-3, 12);
   SystemModel system(body, body, spec);
   system.layout.drives = {{0, System::DriveKind::torque, 150}, {1, System::DriveKind::torque, -150}};
   for (System::Body& of : system.layout.bodies) of.inertia = 0.0148;
@@ -276,11 +275,11 @@ TEST_CASE("two gears as a system move as the pair with the same errors, from too
 TEST_CASE("an idler whose flanks stand all alike ahead is an idler that has turned: loads do not change") {
   for (const ContactModel contact : {ContactModel::line, ContactModel::strips}) {
     CAPTURE(contact);
-    const SystemStaticArtifact plain = rest_of(line(contact));
+    const SystemStaticResult plain = rest_of(line(contact));
     SystemScene scene = line(contact);
     const double ahead = 3 * kMicrometre;
     scene.gears[1].errors = pitch(20, ahead, 0);
-    const SystemStaticArtifact a = rest_of(scene);
+    const SystemStaticResult a = rest_of(scene);
     CHECK(a.hunting_periods == 20);
     REQUIRE(a.mesh_phase.size() == 20 * 8);
     // The first mesh is closed by leading flanks that stand ahead, the second one opened by trailing ones.
@@ -296,10 +295,10 @@ TEST_CASE("an idler whose flanks stand all alike ahead is an idler that has turn
 
 TEST_CASE(
     "an error of one idler tooth: felt in both meshes where that tooth carries load, and nowhere else") {
-  const SystemStaticArtifact plain = rest_of(line());
+  const SystemStaticResult plain = rest_of(line());
   SystemScene scene = line();
   scene.gears[1].errors = pitch(20, 0, 3 * kMicrometre);
-  const SystemStaticArtifact a = rest_of(scene);
+  const SystemStaticResult a = rest_of(scene);
   const size_t n = plain.tooth_load.size();
   std::array<int, 2> met{};
   std::array<double, 2> shift{};
@@ -326,7 +325,7 @@ TEST_CASE("a tooth of the sun that stands ahead: the planet that it meets carrie
   SystemScene scene = planetary_train(4);
   scene.fidelity = {BodyModel::modal, ContactModel::line, Integrator::exact};
   scene.contact = {4, 6};
-  std::vector<BodyArtifact> bodies;
+  std::vector<ReducedBody> bodies;
   BodyDiscretisation coarse;
   coarse.element_size = 3e-3;
   coarse.modes = 1;
@@ -344,9 +343,9 @@ TEST_CASE("a tooth of the sun that stands ahead: the planet that it meets carrie
                   {"ring", System::DriveKind::held, 0, 0},
                   {"carrier", System::DriveKind::held, 0, 0}};
   const auto at_rest = [&] { return system_at_rest(static_parameters_of(scene, layout_of(scene)), bodies); };
-  const SystemStaticArtifact plain = at_rest();
+  const SystemStaticResult plain = at_rest();
   scene.gears[0].errors = pitch(28, 0, 4 * kMicrometre);
-  const SystemStaticArtifact a = at_rest();
+  const SystemStaticResult a = at_rest();
   REQUIRE(a.hunting_periods == 28);
   REQUIRE(a.mesh_phase.size() == 28 * 6);
   const double force = 300 / ToothGeometry(scene.gears[0].design).base_radius();
@@ -405,10 +404,10 @@ TEST_CASE(
   scene.operation.frequency_from = scene.operation.frequency_to = 1500;
   scene.operation.frequency_step = 100;
   scene.time.periodicity = 1e-9;
-  const SystemSweepArtifact plain = swept(scene);
+  const SystemSweepResult plain = swept(scene);
   CHECK(plain.hunting_periods == 1);
   scene.gears[1].errors = pitch(20, 0, 1e-30);
-  const SystemSweepArtifact a = swept(scene);
+  const SystemSweepResult a = swept(scene);
   CHECK(a.hunting_periods == 20);
   CHECK(a.period_multiple[0] == 20);
   CHECK(a.periods[0] % 20 == 0);
@@ -421,7 +420,7 @@ TEST_CASE(
   CHECK(a.dte_rms(0, 1) == relative(plain.dte_rms(0, 1), 1e-7));
 
   scene.gears[1].errors = mixed(20);
-  const SystemSweepArtifact differ = swept(scene);
+  const SystemSweepResult differ = swept(scene);
   CHECK(differ.energy_imbalance.cwiseAbs().maxCoeff() < 1e-9);
   CHECK(differ.least_gap > -1e-13);
   CHECK(differ.dte_rms(0, 0) > 1.5 * plain.dte_rms(0, 0));
@@ -435,13 +434,13 @@ TEST_CASE("slow motion of teeth that differ follows their statics over the hunti
   scene.contact.positions = 64;
   for (SystemScene::Mesh& mesh : scene.meshes)
     mesh.spec.corner.enabled = true;  // without, pairs come at once
-  const SystemStaticArtifact rest = rest_of(scene);
+  const SystemStaticResult rest = rest_of(scene);
   scene.time.steps_per_period = 256;
   scene.operation.frequency_step = 10;
   std::array<double, 2> off{};
   for (size_t k = 0; k < 2; ++k) {
     scene.operation.frequency_from = scene.operation.frequency_to = k == 0 ? 20 : 10;
-    const SystemSweepArtifact slow = swept(scene);
+    const SystemSweepResult slow = swept(scene);
     REQUIRE(slow.transmission_error[0].rows() == 20 * 256);
     for (Index i = 0; i < rest.mesh_phase.size(); ++i)
       off[k] = std::max(
@@ -471,10 +470,10 @@ TEST_CASE(
   CHECK(hunting_periods(again) == 20);
   CHECK(system_sweep_parameters(again) == system_sweep_parameters(sweep));
 
-  const SystemStaticArtifact rest = rest_of(scene);
+  const SystemStaticResult rest = rest_of(scene);
   const std::string h5 = file.path("") + ".h5";
   write(h5, rest, Provenance());
-  const SystemStaticArtifact read = read_system_static(h5);
+  const SystemStaticResult read = read_system_static(h5);
   CHECK(read.hunting_periods == 20);
   CHECK(read.transmission_error_order == rest.transmission_error_order);
   CHECK(read.settings.errors[1].profile_slope == rest.settings.errors[1].profile_slope);
@@ -503,8 +502,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "errors of a system that are rejected: too long a hunting period, memory, and stages of one mesh "
-    "period") {
+    "errors of a system that are rejected: too long a hunting period, memory, and stages of one mesh period") {
   const auto said = [](const auto& f) {
     try {
       f();
@@ -519,8 +517,7 @@ TEST_CASE(
       said([] {
         hunting_periods_of({27, 35, 99});
       }),
-      "after 10395 mesh periods, the least common multiple of the numbers of teeth of the gears whose "
-      "teeth differ (27, 35, 99); a system is computed over 4096 at most"));
+      "after 10395 mesh periods, the least common multiple of the numbers of teeth of the gears whose teeth differ (27, 35, 99); a system is computed over 4096 at most"));
   SystemScene scene = line();
   scene.gears[1].errors = mixed(20);
   scene.operation.frequency_from = 1000;

@@ -38,11 +38,11 @@ namespace {
 const Provenance kMade{"gear-test", "gear-test --output x.h5", {}};
 
 // Sun driven, ring and carrier held, numbers that differ from mesh to mesh and from body to body.
-SystemStaticArtifact varied(SystemScene scene = planetary_train(3)) {
+SystemStaticResult varied(SystemScene scene = planetary_train(3)) {
   scene.drives = {{"sun", System::DriveKind::torque, 400, 0},
                   {"ring", System::DriveKind::held, 0, 0},
                   {"carrier", System::DriveKind::held, 0, 0}};
-  SystemStaticArtifact a = small_system(scene);
+  SystemStaticResult a = small_system(scene);
   for (Index m = 0; m < a.mesh_force.cols(); ++m) {
     a.mesh_force.col(m).setConstant(1000 + 100 * static_cast<double>(m));
     a.transmission_error.col(m) << 1e-6, 1e-6 * static_cast<double>(m + 2);
@@ -61,7 +61,7 @@ SystemStaticArtifact varied(SystemScene scene = planetary_train(3)) {
   return a;
 }
 
-SystemReport report_of(const SystemStaticArtifact& rest) {
+SystemReport report_of(const SystemStaticResult& rest) {
   SystemReport r;
   r.scene = "train.toml: A planetary train";
   r.rest = rest;
@@ -72,15 +72,15 @@ SystemReport report_of(const SystemStaticArtifact& rest) {
 
 // Rising: planet 2 vibrates most at 2000 Hz, where it loses contact; at 1000 Hz the motion does not repeat. Falling: another
 // motion at 2000 Hz.
-std::vector<SystemSweepArtifact> sweeps_of(const SystemStaticArtifact& rest) {
-  std::vector<SystemSweepArtifact> out{small_sweep(rest, Direction::up), small_sweep(rest, Direction::down)};
-  for (SystemSweepArtifact& a : out) {
+std::vector<SystemSweepResult> sweeps_of(const SystemStaticResult& rest) {
+  std::vector<SystemSweepResult> out{small_sweep(rest, Direction::up), small_sweep(rest, Direction::down)};
+  for (SystemSweepResult& a : out) {
     a.dte_rms.setConstant(1e-6);
     a.separation_fraction.setZero();
     a.mesh_force_max.setConstant(1500);
     a.energy_imbalance.setConstant(1e-13);
   }
-  SystemSweepArtifact& up = out.front();
+  SystemSweepResult& up = out.front();
   up.dte_rms(0, 1) = 3e-6;
   up.separation_fraction(0, 1) = 0.25;
   up.mesh_force_max(0, 1) = 2200;
@@ -108,7 +108,7 @@ bool has_no_number(const std::string& page) {
 
 TEST_CASE(
     "the page of a system: its sections, its numbers, and the same page of what is written and read back") {
-  const SystemStaticArtifact rest = varied();
+  const SystemStaticResult rest = varied();
   SystemReport r = report_of(rest);
   r.sweeps = sweeps_of(rest);
   r.pictures.push_back({"system-sweep", "png"});
@@ -186,23 +186,22 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "the page of a system in motion: largest values with their speeds, contact loss, motions that differ or "
-    "do not repeat") {
-  const SystemStaticArtifact rest = varied();
+    "the page of a system in motion: largest values with their speeds, contact loss, motions that differ or do not repeat") {
+  const SystemStaticResult rest = varied();
   SystemReport r = report_of(rest);
   CHECK(motion_tables(r).empty());
   CHECK(motion_remarks(r).empty());
   r.sweeps = sweeps_of(rest);
   const std::string table = system_report_tsv(r), page = system_report_html(r);
-  for (const char* row :
-       {"sun-planet2\tRMS of the dynamic transmission error, largest, speed rising\t3.000\tµm\tat 2000 Hz of "
-        "the mesh\n",
-        "sun-planet2\tRMS of the dynamic transmission error, largest, speed falling\t1.000\tµm\t",
-        "sun-planet2\tdynamic factor, largest, speed rising\t2.00\t1\tat 2000 Hz of the mesh\n",
-        "sun-planet1\tdynamic factor, largest, speed falling\t1.50\t1\t",
-        "sun-planet2\ttime without contact, largest, speed rising\t25.00\t%\tat 2000 Hz of the mesh\n",
-        "planet2\tforce on the bearing in motion, largest, speed rising\t777.5\tN\tat 2000 Hz of the mesh\n",
-        "speed rising\tspeeds whose motion is not periodic\t1\t1\t1000\n"})
+  for (
+      const char* row :
+      {"sun-planet2\tRMS of the dynamic transmission error, largest, speed rising\t3.000\tµm\tat 2000 Hz of the mesh\n",
+       "sun-planet2\tRMS of the dynamic transmission error, largest, speed falling\t1.000\tµm\t",
+       "sun-planet2\tdynamic factor, largest, speed rising\t2.00\t1\tat 2000 Hz of the mesh\n",
+       "sun-planet1\tdynamic factor, largest, speed falling\t1.50\t1\t",
+       "sun-planet2\ttime without contact, largest, speed rising\t25.00\t%\tat 2000 Hz of the mesh\n",
+       "planet2\tforce on the bearing in motion, largest, speed rising\t777.5\tN\tat 2000 Hz of the mesh\n",
+       "speed rising\tspeeds whose motion is not periodic\t1\t1\t1000\n"})
     CHECK_MESSAGE(holds(table, row), row);
   for (const char* words :
        {"the motion does not repeat at 1 of 2 speeds (1000 Hz)", "teeth part at 2000 Hz (sun-planet2)",
@@ -220,12 +219,11 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "remarks on motion: peaks that are one speed wide, bearings without dampers, what a turning carrier "
-    "leaves out") {
-  const SystemStaticArtifact rest = varied();
+    "remarks on motion: peaks that are one speed wide, bearings without dampers, what a turning carrier leaves out") {
+  const SystemStaticResult rest = varied();
   SystemReport r;
   r.sweeps = {small_sweep(rest, Direction::up)};
-  SystemSweepArtifact& a = r.sweeps[0];
+  SystemSweepResult& a = r.sweeps[0];
   const Index meshes = a.dte_rms.cols();
   a.mesh_frequency = Eigen::Vector4d(1000, 1100, 1200, 1300);
   a.dte_rms = MatrixRM::Constant(4, meshes, 1e-6);
@@ -261,9 +259,9 @@ TEST_CASE(
 }
 
 TEST_CASE("figures of motion set only motions of one system beside each other, one sweep in a direction") {
-  const SystemStaticArtifact rest = varied();
-  const std::vector<SystemSweepArtifact> sweeps = sweeps_of(rest);
-  SystemBranchArtifact branch;
+  const SystemStaticResult rest = varied();
+  const std::vector<SystemSweepResult> sweeps = sweeps_of(rest);
+  SystemBranchResult branch;
   branch.settings = sweeps[0].settings;
   branch.torque = sweeps[0].torque;
   branch.mesh_frequency = Eigen::Vector2d(1000, 1100);
@@ -274,22 +272,22 @@ TEST_CASE("figures of motion set only motions of one system beside each other, o
   REQUIRE(system_branch_figure(branch, sweeps).blocks.size() == 3);
 
   const auto said = [&](const auto& change, const std::string& words) {
-    std::vector<SystemSweepArtifact> changed = sweeps;
+    std::vector<SystemSweepResult> changed = sweeps;
     change(changed[1]);
     CAPTURE(words);
     CHECK(holds(message_of_input([&] { system_sweep_figure(changed); }), words));
     CHECK(holds(message_of_input([&] { system_branch_figure(branch, changed); }), words));
   };
-  said([](SystemSweepArtifact& c) { c.settings.layout.bodies[0].teeth = 28; }, "of two systems");
-  said([](SystemSweepArtifact& c) { c.settings.layout.bodies[0].name = "other"; }, "of two systems");
-  said([](SystemSweepArtifact& c) { c.torque[0] = 401; }, "the torque on 'sun' is 400 N m in ");
-  said([](SystemSweepArtifact& c) { c.settings.damping.rayleigh_stiffness = 3e-6; },
+  said([](SystemSweepResult& c) { c.settings.layout.bodies[0].teeth = 28; }, "of two systems");
+  said([](SystemSweepResult& c) { c.settings.layout.bodies[0].name = "other"; }, "of two systems");
+  said([](SystemSweepResult& c) { c.torque[0] = 401; }, "the torque on 'sun' is 400 N m in ");
+  said([](SystemSweepResult& c) { c.settings.damping.rayleigh_stiffness = 3e-6; },
        "the damping is 2e-06 s x stiffness + ");
-  said([](SystemSweepArtifact& c) { c.direction = Direction::up; }, "two sweeps in the direction 'up'");
+  said([](SystemSweepResult& c) { c.direction = Direction::up; }, "two sweeps in the direction 'up'");
 }
 
 TEST_CASE("odd names in the figures of a system: marks of gnuplot, names that are long") {
-  SystemStaticArtifact a = varied();
+  SystemStaticResult a = varied();
   const std::string lengthy(130, 'g');
   a.settings.layout.bodies[0].name = "sun_gear";
   a.settings.layout.bodies[4].name = lengthy;
@@ -347,7 +345,7 @@ TEST_CASE("types of modes: planets whose mean stiffnesses differ by 2 per cent h
   scene.carriers[0].planets = 0;
   for (const double angle : {0.0, 91.43, 180.0, 271.43})
     scene.carriers[0].positions.push_back(angle * std::numbers::pi / 180);
-  SystemStaticArtifact a = small_system(scene);
+  SystemStaticResult a = small_system(scene);
   for (const double spread : {0.0, 0.002, 0.02}) {
     CAPTURE(spread);
     for (MatrixRM& k : a.mesh_stiffness) {
@@ -360,7 +358,7 @@ TEST_CASE("types of modes: planets whose mean stiffnesses differ by 2 per cent h
         k(m, m + 4) = k(m + 4, m) = -2e7;
       }
     }
-    const ModesArtifact modes = elastic_modes(a);
+    const ModesResult modes = elastic_modes(a);
     std::map<ModeType, int> count;
     for (const ModeType type : modes.type) ++count[type];
     CHECK(count[ModeType::rotational] == 6);
@@ -371,9 +369,9 @@ TEST_CASE("types of modes: planets whose mean stiffnesses differ by 2 per cent h
 }
 
 TEST_CASE("masses on bearings: one that was read off the page, with four digits, is that of the body") {
-  const SystemStaticArtifact a = varied();
-  std::vector<BodyArtifact> bodies(a.settings.body.size());
-  for (BodyArtifact& body : bodies) {
+  const SystemStaticResult a = varied();
+  std::vector<ReducedBody> bodies(a.settings.body.size());
+  for (ReducedBody& body : bodies) {
     body.mass = 0.74134;
     body.inertia = 1e-3;
   }

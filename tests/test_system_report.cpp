@@ -51,8 +51,7 @@ double distance_to(const FigureBlock& lines, const Vec2& p) {
 }  // namespace
 
 TEST_CASE(
-    "the contour of a gear: closed, between tip and root, its teeth are turned images, its flanks "
-    "involutes") {
+    "the contour of a gear: closed, between tip and root, its teeth are turned images, its flanks involutes") {
   for (const bool internal : {false, true}) {
     GearDesign design = rigid_gear(internal ? 99 : 27, internal);
     if (!internal) design.bore_radius = 10e-3;
@@ -153,13 +152,11 @@ Vec2 pitch_point_of(const System& s, const System::Mesh& mesh) {
 }  // namespace
 
 TEST_CASE(
-    "the picture of a system: drawn teeth touch where every mesh is at its phase, on its path of contact, "
-    "arrows turn "
-    "as bodies do") {
+    "the picture of a system: drawn teeth touch where every mesh is at its phase, on its path of contact, arrows turn as bodies do") {
   constexpr double kChord = 5e-6;  // m: of drawn flanks of ten points
   for (const SystemScene& scene :
        {planetary_train(3), unequal_train(), driving_ring(), idler_at_an_angle()}) {
-    const SystemStaticArtifact a = small_system(scene);
+    const SystemStaticResult a = small_system(scene);
     const System& s = a.settings.layout;
     const Figure figure = system_picture(a);
     const std::vector<bool> second = second_colours(s);
@@ -223,7 +220,7 @@ TEST_CASE("load sharing: loads of tooth pairs are continuous over a period of th
   // Load of a pair by its place on the path, in base pitches.
   const auto load_at = [](double x) { return 1000 * std::max(0.0, 1 - std::pow((x - 0.3) / 0.9, 2)); };
   for (const double phase : {0.0, 0.37, 0.995}) {
-    SystemStaticArtifact a = small_system();
+    SystemStaticResult a = small_system();
     a.settings.layout.meshes[0].phase = phase;
     constexpr Index kPhases = 64;
     a.mesh_phase = Eigen::VectorXd::LinSpaced(kPhases + 1, 0, 1).head(kPhases);
@@ -255,7 +252,7 @@ TEST_CASE("load sharing: loads of tooth pairs are continuous over a period of th
 }
 
 TEST_CASE("load sharing of a system: the factor of known shares, and a system that has none says so") {
-  SystemStaticArtifact a = small_system();
+  SystemStaticResult a = small_system();
   for (const LoadSharing& of : load_sharing(a)) {
     CHECK(of.meshes.size() == 3);
     CHECK(of.factor == relative(1, 1e-12));
@@ -280,9 +277,9 @@ TEST_CASE("load sharing of a system: the factor of known shares, and a system th
 }
 
 TEST_CASE("the view of modes: every body moves as a rigid one, and meshes close as the modes say") {
-  const SystemStaticArtifact rest = small_system();
+  const SystemStaticResult rest = small_system();
   for (const bool elastic : {true, false}) {
-    ModesArtifact a = elastic ? elastic_modes(rest) : natural_modes(layout_of(planetary_train(3)));
+    ModesResult a = elastic ? elastic_modes(rest) : natural_modes(layout_of(planetary_train(3)));
     const System& s = a.layout;
     std::vector<const GearDesign*> design;
     for (size_t b = 0; b < s.bodies.size(); ++b) {
@@ -353,11 +350,11 @@ TEST_CASE("the view of modes: every body moves as a rigid one, and meshes close 
       }
     }
   }
-  ModesArtifact none = elastic_modes(rest);
+  ModesResult none = elastic_modes(rest);
   CHECK(message_of_input([&] { add_mode_view(none, {}); }).find("needs a drawing, or none, of each") !=
         std::string::npos);
   // A layout of carriers alone has nothing to show.
-  ModesArtifact bare;
+  ModesResult bare;
   bare.layout.bodies.resize(0);
   add_mode_view(bare, {});
   CHECK(bare.view.point.rows() == 0);

@@ -38,8 +38,8 @@ GearDesign elastic_gear(int teeth, bool internal) {
 }
 
 // Coarse bodies, each reduced once.
-const BodyArtifact& body_of(int teeth, bool internal) {
-  static std::map<int, BodyArtifact> known;
+const ReducedBody& body_of(int teeth, bool internal) {
+  static std::map<int, ReducedBody> known;
   const auto at = known.find(teeth);
   if (at != known.end()) return at->second;
   BodyDiscretisation coarse;
@@ -73,8 +73,8 @@ SystemScene train(const std::array<int, 3>& teeth, ContactModel contact, bool co
   return scene;
 }
 
-SystemStaticArtifact at_rest(const SystemScene& scene) {
-  std::vector<BodyArtifact> bodies;
+SystemStaticResult at_rest(const SystemScene& scene) {
+  std::vector<ReducedBody> bodies;
   for (const SystemScene::Gear& gear : scene.gears)
     bodies.push_back(body_of(gear.design.teeth, gear.design.internal));
   return system_at_rest(static_parameters_of(scene, layout_of(scene)), bodies);
@@ -86,7 +86,7 @@ constexpr double kTipEdges = 0.01;
 // Bodies of a train of three planets: 0 the sun, 1 to 3 the planets, 4 the ring, 5 the carrier.
 constexpr Index kRing = 4, kCarrier = 5;
 
-double torque_left(const SystemStaticArtifact& a, Index phase) {
+double torque_left(const SystemStaticResult& a, Index phase) {
   double sum = 0;
   for (const Index b : {Index{0}, kRing, kCarrier})
     sum += a.settings.layout.bodies[static_cast<size_t>(b)].sense * a.torque(phase, b);
@@ -99,7 +99,7 @@ TEST_CASE(
     "planetary train at rest: every body balances at every phase, pins carry the carrier, loads add up") {
   for (const ContactModel contact : {ContactModel::line, ContactModel::strips}) {
     CAPTURE(contact);
-    const SystemStaticArtifact a = at_rest(train({26, 37, 100}, contact, true));
+    const SystemStaticResult a = at_rest(train({26, 37, 100}, contact, true));
     const double force = kTorque / ToothGeometry(elastic_gear(26, false)).base_radius();
     REQUIRE(a.mesh_phase.size() == kPositions);
     for (Index i = 0; i < kPositions; ++i) {
@@ -135,7 +135,7 @@ TEST_CASE(
 
 TEST_CASE(
     "equal planets with equal mesh phases: each carries a third at every phase, central bearings nothing") {
-  const SystemStaticArtifact a = at_rest(train({27, 36, 99}, ContactModel::line, true));
+  const SystemStaticResult a = at_rest(train({27, 36, 99}, ContactModel::line, true));
   const double force = kTorque / ToothGeometry(elastic_gear(27, false)).base_radius();
   for (Index i = 0; i < kPositions; ++i) {
     for (Index m = 0; m < 6; ++m) CHECK(a.load_share(i, m) == relative(1.0 / 3, 1e-9));
@@ -147,13 +147,11 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "sequential mesh phases: harmonic l turns the sun only where z_s l / N is whole, and pushes it only "
-    "where "
-    "it is not") {
+    "sequential mesh phases: harmonic l turns the sun only where z_s l / N is whole, and pushes it only where it is not") {
   // z_s = 26, N = 3: a third of a mesh period later each planet does what the one before did, turned by a third.
   for (const ContactModel contact : {ContactModel::line, ContactModel::strips}) {
     CAPTURE(contact);
-    const SystemStaticArtifact a = at_rest(train({26, 37, 100}, contact, true));
+    const SystemStaticResult a = at_rest(train({26, 37, 100}, contact, true));
     const int third = kPositions / 3;
     double most = 0, turned = 0;
     const double scale = a.rotation.col(0).mean();
@@ -185,9 +183,9 @@ TEST_CASE(
   for (const ContactModel contact : {ContactModel::line, ContactModel::strips}) {
     CAPTURE(contact);
     const SystemScene scene = train({26, 37, 100}, contact, false);
-    const SystemStaticArtifact a = at_rest(scene);
+    const SystemStaticResult a = at_rest(scene);
     const System& layout = a.settings.layout;
-    std::vector<BodyArtifact> bodies;
+    std::vector<ReducedBody> bodies;
     std::vector<GearMeshSpec> specs;
     for (const System::Body& body : layout.bodies)
       if (body.kind == System::BodyKind::gear) bodies.push_back(body_of(body.teeth, body.teeth == 100));
@@ -215,10 +213,10 @@ TEST_CASE(
 }
 
 TEST_CASE("modes of an elastic train have the structure of the rigid one and the mean trace of its phases") {
-  const SystemStaticArtifact a = at_rest(train({27, 36, 99}, ContactModel::line, false));
+  const SystemStaticResult a = at_rest(train({27, 36, 99}, ContactModel::line, false));
   for (const System::Body& body : a.settings.layout.bodies)
     if (body.kind == System::BodyKind::gear) CHECK(body.inertia > 0);
-  const ModesArtifact modes = elastic_modes(a);
+  const ModesResult modes = elastic_modes(a);
   REQUIRE(modes.natural_frequency.size() == 12);
   CHECK(modes.natural_frequency.minCoeff() > 0);
   // Planets are alike and phases equal: rotational modes single, translational ones double.
@@ -250,13 +248,13 @@ TEST_CASE("a third gear without torque: no stiffness in its mesh, one more free 
   scene.meshes[1].spec.gear[1] = "last";
   for (SystemScene::Gear& gear : scene.gears) gear.bearing = {};
   scene.drives = {{"sun", System::DriveKind::torque, kTorque, 0}, {"planet", System::DriveKind::held, 0, 0}};
-  const SystemStaticArtifact a = at_rest(scene);
+  const SystemStaticResult a = at_rest(scene);
   for (const MatrixRM& k : a.mesh_stiffness) {
     CHECK(k(0, 0) > 1e8);
     CHECK(k(1, 1) == 0);
     CHECK(k(0, 1) == 0);
   }
-  const ModesArtifact modes = elastic_modes(a);
+  const ModesResult modes = elastic_modes(a);
   REQUIRE(modes.natural_frequency.size() == 2);
   CHECK(modes.natural_frequency[0] == 0);
   double mean = 0;
@@ -286,7 +284,7 @@ TEST_CASE("the four-planet set that ships and its rigid twin stand, turn and mes
   CHECK(a.meshes[0].pressure_angle * 180 / kPi == relative(24.6, 1e-3));
   CHECK(a.meshes[4].pressure_angle * 180 / kPi == relative(20.19, 1e-3));
   // The elastic set has 1601.7 to 10009.9 Hz (make modes); the twin lacks what the sun's body joins.
-  const ModesArtifact modes = natural_modes(b);
+  const ModesResult modes = natural_modes(b);
   CHECK(modes.natural_frequency[0] == relative(1601.74, 1e-3));
   CHECK(modes.natural_frequency[14] == relative(10009.9, 0.03));
 }
@@ -299,7 +297,7 @@ TEST_CASE("a sun floats on any soft bearing: loads of no bearing to the first or
       scene.gears[0].bearing.stiffness = stiffness;
       return at_rest(scene);
     };
-    const SystemStaticArtifact free = on(10);
+    const SystemStaticResult free = on(10);
     const double load = free.mesh_force.maxCoeff();
     double before = 0;
     for (const double stiffness : {1e3, 1e4, 1e5}) {
@@ -317,8 +315,7 @@ TEST_CASE("a sun floats on any soft bearing: loads of no bearing to the first or
 }
 
 TEST_CASE(
-    "stage parameters of elastic systems: read as written; what a scene of elastic gears cannot have is "
-    "rejected") {
+    "stage parameters of elastic systems: read as written; what a scene of elastic gears cannot have is rejected") {
   const char* const kTrain = "data/scenes/oh58-planetary.toml";
   const SystemScene scene = read_system_scene(kTrain);
   CHECK(!scene.rigid());
@@ -344,10 +341,10 @@ TEST_CASE(
   CHECK(said("").empty());
   CHECK(said("[gear.sun.modification]\ncrowning_um = 5\n").empty());
   CHECK(said("[gear.sun.error]\niso_class = 5\n[gear.planet.error]\niso_class = 5\n").empty());
-  CHECK(said("[gear.sun.error]\niso_class = 5\n[gear.ring.error]\niso_class = "
-             "5\n[gear.planet.error]\niso_class = "
-             "5\n")
-            .find("the same teeth meet again after 10395 mesh periods") != std::string::npos);
+  CHECK(
+      said(
+          "[gear.sun.error]\niso_class = 5\n[gear.ring.error]\niso_class = 5\n[gear.planet.error]\niso_class = 5\n")
+          .find("the same teeth meet again after 10395 mesh periods") != std::string::npos);
   CHECK(said("[gear.sun.crack]\ntooth = 1\ndepth_mm = 0.5\n").find("or compute two of the gears as a pair") !=
         std::string::npos);
   CHECK(said("[[bearing]]\ngear = \"carrier\"\nstiffness_N_um = 5.0\n")
@@ -385,13 +382,13 @@ TEST_CASE(
 namespace {
 
 // Coarse bodies of a scene's gears, and what of its statics does not need many positions.
-SystemStaticArtifact coarsely_at_rest(SystemScene scene, ContactModel contact) {
+SystemStaticResult coarsely_at_rest(SystemScene scene, ContactModel contact) {
   scene.fidelity.contact = contact;
   scene.contact = {4, kPositions};
   scene.body.element_size = 2.5e-3;
   scene.body.modes = 1;
-  static std::map<std::string, BodyArtifact> known;
-  std::vector<BodyArtifact> bodies;
+  static std::map<std::string, ReducedBody> known;
+  std::vector<ReducedBody> bodies;
   for (const SystemScene::Gear& gear : scene.gears) {
     std::ostringstream key;
     key << gear.design.teeth << ' ' << gear.design.dedendum;
@@ -407,7 +404,7 @@ SystemStaticArtifact coarsely_at_rest(SystemScene scene, ContactModel contact) {
 TEST_CASE("the rigid twin of the four-planet set has its phases, stiffnesses, inertias and masses") {
   const SystemScene scene = read_system_scene("data/scenes/oh58-planetary.toml"),
                     rigid = read_system_scene("data/scenes/oh58-planetary-rigid.toml");
-  const SystemStaticArtifact a = coarsely_at_rest(scene, ContactModel::line);
+  const SystemStaticResult a = coarsely_at_rest(scene, ContactModel::line);
   const System &elastic = a.settings.layout, twin = layout_of(rigid);
   REQUIRE(elastic.bodies.size() == twin.bodies.size());
   REQUIRE(elastic.meshes.size() == twin.meshes.size());

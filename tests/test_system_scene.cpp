@@ -69,8 +69,8 @@ void rejects(const std::string& text, int line, const std::string& words) {
 TEST_CASE("the planetary train that ships has the frequencies of the table, whatever its teeth") {
   CHECK(is_system_scene(kShipped));
   CHECK(!is_system_scene("data/scenes/first-pair.toml"));
-  const ModesArtifact a = natural_modes(layout_in(read_system_scene(kShipped), kShipped)),
-                      b = natural_modes(layout_of(planetary_train(4)));
+  const ModesResult a = natural_modes(layout_in(read_system_scene(kShipped), kShipped)),
+                    b = natural_modes(layout_of(planetary_train(4)));
   REQUIRE(a.natural_frequency.size() == b.natural_frequency.size());
   CHECK(a.natural_frequency[0] == 0);
   for (Eigen::Index i = 1; i < a.natural_frequency.size(); ++i)
@@ -145,8 +145,7 @@ TEST_CASE("stage parameters of a system: read as written, the same modes to the 
 TEST_CASE("stages on one shaft are told so before anything else that their scene lacks") {
   const SceneFile file;
   const std::string second =
-      "[gear.pinion2]\nlike = \"pinion\"\n[gear.wheel2]\nlike = \"pinion\"\n[[mesh]]\ndriver = "
-      "\"pinion2\"\ndriven = \"wheel2\"\ncentre_distance_mm = 150\n";
+      "[gear.pinion2]\nlike = \"pinion\"\n[gear.wheel2]\nlike = \"pinion\"\n[[mesh]]\ndriver = \"pinion2\"\ndriven = \"wheel2\"\ncentre_distance_mm = 150\n";
   const std::string path = file.path(with_section(second));
   std::string said;
   try {
@@ -154,10 +153,10 @@ TEST_CASE("stages on one shaft are told so before anything else that their scene
   } catch (const Error& error) {
     said = error.what();
   }
-  CHECK(said ==
-        path +
-            ":27: no [[mesh]] joins 'pinion2' and 'wheel2' to 'pinion': gears that share a shaft are not "
-            "computed, only gears in mesh; compute each stage by a scene of its own");
+  CHECK(
+      said ==
+      path +
+          ":27: no [[mesh]] joins 'pinion2' and 'wheel2' to 'pinion': gears that share a shaft are not computed, only gears in mesh; compute each stage by a scene of its own");
 }
 
 TEST_CASE("faults of a scene of a system are rejected with their line") {
@@ -234,23 +233,23 @@ TEST_CASE("elastic systems: what their rest needs is checked with its line befor
         "pull the [[mesh]] of 'sun' and 'planet' apart (-");
   check({{"kind = \"torque\"\ntorque_Nm = 400.0", "kind = \"held\""}}, sun,
         "no drive of the system has a torque");
-  check({{"[[drive]]\ngear = \"carrier\"               # the frame in which the train is at rest\nkind = "
-          "\"held\"",
-          ""}},
-        "[[carrier]]", "carrier 'carrier' may turn");
+  check(
+      {{"[[drive]]\ngear = \"carrier\"               # the frame in which the train is at rest\nkind = \"held\"",
+        ""}},
+      "[[carrier]]", "carrier 'carrier' may turn");
   check({{"driver = \"planet\"", "contact_plane = \"stress\"\ndriver = \"planet\""}},
         "[[mesh]]\ncontact_plane", "give all meshes the same");
   // Before remedies are looked for, which see each mesh by itself.
   check({{"centre_distance_mm = 88.9", "centre_distance_mm = 86.1"}}, "[[mesh]]\ndriver = \"planet\"",
         "give both meshes of a planet one centre distance");
-  check({{"[[bearing]]\ngear = \"sun\"",
-          "[[mesh]]\ndriven = \"planet\"\ndriver = \"sun\"\ncentre_distance_mm = 88.9\n[[bearing]]\ngear = "
-          "\"sun\""}},
-        "[[mesh]]\ndriven", "a second [[mesh]] of 'sun' and 'planet'");
-  check({{"[[bearing]]\ngear = \"sun\"",
-          "[[mesh]]\ndriver = \"ring\"\ndriven = \"planet\"\ncentre_distance_mm = 88.9\n[[bearing]]\ngear = "
-          "\"sun\""}},
-        "[[mesh]]\ndriver = \"ring\"", "a second [[mesh]] of 'ring' and 'planet'");
+  check(
+      {{"[[bearing]]\ngear = \"sun\"",
+        "[[mesh]]\ndriven = \"planet\"\ndriver = \"sun\"\ncentre_distance_mm = 88.9\n[[bearing]]\ngear = \"sun\""}},
+      "[[mesh]]\ndriven", "a second [[mesh]] of 'sun' and 'planet'");
+  check(
+      {{"[[bearing]]\ngear = \"sun\"",
+        "[[mesh]]\ndriver = \"ring\"\ndriven = \"planet\"\ncentre_distance_mm = 88.9\n[[bearing]]\ngear = \"sun\""}},
+      "[[mesh]]\ndriver = \"ring\"", "a second [[mesh]] of 'ring' and 'planet'");
   // Opposite planets stay opposite: 31.5 and 94.5 steps of 360 / 126 degrees are both rounded down.
   check({{"positions_deg = [0.0, 88.5714, 180.0, 268.5714]", "planets = 4"}}, "[[carrier]]",
         "Nearest: positions_deg = [0, 88.5714, 180, 268.5714]");
@@ -389,6 +388,8 @@ TEST_CASE("a thin rim of a gear of a train is warned of, with its place; shipped
       gear.design.rim_outer_radius = ToothGeometry(gear.design).root_radius() + 0.5e-3;
   const std::vector<std::string> said = scene_warnings(scene, where);
   REQUIRE(said.size() == 1);
-  CHECK(said[0].find("x.toml: gear.ring: between the outside of the rim and the root circle of [gear.ring] "
-                     "are 0.5 mm") == 0);
+  CHECK(
+      said[0].find(
+          "x.toml: gear.ring: between the outside of the rim and the root circle of [gear.ring] are 0.5 mm") ==
+      0);
 }

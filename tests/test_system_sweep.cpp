@@ -19,8 +19,8 @@
 #include "solid/reduce.h"
 #include "studies/system_branch.h"
 #include "studies/system_impact.h"
-#include "studies/system_rig.h"
 #include "studies/system_sweep.h"
+#include "studies/train_in_motion.h"
 
 using namespace whine;
 using Eigen::Index;
@@ -32,7 +32,7 @@ constexpr double kModule = 2.776e-3;
 // Three planets, 26, 37 and 100 teeth, lightly damped; coarse bodies, each reduced once.
 struct Train {
   SystemSweepParameters settings;
-  std::vector<BodyArtifact> bodies;
+  std::vector<ReducedBody> bodies;
 };
 
 const Train& train() {
@@ -72,7 +72,7 @@ const Train& train() {
   return out;
 }
 
-std::string bytes_of(const SystemSweepArtifact& a) {
+std::string bytes_of(const SystemSweepResult& a) {
   const SceneFile place;
   const std::string path = place.path("") + ".h5";
   write(path, a, Provenance());
@@ -82,7 +82,7 @@ std::string bytes_of(const SystemSweepArtifact& a) {
   return out.str();
 }
 
-SystemSweepArtifact swept(Direction direction, const SystemSweepParameters& settings = train().settings) {
+SystemSweepResult swept(Direction direction, const SystemSweepParameters& settings = train().settings) {
   return system_sweep(settings, train().bodies, direction, [](auto&&...) {});
 }
 
@@ -100,10 +100,10 @@ SystemSweepParameters damped(double eta, double mu) {
 
 TEST_CASE(
     "sweep of a planetary train: contact is lost, energy closes, both ways meet, two runs are identical") {
-  const SystemSweepArtifact up = swept(Direction::up), down = swept(Direction::down);
+  const SystemSweepResult up = swept(Direction::up), down = swept(Direction::down);
   REQUIRE(up.mesh_frequency.size() == 4);
   CHECK(up.separation_fraction.maxCoeff() > 0.01);
-  for (const SystemSweepArtifact* a : {&up, &down}) {
+  for (const SystemSweepResult* a : {&up, &down}) {
     CHECK(a->energy_imbalance.maxCoeff() < 1e-9);
     CHECK(a->least_gap > -1e-12);
     CHECK(a->bearing_damping.leftCols(4).minCoeff() > 0);
@@ -139,8 +139,8 @@ TEST_CASE(
   settings.frequency_from = 2550;
   settings.frequency_to = 2600;
   settings.frequency_step = 25;
-  const SystemBranchArtifact branch = system_branch(settings, train().bodies, [](auto&&...) {});
-  const SystemSweepArtifact sweep = swept(Direction::down, settings);
+  const SystemBranchResult branch = system_branch(settings, train().bodies, [](auto&&...) {});
+  const SystemSweepResult sweep = swept(Direction::down, settings);
   INFO(branch.end);
   const Index last = branch.mesh_frequency.size() - 1;
   REQUIRE(last >= 1);
@@ -165,9 +165,9 @@ TEST_CASE("without contact loss the largest multiplier is the decay of the slowe
   settings.frequency_from = 2590;
   settings.frequency_to = 2600;
   settings.frequency_step = 10;
-  const SystemBranchArtifact branch = system_branch(settings, train().bodies, [](auto&&...) {});
+  const SystemBranchResult branch = system_branch(settings, train().bodies, [](auto&&...) {});
   REQUIRE(branch.separation_fraction.maxCoeff() == 0);
-  SystemRig rig(settings, train().bodies, 6);
+  TrainInMotion rig(settings, train().bodies, 6);
   double slowest = 0;  // s-1
   for (int i = 0; i < 6; ++i) {
     double least = 1e9;
@@ -184,7 +184,7 @@ TEST_CASE("without contact loss the largest multiplier is the decay of the slowe
 
 TEST_CASE("ring-down of a planetary train: decays are eigenvalues, damping by mass is its closed form") {
   const double mu = 900;
-  const SystemImpactArtifact a = system_impact(damped(0, mu), train().bodies, {8, 2, 1e-4}, [](auto&&...) {});
+  const SystemImpactResult a = system_impact(damped(0, mu), train().bodies, {8, 2, 1e-4}, [](auto&&...) {});
   REQUIRE(a.natural_frequency.cols() == 8);
   for (Index i = 0; i < 2; ++i)
     for (Index k = 0; k < 8; ++k) {
@@ -203,8 +203,8 @@ TEST_CASE("ring-down of a planetary train: decays are eigenvalues, damping by ma
 TEST_CASE("ring-down of a planetary train: damping by stiffness is the energy that it damps") {
   constexpr double kEta = 1e-7;
   const SystemSweepParameters settings = damped(kEta, 0);
-  const SystemImpactArtifact a = system_impact(settings, train().bodies, {6, 1, 1e-4}, [](auto&&...) {});
-  SystemRig rig(settings, train().bodies, 1);
+  const SystemImpactResult a = system_impact(settings, train().bodies, {6, 1, 1e-4}, [](auto&&...) {});
+  TrainInMotion rig(settings, train().bodies, 1);
   const FixedPhaseMesh mesh = rig.dynamics().frozen(0);
   const SystemDynamics::FrozenModes modes = rig.dynamics().frozen_modes(0);
   for (Index k = 0; k < 6; ++k) {

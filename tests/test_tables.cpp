@@ -86,9 +86,8 @@ TEST_CASE("tables: one a file, one line of names, as many cells in each line; dr
 }
 
 TEST_CASE(
-    "Harris map: the best relief follows the cusp between the reliefs of the map; its table is one for all "
-    "maps") {
-  HarrisMapArtifact map;
+    "Harris map: the best relief follows the cusp between the reliefs of the map; its table is one for all maps") {
+  HarrisMapResult map;
   map.torque =
       Eigen::VectorXd::LinSpaced(12, 20, 160);  // the best relief of 20 N m is beside an end of the grid
   map.relief = Eigen::VectorXd::LinSpaced(30, 0, 15e-6);
@@ -114,12 +113,13 @@ TEST_CASE(
   const auto found = tables(figure, {});
   REQUIRE(found.size() == 4);
   CHECK(
-      found[0].text.find("\nrelief [µm]\ttorque [N m]\tpeak to peak [µm]\tharmonic 1 [µm]\tharmonic 2 [µm]\t"
-                         "harmonic 3 [µm]\n0\t20\t") != std::string::npos);
+      found[0].text.find(
+          "\nrelief [µm]\ttorque [N m]\tpeak to peak [µm]\tharmonic 1 [µm]\tharmonic 2 [µm]\tharmonic 3 [µm]\n0\t20\t") !=
+      std::string::npos);
   CHECK(std::count(found[0].text.begin(), found[0].text.end(), '\n') ==
         static_cast<std::ptrdiff_t>(figure.notes.size() + 2) + map.torque.size() * map.relief.size());
   // A relief that hardly helps: values within half a per cent over a range of places, the least of them by chance.
-  HarrisMapArtifact flat = map;
+  HarrisMapResult flat = map;
   for (Eigen::Index t = 0; t < values.rows(); ++t)
     for (Eigen::Index r = 0; r < values.cols(); ++r) {
       const double beyond =

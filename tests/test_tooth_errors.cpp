@@ -112,8 +112,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "drawn errors lie within every limit of their class, use the share that is said, and depend on the "
-    "seed") {
+    "drawn errors lie within every limit of their class, use the share that is said, and depend on the seed") {
   for (const int teeth : {5, 29, 50, 400})
     for (const int iso_class : {1, 5, 11})
       for (const double share : {1.0, 0.6}) {
@@ -202,15 +201,14 @@ TEST_CASE("a deviation's slope is the derivative of its value, on every tooth, e
 }
 
 TEST_CASE(
-    "pitch errors without load: the kinematic transmission error follows the flank that is ahead, closed "
-    "form") {
+    "pitch errors without load: the kinematic transmission error follows the flank that is ahead, closed form") {
   // Of the pairs in contact at a phase the one whose flanks stand farthest ahead carries; all on the line of action.
   ToothErrors driver, driven;
   for (int i = 0; i < 50; ++i) {
     driver.cumulative_pitch.push_back(((i * 37) % 11 - 5) * kMicro);
     driven.cumulative_pitch.push_back(((i * 23) % 7 - 3) * kMicro);
   }
-  const BodyArtifact& body = paper_body();
+  const ReducedBody& body = paper_body();
   const GearMeshModel model(body, body, with_errors(driver, driven, 16).mesh);
   CHECK(hunting_periods(model) == 50);
   const GearPair& gears = model.kinematics;
@@ -234,9 +232,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "run-out without load: exact involutes whose axis is displaced, to 1e-12 m; its line is e, a shaft's "
-    "order") {
-  const BodyArtifact& body = paper_body();
+    "run-out without load: exact involutes whose axis is displaced, to 1e-12 m; its line is e, a shaft's order") {
+  const ReducedBody& body = paper_body();
   for (const double e : {5e-6, 1e-7}) {
     ToothErrors eccentric;
     eccentric.eccentricity = e;
@@ -269,15 +266,15 @@ TEST_CASE(
 }
 
 TEST_CASE("errors that are none give the numbers of a scene without, to the last bit") {
-  const BodyArtifact& body = paper_body();
+  const ReducedBody& body = paper_body();
   ToothErrors zero;
   zero.single_pitch.assign(50, 0.0);
   zero.cumulative_pitch.assign(50, 0.0);
   zero.profile_form.assign(50, 0.0);
   zero.seed = 9;
   for (const auto contact : {ContactModel::strips, ContactModel::line}) {
-    const StaticArtifact plain = static_transmission(body, body, with_errors({}, {}, 16, contact), 150),
-                         none = static_transmission(body, body, with_errors(zero, zero, 16, contact), 150);
+    const StaticResult plain = static_transmission(body, body, with_errors({}, {}, 16, contact), 150),
+                       none = static_transmission(body, body, with_errors(zero, zero, 16, contact), 150);
     CHECK(none.hunting_periods == 1);
     CHECK(none.transmission_error == plain.transmission_error);
     CHECK(none.tooth_load == plain.tooth_load);
@@ -286,11 +283,11 @@ TEST_CASE("errors that are none give the numbers of a scene without, to the last
 }
 
 TEST_CASE("a hunting period of teeth that do not differ repeats the mesh period, at rest and in motion") {
-  const BodyArtifact& body = paper_body();
+  const ReducedBody& body = paper_body();
   for (const auto contact : {ContactModel::strips, ContactModel::line}) {
     const StaticParameters settings = with_errors(round_off(50), {}, 16, contact);
-    const StaticArtifact plain = static_transmission(body, body, with_errors({}, {}, 16, contact), 150),
-                         hunting = static_transmission(body, body, settings, 150);
+    const StaticResult plain = static_transmission(body, body, with_errors({}, {}, 16, contact), 150),
+                       hunting = static_transmission(body, body, settings, 150);
     CHECK(hunting.hunting_periods == 50);
     REQUIRE(hunting.transmission_error.size() == 50 * 16);
     for (int i = 0; i < 50 * 16; ++i) {
@@ -303,10 +300,9 @@ TEST_CASE("a hunting period of teeth that do not differ repeats the mesh period,
     speeds.time.min_sample_rate = 1;
     speeds.time.steps_per_period = 64;
     speeds.time.periodicity = 1e-10;
-    const SweepArtifact one =
-                            sweep(body, body, plain, plain.mean_stiffness, speeds, Direction::up, no_report),
-                        all = sweep(body, body, hunting, plain.mean_stiffness, speeds, Direction::up,
-                                    no_report);
+    const SweepResult one = sweep(body, body, plain, plain.mean_stiffness, speeds, Direction::up, no_report),
+                      all =
+                          sweep(body, body, hunting, plain.mean_stiffness, speeds, Direction::up, no_report);
     CHECK(one.hunting_periods == 1);
     CHECK(all.hunting_periods == 50);
     CHECK(all.period_multiple[0] == 50);
@@ -316,7 +312,7 @@ TEST_CASE("a hunting period of teeth that do not differ repeats the mesh period,
       worst = std::max(worst, std::abs(all.transmission_error(0, i) - one.transmission_error(0, i % 64)));
     CHECK(worst < 1e-8 * one.transmission_error.maxCoeff());
     CHECK(all.energy_imbalance[0] < 1e-9);
-    const ResponseArtifact r = response(all), of_one = response(one);
+    const ResponseResult r = response(all), of_one = response(one);
     REQUIRE(r.dte_order.cols() == 50 * r.dte_harmonic.cols());
     CHECK(r.dte_order(0, 49) == relative(of_one.dte_harmonic(0, 0), 1e-6));
     CHECK(r.dte_order(0, 0) < 1e-6 * of_one.dte_harmonic(0, 0));
@@ -324,13 +320,13 @@ TEST_CASE("a hunting period of teeth that do not differ repeats the mesh period,
 }
 
 TEST_CASE("one tooth that stands ahead takes load from its neighbour as two springs say") {
-  const BodyArtifact& body = paper_body();
+  const ReducedBody& body = paper_body();
   const double torque = 150, ahead = 0.02e-6, cosine = std::cos(20 * kPi / 180);
   ToothErrors errors;
   errors.cumulative_pitch.assign(50, 0.0);
   errors.cumulative_pitch[3] = ahead;
   const StaticParameters settings = with_errors(errors, {}, 16, ContactModel::line);
-  const StaticArtifact result = static_transmission(body, body, settings, torque);
+  const StaticResult result = static_transmission(body, body, settings, torque);
   const GearMeshModel model(body, body, settings.mesh);
   const double load = torque / model.kinematics.gear(0).base_radius();
   constexpr double kDepth = 1e-3;
@@ -371,7 +367,7 @@ TEST_CASE("one tooth that stands ahead takes load from its neighbour as two spri
 }
 
 TEST_CASE("lines against strips where teeth differ, and run-out under load: the shaft's line is e") {
-  const BodyArtifact& body = paper_body();
+  const ReducedBody& body = paper_body();
   ToothErrors drawn;
   drawn.iso_class = 5;
   const ToothDeviations all = tooth_deviations(body.design, drawn);
@@ -382,9 +378,9 @@ TEST_CASE("lines against strips where teeth differ, and run-out under load: the 
   // A line knows nothing of the curvature of one tooth's waves.
   for (const auto& [errors, most] :
        {std::pair{pitch, 0.05e-6}, std::pair{slope, 0.05e-6}, std::pair{form, 0.5e-6}}) {
-    const StaticArtifact line = static_transmission(body, body,
-                                                    with_errors(errors, {}, 8, ContactModel::line), 150),
-                         strips = static_transmission(body, body, with_errors(errors, {}, 8), 150);
+    const StaticResult line = static_transmission(body, body, with_errors(errors, {}, 8, ContactModel::line),
+                                                  150),
+                       strips = static_transmission(body, body, with_errors(errors, {}, 8), 150);
     CHECK((line.transmission_error - strips.transmission_error).cwiseAbs().maxCoeff() < most);
     VectorXd of_period(50);
     for (int k = 0; k < 50; ++k) of_period[k] = strips.transmission_error.segment(8 * k, 8).mean();
@@ -393,25 +389,25 @@ TEST_CASE("lines against strips where teeth differ, and run-out under load: the 
 
   ToothErrors eccentric;
   eccentric.eccentricity = 10e-6;
-  const StaticArtifact loaded = static_transmission(body, body, with_errors(eccentric, {}, 16), 150);
+  const StaticResult loaded = static_transmission(body, body, with_errors(eccentric, {}, 16), 150);
   const Harmonics orders = harmonics(loaded.transmission_error, 200);
   CHECK(orders.amplitude[0] == relative(10e-6, 2e-3));
-  const StaticArtifact plain = static_transmission(body, body, with_errors({}, {}, 16), 150);
+  const StaticResult plain = static_transmission(body, body, with_errors({}, {}, 16), 150);
   CHECK(orders.amplitude[49] == relative(harmonics(plain.transmission_error, 1).amplitude[0], 0.02));
 }
 
 TEST_CASE("slow motion of teeth that differ is the static transmission error, tooth after tooth") {
-  const BodyArtifact& body = paper_body();
+  const ReducedBody& body = paper_body();
   ToothErrors drawn;
   drawn.iso_class = 5;
   for (const auto contact : {ContactModel::line, ContactModel::strips}) {
-    const StaticArtifact statics = static_transmission(body, body, with_errors({}, drawn, 32, contact), 150);
+    const StaticResult statics = static_transmission(body, body, with_errors({}, drawn, 32, contact), 150);
     SweepParameters slow = paper_sweep(10, 10, 1);
     slow.fidelity.contact = contact;
     slow.damping.bearing_ratio = 0;
     slow.time.steps_per_period = 512;
     slow.time.min_sample_rate = 1;
-    const SweepArtifact motion =
+    const SweepResult motion =
         sweep(body, body, statics, statics.mean_stiffness, slow, Direction::up, no_report);
     REQUIRE(motion.transmission_error.cols() == 50 * 512);
     // Where tip edges touch, the lever of the held driven gear is another: 15 nm without errors.

@@ -59,7 +59,7 @@ TEST_CASE(
 }
 
 TEST_CASE("undamped depth: a motion that fails beyond it says so in the same words") {
-  const BodyArtifact& body = paper_body(40e-3, 1.2e-3, 12);
+  const ReducedBody& body = paper_body(40e-3, 1.2e-3, 12);
   const StaticParameters statics = paper_statics(8);
   const GearMeshModel model(body, body, statics.mesh);
   DynamicParameters parameters = paper_parameters(463e6);

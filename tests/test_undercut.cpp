@@ -215,8 +215,7 @@ TEST_CASE("undercut: the path of contact begins where the flank does, contact ra
 }
 
 TEST_CASE(
-    "edges of undercut flanks: gaps and lever arms against a search over placed flanks, in either "
-    "direction") {
+    "edges of undercut flanks: gaps and lever arms against a search over placed flanks, in either direction") {
   int edges = 0, tips = 0;
   for (const GearPair& pair :
        {standard_pair(10, 40), standard_pair(40, 10), standard_pair(12, 17),
@@ -263,8 +262,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "undercut roots: the other gear's tips pass them, by the rack alone; one that runs into them is "
-    "rejected") {
+    "undercut roots: the other gear's tips pass them, by the rack alone; one that runs into them is rejected") {
   // m: how deep the tip edge of the mate comes into what the rack leaves of the pinion, the driver.
   const auto depth = [](const GearPair& placing, const ToothGeometry& mate) {
     const Rack rack(placing.gear(0).design());
@@ -346,10 +344,10 @@ TEST_CASE(
     const GearDesign a = cut(12, limit + off), b = cut(30, 0);
     return solved(a, b, 21.3 * kModule, 8);
   };
-  const StaticArtifact below = near(-1e-7), above = near(1e-7);
+  const StaticResult below = near(-1e-7), above = near(1e-7);
   for (Eigen::Index i = 0; i < 8; ++i)
     CHECK(below.transmission_error[i] == relative(above.transmission_error[i], 1e-4));
-  const StaticArtifact s = solved(cut(10, 0), cut(40, 0), 25 * kModule, 64);
+  const StaticResult s = solved(cut(10, 0), cut(40, 0), 25 * kModule, 64);
   double largest = 0;
   for (Eigen::Index i = 0; i < 64; ++i)
     largest = std::max(largest, std::abs(s.transmission_error[(i + 1) % 64] - s.transmission_error[i]));
@@ -370,8 +368,8 @@ TEST_CASE("few teeth, undercut or not, with crowning: edges touch only flanks th
   BodyDiscretisation coarse;
   coarse.element_size = 1e-3;
   const Material steel{207e9, 0.3, 7800, true};
-  const BodyArtifact sun = reduce(make_sector_mesh(cut(17, 0), coarse), steel, 1),
-                     planet = reduce(make_sector_mesh(cut(22, 0), coarse), steel, 1);
+  const ReducedBody sun = reduce(make_sector_mesh(cut(17, 0), coarse), steel, 1),
+                    planet = reduce(make_sector_mesh(cut(22, 0), coarse), steel, 1);
   StaticParameters s;
   s.mesh.centre_distance = 0.5 * kModule * (17 + 22);
   s.contact.positions = 16;

@@ -1,7 +1,7 @@
 // Rings and their meshes for tests of the solid.
 #pragma once
 #include "internal_pair.h"
-#include "solid/reduced_body.h"
+#include "results/reduced_body.h"
 
 namespace whine {
 
@@ -23,7 +23,7 @@ inline GearDesign ring_of(int teeth, double module, double rim, double fillet = 
 }
 
 // Sum of the tables of all offsets: what a flank gives way under unit forces on all teeth. Odd numbers of teeth alone.
-inline Eigen::MatrixXd all_teeth(const BodyArtifact& body) {
+inline Eigen::MatrixXd all_teeth(const ReducedBody& body) {
   const Eigen::Index n = body.flank_position.size();
   Eigen::MatrixXd sum = body.compliance[0];
   for (int d = 1; d <= body.offsets; ++d) sum += body.compliance[d] + body.compliance[d].transpose();

@@ -46,7 +46,7 @@ expected = {
     "branch": ("/", "floquet_multiplier", ("point", "multiplier", "part"), set()),
     "jump_map": ("/up", "dte_rms", ("case", "mesh_frequency"), set()),
     "harris_map": ("/", "peak_to_peak", ("relief_length", "torque", "relief"), {"relief_length", "torque", "relief"}),
-    "variant": ("/answer", "mean_stiffness", (), set()),
+    "variant": ("/quantity", "mean_stiffness", (), set()),
     "study": ("/", "unsteady", ("variant",), {"variant"}),
     "readings": ("/", "value", ("draw", "claim"), {"claim"}),
 }

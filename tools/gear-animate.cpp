@@ -36,15 +36,14 @@ void body(int argc, char** argv) {
   options.add("--output", output, "path of the results without extension").required();
   options.footer(
       "Example:\n"
-      "  gear-animate --mesh pinion=out/parker2000/pinion/mesh.h5 --mesh wheel=out/parker2000/wheel/mesh.h5 "
-      "--sweep out/parker2000/T150/down/sweep.h5 --frames 4 --output animation");
+      "  gear-animate --mesh pinion=out/parker2000/pinion/mesh.h5 --mesh wheel=out/parker2000/wheel/mesh.h5 --sweep out/parker2000/T150/down/sweep.h5 --frames 4 --output animation");
   options.parse(argc, argv);
 
   const double speed = frequency.empty() ? 0 : whine::number_option("--mesh-frequency", frequency);
   if (!frequency.empty() && !(speed > 0))
     whine::fail(whine::Failure::usage, "--mesh-frequency ", speed, ": it is in Hz, above 0");
   const whine::NamedFiles files("--mesh", meshes);
-  const whine::SweepArtifact motion = whine::read_sweep(sweep);
+  const whine::SweepResult motion = whine::read_sweep(sweep);
   const std::vector<std::string> paths = files.of(motion.mesh);
   whine::Figure figure =
       whine::animation_figure(whine::read_mesh(paths[0]), whine::read_mesh(paths[1]), motion, speed, frames);
@@ -72,8 +71,8 @@ void body(int argc, char** argv) {
   results.push_back(
       {output + ".gif", whine::draw(of_frames(0, frames - 1), data.path(), recipe, whine::Picture::gif)});
   whine::publish_all(results);
-  whine::tell("gear-animate: ", figure.title, ", ", frames, " frames -> ", output, ".{tsv,gif}, ", output,
-              "-001.png ..");
+  whine::log_line("gear-animate: ", figure.title, ", ", frames, " frames -> ", output, ".{tsv,gif}, ", output,
+                  "-001.png ..");
 }
 
 }  // namespace

@@ -32,8 +32,7 @@ void body(int argc, char** argv) {
   options.add("--output", output, "page to write (.html); compare.tsv stands beside it").required();
   options.footer(
       "Example:\n"
-      "  gear-compare --output compare/index.html out/parker2000/T150/static.h5 "
-      "out/parker2000-longer/T150/static.h5");
+      "  gear-compare --output compare/index.html out/parker2000/T150/static.h5 out/parker2000-longer/T150/static.h5");
   options.parse(argc, argv);
 
   std::vector<Inputs> scenes;
@@ -56,8 +55,8 @@ void body(int argc, char** argv) {
                     table = compare_tsv(designs);
   publish_all(
       {{(std::filesystem::path(output).parent_path() / "compare.tsv").string(), table}, {output, page}});
-  tell("gear-compare: ", designs.size(), " designs, ", pictures.size(), " figures, ",
-       differences(designs).size(), " differences -> ", output);
+  log_line("gear-compare: ", designs.size(), " designs, ", pictures.size(), " figures, ",
+           differences(designs).size(), " differences -> ", output);
 }
 
 }  // namespace

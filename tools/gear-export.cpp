@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/tool.h"
 #include "io/publish.h"
-#include "io/rexs_results.h"
+#include "io/rexs/results.h"
 #include "report/exported_results.h"
 #include "report/report_inputs.h"
 
@@ -41,8 +41,7 @@ void body(int argc, char** argv) {
   options.add("--output", output, "model with the results, of the same form").required();
   options.footer(
       "Example:\n"
-      "  gear-export --model data/examples/parker2000.rexsj --output with-results.rexsj "
-      "out/parker2000/T150/static.h5 out/parker2000/T150/up/sweep.h5 out/parker2000/T150/down/sweep.h5");
+      "  gear-export --model data/examples/parker2000.rexsj --output with-results.rexsj out/parker2000/T150/static.h5 out/parker2000/T150/up/sweep.h5 out/parker2000/T150/down/sweep.h5");
   options.parse(argc, argv);
   require_replaceable(output);
 
@@ -50,8 +49,8 @@ void body(int argc, char** argv) {
   const RexsPair pair = exported_pair(content);
   const std::vector<RexsResult> results = exported_results(content);
   publish(output, with_results(model, read_bytes(model), stage, pair, results));
-  tell("gear-export: ", content.scene, ": ", results.size(), " results at ", content.statics.size(),
-       " torques beside ", model, " -> ", output);
+  log_line("gear-export: ", content.scene, ": ", results.size(), " results at ", content.statics.size(),
+           " torques beside ", model, " -> ", output);
 }
 
 }  // namespace

@@ -53,10 +53,7 @@ void body(int argc, char** argv) {
   options.add("--output", output, "fold_curves.h5 to write").required();
   options.footer(
       "Example:\n"
-      "  gear-folds --params out/parker2000/params/sweep.toml --static-params "
-      "out/parker2000/params/static.toml --body pinion=out/parker2000/pinion/body.h5 --body "
-      "wheel=out/parker2000/wheel/body.h5 --torque 150 --over damping --first 0.07 --values "
-      "0.06,0.065,0.07,0.075,0.08,0.09,0.1 --output fold_curves.h5");
+      "  gear-folds --params out/parker2000/params/sweep.toml --static-params out/parker2000/params/static.toml --body pinion=out/parker2000/pinion/body.h5 --body wheel=out/parker2000/wheel/body.h5 --torque 150 --over damping --first 0.07 --values 0.06,0.065,0.07,0.075,0.08,0.09,0.1 --output fold_curves.h5");
   options.parse(argc, argv);
 
   plan.quantity = quantity_of(over);
@@ -74,7 +71,7 @@ void body(int argc, char** argv) {
   whine::as_drawn(settings, {driver.inertia, driven.inertia});
 
   std::optional<whine::Progress> progress;
-  const whine::FoldCurvesArtifact result =
+  const whine::FoldCurvesResult result =
       whine::fold_curves(driver, driven, statics, whine::number_option("--torque", torque), settings, plan,
                          [&](long done, long total, const std::string& note) {
                            if (!progress) progress.emplace("gear-folds", total);
@@ -86,8 +83,8 @@ void body(int argc, char** argv) {
   for (Eigen::Index i = 0; i < result.cusp_value.size(); ++i)
     cusps += whine::text(", cusp at ", result.cusp_value[i], " (damping ratio ", result.cusp_damping_ratio[i],
                          ") and ", result.cusp_frequency[i], " Hz");
-  whine::tell("gear-folds: ", result.torque, " N m, ", result.value.size(), " folds over ", result.quantity,
-              cusps.empty() ? ", no cusp" : cusps, " (", result.end, ") -> ", output);
+  whine::log_line("gear-folds: ", result.torque, " N m, ", result.value.size(), " folds over ",
+                  result.quantity, cusps.empty() ? ", no cusp" : cusps, " (", result.end, ") -> ", output);
 }
 
 }  // namespace

@@ -27,16 +27,16 @@ namespace {
 
 using namespace whine;
 // The map at rest, checked at so many points; with params (of sweeps) in motion, too. took: s of this processor.
-HarrisMapArtifact computed(const BodyArtifact& first, const BodyArtifact& second,
-                           const StaticParameters& settings, const HarrisPlan& plan, int checks,
-                           const std::string& params, const std::string& reference, double& took) {
+HarrisMapResult computed(const ReducedBody& first, const ReducedBody& second,
+                         const StaticParameters& settings, const HarrisPlan& plan, int checks,
+                         const std::string& params, const std::string& reference, double& took) {
   std::optional<Progress> progress;
   const auto report = [&](long done, long total, const std::string& note) {
     if (!progress) progress.emplace("gear-harris", total);
     progress->update(done, note);
   };
   const std::clock_t begin = std::clock();
-  HarrisMapArtifact map = harris_map(first, second, settings, plan, report);
+  HarrisMapResult map = harris_map(first, second, settings, plan, report);
   took = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
   progress.reset();
   if (checks > 0) check(map, first, second, plan.positions, checks);
@@ -49,21 +49,21 @@ HarrisMapArtifact computed(const BodyArtifact& first, const BodyArtifact& second
   return map;
 }
 
-void tell_results(const HarrisPlan& plan, const HarrisMapArtifact& map, double took,
+void tell_results(const HarrisPlan& plan, const HarrisMapResult& map, double took,
                   const std::string& output) {
-  tell("gear-harris: ", plan.torque.size(), " torques x ", plan.relief.size(), " reliefs x ",
-       plan.length.size(), " starts in ", took, " s of CPU -> ", output);
+  log_line("gear-harris: ", plan.torque.size(), " torques x ", plan.relief.size(), " reliefs x ",
+           plan.length.size(), " starts in ", took, " s of CPU -> ", output);
   for (Eigen::Index s = 0; s < map.length.size(); ++s) {
     const bool at_edge = plan.relief.size() > 1 && map.optimum_relief[s] >= plan.relief.back();
-    tell("gear-harris: start ", map.start_roll(s, 0) * 180 / std::numbers::pi, " deg: at ", map.design_torque,
-         " N m ", map.optimum_relief[s] * 1e6, " µm leave ", map.optimum_peak_to_peak[s] * 1e6,
-         " µm peak to peak",
-         at_edge ? "; that is the edge of the map: more relief may leave less, widen --relief-um" : "");
+    log_line("gear-harris: start ", map.start_roll(s, 0) * 180 / std::numbers::pi, " deg: at ",
+             map.design_torque, " N m ", map.optimum_relief[s] * 1e6, " µm leave ",
+             map.optimum_peak_to_peak[s] * 1e6, " µm peak to peak",
+             at_edge ? "; that is the edge of the map: more relief may leave less, widen --relief-um" : "");
   }
   if (map.checked > 0)
-    tell("gear-harris: ", map.checked,
-         " points solved again with 3 times the strips and positions differ by ", map.largest_error * 100,
-         " % of the peak to peak at most");
+    log_line("gear-harris: ", map.checked,
+             " points solved again with 3 times the strips and positions differ by ", map.largest_error * 100,
+             " % of the peak to peak at most");
 }
 
 void body(int argc, char** argv) {
@@ -77,17 +77,15 @@ void body(int argc, char** argv) {
       .add("--static-params", static_params, "stage parameters of the scene: out/<scene>/params/static.toml")
       .required();
   options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
-  options.add("--torque", torque,
-              "torques on the driver in N m, from:to:count or with commas (default: 60 up to twice the "
-              "design torque)");
-  options.add("--relief-um", relief,
-              "tip reliefs in micrometres, in the same way (default: 40 up to 1.2 times what the teeth "
-              "bend under the largest torque)");
+  options.add(
+      "--torque", torque,
+      "torques on the driver in N m, from:to:count or with commas (default: 60 up to twice the design torque)");
+  options.add(
+      "--relief-um", relief,
+      "tip reliefs in micrometres, in the same way (default: 40 up to 1.2 times what the teeth bend under the largest torque)");
   Option start_option = options.add(
       "--start-deg", start,
-      "roll angles of the driver at which they start, largest first, with commas; the driven gear's "
-      "relief has the same length of roll (default: as in the scene, or the highest point of single-pair "
-      "contact)");
+      "roll angles of the driver at which they start, largest first, with commas; the driven gear's relief has the same length of roll (default: as in the scene, or the highest point of single-pair contact)");
   options.add("--length-mm", length, "the same as lengths of roll to the tip, smallest first")
       .excludes(start_option);
   options.add("--shape", shape, "how the relief grows").show_default().one_of({"linear", "parabolic"});
@@ -108,9 +106,7 @@ void body(int argc, char** argv) {
   options.add("--output", output, "harris_map.h5 to write").required();
   options.footer(
       "Example:\n"
-      "  gear-harris --static-params out/parker2000/params/static.toml --body "
-      "pinion=out/parker2000/pinion/body.h5 --body wheel=out/parker2000/wheel/body.h5 --torque 5:300:60 "
-      "--relief-um 0:20:40 --design-torque 150 --output harris_map.h5");
+      "  gear-harris --static-params out/parker2000/params/static.toml --body pinion=out/parker2000/pinion/body.h5 --body wheel=out/parker2000/wheel/body.h5 --torque 5:300:60 --relief-um 0:20:40 --design-torque 150 --output harris_map.h5");
   options.parse(argc, argv);
   plan.shape = choice_of<ReliefShape>(shape).value();
   plan.relieved = choice_of<Relieved>(relieved).value();
@@ -133,8 +129,8 @@ void body(int argc, char** argv) {
   for (const double um : number_list("--relief-um", relief)) plan.relief.push_back(um * 1e-6);
   if (relief.empty()) plan.relief = default_reliefs(first, second, settings, plan.torque.back());
   double took = 0;
-  const HarrisMapArtifact map = computed(first, second, settings, plan, static_cast<int>(checks),
-                                         dynamic ? params : "", reference, took);
+  const HarrisMapResult map = computed(first, second, settings, plan, static_cast<int>(checks),
+                                       dynamic ? params : "", reference, took);
   write(output, map, provenance);
   tell_results(plan, map, took, output);
 }

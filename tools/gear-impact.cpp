@@ -22,7 +22,7 @@
 
 namespace {
 
-std::string states(const whine::ImpactArtifact& a) {
+std::string states(const whine::ImpactResult& a) {
   std::ostringstream out;
   out << std::fixed;
   for (Eigen::Index i = 0; i < a.natural_frequency.size(); ++i)
@@ -32,7 +32,7 @@ std::string states(const whine::ImpactArtifact& a) {
 }
 
 // A line for a scene, with all that the number belongs to.
-void print_calibration(const whine::ImpactArtifact& a, double ratio, whine::ContactState state) {
+void print_calibration(const whine::ImpactResult& a, double ratio, whine::ContactState state) {
   std::cout << "rayleigh_stiffness_s = " << std::setprecision(5) << a.damping.rayleigh_stiffness
             << "  # damping ratio " << ratio << " by ring-down, loaded pairs: " << state << ", at "
             << a.torque << " N m, bearing_ratio " << a.damping.bearing_ratio << ", rayleigh_mass_per_s "
@@ -64,10 +64,7 @@ void body(int argc, char** argv) {
   write.excludes(calibrate);
   options.footer(
       "Example:\n"
-      "  gear-impact --params out/parker2000/params/impact.toml --body "
-      "pinion=out/parker2000/pinion/body.h5 --body wheel=out/parker2000/wheel/body.h5 --static "
-      "out/parker2000/T150/static.h5 --reference-static out/parker2000/T100/static.h5 --output "
-      "impact.h5");
+      "  gear-impact --params out/parker2000/params/impact.toml --body pinion=out/parker2000/pinion/body.h5 --body wheel=out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5 --reference-static out/parker2000/T100/static.h5 --output impact.h5");
   options.parse(argc, argv);
   if (output.empty() && ratio_word.empty())
     whine::fail(whine::Failure::usage, "--output or --calibrate is needed; see --help");
@@ -91,22 +88,22 @@ void body(int argc, char** argv) {
     if (!state)
       whine::fail(whine::Failure::usage, "--contact-state is '", state_word,
                   "', which is none of: one, two, three, ..., mean");
-    const whine::ImpactArtifact result = whine::calibrate(
+    const whine::ImpactResult result = whine::calibrate(
         driver, driven, at_torque, at_reference.mean_stiffness, settings, plan, ratio, *state, report);
     progress.reset();
     print_calibration(result, ratio, *state);
     return;
   }
-  const whine::ImpactArtifact result =
+  const whine::ImpactResult result =
       whine::impact(driver, driven, at_torque, at_reference.mean_stiffness, settings, plan, report);
   progress.reset();
   whine::write(output, result, provenance);
-  whine::tell("gear-impact: ", result.torque, " N m, loaded pairs: ", states(result), " -> ", output);
+  whine::log_line("gear-impact: ", result.torque, " N m, loaded pairs: ", states(result), " -> ", output);
   if (result.mesh.friction.acts())
-    whine::tell("gear-impact: [friction] is left out: teeth do not slide at a fixed mesh phase");
+    whine::log_line("gear-impact: [friction] is left out: teeth do not slide at a fixed mesh phase");
   for (const whine::Remark& remark :
        whine::setup_remarks(at_torque, result.inertia, result.damping, result.fidelity))
-    whine::tell("gear-impact: warning: ", remark.words);
+    whine::log_line("gear-impact: warning: ", remark.words);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include "base/tool.h"
 #include "gear/scene_geometry.h"
 #include "io/publish.h"
-#include "io/rexs_scene.h"
+#include "io/rexs/scene.h"
 #include "io/scene.h"
 #include "io/scene_place.h"
 #include "io/system_scene.h"
@@ -51,9 +51,9 @@ void body(int argc, char** argv) {
 
   const RexsScene scene = scene_of_rexs(read_rexs(input), stage, load_case);
   publish(output, scene.text);
-  for (const std::string& assumed : scene.assumed) tell("gear-import: assumed: ", assumed);
-  tell("gear-import: ", scene.stage, ": ", scene.assumed.size(), " values assumed, ", scene.ignored.size(),
-       " remarks on what is not in the scene -> ", output);
+  for (const std::string& assumed : scene.assumed) log_line("gear-import: assumed: ", assumed);
+  log_line("gear-import: ", scene.stage, ": ", scene.assumed.size(), " values assumed, ",
+           scene.ignored.size(), " remarks on what is not in the scene -> ", output);
 
   // What is written stays, to be changed; the status says whether it can be computed as it is.
   check(output);

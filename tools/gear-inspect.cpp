@@ -14,8 +14,8 @@
 #include "base/error.h"
 #include "base/tool.h"
 #include "io/artifact_place.h"
+#include "io/compatibility.h"
 #include "io/datasets.h"
-#include "io/fit.h"
 #include "io/freshness.h"
 #include "io/provenance.h"
 #include "io/summary.h"
@@ -47,7 +47,7 @@ bool show_origin(const std::string& path, const Origin& origin, const std::strin
 int check(const std::string& path, const std::string& scene) {
   int faults = 0;
   const auto tell_fault = [&](const std::string& words) {
-    tell("gear-inspect: ", words);
+    log_line("gear-inspect: ", words);
     ++faults;
   };
   try {
@@ -75,9 +75,9 @@ int body(int argc, char** argv) {
   options.flag("--check", checked,
                "say only what is wrong with the artifacts, those below folders included (default: out)");
   std::string scene;
-  options.add("--scene", scene,
-              "compare stage parameters with this scene; default: the one that out/<scene>/ was made of, if "
-              "it is there");
+  options.add(
+      "--scene", scene,
+      "compare stage parameters with this scene; default: the one that out/<scene>/ was made of, if it is there");
   bool datasets = false;
   options.flag("--datasets", datasets,
                "print the datasets of all artifacts, a line each: axes, unit, meaning");

@@ -71,10 +71,7 @@ void body(int argc, char** argv) {
   options.add("--output", output, "jump_map.h5 to write").required();
   options.footer(
       "Example:\n"
-      "  gear-jump-map --params out/parker2000/params/map.toml --static-params "
-      "out/parker2000/params/static.toml --body pinion=out/parker2000/pinion/body.h5 --body "
-      "wheel=out/parker2000/wheel/body.h5 --torque 150 --corner-contact false --damping-ratio 0.05,0.07 "
-      "--loads-at 2400 --output jump_map.h5");
+      "  gear-jump-map --params out/parker2000/params/map.toml --static-params out/parker2000/params/static.toml --body pinion=out/parker2000/pinion/body.h5 --body wheel=out/parker2000/wheel/body.h5 --torque 150 --corner-contact false --damping-ratio 0.05,0.07 --loads-at 2400 --output jump_map.h5");
   options.parse(argc, argv);
 
   plan.damping_ratio = numbers("--damping-ratio", ratios);
@@ -97,21 +94,21 @@ void body(int argc, char** argv) {
   whine::as_drawn(settings, {first.inertia, second.inertia});
 
   std::optional<whine::Progress> progress;
-  const whine::JumpMapArtifact result = whine::jump_map(first, second, statics, torque, settings, plan,
-                                                        [&](long done, long total, const std::string& note) {
-                                                          if (!progress)
-                                                            progress.emplace("gear-jump-map", total);
-                                                          progress->update(done, note);
-                                                        });
+  const whine::JumpMapResult result = whine::jump_map(first, second, statics, torque, settings, plan,
+                                                      [&](long done, long total, const std::string& note) {
+                                                        if (!progress)
+                                                          progress.emplace("gear-jump-map", total);
+                                                        progress->update(done, note);
+                                                      });
   progress.reset();
   whine::write(output, result, provenance);
-  whine::tell("gear-jump-map: ", torque, " N m, ", result.two_branches.sum(), " of ",
-              result.two_branches.size(), " dampings with two branches, ",
-              (result.loss_to.array() > 0).count(), " with contact loss -> ", output);
+  whine::log_line("gear-jump-map: ", torque, " N m, ", result.two_branches.sum(), " of ",
+                  result.two_branches.size(), " dampings with two branches, ",
+                  (result.loss_to.array() > 0).count(), " with contact loss -> ", output);
   if (result.unsteady.sum() > 0)
-    whine::tell("gear-jump-map: warning: no steady motion at ", result.unsteady.sum(), " speeds of ",
-                2 * result.two_branches.size() * result.mesh_frequency.size(),
-                "; their last periods are taken");
+    whine::log_line("gear-jump-map: warning: no steady motion at ", result.unsteady.sum(), " speeds of ",
+                    2 * result.two_branches.size() * result.mesh_frequency.size(),
+                    "; their last periods are taken");
 }
 
 }  // namespace

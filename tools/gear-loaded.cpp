@@ -14,7 +14,7 @@
 #include "base/progress.h"
 #include "base/tool.h"
 #include "io/body_codec.h"
-#include "io/fit.h"
+#include "io/compatibility.h"
 #include "io/loaded_codec.h"
 #include "io/mesh_codec.h"
 #include "io/named_files.h"
@@ -34,28 +34,24 @@ void body(int argc, char** argv) {
   options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
   options.add("--mesh", meshes, "mesh.h5 of a gear in the same way").required();
   options
-      .add("--mesh-phase", phase_word,
-           "mesh phase, from 0 (reference pair at the pitch point) up to, not including, 1; with teeth that "
-           "differ up to their hunting period")
+      .add(
+          "--mesh-phase", phase_word,
+          "mesh phase, from 0 (reference pair at the pitch point) up to, not including, 1; with teeth that differ up to their hunting period")
       .required();
   options.add("--output", output, "loaded_<phase>.h5 to write").required();
   options.footer(
-      "Example:\n  gear-loaded --static out/parker2000/T150/static.h5 --body "
-      "pinion=out/parker2000/pinion/body.h5 "
-      "--body wheel=out/parker2000/wheel/body.h5 --mesh pinion=out/parker2000/pinion/mesh.h5 "
-      "--mesh wheel=out/parker2000/wheel/mesh.h5 --mesh-phase 0.25 --output "
-      "loaded.h5");
+      "Example:\n  gear-loaded --static out/parker2000/T150/static.h5 --body pinion=out/parker2000/pinion/body.h5 --body wheel=out/parker2000/wheel/body.h5 --mesh pinion=out/parker2000/pinion/mesh.h5 --mesh wheel=out/parker2000/wheel/mesh.h5 --mesh-phase 0.25 --output loaded.h5");
   options.parse(argc, argv);
 
   const double position = whine::number_option("--mesh-phase", phase_word);
   const whine::NamedFiles body_files("--body", bodies), mesh_files("--mesh", meshes);
   const whine::Provenance provenance =
       whine::made_by(argc, argv, mesh_files.and_inputs(body_files.and_inputs({"static=" + statics_path})));
-  const whine::StaticArtifact statics = whine::read_static(statics_path);
+  const whine::StaticResult statics = whine::read_static(statics_path);
   const std::vector<std::string> body_paths = body_files.of(statics.mesh),
                                  mesh_paths = mesh_files.of(statics.mesh);
   std::optional<whine::StepsShown> steps(std::in_place, "gear-loaded");
-  const whine::LoadedArtifact result =
+  const whine::LoadedResult result =
       whine::loaded_pair(whine::read_mesh(mesh_paths[0]), whine::read_mesh(mesh_paths[1]),
                          whine::read_body(body_paths[0]), whine::read_body(body_paths[1]), statics,
                          position - std::floor(position), static_cast<int>(std::floor(position)));
@@ -66,17 +62,17 @@ void body(int argc, char** argv) {
   Eigen::Index pair = 0, gear = 0;
   result.root_stress.maxCoeff(&pair, &gear);
   const std::string& root_gear = result.mesh.gear[gear];
-  whine::tell("gear-loaded: ", result.torque, " N m, mesh phase ", result.mesh_phase, ", ",
-              result.pair.size(), " pairs, transmission error ", result.transmission_error * 1e6,
-              " µm, largest pressure inside a flank ", pressure.inside * 1e-6, " MPa, root stress ",
-              result.root_stress.maxCoeff() * 1e-6, " MPa of ", root_gear, "; hubs hold ",
-              result.hub_torque[0], " and ", result.hub_torque[1], " N m, strain energy ",
-              result.strain_energy.sum() / result.contact_work.sum(), " of the work -> ", output);
+  whine::log_line("gear-loaded: ", result.torque, " N m, mesh phase ", result.mesh_phase, ", ",
+                  result.pair.size(), " pairs, transmission error ", result.transmission_error * 1e6,
+                  " µm, largest pressure inside a flank ", pressure.inside * 1e-6, " MPa, root stress ",
+                  result.root_stress.maxCoeff() * 1e-6, " MPa of ", root_gear, "; hubs hold ",
+                  result.hub_torque[0], " and ", result.hub_torque[1], " N m, strain energy ",
+                  result.strain_energy.sum() / result.contact_work.sum(), " of the work -> ", output);
   if (pressure.at_edge > 0)
-    whine::tell("gear-loaded: warning: pair ", pressure.edge_pair, " touches at a tip edge with ",
-                pressure.edge_force,
-                " N. The edge is sharp here and pressure there has no largest value: the strips' ",
-                pressure.at_edge * 1e-6, " MPa grow as strips get finer; the force does not");
+    whine::log_line("gear-loaded: warning: pair ", pressure.edge_pair, " touches at a tip edge with ",
+                    pressure.edge_force,
+                    " N. The edge is sharp here and pressure there has no largest value: the strips' ",
+                    pressure.at_edge * 1e-6, " MPa grow as strips get finer; the force does not");
 }
 
 }  // namespace

@@ -45,9 +45,9 @@ struct Given {
 
 void declare(whine::Options& options, Given& given) {
   options
-      .add("--model", given.o.model,
-           "k(t): rectangular (two levels), secant or tangent (curve of the statics), pairs (a spring "
-           "per pair)")
+      .add(
+          "--model", given.o.model,
+          "k(t): rectangular (two levels), secant or tangent (curve of the statics), pairs (a spring per pair)")
       .required()
       .one_of({"rectangular", "secant", "tangent", "pairs"});
   options.add("--static", given.statics, "static.h5 of the torque to run").required();
@@ -55,8 +55,7 @@ void declare(whine::Options& options, Given& given) {
               "static.h5 that the levels of the rectangular wave are read from, instead of --static");
   options.flag(
       "--hertz", given.hertz,
-      "pairs: each spring follows Hertz's law of a line contact through its static load and deflection, as a "
-      "polygon of 16 chords; without it springs are linear, with the stiffness at the static load");
+      "pairs: each spring follows Hertz's law of a line contact through its static load and deflection, as a polygon of 16 chords; without it springs are linear, with the stiffness at the static load");
   options.add("--levels", given.levels,
               "other levels of the rectangular wave, N/m: fewer pairs, more pairs (k1,k2), k2 not below k1");
   options.add("--duty", given.duty, "share of the mesh period with the second level, in (0, 1)");
@@ -85,17 +84,15 @@ void declare(whine::Options& options, Given& given) {
   options.add("--to", given.to, "highest mesh frequency in Hz");
   options.add("--step", given.step, "step of the mesh frequency in Hz");
   options.add("--direction", given.direction, "up or down").one_of({"up", "down"});
-  options.flag("--map", given.map,
-               "a map of jumps over the damping ratios instead of one sweep; --params is then "
-               "out/<scene>/params/lumped_map.toml, each of --from, --to and --step has a default");
+  options.flag(
+      "--map", given.map,
+      "a map of jumps over the damping ratios instead of one sweep; --params is then out/<scene>/params/lumped_map.toml, each of --from, --to and --step has a default");
   options.add("--loads-at", given.at,
               "with --map: speed in Hz whose loads are stored apart; speeds fall on it");
   options.add("--output", given.output, "sweep.h5 to write, with --map jump_map.h5").required();
   options.footer(
       "Example:\n"
-      "  gear-lumped --model rectangular --static out/parker2000/T150/static.h5 --reference-static "
-      "out/parker2000/T100/static.h5 --params out/parker2000/params/lumped.toml --direction up "
-      "--output lumped_sweep.h5");
+      "  gear-lumped --model rectangular --static out/parker2000/T150/static.h5 --reference-static out/parker2000/T100/static.h5 --params out/parker2000/params/lumped.toml --direction up --output lumped_sweep.h5");
 }
 
 // Which options go together.
@@ -156,37 +153,36 @@ whine::SpringChoice springs_chosen(const Given& given) {
   return choice;
 }
 
-void tell_map(const whine::JumpMapArtifact& result, const std::string& output) {
-  whine::tell("gear-lumped: ", result.model, ", ", result.torque, " N m, ", result.two_branches.sum(), " of ",
-              result.two_branches.size(), " dampings with two branches, ",
-              (result.loss_to.array() > 0).count(), " with contact loss -> ", output);
+void tell_map(const whine::JumpMapResult& result, const std::string& output) {
+  whine::log_line("gear-lumped: ", result.model, ", ", result.torque, " N m, ", result.two_branches.sum(),
+                  " of ", result.two_branches.size(), " dampings with two branches, ",
+                  (result.loss_to.array() > 0).count(), " with contact loss -> ", output);
   if (result.unsteady.sum() > 0)
-    whine::tell("gear-lumped: warning: no steady motion at ", result.unsteady.sum(), " speeds of ",
-                2 * result.two_branches.size() * result.mesh_frequency.size(),
-                "; their last periods are taken");
+    whine::log_line("gear-lumped: warning: no steady motion at ", result.unsteady.sum(), " speeds of ",
+                    2 * result.two_branches.size() * result.mesh_frequency.size(),
+                    "; their last periods are taken");
 }
 
-void tell_sweep(const whine::SweepArtifact& result, const whine::LumpedOptions& o,
-                const std::string& output) {
-  whine::tell("gear-lumped: ", o.model, ", ", result.torque, " N m ", o.direction, ", mean stiffness ",
-              result.mean_stiffness * 1e-6, " N/µm, mass ", o.mass, " kg, natural frequency ",
-              result.natural_frequency, " Hz, damping ratio ", o.damping_ratio,
-              o.damping_ratio == whine::LumpedOptions().damping_ratio
-                  ? " (that of P2000 for its pair; [damping] of the scene is not read), "
-                  : ", ",
-              result.mesh_frequency.size(), " speeds, ", result.periods.sum(), " mesh periods, ",
-              result.jump_frequency.size() > 0
-                  ? "jumps at " + whine::jump_words(result.jump_frequency, result.jump_width)
-                  : "no jump",
-              " -> ", output);
+void tell_sweep(const whine::SweepResult& result, const whine::LumpedOptions& o, const std::string& output) {
+  whine::log_line("gear-lumped: ", o.model, ", ", result.torque, " N m ", o.direction, ", mean stiffness ",
+                  result.mean_stiffness * 1e-6, " N/µm, mass ", o.mass, " kg, natural frequency ",
+                  result.natural_frequency, " Hz, damping ratio ", o.damping_ratio,
+                  o.damping_ratio == whine::LumpedOptions().damping_ratio
+                      ? " (that of P2000 for its pair; [damping] of the scene is not read), "
+                      : ", ",
+                  result.mesh_frequency.size(), " speeds, ", result.periods.sum(), " mesh periods, ",
+                  result.jump_frequency.size() > 0
+                      ? "jumps at " + whine::jump_words(result.jump_frequency, result.jump_width)
+                      : "no jump",
+                  " -> ", output);
   for (Eigen::Index i = 0; i < result.mesh_frequency.size(); ++i)
     if (result.period_multiple[i] == 0)
-      whine::tell("gear-lumped: warning: at ", result.mesh_frequency[i],
-                  " Hz the motion is not periodic after ", result.periods[i],
-                  " mesh periods; the state still changes by ", result.residual[i], " per period");
+      whine::log_line("gear-lumped: warning: at ", result.mesh_frequency[i],
+                      " Hz the motion is not periodic after ", result.periods[i],
+                      " mesh periods; the state still changes by ", result.residual[i], " per period");
   if (result.backlash_margin <= 0)
-    whine::tell("gear-lumped: warning: the motion goes ", -result.backlash_margin * 1e6,
-                " µm beyond the backlash; back flanks would touch, which is not modelled");
+    whine::log_line("gear-lumped: warning: the motion goes ", -result.backlash_margin * 1e6,
+                    " µm beyond the backlash; back flanks would touch, which is not modelled");
 }
 
 void body(int argc, char** argv) {
@@ -212,7 +208,7 @@ void body(int argc, char** argv) {
   const whine::Provenance provenance = whine::made_by(argc, argv, std::move(paths));
   const whine::LumpedInputs inputs =
       whine::read_lumped_inputs(given.statics, given.reference, given.params, !given.map, o);
-  const whine::StaticArtifact& at_torque = inputs.at_torque;
+  const whine::StaticResult& at_torque = inputs.at_torque;
   if (!given.torque.empty() && whine::number_option("--torque", given.torque) != at_torque.torque)
     whine::fail(whine::Failure::input, given.statics, " is at ", at_torque.torque, " N m, --torque says ",
                 given.torque, "; give the static.h5 of that torque");
@@ -234,14 +230,14 @@ void body(int argc, char** argv) {
     progress->update(done, note);
   };
   if (given.map) {
-    const whine::JumpMapArtifact result =
+    const whine::JumpMapResult result =
         whine::lumped_jump_map(at_torque, springs, numbers, o, map_speeds, damping_ratio, report);
     progress.reset();
     whine::write(given.output, result, provenance);
     tell_map(result, given.output);
     return;
   }
-  const whine::SweepArtifact result = whine::lumped_sweep(at_torque, springs, numbers, o, report);
+  const whine::SweepResult result = whine::lumped_sweep(at_torque, springs, numbers, o, report);
   whine::write(given.output, result, provenance);
   tell_sweep(result, o, given.output);
 }

@@ -27,14 +27,15 @@ void body(int argc, char** argv) {
 
   const whine::Provenance provenance = whine::made_by(argc, argv, {"params=" + params});
   const whine::BodyParameters settings = whine::read_body_parameters(params);
-  const whine::MeshArtifact mesh = whine::make_sector_mesh(settings.design, settings.discretisation);
+  const whine::SectorGrid mesh = whine::make_sector_mesh(settings.design, settings.discretisation);
 
   whine::write(output, mesh, provenance);
   const double area = whine::mesh_area(mesh.node_position, mesh.element_node);
-  whine::tell("gear-mesh: ", settings.design.teeth, " teeth, ", mesh.element_node.rows(), " elements and ",
-              mesh.node_position.rows(), " nodes a sector, least Jacobian ",
-              whine::least_jacobian(mesh.node_position, mesh.element_node), " of the mean, area ", area * 1e6,
-              " mm2 (relative error ", area / whine::exact_sector_area(settings.design) - 1, ") -> ", output);
+  whine::log_line("gear-mesh: ", settings.design.teeth, " teeth, ", mesh.element_node.rows(),
+                  " elements and ", mesh.node_position.rows(), " nodes a sector, least Jacobian ",
+                  whine::least_jacobian(mesh.node_position, mesh.element_node), " of the mean, area ",
+                  area * 1e6, " mm2 (relative error ", area / whine::exact_sector_area(settings.design) - 1,
+                  ") -> ", output);
 }
 
 }  // namespace

@@ -37,12 +37,12 @@ void body(int argc, char** argv) {
     whine::fail(whine::Failure::usage, "give --params or --static; see --help");
   const whine::Provenance provenance =
       whine::made_by(argc, argv, {statics.empty() ? "params=" + params : "static=" + statics});
-  whine::ModesArtifact result;
+  whine::ModesResult result;
   if (statics.empty()) {
     result = whine::natural_modes(whine::read_system_parameters(params));
     whine::add_mode_view(result, std::vector<const whine::GearDesign*>(result.layout.bodies.size(), nullptr));
   } else {
-    const whine::SystemStaticArtifact rest = whine::read_system_static(statics);
+    const whine::SystemStaticResult rest = whine::read_system_static(statics);
     result = whine::elastic_modes(rest);
     whine::add_mode_view(result, whine::designs_of(rest));
   }
@@ -55,9 +55,10 @@ void body(int argc, char** argv) {
       first = whine::text(result.natural_frequency[i], " Hz (", name_of(result.type[static_cast<size_t>(i)]),
                           ")");
   }
-  whine::tell("gear-modes: ", result.layout.bodies.size(), " bodies, ", result.layout.meshes.size(),
-              " meshes, ", result.natural_frequency.size(), " modes, ", still,
-              " of them free motions; the lowest other: ", first.empty() ? "none" : first, " -> ", output);
+  whine::log_line("gear-modes: ", result.layout.bodies.size(), " bodies, ", result.layout.meshes.size(),
+                  " meshes, ", result.natural_frequency.size(), " modes, ", still,
+                  " of them free motions; the lowest other: ", first.empty() ? "none" : first, " -> ",
+                  output);
 }
 
 }  // namespace

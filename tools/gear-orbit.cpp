@@ -35,9 +35,9 @@ void body(int argc, char** argv) {
   options.add("--reference-static", reference, "static.h5 whose mean stiffness sets the bearing dampers")
       .required();
   options
-      .add("--from-sweep", way,
-           "begin with the motion that a sweep in this direction has at the speed --at, in place of the one "
-           "at rest at the highest speed")
+      .add(
+          "--from-sweep", way,
+          "begin with the motion that a sweep in this direction has at the speed --at, in place of the one at rest at the highest speed")
       .one_of({"up", "down"});
   options.add("--at", plan.at, "mesh frequency of that motion in Hz");
   options.add("--periods", plan.most_periods,
@@ -47,9 +47,7 @@ void body(int argc, char** argv) {
   options.add("--output", output, "branch.h5 to write").required();
   options.footer(
       "Example:\n"
-      "  gear-orbit --params out/parker2000/params/sweep.toml --body pinion=out/parker2000/pinion/body.h5 "
-      "--body wheel=out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5 "
-      "--reference-static out/parker2000/T100/static.h5 --output branch.h5");
+      "  gear-orbit --params out/parker2000/params/sweep.toml --body pinion=out/parker2000/pinion/body.h5 --body wheel=out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5 --reference-static out/parker2000/T100/static.h5 --output branch.h5");
   options.parse(argc, argv);
   if (way.empty() != (plan.at == 0))
     whine::fail(whine::Failure::usage,
@@ -65,7 +63,7 @@ void body(int argc, char** argv) {
   const auto& [driver, driven] = pair;
 
   std::optional<whine::Progress> progress;
-  const whine::BranchArtifact result = whine::pair_branch(
+  const whine::BranchResult result = whine::pair_branch(
       driver, driven, at_torque, at_reference.mean_stiffness, settings,
       [&](long done, long total, const std::string& note) {
         if (!progress) progress.emplace("gear-orbit", total);
@@ -73,12 +71,12 @@ void body(int argc, char** argv) {
       },
       plan);
   whine::write(output, result, provenance);
-  whine::tell("gear-orbit: ", result.torque, " N m, ", result.mesh_frequency.size(), " orbits, ",
-              result.mesh_frequency.size() - result.stable.sum(), " of them unstable",
-              ", folds: ", whine::jump_words(result.fold_frequency, result.fold_width), " -> ", output);
+  whine::log_line("gear-orbit: ", result.torque, " N m, ", result.mesh_frequency.size(), " orbits, ",
+                  result.mesh_frequency.size() - result.stable.sum(), " of them unstable",
+                  ", folds: ", whine::jump_words(result.fold_frequency, result.fold_width), " -> ", output);
   constexpr double kRoundOff = 1e-9;
   if (result.mesh_frequency.minCoeff() > settings.frequency_from * (1 + kRoundOff))
-    whine::tell("gear-orbit: warning: the branch does not reach the lowest speed: ", result.end);
+    whine::log_line("gear-orbit: warning: the branch does not reach the lowest speed: ", result.end);
 }
 
 }  // namespace

@@ -14,8 +14,8 @@
 #include "io/readings_codec.h"
 #include "paper/reading_figure.h"
 #include "paper/table1.h"
-#include "report/drawings.h"
 #include "report/engineering_axes.h"
+#include "report/figure_registry.h"
 #include "report/gnuplot.h"
 #include "report/plot_file.h"
 
@@ -32,8 +32,7 @@ std::string footer() {
   lines += whine::text("  ", kReading, ": readings of P2000. From readings.h5, with --claim-sets\n");
   return lines + "  " + kTable + ": natural frequencies, as a table. From impact.h5, one per torque\n" +
          "Example:\n"
-         "  gear-plot fig05 --output fig05 out/parker2000/T150/up/response.h5 "
-         "out/parker2000/T150/down/response.h5";
+         "  gear-plot fig05 --output fig05 out/parker2000/T150/up/response.h5 out/parker2000/T150/down/response.h5";
 }
 
 void publish_figure(const whine::Figure& figure, const Paths& inputs, const Paths& sources,
@@ -46,7 +45,7 @@ void publish_figure(const whine::Figure& figure, const Paths& inputs, const Path
       {output + ".png",
        whine::with_sources(whine::draw(figure, data.path(), recipe, whine::Picture::png), inputs)});
   whine::publish_all(files);
-  whine::tell("gear-plot: ", figure.title, " -> ", output, ".{tsv,svg,png}");
+  whine::log_line("gear-plot: ", figure.title, " -> ", output, ".{tsv,svg,png}");
 }
 
 void body(int argc, char** argv) {
@@ -59,9 +58,9 @@ void body(int argc, char** argv) {
   options.add("inputs", inputs, "artifacts, for each figure below").required();
   options.add("--output", output, "path of the results without extension").required();
   options
-      .add("--mesh-frequency", mesh_frequencies,
-           "speed of fig08 and fig10 in Hz, one of the sweeps'; one or two of fig15, of its panels "
-           "(the sweeps' nearest)")
+      .add(
+          "--mesh-frequency", mesh_frequencies,
+          "speed of fig08 and fig10 in Hz, one of the sweeps'; one or two of fig15, of its panels (the sweeps' nearest)")
       .separated_by(',');
   options.add("--printed", printed,
               "what P2000 prints, which table1 compares with: data/published/claims.toml");
@@ -70,13 +69,12 @@ void body(int argc, char** argv) {
               "for pairs of P2000: the title says which figure of it shows the same, as in fig07");
   whine::EngineeringAxes axes;
   double reference = 0;
-  options.add("--axis", axes.speed,
-              "figures against speed: rpm:<gear> in place of the mesh frequency; of a pair also rpm:driver, "
-              "rpm:driven, of a train rpm:<carrier>");
+  options.add(
+      "--axis", axes.speed,
+      "figures against speed: rpm:<gear> in place of the mesh frequency; of a pair also rpm:driver, rpm:driven, of a train rpm:<carrier>");
   const whine::Option level = options.add(
       "--db", reference,
-      "order-cuts, compare-motion, runup, system-sweep, system-branch: RMS (of an order its amplitude / "
-      "sqrt 2) in dB re this length in m, as 1e-6");
+      "order-cuts, compare-motion, runup, system-sweep, system-branch: RMS (of an order its amplitude / sqrt 2) in dB re this length in m, as 1e-6");
   options.add("--plots", plots, "folder of the gnuplot templates").show_default();
   options.footer(footer());
   options.parse(argc, argv);
@@ -86,14 +84,14 @@ void body(int argc, char** argv) {
   if (name == kReading) {
     if (inputs.size() != 1 || claim_sets.empty())
       whine::fail(whine::Failure::usage, "reading needs one readings.h5 and --claim-sets");
-    const whine::ReadingsArtifact readings = whine::read_readings(inputs.front());
+    const whine::ReadingsResult readings = whine::read_readings(inputs.front());
     publish_figure(
         whine::reading_figure(readings, whine::consistency(readings, whine::read_claim_sets(claim_sets))),
         inputs, sources, output, plots + "/" + name + ".gp");
     return;
   }
   if (name == kTable) {
-    std::vector<whine::ImpactArtifact> impacts;
+    std::vector<whine::ImpactResult> impacts;
     for (const std::string& path : inputs) impacts.push_back(whine::read_impact(path));
     const whine::Figure table = whine::natural_frequency_table(
         impacts, printed.empty() ? std::vector<whine::PrintedClaim>{} : whine::read_printed_claims(printed));
@@ -102,7 +100,7 @@ void body(int argc, char** argv) {
     std::vector<whine::FileBytes> files = whine::table_files(table, output, sources);
     files.push_back({output + ".txt", words});
     whine::publish_all(files);
-    whine::tell("gear-plot: ", table.title, " -> ", output, ".{tsv,txt}");
+    whine::log_line("gear-plot: ", table.title, " -> ", output, ".{tsv,txt}");
     return;
   }
   whine::Figure figure = whine::figure_of(name, inputs, mesh_frequencies, others);

@@ -27,14 +27,14 @@ void look_for_sets(const std::vector<std::string>& parts, const std::string& set
   if (parts.size() > 2)
     fail(Failure::usage, "--sets takes readings.h5 and, if there is one, confirmed.h5; ", parts.size(),
          " are given");
-  const ReadingsArtifact readings = read_readings(parts.front());
+  const ReadingsResult readings = read_readings(parts.front());
   const Consistency found = consistency(readings, read_claim_sets(sets));
   std::string page = consistency_markdown(readings, found);
   if (parts.size() == 2) page += confirmed_markdown(read_readings(parts.back()));
   for (const std::string& path : parts) require_fresh(path);
   publish_all({{output + ".md", page}, {output + ".tsv", readings_tsv(readings, found)}});
-  tell("gear-reading: ", found.sets.size(), " sets of claims, ", found.conflicts.size(),
-       " pairs of claims that never meet -> ", output, ".{md,tsv}");
+  log_line("gear-reading: ", found.sets.size(), " sets of claims, ", found.conflicts.size(),
+           " pairs of claims that never meet -> ", output, ".{md,tsv}");
 }
 
 void body(int argc, char** argv) {
@@ -70,10 +70,10 @@ void body(int argc, char** argv) {
       fail(Failure::usage, "--confirm takes a number from 1 to 1000, one readings.h5, --scene and --printed");
     const Provenance provenance =
         made_by(argc, argv, {"readings=" + parts.front(), "scene=" + scene_path, "claims=" + printed});
-    const ReadingsArtifact best = confirmed(read_readings(parts.front()), read_scene(scene_path),
-                                            static_cast<int>(count), read_claims(printed));
+    const ReadingsResult best = confirmed(read_readings(parts.front()), read_scene(scene_path),
+                                          static_cast<int>(count), read_claims(printed));
     write(output, best, provenance);
-    tell("gear-reading: ", best.readings.size(), " readings confirmed with strips -> ", output);
+    log_line("gear-reading: ", best.readings.size(), " readings confirmed with strips -> ", output);
     return;
   }
   if (!sets.empty()) {
@@ -86,9 +86,10 @@ void body(int argc, char** argv) {
       for (size_t i = 0; i < parts.size(); ++i) inputs.push_back(text("part_", i + 1, "=", parts[i]));
       return made_by(argc, argv, inputs);
     }();
-    const ReadingsArtifact all = gathered(parts);
+    const ReadingsResult all = gathered(parts);
     write(output, all, provenance);
-    tell("gear-reading: ", all.readings.size(), " readings, ", all.outside, " outside the model -> ", output);
+    log_line("gear-reading: ", all.readings.size(), " readings, ", all.outside, " outside the model -> ",
+             output);
     return;
   }
   int number = 0, of = 0;
@@ -98,10 +99,10 @@ void body(int argc, char** argv) {
   if (printed.empty()) fail(Failure::usage, "--plan needs --printed: data/published/claims.toml");
   const Provenance provenance = made_by(argc, argv, {"plan=" + plan_path, "claims=" + printed});
   const ReadingPlan plan = read_reading_plan(plan_path);
-  const ReadingsArtifact result = run_part(plan, read_scene(plan.scene), number, of, read_claims(printed));
+  const ReadingsResult result = run_part(plan, read_scene(plan.scene), number, of, read_claims(printed));
   write(output, result, provenance);
-  tell("gear-reading: ", result.readings.size(), " readings, ", result.outside, " outside the model -> ",
-       output);
+  log_line("gear-reading: ", result.readings.size(), " readings, ", result.outside, " outside the model -> ",
+           output);
 }
 
 }  // namespace

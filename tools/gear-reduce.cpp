@@ -14,7 +14,7 @@
 #include "base/progress.h"
 #include "base/tool.h"
 #include "io/body_codec.h"
-#include "io/fit.h"
+#include "io/compatibility.h"
 #include "io/mesh_codec.h"
 #include "io/provenance.h"
 #include "io/scene.h"
@@ -30,33 +30,33 @@ void body(int argc, char** argv) {
   options.add("--output", output, "body.h5 to write").required();
   options.footer(
       "Example:\n"
-      "  gear-reduce --params out/parker2000/pinion/body.toml --mesh out/parker2000/pinion/mesh.h5 "
-      "--output body.h5");
+      "  gear-reduce --params out/parker2000/pinion/body.toml --mesh out/parker2000/pinion/mesh.h5 --output body.h5");
   options.parse(argc, argv);
 
   const whine::Provenance provenance = whine::made_by(argc, argv, {"params=" + params, "mesh=" + mesh});
   const whine::BodyParameters settings = whine::read_body_parameters(params);
-  whine::MeshArtifact sector = whine::read_mesh(mesh);
+  whine::SectorGrid sector = whine::read_mesh(mesh);
   whine::require_mesh(sector, settings, mesh);
   sector.discretisation = settings.discretisation;  // a mesh does not say how its near field is reduced
   std::optional<whine::StepsShown> steps(std::in_place, "gear-reduce");
-  const whine::BodyArtifact result = whine::reduce(sector, settings.material, settings.discretisation.modes);
+  const whine::ReducedBody result = whine::reduce(sector, settings.material, settings.discretisation.modes);
   steps.reset();
 
   whine::write(output, result, provenance);
   Eigen::Index torsional = 0;
   result.inertia_coupling.cwiseAbs().maxCoeff(&torsional);
-  whine::tell("gear-reduce: ", result.eigenfrequency.size(), " modes from ", result.eigenfrequency.minCoeff(),
-              " Hz, first torsional ", result.eigenfrequency[torsional], " Hz, body inertia ", result.inertia,
-              " kg m2, near field by ", settings.discretisation.near_field,
-              settings.discretisation.near_field == whine::NearField::matching
-                  ? whine::text(" at ", settings.discretisation.matching_depth * 1e3, " mm")
-                  : "",
-              ", asymmetry of the flexibility ", result.asymmetry, " -> ", output);
+  whine::log_line("gear-reduce: ", result.eigenfrequency.size(), " modes from ",
+                  result.eigenfrequency.minCoeff(), " Hz, first torsional ", result.eigenfrequency[torsional],
+                  " Hz, body inertia ", result.inertia, " kg m2, near field by ",
+                  settings.discretisation.near_field,
+                  settings.discretisation.near_field == whine::NearField::matching
+                      ? whine::text(" at ", settings.discretisation.matching_depth * 1e3, " mm")
+                      : "",
+                  ", asymmetry of the flexibility ", result.asymmetry, " -> ", output);
   if (settings.design.crack.depth > 0)
-    whine::tell("gear-reduce: the crack in tooth ", settings.design.crack.tooth, " adds up to ",
-                result.crack_compliance.maxCoeff() * 1e9, " µm/kN to ",
-                result.compliance[0].maxCoeff() * 1e9);
+    whine::log_line("gear-reduce: the crack in tooth ", settings.design.crack.tooth, " adds up to ",
+                    result.crack_compliance.maxCoeff() * 1e9, " µm/kN to ",
+                    result.compliance[0].maxCoeff() * 1e9);
 }
 
 }  // namespace

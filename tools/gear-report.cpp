@@ -31,14 +31,11 @@ void body(int argc, char** argv) {
   options.add("--output", output, "page to write (.html); results.tsv stands beside it").required();
   options.flag(
       "--teeth", teeth,
-      "what the teeth suffer at the first torque: root stress, flank pressure, dynamic factors; figures in "
-      "../report/ of the page, no results.tsv");
+      "what the teeth suffer at the first torque: root stress, flank pressure, dynamic factors; figures in ../report/ of the page, no results.tsv");
   options.footer(
       "Examples:\n"
-      "  gear-report --output report/index.html out/parker2000/T150/static.h5 "
-      "out/parker2000/T150/up/sweep.h5 out/parker2000/T150/down/sweep.h5\n"
-      "  gear-report --output report/index.html out/three-in-line/system_static.h5 "
-      "out/three-in-line/modes.h5");
+      "  gear-report --output report/index.html out/parker2000/T150/static.h5 out/parker2000/T150/up/sweep.h5 out/parker2000/T150/down/sweep.h5\n"
+      "  gear-report --output report/index.html out/three-in-line/system_static.h5 out/three-in-line/modes.h5");
   options.parse(argc, argv);
 
   const auto publish_both = [&](const std::string& page, const std::string& table) {
@@ -50,21 +47,21 @@ void body(int argc, char** argv) {
     const SystemReport report = read_system_report(inputs);
     const std::string page = system_report_html(report);
     publish_both(page, system_report_tsv(report));
-    tell("gear-report: ", report.scene, ": ", report.modes->layout.bodies.size(), " bodies, ",
-         report.pictures.size(), " figures, ", page.size() / 1000, " kB -> ", output);
+    log_line("gear-report: ", report.scene, ": ", report.modes->layout.bodies.size(), " bodies, ",
+             report.pictures.size(), " figures, ", page.size() / 1000, " kB -> ", output);
     return;
   }
   ReportContent content = read_report_content(inputs);
   if (teeth) {
     content.figure_folder = "../report/";
     publish(output, teeth_html(content));
-    tell("gear-report: teeth of ", content.scene, ": ", content.pictures.size(), " figures -> ", output);
+    log_line("gear-report: teeth of ", content.scene, ": ", content.pictures.size(), " figures -> ", output);
     return;
   }
   const std::string page = report_html(content);
   publish_both(page, report_tsv(content));
-  tell("gear-report: ", content.scene, ": ", content.statics.size(), " torques, ", content.sweeps.size(),
-       " sweeps, ", content.pictures.size(), " figures, ", page.size() / 1000, " kB -> ", output);
+  log_line("gear-report: ", content.scene, ": ", content.statics.size(), " torques, ", content.sweeps.size(),
+           " sweeps, ", content.pictures.size(), " figures, ", page.size() / 1000, " kB -> ", output);
 }
 
 }  // namespace

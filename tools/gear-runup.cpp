@@ -27,7 +27,7 @@ using namespace whine;
 class RunupFileWithNotes : public RunupFile {
  public:
   using RunupFile::RunupFile;
-  void end(const RunupArtifact& tail) override {
+  void end(const RunupResult& tail) override {
     RunupFile::end(tail);
     const auto torque = acceleration_torque(tail);
     for (size_t g = 0; g < kSides; ++g)
@@ -35,12 +35,12 @@ class RunupFileWithNotes : public RunupFile {
               tail.torque *
               (g == 0 ? 1.0 : static_cast<double>(tail.gear[1].design.teeth) / tail.gear[0].design.teeth);
           torque[g] > 0.01 * own)
-        tell("gear-runup: accelerating ", tail.mesh.gear[g], " takes ", torque[g], " N m, ",
-             100 * torque[g] / own,
-             " % of its torque; its own shaft is taken to supply this, so the mesh does not carry it");
+        log_line("gear-runup: accelerating ", tail.mesh.gear[g], " takes ", torque[g], " N m, ",
+                 100 * torque[g] / own,
+                 " % of its torque; its own shaft is taken to supply this, so the mesh does not carry it");
     if (tail.backlash_margin <= 0)
-      tell("gear-runup: warning: the motion goes up to ", -tail.backlash_margin * 1e6,
-           " µm beyond the backlash; back flanks would touch there, which is not modelled");
+      log_line("gear-runup: warning: the motion goes up to ", -tail.backlash_margin * 1e6,
+               " µm beyond the backlash; back flanks would touch there, which is not modelled");
   }
 };
 
@@ -64,9 +64,7 @@ void body(int argc, char** argv) {
   options.add("--output", output, "runup.h5 to write").required();
   options.footer(
       "Example:\n"
-      "  gear-runup --params out/parker2000/params/sweep.toml --body pinion=out/parker2000/pinion/body.h5 "
-      "--body wheel=out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5 "
-      "--reference-static out/parker2000/T100/static.h5 --rate 1000 --output runup.h5");
+      "  gear-runup --params out/parker2000/params/sweep.toml --body pinion=out/parker2000/pinion/body.h5 --body wheel=out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5 --reference-static out/parker2000/T100/static.h5 --rate 1000 --output runup.h5");
   options.parse(argc, argv);
   if (!(wanted.sample_rate >= 1000 && wanted.sample_rate <= 1e6))
     fail(Failure::usage, "--sample-rate ", wanted.sample_rate, ": 1000 to 1000000 Hz");
@@ -92,8 +90,8 @@ void body(int argc, char** argv) {
           progress->update(done, note);
         });
   progress.reset();
-  tell("gear-runup: ", at_torque.torque, " N m, ", wanted.ramp.from, " to ", wanted.ramp.to, " Hz at ",
-       wanted.ramp.rate, " rpm/s -> ", output);
+  log_line("gear-runup: ", at_torque.torque, " N m, ", wanted.ramp.from, " to ", wanted.ramp.to, " Hz at ",
+           wanted.ramp.rate, " rpm/s -> ", output);
 }
 
 }  // namespace

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/format.h"
 #include "base/tool.h"
-#include "gear/numbers.h"
-#include "io/fit.h"
+#include "io/compatibility.h"
 #include "io/publish.h"
 #include "io/scene.h"
 #include "io/scene_fragment.h"
@@ -29,7 +29,7 @@ namespace {
 using namespace whine;
 
 void tell_lines(const std::vector<std::string>& lines) {
-  for (const std::string& line : lines) tell("gear-scene: ", line);
+  for (const std::string& line : lines) log_line("gear-scene: ", line);
 }
 
 // A system (several meshes, carriers or drives): its stage parameters and its fragment.
@@ -53,7 +53,7 @@ void cut_system(const std::string& path, const std::string& stem, const std::str
           system_fragment(path, stem, publish_bodies(home, folder, body_parameters_of(scene)),
                           layout.meshes.size() > scene.meshes.size(), scene.operation.frequency_to > 0));
   tell_lines(scene_lines(scene, layout, path));
-  tell("gear-scene: ", path, ": ", layout.bodies.size(), " bodies, ", layout.meshes.size(), " meshes");
+  log_line("gear-scene: ", path, ": ", layout.bodies.size(), " bodies, ", layout.meshes.size(), " meshes");
 }
 
 void cut_pair(const std::string& path, const std::string& stem, const std::string& folder,
@@ -64,7 +64,8 @@ void cut_pair(const std::string& path, const std::string& stem, const std::strin
   record_scene(home, path);
   // Together: program ids, results and stage parameters keep their order.
   if (const int moved = bring_to_present({home, folder + "/bodies", ids}); moved > 0)
-    tell("gear-scene: ", home, ": ", moved, " files had times in the future and have those of now instead");
+    log_line("gear-scene: ", home, ": ", moved,
+             " files had times in the future and have those of now instead");
   // 2. Stage parameters and links; unchanged ones are left alone, so that make sees what did change.
   BodySettings settings;
   for (const SceneGear& gear : scene.gears)
@@ -82,8 +83,9 @@ void cut_pair(const std::string& path, const std::string& stem, const std::strin
   // 3. The fragment, always written.
   publish(output, scene_fragment(scene, path, stem, bodies));
   tell_lines(scene_lines(scene, path));
-  tell("gear-scene: ", path, ": ", scene.gears.size(), " gears, ", different(bodies).size(),
-       (different(bodies).size() == 1 ? " body, " : " bodies, "), torques_in_words(scene.operation.torques));
+  log_line("gear-scene: ", path, ": ", scene.gears.size(), " gears, ", different(bodies).size(),
+           (different(bodies).size() == 1 ? " body, " : " bodies, "),
+           torques_in_words(scene.operation.torques));
 }
 
 void body(int argc, char** argv) {
@@ -95,9 +97,9 @@ void body(int argc, char** argv) {
   Option output_option = options.add(
       "--output", output, "file to write that make includes: gears, bodies and torques of the scene");
   options.add("--out", folder, "folder of the artifacts").show_default();
-  options.add("--ids", ids,
-              "folder of the files that tell make which programs have changed: those with a time in the "
-              "future get the time of now");
+  options.add(
+      "--ids", ids,
+      "folder of the files that tell make which programs have changed: those with a time in the future get the time of now");
   Option keys_option = options.flag("--keys", keys, "print the table of scene keys and end");
   Option variant_option = options.add("--variant", variant, "scene to write with the changes of --set");
   Option set_option = options.add("--set", changes, "key=value, any number of times");
@@ -108,10 +110,8 @@ void body(int argc, char** argv) {
   options.footer(
       "Examples:\n"
       "  gear-scene --scene data/scenes/parker2000.toml --output build/scenes/parker2000.mk --out out\n"
-      "  gear-scene --scene data/scenes/parker2000.toml --set bore_radius_mm=35 --variant "
-      "out/parker2000/variants/bore35.toml\n"
-      "  gear-scene --scene data/scenes/lin-parker-planetary.toml --output "
-      "build/scenes/lin-parker-planetary.mk --out out\n"
+      "  gear-scene --scene data/scenes/parker2000.toml --set bore_radius_mm=35 --variant out/parker2000/variants/bore35.toml\n"
+      "  gear-scene --scene data/scenes/lin-parker-planetary.toml --output build/scenes/lin-parker-planetary.mk --out out\n"
       "  gear-scene --keys");
   options.parse(argc, argv);
   if (keys) {

@@ -52,7 +52,7 @@ void body(int argc, char** argv) {
   whine::publish_all({{output + ".tsv", whine::scorecard_tsv(card, sources)},
                       {output + ".md", whine::scorecard_markdown(card)},
                       {output + ".txt", whine::scorecard_text(card)}});
-  for (const std::string& line : whine::bottom_line(card)) whine::tell("gear-scorecard: ", line);
+  for (const std::string& line : whine::bottom_line(card)) whine::log_line("gear-scorecard: ", line);
 }
 
 }  // namespace

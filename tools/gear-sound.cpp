@@ -44,8 +44,7 @@ void body(int argc, char** argv) {
       .show_default();
   options.footer(
       "Example:\n"
-      "  gear-sound --sweep out/parker2000/T150/up/sweep.h5 --sweep out/parker2000/T150/down/sweep.h5 "
-      "--mesh-frequency 2400 --output sound");
+      "  gear-sound --sweep out/parker2000/T150/up/sweep.h5 --sweep out/parker2000/T150/down/sweep.h5 --mesh-frequency 2400 --output sound");
   options.parse(argc, argv);
   if (runups.empty() && !(frequency > 0))
     fail(Failure::usage, "wanted is --sweep with --mesh-frequency above 0, or --runup");
@@ -73,8 +72,8 @@ void body(int argc, char** argv) {
     at += y.size() + pause;
   }
   publish_all({{output + ".wav", wav_bytes(all, heard.rate)}, {output + ".tsv", heard.table}});
-  tell("gear-sound: ", runups.empty() ? text(frequency, " Hz") : "run-up", ", ", heard.sounds.size(),
-       " branches, full scale ", full_scale, " -> ", output, ".{wav,tsv}");
+  log_line("gear-sound: ", runups.empty() ? text(frequency, " Hz") : "run-up", ", ", heard.sounds.size(),
+           " branches, full scale ", full_scale, " -> ", output, ".{wav,tsv}");
 }
 
 }  // namespace

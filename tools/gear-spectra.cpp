@@ -24,13 +24,12 @@ void body(int argc, char** argv) {
   options.add("--output", output, "response.h5 to write").required();
   options.footer(
       "Example:\n"
-      "  gear-spectra --input out/parker2000/T150/up/sweep.h5 --output "
-      "response.h5");
+      "  gear-spectra --input out/parker2000/T150/up/sweep.h5 --output response.h5");
   options.parse(argc, argv);
 
   const whine::Provenance provenance = whine::made_by(argc, argv, {"sweep=" + input});
-  const whine::SweepArtifact sweep = whine::read_sweep(input);
-  whine::ResponseArtifact result = whine::response(sweep);
+  const whine::SweepResult sweep = whine::read_sweep(input);
+  whine::ResponseResult result = whine::response(sweep);
   result.loss_factor = whine::loss_factors(sweep);
   whine::add_flank_pressure(sweep, result);
   result.friction = sweep.friction;
@@ -40,9 +39,10 @@ void body(int argc, char** argv) {
   const double rms = result.dte_rms.maxCoeff(&peak);
   char peak_words[64];
   std::snprintf(peak_words, sizeof peak_words, "%.3f µm at %.0f Hz", rms * 1e6, result.mesh_frequency[peak]);
-  whine::tell("gear-spectra: ", result.torque, " N m ", result.direction, ", ", result.mesh_frequency.size(),
-              " speeds, largest RMS ", peak_words, ", ", result.jump_frequency.size(),
-              result.jump_frequency.size() == 1 ? " jump -> " : " jumps -> ", output);
+  whine::log_line("gear-spectra: ", result.torque, " N m ", result.direction, ", ",
+                  result.mesh_frequency.size(), " speeds, largest RMS ", peak_words, ", ",
+                  result.jump_frequency.size(),
+                  result.jump_frequency.size() == 1 ? " jump -> " : " jumps -> ", output);
 }
 
 }  // namespace

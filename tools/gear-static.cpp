@@ -37,10 +37,10 @@ Eigen::VectorXd mean_and_harmonics(const Eigen::VectorXd& samples, int periods, 
 
 void tell_change(const std::string& where, const whine::StaticDifference& change, int strips) {
   if (change.positions == 0) return;
-  whine::tell("gear-static: ", strips, " strips change, ", where, " (", change.positions,
-              " positions): transmission error by ", change.error_largest * 100, " % at most, ",
-              change.error_rms * 100, " % RMS; pair loads by ", change.load_largest * 100, " % at most, ",
-              change.load_rms * 100, " % RMS of the load");
+  whine::log_line("gear-static: ", strips, " strips change, ", where, " (", change.positions,
+                  " positions): transmission error by ", change.error_largest * 100, " % at most, ",
+                  change.error_rms * 100, " % RMS; pair loads by ", change.load_largest * 100, " % at most, ",
+                  change.load_rms * 100, " % RMS of the load");
 }
 
 // What each halving of the elements on the root changes, and the order at last where the changes show one.
@@ -51,11 +51,11 @@ void tell_root_stress(const std::array<std::string, whine::kSides>& gears,
     for (Eigen::Index k = 0; k < root.change.rows(); ++k)
       changes += whine::text(k > 0 ? ", " : "", std::round(1e5 * root.change(k, g)) / 1e3 + 0.0);
     const double order = whine::resolved_order(root, root.order.rows() - 1, g);
-    whine::tell("gear-static: largest root stress of ", gears[static_cast<size_t>(g)], " changes by ",
-                changes, " % each time the elements on the root are halved",
-                !std::isfinite(order) ? ""
-                : order > 0           ? whine::text("; order at last ", std::round(10 * order) / 10)
-                                      : "; the last changes do not shrink");
+    whine::log_line("gear-static: largest root stress of ", gears[static_cast<size_t>(g)], " changes by ",
+                    changes, " % each time the elements on the root are halved",
+                    !std::isfinite(order) ? ""
+                    : order > 0           ? whine::text("; order at last ", std::round(10 * order) / 10)
+                                          : "; the last changes do not shrink");
   }
 }
 
@@ -76,9 +76,7 @@ void body(int argc, char** argv) {
       .excludes(of_budget);
   options.footer(
       "Example:\n"
-      "  gear-static --params out/parker2000/params/static.toml --body "
-      "pinion=out/parker2000/pinion/body.h5 --body wheel=out/parker2000/wheel/body.h5 --torque 150 --output "
-      "static.h5");
+      "  gear-static --params out/parker2000/params/static.toml --body pinion=out/parker2000/pinion/body.h5 --body wheel=out/parker2000/wheel/body.h5 --torque 150 --output static.h5");
   options.parse(argc, argv);
 
   const double torque = whine::number_option("--torque", torque_word);
@@ -88,19 +86,19 @@ void body(int argc, char** argv) {
   const auto [driver, driven] = whine::read_bodies(files, settings);
   std::optional<whine::StepsShown> steps(std::in_place, "gear-static");
   if (budget) {
-    const whine::ErrorBudgetArtifact errors = whine::error_budget(driver, driven, settings, torque);
+    const whine::ErrorBudgetResult errors = whine::error_budget(driver, driven, settings, torque);
     steps.reset();
     whine::write(output, errors, provenance);
-    whine::tell("gear-static: error budget at ", torque, " N m (", errors.refinement.entry,
-                "): mean stiffness to ", errors.refinement.mean_stiffness_change.cwiseAbs().sum() * 100,
-                " % in all -> ", output);
+    whine::log_line("gear-static: error budget at ", torque, " N m (", errors.refinement.entry,
+                    "): mean stiffness to ", errors.refinement.mean_stiffness_change.cwiseAbs().sum() * 100,
+                    " % in all -> ", output);
     const whine::RootConvergence root = whine::convergence(errors.root);
     if (root.order.rows() > 0) tell_root_stress(errors.mesh.gear, root);
     if (!errors.choice_missing.empty())
-      whine::tell("gear-static: warning: no other choice to compare with: ", errors.choice_missing);
+      whine::log_line("gear-static: warning: no other choice to compare with: ", errors.choice_missing);
     return;
   }
-  whine::StaticArtifact result = whine::static_transmission(driver, driven, settings, torque);
+  whine::StaticResult result = whine::static_transmission(driver, driven, settings, torque);
   std::optional<whine::NextLevel> change;
   if (next_level) change = whine::next_contact_level(driver, driven, settings, result);
   const int periods = result.hunting_periods;
@@ -112,15 +110,15 @@ void body(int argc, char** argv) {
 
   whine::write(output, result, provenance);
   const auto& te = result.transmission_error;
-  whine::tell("gear-static: ", torque, " N m, contact ratio ", result.contact_ratio, ", mean stiffness ",
-              result.mean_stiffness * 1e-6, " N/µm, transmission error ", te.minCoeff() * 1e6, " to ",
-              te.maxCoeff() * 1e6, " µm -> ", output);
+  whine::log_line("gear-static: ", torque, " N m, contact ratio ", result.contact_ratio, ", mean stiffness ",
+                  result.mean_stiffness * 1e-6, " N/µm, transmission error ", te.minCoeff() * 1e6, " to ",
+                  te.maxCoeff() * 1e6, " µm -> ", output);
   if (change) {
     tell_change("where a pair carries load off the line of action", change->corner, settings.contact.strips);
     tell_change("elsewhere", change->elsewhere, settings.contact.strips);
   }
   for (const whine::Remark& remark : whine::remarks(result))
-    whine::tell("gear-static: ", remark.warning ? "warning: " : "", remark.words);
+    whine::log_line("gear-static: ", remark.warning ? "warning: " : "", remark.words);
 }
 
 }  // namespace

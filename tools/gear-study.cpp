@@ -33,16 +33,17 @@ void plan(const std::string& path, const std::string& output, const std::string&
           const std::string& ids) {
   const std::string stem = std::filesystem::path(path).stem().string();
   if (!plain_name(stem))
-    fail(Failure::input, path, ": the name '", stem,
-         "' becomes a folder and a make target, so it may hold letters, digits, '_' and '-' only; rename the "
-         "file");
+    fail(
+        Failure::input, path, ": the name '", stem,
+        "' becomes a folder and a make target, so it may hold letters, digits, '_' and '-' only; rename the file");
   // 1. The whole study is checked before anything is written.
   const std::string home = folder + "/studies/" + stem + "/";
   const ExpandedStudy plan = expand_study(path, home);
 
   // 2. Together: program ids, results and stage parameters keep their order.
   if (const int moved = bring_to_present({home, folder + "/bodies", ids}); moved > 0)
-    tell("gear-study: ", home, ": ", moved, " files had times in the future and have those of now instead");
+    log_line("gear-study: ", home, ": ", moved,
+             " files had times in the future and have those of now instead");
   for (const auto& [hash, text] : plan.bodies)
     publish_if_changed(folder + "/bodies/" + hash + "/body.toml", text);
   for (const auto& [hash, text] : plan.parameters)
@@ -51,13 +52,13 @@ void plan(const std::string& path, const std::string& output, const std::string&
   publish(output, study_fragment(plan, path, stem));
 
   for (const std::string& key : idle_keys(plan))
-    tell("gear-study: warning: ", path, ": ", key, " changes nothing that this study computes",
-         plan.study.directions.empty() ? ", the pair at rest; if it acts in motion, say stage = \"sweep\""
-                                       : "");
+    log_line("gear-study: warning: ", path, ": ", key, " changes nothing that this study computes",
+             plan.study.directions.empty() ? ", the pair at rest; if it acts in motion, say stage = \"sweep\""
+                                           : "");
   const size_t parameters = plan.parameters.size(), bodies = plan.bodies.size();
-  tell("gear-study: ", path, ": ", plan.study.variants, " variants, ",
-       parameters < plan.variants.size() ? text(parameters, " of them different, ") : "", bodies,
-       bodies == 1 ? " body" : " bodies");
+  log_line("gear-study: ", path, ": ", plan.study.variants, " variants, ",
+           parameters < plan.variants.size() ? text(parameters, " of them different, ") : "", bodies,
+           bodies == 1 ? " body" : " bodies");
 }
 
 void gather(int argc, char** argv, const std::string& path, const std::string& output) {
@@ -74,14 +75,14 @@ void gather(int argc, char** argv, const std::string& path, const std::string& o
   const GatheredStudy gathered = gather_study(path);
   const size_t rejected = gathered.rejected.size();
   for (size_t i = 0; i < std::min(rejected, kShownOutside); ++i)
-    tell("gear-study: warning: ", gathered.rejected[i]);
+    log_line("gear-study: warning: ", gathered.rejected[i]);
   write(output, gathered.study, provenance);
-  tell("gear-study: ", gathered.study.plan.title, ": ", gathered.study.variants.size(), " variants",
-       rejected > 0 ? text(", ", rejected, " of them outside the model's range and marked so") : "", " -> ",
-       output);
+  log_line("gear-study: ", gathered.study.plan.title, ": ", gathered.study.variants.size(), " variants",
+           rejected > 0 ? text(", ", rejected, " of them outside the model's range and marked so") : "",
+           " -> ", output);
   if (gathered.unsteady > 0)
-    tell("gear-study: warning: ", gathered.unsteady,
-         " variants have speeds at which no periodic motion was found; ", "they are marked so");
+    log_line("gear-study: warning: ", gathered.unsteady,
+             " variants have speeds at which no periodic motion was found; ", "they are marked so");
 }
 
 // A variant that the study marks, as a scene.
@@ -97,14 +98,14 @@ void body(int argc, char** argv) {
   Option study_option = options.add("--study", path, "study file (TOML)");
   Option gather_option = options.add("--gather", plan_path, "plan.toml of a study whose variants are there");
   options
-      .add("--output", output,
-           "file to write: one that make includes, of the variants; with --gather study.h5, with --design a "
-           "scene")
+      .add(
+          "--output", output,
+          "file to write: one that make includes, of the variants; with --gather study.h5, with --design a scene")
       .required();
   options.add("--out", folder, "folder of the artifacts").show_default();
-  options.add("--ids", ids,
-              "folder of the files that tell make which programs have changed: those with a time in the "
-              "future get the time of now");
+  options.add(
+      "--ids", ids,
+      "folder of the files that tell make which programs have changed: those with a time in the future get the time of now");
   options
       .add("--design", design,
            "with --study: a scene of the first or the second variant that it marks by compare = [0, 3]")
@@ -113,8 +114,7 @@ void body(int argc, char** argv) {
   study_option.excludes(gather_option);
   options.footer(
       "Example:\n"
-      "  gear-study --study data/studies/damping-torque-relief.toml --output "
-      "build/studies/damping-torque-relief.mk");
+      "  gear-study --study data/studies/damping-torque-relief.toml --output build/studies/damping-torque-relief.mk");
   options.parse(argc, argv);
   if (path.empty() == plan_path.empty()) fail(Failure::usage, "--study or --gather is needed; see --help");
   if (!design.empty())

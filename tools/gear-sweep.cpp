@@ -31,17 +31,17 @@ std::string in_words(const whine::Change& change) {
   return out.str();
 }
 
-void tell_change(const whine::NextSweep& next, const whine::SweepArtifact& here,
-                 const whine::SweepArtifact& there) {
+void tell_change(const whine::NextSweep& next, const whine::SweepResult& here,
+                 const whine::SweepResult& there) {
   const whine::SweepChange change = whine::sweep_change(here, there);
   const std::string level =
       whine::text("gear-sweep: ", next.key, " = \"", next.from, "\" against \"", next.to, "\"");
-  whine::tell(level, " at ", change.compared, " speeds: RMS of the transmission error off by ",
-              in_words(change.dte_rms), "; its mean by ", in_words(change.dte_mean), "; peak tooth load by ",
-              in_words(change.tooth_load));
-  whine::tell(level, ": jumps ", whine::jump_words(here.jump_frequency, here.jump_width), " against ",
-              whine::jump_words(there.jump_frequency, there.jump_width), "; on different branches at ",
-              change.apart, " speeds, with other periods or none at ", change.uneven);
+  whine::log_line(level, " at ", change.compared, " speeds: RMS of the transmission error off by ",
+                  in_words(change.dte_rms), "; its mean by ", in_words(change.dte_mean),
+                  "; peak tooth load by ", in_words(change.tooth_load));
+  whine::log_line(level, ": jumps ", whine::jump_words(here.jump_frequency, here.jump_width), " against ",
+                  whine::jump_words(there.jump_frequency, there.jump_width), "; on different branches at ",
+                  change.apart, " speeds, with other periods or none at ", change.uneven);
 }
 
 void body(int argc, char** argv) {
@@ -60,15 +60,12 @@ void body(int argc, char** argv) {
   options.add("--output", output, "sweep.h5 to write").required();
   options.add("--jump-width", jump_width,
               "enclose jumps to this width in Hz or less (default: 1/64 of the step of the speeds)");
-  options.flag("--next-level", next_level,
-               "sweep with the next level of [fidelity] contact and with that of body as well, and say what "
-               "they change");
+  options.flag(
+      "--next-level", next_level,
+      "sweep with the next level of [fidelity] contact and with that of body as well, and say what they change");
   options.footer(
       "Example:\n"
-      "  gear-sweep --params out/parker2000/params/sweep.toml --body pinion=out/parker2000/pinion/body.h5 "
-      "--body wheel=out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5 "
-      "--reference-static out/parker2000/T100/static.h5 --direction up --output "
-      "sweep.h5");
+      "  gear-sweep --params out/parker2000/params/sweep.toml --body pinion=out/parker2000/pinion/body.h5 --body wheel=out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5 --reference-static out/parker2000/T100/static.h5 --direction up --output sweep.h5");
   options.parse(argc, argv);
   const whine::Direction direction = whine::choice_of<whine::Direction>(way).value();
 
@@ -81,9 +78,9 @@ void body(int argc, char** argv) {
   const auto& [driver, driven] = pair;
   std::vector<whine::NextSweep> next;
   if (next_level) next = whine::next_sweeps(driver, driven, at_torque, at_reference, settings);
-  const auto run = [&](const whine::BodyArtifact& a, const whine::BodyArtifact& b,
-                       const whine::StaticArtifact& at, double mean_stiffness,
-                       const whine::SweepParameters& s, const std::string& name) {
+  const auto run = [&](const whine::ReducedBody& a, const whine::ReducedBody& b,
+                       const whine::StaticResult& at, double mean_stiffness, const whine::SweepParameters& s,
+                       const std::string& name) {
     std::optional<whine::Progress> progress;
     return whine::sweep(
         a, b, at, mean_stiffness, s, direction,
@@ -93,24 +90,23 @@ void body(int argc, char** argv) {
         },
         nullptr, jump_width);
   };
-  const whine::SweepArtifact result =
-      run(driver, driven, at_torque, at_reference.mean_stiffness, settings, "");
+  const whine::SweepResult result = run(driver, driven, at_torque, at_reference.mean_stiffness, settings, "");
 
   whine::write(output, result, provenance);
-  whine::tell("gear-sweep: ", result.torque, " N m ", direction, ", ", result.mesh_frequency.size(),
-              " speeds, ", result.periods.sum(), " mesh periods, ",
-              result.jump_frequency.size() > 0
-                  ? "jumps at " + whine::jump_words(result.jump_frequency, result.jump_width)
-                  : "no jump",
-              " -> ", output);
+  whine::log_line("gear-sweep: ", result.torque, " N m ", direction, ", ", result.mesh_frequency.size(),
+                  " speeds, ", result.periods.sum(), " mesh periods, ",
+                  result.jump_frequency.size() > 0
+                      ? "jumps at " + whine::jump_words(result.jump_frequency, result.jump_width)
+                      : "no jump",
+                  " -> ", output);
   for (const whine::Remark& remark : whine::remarks(result, at_torque))
-    whine::tell("gear-sweep: ", remark.warning ? "warning: " : "", remark.words);
+    whine::log_line("gear-sweep: ", remark.warning ? "warning: " : "", remark.words);
   for (const whine::NextSweep& s : next)
     if (s.missing.empty())
       tell_change(s, result, run(s.body[0], s.body[1], s.statics, s.mean_stiffness, s.settings, " " + s.to));
     else
-      whine::tell("gear-sweep: ", s.key, " = \"", s.from, "\" against \"", s.to,
-                  "\" is not compared: ", s.missing);
+      whine::log_line("gear-sweep: ", s.key, " = \"", s.from, "\" against \"", s.to,
+                      "\" is not compared: ", s.missing);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
-#include "io/fit.h"
+#include "io/compatibility.h"
 #include "io/named_files.h"
 #include "io/provenance.h"
 #include "io/system_impact_codec.h"
@@ -39,18 +39,16 @@ void body(int argc, char** argv) {
   options.add("--output", output, "system_impact.h5 to write").required();
   options.footer(
       "Example:\n"
-      "  gear-system-impact --params out/three-in-line/params/system_sweep.toml --body "
-      "pinion=out/three-in-line/pinion/body.h5 --body idler=out/three-in-line/idler/body.h5 --body "
-      "wheel=out/three-in-line/wheel/body.h5 --output system_impact.h5");
+      "  gear-system-impact --params out/three-in-line/params/system_sweep.toml --body pinion=out/three-in-line/pinion/body.h5 --body idler=out/three-in-line/idler/body.h5 --body wheel=out/three-in-line/wheel/body.h5 --output system_impact.h5");
   options.parse(argc, argv);
   plan.impulse = whine::number_option("--impulse", impulse);
 
   const whine::NamedFiles files("--body", bodies);
   const whine::Provenance provenance = whine::made_by(argc, argv, files.and_inputs({"params=" + params}));
   const whine::SystemSweepParameters settings = whine::read_system_sweep_parameters(params);
-  const std::vector<whine::BodyArtifact> gears = whine::read_bodies(files, settings);
+  const std::vector<whine::ReducedBody> gears = whine::read_bodies(files, settings);
   std::optional<whine::Progress> progress;
-  const whine::SystemImpactArtifact result =
+  const whine::SystemImpactResult result =
       whine::system_impact(settings, gears, plan, [&](long done, long total) {
         if (!progress) progress.emplace("gear-system-impact", total);
         progress->update(done, "");
@@ -59,14 +57,14 @@ void body(int argc, char** argv) {
 
   whine::write(output, result, provenance);
   const Eigen::VectorXd lowest = result.natural_frequency.col(0), ratio = result.damping_ratio.col(0);
-  whine::tell("gear-system-impact: ", result.mesh_phase.size(), " phases, ", result.damping_ratio.cols(),
-              " modes, the lowest at ", lowest.minCoeff(), " to ", lowest.maxCoeff(), " Hz with ",
-              ratio.minCoeff() * 100, " to ", ratio.maxCoeff() * 100, " % -> ", output);
+  whine::log_line("gear-system-impact: ", result.mesh_phase.size(), " phases, ", result.damping_ratio.cols(),
+                  " modes, the lowest at ", lowest.minCoeff(), " to ", lowest.maxCoeff(), " Hz with ",
+                  ratio.minCoeff() * 100, " to ", ratio.maxCoeff() * 100, " % -> ", output);
   constexpr double kUnresolved = 1e-4;  // a ratio is then off by some of its digits
   if (const auto rough = (result.fit_residual.array() > kUnresolved).count(); rough > 0)
-    whine::tell("gear-system-impact: warning: ", rough, " of ", result.fit_residual.size(),
-                " decays are no sum of exponentials (/fit_residual); take a smaller --impulse, or the "
-                "eigenvalues (/eigen_damping_ratio)");
+    whine::log_line(
+        "gear-system-impact: warning: ", rough, " of ", result.fit_residual.size(),
+        " decays are no sum of exponentials (/fit_residual); take a smaller --impulse, or the eigenvalues (/eigen_damping_ratio)");
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
-#include "io/fit.h"
+#include "io/compatibility.h"
 #include "io/named_files.h"
 #include "io/provenance.h"
 #include "io/system_branch_codec.h"
@@ -36,17 +36,15 @@ void body(int argc, char** argv) {
   options.add("--output", output, "system_branch.h5 to write").required();
   options.footer(
       "Example:\n"
-      "  gear-system-orbit --params out/three-in-line/params/system_sweep.toml --body "
-      "pinion=out/three-in-line/pinion/body.h5 --body idler=out/three-in-line/idler/body.h5 --body "
-      "wheel=out/three-in-line/wheel/body.h5 --output system_branch.h5");
+      "  gear-system-orbit --params out/three-in-line/params/system_sweep.toml --body pinion=out/three-in-line/pinion/body.h5 --body idler=out/three-in-line/idler/body.h5 --body wheel=out/three-in-line/wheel/body.h5 --output system_branch.h5");
   options.parse(argc, argv);
 
   const whine::NamedFiles files("--body", bodies);
   const whine::Provenance provenance = whine::made_by(argc, argv, files.and_inputs({"params=" + params}));
   const whine::SystemSweepParameters settings = whine::read_system_sweep_parameters(params);
-  const std::vector<whine::BodyArtifact> gears = whine::read_bodies(files, settings);
+  const std::vector<whine::ReducedBody> gears = whine::read_bodies(files, settings);
   std::optional<whine::Progress> progress;
-  const whine::SystemBranchArtifact result = whine::system_branch(
+  const whine::SystemBranchResult result = whine::system_branch(
       settings, gears,
       [&](long done, long total, const std::string& note) {
         if (!progress) progress.emplace("gear-system-orbit", total);
@@ -56,12 +54,12 @@ void body(int argc, char** argv) {
   progress.reset();
 
   whine::write(output, result, provenance);
-  whine::tell("gear-system-orbit: ", result.mesh_frequency.size(), " orbits, ",
-              result.mesh_frequency.size() - result.stable.sum(), " of them unstable",
-              ", folds: ", whine::jump_words(result.fold_frequency, result.fold_width), " -> ", output);
+  whine::log_line("gear-system-orbit: ", result.mesh_frequency.size(), " orbits, ",
+                  result.mesh_frequency.size() - result.stable.sum(), " of them unstable",
+                  ", folds: ", whine::jump_words(result.fold_frequency, result.fold_width), " -> ", output);
   constexpr double kRoundOff = 1e-9;
   if (result.mesh_frequency.minCoeff() > settings.frequency_from * (1 + kRoundOff))
-    whine::tell("gear-system-orbit: warning: the branch does not reach the lowest speed: ", result.end);
+    whine::log_line("gear-system-orbit: warning: the branch does not reach the lowest speed: ", result.end);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
-#include "io/fit.h"
+#include "io/compatibility.h"
 #include "io/named_files.h"
 #include "io/provenance.h"
 #include "io/system_scene.h"
@@ -30,17 +30,15 @@ void body(int argc, char** argv) {
   options.add("--output", output, "system_static.h5 to write").required();
   options.footer(
       "Example:\n"
-      "  gear-system-static --params out/three-in-line/params/system_static.toml --body "
-      "pinion=out/three-in-line/pinion/body.h5 --body idler=out/three-in-line/idler/body.h5 --body "
-      "wheel=out/three-in-line/wheel/body.h5 --output system_static.h5");
+      "  gear-system-static --params out/three-in-line/params/system_static.toml --body pinion=out/three-in-line/pinion/body.h5 --body idler=out/three-in-line/idler/body.h5 --body wheel=out/three-in-line/wheel/body.h5 --output system_static.h5");
   options.parse(argc, argv);
 
   const whine::NamedFiles files("--body", bodies);
   const whine::Provenance provenance = whine::made_by(argc, argv, files.and_inputs({"params=" + params}));
   const whine::SystemStaticParameters settings = whine::read_system_static_parameters(params);
-  const std::vector<whine::BodyArtifact> gears = whine::read_bodies(files, settings);
+  const std::vector<whine::ReducedBody> gears = whine::read_bodies(files, settings);
   std::optional<whine::StepsShown> steps(std::in_place, "gear-system-static");
-  const whine::SystemStaticArtifact result = whine::system_at_rest(settings, gears);
+  const whine::SystemStaticResult result = whine::system_at_rest(settings, gears);
   steps.reset();
 
   whine::write(output, result, provenance);
@@ -49,15 +47,15 @@ void body(int argc, char** argv) {
   for (const whine::MatrixRM& force : result.bearing_force)
     most = std::max(most, force.rowwise().norm().maxCoeff());
   if (result.hunting_periods > 1)
-    whine::tell("gear-system-static: teeth differ: ", result.hunting_periods,
-                " mesh periods, after which the same ones meet, of ", settings.contact.positions,
-                " positions each");
-  whine::tell("gear-system-static: ", settings.layout.bodies.size(), " bodies, ", te.cols(),
-              " meshes, mean transmission errors ", te.row(0).minCoeff() * 1e6, " to ",
-              te.row(0).maxCoeff() * 1e6, " µm, shares of the load up to ",
-              result.load_share.maxCoeff() * 100, " %, bearing forces up to ", most, " N -> ", output);
+    whine::log_line("gear-system-static: teeth differ: ", result.hunting_periods,
+                    " mesh periods, after which the same ones meet, of ", settings.contact.positions,
+                    " positions each");
+  whine::log_line("gear-system-static: ", settings.layout.bodies.size(), " bodies, ", te.cols(),
+                  " meshes, mean transmission errors ", te.row(0).minCoeff() * 1e6, " to ",
+                  te.row(0).maxCoeff() * 1e6, " µm, shares of the load up to ",
+                  result.load_share.maxCoeff() * 100, " %, bearing forces up to ", most, " N -> ", output);
   for (const whine::Remark& remark : whine::drawing_remarks(result))
-    whine::tell("gear-system-static: ", remark.warning ? "warning: " : "", remark.words);
+    whine::log_line("gear-system-static: ", remark.warning ? "warning: " : "", remark.words);
 }
 
 }  // namespace

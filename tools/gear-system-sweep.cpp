@@ -11,7 +11,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
-#include "io/fit.h"
+#include "io/compatibility.h"
 #include "io/named_files.h"
 #include "io/provenance.h"
 #include "io/system_scene.h"
@@ -33,18 +33,16 @@ void body(int argc, char** argv) {
   options.add("--output", output, "system_sweep.h5 to write").required();
   options.footer(
       "Example:\n"
-      "  gear-system-sweep --params out/three-in-line/params/system_sweep.toml --body "
-      "pinion=out/three-in-line/pinion/body.h5 --body idler=out/three-in-line/idler/body.h5 --body "
-      "wheel=out/three-in-line/wheel/body.h5 --direction up --output system_sweep.h5");
+      "  gear-system-sweep --params out/three-in-line/params/system_sweep.toml --body pinion=out/three-in-line/pinion/body.h5 --body idler=out/three-in-line/idler/body.h5 --body wheel=out/three-in-line/wheel/body.h5 --direction up --output system_sweep.h5");
   options.parse(argc, argv);
   const whine::Direction direction = whine::choice_of<whine::Direction>(way).value();
 
   const whine::NamedFiles files("--body", bodies);
   const whine::Provenance provenance = whine::made_by(argc, argv, files.and_inputs({"params=" + params}));
   const whine::SystemSweepParameters settings = whine::read_system_sweep_parameters(params);
-  const std::vector<whine::BodyArtifact> gears = whine::read_bodies(files, settings);
+  const std::vector<whine::ReducedBody> gears = whine::read_bodies(files, settings);
   std::optional<whine::Progress> progress;
-  const whine::SystemSweepArtifact result =
+  const whine::SystemSweepResult result =
       whine::system_sweep(settings, gears, direction, [&](long done, long total, const std::string& note) {
         if (!progress) progress.emplace(whine::text("gear-system-sweep ", direction), total);
         progress->update(done, note);
@@ -52,25 +50,25 @@ void body(int argc, char** argv) {
   progress.reset();
 
   whine::write(output, result, provenance);
-  whine::tell("gear-system-sweep: ", direction, ", ", result.mesh_frequency.size(), " speeds, ",
-              result.periods.sum(), " mesh periods, RMS of the transmission error up to ",
-              result.dte_rms.maxCoeff() * 1e6, " µm, contact lost at ",
-              (result.separation_fraction.rowwise().maxCoeff().array() > 0).count(),
-              " speeds, bearing forces up to ", result.bearing_force_max.maxCoeff(), " N -> ", output);
+  whine::log_line("gear-system-sweep: ", direction, ", ", result.mesh_frequency.size(), " speeds, ",
+                  result.periods.sum(), " mesh periods, RMS of the transmission error up to ",
+                  result.dte_rms.maxCoeff() * 1e6, " µm, contact lost at ",
+                  (result.separation_fraction.rowwise().maxCoeff().array() > 0).count(),
+                  " speeds, bearing forces up to ", result.bearing_force_max.maxCoeff(), " N -> ", output);
   std::string speeds;
   for (Eigen::Index i = 0; i < result.mesh_frequency.size(); ++i)
     if (result.period_multiple[i] == 0)
       speeds += whine::text(speeds.empty() ? "" : ", ", result.mesh_frequency[i]);
   for (const whine::TurningCarrier& of : whine::turning_carriers(result))
     if (of.relative_force() > (of.turns ? whine::kNotedCentrifugal : whine::kLargeCentrifugal))
-      whine::tell("gear-system-sweep: left out of the pins of ",
-                  settings.layout.bodies[static_cast<size_t>(of.carrier)].name,
-                  of.turns ? "" : " in the machine", ", which turns: centrifugal forces of ",
-                  of.centrifugal_force, " N, ", 100 * of.relative_force(), " % of the mesh force, at ",
-                  of.mesh_frequency, " Hz");
+      whine::log_line("gear-system-sweep: left out of the pins of ",
+                      settings.layout.bodies[static_cast<size_t>(of.carrier)].name,
+                      of.turns ? "" : " in the machine", ", which turns: centrifugal forces of ",
+                      of.centrifugal_force, " N, ", 100 * of.relative_force(), " % of the mesh force, at ",
+                      of.mesh_frequency, " Hz");
   if (!speeds.empty())
-    whine::tell("gear-system-sweep: the motion does not become periodic at ", speeds,
-                " Hz; raise damping, or periodicity in [discretisation]");
+    whine::log_line("gear-system-sweep: the motion does not become periodic at ", speeds,
+                    " Hz; raise damping, or periodicity in [discretisation]");
 }
 
 }  // namespace

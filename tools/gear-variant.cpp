@@ -3,7 +3,7 @@
 // Reads   params (stage parameters of the variant: mesh, contact, torque, and of motions damping, inertia, speeds,
 //         fidelity, time), body.h5 of both gears
 // Writes  variant.h5    transmission error and stiffness at rest, and of each sweep RMS, loads, contact loss, jumps, as numbers
-// With --mark-refusals a variant of what no pair can do is an artifact, too, which says why; whatever else fails is an error.
+// With --mark-outside-model a variant of what no pair can do is an artifact, too, which says why; whatever else fails is an error.
 // Equations: as gear-static, gear-sweep and gear-spectra, whose numbers these are.
 // Example: gear-variant --params out/studies/relief/variants/3f/3f0c.toml --body pinion=out/bodies/0123/body.h5
 //            --body wheel=out/bodies/0123/body.h5 --output out/studies/relief/variants/3f/3f0c.h5
@@ -44,13 +44,11 @@ void body(int argc, char** argv) {
   options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
   options.add("--output", output, "artifact to write").required();
   options.add("--plan", plan, "plan.toml of the study, so that errors name the variant and its values");
-  options.flag("--mark-refusals", marks,
+  options.flag("--mark-outside-model", marks,
                "write why the pair cannot do what the variant asks, instead of failing");
   options.footer(
       "Example:\n"
-      "  gear-variant --params $(ls out/studies/damping-torque-relief/variants/*/*.toml | head -n 1) "
-      "--body pinion=out/parker2000/pinion/body.h5 --body wheel=out/parker2000/wheel/body.h5 --output "
-      "variant.h5");
+      "  gear-variant --params $(ls out/studies/damping-torque-relief/variants/*/*.toml | head -n 1) --body pinion=out/parker2000/pinion/body.h5 --body wheel=out/parker2000/wheel/body.h5 --output variant.h5");
   options.parse(argc, argv);
 
   const whine::NamedFiles files("--body", bodies);
@@ -58,7 +56,7 @@ void body(int argc, char** argv) {
   whine::VariantParameters settings = whine::read_variant_parameters(params);
   const auto [first, second] = whine::read_bodies(files, settings.statics);
   if (!settings.directions.empty()) whine::as_drawn(settings.motion, {first.inertia, second.inertia});
-  whine::VariantArtifact result = whine::variant_parameters(first, second, settings);
+  whine::VariantResult result = whine::variant_parameters(first, second, settings);
   std::vector<whine::Remark> remarks;
   try {
     std::optional<whine::Progress> progress;
@@ -77,14 +75,14 @@ void body(int argc, char** argv) {
   }
   whine::write(output, result, provenance);
   if (!result.rejection.empty())
-    whine::tell("gear-variant: warning: outside the model's range: ", result.rejection, " -> ", output);
+    whine::log_line("gear-variant: warning: outside the model's range: ", result.rejection, " -> ", output);
   else
-    whine::tell("gear-variant: ", result.torque, " N m, ", result.quantity.size(), " response quantities -> ",
-                output);
+    whine::log_line("gear-variant: ", result.torque, " N m, ", result.quantity.size(),
+                    " response quantities -> ", output);
   const std::string name = remarks.empty() ? "" : name_in(plan, params);
   for (const whine::Remark& remark : remarks)
-    whine::tell("gear-variant: ", remark.warning ? "warning: " : "", name.empty() ? params + ": " : name,
-                remark.words);
+    whine::log_line("gear-variant: ", remark.warning ? "warning: " : "", name.empty() ? params + ": " : name,
+                    remark.words);
 }
 
 }  // namespace

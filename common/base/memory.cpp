@@ -4,9 +4,9 @@
 
 namespace whine {
 
-void tell_memory(const std::string& what, double bytes) {
+void log_memory(const std::string& what, double bytes) {
   constexpr double kGB = 1e9, kWorthALine = kGB;
-  if (bytes >= kWorthALine) tell(what, " take ", bytes / kGB, " GB of memory");
+  if (bytes >= kWorthALine) log_line(what, " take ", bytes / kGB, " GB of memory");
 }
 
 }  // namespace whine

@@ -5,6 +5,6 @@
 namespace whine {
 
 // Says in a line on standard error that `bytes` are taken for `what`, if they are 1 GB or more.
-void tell_memory(const std::string& what, double bytes);
+void log_memory(const std::string& what, double bytes);
 
 }  // namespace whine

@@ -14,8 +14,7 @@ namespace {
 
 // Before the examples, which end the help.
 constexpr const char* kExitStatuses =
-    "Exit status: 0 done; 1 a computation failed; 2 wrong options; 3 a scene or an artifact is wrong or "
-    "stale;\n"
+    "Exit status: 0 done; 1 a computation failed; 2 wrong options; 3 a scene or an artifact is wrong or stale;\n"
     "  4 a file could not be read or written\n\n";
 
 // An empty word would name a file by its extension alone, or a folder at the root.

@@ -143,7 +143,7 @@ std::string printable(const std::string& text, size_t most) {
          out.substr(character_begin(out, out.size() - end));
 }
 
-void tell_line(const std::string& line) {
+void write_log(const std::string& line) {
   std::fputs((printable(without_end(line)) + "\n").c_str(), stderr);
   std::fflush(stderr);
 }
@@ -190,7 +190,7 @@ int run_body(const std::function<void(const std::string&)>& say, int argc, char*
 
 int run_tool_status(int argc, char** argv, const std::function<int(int, char**)>& body) {
   const std::string program = program_name(argc > 0 ? argv[0] : nullptr);
-  const auto say = [&](const std::string& message) { tell_line(program + ": error: " + message); };
+  const auto say = [&](const std::string& message) { write_log(program + ": error: " + message); };
   // A file-size limit must come back from write() as an error, not end the program without a word.
   std::signal(SIGXFSZ, SIG_IGN);
   one_blas_thread();

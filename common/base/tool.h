@@ -43,15 +43,15 @@ std::string blas_name();
 std::string printable(const std::string& text, size_t most = 2000);
 
 // A line on standard error, printable.
-void tell_line(const std::string& line);
+void write_log(const std::string& line);
 
 // A line for people on standard error, in one write so that programs side by side do not mix theirs; numbers with 6
 // digits, files hold the rest.
 template <class... Parts>
-void tell(const Parts&... parts) {
+void log_line(const Parts&... parts) {
   std::ostringstream out;
   (out << ... << parts) << '\n';
-  tell_line(out.str());
+  write_log(out.str());
 }
 
 // Runs body, which returns void or the exit status. An Error prints "<program>: error: <message>" as one line

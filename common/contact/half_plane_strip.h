@@ -3,8 +3,8 @@
 #include <cmath>
 #include <string>
 
+#include "contact/half_plane.h"
 #include "model/scene.h"
-#include "solid/half_plane.h"
 
 namespace whine {
 

@@ -31,7 +31,7 @@ void require_memory(double own, double beside, double most, const char* remedy, 
 
 }  // namespace
 
-DynamicParameters dynamic_parameters(const StaticArtifact& statics, double mean_stiffness,
+DynamicParameters dynamic_parameters(const StaticResult& statics, double mean_stiffness,
                                      const ImpactParameters& settings, double highest_frequency) {
   require_relaxation_range(settings.damping, settings.fidelity.body, highest_frequency);
   return {statics.torque,
@@ -44,7 +44,7 @@ DynamicParameters dynamic_parameters(const StaticArtifact& statics, double mean_
 
 std::string beyond_relaxation_range(const Damping& damping, BodyModel body, double highest_frequency) {
   const double eta = damping.rayleigh_stiffness;
-  if ((body != BodyModel::modal && body != BodyModel::lagged) || eta * highest_frequency <= kMostRelaxation)
+  if ((body != BodyModel::modal && body != BodyModel::relaxed) || eta * highest_frequency <= kMostRelaxation)
     return "";
   return text("rayleigh_stiffness_s = ", eta, " in [damping] is ", eta * highest_frequency,
               " of a mesh period at ", highest_frequency, " Hz, at most ", kMostRelaxation,
@@ -60,7 +60,7 @@ void require_relaxation_range(const Damping& damping, BodyModel body, double hig
   if (!words.empty()) fail(Failure::input, words);
 }
 
-MotionBounds::MotionBounds(const GearMeshModel& model, const StaticArtifact& statics, double widening) {
+MotionBounds::MotionBounds(const GearMeshModel& model, const StaticResult& statics, double widening) {
   constexpr double kBeyondStatics = 2.5;
   force = kBeyondStatics * (statics.torque / model.kinematics.gear(0).base_radius()) * widening;
   // Beside what load adds: teeth that differ are near or far as they are.
@@ -76,7 +76,7 @@ MotionBounds::MotionBounds(const GearMeshModel& model, const StaticArtifact& sta
   deflection *= widening;
 }
 
-CandidateZone candidate_zone(const GearMeshModel& model, const StaticArtifact& statics,
+CandidateZone candidate_zone(const GearMeshModel& model, const StaticResult& statics,
                              const MotionBounds& bounds) {
   const double load = statics.torque / model.kinematics.gear(0).base_radius();
   return candidate_zone(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
@@ -199,13 +199,12 @@ void RollingDynamics::require_zone_memory(int steps, const ZoneMemory& beside) {
   }
   require_memory(
       memory_.coordinates, beside.coordinates, kMostMemory,
-      "set contact = \"line\", lower min_sample_rate_kHz or raise the lowest speed, or take body = "
-      "\"modal\"",
+      "set contact = \"line\", lower min_sample_rate_kHz or raise the lowest speed, or take body = \"modal\"",
       coordinates_.size(), " coordinates and ", most_strips, " strips at ", steps,
       " positions of a mesh period");
-  tell_memory(text(coordinates_.size(), " coordinates and ", most_strips, " strips at ", steps,
-                   " positions of a mesh period"),
-              memory_.coordinates);
+  log_memory(text(coordinates_.size(), " coordinates and ", most_strips, " strips at ", steps,
+                  " positions of a mesh period"),
+             memory_.coordinates);
 }
 
 // The fields of all gears and what they do to each other. Result: [gear] residual flexibility (flank, flank) by offset between
@@ -271,7 +270,7 @@ void RollingDynamics::fill_position(Position& position, const StepSystem& system
         position.relaxed(mesh.nodes_of(i), mesh.nodes_of(j)) += rows(i) * block * rows(j).transpose();
       }
   }
-  position.at_once = whole - position.relaxed + left_out;
+  position.instantaneous_compliance = whole - position.relaxed + left_out;
 }
 
 // Candidate zones without an edge are alike if they are of one width; near a root they are narrower.
@@ -329,7 +328,7 @@ void RollingDynamics::set_hunting_gaps(double beside) {
       "set contact = \"line\", lower min_sample_rate_kHz and steps_per_period, or raise the lowest speed",
       "teeth that differ meet again after ", hunting_, " mesh periods, whose gaps at ", positions_.size(),
       " positions each");
-  tell_memory(text("gaps of teeth that differ, over ", hunting_, " mesh periods,"), memory_.gaps);
+  log_memory(text("gaps of teeth that differ, over ", hunting_, " mesh periods,"), memory_.gaps);
   hunting_gap_.resize(strips * static_cast<size_t>(hunting_));
   for (int period = 0; period < hunting_; ++period)
     for (size_t i = 0; i < positions_.size(); ++i)
@@ -376,9 +375,9 @@ void RollingDynamics::set_speed(double mesh_frequency, int steps) {
 
 MatrixXd RollingDynamics::local_compliance(int i) const {
   const Position& position = positions_[i];
-  if (lines()) return position.at_once;
+  if (lines()) return position.instantaneous_compliance;
   MatrixXd a(position.mesh.strips(), position.mesh.strips());
-  kernel_.at_once(i).assemble(a.data());
+  kernel_.instantaneous_compliance(i).assemble(a.data());
   return a;
 }
 
@@ -427,7 +426,7 @@ RollingDynamics::State RollingDynamics::rest() {
   const Equilibrium e = equilibrium_at(position, a, offset);
   const VectorXd nodes = position.mesh.to_nodes(e.p);
   State state;
-  state.pair = pair_stamp_;
+  state.owner_id = owner_id_;
   state.force = torque_force_ - position.participation.transpose() * nodes;
   state.z = flexibility().cwiseProduct(state.force);
   if (friction_ > 0) state.force = force_of(position, nodes);

@@ -42,9 +42,9 @@
 #include "base/dense.h"
 #include "dynamics/energy_balance.h"
 #include "dynamics/fixed_phase_motion.h"
-#include "dynamics/propagator.h"
+#include "dynamics/newmark.h"
 #include "dynamics/step_kernel.h"
-#include "signal/static_result.h"
+#include "results/static.h"
 #include "system/rolling_mesh.h"
 
 namespace whine {
@@ -61,7 +61,7 @@ struct DynamicParameters {
 
 // Those of the pair of `statics` at its torque, in motion; mean_stiffness: N m-1, sets the bearing dampers.
 // Throws as require_relaxation_range(); highest_frequency: Hz, largest mesh frequency of the motions, 0 of gears that do not roll.
-DynamicParameters dynamic_parameters(const StaticArtifact& statics, double mean_stiffness,
+DynamicParameters dynamic_parameters(const StaticResult& statics, double mean_stiffness,
                                      const ImpactParameters& settings, double highest_frequency);
 // Throws Error(input) for bodies whose residual flexibility relaxes, if the Rayleigh time is more than kMostRelaxation of a mesh period:
 // a pair that comes in then meets the undamped compliance alone, which the motion depends on more than on all else.
@@ -73,11 +73,11 @@ std::string beyond_relaxation_range(const Damping& damping, BodyModel body, doub
 // What a motion at the torque of `statics` may want of its contact: 2.5 times the load and the deflection of rest, times
 // `widening`, which grows where a motion wants more.
 struct MotionBounds {
-  MotionBounds(const GearMeshModel& model, const StaticArtifact& statics, double widening = 1);
+  MotionBounds(const GearMeshModel& model, const StaticResult& statics, double widening = 1);
   double force;       // N, of a pair
   double deflection;  // m; of teeth that differ beside what they are ahead or behind without load
 };
-CandidateZone candidate_zone(const GearMeshModel& model, const StaticArtifact& statics,
+CandidateZone candidate_zone(const GearMeshModel& model, const StaticResult& statics,
                              const MotionBounds& bounds);
 
 // Bytes that a candidate contact zone takes as long as it is held, of what may grow beyond a machine.
@@ -94,14 +94,14 @@ class RollingDynamics {
 
   // State at the start of a mesh period; relaxed fields per pair -reach..reach.
   struct State : StepState {
-    double pair = 0;  // stamp of the gears and their modes that this is a state of
+    double owner_id = 0;  // stamp of the gears and their modes that this is a state of
     int period =
         0;  // mesh periods since tooth 0 of both gears met at the pitch point, less whole hunting periods
   };
   // What one mesh period showed, sampled at each step: sample i at phase i / steps.
   struct Period {
     Eigen::VectorXd transmission_error;  // (step) m
-    Eigen::MatrixXd pair_load;           // (pair, step) N, pairs -reach..reach
+    Eigen::MatrixXd tooth_pair_load;     // (pair, step) N, pairs -reach..reach
     // [gear] (xy, step) N: what it presses its bearing with, in the frame of placed(); empty for a rigid one
     std::vector<Eigen::MatrixXd> bearing_force;
     double drift_force = 0;  // N: largest force that the output must supply to hold the mean speed
@@ -179,19 +179,19 @@ class RollingDynamics {
   friend class RollingPeriodMap;  // replays a period for its tangent
   struct Coordinate {
     explicit Coordinate(size_t gears, int own = -1) : gear(own), hub(gears) {}
-    int gear = -1;              // -1: the rigid rotation
-    double frequency = 0;       // rad s-1
-    double damping = 0;         // s-1
-    double torque = 0;          // constant force of the torques
-    std::vector<double> hub;    // (gear) rad: rotation of its hub per unit
-    double elastic = 0;         // rad2 s-2, of a Sway: of its frequency squared, what the body holds
+    int gear = -1;            // -1: the rigid rotation
+    double frequency = 0;     // rad s-1
+    double damping = 0;       // s-1
+    double torque = 0;        // constant force of the torques
+    std::vector<double> hub;  // (gear) rad: rotation of its hub per unit
+    double elastic = 0;  // rad2 s-2, of a TranslationalModes: of its frequency squared, what the body holds
     Vec2 shift = Vec2::Zero();  // m: translation of its gear's hub per unit, in the frame of placed()
     std::vector<std::pair<int, double>> columns;  // body modes and their shares
     int partner = -1;                             // other half of a doublet
     double turn = 0;                              // rad: its turn per mesh period (0 if single)
   };
   // Coordinates of a gear that stand in the fixed frame: its hub's translations and the modes that couple with them.
-  struct Sway {
+  struct TranslationalModes {
     int first = 0, count = 0;
     double tooth_angle = 0;  // rad
     // (flank, coordinate) outward displacement per unit on a tooth where tooth 0 is at phase 0, and a quarter of a turn on
@@ -213,7 +213,7 @@ class RollingDynamics {
     double driver_moment = 0;  // N m: of all contact forces on the driver, friction included
     double corner_power = 0;   // W: of normal forces off the line of action at nominal speed
     Eigen::Matrix4Xd shape_force, shape_displacement;  // (shape row and zeros, pair): of p on modes; of z
-    double at_once = 0;  // J: stored by half-planes, laws and all else that is instantaneous
+    double instantaneous_energy = 0;  // J: stored by half-planes, laws and all else that is instantaneous
   };
   struct EnergyBalanceWorkspace {
     std::array<Instant, 2> instants;  // before and after a step, in turn
@@ -321,7 +321,7 @@ class RollingDynamics {
   std::vector<Coordinate>
       coordinates_;                    // the rigid rotation, then those of gear 0, then those of gear 1, ...
   std::vector<int> first_coordinate_;  // (gear), and the end
-  std::vector<Sway> sway_;             // (gear)
+  std::vector<TranslationalModes> sway_;  // (gear)
   // [gear][tooth] (flank, coordinate of the gear) outward displacement per unit, hub at rest
   mutable std::vector<std::map<int, Eigen::MatrixXd>> shape_;
   Eigen::VectorXd error_weight_, torque_force_, frequency_squared_;
@@ -339,15 +339,15 @@ class RollingDynamics {
   double step_ = 0;                      // s
   std::vector<Eigen::MatrixXd> fields_;  // [gear] (flank, field) V, orthonormal
   // By position: what a pair's force does on the rigid rotation that is projected out; gaps of tip edges.
-  struct Corners {
+  struct PositionLevers {
     double drift_lever[kMostPairs] = {};    // 1: a1 / r1 - a2 / r2
     double slide_lever[kMostPairs] = {};    // 1: s (t1 / r1 - t2 / r2), per coefficient of friction
     double driver_lever[kMostPairs] = {};   // m: a1
     double driver_across[kMostPairs] = {};  // m: s t1, of pairs with friction
     double next_gap = 0, lost_gap = 0;      // m
   };
-  std::vector<Corners> corners_;
-  double static_deflection_ = 0, energy_scale_ = 0, pair_stamp_ = 0;
+  std::vector<PositionLevers> corners_;
+  double static_deflection_ = 0, energy_scale_ = 0, owner_id_ = 0;
   int sample_ = 0;  // of the step at hand
   StepKernel kernel_;
   EnergyBalanceWorkspace balance_work_;

@@ -40,18 +40,17 @@ RollingDynamics::RollingDynamics(const GearMeshModel& model, const DynamicParame
 
 void RollingDynamics::require_bodies() const {
   if (full_ && floating_)
-    fail(Failure::input,
-         "body = \"full\" in [fidelity] has no bearings: set body = \"modal\" or take the [[bearing]] "
-         "sections out");
+    fail(
+        Failure::input,
+        "body = \"full\" in [fidelity] has no bearings: set body = \"modal\" or take the [[bearing]] sections out");
   if (parameters_.inertia.size() != model_.gear.size())
     fail(Failure::input, parameters_.inertia.size(), " total inertias are given for ", gears(), " gears");
   for (int g = 0; g < gears(); ++g) {
     if (model_.gear[g].cracked())
-      fail(Failure::input, "the ", g ? "driven gear" : "driver", " has a crack in tooth ",
-           model_.gear[g].body().design.crack.tooth,
-           ": motion does not yet follow a tooth that is softer than the others; statics do (make static), "
-           "or take the "
-           "section [gear.<name>.crack] out");
+      fail(
+          Failure::input, "the ", g ? "driven gear" : "driver", " has a crack in tooth ",
+          model_.gear[g].body().design.crack.tooth,
+          ": motion does not yet follow a tooth that is softer than the others; statics do (make static), or take the section [gear.<name>.crack] out");
     if (!(parameters_.inertia[g] > model_.gear[g].body().inertia))
       fail(Failure::input, "total_inertia_kgm2 = ", parameters_.inertia[g], " of the ",
            g ? "driven gear" : "driver", " lies below the inertia of its own body, ",
@@ -81,7 +80,7 @@ void RollingDynamics::add_rigid_rotation() {
 // The body's modes that are kept.
 std::vector<int> RollingDynamics::modes_of(int g) const {
   const BodyModel level = parameters_.fidelity.body;
-  const BodyArtifact& body = model_.gear[g].body();
+  const ReducedBody& body = model_.gear[g].body();
   std::vector<int> kept;
   if (level != BodyModel::rigid) {
     int torsional = -1;  // the first zero-diameter mode with inertia coupling
@@ -97,10 +96,10 @@ std::vector<int> RollingDynamics::modes_of(int g) const {
       for (int i = static_cast<int>(body.eigenfrequency.size()) - 1; i >= 0; --i)
         if (body.nodal_diameter[i] == 1) swaying = i;
       if (swaying < 0)
-        fail(Failure::input, "the body of the ", g ? "driven gear" : "driver", " holds ",
-             body.eigenfrequency.size(),
-             " modes and none of them has one nodal diameter, as a gear on a bearing needs; raise modes in "
-             "[fidelity]");
+        fail(
+            Failure::input, "the body of the ", g ? "driven gear" : "driver", " holds ",
+            body.eigenfrequency.size(),
+            " modes and none of them has one nodal diameter, as a gear on a bearing needs; raise modes in [fidelity]");
       if (level != BodyModel::modal)
         for (const int half : {swaying, model_.gear[g].partner(swaying)}) kept.push_back(half);
       std::sort(kept.begin(), kept.end());
@@ -124,13 +123,13 @@ void RollingDynamics::weigh_coordinates() {
     torque_force_[i] = coordinates_[i].torque;
     frequency_squared_[i] = coordinates_[i].frequency * coordinates_[i].frequency;
     // The factor keeps gears apart that have changed places.
-    pair_stamp_ += (i + 1) * (coordinates_[i].frequency + error_weight_[i]);
+    owner_id_ += (i + 1) * (coordinates_[i].frequency + error_weight_[i]);
   }
 }
 
 void RollingDynamics::add_modes(int g, const std::vector<int>& columns) {
   const ElasticGear& gear = model_.gear[g];
-  const BodyArtifact& body = gear.body();
+  const ReducedBody& body = gear.body();
   std::vector<int> torsional, swaying, others;
   for (int column : columns) {
     const int diameters = body.nodal_diameter[column];
@@ -162,7 +161,7 @@ double RollingDynamics::rayleigh_damping(double w) const {
 
 // Zero diameters: [[I, gamma^T], [gamma, 1]] z'' + diag(0, w^2) z, the hub rotation first.
 void RollingDynamics::add_torsion(int g, const std::vector<int>& torsional) {
-  const BodyArtifact& body = model_.gear[g].body();
+  const ReducedBody& body = model_.gear[g].body();
   const double torque =
       parameters_.torque * model_.kinematics.gear(g).base_radius() / model_.kinematics.gear(0).base_radius();
   const int k = static_cast<int>(torsional.size());
@@ -199,13 +198,13 @@ void RollingDynamics::add_torsion(int g, const std::vector<int>& torsional) {
 // here along the line of action and across.
 void RollingDynamics::add_sway(int g, const std::vector<int>& columns) {
   const ElasticGear& gear = model_.gear[g];
-  const BodyArtifact& body = gear.body();
+  const ReducedBody& body = gear.body();
   const Bearing& bearing = model_.bearing[g];
   if (model_.kinematics.internal())
-    fail(Failure::input, "a pair in motion on elastic bearings has external gears, and the ",
-         model_.kinematics.ring() ? "driven gear" : "driver",
-         " is internal; take the [[bearing]] out, or give both gears a [[drive]]: as a system they move on "
-         "bearings");
+    fail(
+        Failure::input, "a pair in motion on elastic bearings has external gears, and the ",
+        model_.kinematics.ring() ? "driven gear" : "driver",
+        " is internal; take the [[bearing]] out, or give both gears a [[drive]]: as a system they move on bearings");
   const Damping& damping = parameters_.damping;
   std::vector<int> cosine;
   for (const int column : columns)
@@ -235,7 +234,7 @@ void RollingDynamics::add_sway(int g, const std::vector<int>& columns) {
   const Vec2 along = model_.outward(g), across(-along.y(), along.x());
   // Of the line of action in the frame of the mesh of the body at phase 0.
   const double direction = std::atan2(along.y(), along.x()) - placed(model_.kinematics, g).angle;
-  Sway& sway = sway_[g];
+  TranslationalModes& sway = sway_[g];
   sway.first = static_cast<int>(coordinates_.size());
   sway.count = 2 * (k + 1);
   sway.tooth_angle = kTwoPi / body.design.teeth;
@@ -320,7 +319,7 @@ const MatrixXd& RollingDynamics::shape_on_tooth(int g, int tooth) const {
     const int count = first_coordinate_[g + 1] - first_coordinate_[g];
     std::map<int, VectorXd> mode;  // of columns that several coordinates share
     at->second = MatrixXd::Zero(model_.gear[g].table_size(), count);
-    for (int c = 0; c < count; ++c)  // those of a Sway have no columns: they see the phase, too
+    for (int c = 0; c < count; ++c)  // those of a TranslationalModes have no columns: they see the phase, too
       for (const auto& [column, share] : coordinates_[first_coordinate_[g] + c].columns) {
         VectorXd& shape = mode[column];
         if (shape.size() == 0) shape = model_.gear[g].mode_on_tooth(column, tooth);
@@ -339,7 +338,7 @@ MatrixXd RollingDynamics::participation(const MeshPosition& mesh) const {
       const MatrixXd& shape = shape_on_tooth(g, GearMeshModel::tooth(g, mesh.pairs[i].pair));
       h.middleCols(first_coordinate_[g], shape.cols())(mesh.nodes_of(i), Eigen::all) +=
           mesh.table_weights[g](mesh.nodes_of(i), Eigen::all) * shape;
-      const Sway& sway = sway_[g];
+      const TranslationalModes& sway = sway_[g];
       if (sway.count == 0) continue;
       const double angle = sway.tooth_angle * (GearMeshModel::tooth(g, mesh.pairs[i].pair) +
                                                (g == 0 ? mesh.phase : -mesh.phase));

@@ -124,7 +124,7 @@ FixedPhaseMesh RollingDynamics::hold(int i) const {
   if (floating_) {
     fixed.closing_weight = closing_weight_;
     fixed.elastic = frequency_squared_;
-    for (const Sway& sway : sway_)
+    for (const TranslationalModes& sway : sway_)
       for (int c = sway.first; c < sway.first + sway.count; ++c) fixed.elastic[c] = coordinates_[c].elastic;
   }
   fixed.torque = torque_force_;

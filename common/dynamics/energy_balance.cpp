@@ -81,12 +81,13 @@ void RollingDynamics::displace_locally(int i, const double* p, VectorXd& result)
   const Position& position = positions_[i];
   const int strips = position.mesh.strips();
   if (lines()) {
-    result.head(strips).noalias() = position.at_once.lazyProduct(Eigen::Map<const VectorXd>(p, strips));
+    result.head(strips).noalias() =
+        position.instantaneous_compliance.lazyProduct(Eigen::Map<const VectorXd>(p, strips));
     return;
   }
   result.head(strips).setZero();
   double nodes[StepKernel::kPairNodes * kMostPairs];
-  kernel_.at_once(i).add_product(p, nodes, result.data());
+  kernel_.instantaneous_compliance(i).add_product(p, nodes, result.data());
 }
 
 // The instant that the workspace holds; p, d: (strip). What relaxed loads displace goes on from the instant before as the
@@ -118,8 +119,8 @@ void RollingDynamics::fill(Instant& now, const Instant* before, int position, co
     now.shape_displacement.col(pair) = kernel_.reading(position, pair, now.at.z.data());
   }
   if (friction_ > 0) fill_friction(now);
-  now.at_once = 0.5 * now.p.head(strips).dot(now.local.head(strips));
-  for (size_t j = 0; j < mesh.law.size(); ++j) now.at_once += stored(mesh.law[j], p[j]);
+  now.instantaneous_energy = 0.5 * now.p.head(strips).dot(now.local.head(strips));
+  for (size_t j = 0; j < mesh.law.size(); ++j) now.instantaneous_energy += stored(mesh.law[j], p[j]);
 }
 
 double RollingDynamics::driver_speed() const {
@@ -129,7 +130,7 @@ double RollingDynamics::driver_speed() const {
 // rename() leaves these alone: doublets, which turn with their gear, have neither hub nor friction.
 void RollingDynamics::fill_friction(Instant& now) const {
   const Position& position = positions_[now.position];
-  const Corners& corners = corners_[now.position];
+  const PositionLevers& corners = corners_[now.position];
   now.friction.setZero();
   now.sliding_power = now.driver_moment = now.corner_power = 0;
   const double speed = driver_speed(), radius = model_.kinematics.gear(0).base_radius();
@@ -338,7 +339,7 @@ void RollingDynamics::record_step(const Instant& a, const Instant& b, EnergyBala
   const ContactWork contact = contact_work(a, b);
   const ModalWork modes = modal_work(a, b);
   const RelaxationWork relaxed = relaxation_work(a, b);
-  const double local = b.at_once - a.at_once;
+  const double local = b.instantaneous_energy - a.instantaneous_energy;
   energy_balance.kinetic += modes.kinetic;
   energy_balance.modal += modes.modal;
   energy_balance.residual += relaxed.residual;

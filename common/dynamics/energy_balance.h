@@ -5,8 +5,8 @@ namespace whine {
 
 // J, summed over the steps of a period. Every line is computed by itself, none as what is left of the others. With mean
 // forces p' = (p_n + p_n+1)/2:
-//   d(storage) + modal_damping + lag_damping + friction
-//     = torque + rolling + friction_rolling + switching + cutting + forgetting - averaging.
+//   d(storage) + modal_damping + relaxation_damping + friction
+//     = torque + rolling + friction_rolling + switching + cutting + dropped - averaging.
 struct EnergyBalance {
   double kinetic = 0, modal = 0;  // change of: energy of motion; of the kept modes' springs
   // Change of: residual flexibility; half-planes, lines' laws and all else that is instantaneous.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "contact/complementarity.h"
-#include "dynamics/propagator.h"
+#include "dynamics/newmark.h"
 
 namespace whine {
 

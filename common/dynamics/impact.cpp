@@ -98,17 +98,16 @@ ContactState state_of(int pairs) {
 // The pair at all phases, for any Rayleigh stiffness factor.
 class FixedPhasePair {
  public:
-  FixedPhasePair(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
+  FixedPhasePair(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
                  double mean_stiffness, const ImpactParameters& settings, const ImpactPlan& plan)
       : plan_(plan) {
     if (settings.fidelity.contact != ContactModel::strips)
       fail(Failure::input, "contact = \"", settings.fidelity.contact,
            "\" in [fidelity] is not available in ring-downs; set contact = \"strips\"");
     if (settings.fidelity.body == BodyModel::full)
-      fail(Failure::input,
-           "body = \"full\" in [fidelity] is not available in ring-downs: the eigenvalues beside the decays "
-           "are those of "
-           "dense matrices; set body = \"modal\"");
+      fail(
+          Failure::input,
+          "body = \"full\" in [fidelity] is not available in ring-downs: the eigenvalues beside the decays are those of dense matrices; set body = \"modal\"");
     if (plan.phases < 2 || plan.phases % 2)
       fail(Failure::input, plan.phases, " phases: an even number above 0 is needed");
     require_like_teeth(statics.mesh, "a pair at a fixed mesh phase (gear-impact, gear-jump-map)");
@@ -190,8 +189,8 @@ class FixedPhasePair {
     return states;
   }
 
-  ImpactArtifact run(double rayleigh_stiffness, const std::function<void(long, long)>& report) const {
-    ImpactArtifact result = blank_;
+  ImpactResult run(double rayleigh_stiffness, const std::function<void(long, long)>& report) const {
+    ImpactResult result = blank_;
     result.damping.rayleigh_stiffness = rayleigh_stiffness;
     for (VectorXd* v : {&result.phase_natural_frequency, &result.phase_damping_ratio, &result.eigen_frequency,
                         &result.eigen_damping_ratio, &result.fit_residual})
@@ -238,8 +237,8 @@ class FixedPhasePair {
   }
 
   // By eigenvalues alone; the mean is that of the undamped frequencies, each changed as amid its contact state.
-  ImpactArtifact frozen(double rayleigh_stiffness) const {
-    ImpactArtifact result = blank_;
+  ImpactResult frozen(double rayleigh_stiffness) const {
+    ImpactResult result = blank_;
     result.damping.rayleigh_stiffness = rayleigh_stiffness;
     std::map<int, DampedRoot> roots;
     for (const auto& [pairs, phase] : state_phase_) roots[pairs] = frozen_root(at(phase, rayleigh_stiffness));
@@ -318,7 +317,7 @@ class FixedPhasePair {
 
   ImpactPlan plan_;
   double step_ = 0;
-  ImpactArtifact blank_;  // all that does not depend on the Rayleigh stiffness factor
+  ImpactResult blank_;  // all that does not depend on the Rayleigh stiffness factor
   std::vector<FixedPhaseMesh> meshes_;
   std::map<int, int> state_phase_;  // loaded pairs -> phase
 };
@@ -417,34 +416,33 @@ FixedPhaseMesh with_rayleigh_stiffness(FixedPhaseMesh mesh, double eta, BodyMode
   return mesh;
 }
 
-std::vector<FixedPhaseState> fixed_phase_states(const BodyArtifact& driver, const BodyArtifact& driven,
-                                                const StaticArtifact& statics, double mean_stiffness,
+std::vector<FixedPhaseState> fixed_phase_states(const ReducedBody& driver, const ReducedBody& driven,
+                                                const StaticResult& statics, double mean_stiffness,
                                                 const ImpactParameters& settings, int phases) {
   ImpactPlan plan;
   plan.phases = phases;
   return FixedPhasePair(driver, driven, statics, mean_stiffness, settings, plan).states();
 }
 
-ImpactArtifact frozen_impact(const BodyArtifact& driver, const BodyArtifact& driven,
-                             const StaticArtifact& statics, double mean_stiffness,
-                             const ImpactParameters& settings, int phases) {
+ImpactResult frozen_impact(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
+                           double mean_stiffness, const ImpactParameters& settings, int phases) {
   ImpactPlan plan;
   plan.phases = phases;
   return FixedPhasePair(driver, driven, statics, mean_stiffness, settings, plan)
       .frozen(settings.damping.rayleigh_stiffness);
 }
 
-ImpactArtifact impact(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
-                      double mean_stiffness, const ImpactParameters& settings, const ImpactPlan& plan,
-                      const std::function<void(long, long)>& report) {
+ImpactResult impact(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
+                    double mean_stiffness, const ImpactParameters& settings, const ImpactPlan& plan,
+                    const std::function<void(long, long)>& report) {
   return FixedPhasePair(driver, driven, statics, mean_stiffness, settings, plan)
       .run(settings.damping.rayleigh_stiffness, report);
 }
 
-ImpactArtifact calibrate(const BodyArtifact& driver, const BodyArtifact& driven,
-                         const StaticArtifact& statics, double mean_stiffness,
-                         const ImpactParameters& settings, const ImpactPlan& plan, double damping_ratio,
-                         ContactState contact_state, const std::function<void(long, long)>& report) {
+ImpactResult calibrate(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
+                       double mean_stiffness, const ImpactParameters& settings, const ImpactPlan& plan,
+                       double damping_ratio, ContactState contact_state,
+                       const std::function<void(long, long)>& report) {
   if (!(damping_ratio > 0 && damping_ratio < 1))
     fail(
         Failure::input, "a damping ratio of ", damping_ratio, " is outside (0, 1)",

@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "dynamics/dynamics.h"
-#include "dynamics/impact_result.h"
+#include "results/impact.h"
+#include "results/reduced_body.h"
+#include "results/static.h"
 #include "signal/decay.h"
-#include "signal/static_result.h"
-#include "solid/reduced_body.h"
 
 namespace whine {
 
@@ -50,8 +50,8 @@ struct FixedPhaseState {
   FixedPhaseMesh mesh;
 };
 // phases: even, at which states are looked for. Other arguments and errors as impact().
-std::vector<FixedPhaseState> fixed_phase_states(const BodyArtifact& driver, const BodyArtifact& driven,
-                                                const StaticArtifact& statics, double mean_stiffness,
+std::vector<FixedPhaseState> fixed_phase_states(const ReducedBody& driver, const ReducedBody& driven,
+                                                const StaticResult& statics, double mean_stiffness,
                                                 const ImpactParameters& settings, int phases);
 
 // The same with eta (s) of Eq. 21. body: the model level of [fidelity].
@@ -60,23 +60,22 @@ FixedPhaseMesh with_rayleigh_stiffness(FixedPhaseMesh mesh, double eta, BodyMode
 // statics: of the same torque; it gives mesh, contact discretisation and torque. mean_stiffness: N m-1, sets the
 // bearing dampers. report(done, total) is called after each phase. Errors as ring_down and fit_decay; Error(input)
 // for a contact level other than strips, Error(numerical) if damped exponentials leave more than 1e-5 of a decay.
-ImpactArtifact impact(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
-                      double mean_stiffness, const ImpactParameters& settings, const ImpactPlan& plan,
-                      const std::function<void(long, long)>& report);
+ImpactResult impact(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
+                    double mean_stiffness, const ImpactParameters& settings, const ImpactPlan& plan,
+                    const std::function<void(long, long)>& report);
 
 // The same from eigenvalues of the frozen contact, without decays, for searches: amid each contact state, and as the mean
 // over the period. Fields of decays (time, transmission_error, phase_..., eigen_..., fit_residual) stay empty. The ring-down
 // of impact() differs by less than 0.002 % in frequency and damping of the states.
-ImpactArtifact frozen_impact(const BodyArtifact& driver, const BodyArtifact& driven,
-                             const StaticArtifact& statics, double mean_stiffness,
-                             const ImpactParameters& settings, int phases);
+ImpactResult frozen_impact(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
+                           double mean_stiffness, const ImpactParameters& settings, int phases);
 
 // The same at the Rayleigh stiffness factor (settings.damping.rayleigh_stiffness of the result) that gives a damping
 // ratio in one contact state, to 1e-7 of it. Throws Error(input) if the state does not
 // occur, or if no factor gives the ratio.
-ImpactArtifact calibrate(const BodyArtifact& driver, const BodyArtifact& driven,
-                         const StaticArtifact& statics, double mean_stiffness,
-                         const ImpactParameters& settings, const ImpactPlan& plan, double damping_ratio,
-                         ContactState contact_state, const std::function<void(long, long)>& report);
+ImpactResult calibrate(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
+                       double mean_stiffness, const ImpactParameters& settings, const ImpactPlan& plan,
+                       double damping_ratio, ContactState contact_state,
+                       const std::function<void(long, long)>& report);
 
 }  // namespace whine

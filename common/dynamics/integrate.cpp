@@ -37,7 +37,7 @@ std::vector<RollingDynamics::ContactProblem> RollingDynamics::contact_problems(S
 }
 
 bool RollingDynamics::integrate(State& state, Period& period, EnergyBalance* energy_balance) {
-  if (state.z.size() != frequency_squared_.size() || state.pair != pair_stamp_)
+  if (state.z.size() != frequency_squared_.size() || state.owner_id != owner_id_)
     fail(Failure::input, "the start state, of ", state.z.size(),
          " coordinates, is of other gears or modes: ", "these have ", frequency_squared_.size(),
          "; start from rest or from a state of the same pair");
@@ -86,13 +86,12 @@ void RollingDynamics::take_bearing_force(Period& period, int sample) const {
 
 // At the end of a step with this transmission error (m). False if a tip edge that the range leaves out would touch.
 bool RollingDynamics::keeps_corners(int position, double error) const {
-  const Corners& corners = corners_[position];
+  const PositionLevers& corners = corners_[position];
   if (error > corners.lost_gap)
     fail_outside_range(
         Failure::numerical, "the transmission error ", error * 1e6, " micrometres closes the gap of ",
         corners.lost_gap * 1e6,
-        " micrometres of a tip edge that would touch below the involute; lower the torque or set "
-        "corner_contact = false");
+        " micrometres of a tip edge that would touch below the involute; lower the torque or set corner_contact = false");
   return !(error > corners.next_gap);
 }
 
@@ -114,7 +113,7 @@ bool RollingDynamics::record_contact(const StepKernel::End& end, int position, P
   const StepKernel::Frame& frame = kernel_.frame(position);
   double drift = 0;
   for (int j = 0; j < frame.present; ++j) {
-    period.pair_load(frame.pair[j].slot, sample_) = end.carried[j];
+    period.tooth_pair_load(frame.pair[j].slot, sample_) = end.carried[j];
     drift += corners_[position].drift_lever[j] * end.carried[j];
   }
   if (friction_ > 0) {  // beside the difference of the torques
@@ -130,7 +129,7 @@ bool RollingDynamics::record_contact(const StepKernel::End& end, int position, P
 bool RollingDynamics::integrate(State& state, Period& period, EnergyBalance* energy_balance,
                                 std::vector<ContactProblem>* problems) {
   period.transmission_error.resize(steps_);
-  period.pair_load.setZero(2 * reach_ + 1, steps_);
+  period.tooth_pair_load.setZero(2 * reach_ + 1, steps_);
   period.bearing_force.resize(model_.gear.size());
   for (int g = 0; g < gears(); ++g)
     if (sway_[g].count > 0) period.bearing_force[g].resize(2, steps_);
@@ -138,7 +137,7 @@ bool RollingDynamics::integrate(State& state, Period& period, EnergyBalance* ene
   period.fallbacks = 0;
   period.friction_coupling = 0;
   fit_teeth(state);
-  kernel_.take(state);
+  kernel_.load_state(state);
   set_gap(0, state.period);
   std::array<Instant, 2>& instants = balance_work_.instants;
   balance_work_.balance = 0;
@@ -154,13 +153,13 @@ bool RollingDynamics::integrate(State& state, Period& period, EnergyBalance* ene
     const int position = sample_ * stride_;
     if (!begun) {
       set_gap(position, state.period);
-      kernel_.begin(sample_);
+      kernel_.predict(sample_);
     }
     // Pipelining: unless somebody looks at the instant that this step ends at, the next one is begun in the same pass that
     // applies the contact forces of this one.
     begun = !energy_balance && !floating_ && i + 1 < steps_;
     if (begun) set_gap(position + stride_, state.period);
-    const StepKernel::End end = kernel_.finish(sample_, begun ? i + 1 : -1);
+    const StepKernel::End end = kernel_.correct(sample_, begun ? i + 1 : -1);
     if (!record_contact(end, position, period)) return false;
     if (problems) problems->push_back(contact_problem());
     if (energy_balance) {
@@ -175,7 +174,7 @@ bool RollingDynamics::integrate(State& state, Period& period, EnergyBalance* ene
     }
     if (!keeps_corners(position, closing)) return false;
   }
-  kernel_.give(state, positions_[0].mesh.strips());
+  kernel_.store_state(state, positions_[0].mesh.strips());
   return true;
 }
 

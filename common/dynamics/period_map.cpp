@@ -28,7 +28,7 @@ RollingPeriodMap::RollingPeriodMap(RollingDynamics& dynamics, int steps)
   unit_ = units(0);
   if (size() > kMostSize)
     fail(Failure::input, "a state of ", size(), " numbers has a tangent with the square of that, at most ",
-         kMostSize, " are allowed; lower modes in [fidelity] or set body = \"lagged\"");
+         kMostSize, " are allowed; lower modes in [fidelity] or set body = \"relaxed\"");
 }
 
 const RollingPeriodMap::Position& RollingPeriodMap::position(int sample) const {
@@ -91,7 +91,7 @@ State RollingPeriodMap::state(const VectorXd& y) const {
   const VectorXd own = y.cwiseProduct(unit_), nodes = own.tail(channels(0));
   const Position& position = this->position(0);
   State state;
-  state.pair = dynamics_.pair_stamp_;
+  state.owner_id = dynamics_.owner_id_;
   state.z = own.head(n);
   state.v = own.segment(n, n);
   state.force = dynamics_.force_of(position, nodes);
@@ -135,7 +135,7 @@ std::vector<std::vector<int>> RollingPeriodMap::active_sets() const {
 // Sample 0 of a period is its end, in the names of the period after it: on an orbit that is its start.
 std::vector<ContactEvent> RollingPeriodMap::events() const {
   std::vector<ContactEvent> events;
-  const MatrixXd& load = period_.pair_load;
+  const MatrixXd& load = period_.tooth_pair_load;
   const int reach = dynamics_.reach();
   for (int i = 1; i <= steps_; ++i)
     for (int slot = 0; slot < load.rows(); ++slot) {

@@ -39,7 +39,8 @@ double oscillating_rms(const std::vector<RollingDynamics::Period>& record) {
 // Sample 0 of an integration is that of the period after it, in the names of its teeth.
 void begin_with_end_of(const RollingDynamics::Period& before, RollingDynamics::Period& period) {
   period.transmission_error[0] = before.transmission_error[0];
-  if (before.pair_load.rows() == period.pair_load.rows()) period.pair_load.col(0) = before.pair_load.col(0);
+  if (before.tooth_pair_load.rows() == period.tooth_pair_load.rows())
+    period.tooth_pair_load.col(0) = before.tooth_pair_load.col(0);
   for (size_t g = 0; g < period.bearing_force.size(); ++g)
     if (period.bearing_force[g].size() > 0) period.bearing_force[g].col(0) = before.bearing_force[g].col(0);
 }
@@ -120,9 +121,9 @@ std::optional<State> AndersonAcceleration::propose() const {
 
 // Orders of subharmonics are in hunting periods.
 // NOLINTNEXTLINE(readability-function-size): one loop over mesh periods, whose parts share the proposal, the recurrence and the state
-std::optional<Orbit> find_periodic_orbit(RollingDynamics& dynamics, State& state, double periodicity,
-                                         SteadyState method, const RmsRange& looked_for,
-                                         AndersonAcceleration* shared) {
+std::optional<Orbit> iterate_to_orbit(RollingDynamics& dynamics, State& state, double periodicity,
+                                      SteadyState method, const RmsRange& looked_for,
+                                      AndersonAcceleration* shared) {
   Orbit orbit;
   AndersonAcceleration own;
   AndersonAcceleration& acceleration = shared ? *shared : own;

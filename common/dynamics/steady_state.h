@@ -56,17 +56,16 @@ class AndersonAcceleration {
 };
 
 // Integrates from `state` until it repeats to `periodicity` (relative, RollingDynamics::distance) over a hunting period, which
-// is a mesh period for teeth that are alike; `state` then stands at the start of a mesh period on the orbit. method march:
+// is a mesh period for teeth that are alike; `state` then stands at the start of a mesh period on the orbit. method integrate:
 // plain integration, as a rig would. extrapolate: once the motion is close, Anderson acceleration of the map that a period is
 // takes its slow multipliers out. It is used only where these lie inside the unit circle, and a state that they propose counts
 // only if integrating on comes closer still: an unstable orbit is left again. Of teeth that are alike a motion whose RMS leaves
 // `looked_for` is given up, not periodic, its last period as it is; with `looked_for` no energy balance is recorded. Empty if
 // contact leaves the candidate zone; the state is then undefined. shared: columns of a speed nearby to begin
 // with, then of this one.
-std::optional<Orbit> find_periodic_orbit(RollingDynamics& dynamics, RollingDynamics::State& state,
-                                         double periodicity, SteadyState method,
-                                         const RmsRange& looked_for = {},
-                                         AndersonAcceleration* shared = nullptr);
+std::optional<Orbit> iterate_to_orbit(RollingDynamics& dynamics, RollingDynamics::State& state,
+                                      double periodicity, SteadyState method, const RmsRange& looked_for = {},
+                                      AndersonAcceleration* shared = nullptr);
 
 // A state on the orbit of one mesh period at a speed.
 struct KnownOrbit {

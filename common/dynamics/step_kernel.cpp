@@ -125,7 +125,7 @@ struct StepKernel::Modes {
   // To the next instant, without new contact force.
   void propagate() const {
     for (int c = 0; c < coordinates; c += kLanes) {
-      go_on(c, lanes(z + c), lanes(v + c), 0.5 * (lanes(force + c) + of(c, Coefficients::torque)));
+      propagate_lanes(c, lanes(z + c), lanes(v + c), 0.5 * (lanes(force + c) + of(c, Coefficients::torque)));
     }
   }
 
@@ -151,11 +151,11 @@ struct StepKernel::Modes {
   double push_and_propagate(const ModalLoad& load, ModalReading& next, double* rest) const {
     switch (load.count) {
       case 0:
-        return both<0, kRows>(load.rows, load.half, next);
+        return correct_and_propagate<0, kRows>(load.rows, load.half, next);
       case 1:
-        return both<1, kRows>(load.rows, load.half, next);
+        return correct_and_propagate<1, kRows>(load.rows, load.half, next);
       case 2:
-        return both<2, kRows>(load.rows, load.half, next);
+        return correct_and_propagate<2, kRows>(load.rows, load.half, next);
       default:
         break;
     }
@@ -166,7 +166,7 @@ struct StepKernel::Modes {
           lanes(rest + c) += load.half[j][r] * lanes(load.rows[j] + c * kRows + r * kLanes);
     const double* row = rest;
     const Lanes one{1};
-    return both<1, 1>(&row, &one, next);
+    return correct_and_propagate<1, 1>(&row, &one, next);
   }
 
   void read(ModalReading& reading) const {
@@ -180,7 +180,7 @@ struct StepKernel::Modes {
   const Lanes& of(int c, Coefficients::Of which) const {
     return lanes(coefficients + Coefficients::place(which, c, coordinates));
   }
-  Lanes go_on(int c, Lanes z0, Lanes v0, Lanes mean) const {
+  Lanes propagate_lanes(int c, Lanes z0, Lanes v0, Lanes mean) const {
     const Lanes bq = of(c, Coefficients::bq), a12 = of(c, Coefficients::a12),
                 z1 = of(c, Coefficients::a11) * z0 + a12 * v0 + bq * mean;
     lanes(z + c) = z1;
@@ -188,23 +188,23 @@ struct StepKernel::Modes {
     return z1;
   }
   template <int kCount, int kRowsEach>
-  double both(const double* const* rows, const Lanes* factor, ModalReading& next) const {
+  double correct_and_propagate(const double* const* rows, const Lanes* factor, ModalReading& next) const {
     switch (next.count) {
       case 0:
-        return both<kCount, kRowsEach, 0>(rows, factor, next);
+        return correct_and_propagate<kCount, kRowsEach, 0>(rows, factor, next);
       case 2:
-        return both<kCount, kRowsEach, 2>(rows, factor, next);
+        return correct_and_propagate<kCount, kRowsEach, 2>(rows, factor, next);
       case 3:
-        return both<kCount, kRowsEach, 3>(rows, factor, next);
+        return correct_and_propagate<kCount, kRowsEach, 3>(rows, factor, next);
       default:
         break;
     }
-    const double error = both<kCount, kRowsEach, 0>(rows, factor, next);
+    const double error = correct_and_propagate<kCount, kRowsEach, 0>(rows, factor, next);
     read(next);
     return error;
   }
   template <int kCount, int kRowsEach, int kRead>
-  double both(const double* const* rows, const Lanes* factor, ModalReading& next) const {
+  double correct_and_propagate(const double* const* rows, const Lanes* factor, ModalReading& next) const {
     const Modes here = *this;  // stores of lanes may change anything for all that the compiler knows
     const double *row[kCount + 1], *read_row[kRead + 1];
     double f[kCount + 1][kRowsEach];
@@ -224,8 +224,8 @@ struct StepKernel::Modes {
         if constexpr (with_hub) {
           const Lanes z1 = z0 - here.of(c, Coefficients::bq) * half;
           error += here.of(c, Coefficients::weight) * z1;
-          z2 = here.go_on(c, z1, v0 - here.of(c, Coefficients::a12) * half,
-                          here.of(c, Coefficients::torque) - half);
+          z2 = here.propagate_lanes(c, z1, v0 - here.of(c, Coefficients::a12) * half,
+                                    here.of(c, Coefficients::torque) - half);
         } else {
           z2 = here.of(c, Coefficients::a11) * z0 + here.of(c, Coefficients::a12) * v0 -
                here.of(c, Coefficients::push_z) * half;
@@ -454,7 +454,7 @@ void StepKernel::begin_with(Model model, int sample) {
   modes.read(reading_);
 }
 
-void StepKernel::begin(int sample) {
+void StepKernel::predict(int sample) {
   system_.lines ? begin_with(LineContact(*this), sample) : begin_with(StripContact(*this), sample);
 }
 
@@ -516,7 +516,7 @@ StepKernel::End StepKernel::finish_with(Model model, int sample, int next) {
   return end;
 }
 
-StepKernel::End StepKernel::finish(int sample, int next) {
+StepKernel::End StepKernel::correct(int sample, int next) {
   return system_.lines ? finish_with(LineContact(*this), sample, next)
                        : finish_with(StripContact(*this), sample, next);
 }

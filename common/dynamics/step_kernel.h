@@ -5,7 +5,7 @@
 // each coordinate:
 //   z* = a11 z + a12 v + (bq / 2) (f + t),  v* = a21 z + a22 v + (a12 / 2) (f + t),  g* = decay g + from_old l
 //   e  = gap - W (h z* - sum over sides of V C g*)                          gap without new contact force
-//   A  = H + W (B + from_new R + h (bq / 2) h^T) W^T                        H: half-planes, B: at_once, R: relaxed
+//   A  = H + W (B + from_new R + h (bq / 2) h^T) W^T                        H: half-planes, B: instantaneous_compliance, R: relaxed
 //   d  = A p + e >= 0,  p >= 0,  d . p = 0                                  of lines with Hertz's law of p in place of H
 //   n  = W^T p,  l = V^T n,  z = z* - (bq / 2) h^T n,  v = v* - (a12 / 2) h^T n,  g = g* + from_new l.
 // With friction forces act on modes through L = h + mu s T in place of h (T of a pair's force as a whole, gear/friction.h), and
@@ -31,7 +31,7 @@
 #include "contact/lanes.h"
 #include "contact/line_contact.h"
 #include "contact/strip_compliance.h"
-#include "dynamics/propagator.h"
+#include "dynamics/newmark.h"
 #include "system/rolling_mesh.h"
 
 namespace whine {
@@ -45,7 +45,7 @@ struct StepPosition {
   };
   MeshPosition mesh;
   std::vector<Pair> pair;                     // of mesh.pairs
-  Eigen::MatrixXd at_once;                    // (node, node) m N-1: of bodies, what is instantaneous
+  Eigen::MatrixXd instantaneous_compliance;   // (node, node) m N-1: of bodies, what is instantaneous
   Eigen::MatrixXd participation;              // (node, coordinate) h
   Eigen::MatrixXd relaxed;                    // (node, node) m N-1: of both gears, when nothing moves
   std::vector<Eigen::MatrixXd> field_weight;  // [side] (node, field) V
@@ -105,11 +105,11 @@ class StepKernel {
       int slot = 0;
       bool low_is_edge = false, high_is_edge = false;
     };
-    int present = 0, of_pair = 0;  // pairs; strips of a pair
-    size_t gap = 0;                // (strip)
-    size_t at_once = 0;            // of strips: StripCompliance::at_nodes, of what is instantaneous
-    size_t shape = 0;              // (pair, coordinate, shape row), four coordinates side by side
-    size_t line = 0;               // of lines: (pair) LineRecord
+    int present = 0, of_pair = 0;         // pairs; strips of a pair
+    size_t gap = 0;                       // (strip)
+    size_t instantaneous_compliance = 0;  // of strips: StripCompliance::at_nodes, of what is instantaneous
+    size_t shape = 0;                     // (pair, coordinate, shape row), four coordinates side by side
+    size_t line = 0;                      // of lines: (pair) LineRecord
     size_t load = 0,
            load_apart = 0;           // rows that forces act through, of a pair and the next: as shape, L of h
     size_t friction = 0;             // (pair, coordinate) StepPosition::friction
@@ -158,12 +158,12 @@ class StepKernel {
                  const std::vector<StepPosition>& positions);
 
   // A state of these coordinates and teeth.
-  void take(const StepState& state);
-  void give(StepState& state, int strips) const;
+  void load_state(const StepState& state);
+  void store_state(StepState& state, int strips) const;
   // Takes modes and relaxed loads to step `sample` and reads its gaps, without new contact force.
-  void begin(int sample);
+  void predict(int sample);
   // Contact at `sample` and its share of all else. next: the step that is begun in the same pass, or -1.
-  End finish(int sample, int next);
+  End correct(int sample, int next);
   // Gives teeth the names that they have in the next mesh period.
   void rename();
 
@@ -180,7 +180,7 @@ class StepKernel {
   int fields() const { return kFields * system_.teeth(); }  // of one side
   // Of strips: A of a step; what is instantaneous at a position.
   StripCompliance compliance(int sample) const;
-  StripCompliance at_once(int position) const;
+  StripCompliance instantaneous_compliance(int position) const;
 
   // For the energy balance. y: (coordinate), direction -1 turns back; fields: as Vectors::relaxed, one tooth on.
   void turn_doublets(double* y, int direction = 1) const;

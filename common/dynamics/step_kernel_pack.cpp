@@ -143,8 +143,8 @@ void StepKernel::pack_strips(const StepPosition& position, Frame& frame, std::ve
   const MeshPosition& mesh = position.mesh;
   const int pairs = frame.present;
   frame.gap = place_matrix(mesh.gap);
-  frame.at_once = place(pairs * kPairNodes * pairs * kZoneNodes);
-  put_at_nodes(position.at_once, &stream_[frame.at_once]);
+  frame.instantaneous_compliance = place(pairs * kPairNodes * pairs * kZoneNodes);
+  put_at_nodes(position.instantaneous_compliance, &stream_[frame.instantaneous_compliance]);
   frame.shape = place(pairs * kShapeRows * coordinates_);
   for (int j = 0; j < pairs; ++j) {
     const MatrixXd shape =
@@ -290,7 +290,7 @@ void StepKernel::set_speed(std::vector<Propagator> propagators, const Relaxation
     Step& step = steps_[i];
     step.active.forget();
     step.start.forget();
-    at_nodes = position.at_once + relaxed_step_.from_new * position.relaxed;
+    at_nodes = position.instantaneous_compliance + relaxed_step_.from_new * position.relaxed;
     add_response(frame(position_of(i)), at_nodes);
     if (friction_ > 0) step.friction = friction_response(frame(position_of(i)));
     if (system_.lines)
@@ -383,11 +383,11 @@ StripCompliance StepKernel::compliance(int sample) const {
   return strip_compliance(frame(position_of(sample)), step(sample).compliance.data());
 }
 
-StripCompliance StepKernel::at_once(int position) const {
-  return strip_compliance(frame(position), &stream_[frame(position).at_once]);
+StripCompliance StepKernel::instantaneous_compliance(int position) const {
+  return strip_compliance(frame(position), &stream_[frame(position).instantaneous_compliance]);
 }
 
-void StepKernel::take(const StepState& state) {
+void StepKernel::load_state(const StepState& state) {
   const Eigen::Index own = state.z.size();
   vectors_.z.head(own) = state.z;
   vectors_.v.head(own) = state.v;
@@ -400,7 +400,7 @@ void StepKernel::take(const StepState& state) {
   live_ = live_teeth();
 }
 
-void StepKernel::give(StepState& state, int strips) const {
+void StepKernel::store_state(StepState& state, int strips) const {
   const Eigen::Index own = state.z.size();
   state.z = vectors_.z.head(own);
   state.v = vectors_.v.head(own);

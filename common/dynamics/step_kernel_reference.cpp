@@ -113,7 +113,7 @@ MatrixXd StepReference::compliance(const StepPosition& position) const {
   const MeshPosition& mesh = position.mesh;
   const MatrixXd& h = position.participation;
   MatrixXd a = MatrixXd::Zero(mesh.strips(), mesh.strips());
-  mesh.add_to_strips(position.at_once + relaxed_step_.from_new * position.relaxed +
+  mesh.add_to_strips(position.instantaneous_compliance + relaxed_step_.from_new * position.relaxed +
                          h * (0.5 * bq_).asDiagonal() * loading(position).transpose(),
                      a);
   for (size_t j = 0; !system_.lines && j < mesh.pairs.size(); ++j) {

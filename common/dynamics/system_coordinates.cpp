@@ -96,7 +96,7 @@ class Builder {
     const Fidelity& fidelity = motion_.fidelity;
     if (fidelity.body == BodyModel::full || fidelity.body == BodyModel::rigid)
       fail(Failure::input, "body = \"", fidelity.body,
-           "\" in [fidelity]: systems in motion have \"quasi-static\", \"lagged\" or \"modal\"");
+           "\" in [fidelity]: systems in motion have \"quasi-static\", \"relaxed\" or \"modal\"");
     if (fidelity.contact != ContactModel::line)
       fail(Failure::input, "contact = \"", fidelity.contact, "\" in motion: systems have \"line\"");
     if (fidelity.integrator != Integrator::exact)
@@ -165,7 +165,7 @@ class Builder {
 
   // Columns of the body's modes that move by themselves.
   std::vector<int> kept_of(int b) const {
-    const BodyArtifact& body = system_.body[static_cast<size_t>(b)]->body();
+    const ReducedBody& body = system_.body[static_cast<size_t>(b)]->body();
     const bool turns = !system_.layout.held(b), sways = sways_alone(b) || in_group(b);
     int torsional = -1, swaying = -1;
     for (int i = static_cast<int>(body.eigenfrequency.size()) - 1; i >= 0; --i) {
@@ -192,7 +192,7 @@ class Builder {
 
   void add_body(int b) {
     const ElasticGear& gear = *system_.body[static_cast<size_t>(b)];
-    const BodyArtifact& body = gear.body();
+    const ReducedBody& body = gear.body();
     SystemCoordinates::Share& share = out_.body[static_cast<size_t>(b)];
     share.first = static_cast<int>(frequency_.size());
     share.kept = kept_of(b);
@@ -235,7 +235,7 @@ class Builder {
   }
 
   void add_torsion(int b, const std::vector<Index>& rows, SystemCoordinates::Share& share) {
-    const BodyArtifact& body = system_.body[static_cast<size_t>(b)]->body();
+    const ReducedBody& body = system_.body[static_cast<size_t>(b)]->body();
     const System::Body& at = placed_body(system_, b);
     const auto k = static_cast<Index>(rows.size());
     MatrixXd mass = MatrixXd::Identity(k + 1, k + 1), stiffness = MatrixXd::Zero(k + 1, k + 1);
@@ -260,7 +260,7 @@ class Builder {
   }
 
   void add_sway(int b, const std::vector<Index>& rows, SystemCoordinates::Share& share) {
-    const BodyArtifact& body = system_.body[static_cast<size_t>(b)]->body();
+    const ReducedBody& body = system_.body[static_cast<size_t>(b)]->body();
     const System::Body& at = placed_body(system_, b);
     const Bearing& bearing = at.bearing;
     const double own_mass = mass_on_bearing(system_, b);
@@ -315,7 +315,7 @@ class Builder {
     for (size_t i = 0; i + 1 < members; ++i) {
       const int b = group.member[i].body;
       const std::vector<int>& kept = out_.body[static_cast<size_t>(b)].kept;
-      const BodyArtifact& body = system_.body[static_cast<size_t>(b)]->body();
+      const ReducedBody& body = system_.body[static_cast<size_t>(b)]->body();
       for (size_t row = 0; row < kept.size(); ++row)
         if (body.nodal_diameter[kept[row]] == 1) out.mode_of.emplace_back(i, static_cast<Index>(row));
     }
@@ -354,7 +354,7 @@ class Builder {
     for (size_t m = 0; m < of.mode_of.size(); ++m) {
       const auto [i, row] = of.mode_of[m];
       const auto b = static_cast<size_t>(group.member[i].body);
-      const BodyArtifact& body = system_.body[b]->body();
+      const ReducedBody& body = system_.body[b]->body();
       const int column = out_.body[b].kept[static_cast<size_t>(row)];
       const Index at = of.first_mode + static_cast<Index>(m);
       const double w = kTwoPi * body.eigenfrequency[column];
@@ -417,7 +417,7 @@ class Builder {
   void add_momentum(SystemCoordinates::Group::Member& planet) {
     if (placed_body(system_, planet.body).bearing.elastic()) return;
     const std::vector<int>& kept = out_.body[static_cast<size_t>(planet.body)].kept;
-    const BodyArtifact& body = system_.body[static_cast<size_t>(planet.body)]->body();
+    const ReducedBody& body = system_.body[static_cast<size_t>(planet.body)]->body();
     planet.mass = mass_on_bearing(system_, planet.body);
     out_.rigid_pins = true;
     planet.momentum = planet.mass * planet.shift;
@@ -464,7 +464,7 @@ SystemCoordinates::Participation SystemCoordinates::participation(const SystemMo
                                                                   const Vec2& outward) const {
   const Share& own = body[static_cast<size_t>(b)];
   const ElasticGear& gear = *system.body[static_cast<size_t>(b)];
-  const BodyArtifact& modes = gear.body();
+  const ReducedBody& modes = gear.body();
   const System::Body& at = placed_body(system, b);
   const Eigen::RowVectorXd shape =
       weights * (flank.side == FlankSide::leading ? modes.flank_mode : modes.back_flank_mode);

@@ -38,7 +38,7 @@ struct SystemCoordinates {
     int first = 0, count = 0;  // its own elastic coordinates; none of a carrier
     int torsional = 0;         // the first of them, which turn the hub
     int swaying = 0;           // of them, which move the hub; they follow
-    std::vector<int> kept;     // columns of BodyArtifact::flank_mode
+    std::vector<int> kept;     // columns of ReducedBody::flank_mode
     Eigen::MatrixXd columns;   // (kept, coordinate): share of each mode
     Eigen::VectorXd hub;       // (torsional) rad per unit, in the body's own sense
     Eigen::MatrixXd shift;     // (xy, swaying) m per unit, in the frame of the system

@@ -128,8 +128,8 @@ void SystemDynamics::propagate_by(double seconds) {
 
 // Compliance of the contacts at the end of a step.
 void SystemDynamics::close(Position& position) const {
-  position.compliance =
-      position.at_once + relaxed_step_.from_new * position.relaxed + modal_compliance(position, 0.5 * bq_);
+  position.compliance = position.instantaneous_compliance + relaxed_step_.from_new * position.relaxed +
+                        modal_compliance(position, 0.5 * bq_);
 }
 
 // Elastic coordinates follow their force, z = (torque - h p) / w^2, so that they are compliances; rotations carry the load.
@@ -138,7 +138,8 @@ SystemEquilibrium SystemDynamics::equilibrium_at(int i, VectorXd* z) {
   SystemPosition at = positioned(i);
   VectorXd flexibility = coordinates_.frequency.cwiseAbs2().cwiseInverse();
   flexibility.head(coordinates_.rigid).setZero();
-  const MatrixXd compliance = position.at_once + position.relaxed + modal_compliance(position, flexibility);
+  const MatrixXd compliance =
+      position.instantaneous_compliance + position.relaxed + modal_compliance(position, flexibility);
   const VectorXd by_torque = flexibility.cwiseProduct(coordinates_.torque);
   for (int k = 0; k < position.size(); ++k) at.gap[k] -= moved(position, k, by_torque);
   ComplementaritySolver solver;
@@ -291,8 +292,7 @@ bool SystemDynamics::record(const Position& position, int sample, Period& period
       fail_outside_range(
           Failure::numerical, "at ", mesh_name(system_.layout, static_cast<size_t>(m)), " the deflection ",
           closing * 1e6, " micrometres closes the gap of ", position.lost_gap[static_cast<size_t>(m)] * 1e6,
-          " micrometres of a tip edge that would touch below the involute; lower the torque or set "
-          "corner_contact = false");
+          " micrometres of a tip edge that would touch below the involute; lower the torque or set corner_contact = false");
     inside = inside && !(closing > position.next_gap[static_cast<size_t>(m)]);
   }
   return inside;
@@ -420,7 +420,7 @@ FixedPhaseMesh SystemDynamics::frozen(int i) {
   out.relaxation = relaxation_;
   out.torque = VectorXd::Zero(coordinates_.size());
   out.gap = VectorXd::Zero(static_cast<Index>(active.size()));
-  out.local = position.at_once(active, active);
+  out.local = position.instantaneous_compliance(active, active);
   out.residual = position.relaxed(active, active);
   out.participation.resize(static_cast<Index>(active.size()), coordinates_.size());
   for (Index a = 0; a < out.gap.size(); ++a) {

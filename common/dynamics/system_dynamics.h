@@ -22,7 +22,7 @@
 #include <vector>
 
 #include "dynamics/fixed_phase_motion.h"
-#include "dynamics/propagator.h"
+#include "dynamics/newmark.h"
 #include "dynamics/system_coordinates.h"
 #include "dynamics/system_energy.h"
 #include "system/rigid_system.h"
@@ -132,10 +132,10 @@ class SystemDynamics {
     Eigen::MatrixXd grouped;                 // (coordinate of its group, contact): h
     std::array<Eigen::MatrixXd, 2> field;    // [side] (field, contact): V^T S^T
     std::array<Eigen::MatrixXd, 2> reading;  // [side] (relaxed load of its body, contact) m N-1: W^T
-    Eigen::MatrixXd at_once, relaxed;        // (contact, contact) m N-1: A, and W V S
-    Eigen::MatrixXd compliance;              // (contact, contact) m N-1: of a step at the speed
-    Eigen::MatrixXd drift;                   // (null vector, contact): of forces
-    std::vector<double> next_gap, lost_gap;  // (mesh) m, see PairsInReach
+    Eigen::MatrixXd instantaneous_compliance, relaxed;  // (contact, contact) m N-1: A, and W V S
+    Eigen::MatrixXd compliance;                         // (contact, contact) m N-1: of a step at the speed
+    Eigen::MatrixXd drift;                              // (null vector, contact): of forces
+    std::vector<double> next_gap, lost_gap;             // (mesh) m, see PairsInReach
     int size() const { return static_cast<int>(contact.size()); }
   };
   SystemPosition positioned(int i) const;

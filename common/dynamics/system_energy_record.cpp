@@ -73,7 +73,7 @@ void SystemEnergyRecord::fill(Instant& now, const SystemDynamics::Position& posi
     now.moved.segment(first, size) = of_.coupling_[b] * now.load.segment(first, size);
   }
   now.p = of_.p_.head(n);
-  now.local = position.at_once * now.p;
+  now.local = position.instantaneous_compliance * now.p;
   now.stored = 0.5 * now.p.dot(now.local);
   now.d.resize(n);
   for (int k = 0; k < n; ++k) {

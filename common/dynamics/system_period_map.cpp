@@ -64,8 +64,7 @@ VectorXd SystemPeriodMap::apply(const VectorXd& y) {
       left_zone_ = left_last_ = true;
       fail_outside_range(
           Failure::numerical, "at ", parameter(),
-          " Hz a mesh deflects beyond the tip edges that are looked at; lower the torque or raise the "
-          "damping");
+          " Hz a mesh deflects beyond the tip edges that are looked at; lower the torque or raise the damping");
     }
   }
   applied_ = true;

@@ -69,7 +69,7 @@ SystemPosition SystemDynamics::positioned(int i) const {
 // m N-1, inward: what the kept modes of a body leave between two of its flanks.
 MatrixXd SystemDynamics::residual(int b, const ElasticGear& gear, const ToothFlank& read,
                                   const ToothFlank& loaded) const {
-  const BodyArtifact& body = gear.body();
+  const ReducedBody& body = gear.body();
   MatrixXd out = gear.compliance(read, loaded, depth_);
   // Shapes on the two teeth, of all modes in turn.
   const auto on = [&](const ToothFlank& flank, int column) -> VectorXd {
@@ -234,7 +234,7 @@ SystemDynamics::Position SystemDynamics::filled(const SystemPosition& at, int sh
 // What contacts move at each other by way of the bodies that they share.
 void SystemDynamics::relate(Position& position, const SystemPosition& at) const {
   const Index n = position.size();
-  position.at_once = position.relaxed = position.compliance = MatrixXd::Zero(n, n);
+  position.instantaneous_compliance = position.relaxed = position.compliance = MatrixXd::Zero(n, n);
   for (Index k = 0; k < n; ++k)
     for (Index l = 0; l < n; ++l)
       for (size_t s = 0; s < 2; ++s)
@@ -259,9 +259,10 @@ void SystemDynamics::relate(Position& position, const SystemPosition& at) const 
                                                        static_cast<size_t>(column)] *
                        weights(loaded, t, l).transpose());
           position.relaxed(k, l) += soft;
-          position.at_once(k, l) += whole - soft;
+          position.instantaneous_compliance(k, l) += whole - soft;
         }
-  position.at_once = (0.5 * (position.at_once + position.at_once.transpose())).eval();
+  position.instantaneous_compliance =
+      (0.5 * (position.instantaneous_compliance + position.instantaneous_compliance.transpose())).eval();
   position.relaxed = (0.5 * (position.relaxed + position.relaxed.transpose())).eval();
 }
 
@@ -279,7 +280,7 @@ void SystemDynamics::set_hunting_gaps(const std::vector<SystemPosition>& placed)
     fail(Failure::input, "the same teeth meet again after ", hunting_, " mesh periods, whose gaps at ",
          placed.size(), " positions each need ", memory * 1e-9, " GB, at most ", kMostMemory * 1e-9,
          " are allowed; lower min_sample_rate_kHz and steps_per_period, or raise the lowest speed");
-  tell_memory(text("gaps of teeth that differ, over ", hunting_, " mesh periods,"), memory);
+  log_memory(text("gaps of teeth that differ, over ", hunting_, " mesh periods,"), memory);
   hunting_gap_.resize(contacts * static_cast<size_t>(hunting_));
   double* to = hunting_gap_.data();
   for (int period = 0; period < hunting_; ++period)
@@ -320,7 +321,7 @@ void SystemDynamics::set_positions(const std::vector<double>& corner_gap, int st
     fail(Failure::input, "the positions of ", steps, " steps of a mesh period need ", 8e-9 * numbers,
          " GB, at most ", 1e-9 * kMostMemory,
          " are allowed; lower min_sample_rate_kHz or modes, or raise the lowest speed");
-  tell_memory(text("the positions of ", steps, " steps of a mesh period"), 8 * numbers);
+  log_memory(text("the positions of ", steps, " steps of a mesh period"), 8 * numbers);
   couple();
   for (int i = 0; i < steps; ++i) {
     report_step("mesh positions", i, steps);

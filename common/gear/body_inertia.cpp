@@ -5,18 +5,16 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/format.h"
 #include "base/model_range.h"
 #include "gear/involute.h"
-#include "gear/numbers.h"
 
 namespace whine {
 
 std::string too_light(double inertia, const std::string& least) {
-  return text("total_inertia_kgm2 = ", shown_number(inertia), " lies below the inertia of its own body, ",
-              least,
-              " kg m2: it is that of all that turns with the gear; raise it, or take the line out: the gear "
-              "as drawn is "
-              "used then");
+  return text(
+      "total_inertia_kgm2 = ", shown_number(inertia), " lies below the inertia of its own body, ", least,
+      " kg m2: it is that of all that turns with the gear; raise it, or take the line out: the gear as drawn is used then");
 }
 
 double least_body_inertia(const ToothGeometry& tooth, const Material& material) {
@@ -24,7 +22,7 @@ double least_body_inertia(const ToothGeometry& tooth, const Material& material) 
   // Chords of a coarse mesh cut off less.
   constexpr double kSafe = 0.995;
   const GearDesign& design = tooth.design();
-  const double root = tooth.root_radius(), tip = tooth.tip_radius(), held = design.held_radius();
+  const double root = tooth.root_radius(), tip = tooth.tip_radius(), held = design.clamped_radius();
   const double form = tooth.base_radius() * std::hypot(1.0, tooth.form_roll_angle());
   // Towards the root a tooth that is not undercut only widens from the involute on.
   const auto angle = [&](double r) {
@@ -48,7 +46,7 @@ void as_drawn(ImpactParameters& settings, const std::array<double, 2>& body_iner
     if (settings.inertia[g] == 0) settings.inertia[g] = kMore * body_inertia[g];
 }
 
-void as_outlined(ImpactParameters& settings, const PairParameters& pair) {
+void as_outlined(ImpactParameters& settings, const GearPairParameters& pair) {
   constexpr double kFillets = 1.015;
   for (int g = 0; g < kSides; ++g)
     if (settings.inertia[g] == 0)

@@ -17,7 +17,7 @@ double least_body_inertia(const ToothGeometry& tooth, const Material& material);
 void as_drawn(ImpactParameters& settings, const std::array<double, 2>& body_inertia);
 
 // The same for a stage that has no bodies, by the outline of the gears; fillets make it 2 % off at most.
-void as_outlined(ImpactParameters& settings, const PairParameters& pair);
+void as_outlined(ImpactParameters& settings, const GearPairParameters& pair);
 
 // ModelRangeError that names section, key and limit unless the gears' total inertias (kg m2) are above those of their bodies,
 // which a stage knows that has them.

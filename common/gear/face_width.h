@@ -9,7 +9,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "gear/numbers.h"
+#include "base/format.h"
 #include "model/gear.h"
 
 namespace whine {

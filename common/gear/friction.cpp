@@ -58,10 +58,10 @@ double friction_coefficient(const GearPair& pair, double face_width, const Frict
                              std::pow(friction.roughness * 1e6, 0.25) * friction.lubricant_factor;
   constexpr double kMost = 0.3;  // as of a coefficient that a scene gives
   if (!(coefficient <= kMost))
-    fail(Failure::input, "Schlenk's formula gives a coefficient of friction of ", coefficient, " at ",
-         mesh_frequency, " Hz, at most ", kMost,
-         " is allowed; check viscosity_mPas, roughness_um, lubricant_factor and static_frequency_Hz of "
-         "[friction], or raise the speed");
+    fail(
+        Failure::input, "Schlenk's formula gives a coefficient of friction of ", coefficient, " at ",
+        mesh_frequency, " Hz, at most ", kMost,
+        " is allowed; check viscosity_mPas, roughness_um, lubricant_factor and static_frequency_Hz of [friction], or raise the speed");
   return coefficient;
 }
 

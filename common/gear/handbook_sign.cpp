@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "gear/numbers.h"
+#include "base/format.h"
 #include "gear/pair.h"
 
 namespace whine {
@@ -59,8 +59,7 @@ std::optional<double> shift_of_other_sign(const GearDesign& driver, const GearDe
 std::string other_sign_words(double shift) {
   return text(
       "profile_shift = ", shown_number(shift),
-      " fits: handbooks that count the shift of an internal gear outwards give it the other sign; here it "
-      "is positive inwards, towards the tips (ISO 21771)");
+      " fits: handbooks that count the shift of an internal gear outwards give it the other sign; here it is positive inwards, towards the tips (ISO 21771)");
 }
 
 }  // namespace whine

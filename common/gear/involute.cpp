@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/format.h"
 #include "base/units.h"
-#include "gear/numbers.h"
 
 namespace whine {
 
@@ -24,11 +24,11 @@ ToothGeometry::ToothGeometry(const GearDesign& design) : design_(design) {
   tool_radius_ = m * design.rack_tip_radius;
 
   if (ra_ <= rb_)
-    fail(Failure::input, "tip radius ", millimetres(ra_), " lies below the base radius ", millimetres(rb_),
-         internal() ? ": the tips of an internal gear would have no involute; lower addendum or "
-                      "profile_shift, or raise "
-                      "teeth or pressure_angle_deg"
-                    : ": there is no involute; raise addendum or profile_shift");
+    fail(
+        Failure::input, "tip radius ", millimetres(ra_), " lies below the base radius ", millimetres(rb_),
+        internal()
+            ? ": the tips of an internal gear would have no involute; lower addendum or profile_shift, or raise teeth or pressure_angle_deg"
+            : ": there is no involute; raise addendum or profile_shift");
   const double thickness = m * (0.5 * kPi + 2 * x * std::tan(alpha)) - design.tooth_thinning;  // pitch circle
   half_base_ = thickness / (2 * rp_) + outwards() * involute_function(alpha);
   xi_tip_ = roll_angle_at_radius(ra_);

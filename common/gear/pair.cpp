@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/format.h"
 #include "base/units.h"
 #include "gear/internal_mesh.h"
-#include "gear/numbers.h"
 #include "gear/undercut.h"
 
 namespace whine {
@@ -87,9 +87,8 @@ void GearPair::require_reach() const {
     if (centre_distance_ + pinion.tip_radius() <= ring.tip_radius())
       fail(Failure::input, "the gears do not reach each other: with ", distance, " the tips of the ",
            kGearName[1 - ring_], " come to ", millimetres(centre_distance_ + pinion.tip_radius()),
-           " from the axis of the internal gear, whose tip "
-           "radius is ",
-           millimetres(ring.tip_radius()), "; raise centre_distance_mm");
+           " from the axis of the internal gear, whose tip radius is ", millimetres(ring.tip_radius()),
+           "; raise centre_distance_mm");
     if (ring.base_radius() - pinion.base_radius() >= centre_distance_)
       fail(Failure::input, "the gears jam: ", distance, " is not above the difference of the base radii ",
            millimetres(ring.base_radius() - pinion.base_radius()), "; raise centre_distance_mm");

@@ -54,7 +54,7 @@ class GearPair {
   // a ring that has no more teeth than its pinion, and tips that run into each other beside the mesh (trochoid
   // interference).
   GearPair(const GearDesign& driver, const GearDesign& driven, double centre_distance);
-  explicit GearPair(const PairParameters& pair)
+  explicit GearPair(const GearPairParameters& pair)
       : GearPair(pair.gear[0].design, pair.gear[1].design, pair.mesh.centre_distance) {}
 
   const ToothGeometry& gear(int g) const { return gear_[g]; }

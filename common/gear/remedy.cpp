@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/format.h"
 #include "gear/handbook_sign.h"
-#include "gear/numbers.h"
 #include "gear/pair.h"
 
 namespace whine {
@@ -62,7 +62,7 @@ std::vector<Change> misheld(const DrawnGears& gears) {
   std::vector<Change> out;
   for (size_t g = 0; g < gears.design.size(); ++g) {
     const GearDesign& d = gears.design[g];
-    if (d.held_radius() == 0 ||
+    if (d.clamped_radius() == 0 ||
         (d.internal ? d.rim_outer_radius > root_radius(d) : d.bore_radius < root_radius(d)))
       continue;
     for (const Change& one : held(d, g, 1)) out.push_back(one);

@@ -33,9 +33,9 @@ void tell_of_body(std::vector<std::string>& out, const std::string& gear, const 
                   const GearDesign& design) {
   const double coarseness = body.element_size / design.module;  // 0: by the module, which takes seconds
   if (coarseness > 0 && coarseness < 0.04)
-    out.push_back(text("[gear.", gear, "]: element_mm = ", body.element_size * 1e3, " is ", coarseness,
-                       " modules; mesh and modes take minutes and gigabytes below 0.04, and eight times the "
-                       "unknowns for a third of it"));
+    out.push_back(text(
+        "[gear.", gear, "]: element_mm = ", body.element_size * 1e3, " is ", coarseness,
+        " modules; mesh and modes take minutes and gigabytes below 0.04, and eight times the unknowns for a third of it"));
 }
 
 }  // namespace
@@ -68,9 +68,7 @@ std::vector<std::string> costs(const Scene& scene) {
   for (const SceneGear& gear : scene.gears) tell_of_body(out, gear.name, scene.body, gear.design);
   if (scene.fidelity.body == BodyModel::full)
     out.push_back(
-        "body = \"full\" finds all modes by dense algebra: about a minute a gear for a thousand unknowns a "
-        "sector, eight "
-        "times that for twice as many");
+        "body = \"full\" finds all modes by dense algebra: about a minute a gear for a thousand unknowns a sector, eight times that for twice as many");
   return out;
 }
 

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/format.h"
 #include "gear/body_inertia.h"
 #include "gear/crack.h"
 #include "gear/face_width.h"
 #include "gear/handbook_sign.h"
-#include "gear/numbers.h"
 #include "gear/pair.h"
 #include "gear/remedy.h"
 #include "gear/system_layout.h"
@@ -82,7 +82,7 @@ void check_inertia(const SystemScene& scene, const ScenePlace& where) {
 }
 
 std::string thin_rim(const GearDesign& design, const std::string& name) {
-  const double rim = std::abs(ToothGeometry(design).root_radius() - design.held_radius());
+  const double rim = std::abs(ToothGeometry(design).root_radius() - design.clamped_radius());
   if (rim >= design.module || design.elastic_rim()) return "";
   const char* const key = design.internal ? "rim_outer_radius_mm" : "bore_radius_mm";
   return text(

@@ -452,9 +452,9 @@ TrainSpeeds train_speeds(const System& system) {
     if (carrier.kind != System::BodyKind::carrier) continue;
     const int still = system.held(b) ? b : held_by_planets(system, b);
     if (still < 0)
-      fail(Failure::input, "how fast '", carrier.name,
-           "' turns does not follow from the scene: neither it nor a gear that meshes with its planets is "
-           "held; give one of them a [[drive]] with kind = \"held\"");
+      fail(
+          Failure::input, "how fast '", carrier.name,
+          "' turns does not follow from the scene: neither it nor a gear that meshes with its planets is held; give one of them a [[drive]] with kind = \"held\"");
     const System::Body& at_rest = system.bodies[static_cast<size_t>(still)];
     const double turns = -of_gear(at_rest);
     if (!out.at_rest.empty() && turns != frame)

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "gear/numbers.h"
+#include "base/format.h"
 
 namespace whine {
 

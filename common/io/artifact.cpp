@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/tool.h"
 #include "io/artifact_place.h"
-#include "io/fit.h"
+#include "io/compatibility.h"
 #include "io/provenance.h"
 #include "io/publish.h"
 
@@ -267,7 +267,7 @@ void ArtifactWriter::put(const std::string& name, const MatrixRMi& values, const
              {static_cast<std::size_t>(values.rows()), static_cast<std::size_t>(values.cols())}, label);
 }
 
-void ArtifactWriter::parameters(const std::string& section, const KeyValues& values, Part part) {
+void ArtifactWriter::parameters(const std::string& section, const SceneParameters& values, KeyGroup part) {
   for (const Parameter& parameter : parameters_of(values, part)) {
     std::visit(
         [&](const auto& value) {
@@ -276,13 +276,13 @@ void ArtifactWriter::parameters(const std::string& section, const KeyValues& val
         },
         parameter.value);
   }
-  if (part != Part::mesh) return;
+  if (part != KeyGroup::mesh) return;
   if (values.mesh.contact_plane != GearMeshSpec{}.contact_plane)
-    parameters(section, values, Part::contact_plane);
-  if (values.mesh.friction.acts()) parameters("friction", values, Part::friction);
+    parameters(section, values, KeyGroup::contact_plane);
+  if (values.mesh.friction.acts()) parameters("friction", values, KeyGroup::friction);
   for (const GearSection& own : kGearSections)
     for (int g = 0; g < kSides; ++g) {
-      KeyValues of_gear;
+      SceneParameters of_gear;
       take_gear(of_gear, values.mesh, g);
       if (own.stands(of_gear)) parameters(own.of(g), of_gear, own.part);
     }
@@ -399,15 +399,15 @@ MatrixRMi ArtifactReader::whole_matrix(const std::string& name, const Range& ran
   return Eigen::Map<const MatrixRMi>(values.data(), as_index(shape[0]), as_index(shape[1]));
 }
 
-void ArtifactReader::parameters(const std::string& section, KeyValues& values, Part part) const {
+void ArtifactReader::parameters(const std::string& section, SceneParameters& values, KeyGroup part) const {
   set_parameters(values, part, SectionSource(*this, section));
-  if (part != Part::mesh) return;
+  if (part != KeyGroup::mesh) return;
   const SectionSource mesh(*this, section);
-  if (mesh.has("contact_plane")) set_parameters(values, Part::contact_plane, mesh);
+  if (mesh.has("contact_plane")) set_parameters(values, KeyGroup::contact_plane, mesh);
   if (const SectionSource friction(*this, "friction"); friction.has("law"))
-    set_parameters(values, Part::friction, friction);
+    set_parameters(values, KeyGroup::friction, friction);
   for (int g = 0; g < kSides; ++g) {
-    KeyValues of_gear;
+    SceneParameters of_gear;
     for (const GearSection& own : kGearSections) {
       const SectionSource source(*this, own.of(g));
       if (source.has(own.first)) set_parameters(of_gear, own.part, source);

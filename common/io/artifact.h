@@ -44,7 +44,7 @@ class ArtifactWriter {
   void put(const std::string& name, const MatrixRMi& values, const h5::Label& label);
 
   // /parameters/<section>/<key> for all keys of a part.
-  void parameters(const std::string& section, const KeyValues& values, Part part);
+  void parameters(const std::string& section, const SceneParameters& values, KeyGroup part);
 
   // Writes the file whole or not at all. Error(input) if an input is not what it was when the stage read it.
   void publish();
@@ -81,7 +81,7 @@ class ArtifactReader {
   // Names both shapes if they differ.
   void require_shape(const std::string& name, const std::vector<Eigen::Index>& wanted) const;
 
-  void parameters(const std::string& section, KeyValues& values, Part part) const;
+  void parameters(const std::string& section, SceneParameters& values, KeyGroup part) const;
 
  private:
   std::vector<int> ints(const std::string& name, const Range& range,

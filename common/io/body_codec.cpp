@@ -11,7 +11,7 @@ using namespace ranges;
 
 constexpr Schema kBodySchema{"body", 5};
 
-void describe_compliance(Codec& c, BodyArtifact& a) {
+void describe_compliance(Codec& c, ReducedBody& a) {
   const std::string at = "/compliance/";
   c.dataset({at + "offsets", "1", "largest tooth offset of the tables", "", {0, 1000}}, &a.offsets);
   const Eigen::Index points = a.flank_position.size();
@@ -42,17 +42,15 @@ void describe_compliance(Codec& c, BodyArtifact& a) {
                "far_position loaded_position", kFlexibility},
               &a.far_compliance);
   c.axis("back_position", teeth * points);
-  c.dataset({at + "back", "m N-1",
-             "inward normal displacement of the other flank of all teeth counter-clockwise from the loaded "
-             "one on, per unit "
-             "normal force",
-             "back_position loaded_position", kFlexibility},
-            &a.back_compliance);
+  c.dataset(
+      {at + "back", "m N-1",
+       "inward normal displacement of the other flank of all teeth counter-clockwise from the loaded one on, per unit normal force",
+       "back_position loaded_position", kFlexibility},
+      &a.back_compliance);
   if (c.lists() || (c.in() ? a.design.crack.depth > 0 : a.crack_compliance.size() > 0))
     c.dataset(
         {at + "crack", "m N-1",
-         "what the crack adds between the teeth from `offsets` clockwise of the cracked one to `offsets` "
-         "counter-clockwise of it, tooth by tooth",
+         "what the crack adds between the teeth from `offsets` clockwise of the cracked one to `offsets` counter-clockwise of it, tooth by tooth",
          "tooth_flank_position loaded_tooth_flank_position", kFlexibility},
         &a.crack_compliance);
   c.dataset({at + "reference_depth", "m", "depth relative to which the half-plane is taken off", "", kSize},
@@ -64,7 +62,7 @@ void describe_compliance(Codec& c, BodyArtifact& a) {
             &a.least_eigenvalue);
 }
 
-void describe_root_stress(Codec& c, BodyArtifact& a) {
+void describe_root_stress(Codec& c, ReducedBody& a) {
   const std::string at = "/root_stress/";
   c.dataset(
       {at + "arc_length", "m", "arc length from the flank along the root curve", "root_position", kSize},
@@ -74,31 +72,31 @@ void describe_root_stress(Codec& c, BodyArtifact& a) {
             &a.root_angle);
   c.axis("both_root_position", 2 * a.root_arc_length.size());
   c.axis("root_offset", 2 * a.offsets + 1);
-  c.dataset({at + "per_force", "Pa N-1",
-             "tangential stress along the driving flank's root, then the other one, per unit normal force; "
-             "of the teeth from "
-             "`offsets` clockwise of the loaded one to `offsets` counter-clockwise of it",
-             "root_offset both_root_position loaded_position", kStressPerForce},
-            &a.root_stress);
+  c.dataset(
+      {at + "per_force", "Pa N-1",
+       "tangential stress along the driving flank's root, then the other one, per unit normal force; of the teeth from `offsets` clockwise of the loaded one to `offsets` counter-clockwise of it",
+       "root_offset both_root_position loaded_position", kStressPerForce},
+      &a.root_stress);
   if (c.lists() || (c.in() ? a.design.crack.depth > 0 : a.crack_root_stress.size() > 0)) {
     c.axis("tooth_root_position", (2 * a.offsets + 1) * a.root_arc_length.size());
-    c.dataset({at + "crack", "Pa N-1",
-               "what the crack adds along the driving flank's root, between the teeth of /compliance/crack, "
-               "tooth by tooth",
-               "tooth_root_position loaded_tooth_flank_position", kStressPerForce},
-              &a.crack_root_stress);
+    c.dataset(
+        {at + "crack", "Pa N-1",
+         "what the crack adds along the driving flank's root, between the teeth of /compliance/crack, tooth by tooth",
+         "tooth_root_position loaded_tooth_flank_position", kStressPerForce},
+        &a.crack_root_stress);
   }
 }
 
 }  // namespace
 
-void describe(Codec& c, BodyArtifact& a) {
+void describe(Codec& c, ReducedBody& a) {
   describe_design(c, "gear", a.design);
-  KeyValues values;
+  SceneParameters values;
   values.material = a.material;
   values.body = a.discretisation;
-  c.parameters("material", values, Part::material);
-  for (const Part part : {Part::body, Part::near_field}) c.parameters("discretisation", values, part);
+  c.parameters("material", values, KeyGroup::material);
+  for (const KeyGroup part : {KeyGroup::body, KeyGroup::near_field})
+    c.parameters("discretisation", values, part);
   if (c.in()) {
     a.material = values.material;
     a.discretisation = values.body;
@@ -135,14 +133,14 @@ void describe(Codec& c, BodyArtifact& a) {
     put_vtk(c.out()->file(), {a.vtk_point, a.vtk_cell, a.vtk_point_data, {}, {}, {}, {}, false});
 }
 
-void write(const std::string& path, const BodyArtifact& a, const Provenance& provenance) {
+void write(const std::string& path, const ReducedBody& a, const Provenance& provenance) {
   write_artifact(path, kBodySchema, "Reduced body of a gear on a rigid hub: " + gear_title(a.design), a,
                  provenance);
   link_for_paraview(path);
 }
 
-BodyArtifact read_body(const std::string& path) {
-  return read_artifact<BodyArtifact>(path, kBodySchema);
+ReducedBody read_body(const std::string& path) {
+  return read_artifact<ReducedBody>(path, kBodySchema);
 }
 
 }  // namespace whine

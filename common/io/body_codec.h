@@ -3,14 +3,14 @@
 #include <string>
 
 #include "io/provenance.h"
-#include "solid/reduced_body.h"
+#include "results/reduced_body.h"
 
 namespace whine {
 
 class Codec;
 
-void describe(Codec& codec, BodyArtifact& a);
-void write(const std::string& path, const BodyArtifact& a, const Provenance& provenance);
-BodyArtifact read_body(const std::string& path);
+void describe(Codec& codec, ReducedBody& a);
+void write(const std::string& path, const ReducedBody& a, const Provenance& provenance);
+ReducedBody read_body(const std::string& path);
 
 }  // namespace whine

@@ -8,9 +8,9 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kBranchSchema{"branch", 5};
+constexpr Schema kBranchSchema{"branch", 6};
 
-void describe_points(Codec& c, BranchArtifact& a) {
+void describe_points(Codec& c, BranchResult& a) {
   c.dataset({"/mesh_frequency", "Hz", "mesh frequency along the branch", "point", kSpeed}, &a.mesh_frequency);
   c.dataset(
       {"/dte_rms", "m", "RMS of the oscillating part of the dynamic transmission error", "point", kSize},
@@ -20,18 +20,17 @@ void describe_points(Codec& c, BranchArtifact& a) {
              "point harmonic", kSize},
             &a.dte_harmonic);
   c.numbers("harmonic", 1, "number of the harmonic of the mesh frequency");
-  c.dataset(
-      {"/mesh_force_held", "N",
-       "largest normal force of all pairs together that is held for 1/64 of a mesh period", "point", kLoad},
-      &a.mesh_force_held);
-  c.dataset({"/tooth_load_held", "N", "the same of one pair", "point", kLoad}, &a.tooth_load_held);
+  c.dataset({"/mesh_force_sustained", "N",
+             "largest normal force of all pairs together that is sustained for 1/64 of a mesh period",
+             "point", kLoad},
+            &a.mesh_force_sustained);
+  c.dataset({"/tooth_load_sustained", "N", "the same of one pair", "point", kLoad}, &a.tooth_load_sustained);
   for (int g = 0; g < (c.lists() ? 1 : kSides); ++g)
-    if (Eigen::VectorXd& stress = a.root_stress_held[static_cast<size_t>(g)];
-        c.optional(of_body(c, a.mesh, g, "root_stress_held"), stress.size() > 0)) {
+    if (Eigen::VectorXd& stress = a.root_stress_sustained[static_cast<size_t>(g)];
+        c.optional(of_body(c, a.mesh, g, "root_stress_sustained"), stress.size() > 0)) {
       c.dataset(
-          {of_body(c, a.mesh, g, "root_stress_held"), "Pa",
-           "the same of the tangential stress along the roots beside the loaded flanks, quasi-static in "
-           "the tooth loads",
+          {of_body(c, a.mesh, g, "root_stress_sustained"), "Pa",
+           "the same of the tangential stress along the roots beside the loaded flanks, quasi-static in the tooth loads",
            "point", kStress},
           &stress);
       describe_root_place(c, a.mesh, g, "point", a.root_stress_angle, a.root_stress_phase);
@@ -39,7 +38,7 @@ void describe_points(Codec& c, BranchArtifact& a) {
   describe_stability(c, a);
 }
 
-void describe_events(Codec& c, BranchArtifact& a) {
+void describe_events(Codec& c, BranchResult& a) {
   describe_folds(c, a);
   c.dataset({"/grazing_frequency", "Hz", "mesh frequency at which the sequence of contacts changes",
              "grazing", kFrequency},
@@ -52,7 +51,7 @@ void describe_events(Codec& c, BranchArtifact& a) {
 
 }  // namespace
 
-void describe(Codec& c, BranchArtifact& a) {
+void describe(Codec& c, BranchResult& a) {
   describe_pair(c, a);
   describe_motion(c, a);
   describe_torque(c, a.torque);
@@ -61,13 +60,13 @@ void describe(Codec& c, BranchArtifact& a) {
   c.dataset({"/end", "1", "why the branch was followed no further", ""}, &a.end);
 }
 
-void write(const std::string& path, const BranchArtifact& a, const Provenance& provenance) {
+void write(const std::string& path, const BranchResult& a, const Provenance& provenance) {
   write_artifact(path, kBranchSchema, "Branch of periodic orbits: " + pair_title(a.mesh, a.torque), a,
                  provenance);
 }
 
-BranchArtifact read_branch(const std::string& path) {
-  return read_artifact<BranchArtifact>(path, kBranchSchema);
+BranchResult read_branch(const std::string& path) {
+  return read_artifact<BranchResult>(path, kBranchSchema);
 }
 
 }  // namespace whine

@@ -3,14 +3,14 @@
 #include <string>
 
 #include "io/provenance.h"
-#include "studies/branch_result.h"
+#include "results/branch.h"
 
 namespace whine {
 
 class Codec;
 
-void describe(Codec& codec, BranchArtifact& a);
-void write(const std::string& path, const BranchArtifact& a, const Provenance& provenance);
-BranchArtifact read_branch(const std::string& path);
+void describe(Codec& codec, BranchResult& a);
+void write(const std::string& path, const BranchResult& a, const Provenance& provenance);
+BranchResult read_branch(const std::string& path);
 
 }  // namespace whine

@@ -1,4 +1,4 @@
-// What the artifacts of branches have in common, those of pairs (BranchArtifact) and of systems (SystemBranchArtifact): multipliers and
+// What the artifacts of branches have in common, those of pairs (BranchResult) and of systems (SystemBranchResult): multipliers and
 // stability of each orbit, folds, period doublings, tori.
 //
 // Private to the layer io/.
@@ -20,11 +20,11 @@ void describe_stability(Codec& c, Branch& a) {
   if constexpr (requires { a.period_multiple; }) {
     c.dataset({"/period_multiple", "1", "mesh periods after which the orbit repeats", "point", kNumber},
               &a.period_multiple);
-    c.dataset({"/branch", "1",
-               "number of the part: its points follow each other along the arc; parts begin at one orbit or "
-               "beside a period doubling",
-               "point", kNumber},
-              &a.part);
+    c.dataset(
+        {"/branch", "1",
+         "number of the part: its points follow each other along the arc; parts begin at one orbit or beside a period doubling",
+         "point", kNumber},
+        &a.part);
   }
   c.dataset({"/residual", "1", "relative change of the state over the orbit", "point", {0, 1e300}},
             &a.residual);

@@ -233,7 +233,7 @@ Eigen::Index Codec::length(const std::string& axis) const {
   return found == lengths_.end() ? 0 : found->second;
 }
 
-void Codec::parameters(const std::string& section, KeyValues& values, Part part) const {
+void Codec::parameters(const std::string& section, SceneParameters& values, KeyGroup part) const {
   if (out_) out_->parameters(section, values, part);
   if (in_) in_->parameters(section, values, part);
 }
@@ -243,61 +243,62 @@ void Codec::parameters(const std::string& section, KeyValues& values, Part part)
 namespace {
 
 // Gears without a crack have no such section.
-void describe_crack(Codec& c, const std::string& section, KeyValues& values) {
+void describe_crack(Codec& c, const std::string& section, SceneParameters& values) {
   if (!c.lists() && c.optional("/parameters/" + section + "_crack/depth", values.design.crack.depth > 0))
-    c.parameters(section + "_crack", values, Part::crack);
+    c.parameters(section + "_crack", values, KeyGroup::crack);
 }
 
 // The bore of an external gear or, in a section of its own, the rim of an internal one, with the stiffness of its support if that is
 // elastic.
-void describe_blank(Codec& c, const std::string& section, KeyValues& values) {
+void describe_blank(Codec& c, const std::string& section, SceneParameters& values) {
   if (!c.lists() && c.optional("/parameters/" + section + "_rim/rim_outer_radius", values.design.internal)) {
-    c.parameters(section + "_rim", values, Part::rim);
+    c.parameters(section + "_rim", values, KeyGroup::rim);
     if (c.optional("/parameters/" + section + "_rim/rim_radial_stiffness", values.design.elastic_rim()))
-      c.parameters(section + "_rim", values, Part::rim_support);
+      c.parameters(section + "_rim", values, KeyGroup::rim_support);
   } else
-    c.parameters(section, values, Part::bore);
+    c.parameters(section, values, KeyGroup::bore);
 }
 
 void describe_inertia(Codec& c, const std::string& role, double& inertia) {
-  KeyValues values;
+  SceneParameters values;
   values.total_inertia = inertia;
-  c.parameters(role, values, Part::inertia);
+  c.parameters(role, values, KeyGroup::inertia);
   if (c.in()) inertia = values.total_inertia;
 }
 
 }  // namespace
 
 void describe_gear(Codec& c, const std::string& role, BodyParameters& gear) {
-  KeyValues values;
+  SceneParameters values;
   values.design = gear.design;
   values.material = gear.material;
   values.body = gear.discretisation;
-  c.parameters(role, values, Part::design);
+  c.parameters(role, values, KeyGroup::design);
   describe_blank(c, role, values);
-  for (const Part part : {Part::material, Part::body, Part::near_field}) c.parameters(role, values, part);
+  for (const KeyGroup part : {KeyGroup::material, KeyGroup::body, KeyGroup::near_field})
+    c.parameters(role, values, part);
   describe_crack(c, role, values);
   if (c.in()) gear = {values.design, values.material, values.body};
 }
 
 void describe_design(Codec& c, const std::string& section, GearDesign& design) {
-  KeyValues values;
+  SceneParameters values;
   values.design = design;
-  c.parameters(section, values, Part::design);
+  c.parameters(section, values, KeyGroup::design);
   describe_blank(c, section, values);
   describe_crack(c, section, values);
   if (c.in()) design = values.design;
 }
 
-void describe_pair(Codec& c, PairParameters& a, bool fidelity) {
+void describe_pair(Codec& c, GearPairParameters& a, bool fidelity) {
   for (int g = 0; g < kSides; ++g) describe_gear(c, kRole[g], a.gear[g]);
-  KeyValues values;
+  SceneParameters values;
   values.mesh = a.mesh;
   values.fidelity = a.fidelity;
   values.contact = a.contact;
-  c.parameters("mesh", values, Part::mesh);
-  if (fidelity) c.parameters("fidelity", values, Part::contact_level);
-  c.parameters("discretisation", values, Part::contact);
+  c.parameters("mesh", values, KeyGroup::mesh);
+  if (fidelity) c.parameters("fidelity", values, KeyGroup::contact_level);
+  c.parameters("discretisation", values, KeyGroup::contact);
   if (!c.in()) return;
   a.mesh = values.mesh;
   a.fidelity = values.fidelity;
@@ -306,13 +307,13 @@ void describe_pair(Codec& c, PairParameters& a, bool fidelity) {
 
 void describe_motion(Codec& c, MotionParameters& a, bool time) {
   for (int g = 0; g < kSides; ++g) describe_inertia(c, kRole[g], a.inertia[g]);
-  KeyValues values;
+  SceneParameters values;
   values.damping = a.damping;
   values.fidelity = a.fidelity;
   values.time = a.time;
-  c.parameters("damping", values, Part::damping);
-  c.parameters("fidelity", values, Part::level);
-  if (time) c.parameters("discretisation", values, Part::time);
+  c.parameters("damping", values, KeyGroup::damping);
+  c.parameters("fidelity", values, KeyGroup::level);
+  if (time) c.parameters("discretisation", values, KeyGroup::time);
   if (!c.in()) return;
   a.damping = values.damping;
   a.fidelity = values.fidelity;
@@ -364,11 +365,11 @@ void describe_backlash(Codec& c, double& margin) {
 void describe_root_place(Codec& c, const GearMeshSpec& mesh, int g, const std::string& axis,
                          std::array<Eigen::VectorXd, 2>& angle, std::array<Eigen::VectorXd, 2>& phase) {
   const auto gear = static_cast<size_t>(g);
-  c.dataset({of_body(c, mesh, g, "root_stress_angle"), "1",
-             "angle (rad) of the root's tangent against the centre line of the tooth where the stress is "
-             "largest of what is held for 1/64 of a mesh period",
-             axis, kRoll},
-            &angle[gear]);
+  c.dataset(
+      {of_body(c, mesh, g, "root_stress_angle"), "1",
+       "angle (rad) of the root's tangent against the centre line of the tooth where the stress is largest of what is sustained for 1/64 of a mesh period",
+       axis, kRoll},
+      &angle[gear]);
   c.dataset({of_body(c, mesh, g, "root_stress_phase"), "1",
              "mesh phase of the tooth's pair then, 0 at the pitch point", axis, kPlace},
             &phase[gear]);

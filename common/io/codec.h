@@ -1,7 +1,7 @@
 // How an artifact is stored: one function describes its datasets, each once, with name, unit, meaning, axes, range and the
 // member that holds it. Writing, reading, the checks of shapes and the page of datasets all walk that function:
 //
-//   void describe(Codec& c, StaticArtifact& a) {
+//   void describe(Codec& c, StaticResult& a) {
 //     c.dataset({"/mesh_phase", "1", "mesh phase", "mesh_phase", kPhase}, &a.mesh_phase);
 //     c.dataset({"/transmission_error", "m", "...", "mesh_phase", kLength}, &a.transmission_error);
 //   }
@@ -22,7 +22,7 @@
 #include "base/matrix.h"
 #include "io/artifact.h"
 #include "io/ranges.h"
-#include "signal/friction_losses.h"
+#include "results/friction_losses.h"
 
 namespace whine {
 
@@ -119,7 +119,7 @@ class Codec {
   Eigen::Index length(const std::string& axis) const;  // 0 if no dataset has it
 
   // /parameters/<section>/<key> of all keys of a part.
-  void parameters(const std::string& section, KeyValues& values, Part part) const;
+  void parameters(const std::string& section, SceneParameters& values, KeyGroup part) const;
 
   bool lists() const { return list_ != nullptr; }
   ArtifactWriter* out() const { return out_; }      // nullptr unless it writes
@@ -168,7 +168,7 @@ void describe_design(Codec& codec, const std::string& section, GearDesign& desig
 // With material and discretisation.
 void describe_gear(Codec& codec, const std::string& section, BodyParameters& gear);
 // Gears, mesh, model level of the contact and its discretisation; fidelity: false leaves the model level out.
-void describe_pair(Codec& codec, PairParameters& a, bool fidelity = true);
+void describe_pair(Codec& codec, GearPairParameters& a, bool fidelity = true);
 // What a motion has beside: inertias, damping, model levels; time: with the discretisation of time.
 void describe_motion(Codec& codec, MotionParameters& a, bool time = true);
 void describe_torque(Codec& codec, double& torque);

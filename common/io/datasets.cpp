@@ -46,17 +46,16 @@ std::string lines(const std::string& kind) {
 }  // namespace
 
 std::string dataset_list() {
-  return lines<MeshArtifact>("mesh.h5") + lines<BodyArtifact>("body.h5") +
-         lines<StaticArtifact>("static.h5") + lines<ErrorBudgetArtifact>("error_budget.h5") +
-         lines<LoadedArtifact>("loaded_<phase>.h5") + lines<ImpactArtifact>("impact.h5") +
-         lines<SweepArtifact>("sweep.h5") + lines<ResponseArtifact>("response.h5") +
-         lines<BranchArtifact>("branch.h5") + lines<RunupArtifact>("runup_<rate>.h5") +
-         lines<FoldCurvesArtifact>("fold_curves_*.h5") + lines<JumpMapArtifact>("jump_map_*.h5") +
-         lines<HarrisMapArtifact>("harris_map.h5") + lines<VariantArtifact>("ab12....h5") +
-         lines<StudyArtifact>("study.h5") + lines<ModesArtifact>("modes.h5") +
-         lines<SystemStaticArtifact>("system_static.h5") + lines<SystemSweepArtifact>("system_sweep.h5") +
-         lines<SystemImpactArtifact>("system_impact.h5") + lines<SystemBranchArtifact>("system_branch.h5") +
-         lines<ReadingsArtifact>("readings.h5");
+  return lines<SectorGrid>("mesh.h5") + lines<ReducedBody>("body.h5") + lines<StaticResult>("static.h5") +
+         lines<ErrorBudgetResult>("error_budget.h5") + lines<LoadedResult>("loaded_<phase>.h5") +
+         lines<ImpactResult>("impact.h5") + lines<SweepResult>("sweep.h5") +
+         lines<ResponseResult>("response.h5") + lines<BranchResult>("branch.h5") +
+         lines<RunupResult>("runup_<rate>.h5") + lines<FoldCurvesResult>("fold_curves_*.h5") +
+         lines<JumpMapResult>("jump_map_*.h5") + lines<HarrisMapResult>("harris_map.h5") +
+         lines<VariantResult>("ab12....h5") + lines<StudyResult>("study.h5") +
+         lines<ModesResult>("modes.h5") + lines<SystemStaticResult>("system_static.h5") +
+         lines<SystemSweepResult>("system_sweep.h5") + lines<SystemImpactResult>("system_impact.h5") +
+         lines<SystemBranchResult>("system_branch.h5") + lines<ReadingsResult>("readings.h5");
 }
 
 }  // namespace whine

@@ -34,7 +34,7 @@ void describe_changes(Codec& c, const std::string& group, StaticChanges& a, cons
 
 }  // namespace
 
-void describe(Codec& c, ErrorBudgetArtifact& a) {
+void describe(Codec& c, ErrorBudgetResult& a) {
   describe_pair(c, a);
   describe_torque(c, a.torque);
   describe_changes(c, "/refinement", a.refinement, "what was refined alone");
@@ -55,14 +55,14 @@ void describe(Codec& c, ErrorBudgetArtifact& a) {
   }
 }
 
-void write(const std::string& path, const ErrorBudgetArtifact& a, const Provenance& provenance) {
+void write(const std::string& path, const ErrorBudgetResult& a, const Provenance& provenance) {
   write_artifact(path, kErrorBudgetSchema,
                  "Error budget of the static transmission error: " + pair_title(a.mesh, a.torque), a,
                  provenance);
 }
 
-ErrorBudgetArtifact read_error_budget(const std::string& path) {
-  return read_artifact<ErrorBudgetArtifact>(path, kErrorBudgetSchema);
+ErrorBudgetResult read_error_budget(const std::string& path) {
+  return read_artifact<ErrorBudgetResult>(path, kErrorBudgetSchema);
 }
 
 }  // namespace whine

@@ -3,14 +3,14 @@
 #include <string>
 
 #include "io/provenance.h"
-#include "studies/error_budget_result.h"
+#include "results/error_budget.h"
 
 namespace whine {
 
 class Codec;
 
-void describe(Codec& codec, ErrorBudgetArtifact& a);
-void write(const std::string& path, const ErrorBudgetArtifact& a, const Provenance& provenance);
-ErrorBudgetArtifact read_error_budget(const std::string& path);
+void describe(Codec& codec, ErrorBudgetResult& a);
+void write(const std::string& path, const ErrorBudgetResult& a, const Provenance& provenance);
+ErrorBudgetResult read_error_budget(const std::string& path);
 
 }  // namespace whine

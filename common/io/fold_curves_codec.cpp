@@ -11,7 +11,7 @@ constexpr Schema kFoldCurvesSchema{"fold_curves", 1};
 
 }  // namespace
 
-void describe(Codec& c, FoldCurvesArtifact& a) {
+void describe(Codec& c, FoldCurvesResult& a) {
   describe_pair(c, a);
   describe_motion(c, a);
   describe_torque(c, a.torque);
@@ -24,8 +24,7 @@ void describe(Codec& c, FoldCurvesArtifact& a) {
             &a.curve);
   c.dataset(
       {"/value", "1",
-       "value of the quantity in SI units: Rayleigh stiffness factor in s, torque in N m, amount of the "
-       "linear tip relief of both gears in m",
+       "value of the quantity in SI units: Rayleigh stiffness factor in s, torque in N m, amount of the linear tip relief of both gears in m",
        "point", kPositive},
       &a.value);
   c.dataset({"/damping_ratio", "1",
@@ -47,13 +46,13 @@ void describe(Codec& c, FoldCurvesArtifact& a) {
   c.dataset({"/end", "1", "why the curves were followed no further", ""}, &a.end);
 }
 
-void write(const std::string& path, const FoldCurvesArtifact& a, const Provenance& provenance) {
+void write(const std::string& path, const FoldCurvesResult& a, const Provenance& provenance) {
   write_artifact(path, kFoldCurvesSchema,
                  "Folds over " + name_of(a.quantity) + ": " + pair_title(a.mesh, a.torque), a, provenance);
 }
 
-FoldCurvesArtifact read_fold_curves(const std::string& path) {
-  return read_artifact<FoldCurvesArtifact>(path, kFoldCurvesSchema);
+FoldCurvesResult read_fold_curves(const std::string& path) {
+  return read_artifact<FoldCurvesResult>(path, kFoldCurvesSchema);
 }
 
 }  // namespace whine

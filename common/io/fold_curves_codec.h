@@ -3,14 +3,14 @@
 #include <string>
 
 #include "io/provenance.h"
-#include "studies/fold_curves_result.h"
+#include "results/fold_curves.h"
 
 namespace whine {
 
 class Codec;
 
-void describe(Codec& codec, FoldCurvesArtifact& a);
-void write(const std::string& path, const FoldCurvesArtifact& a, const Provenance& provenance);
-FoldCurvesArtifact read_fold_curves(const std::string& path);
+void describe(Codec& codec, FoldCurvesResult& a);
+void write(const std::string& path, const FoldCurvesResult& a, const Provenance& provenance);
+FoldCurvesResult read_fold_curves(const std::string& path);
 
 }  // namespace whine

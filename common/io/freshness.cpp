@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "base/tool.h"
-#include "io/fit.h"
+#include "io/compatibility.h"
 #include "io/publish.h"
 #include "io/system_scene.h"
 

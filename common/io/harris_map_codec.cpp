@@ -11,7 +11,7 @@ using namespace ranges;
 constexpr Schema kHarrisMapSchema{"harris_map", 1};
 const char* const kCube = "relief_length torque relief";
 
-void describe_axes(Codec& c, HarrisMapArtifact& a) {
+void describe_axes(Codec& c, HarrisMapResult& a) {
   c.dataset({"/torque", "N m", "torque on the driver", "torque", kDrive}, &a.torque);
   c.dataset({"/relief", "m", "material taken off at the tip edge, normal to the flank", "relief", kSize},
             &a.relief);
@@ -23,7 +23,7 @@ void describe_axes(Codec& c, HarrisMapArtifact& a) {
             &a.start_roll);
 }
 
-void describe_optima(Codec& c, HarrisMapArtifact& a) {
+void describe_optima(Codec& c, HarrisMapResult& a) {
   c.dataset({"/optimum_relief", "m", "relief of the least peak to peak at the design torque", "relief_length",
              kSize},
             &a.optimum_relief);
@@ -41,7 +41,7 @@ void describe_optima(Codec& c, HarrisMapArtifact& a) {
             &a.largest_error);
 }
 
-void describe_dynamics(Codec& c, HarrisMapArtifact& a) {
+void describe_dynamics(Codec& c, HarrisMapResult& a) {
   describe_motion(c, a);
   describe_speeds(c, a.frequency_from, a.frequency_to, a.frequency_step);
   c.dataset(
@@ -55,7 +55,7 @@ void describe_dynamics(Codec& c, HarrisMapArtifact& a) {
 
 }  // namespace
 
-void describe(Codec& c, HarrisMapArtifact& a) {
+void describe(Codec& c, HarrisMapResult& a) {
   describe_pair(c, a);
   c.choice({"/parameters/relief/relieved", "1", "gears whose tips are relieved", ""}, a.relieved);
   c.choice({"/parameters/relief/shape", "1", "how the relief grows with the roll angle", ""}, a.shape);
@@ -72,13 +72,13 @@ void describe(Codec& c, HarrisMapArtifact& a) {
   if (c.optional("/dynamic/rms", !a.dynamic_rms.empty())) describe_dynamics(c, a);
 }
 
-void write(const std::string& path, const HarrisMapArtifact& a, const Provenance& provenance) {
+void write(const std::string& path, const HarrisMapResult& a, const Provenance& provenance) {
   write_artifact(path, kHarrisMapSchema, text("Harris map: ", a.mesh.gear[0], " drives ", a.mesh.gear[1]), a,
                  provenance);
 }
 
-HarrisMapArtifact read_harris_map(const std::string& path) {
-  return read_artifact<HarrisMapArtifact>(path, kHarrisMapSchema);
+HarrisMapResult read_harris_map(const std::string& path) {
+  return read_artifact<HarrisMapResult>(path, kHarrisMapSchema);
 }
 
 }  // namespace whine

@@ -3,14 +3,14 @@
 #include <string>
 
 #include "io/provenance.h"
-#include "studies/harris_result.h"
+#include "results/harris_map.h"
 
 namespace whine {
 
 class Codec;
 
-void describe(Codec& codec, HarrisMapArtifact& a);
-void write(const std::string& path, const HarrisMapArtifact& a, const Provenance& provenance);
-HarrisMapArtifact read_harris_map(const std::string& path);
+void describe(Codec& codec, HarrisMapResult& a);
+void write(const std::string& path, const HarrisMapResult& a, const Provenance& provenance);
+HarrisMapResult read_harris_map(const std::string& path);
 
 }  // namespace whine

@@ -14,11 +14,10 @@ const char* const kDecayFrequency =
     "frequency Im s / 2 pi of the decaying transmission error (damped natural frequency)";
 const char* const kDecayRatio = "damping ratio -Re s / |s| of the decaying transmission error";
 
-void describe_states(Codec& c, ImpactArtifact& a) {
+void describe_states(Codec& c, ImpactResult& a) {
   c.column_of_choices(
       {"/contact_state", "1",
-       "number of loaded tooth pairs, held amid the longest part of the period that has it; mean: over the "
-       "whole period",
+       "number of loaded tooth pairs, held amid the longest part of the period that has it; mean: over the whole period",
        "contact_state"},
       a.contact_state);
   if (c.in() && a.contact_state.size() < 2) c.in()->file().reject("/contact_state names no state");
@@ -38,7 +37,7 @@ void describe_states(Codec& c, ImpactArtifact& a) {
             &a.transmission_error);
 }
 
-void describe_phases(Codec& c, ImpactArtifact& a) {
+void describe_phases(Codec& c, ImpactResult& a) {
   const std::string at = "/by_phase/";
   c.dataset({"/mesh_phase", "1", "fixed mesh phase of the gears", "mesh_phase", kPhase}, &a.mesh_phase);
   c.dataset({at + "loaded_pairs",
@@ -62,16 +61,16 @@ void describe_phases(Codec& c, ImpactArtifact& a) {
   c.dataset({at + "fit_residual", "1", "RMS of decay less fit over RMS of decay", "mesh_phase", kPositive},
             &a.fit_residual);
   if (c.optional(at + "frozen_frequency", a.frozen_frequency.size() > 0))
-    c.dataset({at + "frozen_frequency", "Hz",
-               "lowest natural frequencies with the contact frozen and no damping, hubs on their bearings "
-               "included",
-               "mesh_phase mode", kFrequency},
-              &a.frozen_frequency);
+    c.dataset(
+        {at + "frozen_frequency", "Hz",
+         "lowest natural frequencies with the contact frozen and no damping, hubs on their bearings included",
+         "mesh_phase mode", kFrequency},
+        &a.frozen_frequency);
 }
 
 }  // namespace
 
-void describe(Codec& c, ImpactArtifact& a) {
+void describe(Codec& c, ImpactResult& a) {
   describe_pair(c, a);
   describe_motion(c, a, false);
   describe_bearing_dampers(c, a.mean_stiffness, a.bearing_damper);
@@ -86,12 +85,12 @@ void describe(Codec& c, ImpactArtifact& a) {
             &a.least_mesh_force);
 }
 
-void write(const std::string& path, const ImpactArtifact& a, const Provenance& provenance) {
+void write(const std::string& path, const ImpactResult& a, const Provenance& provenance) {
   write_artifact(path, kImpactSchema, "Ring-down: " + pair_title(a.mesh, a.torque), a, provenance);
 }
 
-ImpactArtifact read_impact(const std::string& path) {
-  return read_artifact<ImpactArtifact>(path, kImpactSchema);
+ImpactResult read_impact(const std::string& path) {
+  return read_artifact<ImpactResult>(path, kImpactSchema);
 }
 
 }  // namespace whine

@@ -2,15 +2,15 @@
 #pragma once
 #include <string>
 
-#include "dynamics/impact_result.h"
 #include "io/provenance.h"
+#include "results/impact.h"
 
 namespace whine {
 
 class Codec;
 
-void describe(Codec& codec, ImpactArtifact& a);
-void write(const std::string& path, const ImpactArtifact& a, const Provenance& provenance);
-ImpactArtifact read_impact(const std::string& path);
+void describe(Codec& codec, ImpactResult& a);
+void write(const std::string& path, const ImpactResult& a, const Provenance& provenance);
+ImpactResult read_impact(const std::string& path);
 
 }  // namespace whine

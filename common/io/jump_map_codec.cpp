@@ -8,9 +8,9 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kJumpMapSchema{"jump_map", 1};
+constexpr Schema kJumpMapSchema{"jump_map", 2};
 
-void describe_pair_at_rest(Codec& c, JumpMapArtifact& a) {
+void describe_pair_at_rest(Codec& c, JumpMapResult& a) {
   c.dataset({"/mean_stiffness", "N m-1", "mean of the secant stiffness over a mesh period", "", kStiff},
             &a.mean_stiffness);
   c.dataset(
@@ -25,14 +25,14 @@ void describe_pair_at_rest(Codec& c, JumpMapArtifact& a) {
             &a.two_pair_frequency);
 }
 
-void describe_cases(Codec& c, JumpMapArtifact& a) {
+void describe_cases(Codec& c, JumpMapResult& a) {
   c.dataset({"/rayleigh_stiffness", "s", "Rayleigh stiffness factor eta", "case", kTime, "Eq. 21"},
             &a.rayleigh_stiffness);
-  c.dataset({"/damping_ratio", "1",
-             "damping ratio of two pairs with their contact frozen under the static load; of a lumped model "
-             "about its mean stiffness",
-             "case", kSigned},
-            &a.damping_ratio);
+  c.dataset(
+      {"/damping_ratio", "1",
+       "damping ratio of two pairs with their contact frozen under the static load; of a lumped model about its mean stiffness",
+       "case", kSigned},
+      &a.damping_ratio);
   c.dataset({"/branches_from", "Hz", "least speed with two motions; 0: none", "case", kFrequency},
             &a.branches_from);
   c.dataset({"/branches_to", "Hz", "largest speed with two motions; 0: none", "case", kFrequency},
@@ -54,30 +54,32 @@ void describe_cases(Codec& c, JumpMapArtifact& a) {
             &a.unsteady);
 }
 
-void describe_loads(Codec& c, JumpMapArtifact& a) {
+void describe_loads(Codec& c, JumpMapResult& a) {
   const char* const axes = "case direction";
   c.dataset({"/peak_tooth_load", "N",
              "largest normal force of one tooth pair at any speed; directions up, down", axes, kLoad},
             &a.peak_tooth_load);
-  c.dataset({"/held_tooth_load", "N",
-             "largest normal force of one tooth pair held for 1/64 of a mesh period; directions up, down",
-             axes, kLoad},
-            &a.held_tooth_load);
-  c.dataset({"/load_frequency", "Hz",
-             "speed of tooth_load, held_load_there and dte_rms_there; 0: none was asked for", "", kFrequency},
-            &a.load_frequency);
+  c.dataset(
+      {"/sustained_tooth_load", "N",
+       "largest normal force of one tooth pair sustained for 1/64 of a mesh period; directions up, down",
+       axes, kLoad},
+      &a.sustained_tooth_load);
+  c.dataset(
+      {"/load_frequency", "Hz",
+       "speed of tooth_load, sustained_load_there and dte_rms_there; 0: none was asked for", "", kFrequency},
+      &a.load_frequency);
   if (!c.lists() && !(a.load_frequency > 0)) return;
   c.dataset({"/tooth_load", "N",
              "largest normal force of one tooth pair at load_frequency; directions up, down", axes, kForce},
             &a.tooth_load);
-  c.dataset({"/held_load_there", "N", "the same held for 1/64 of a mesh period", axes, kLoad},
-            &a.held_load_there);
+  c.dataset({"/sustained_load_there", "N", "the same sustained for 1/64 of a mesh period", axes, kLoad},
+            &a.sustained_load_there);
   c.dataset({"/dte_rms_there", "m", "RMS of the transmission error at load_frequency; directions up, down",
              axes, kSize},
             &a.dte_rms_there);
 }
 
-void describe_jumps(Codec& c, JumpMapArtifact& a) {
+void describe_jumps(Codec& c, JumpMapResult& a) {
   c.dataset({"/jump_case", "1", "case in which the response jumps, counted from 0", "jump", kNumber},
             &a.jump_case);
   require_indices(c, "/jump_case", a.jump_case.transpose(), c.length("case"));
@@ -89,7 +91,7 @@ void describe_jumps(Codec& c, JumpMapArtifact& a) {
             &a.jump_width);
 }
 
-void describe_curves(Codec& c, JumpMapArtifact& a) {
+void describe_curves(Codec& c, JumpMapResult& a) {
   c.dataset({"/mesh_frequency", "Hz", "mesh frequency, ascending", "mesh_frequency", kSpeed},
             &a.mesh_frequency);
   for (int d = 0; d < 2; ++d) {
@@ -107,7 +109,7 @@ void describe_curves(Codec& c, JumpMapArtifact& a) {
 
 }  // namespace
 
-void describe(Codec& c, JumpMapArtifact& a) {
+void describe(Codec& c, JumpMapResult& a) {
   describe_pair(c, a);
   describe_motion(c, a);
   c.dataset({"/parameters/damping/mean_stiffness", "N m-1",
@@ -123,15 +125,16 @@ void describe(Codec& c, JumpMapArtifact& a) {
   describe_curves(c, a);
 }
 
-void write(const std::string& path, const JumpMapArtifact& a, const Provenance& provenance) {
-  if (!(a.load_frequency > 0) && a.tooth_load.size() + a.held_load_there.size() + a.dte_rms_there.size() > 0)
+void write(const std::string& path, const JumpMapResult& a, const Provenance& provenance) {
+  if (!(a.load_frequency > 0) &&
+      a.tooth_load.size() + a.sustained_load_there.size() + a.dte_rms_there.size() > 0)
     fail(Failure::numerical, "result tooth_load has ", a.tooth_load.rows(), " rows, expected 0");
   write_artifact(path, kJumpMapSchema, "Jumps against damping: " + pair_title(a.mesh, a.torque), a,
                  provenance);
 }
 
-JumpMapArtifact read_jump_map(const std::string& path) {
-  return read_artifact<JumpMapArtifact>(path, kJumpMapSchema);
+JumpMapResult read_jump_map(const std::string& path) {
+  return read_artifact<JumpMapResult>(path, kJumpMapSchema);
 }
 
 }  // namespace whine

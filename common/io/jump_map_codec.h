@@ -3,14 +3,14 @@
 #include <string>
 
 #include "io/provenance.h"
-#include "signal/jump_map_result.h"
+#include "results/jump_map.h"
 
 namespace whine {
 
 class Codec;
 
-void describe(Codec& codec, JumpMapArtifact& a);
-void write(const std::string& path, const JumpMapArtifact& a, const Provenance& provenance);
-JumpMapArtifact read_jump_map(const std::string& path);
+void describe(Codec& codec, JumpMapResult& a);
+void write(const std::string& path, const JumpMapResult& a, const Provenance& provenance);
+JumpMapResult read_jump_map(const std::string& path);
 
 }  // namespace whine

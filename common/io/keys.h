@@ -15,7 +15,7 @@
 namespace whine {
 
 // Everything that keys fill, once each; a scene has several gears and reads them one after the other.
-struct KeyValues {
+struct SceneParameters {
   std::string title;
   std::string like, material_name;             // of a gear
   double total_inertia = 0;                    // kg m2, of a gear
@@ -41,7 +41,7 @@ struct KeyValues {
 };
 
 // Keys that travel together: stage parameters or an artifact hold whole parts.
-enum class Part {
+enum class KeyGroup {
   title,
   reference,  // like, material: names of other sections
   design,
@@ -116,7 +116,7 @@ inline constexpr Unit kNone{"", "1"}, kDegree{"_deg", "rad", std::numbers::pi, 1
 }  // namespace units
 
 struct Key {
-  Part part;
+  KeyGroup part;
   const char* section;  // as in the scene: "gear", "material", "mesh", ...
   const char* name;     // in a scene, with the unit's suffix
   Unit unit;
@@ -126,7 +126,7 @@ struct Key {
   bool open;            // least itself is not allowed
   const char* choices;  // of a word, blank between; "" for numbers
   const char* meaning;  // one line
-  Slot (*slot)(KeyValues&);
+  Slot (*slot)(SceneParameters&);
   const char* reason = "";  // why there is the lower limit, where that is not plain
   bool or_zero = false;     // 0 is allowed below the range
 
@@ -158,27 +158,28 @@ std::string exact_text(const std::vector<double>& values);  // [1.0, 2.0]
 // What a mesh says of a gear beside the drawing: a section for each gear, which stands only where something is said.
 struct GearSection {
   const char* name;  // as in a scene; that of a gear is "driver_modification"
-  Part part;
-  const char* first;                         // dataset that is there if the section is
-  bool (*stands)(const KeyValues& of_gear);  // not for gears as they are drawn, on rigid axes
+  KeyGroup part;
+  const char* first;                               // dataset that is there if the section is
+  bool (*stands)(const SceneParameters& of_gear);  // not for gears as they are drawn, on rigid axes
 
   std::string of(int g) const { return std::string(kRole[g]) + "_" + name; }
 };
 extern const std::array<GearSection, 3> kGearSections;
 
 // Whether keys of a part are those of systems, which pairs do not have.
-inline bool of_systems(Part part) {
-  return part == Part::rigid_gear || part == Part::carrier || part == Part::drive || part == Part::train_mesh;
+inline bool of_systems(KeyGroup part) {
+  return part == KeyGroup::rigid_gear || part == KeyGroup::carrier || part == KeyGroup::drive ||
+         part == KeyGroup::train_mesh;
 }
 
 // Whether keys of a part are those of pairs, which scenes of systems reject; the table of keys says so.
-inline bool of_pairs(Part part) {
-  return part == Part::crack || part == Part::friction || part == Part::load;
+inline bool of_pairs(KeyGroup part) {
+  return part == KeyGroup::crack || part == KeyGroup::friction || part == KeyGroup::load;
 }
 
 // What such sections hold of gear g of a mesh, into the values and back.
-void take_gear(KeyValues& values, const GearMeshSpec& mesh, int g);
-void put_gear(const KeyValues& values, GearMeshSpec& mesh, int g);
+void take_gear(SceneParameters& values, const GearMeshSpec& mesh, int g);
+void put_gear(const SceneParameters& values, GearMeshSpec& mesh, int g);
 
 // Units of the two numbers of a point.
 extern const std::array<Unit, 2> kPointUnits;
@@ -190,7 +191,7 @@ struct Parameter {
 };
 
 // The values of a part, and back. A limit that is infinite is left out and read back as infinite.
-std::vector<Parameter> parameters_of(const KeyValues& values, Part part);
+std::vector<Parameter> parameters_of(const SceneParameters& values, KeyGroup part);
 
 class ParameterSource {
  public:
@@ -203,6 +204,6 @@ class ParameterSource {
   [[noreturn]] virtual void reject(const std::string& name, const std::string& what) const = 0;
 };
 // Values outside of the range of their key are rejected.
-void set_parameters(KeyValues& values, Part part, const ParameterSource& source);
+void set_parameters(SceneParameters& values, KeyGroup part, const ParameterSource& source);
 
 }  // namespace whine

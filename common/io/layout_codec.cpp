@@ -202,9 +202,9 @@ void describe_errors(Codec& c, SystemStaticParameters& s) {
     const std::string section = "error_" + s.layout.bodies[b].name;
     if (!c.optional("/parameters/" + section + "/iso_class", s.has_errors(b))) continue;
     differ = true;
-    KeyValues values;
+    SceneParameters values;
     if (b < s.errors.size()) values.errors = s.errors[b];
-    c.parameters(section, values, Part::error);
+    c.parameters(section, values, KeyGroup::error);
     if (c.in()) s.errors[b] = values.errors;
   }
   if (!differ && !c.lists()) return;
@@ -215,8 +215,7 @@ void describe_errors(Codec& c, SystemStaticParameters& s) {
   c.dataset(
       {"/mesh/first_tooth",
        "1",
-       "where teeth differ: tooth of each side in the reference pair of mesh period 0, counter-clockwise; in "
-       "mesh period k pair p is that of first_tooth + sense (p - k)",
+       "where teeth differ: tooth of each side in the reference pair of mesh period 0, counter-clockwise; in mesh period k pair p is that of first_tooth + sense (p - k)",
        "mesh_number side",
        {-(1 << 20), 1 << 20}},
       &tooth);

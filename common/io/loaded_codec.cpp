@@ -10,7 +10,7 @@ using namespace ranges;
 
 constexpr Schema kLoadedSchema{"loaded", 1};
 
-void describe_strips(Codec& c, LoadedArtifact& a) {
+void describe_strips(Codec& c, LoadedResult& a) {
   const std::string at = "/strip/";
   c.dataset({at + "pair", "1", "number of the tooth pair of each strip", "strip", kPair}, &a.strip_pair);
   c.dataset(
@@ -30,7 +30,7 @@ void describe_strips(Codec& c, LoadedArtifact& a) {
             &a.strip_deflection);
 }
 
-void describe_loaded_certificate(Codec& c, LoadedArtifact& a) {
+void describe_loaded_certificate(Codec& c, LoadedResult& a) {
   const std::string at = "/certificate/";
   c.dataset({at + "hub_torque", "N m", "moment that holds the hub, by the elements about the bore", "gear",
              kMoment},
@@ -46,7 +46,7 @@ void describe_loaded_certificate(Codec& c, LoadedArtifact& a) {
 
 }  // namespace
 
-void describe(Codec& c, LoadedArtifact& a) {
+void describe(Codec& c, LoadedResult& a) {
   describe_pair(c, a, false);
   describe_torque(c, a.torque);
   c.dataset({"/parameters/operation/mesh_phase", "1",
@@ -63,12 +63,11 @@ void describe(Codec& c, LoadedArtifact& a) {
   c.dataset({"/tooth_load", "N", "normal force of each tooth pair", "pair", kForce}, &a.tooth_load);
   c.dataset({"/tooth", "1", "teeth of the pairs, counter-clockwise from tooth 0", "pair gear", kTooth},
             &a.tooth);
-  c.dataset({"/root_stress", "Pa",
-             "largest principal stress at the nodes of the fillet below the loaded flank; static.h5 has the "
-             "tangential "
-             "stress, fitted along the root",
-             "pair gear", kStress},
-            &a.root_stress);
+  c.dataset(
+      {"/root_stress", "Pa",
+       "largest principal stress at the nodes of the fillet below the loaded flank; static.h5 has the tangential stress, fitted along the root",
+       "pair gear", kStress},
+      &a.root_stress);
   describe_strips(c, a);
   describe_loaded_certificate(c, a);
   if (c.out() && a.vtk_point.rows() > 0)
@@ -76,13 +75,13 @@ void describe(Codec& c, LoadedArtifact& a) {
             {a.vtk_point, a.vtk_cell, {}, {}, a.vtk_line, a.vtk_point_data, a.vtk_cell_data, true});
 }
 
-void write(const std::string& path, const LoadedArtifact& a, const Provenance& provenance) {
+void write(const std::string& path, const LoadedResult& a, const Provenance& provenance) {
   write_artifact(path, kLoadedSchema, "Loaded gears: " + pair_title(a.mesh, a.torque), a, provenance);
   link_for_paraview(path);
 }
 
-LoadedArtifact read_loaded(const std::string& path) {
-  return read_artifact<LoadedArtifact>(path, kLoadedSchema);
+LoadedResult read_loaded(const std::string& path) {
+  return read_artifact<LoadedResult>(path, kLoadedSchema);
 }
 
 }  // namespace whine

@@ -3,14 +3,14 @@
 #include <string>
 
 #include "io/provenance.h"
-#include "system/loaded_result.h"
+#include "results/loaded.h"
 
 namespace whine {
 
 class Codec;
 
-void describe(Codec& codec, LoadedArtifact& a);
-void write(const std::string& path, const LoadedArtifact& a, const Provenance& provenance);
-LoadedArtifact read_loaded(const std::string& path);
+void describe(Codec& codec, LoadedResult& a);
+void write(const std::string& path, const LoadedResult& a, const Provenance& provenance);
+LoadedResult read_loaded(const std::string& path);
 
 }  // namespace whine

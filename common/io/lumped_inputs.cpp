@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "gear/body_inertia.h"
-#include "io/fit.h"
+#include "io/compatibility.h"
 #include "io/provenance.h"
 #include "io/scene.h"
 #include "io/static_codec.h"
@@ -23,15 +23,14 @@ LumpedInputs read_lumped_inputs(const std::string& statics, const std::string& r
                                 const std::string& params, bool with_speeds, LumpedOptions& options) {
   LumpedInputs inputs;
   inputs.at_torque = read_static(statics);
-  const StaticArtifact& at_torque = inputs.at_torque;
+  const StaticResult& at_torque = inputs.at_torque;
   require_like_teeth(at_torque.mesh, "a lumped model");
   require_rigid_bearings(at_torque.mesh, "a lumped model");
   require_no_friction(at_torque.mesh, "a lumped model");
   if (at_torque.hunting_periods > 1)
-    fail(Failure::input, statics, " holds ", at_torque.hunting_periods,
-         " mesh periods, because a tooth is cracked: a lumped model takes teeth that are all alike; use a "
-         "scene "
-         "without [gear.<name>.crack]");
+    fail(
+        Failure::input, statics, " holds ", at_torque.hunting_periods,
+        " mesh periods, because a tooth is cracked: a lumped model takes teeth that are all alike; use a scene without [gear.<name>.crack]");
   inputs.at_reference = reference.empty() ? at_torque : read_static(reference);
   if (params.empty()) {
     if (!reference.empty()) require_same_pair(statics, reference);

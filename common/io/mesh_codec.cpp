@@ -11,7 +11,7 @@ using namespace ranges;
 constexpr Schema kMeshSchema{"mesh", 1};
 
 // The two sectors of a mesh share no axes: names of the second one's are its own.
-void describe_sector(Codec& file, const std::string& group, MeshArtifact& a) {
+void describe_sector(Codec& file, const std::string& group, SectorGrid& a) {
   Codec c = file;  // axes of its own
   c.dataset({group + "/node_position", "m", "position of the nodes; gear centre at 0, tooth along +y",
              "node xy", kPlace},
@@ -42,16 +42,16 @@ void describe_sector(Codec& file, const std::string& group, MeshArtifact& a) {
 
 }  // namespace
 
-void describe(Codec& c, MeshArtifact& a) {
+void describe(Codec& c, SectorGrid& a) {
   describe_design(c, "gear", a.design);
-  KeyValues values;
+  SceneParameters values;
   values.body = a.discretisation;
-  c.parameters("discretisation", values, Part::body);
+  c.parameters("discretisation", values, KeyGroup::body);
   if (c.in()) a.discretisation = values.body;
   describe_sector(c, "/sector", a);
   if (c.optional("/cracked_tooth/slit_node", !a.cracked_tooth.empty())) {
     if (a.cracked_tooth.empty()) a.cracked_tooth.emplace_back();
-    MeshArtifact& cracked = a.cracked_tooth.front();
+    SectorGrid& cracked = a.cracked_tooth.front();
     describe_sector(c, "/cracked_tooth", cracked);
     c.dataset({"/cracked_tooth/slit_node", "1",
                "the same point on the two faces of the slit, mouth to tip; the tip itself is one node",
@@ -66,14 +66,14 @@ void describe(Codec& c, MeshArtifact& a) {
   if (c.out()) put_vtk(c.out()->file(), whole_gear(a));
 }
 
-void write(const std::string& path, const MeshArtifact& a, const Provenance& provenance) {
+void write(const std::string& path, const SectorGrid& a, const Provenance& provenance) {
   write_artifact(path, kMeshSchema, "Finite-element mesh of one tooth sector: " + gear_title(a.design), a,
                  provenance);
   link_for_paraview(path);
 }
 
-MeshArtifact read_mesh(const std::string& path) {
-  return read_artifact<MeshArtifact>(path, kMeshSchema);
+SectorGrid read_mesh(const std::string& path) {
+  return read_artifact<SectorGrid>(path, kMeshSchema);
 }
 
 }  // namespace whine

@@ -3,14 +3,14 @@
 #include <string>
 
 #include "io/provenance.h"
-#include "solid/sector_mesh.h"
+#include "results/sector_grid.h"
 
 namespace whine {
 
 class Codec;
 
-void describe(Codec& codec, MeshArtifact& a);
-void write(const std::string& path, const MeshArtifact& a, const Provenance& provenance);
-MeshArtifact read_mesh(const std::string& path);
+void describe(Codec& codec, SectorGrid& a);
+void write(const std::string& path, const SectorGrid& a, const Provenance& provenance);
+SectorGrid read_mesh(const std::string& path);
 
 }  // namespace whine

@@ -14,7 +14,7 @@ constexpr Schema kModesSchema{"modes", 1};
 
 }  // namespace
 
-void describe(Codec& c, ModesArtifact& a) {
+void describe(Codec& c, ModesResult& a) {
   describe_layout(c, a.layout);
   const Range shape{-kAny, kAny};
   c.dataset({"/natural_frequency", "Hz", "natural frequency, 0 of a free motion", "mode", kFrequency},
@@ -23,8 +23,7 @@ void describe(Codec& c, ModesArtifact& a) {
             &a.rigid_frequency);
   c.choices(
       {"/mode_type", "1",
-       "for each mode: rotational, translational, planet, mixed (no such structure) or train (no planets, or "
-       "those of several carriers)",
+       "for each mode: rotational, translational, planet, mixed (no such structure) or train (no planets, or those of several carriers)",
        ""},
       a.type);
   c.dataset({"/planet_harmonic",
@@ -54,12 +53,11 @@ void describe(Codec& c, ModesArtifact& a) {
   if (elastic) {
     c.dataset({"/mesh_phase", "1", "of elastic gears: phase of the first mesh", "mesh_phase", kPhase},
               &a.mesh_phase);
-    c.dataset({"/frozen_frequency", "Hz",
-               "natural frequencies with the contact of each phase, ascending; those of /natural_frequency "
-               "have the mean "
-               "stiffness",
-               "mesh_phase mode", kFrequency},
-              &a.frozen_frequency);
+    c.dataset(
+        {"/frozen_frequency", "Hz",
+         "natural frequencies with the contact of each phase, ascending; those of /natural_frequency have the mean stiffness",
+         "mesh_phase mode", kFrequency},
+        &a.frozen_frequency);
   }
   if (c.out() && a.view.point.rows() > 0)
     put_vtk(c.out()->file(),
@@ -69,7 +67,7 @@ void describe(Codec& c, ModesArtifact& a) {
     c.in()->file().reject("dataset /mode_type has not one word for each mode");
 }
 
-void write(const std::string& path, const ModesArtifact& a, const Provenance& provenance) {
+void write(const std::string& path, const ModesResult& a, const Provenance& provenance) {
   write_artifact(
       path, kModesSchema,
       text("Natural modes: ", a.layout.bodies.size(), " bodies, ", a.layout.meshes.size(), " meshes"), a,
@@ -77,8 +75,8 @@ void write(const std::string& path, const ModesArtifact& a, const Provenance& pr
   if (a.view.point.rows() > 0) link_for_paraview(path);
 }
 
-ModesArtifact read_modes(const std::string& path) {
-  return read_artifact<ModesArtifact>(path, kModesSchema);
+ModesResult read_modes(const std::string& path) {
+  return read_artifact<ModesResult>(path, kModesSchema);
 }
 
 }  // namespace whine

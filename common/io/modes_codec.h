@@ -3,14 +3,14 @@
 #include <string>
 
 #include "io/provenance.h"
-#include "system/modes_result.h"
+#include "results/modes.h"
 
 namespace whine {
 
 class Codec;
 
-void describe(Codec& codec, ModesArtifact& a);
-void write(const std::string& path, const ModesArtifact& a, const Provenance& provenance);
-ModesArtifact read_modes(const std::string& path);
+void describe(Codec& codec, ModesResult& a);
+void write(const std::string& path, const ModesResult& a, const Provenance& provenance);
+ModesResult read_modes(const std::string& path);
 
 }  // namespace whine

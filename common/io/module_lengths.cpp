@@ -11,7 +11,7 @@ double length_of_module(const Key& key, double module) {
   return word.starts_with(start) ? module / std::strtod(word.c_str() + start.size(), nullptr) : 0;
 }
 
-void take_module(KeyValues& values, const std::set<Part>& parts, double module) {
+void take_module(SceneParameters& values, const std::set<KeyGroup>& parts, double module) {
   for (const Key& key : scene_keys()) {
     const double length = length_of_module(key, module);
     if (!parts.contains(key.part) || !(length > 0)) continue;

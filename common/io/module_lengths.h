@@ -13,6 +13,6 @@ namespace whine {
 double length_of_module(const Key& key, double module);
 
 // Gives those lengths of some parts that the scene leaves open their defaults.
-void take_module(KeyValues& values, const std::set<Part>& parts, double module);
+void take_module(SceneParameters& values, const std::set<KeyGroup>& parts, double module);
 
 }  // namespace whine

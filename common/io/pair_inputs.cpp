@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "gear/body_inertia.h"
 #include "io/body_codec.h"
-#include "io/fit.h"
+#include "io/compatibility.h"
 #include "io/provenance.h"
 #include "io/static_codec.h"
 

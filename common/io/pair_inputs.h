@@ -4,12 +4,12 @@
 #include <string>
 
 #include "io/named_files.h"
-#include "signal/static_result.h"
-#include "solid/reduced_body.h"
+#include "results/reduced_body.h"
+#include "results/static.h"
 
 namespace whine {
 
-using PairBodies = std::array<BodyArtifact, kSides>;  // driver, driven
+using PairBodies = std::array<ReducedBody, kSides>;  // driver, driven
 
 // Bodies of the gears of stage parameters. Throws Error(input), with the make target, for a body of other ones; errors of
 // NamedFiles::of.
@@ -18,7 +18,7 @@ PairBodies read_bodies(const NamedFiles& files, const StaticParameters& settings
 // Of a pair in motion.
 struct PairInputs {
   PairBodies body;
-  StaticArtifact at_torque,
+  StaticResult at_torque,
       at_reference;  // the second is of the torque whose mean stiffness sets the bearing dampers
 };
 

@@ -137,9 +137,9 @@ ReadingPlan read_reading_plan(const std::string& path) {
     if (const auto* flag = item.as_boolean()) return corner_of(flag->get() ? std::numbers::pi : 0);
     const double degrees = item.is_number() ? item.value<double>().value_or(NAN) : NAN;
     if (!(degrees > 0 && degrees <= 90))
-      file.reject(item.source().begin.line,
-                  "'corner_contact' holds something else than true, false or an "
-                  "angle above 0 and up to 90 degrees");
+      file.reject(
+          item.source().begin.line,
+          "'corner_contact' holds something else than true, false or an angle above 0 and up to 90 degrees");
     return corner_of(degrees * kOneDegree);
   });
   plan.inertia_from = file.words(draws, "inertia_from", {"one", "two", "mean", "table", "mass"});

@@ -67,13 +67,12 @@ struct WordOf {
 constexpr WordOf kWords[] = {
     {"plane", "plane state of the bodies: stress or strain", &OpenChoices::plane},
     {"inertia_from",
-     "what the inertia is fitted to: Table 1 at 100 N m (one, two, mean), all of it (table), or 1.4 kg "
-     "(mass)",
+     "what the inertia is fitted to: Table 1 at 100 N m (one, two, mean), all of it (table), or 1.4 kg (mass)",
      &OpenChoices::inertia_from},
     {"damped_state", "contact state with a damping ratio of 7 %", &OpenChoices::damped_state}};
 
 // (reading, claim): what each reading says of each claim.
-void describe_claims(Codec& c, ReadingsArtifact& a) {
+void describe_claims(Codec& c, ReadingsResult& a) {
   const auto count = static_cast<Eigen::Index>(a.readings.size()),
              claims = static_cast<Eigen::Index>(a.claim.size());
   MatrixRM value;
@@ -112,7 +111,7 @@ void describe_claims(Codec& c, ReadingsArtifact& a) {
 
 }  // namespace
 
-void describe(Codec& c, ReadingsArtifact& a) {
+void describe(Codec& c, ReadingsResult& a) {
   const std::string at = "/parameters/readings/";
   c.dataset({at + "title", "1", "what the search is", ""}, &a.title);
   c.choice({at + "contact", "1", "model level of contact in the sweeps", ""}, a.contact);
@@ -135,12 +134,12 @@ void describe(Codec& c, ReadingsArtifact& a) {
   }
 }
 
-void write(const std::string& path, const ReadingsArtifact& a, const Provenance& provenance) {
+void write(const std::string& path, const ReadingsResult& a, const Provenance& provenance) {
   write_artifact(path, kReadingsSchema, "Readings of P2000: " + a.title, a, provenance);
 }
 
-ReadingsArtifact read_readings(const std::string& path) {
-  return read_artifact<ReadingsArtifact>(path, kReadingsSchema);
+ReadingsResult read_readings(const std::string& path) {
+  return read_artifact<ReadingsResult>(path, kReadingsSchema);
 }
 
 }  // namespace whine

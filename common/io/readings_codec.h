@@ -25,7 +25,7 @@ struct Reading {
 };
 
 // readings.h5
-struct ReadingsArtifact {
+struct ReadingsResult {
   std::string title;
   ContactModel contact = ContactModel::line;  // of the sweeps
   std::vector<std::string> claim;             // names
@@ -33,8 +33,8 @@ struct ReadingsArtifact {
   int outside = 0;  // readings that the model of the pair cannot compute
 };
 
-void describe(Codec& codec, ReadingsArtifact& a);
-void write(const std::string& path, const ReadingsArtifact& a, const Provenance& provenance);
-ReadingsArtifact read_readings(const std::string& path);
+void describe(Codec& codec, ReadingsResult& a);
+void write(const std::string& path, const ReadingsResult& a, const Provenance& provenance);
+ReadingsResult read_readings(const std::string& path);
 
 }  // namespace whine

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "base/tool.h"
-#include "io/fit.h"
+#include "io/compatibility.h"
 
 namespace whine {
 
@@ -15,9 +15,7 @@ std::string rebuild_advice(const std::string& path) {
     return "it lies outside the working folder: make it again where it was made";
   }
   if (target.rfind("out/", 0) != 0)
-    return "make has targets below out/ only, such as out/<scene>/T150/static.h5: give one of these, or make "
-           "it again "
-           "as it was made";
+    return "make has targets below out/ only, such as out/<scene>/T150/static.h5: give one of these, or make it again as it was made";
   // make takes what stands there for made, whatever it is.
   std::error_code code;
   const auto found = std::filesystem::symlink_status(path, code);

@@ -8,9 +8,9 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kResponseSchema{"response", 7};
+constexpr Schema kResponseSchema{"response", 8};
 
-void describe_bearings(Codec& c, ResponseArtifact& a, int g) {
+void describe_bearings(Codec& c, ResponseResult& a, int g) {
   if (!c.optional(of_body(c, a.mesh, g, "bearing_force_max"), a.bearing_force_max[g].size() > 0)) return;
   c.dataset({of_body(c, a.mesh, g, "bearing_force_max"), "N", "largest force of the gear on its bearing",
              "mesh_frequency", kForce},
@@ -22,46 +22,41 @@ void describe_bearings(Codec& c, ResponseArtifact& a, int g) {
 }
 
 // Flank pressure and what tip edges carry.
-void describe_pressure(Codec& c, ResponseArtifact& a) {
+void describe_pressure(Codec& c, ResponseResult& a) {
   if (!c.optional("/flank_pressure", a.flank_pressure.size() > 0)) return;
-  c.dataset({"/pair_phase", "1",
-             "places of the flanks by the phase of the pair that touches there, in mesh periods from the "
-             "pitch point",
-             "pair_phase", kSigned},
-            &a.pair_phase);
+  c.dataset(
+      {"/pair_phase", "1",
+       "places of the flanks by the phase of the pair that touches there, in mesh periods from the pitch point",
+       "pair_phase", kSigned},
+      &a.pair_phase);
   c.dataset({"/flank_roll", "rad", "roll angles of both gears there", "pair_phase gear", kRoll},
             &a.flank_roll);
-  c.dataset({"/flank_pressure", "Pa",
-             "largest pressure over the mesh periods at a place of the flanks, by Hertz's law of the load "
-             "that a pair holds "
-             "there inside its flanks; 0: it holds none, or over a tip edge, where pressure is singular: see "
-             "edge_load_there",
-             "mesh_frequency pair_phase", kPressure, "sqrt(F E* / (pi b R))"},
-            &a.flank_pressure);
-  c.dataset({"/edge_load_there", "N",
-             "largest load over the mesh periods that a pair holds at a place of the flanks over a tip edge; "
-             "0: it holds "
-             "none, or inside its flanks: see flank_pressure",
-             "mesh_frequency pair_phase", kLoad},
-            &a.edge_load_there);
-  c.dataset({"/flank_pressure_held", "Pa",
-             "largest pressure that a pair holds inside its flanks for 1/64 of a mesh period; 0: no pair "
-             "holds load "
-             "there",
-             "mesh_frequency", kPressure},
-            &a.flank_pressure_held);
+  c.dataset(
+      {"/flank_pressure", "Pa",
+       "largest pressure over the mesh periods at a place of the flanks, by Hertz's law of the load that a pair holds there inside its flanks; 0: it holds none, or over a tip edge, where pressure is singular: see edge_load_there",
+       "mesh_frequency pair_phase", kPressure, "sqrt(F E* / (pi b R))"},
+      &a.flank_pressure);
+  c.dataset(
+      {"/edge_load_there", "N",
+       "largest load over the mesh periods that a pair holds at a place of the flanks over a tip edge; 0: it holds none, or inside its flanks: see flank_pressure",
+       "mesh_frequency pair_phase", kLoad},
+      &a.edge_load_there);
+  c.dataset(
+      {"/flank_pressure_sustained", "Pa",
+       "largest pressure that a pair sustains inside its flanks for 1/64 of a mesh period; 0: no pair holds load there",
+       "mesh_frequency", kPressure},
+      &a.flank_pressure_sustained);
   for (int g = 0; g < (c.lists() ? 1 : kSides); ++g)
     c.dataset(
         {of_body(c, a.mesh, g, "edge_load"), "N",
-         "largest load that a pair holds over the tip edge of the gear for 1/64 of a mesh period; 0: no pair "
-         "does",
+         "largest load that a pair sustains over the tip edge of the gear for 1/64 of a mesh period; 0: no pair does",
          "mesh_frequency", kLoad},
         &a.edge_load[static_cast<size_t>(g)]);
 }
 
 }  // namespace
 
-void describe(Codec& c, ResponseArtifact& a) {
+void describe(Codec& c, ResponseResult& a) {
   const char* const axis = "mesh_frequency";
   describe_pair(c, a);
   describe_motion(c, a);
@@ -97,23 +92,23 @@ void describe(Codec& c, ResponseArtifact& a) {
     if (c.optional(of_body(c, a.mesh, g, "root_stress_max"), a.root_stress_max[g].size() > 0)) {
       c.dataset(
           {of_body(c, a.mesh, g, "root_stress_max"), "Pa",
-           "largest tangential stress along the roots beside the loaded flanks, quasi-static in the tooth "
-           "loads: the inertia of the body adds none",
+           "largest tangential stress along the roots beside the loaded flanks, quasi-static in the tooth loads: the inertia of the body adds none",
            axis, kStress},
           &a.root_stress_max[g]);
       c.dataset(
-          {of_body(c, a.mesh, g, "root_stress_held"), "Pa",
-           "the same, held for 1/64 of a mesh period: without spikes whose height depends on the time step",
+          {of_body(c, a.mesh, g, "root_stress_sustained"), "Pa",
+           "the same, sustained for 1/64 of a mesh period: without spikes whose height depends on the time step",
            axis, kStress},
-          &a.root_stress_held[g]);
+          &a.root_stress_sustained[g]);
       describe_root_place(c, a.mesh, g, axis, a.root_stress_angle, a.root_stress_phase);
     }
   }
-  if (c.optional("/tooth_load_held", a.tooth_load_held.size() > 0)) {
-    c.dataset({"/tooth_load_held", "N", "largest normal force that one pair holds for 1/64 of a mesh period",
-               axis, kLoad},
-              &a.tooth_load_held);
-    c.dataset({"/mesh_force_held", "N", "the same of all pairs together", axis, kLoad}, &a.mesh_force_held);
+  if (c.optional("/tooth_load_sustained", a.tooth_load_sustained.size() > 0)) {
+    c.dataset({"/tooth_load_sustained", "N",
+               "largest normal force that one pair sustains for 1/64 of a mesh period", axis, kLoad},
+              &a.tooth_load_sustained);
+    c.dataset({"/mesh_force_sustained", "N", "the same of all pairs together", axis, kLoad},
+              &a.mesh_force_sustained);
   }
   if (c.optional("/loss_factor", a.loss_factor.size() > 0))
     c.dataset({"/loss_factor", "1",
@@ -137,13 +132,13 @@ void describe(Codec& c, ResponseArtifact& a) {
       &a.period_multiple);
 }
 
-void write(const std::string& path, const ResponseArtifact& a, const Provenance& provenance) {
+void write(const std::string& path, const ResponseResult& a, const Provenance& provenance) {
   write_artifact(path, kResponseSchema,
                  text("Response, sweep ", a.direction, ": ", pair_title(a.mesh, a.torque)), a, provenance);
 }
 
-ResponseArtifact read_response(const std::string& path) {
-  return read_artifact<ResponseArtifact>(path, kResponseSchema);
+ResponseResult read_response(const std::string& path) {
+  return read_artifact<ResponseResult>(path, kResponseSchema);
 }
 
 }  // namespace whine

@@ -3,14 +3,14 @@
 #include <string>
 
 #include "io/provenance.h"
-#include "signal/response_result.h"
+#include "results/response.h"
 
 namespace whine {
 
 class Codec;
 
-void describe(Codec& codec, ResponseArtifact& a);
-void write(const std::string& path, const ResponseArtifact& a, const Provenance& provenance);
-ResponseArtifact read_response(const std::string& path);
+void describe(Codec& codec, ResponseResult& a);
+void write(const std::string& path, const ResponseResult& a, const Provenance& provenance);
+ResponseResult read_response(const std::string& path);
 
 }  // namespace whine

@@ -9,9 +9,9 @@ namespace {
 using namespace ranges;
 using Eigen::Index;
 
-constexpr Schema kRunupSchema{"runup", 2};
+constexpr Schema kRunupSchema{"runup", 3};
 
-void describe_head(Codec& c, RunupArtifact& a) {
+void describe_head(Codec& c, RunupResult& a) {
   describe_pair(c, a);
   describe_motion(c, a);
   describe_bearing_dampers(c, a.mean_stiffness, a.bearing_damper);
@@ -38,11 +38,11 @@ void describe_samples(Codec& c, const GearMeshSpec& mesh, RunupSamples& a) {
   c.dataset({"/transmission_error", "m", "dynamic transmission error, up to 5/12 of the sample rate", "time",
              kLength, "r1 theta1 + r2 theta2"},
             &a.transmission_error);
-  c.dataset({"/mesh_force", "N",
-             "normal force of all tooth pairs together, up to 5/12 of the sample rate: its low-pass "
-             "filter may swing below 0",
-             "time", kForce},
-            &a.mesh_force);
+  c.dataset(
+      {"/mesh_force", "N",
+       "normal force of all tooth pairs together, up to 5/12 of the sample rate: its low-pass filter may swing below 0",
+       "time", kForce},
+      &a.mesh_force);
   c.dataset(
       {"/tooth_load", "N", "normal force of each tooth pair, filtered in the same way", "time pair", kForce},
       &a.tooth_load);
@@ -50,8 +50,7 @@ void describe_samples(Codec& c, const GearMeshSpec& mesh, RunupSamples& a) {
     if (const auto side = static_cast<size_t>(g); c.lists() || mesh.bearing[side].elastic())
       c.dataset(
           {of_body(c, mesh, g, "bearing_force"), "N",
-           "force of the gear on its bearing; x, y: the driven gear stands above the driver, which turns "
-           "counter-clockwise",
+           "force of the gear on its bearing; x, y: the driven gear stands above the driver, which turns counter-clockwise",
            "time xy", kForce},
           &a.bearing_force[side]);
 }
@@ -65,23 +64,22 @@ void describe_periods(Codec& c, const GearMeshSpec& mesh, RunupPeriods& a, bool&
       {at + "dte_rms", "m", "RMS of the oscillating transmission error in the mesh period", axis, kSize},
       &a.dte_rms);
   c.dataset({at + "dte_mean", "m", "its mean", axis, kLength}, &a.dte_mean);
-  c.dataset({at + "tooth_load_max", "N", "largest load that a tooth pair holds for 1/64 of the mesh period",
-             axis, kForce},
+  c.dataset({at + "tooth_load_max", "N",
+             "largest load that a tooth pair sustains for 1/64 of the mesh period", axis, kForce},
             &a.tooth_load_max);
   c.dataset({at + "separation_fraction", "1", "share of the time steps without contact", axis, kShare},
             &a.separation_fraction);
-  const auto name = [&](int g) { return at + of_body(c, mesh, g, "root_stress_held").substr(1); };
+  const auto name = [&](int g) { return at + of_body(c, mesh, g, "root_stress_sustained").substr(1); };
   root_stress = c.optional(name(0), root_stress);
   for (int g = 0; root_stress && g < (c.lists() ? 1 : kSides); ++g)
     c.dataset(
         {name(g), "Pa",
-         "largest tangential stress along the roots beside the loaded flanks that is held for 1/64 of the "
-         "mesh period, quasi-static in the tooth loads",
+         "largest tangential stress along the roots beside the loaded flanks that is sustained for 1/64 of the mesh period, quasi-static in the tooth loads",
          axis, kStress},
-        &a.root_stress_held[static_cast<size_t>(g)]);
+        &a.root_stress_sustained[static_cast<size_t>(g)]);
 }
 
-void describe_tail(Codec& c, RunupArtifact& a) {
+void describe_tail(Codec& c, RunupResult& a) {
   describe_certificate(c, a.least_gap, a.least_force, a.fallbacks);
   c.dataset({"/drift_force", "N", "largest force that the output must supply to hold the speed", "", kForce},
             &a.drift_force);
@@ -90,7 +88,7 @@ void describe_tail(Codec& c, RunupArtifact& a) {
 
 }  // namespace
 
-void describe(Codec& c, RunupArtifact& a) {
+void describe(Codec& c, RunupResult& a) {
   describe_head(c, a);
   describe_samples(c, a.mesh, a.samples);
   describe_periods(c, a.mesh, a.periods, a.root_stress);
@@ -117,7 +115,7 @@ RunupFile::RunupFile(std::string path, Provenance provenance)
 
 RunupFile::~RunupFile() = default;
 
-void RunupFile::begin(const RunupArtifact& head, Index samples, Index periods) {
+void RunupFile::begin(const RunupResult& head, Index samples, Index periods) {
   open_ = std::make_unique<Open>(
       path_,
       text("Run-", head.direction, " at ", head.ramp.rate, " rpm/s: ", pair_title(head.mesh, head.torque)),
@@ -126,7 +124,7 @@ void RunupFile::begin(const RunupArtifact& head, Index samples, Index periods) {
   file.mesh = head.mesh;
   file.samples = samples;
   file.periods = periods;
-  RunupArtifact a = head;
+  RunupResult a = head;
   describe_head(file.codec, a);
   a.samples.tooth_load.resize(0, head.pair.size());
   for (MatrixRM& force : a.samples.bearing_force) force.resize(0, 2);
@@ -149,18 +147,18 @@ void RunupFile::take(const RunupPeriods& periods) {
   open_->periods_here += periods.size();
 }
 
-void RunupFile::end(const RunupArtifact& tail) {
+void RunupFile::end(const RunupResult& tail) {
   if (open_->samples_here != open_->samples || open_->periods_here != open_->periods)
     fail(Failure::numerical, "the run-up ended after ", open_->samples_here, " of ", open_->samples,
          " samples and ", open_->periods_here, " of ", open_->periods, " mesh periods");
   open_->codec.record(Codec::Record::none);
-  describe_tail(open_->codec, const_cast<RunupArtifact&>(tail));
+  describe_tail(open_->codec, const_cast<RunupResult&>(tail));
   open_->out.publish();
   open_.reset();
 }
 
-RunupArtifact read_runup(const std::string& path) {
-  return read_artifact<RunupArtifact>(path, kRunupSchema);
+RunupResult read_runup(const std::string& path) {
+  return read_artifact<RunupResult>(path, kRunupSchema);
 }
 
 }  // namespace whine

@@ -10,17 +10,17 @@ namespace whine {
 
 class Codec;
 
-void describe(Codec& codec, RunupArtifact& a);
+void describe(Codec& codec, RunupResult& a);
 
 // Writes blocks of samples into a file beside `path` that is published with the last of them; removed if they do not come.
 class RunupFile : public RunupSink {
  public:
   RunupFile(std::string path, Provenance provenance);
   ~RunupFile() override;
-  void begin(const RunupArtifact& head, Eigen::Index samples, Eigen::Index periods) override;
+  void begin(const RunupResult& head, Eigen::Index samples, Eigen::Index periods) override;
   void take(const RunupSamples& samples) override;
   void take(const RunupPeriods& periods) override;
-  void end(const RunupArtifact& tail) override;
+  void end(const RunupResult& tail) override;
 
  private:
   struct Open;
@@ -29,6 +29,6 @@ class RunupFile : public RunupSink {
   std::unique_ptr<Open> open_;
 };
 
-RunupArtifact read_runup(const std::string& path);
+RunupResult read_runup(const std::string& path);
 
 }  // namespace whine

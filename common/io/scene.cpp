@@ -68,7 +68,7 @@ namespace {
 
 // Fills what stands in [gear.<name>.modification], if that is there.
 void read_modification(const Source& source, const toml::table& gear, const std::string& label,
-                       KeyValues& values) {
+                       SceneParameters& values) {
   const toml::node* node = gear.get("modification");
   if (!node) return;
   const toml::table* table = node->as_table();
@@ -92,7 +92,7 @@ void read_modification(const Source& source, const toml::table& gear, const std:
   for (const auto& [end, relief] :
        {std::pair{"tip", &values.modification.tip}, std::pair{"root", &values.modification.root}})
     if (starts(end)) relief->start_roll = relief->start_radius = relief->length = 0;
-  reader.read(values, {Part::modification}, true);
+  reader.read(values, {KeyGroup::modification}, true);
   for (const auto& [end, relief] :
        {std::pair{"tip", values.modification.tip}, std::pair{"root", values.modification.root}})
     if (relief.amount > 0 && !(relief.start_roll > 0 || relief.start_radius > 0 || relief.length > 0))
@@ -103,7 +103,8 @@ void read_modification(const Source& source, const toml::table& gear, const std:
 
 // Fills what stands in [gear.<name>.error] and in the file that it names, if it is there. Errors are a gear's own: `like` does
 // not take them over.
-void read_errors(const Source& source, const toml::table& gear, const std::string& label, KeyValues& values) {
+void read_errors(const Source& source, const toml::table& gear, const std::string& label,
+                 SceneParameters& values) {
   values.errors = {};
   const toml::node* node = gear.get("error");
   if (!node) return;
@@ -112,7 +113,7 @@ void read_errors(const Source& source, const toml::table& gear, const std::strin
     source.reject(*node, text("'error' in [", label, "] must be a section: write [", label, ".error]"));
   const SectionReader reader(source, Dialect::scene, *table, "error", label + ".error");
   reader.reject_unknown();
-  reader.read(values, {Part::error_file}, false);
+  reader.read(values, {KeyGroup::error_file}, false);
   if (!values.error_file.empty()) {
     const std::filesystem::path name = std::filesystem::path(source.path()).parent_path() / values.error_file;
     if (name.extension() != ".toml" && name.extension() != ".csv")
@@ -124,9 +125,9 @@ void read_errors(const Source& source, const toml::table& gear, const std::strin
       measured.reject(*another, "a file of measured errors cannot name another");
     const SectionReader lists(measured, Dialect::scene, measured.root(), "error", "");
     lists.reject_unknown();
-    lists.read(values, {Part::error}, false);
+    lists.read(values, {KeyGroup::error}, false);
   }
-  reader.read(values, {Part::error}, !values.error_file.empty());
+  reader.read(values, {KeyGroup::error}, !values.error_file.empty());
   for (const auto& [key, list] : {std::pair{"single_pitch_um", &values.errors.single_pitch},
                                   std::pair{"cumulative_pitch_um", &values.errors.cumulative_pitch},
                                   std::pair{"profile_slope_um", &values.errors.profile_slope},
@@ -149,8 +150,8 @@ void read_crack(const Source& source, const toml::table& gear, const std::string
     source.reject(*node, text("'crack' in [", label, "] must be a section: write [", label, ".crack]"));
   const SectionReader reader(source, Dialect::scene, *table, "crack", label + ".crack");
   reader.reject_unknown();
-  KeyValues values;
-  reader.read(values, {Part::crack}, false);
+  SceneParameters values;
+  reader.read(values, {KeyGroup::crack}, false);
   if (values.design.crack.tooth >= design.teeth)
     source.reject(*table->get("tooth"), text("'tooth' in [", label, ".crack] = ", values.design.crack.tooth,
                                              ": the gear has the teeth 0 to ", design.teeth - 1));
@@ -158,10 +159,10 @@ void read_crack(const Source& source, const toml::table& gear, const std::string
 }
 
 // internal: of the gear whose keys these are; it has a rim and no bore.
-std::set<Part> gear_parts(bool internal) {
-  std::set<Part> parts{Part::reference,   Part::design,   Part::rim,
-                       Part::rim_support, Part::diameter, Part::inertia};
-  if (!internal) parts.insert(Part::bore);
+std::set<KeyGroup> gear_parts(bool internal) {
+  std::set<KeyGroup> parts{KeyGroup::reference,   KeyGroup::design,   KeyGroup::rim,
+                           KeyGroup::rim_support, KeyGroup::diameter, KeyGroup::inertia};
+  if (!internal) parts.insert(KeyGroup::bore);
   return parts;
 }
 
@@ -184,9 +185,9 @@ void require_rim_support(const Source& source, const toml::table& table, const s
     if (node && rigid)
       source.reject(
           *node,
-          text("[", label, "] gives '", key,
-               "', but the gears of this scene are rigid, rims included; take the line out, or the line "
-               "body = \"rigid\" in [fidelity]"));
+          text(
+              "[", label, "] gives '", key,
+              "', but the gears of this scene are rigid, rims included; take the line out, or the line body = \"rigid\" in [fidelity]"));
   }
   if (!d.internal) d.rim_radial_stiffness = d.rim_tangential_stiffness = 0;
   // Softer ones make the rim's motion as a whole so large that what teeth do to each other drowns in the error of its table.
@@ -199,8 +200,7 @@ void require_rim_support(const Source& source, const toml::table& table, const s
           node ? *node : static_cast<const toml::node&>(table),
           text(
               "'", kKeys[i], "' in [", label, "] = ", given[i] * 1e-6, " is below ", kLeast * 1e-6,
-              ", the softest support that is computed: the rim would move as a whole by micrometres for some "
-              "newtons; of a ring that floats give a [[bearing]]"));
+              ", the softest support that is computed: the rim would move as a whole by micrometres for some newtons; of a ring that floats give a [[bearing]]"));
     }
   if ((d.rim_radial_stiffness > 0) == (d.rim_tangential_stiffness > 0)) return;
   const int lacks = d.rim_radial_stiffness > 0 ? 1 : 0;
@@ -208,29 +208,32 @@ void require_rim_support(const Source& source, const toml::table& table, const s
       table,
       text(
           "[", label, "] gives '", kKeys[1 - lacks], "' and '", kKeys[lacks],
-          "' is 0: a support that is elastic one way and rigid the other is not computed; give both above 0, "
-          "or neither for a rigid housing"));
+          "' is 0: a support that is elastic one way and rigid the other is not computed; give both above 0, or neither for a rigid housing"));
 }
 
 // What holds a gear: an internal one its rim, an external one its bore; neither takes over the other's.
 void require_blank(const Source& source, const toml::table& table, const std::string& label, GearDesign& d) {
   if (d.internal) {
     if (const toml::node* bore = table.get("bore_radius_mm"))
-      source.reject(*bore, text("[", label,
-                                "] is internal and gives 'bore_radius_mm'; its ring is held outside: give "
-                                "'rim_outer_radius_mm' in its place"));
+      source.reject(
+          *bore,
+          text(
+              "[", label,
+              "] is internal and gives 'bore_radius_mm'; its ring is held outside: give 'rim_outer_radius_mm' in its place"));
     d.bore_radius = 0;
     if (d.rim_outer_radius == 0)
-      source.reject(table,
-                    text("[", label,
-                         "] lacks 'rim_outer_radius_mm' (no default), the radius outside which the ring "
-                         "is as good as rigid"));
+      source.reject(
+          table,
+          text(
+              "[", label,
+              "] lacks 'rim_outer_radius_mm' (no default), the radius outside which the ring is as good as rigid"));
   } else {
     if (const toml::node* rim = table.get("rim_outer_radius_mm"))
-      source.reject(*rim,
-                    text("[", label,
-                         "] gives 'rim_outer_radius_mm', which only an internal gear has; write internal = "
-                         "true, or take the line out"));
+      source.reject(
+          *rim,
+          text(
+              "[", label,
+              "] gives 'rim_outer_radius_mm', which only an internal gear has; write internal = true, or take the line out"));
     d.rim_outer_radius = 0;
     if (d.bore_radius == 0) source.reject(table, text("[", label, "] lacks 'bore_radius_mm' (no default)"));
   }
@@ -246,7 +249,7 @@ void fill_blank(GearDesign& d) {
 // Turns the diameters of tip and root into addendum and dedendum. `like`: the gear whose keys `values` began with, nullptr:
 // none.
 void take_diameters(const Source& source, const toml::table& table, const std::string& label,
-                    const GearDesign* like, KeyValues& values) {
+                    const GearDesign* like, SceneParameters& values) {
   GearDesign& d = values.design;
   // Of one end, in modules beyond the reference circle; the tip +1, the root -1.
   const auto take = [&](const char* diameter_key, const char* height_key, double& diameter, double& height,
@@ -317,10 +320,10 @@ void read_gears(const Source& source, Scene& scene, bool rigid) {
   const auto materials = named_sections(source, "material");
   std::map<std::string, Material> material;
   for (const auto& [name, table] : materials) {
-    KeyValues values;
+    SceneParameters values;
     const SectionReader reader(source, Dialect::scene, *table, "material", "material." + name);
     reader.reject_unknown();
-    reader.read(values, {Part::material}, false);
+    reader.read(values, {KeyGroup::material}, false);
     material[name] = values.material;
   }
 
@@ -339,7 +342,7 @@ void read_gears(const Source& source, Scene& scene, bool rigid) {
     std::vector<std::string> others{"crack", "modification", "error"};
     if (rigid) others.push_back("equivalent_mass_kg");
     reader.reject_unknown(others);
-    KeyValues values;
+    SceneParameters values;
     GearDesign base_design;
     const toml::node* like = table->get("like");
     const toml::table* model = nullptr;
@@ -398,10 +401,10 @@ void read_bearings(const Source& source, Scene& scene) {
   for (const SceneGear& gear : scene.gears) names.push_back(gear.name);
   for (const toml::node& item : *list) {
     const toml::table& table = *item.as_table();
-    KeyValues values;
+    SceneParameters values;
     const SectionReader reader(source, Dialect::scene, table, "bearing", "bearing");
     reader.reject_unknown();
-    reader.read(values, {Part::bearing, Part::bearing_gear}, false);
+    reader.read(values, {KeyGroup::bearing, KeyGroup::bearing_gear}, false);
     const auto gear = std::find(names.begin(), names.end(), values.bearing_gear);
     if (gear == names.end())
       source.reject(*table.get("gear"),
@@ -422,10 +425,10 @@ void read_mesh_section(const Source& source, Scene& scene) {
   if (!list || !list->is_array_of_tables())
     source.reject(*node, "'mesh' must be a list of sections: write [[mesh]]");
   const toml::table& table = *list->get(0)->as_table();
-  KeyValues values;
+  SceneParameters values;
   const SectionReader reader(source, Dialect::scene, table, "mesh", "mesh");
   reader.reject_unknown();
-  reader.read(values, {Part::mesh, Part::contact_plane}, false);
+  reader.read(values, {KeyGroup::mesh, KeyGroup::contact_plane}, false);
   std::vector<std::string> names;
   for (const SceneGear& gear : scene.gears) names.push_back(gear.name);
   for (int g = 0; g < kSides; ++g)
@@ -451,8 +454,8 @@ void read_friction(const Source& source, GearMeshSpec& mesh) {
   if (!table) return;
   const SectionReader reader(source, Dialect::scene, *table, "friction", "friction");
   reader.reject_unknown();
-  KeyValues values;
-  reader.read(values, {Part::friction}, false);
+  SceneParameters values;
+  reader.read(values, {KeyGroup::friction}, false);
   mesh.friction = values.mesh.friction;
   const auto reject_key = [&](const char* key, const auto&... why) {
     const toml::node* at = table->get(key);
@@ -528,16 +531,16 @@ Scene scene_from(const Source& source) {
   if (!missing.empty()) source.reject(text("the scene lacks ", joined(missing), "; ", kExample));
 
   Scene scene;
-  KeyValues values;
-  top.read(values, {Part::title}, false);
+  SceneParameters values;
+  top.read(values, {KeyGroup::title}, false);
   scene.title = values.title.empty() ? std::filesystem::path(source.path()).stem().string() : values.title;
   read_gears(source, scene, false);
   read_bearings(source, scene);
   read_mesh_section(source, scene);
   read_friction(source, scene.mesh);
-  const std::set<Part> rest = {Part::damping,    Part::load,          Part::operation,
-                               Part::level,      Part::contact_level, Part::body,
-                               Part::near_field, Part::contact,       Part::time};
+  const std::set<KeyGroup> rest = {KeyGroup::damping,    KeyGroup::load,          KeyGroup::operation,
+                                   KeyGroup::level,      KeyGroup::contact_level, KeyGroup::body,
+                                   KeyGroup::near_field, KeyGroup::contact,       KeyGroup::time};
   static const toml::table kNothing;
   for (const char* name : {"damping", "operation", "fidelity", "discretisation"}) {
     const toml::table* table = source.section(name);
@@ -551,7 +554,7 @@ Scene scene_from(const Source& source) {
                                ": near_field is \"", values.body.near_field,
                                "\", which has no depth; set near_field = \"matching\" or take it out"));
   }
-  take_module(values, {Part::damping}, scene.gear(scene.mesh.gear[0]).design.module);
+  take_module(values, {KeyGroup::damping}, scene.gear(scene.mesh.gear[0]).design.module);
   scene.damping = values.damping;
   scene.operation = values.operation;
   scene.fidelity = values.fidelity;

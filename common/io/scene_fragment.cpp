@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/tool.h"
-#include "io/fit.h"
+#include "io/compatibility.h"
 #include "io/publish.h"
 #include "io/variant.h"
 
@@ -34,9 +34,9 @@ BodyHashes publish_bodies(const std::string& home, const std::string& folder, co
 std::string checked_scene_stem(const std::string& path) {
   const std::string stem = std::filesystem::path(path).stem().string();
   if (!plain_name(stem)) {
-    fail(Failure::input, path, ": the name '", stem,
-         "' becomes a folder and a make target, so it may hold letters, digits, '_' and '-' only; rename the "
-         "file");
+    fail(
+        Failure::input, path, ": the name '", stem,
+        "' becomes a folder and a make target, so it may hold letters, digits, '_' and '-' only; rename the file");
   }
   if (stem.size() > kLongestName)
     fail(Failure::input, path.size() > 200 ? "..." + path.substr(path.size() - 200) : path, ": the name has ",

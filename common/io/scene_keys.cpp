@@ -12,7 +12,7 @@ namespace whine {
 namespace {
 
 // m: d_a = m (z + 2 x + 2 h_a), d_f = m (z + 2 x - 2 h_f); of an internal gear, whose tips lie inside, with the other signs.
-void diameters_as_heights(KeyValues& values) {
+void diameters_as_heights(SceneParameters& values) {
   const GearDesign& gear = values.design;
   const double outwards = gear.internal ? -1 : 1, middle = gear.teeth + outwards * 2 * gear.profile_shift;
   values.tip_diameter = gear.module * (middle + outwards * 2 * gear.addendum);
@@ -21,8 +21,8 @@ void diameters_as_heights(KeyValues& values) {
 
 // What an artifact of a pair says to the keys of a scene, from the side of one of its gears. It need not know of motion.
 template <class Artifact>
-KeyValues keys_of(const Artifact& a, int g) {
-  KeyValues values;
+SceneParameters keys_of(const Artifact& a, int g) {
+  SceneParameters values;
   values.mesh = a.mesh;
   values.contact = a.contact;
   values.fidelity = a.fidelity;
@@ -40,7 +40,7 @@ KeyValues keys_of(const Artifact& a, int g) {
 }
 
 // As a scene would have it; "" for a list that is empty.
-std::string in_scene_unit(KeyValues& values, const Key& key) {
+std::string in_scene_unit(SceneParameters& values, const Key& key) {
   const auto number = [](double si, const Unit& unit) {
     char buffer[32];
     std::snprintf(buffer, sizeof buffer, "%.6g", si * unit.divide / unit.multiply);
@@ -70,33 +70,33 @@ std::string in_scene_unit(KeyValues& values, const Key& key) {
 
 // Title, names of other sections, torques and speeds are no properties of what was computed.
 bool of_operation(const Key& key) {
-  return of_systems(key.part) || key.part == Part::title || key.part == Part::reference ||
-         key.part == Part::error_file || key.part == Part::bearing_gear || key.part == Part::load ||
-         key.part == Part::operation;
+  return of_systems(key.part) || key.part == KeyGroup::title || key.part == KeyGroup::reference ||
+         key.part == KeyGroup::error_file || key.part == KeyGroup::bearing_gear ||
+         key.part == KeyGroup::load || key.part == KeyGroup::operation;
 }
 
 template <class Artifact>
 std::vector<SceneKey> scene_keys_in(const Artifact& a) {
-  KeyValues driver = keys_of(a, 0), driven = keys_of(a, 1);
+  SceneParameters driver = keys_of(a, 0), driven = keys_of(a, 1);
   const bool moves = requires {
     a.damping;
   };
-  const auto stands = [&](Part part) {
+  const auto stands = [&](KeyGroup part) {
     switch (part) {
-      case Part::inertia:
-      case Part::damping:
-      case Part::level:
-      case Part::time:
+      case KeyGroup::inertia:
+      case KeyGroup::damping:
+      case KeyGroup::level:
+      case KeyGroup::time:
         return moves;
-      case Part::bore:
+      case KeyGroup::bore:
         return !driver.design.internal || !driven.design.internal;
-      case Part::rim:
+      case KeyGroup::rim:
         return driver.design.internal || driven.design.internal;
-      case Part::rim_support:
+      case KeyGroup::rim_support:
         return driver.design.elastic_rim() || driven.design.elastic_rim();
-      case Part::friction:
+      case KeyGroup::friction:
         return driver.mesh.friction.acts();
-      case Part::crack:
+      case KeyGroup::crack:
         return driver.design.crack.depth > 0 || driven.design.crack.depth > 0;
       default:
         break;
@@ -120,19 +120,19 @@ std::vector<SceneKey> scene_keys_in(const Artifact& a) {
 
 }  // namespace
 
-std::vector<SceneKey> scene_keys_of(const StaticArtifact& a) {
+std::vector<SceneKey> scene_keys_of(const StaticResult& a) {
   return scene_keys_in(a);
 }
 
-std::vector<SceneKey> scene_keys_of(const ResponseArtifact& a) {
+std::vector<SceneKey> scene_keys_of(const ResponseResult& a) {
   return scene_keys_in(a);
 }
 
 namespace {
 
 // Keys of one of the gears of a system, and what all of its meshes have in common.
-KeyValues keys_of(const SystemStaticArtifact& a, size_t g, const SystemSweepArtifact* moving) {
-  KeyValues values;
+SceneParameters keys_of(const SystemStaticResult& a, size_t g, const SystemSweepResult* moving) {
+  SceneParameters values;
   const std::string& name = a.settings.body[g].first;
   values.design = a.drawing[g].design;
   diameters_as_heights(values);
@@ -157,40 +157,42 @@ KeyValues keys_of(const SystemStaticArtifact& a, size_t g, const SystemSweepArti
 
 }  // namespace
 
-SystemKeys scene_keys_of(const SystemStaticArtifact& a, const SystemSweepArtifact* moving) {
+SystemKeys scene_keys_of(const SystemStaticResult& a, const SystemSweepResult* moving) {
   SystemKeys out;
   out.gears = a.settings.gears();
-  std::vector<KeyValues> of;
+  std::vector<SceneParameters> of;
   of.reserve(out.gears.size());
   for (size_t g = 0; g < out.gears.size(); ++g) of.push_back(keys_of(a, g, moving));
-  const auto stands = [&](const KeyValues& gear, Part part) {
+  const auto stands = [&](const SceneParameters& gear, KeyGroup part) {
     switch (part) {
-      case Part::bore:
+      case KeyGroup::bore:
         return !gear.design.internal;
-      case Part::rim:
+      case KeyGroup::rim:
         return gear.design.internal;
-      case Part::rim_support:
+      case KeyGroup::rim_support:
         return gear.design.elastic_rim();
-      case Part::bearing:
+      case KeyGroup::bearing:
         return gear.bearing.elastic();
-      case Part::error:
+      case KeyGroup::error:
         return !gear.errors.none();
-      case Part::modification:
-        return std::any_of(of.begin(), of.end(),
-                           [](const KeyValues& one) { return one.modification != FlankModification{}; });
-      case Part::damping:
-      case Part::level:
-      case Part::time:
+      case KeyGroup::modification:
+        return std::any_of(of.begin(), of.end(), [](const SceneParameters& one) {
+          return one.modification != FlankModification{};
+        });
+      case KeyGroup::damping:
+      case KeyGroup::level:
+      case KeyGroup::time:
         return moving != nullptr;
       default:
-        return !of_pairs(part) && part != Part::mesh && part != Part::contact_plane;
+        return !of_pairs(part) && part != KeyGroup::mesh && part != KeyGroup::contact_plane;
     }
   };
   for (const Key& key : scene_keys()) {
     if (of_operation(key)) continue;
     SystemKeys::Row row{key.section, key.name, {}, key.meaning};
     row.value.reserve(of.size());
-    for (KeyValues& gear : of) row.value.push_back(stands(gear, key.part) ? in_scene_unit(gear, key) : "");
+    for (SceneParameters& gear : of)
+      row.value.push_back(stands(gear, key.part) ? in_scene_unit(gear, key) : "");
     const bool alike = std::all_of(row.value.begin(), row.value.end(),
                                    [&](const std::string& value) { return value == row.value.front(); });
     const bool of_all =
@@ -201,11 +203,12 @@ SystemKeys scene_keys_of(const SystemStaticArtifact& a, const SystemSweepArtifac
     if (said) out.rows.push_back(row);
   }
   for (const GearMeshSpec& mesh : a.settings.mesh) {
-    KeyValues values;
+    SceneParameters values;
     values.mesh = mesh;
     for (const Key& key : scene_keys())
-      if (key.part == Part::contact_plane ||
-          (key.part == Part::mesh && key.name != std::string("driver") && key.name != std::string("driven")))
+      if (key.part == KeyGroup::contact_plane ||
+          (key.part == KeyGroup::mesh && key.name != std::string("driver") &&
+           key.name != std::string("driven")))
         out.rows.push_back({text("mesh ", mesh.gear[0], "-", mesh.gear[1]),
                             key.name,
                             {in_scene_unit(values, key)},
@@ -214,12 +217,12 @@ SystemKeys scene_keys_of(const SystemStaticArtifact& a, const SystemSweepArtifac
   return out;
 }
 
-std::string changed_keys(const JumpMapArtifact& from, const JumpMapArtifact& to) {
+std::string changed_keys(const JumpMapResult& from, const JumpMapResult& to) {
   const auto changes = [&](int g) {
-    KeyValues old = keys_of(from, g), fresh = keys_of(to, g);
+    SceneParameters old = keys_of(from, g), fresh = keys_of(to, g);
     std::string out;
     for (const Key& key : scene_keys()) {
-      if (of_operation(key) || key.part == Part::diameter) continue;
+      if (of_operation(key) || key.part == KeyGroup::diameter) continue;
       const std::string a = in_scene_unit(old, key), b = in_scene_unit(fresh, key);
       if (a != b) out += text(out.empty() ? "" : ", ", key.name, " ", a, " → ", b);
     }

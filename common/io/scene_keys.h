@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "signal/jump_map_result.h"
-#include "signal/response_result.h"
-#include "signal/static_result.h"
-#include "studies/system_sweep_result.h"
-#include "system/system_static_result.h"
+#include "results/jump_map.h"
+#include "results/response.h"
+#include "results/static.h"
+#include "results/system_static.h"
+#include "results/system_sweep.h"
 
 namespace whine {
 
@@ -22,8 +22,8 @@ struct SceneKey {
 
 // What an artifact was made from, but for torques and speeds; of a static.h5 without what concerns motion. Sections that
 // neither gear has (modification, error, crack) are left out.
-std::vector<SceneKey> scene_keys_of(const StaticArtifact& artifact);
-std::vector<SceneKey> scene_keys_of(const ResponseArtifact& artifact);
+std::vector<SceneKey> scene_keys_of(const StaticResult& artifact);
+std::vector<SceneKey> scene_keys_of(const ResponseResult& artifact);
 
 // The same of a system: a value for each gear, or one of all. Sections of a mesh are "mesh sun-planet".
 struct SystemKeys {
@@ -36,10 +36,10 @@ struct SystemKeys {
   std::vector<Row> rows;
 };
 // moving: with what concerns motion; nullptr: without. Positions, torques and what is held are left out.
-SystemKeys scene_keys_of(const SystemStaticArtifact& artifact, const SystemSweepArtifact* moving);
+SystemKeys scene_keys_of(const SystemStaticResult& artifact, const SystemSweepResult* moving);
 
 // What two maps were made from that differs, in a scene's keys and units: "bore_radius_mm 40 -> 35"; "" if nothing
 // does. Gears by the driver's, if both gears changed alike.
-std::string changed_keys(const JumpMapArtifact& from, const JumpMapArtifact& to);
+std::string changed_keys(const JumpMapResult& from, const JumpMapResult& to);
 
 }  // namespace whine

@@ -1,8 +1,8 @@
 #include "io/scene_remarks.h"
 
 #include "base/error.h"
+#include "base/format.h"
 #include "dynamics/dynamics.h"
-#include "gear/numbers.h"
 #include "gear/rack_tip.h"
 #include "gear/scene_cost.h"
 #include "gear/scene_geometry.h"

@@ -166,7 +166,7 @@ void SectionReader::reject_unknown(const std::vector<std::string>& others) const
   }
 }
 
-void SectionReader::read(KeyValues& values, const std::set<Part>& parts, bool inherit,
+void SectionReader::read(SceneParameters& values, const std::set<KeyGroup>& parts, bool inherit,
                          const std::set<std::string>& optional) const {
   std::vector<std::string> missing;
   for (const Key& key : scene_keys()) {

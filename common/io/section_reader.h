@@ -82,7 +82,7 @@ class SectionReader {
   // Fills the keys of this section that belong to one of `parts`. Keys left out keep what stands in `values`
   // if `inherit`, else take their default; required ones are rejected together, but for `optional` ones, which then keep what stands
   // there, too.
-  void read(KeyValues& values, const std::set<Part>& parts, bool inherit,
+  void read(SceneParameters& values, const std::set<KeyGroup>& parts, bool inherit,
             const std::set<std::string>& optional = {}) const;
 
  private:

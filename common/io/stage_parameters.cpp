@@ -47,15 +47,14 @@ Source stage_parameters_source(const std::string& path, const std::string& name,
 
 // Reads one section of stage parameters; all its keys must be there.
 void read_parameter_section(const Source& source, const std::string& section, const std::string& label,
-                            const std::set<Part>& parts, KeyValues& values) {
+                            const std::set<KeyGroup>& parts, SceneParameters& values) {
   const toml::table* table = source.section(label);
   if (!table)
     source.reject(text(
         "lacks the section [", label, "]: ",
         source.is_stage_parameters()
             ? "it holds the parameters of another stage, or old ones; give out/<scene>/params/<stage>.toml"
-            : "it holds no stage parameters; gear-scene writes them from a scene, "
-              "out/<scene>/params/<stage>.toml"));
+            : "it holds no stage parameters; gear-scene writes them from a scene, out/<scene>/params/<stage>.toml"));
   SectionReader(source, Dialect::settings, *table, section, label).read(values, parts, false);
 }
 
@@ -67,29 +66,29 @@ std::string body_parameters(const Scene& scene, const std::string& gear) {
 }
 
 std::string body_parameters(const BodyParameters& chosen) {
-  KeyValues values;
+  SceneParameters values;
   values.design = chosen.design;
   values.material = chosen.material;
   values.body = chosen.discretisation;
-  take_module(values, {Part::body, Part::near_field}, chosen.design.module);
+  take_module(values, {KeyGroup::body, KeyGroup::near_field}, chosen.design.module);
   StageParametersText out(kBodyStage);
   out.add("gear", "gear", values,
-          values.design.internal ? std::set{Part::design} : std::set{Part::design, Part::bore});
-  if (values.design.internal) out.add("gear", "rim", values, {Part::rim});
-  if (values.design.elastic_rim()) out.add("gear", "rim", values, {Part::rim_support});
-  if (values.design.crack.depth > 0) out.add("crack", "crack", values, {Part::crack});
-  out.add("material", "material", values, {Part::material});
-  out.add("fidelity", "fidelity", values, {Part::body});
-  out.add("discretisation", "discretisation", values, {Part::body});
+          values.design.internal ? std::set{KeyGroup::design} : std::set{KeyGroup::design, KeyGroup::bore});
+  if (values.design.internal) out.add("gear", "rim", values, {KeyGroup::rim});
+  if (values.design.elastic_rim()) out.add("gear", "rim", values, {KeyGroup::rim_support});
+  if (values.design.crack.depth > 0) out.add("crack", "crack", values, {KeyGroup::crack});
+  out.add("material", "material", values, {KeyGroup::material});
+  out.add("fidelity", "fidelity", values, {KeyGroup::body});
+  out.add("discretisation", "discretisation", values, {KeyGroup::body});
   if (values.body.near_field != BodyDiscretisation{}.near_field)
-    out.add("discretisation", "discretisation", values, {Part::near_field});
+    out.add("discretisation", "discretisation", values, {KeyGroup::near_field});
   return out.text();
 }
 
 namespace {
 
-KeyValues static_values(const Scene& scene) {
-  KeyValues values;
+SceneParameters static_values(const Scene& scene) {
+  SceneParameters values;
   values.mesh = scene.mesh;
   values.fidelity = scene.fidelity;
   values.contact = scene.contact;
@@ -106,22 +105,22 @@ KeyValues static_values(const Scene& scene) {
 }
 
 // moving: with what a motion needs in the same sections.
-void add_static(StageParametersText& out, const Scene& scene, KeyValues& values, bool moving) {
-  out.add("mesh", "mesh", values, {Part::mesh});
+void add_static(StageParametersText& out, const Scene& scene, SceneParameters& values, bool moving) {
+  out.add("mesh", "mesh", values, {KeyGroup::mesh});
   // Left out where contact has the bodies' plane state, as all stage parameters had before there was a choice.
   if (values.mesh.contact_plane != GearMeshSpec{}.contact_plane)
-    out.add("mesh", "mesh", values, {Part::contact_plane});
-  if (values.mesh.friction.acts()) out.add("friction", "friction", values, {Part::friction});
+    out.add("mesh", "mesh", values, {KeyGroup::contact_plane});
+  if (values.mesh.friction.acts()) out.add("friction", "friction", values, {KeyGroup::friction});
   for (const GearSection& own : kGearSections)
     for (int g = 0; g < kSides; ++g) {
       take_gear(values, scene.mesh, g);
       if (own.stands(values)) out.add(own.name, own.of(g), values, {own.part});
     }
-  using Parts = std::set<Part>;
+  using Parts = std::set<KeyGroup>;
   out.add("fidelity", "fidelity", values,
-          moving ? Parts{Part::level, Part::contact_level} : Parts{Part::contact_level});
+          moving ? Parts{KeyGroup::level, KeyGroup::contact_level} : Parts{KeyGroup::contact_level});
   out.add("discretisation", "discretisation", values,
-          moving ? Parts{Part::contact, Part::time} : Parts{Part::contact});
+          moving ? Parts{KeyGroup::contact, KeyGroup::time} : Parts{KeyGroup::contact});
   // Going back to an earlier design finds its old body.h5, older than the static result of the design
   // between: only this text can tell make that the result is stale.
   for (int g = 0; g < kSides; ++g)
@@ -131,7 +130,7 @@ void add_static(StageParametersText& out, const Scene& scene, KeyValues& values,
 }  // namespace
 
 std::string static_parameters(const Scene& scene) {
-  KeyValues values = static_values(scene);
+  SceneParameters values = static_values(scene);
   StageParametersText out(kStaticStage);
   add_static(out, scene, values, false);
   return out.text();
@@ -139,8 +138,8 @@ std::string static_parameters(const Scene& scene) {
 
 namespace {
 
-KeyValues motion_values(const Scene& scene) {
-  KeyValues values;
+SceneParameters motion_values(const Scene& scene) {
+  SceneParameters values;
   values.damping = scene.damping;
   values.operation = scene.operation;
   if (scene.operation.torques.empty()) fail(Failure::input, "the scene lists no torque");
@@ -150,65 +149,66 @@ KeyValues motion_values(const Scene& scene) {
   return values;
 }
 
-void add_inertia(StageParametersText& out, const Scene& scene, KeyValues& values) {
+void add_inertia(StageParametersText& out, const Scene& scene, SceneParameters& values) {
   for (int g = 0; g < kSides; ++g) {
     values.total_inertia = scene.gear(scene.mesh.gear[g]).total_inertia;
-    out.add("gear", kRole[g], values, {Part::inertia});
+    out.add("gear", kRole[g], values, {KeyGroup::inertia});
   }
 }
 
-void add_inertia_and_damping(StageParametersText& out, const Scene& scene, KeyValues& values) {
+void add_inertia_and_damping(StageParametersText& out, const Scene& scene, SceneParameters& values) {
   add_inertia(out, scene, values);
-  out.add("damping", "damping", values, {Part::damping});
+  out.add("damping", "damping", values, {KeyGroup::damping});
 }
 
 }  // namespace
 
 std::string impact_parameters(const Scene& scene) {
-  KeyValues values = motion_values(scene);
+  SceneParameters values = motion_values(scene);
   StageParametersText out(kImpactStage);
   add_inertia_and_damping(out, scene, values);
-  out.add("operation", "operation", values, {Part::load});
-  out.add("fidelity", "fidelity", values, {Part::level, Part::contact_level});
+  out.add("operation", "operation", values, {KeyGroup::load});
+  out.add("fidelity", "fidelity", values, {KeyGroup::level, KeyGroup::contact_level});
   return out.text();
 }
 
 std::string sweep_parameters(const Scene& scene) {
-  KeyValues values = motion_values(scene);
+  SceneParameters values = motion_values(scene);
   StageParametersText out(kSweepStage);
   add_inertia_and_damping(out, scene, values);
-  out.add("operation", "operation", values, {Part::load, Part::operation});
-  out.add("fidelity", "fidelity", values, {Part::level, Part::contact_level});
-  out.add("discretisation", "discretisation", values, {Part::time});
+  out.add("operation", "operation", values, {KeyGroup::load, KeyGroup::operation});
+  out.add("fidelity", "fidelity", values, {KeyGroup::level, KeyGroup::contact_level});
+  out.add("discretisation", "discretisation", values, {KeyGroup::time});
   return out.text();
 }
 
 std::string map_parameters(const Scene& scene) {
-  KeyValues values = motion_values(scene);
+  SceneParameters values = motion_values(scene);
   values.damping.rayleigh_stiffness = 0;
   StageParametersText out(kMapStage);
   add_inertia_and_damping(out, scene, values);
-  out.add("operation", "operation", values, {Part::load});
-  out.add("fidelity", "fidelity", values, {Part::level, Part::contact_level});
-  out.add("discretisation", "discretisation", values, {Part::time});
+  out.add("operation", "operation", values, {KeyGroup::load});
+  out.add("fidelity", "fidelity", values, {KeyGroup::level, KeyGroup::contact_level});
+  out.add("discretisation", "discretisation", values, {KeyGroup::time});
   return out.text();
 }
 
 std::string lumped_parameters(const Scene& scene, bool speeds) {
-  KeyValues values = motion_values(scene);
+  SceneParameters values = motion_values(scene);
   StageParametersText out(speeds ? kLumpedStage : kLumpedMapStage);
   add_inertia(out, scene, values);
-  out.add("operation", "operation", values,
-          speeds ? std::set<Part>{Part::load, Part::operation} : std::set<Part>{Part::load});
-  out.add("fidelity", "fidelity", values, {Part::contact_level});
-  out.add("discretisation", "discretisation", values, {Part::time});
+  out.add(
+      "operation", "operation", values,
+      speeds ? std::set<KeyGroup>{KeyGroup::load, KeyGroup::operation} : std::set<KeyGroup>{KeyGroup::load});
+  out.add("fidelity", "fidelity", values, {KeyGroup::contact_level});
+  out.add("discretisation", "discretisation", values, {KeyGroup::time});
   return out.text();
 }
 
 std::string variant_stage_parameters(const Scene& scene, double torque,
                                      const std::vector<Direction>& directions) {
-  KeyValues values = static_values(scene);
-  const KeyValues moving = motion_values(scene);
+  SceneParameters values = static_values(scene);
+  const SceneParameters moving = motion_values(scene);
   values.damping = moving.damping;
   values.time = moving.time;
   StageParametersText out(kVariantStage);
@@ -216,10 +216,10 @@ std::string variant_stage_parameters(const Scene& scene, double torque,
   if (!directions.empty()) {
     add_inertia_and_damping(out, scene, values);
     values.operation = moving.operation;
-    out.add("operation", "operation", values, {Part::load, Part::operation});
+    out.add("operation", "operation", values, {KeyGroup::load, KeyGroup::operation});
   }
   values.operation.torques = {torque};
-  out.add("operation", kVariant, values, {Part::load});
+  out.add("operation", kVariant, values, {KeyGroup::load});
   out.add_line(kVariant, "directions", names_of(directions));
   return out.text();
 }
@@ -230,40 +230,41 @@ std::string body_hash(const std::string& settings) {
 
 BodyParameters read_body_parameters(const std::string& path) {
   const Source source = stage_parameters_source(path, "<gear>/body.toml", kBodyStage);
-  KeyValues values;
+  SceneParameters values;
   const bool internal = source.section("rim") != nullptr;
   read_parameter_section(source, "gear", "gear",
-                         internal ? std::set{Part::design} : std::set{Part::design, Part::bore}, values);
-  if (internal) read_parameter_section(source, "gear", "rim", {Part::rim}, values);
+                         internal ? std::set{KeyGroup::design} : std::set{KeyGroup::design, KeyGroup::bore},
+                         values);
+  if (internal) read_parameter_section(source, "gear", "rim", {KeyGroup::rim}, values);
   if (internal && source.section("rim")->contains("rim_radial_stiffness"))
-    read_parameter_section(source, "gear", "rim", {Part::rim_support}, values);
-  if (source.section("crack")) read_parameter_section(source, "crack", "crack", {Part::crack}, values);
-  read_parameter_section(source, "material", "material", {Part::material}, values);
-  read_parameter_section(source, "fidelity", "fidelity", {Part::body}, values);
-  read_parameter_section(source, "discretisation", "discretisation", {Part::body}, values);
+    read_parameter_section(source, "gear", "rim", {KeyGroup::rim_support}, values);
+  if (source.section("crack")) read_parameter_section(source, "crack", "crack", {KeyGroup::crack}, values);
+  read_parameter_section(source, "material", "material", {KeyGroup::material}, values);
+  read_parameter_section(source, "fidelity", "fidelity", {KeyGroup::body}, values);
+  read_parameter_section(source, "discretisation", "discretisation", {KeyGroup::body}, values);
   if (source.section("discretisation")->contains("near_field"))
-    read_parameter_section(source, "discretisation", "discretisation", {Part::near_field}, values);
+    read_parameter_section(source, "discretisation", "discretisation", {KeyGroup::near_field}, values);
   else
     values.body.matching_depth = 0;  // of the other near field that the error budget tries: its default
-  take_module(values, {Part::near_field}, values.design.module);
+  take_module(values, {KeyGroup::near_field}, values.design.module);
   return {values.design, values.material, values.body};
 }
 
 namespace {
 
 StaticParameters static_from(const Source& source) {
-  KeyValues values;
-  read_parameter_section(source, "mesh", "mesh", {Part::mesh}, values);
+  SceneParameters values;
+  read_parameter_section(source, "mesh", "mesh", {KeyGroup::mesh}, values);
   if (source.section("mesh")->contains("contact_plane"))
-    read_parameter_section(source, "mesh", "mesh", {Part::contact_plane}, values);
+    read_parameter_section(source, "mesh", "mesh", {KeyGroup::contact_plane}, values);
   if (source.section("friction"))
-    read_parameter_section(source, "friction", "friction", {Part::friction}, values);
-  read_parameter_section(source, "fidelity", "fidelity", {Part::contact_level}, values);
-  read_parameter_section(source, "discretisation", "discretisation", {Part::contact}, values);
+    read_parameter_section(source, "friction", "friction", {KeyGroup::friction}, values);
+  read_parameter_section(source, "fidelity", "fidelity", {KeyGroup::contact_level}, values);
+  read_parameter_section(source, "discretisation", "discretisation", {KeyGroup::contact}, values);
   StaticParameters out{values.mesh, values.fidelity, values.contact};
   const toml::table* bodies = source.section("body");
   for (int g = 0; g < kSides; ++g) {
-    KeyValues of_gear;
+    SceneParameters of_gear;
     for (const GearSection& own : kGearSections)
       if (source.section(own.of(g))) read_parameter_section(source, own.name, own.of(g), {own.part}, of_gear);
     put_gear(of_gear, out.mesh, g);
@@ -274,19 +275,19 @@ StaticParameters static_from(const Source& source) {
 
 void read_inertia(const Source& source, ImpactParameters& out) {
   for (int g = 0; g < kSides; ++g) {
-    KeyValues values;
-    read_parameter_section(source, "gear", kRole[g], {Part::inertia}, values);
+    SceneParameters values;
+    read_parameter_section(source, "gear", kRole[g], {KeyGroup::inertia}, values);
     out.inertia[g] = values.total_inertia;
   }
 }
 
 ImpactParameters impact_from(const Source& source) {
-  KeyValues values;
+  SceneParameters values;
   ImpactParameters out;
   read_inertia(source, out);
-  read_parameter_section(source, "damping", "damping", {Part::damping}, values);
-  read_parameter_section(source, "operation", "operation", {Part::load}, values);
-  read_parameter_section(source, "fidelity", "fidelity", {Part::level, Part::contact_level}, values);
+  read_parameter_section(source, "damping", "damping", {KeyGroup::damping}, values);
+  read_parameter_section(source, "operation", "operation", {KeyGroup::load}, values);
+  read_parameter_section(source, "fidelity", "fidelity", {KeyGroup::level, KeyGroup::contact_level}, values);
   out.damping = values.damping;
   out.reference_torque = values.operation.torques.front();
   out.fidelity = values.fidelity;
@@ -294,8 +295,8 @@ ImpactParameters impact_from(const Source& source) {
 }
 
 void read_speeds(const Source& source, SweepParameters& out) {
-  KeyValues values;
-  read_parameter_section(source, "operation", "operation", {Part::operation}, values);
+  SceneParameters values;
+  read_parameter_section(source, "operation", "operation", {KeyGroup::operation}, values);
   out.frequency_from = values.operation.frequency_from;
   out.frequency_to = values.operation.frequency_to;
   out.frequency_step = values.operation.frequency_step;
@@ -304,8 +305,8 @@ void read_speeds(const Source& source, SweepParameters& out) {
 SweepParameters read_motion(const Source& source) {
   SweepParameters out;
   static_cast<ImpactParameters&>(out) = impact_from(source);
-  KeyValues values;
-  read_parameter_section(source, "discretisation", "discretisation", {Part::time}, values);
+  SceneParameters values;
+  read_parameter_section(source, "discretisation", "discretisation", {KeyGroup::time}, values);
   out.time = values.time;
   return out;
 }
@@ -318,8 +319,8 @@ StaticParameters read_static_parameters(const std::string& path) {
 
 VariantParameters read_variant_parameters(const std::string& path) {
   const Source source(path, "a variant's stage parameters are written by: make study STUDY=<name>");
-  KeyValues values;
-  read_parameter_section(source, "operation", kVariant, {Part::load}, values);
+  SceneParameters values;
+  read_parameter_section(source, "operation", kVariant, {KeyGroup::load}, values);
   VariantParameters out;
   out.statics = static_from(source);
   out.torque = values.operation.torques.front();
@@ -354,10 +355,10 @@ SweepParameters read_lumped_parameters(const std::string& path, bool speeds) {
       speeds ? kSweepStage : "");  // a sweep's holds all of it
   SweepParameters out;
   read_inertia(source, out);
-  KeyValues values;
-  read_parameter_section(source, "operation", "operation", {Part::load}, values);
-  read_parameter_section(source, "fidelity", "fidelity", {Part::contact_level}, values);
-  read_parameter_section(source, "discretisation", "discretisation", {Part::time}, values);
+  SceneParameters values;
+  read_parameter_section(source, "operation", "operation", {KeyGroup::load}, values);
+  read_parameter_section(source, "fidelity", "fidelity", {KeyGroup::contact_level}, values);
+  read_parameter_section(source, "discretisation", "discretisation", {KeyGroup::time}, values);
   out.reference_torque = values.operation.torques.front();
   out.fidelity.contact = values.fidelity.contact;
   out.time = values.time;

@@ -44,9 +44,9 @@ void StageParametersText::begin(const std::string& label) {
   last_ = label;
 }
 
-void StageParametersText::add(const std::string& section, const std::string& label, const KeyValues& values,
-                              const std::set<Part>& parts) {
-  KeyValues copy = values;
+void StageParametersText::add(const std::string& section, const std::string& label,
+                              const SceneParameters& values, const std::set<KeyGroup>& parts) {
+  SceneParameters copy = values;
   for (const Key& key : scene_keys()) {
     if (key.section != section || !parts.count(key.part)) continue;
     begin(label);

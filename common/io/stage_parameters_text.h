@@ -20,8 +20,8 @@ class StageParametersText {
   explicit StageParametersText(const std::string& stage);
 
   // The keys of one section that belong to one of `parts`, under [label].
-  void add(const std::string& section, const std::string& label, const KeyValues& values,
-           const std::set<Part>& parts);
+  void add(const std::string& section, const std::string& label, const SceneParameters& values,
+           const std::set<KeyGroup>& parts);
   void add_line(const std::string& label, const std::string& name, const std::string& word);
   std::string text() const { return out_.str(); }
 

@@ -10,7 +10,7 @@ using namespace ranges;
 
 constexpr Schema kStaticSchema{"static", 5};
 
-void describe_curves(Codec& c, StaticArtifact& a) {
+void describe_curves(Codec& c, StaticResult& a) {
   const char* const without = a.mesh.on_bearings() ? ", without the bearings" : "";
   c.dataset({"/mesh_phase", "1", "mesh phase; 0: reference pair at the pitch point, 1: one mesh period",
              "mesh_phase", kPhase},
@@ -38,30 +38,27 @@ void describe_curves(Codec& c, StaticArtifact& a) {
     if (c.lists() || a.mesh.bearing[g].elastic())
       c.dataset(
           {of_body(c, a.mesh, g, "bearing_force"), "N",
-           "force of the gear on its bearing; x, y: the driven gear stands above the driver, which turns "
-           "counter-clockwise",
+           "force of the gear on its bearing; x, y: the driven gear stands above the driver, which turns counter-clockwise",
            "mesh_phase xy", kForce},
           &a.bearing_force[g]);
-  c.dataset({"/contact_pressure", "Pa",
-             "largest contact pressure of each pair inside its flanks; 0 where nothing touches (tooth_load "
-             "is 0) and where a "
-             "tip edge does (tooth_load is not), whose pressure is singular",
-             "mesh_phase pair", kPressure},
-            &a.contact_pressure);
+  c.dataset(
+      {"/contact_pressure", "Pa",
+       "largest contact pressure of each pair inside its flanks; 0 where nothing touches (tooth_load is 0) and where a tip edge does (tooth_load is not), whose pressure is singular",
+       "mesh_phase pair", kPressure},
+      &a.contact_pressure);
   c.dataset({"/contact_half_width", "m",
              "half width of each contact inside the flanks, twice the standard deviation of its pressure",
              "mesh_phase pair", kSize},
             &a.contact_half_width);
 }
 
-void describe_root_stress(Codec& c, StaticArtifact& a) {
+void describe_root_stress(Codec& c, StaticResult& a) {
   const bool there = a.root_stress[0].size() > 0;
   for (int g = 0; g < (c.lists() ? 1 : 2); ++g)
     if (c.optional(of_body(c, a.mesh, g, "root_stress"), there))
       c.dataset(
           {of_body(c, a.mesh, g, "root_stress"), "Pa",
-           "largest tangential stress along the root beside the loaded flank of each pair's tooth, "
-           "tension positive",
+           "largest tangential stress along the root beside the loaded flank of each pair's tooth, tension positive",
            "mesh_phase pair", kStress,
            "sum over the pairs of root_stress/per_force of body.h5, and of root_stress/crack, times force"},
           &a.root_stress[g]);
@@ -90,7 +87,7 @@ void describe_root_stress(Codec& c, StaticArtifact& a) {
 constexpr Range kLost{0, 1e7};  // N m
 
 // Left out of flanks without friction.
-void describe_static_friction(Codec& c, StaticArtifact& a) {
+void describe_static_friction(Codec& c, StaticResult& a) {
   if (!c.lists() && !a.mesh.friction.acts()) return;
   c.dataset({"/friction_coefficient", "1", "coefficient of friction", "", kShare}, &a.friction_coefficient);
   c.dataset({"/certificate/friction_coupling", "m",
@@ -101,11 +98,11 @@ void describe_static_friction(Codec& c, StaticArtifact& a) {
              kLost, "sum of mu s F (t1 - t2 z1 / z2)"},
             &a.friction_loss);
   for (int g = 0; g < (c.lists() ? 1 : 2); ++g)
-    c.dataset({of_body(c, a.mesh, g, "friction_moment"), "N m",
-               "moment of friction about the axis of the gear, positive where it has the sense of the moment "
-               "of the normal force, which brakes the driver and drives the driven gear",
-               "mesh_phase", kMoment, "sum of mu s F t"},
-              &a.friction_moment[g]);
+    c.dataset(
+        {of_body(c, a.mesh, g, "friction_moment"), "N m",
+         "moment of friction about the axis of the gear, positive where it has the sense of the moment of the normal force, which brakes the driver and drives the driven gear",
+         "mesh_phase", kMoment, "sum of mu s F t"},
+        &a.friction_moment[g]);
   c.dataset({"/efficiency",
              "1",
              "of the mesh at rest: work given by the driven gear over that put into the driver",
@@ -117,7 +114,7 @@ void describe_static_friction(Codec& c, StaticArtifact& a) {
 
 }  // namespace
 
-void describe(Codec& c, StaticArtifact& a) {
+void describe(Codec& c, StaticResult& a) {
   describe_pair(c, a);
   describe_torque(c, a.torque);
   c.dataset({"/contact_ratio", "1", "profile contact ratio of the unloaded gears", "", {0, 100, true}},
@@ -154,13 +151,13 @@ void describe(Codec& c, StaticArtifact& a) {
   describe_backlash(c, a.backlash_margin);
 }
 
-void write(const std::string& path, const StaticArtifact& a, const Provenance& provenance) {
+void write(const std::string& path, const StaticResult& a, const Provenance& provenance) {
   write_artifact(path, kStaticSchema, "Static transmission error: " + pair_title(a.mesh, a.torque), a,
                  provenance);
 }
 
-StaticArtifact read_static(const std::string& path) {
-  return read_artifact<StaticArtifact>(path, kStaticSchema);
+StaticResult read_static(const std::string& path) {
+  return read_artifact<StaticResult>(path, kStaticSchema);
 }
 
 }  // namespace whine

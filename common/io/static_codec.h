@@ -3,14 +3,14 @@
 #include <string>
 
 #include "io/provenance.h"
-#include "signal/static_result.h"
+#include "results/static.h"
 
 namespace whine {
 
 class Codec;
 
-void describe(Codec& codec, StaticArtifact& a);
-void write(const std::string& path, const StaticArtifact& a, const Provenance& provenance);
-StaticArtifact read_static(const std::string& path);
+void describe(Codec& codec, StaticResult& a);
+void write(const std::string& path, const StaticResult& a, const Provenance& provenance);
+StaticResult read_static(const std::string& path);
 
 }  // namespace whine

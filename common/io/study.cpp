@@ -265,9 +265,11 @@ void read_normal(const StudyFile& file, const toml::table& table, bool random, V
   if (!(varied.least < varied.most) || varied.least > varied.first + kWidest * varied.second ||
       varied.most < varied.first - kWidest * varied.second ||
       varied.most - varied.least < 0.1 * varied.second)
-    file.reject(table, text("'least' and 'most' of ", varied.name,
-                            " leave hardly a draw: they must be a tenth of the deviation apart and reach to "
-                            "within 3 deviations of the mean"));
+    file.reject(
+        table,
+        text(
+            "'least' and 'most' of ", varied.name,
+            " leave hardly a draw: they must be a tenth of the deviation apart and reach to within 3 deviations of the mean"));
 }
 
 VariedKey read_varied(const StudyFile& file, const toml::table& table, bool random) {
@@ -355,12 +357,12 @@ void read_figure(const StudyFile& file, Study& study) {
   static const toml::table kNothing;
   const toml::table* table = node ? node->as_table() : &kNothing;
   if (!table) file.reject(*node, "'figure' must be a section: write [figure]");
-  file.require_known(*table, "[figure]", {"answers", "keys", "colour"});
-  study.figure_quantities =
-      file.words(*table, "answers", first(study.quantities), study.quantities, "gathered response quantity");
+  file.require_known(*table, "[figure]", {"quantities", "keys", "colour"});
+  study.figure_quantities = file.words(*table, "quantities", first(study.quantities), study.quantities,
+                                       "gathered response quantity");
   study.figure_keys = file.words(*table, "keys", first(names), names, "varied key");
   for (const auto& [what, list] :
-       {std::pair{"answers", &study.figure_quantities}, std::pair{"keys", &study.figure_keys}})
+       {std::pair{"quantities", &study.figure_quantities}, std::pair{"keys", &study.figure_keys}})
     if (list->size() > kMostPanels)
       file.reject(*table->get(what), text("'", what, "' in [figure] names ", list->size(),
                                           "; a figure has room for ", kMostPanels));
@@ -410,7 +412,7 @@ std::string drawn_value(const StudyPlan& study, const VariedKey& key, long index
 
 VariedKey varied_key(const std::string& name) {
   const Key& key = *find_key(name).key;
-  KeyValues any;
+  SceneParameters any;
   const Slot slot = key.slot(any);
   VariedKey out;
   out.name = name;
@@ -437,8 +439,8 @@ Study read_study(const std::string& path) {
   const StudyFile file(path);
   const toml::table& root = file.root();
   file.require_known(root, "",
-                     {"title", "scene", "stage", "directions", "plan", "samples", "seed", "answers",
-                      "refusals", "compare", "set", "vary", "figure"});
+                     {"title", "scene", "stage", "directions", "plan", "samples", "seed", "quantities",
+                      "outside_model", "compare", "set", "vary", "figure"});
   Study study;
   study.path = path;
   study.title = file.word(root, "title", std::filesystem::path(path).stem().string());
@@ -460,7 +462,7 @@ Study read_study(const std::string& path) {
     if (!study.random && root.contains(key))
       file.reject(*root.get(key), text("'", key, "' is of a sample: say plan = \"sample\" or leave it out"));
   if (root.contains("seed")) study.seed = static_cast<int>(file.whole(root, "seed", 0, 2147483647));
-  study.marks_outside = file.choice(root, "refusals", "stop", {"stop", "mark"}) == "mark";
+  study.marks_outside = file.choice(root, "outside_model", "stop", {"stop", "mark"}) == "mark";
 
   if (const toml::node* fixed = root.get("set")) {
     if (!fixed->is_table()) file.reject(*fixed, "'set' must be a section: write [set]");
@@ -506,7 +508,7 @@ Study read_study(const std::string& path) {
 
   Words known;
   for (const ResponseQuantity& kind : response_quantities(study.directions)) known.push_back(kind.name);
-  study.quantities = file.words(root, "answers", known, known, "response quantity of this stage");
+  study.quantities = file.words(root, "quantities", known, known, "response quantity of this stage");
   read_figure(file, study);
   if (const toml::node* marked = root.get("compare")) read_compared(file, *marked, study);
   return study;

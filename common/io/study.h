@@ -5,8 +5,8 @@
 //   stage = "static"                          # the pair at rest; "sweep": and in motion
 //   directions = ["up", "down"]               # of the sweeps; default: both
 //   plan = "grid"                             # all combinations; "sample": random ones, with samples = 1000, seed = 1
-//   answers = ["rms_max_up"]                  # what the table holds; default: all of the stage
-//   refusals = "stop"                         # a variant outside the model's range is an error; "mark": a marked line of the
+//   quantities = ["rms_max_up"]                  # what the table holds; default: all of the stage
+//   outside_model = "stop"                         # a variant outside the model's range is an error; "mark": a marked line of the
 // table
 //   compare = [0, 3]                          # two variants, by their numbers, that `make compare` shows side by side
 //   [set]                                     # values that all variants have instead of the scene's
@@ -16,7 +16,7 @@
 //   values = [4.0e-6, 5.5e-6]                 # or from, to with step or count; in a sample also from, to alone (uniform), or
 //                                             # mean, deviation (normal), redrawn outside `least` and `most`
 //   [figure]                                  # default: the first response quantities against the first keys
-//   answers = ["rms_max_up"]                  # one row of panels each, 4 at most
+//   quantities = ["rms_max_up"]                  # one row of panels each, 4 at most
 //   keys = ["damping.rayleigh_stiffness_s"]   # one column of panels each, 4 at most
 //   colour = "operation.torque_Nm"
 #pragma once

@@ -13,7 +13,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kStudySchema{"study", 2};
+constexpr Schema kStudySchema{"study", 3};
 
 // The dataset of a key: its place without dots, its name without the unit.
 std::string dataset_of(const VariedKey& key) {
@@ -36,8 +36,8 @@ void describe_plan(Codec& c, StudyPlan& plan) {
   std::vector<std::string> keys;
   for (const VariedKey& key : plan.keys) keys.push_back(key.name);
   c.dataset({at + "key", "1", "keys that vary, as the study names them", "key"}, &keys);
-  c.dataset({at + "answer", "1", "response quantities that are gathered", "answer"}, &plan.quantities);
-  c.dataset({at + "figure_answer", "1", "response quantities that the figure shows", "figure_answer"},
+  c.dataset({at + "quantity", "1", "response quantities that are gathered", "quantity"}, &plan.quantities);
+  c.dataset({at + "figure_quantity", "1", "response quantities that the figure shows", "figure_quantity"},
             &plan.figure_quantities);
   c.dataset({at + "figure_key", "1", "keys against which it shows them", "figure_key"}, &plan.figure_keys);
   c.dataset({at + "figure_colour", "1", "key by which it colours them", ""}, &plan.figure_colour);
@@ -48,7 +48,7 @@ void describe_plan(Codec& c, StudyPlan& plan) {
 }
 
 // Values of one key in all variants: numbers in SI, others as a scene has them.
-void describe_values(Codec& c, StudyArtifact& a, std::size_t k) {
+void describe_values(Codec& c, StudyResult& a, std::size_t k) {
   const VariedKey& key = a.plan.keys[k];
   const std::string meaning = key.name + ": " + key.meaning;
   const auto variants = static_cast<Eigen::Index>(a.variants.size());
@@ -72,7 +72,7 @@ void describe_values(Codec& c, StudyArtifact& a, std::size_t k) {
 
 }  // namespace
 
-void describe(Codec& c, StudyArtifact& a) {
+void describe(Codec& c, StudyResult& a) {
   describe_plan(c, a.plan);
   std::vector<std::string> names;
   for (const GatheredVariant& variant : a.variants) names.push_back(variant.name);
@@ -85,13 +85,13 @@ void describe(Codec& c, StudyArtifact& a) {
   for (const ResponseQuantity& kind : kinds) {
     const auto found = std::find(a.plan.quantities.begin(), a.plan.quantities.end(), kind.name);
     if (found != a.plan.quantities.end())
-      c.column(
-          {"/answer/" + kind.name, kind.units, kind.meaning + "; 0 where refused is 1", "variant", kQuantity},
-          a.quantity, found - a.plan.quantities.begin(), quantities);
+      c.column({"/quantity/" + kind.name, kind.units, kind.meaning + "; 0 where outside_model is 1",
+                "variant", kQuantity},
+               a.quantity, found - a.plan.quantities.begin(), quantities);
   }
   if (c.lists()) {
     c.dataset({"/key/<key>", "its own", "value in each variant", "variant", kQuantity}, &a.unsteady);
-    c.dataset({"/answer/<quantity>", "its own", "response quantity of each variant", "variant", kQuantity},
+    c.dataset({"/quantity/<quantity>", "its own", "response quantity of each variant", "variant", kQuantity},
               &a.unsteady);
   }
   for (std::size_t q = 1; c.in() && q < a.plan.quantities.size(); ++q)
@@ -104,23 +104,24 @@ void describe(Codec& c, StudyArtifact& a) {
         c.in()->file().reject("names the response quantity '" + name + "', which no variant gives");
   Eigen::VectorXi rejected(static_cast<Eigen::Index>(a.rejection.size()));
   for (Eigen::Index v = 0; v < rejected.size(); ++v) rejected[v] = a.rejection[v].empty() ? 0 : 1;
-  c.dataset({"/refused", "1", "1: the variant lies outside the model's range and has no response quantities",
-             "variant", kFlag},
-            &rejected);
-  c.dataset({"/refusal", "1", "why; empty where it was not rejected", "variant"}, &a.rejection);
+  c.dataset(
+      {"/outside_model", "1", "1: the variant lies outside the model's range and has no response quantities",
+       "variant", kFlag},
+      &rejected);
+  c.dataset({"/outside_model_reason", "1", "why; empty where it was not rejected", "variant"}, &a.rejection);
   c.dataset(
       {"/unsteady", "1", "speeds, of all sweeps, at which no periodic motion was found", "variant", kNumber},
       &a.unsteady);
 }
 
-void write(const std::string& path, const StudyArtifact& a, const Provenance& provenance) {
+void write(const std::string& path, const StudyResult& a, const Provenance& provenance) {
   if (a.quantity.rows() != static_cast<Eigen::Index>(a.variants.size()))
     fail(Failure::numerical, "result has ", a.quantity.rows(), " rows, expected ", a.variants.size());
   write_artifact(path, kStudySchema, "Study: " + a.plan.title, a, provenance);
 }
 
-StudyArtifact read_study_artifact(const std::string& path) {
-  return read_artifact<StudyArtifact>(path, kStudySchema);
+StudyResult read_study_artifact(const std::string& path) {
+  return read_artifact<StudyResult>(path, kStudySchema);
 }
 
 }  // namespace whine

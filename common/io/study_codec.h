@@ -12,7 +12,7 @@ namespace whine {
 
 class Codec;
 
-struct StudyArtifact {
+struct StudyResult {
   StudyPlan plan;
   std::vector<GatheredVariant> variants;
   MatrixRM
@@ -21,8 +21,8 @@ struct StudyArtifact {
   Eigen::VectorXi unsteady;  // (variant) speeds, of all its sweeps, at which no periodic motion was found
 };
 
-void describe(Codec& codec, StudyArtifact& a);
-void write(const std::string& path, const StudyArtifact& a, const Provenance& provenance);
-StudyArtifact read_study_artifact(const std::string& path);
+void describe(Codec& codec, StudyResult& a);
+void write(const std::string& path, const StudyResult& a, const Provenance& provenance);
+StudyResult read_study_artifact(const std::string& path);
 
 }  // namespace whine

@@ -92,7 +92,7 @@ std::string study_fragment(const ExpandedStudy& plan, const std::string& path, c
   }
   out << "\n" << prefix << "GEARS := " << plan.gears;
   out << "\n"
-      << prefix << "OPTIONS :=" << (plan.study.marks_outside ? "--mark-refusals" : "") << "\nBODIES +=";
+      << prefix << "OPTIONS :=" << (plan.study.marks_outside ? "--mark-outside-model" : "") << "\nBODIES +=";
   for (const auto& [hash, text] : plan.bodies) out << " " << hash;
   out << "\n";
   return out.str();
@@ -106,7 +106,7 @@ std::vector<std::string> idle_keys(const ExpandedStudy& plan) {
 
 GatheredStudy gather_study(const std::string& path) {
   GatheredStudy gathered;
-  StudyArtifact& study = gathered.study;
+  StudyResult& study = gathered.study;
   std::tie(study.plan, study.variants) = read_plan(path);
   const std::string home = std::filesystem::path(path).parent_path().string() + "/";
   const std::vector<ResponseQuantity> kinds = response_quantities(study.plan.directions);
@@ -120,7 +120,7 @@ GatheredStudy gather_study(const std::string& path) {
   study.unsteady.setZero(static_cast<Eigen::Index>(study.variants.size()));
   for (size_t v = 0; v < study.variants.size(); ++v) {
     const std::string file = home + variant_file(study.variants[v].name) + ".h5";
-    const VariantArtifact variant = read_variant(file);
+    const VariantResult variant = read_variant(file);
     if (variant.directions != study.plan.directions)
       fail(Failure::input, file, ": is of another stage than the study; ", rebuild_advice(file));
     study.rejection.push_back(variant.rejection);
@@ -129,7 +129,7 @@ GatheredStudy gather_study(const std::string& path) {
       fail(Failure::input, path, ": ",
            variant_name(study.plan, static_cast<long>(v), study.variants[v].values),
            " lies outside the model's range: ", variant.rejection,
-           "; take it out, or say refusals = \"mark\"");
+           "; take it out, or say outside_model = \"mark\"");
     if (!variant.rejection.empty()) {
       gathered.rejected.push_back(
           text(variant_name(study.plan, static_cast<long>(v), study.variants[v].values),

@@ -28,7 +28,7 @@ std::string study_fragment(const ExpandedStudy& plan, const std::string& path, c
 std::vector<std::string> idle_keys(const ExpandedStudy& plan);
 
 struct GatheredStudy {
-  StudyArtifact study;
+  StudyResult study;
   std::vector<std::string> rejected;  // "variant 3 (...) lies outside the model's range: ..."
   long unsteady = 0;                  // variants with speeds at which no periodic motion was found
 };

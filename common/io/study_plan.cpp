@@ -57,9 +57,9 @@ std::string plan_text(const StudyPlan& study, const std::vector<GatheredVariant>
   for (const Direction direction : study.directions) directions.push_back(name_of(direction));
   out << kPlanStart << "\ntitle = " << quoted(study.title) << "\nscene = " << quoted(study.scene)
       << "\ndirections = " << quoted(directions) << "\nrandom = " << (study.random ? "true" : "false")
-      << "\nseed = " << study.seed << "\nmarks_refusals = " << (study.marks_outside ? "true" : "false")
-      << "\nanswers = " << quoted(study.quantities) << "\nkeys = " << quoted(names)
-      << "\nfigure_answers = " << quoted(study.figure_quantities)
+      << "\nseed = " << study.seed << "\nmarks_outside_model = " << (study.marks_outside ? "true" : "false")
+      << "\nquantities = " << quoted(study.quantities) << "\nkeys = " << quoted(names)
+      << "\nfigure_quantities = " << quoted(study.figure_quantities)
       << "\nfigure_keys = " << quoted(study.figure_keys)
       << "\nfigure_colour = " << quoted(study.figure_colour) << "\nvariants = [\n";
   for (const GatheredVariant& variant : variants) {
@@ -95,10 +95,10 @@ std::pair<StudyPlan, std::vector<GatheredVariant>> read_plan(const std::string& 
   plan.directions = *directions;
   plan.random = root["random"].value_or(false);
   plan.seed = root["seed"].value_or(0);
-  plan.marks_outside = root["marks_refusals"].value_or(false);
-  plan.quantities = words(root.get("answers"));
+  plan.marks_outside = root["marks_outside_model"].value_or(false);
+  plan.quantities = words(root.get("quantities"));
   for (const std::string& name : words(root.get("keys"))) plan.keys.push_back(varied_key(name));
-  plan.figure_quantities = words(root.get("figure_answers"));
+  plan.figure_quantities = words(root.get("figure_quantities"));
   plan.figure_keys = words(root.get("figure_keys"));
   plan.figure_colour = root["figure_colour"].value_or(std::string());
   // gear-study finds response quantities and keys by their names.

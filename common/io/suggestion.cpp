@@ -37,11 +37,9 @@ constexpr Synonym kSynonyms[] = {
      "half of the diameter"},
     {"hubradius shaftradius innerradius holeradius", "bore_radius_mm"},
     {"webthickness web webwidth websthickness", "bore_radius_mm",
-     "there are no webs: the radius inside which the gear is as good as rigid, that of the web's root or of "
-     "the shaft"},
+     "there are no webs: the radius inside which the gear is as good as rigid, that of the web's root or of the shaft"},
     {"rimthickness rimwidth ringthickness", "rim_outer_radius_mm",
-     "of an internal gear: root radius plus the thickness; of an external one bore_radius_mm: root radius "
-     "less the thickness"},
+     "of an internal gear: root radius plus the thickness; of an external one bore_radius_mm: root radius less the thickness"},
     {"hubwidth hublength keyway spline shaft shaftname onshaft", "",
      "gears have one width and stand alone: those that share a shaft are not computed; take the line out"},
     {"undercut undercutting cutterprotuberance protuberance protuberanceamount", "",
@@ -50,8 +48,7 @@ constexpr Synonym kSynonyms[] = {
      "the diameter at which the flank ends"},
     {"tipclearance clearance bottomclearance", "dedendum",
      "in modules: the mate's addendum plus the clearance"},
-    {"basetangentlength spanmeasurement spanwidth wk md dimensionoverpins dimensionoverballs "
-     "toothwidthdeviation",
+    {"basetangentlength spanmeasurement spanwidth wk md dimensionoverpins dimensionoverballs toothwidthdeviation",
      "tooth_thinning_mm", "the arc taken off at the pitch circle, for backlash"},
     {"tooththickness sn circulartooththickness", "tooth_thinning_mm",
      "module (pi / 2 + 2 profile_shift tan(pressure_angle)) less the tooth thickness"},
@@ -65,8 +62,7 @@ constexpr Synonym kSynonyms[] = {
     {"rf rootradius dedendumradius", "root_diameter_mm", "twice the radius"},
     {"ha addendum addendumcoefficient addendumfactor", "addendum", "in modules"},
     {"hf dedendum dedendumcoefficient dedendumfactor", "dedendum", "in modules"},
-    {"filletradius rootfillet rootfilletradius cuttertipradius tooltipradius hobtipradius racktipradius "
-     "toolroundness rhof rhoap rhoa0 rhofp",
+    {"filletradius rootfillet rootfilletradius cuttertipradius tooltipradius hobtipradius racktipradius toolroundness rhof rhoap rhoa0 rhofp",
      "rack_tip_radius", "in modules"},
     {"backlash thinning tooththicknessallowance", "tooth_thinning_mm",
      "on each gear; the backlash is the sum of both, and what the centre distance gives"},

@@ -71,7 +71,7 @@ void show_errors(SummaryLines& lines, const GearMeshSpec& mesh) {
 void show_gear(SummaryLines& lines, const GearDesign& gear, const BodyDiscretisation& body) {
   add(lines, "gear", gear.teeth, " teeth, module ", gear.module * 1e3, " mm, face width ",
       gear.face_width * 1e3, " mm, ", gear.internal ? "internal, rim held at " : "bore radius ",
-      gear.held_radius() * 1e3, gear.internal ? " mm radius" : " mm");
+      gear.clamped_radius() * 1e3, gear.internal ? " mm radius" : " mm");
   if (gear.crack.depth > 0)
     add(lines, "crack", "tooth ", gear.crack.tooth, ", a slit of ", gear.crack.depth * 1e3, " mm");
   add(lines, "elements", "order ", body.element_order, ", ", body.element_size * 1e3, " mm on the flank");
@@ -83,7 +83,7 @@ std::string near_field(const BodyDiscretisation& body) {
              : name_of(body.near_field);
 }
 
-void show_discretisation(SummaryLines& lines, const PairParameters& a) {
+void show_discretisation(SummaryLines& lines, const GearPairParameters& a) {
   const auto elements = [](const BodyDiscretisation& b) {
     return text("order ", b.element_order, ", ", b.element_size * 1e3, " mm on the flank");
   };
@@ -100,14 +100,14 @@ void show_damping(SummaryLines& lines, const Damping& damping) {
       damping.bearing_ratio * 100, " %");
 }
 
-void show(SummaryLines& lines, const MeshArtifact& a) {
+void show(SummaryLines& lines, const SectorGrid& a) {
   show_gear(lines, a.design, a.discretisation);
   add(lines, "sector", a.node_position.rows(), " nodes, ", a.element_node.rows(), " elements of ",
       a.element_node.cols(), " nodes");
   add(lines, "flank", a.flank_node.size(), " nodes on the driving flank");
 }
 
-void show(SummaryLines& lines, const BodyArtifact& a) {
+void show(SummaryLines& lines, const ReducedBody& a) {
   show_gear(lines, a.design, a.discretisation);
   add(lines, "inertia of the body", a.inertia, " kg m2, mass ", a.mass, " kg");
   std::string modes;
@@ -123,7 +123,7 @@ void show(SummaryLines& lines, const BodyArtifact& a) {
       " µm/N (round-off of the log of the contact below 0)");
 }
 
-void show(SummaryLines& lines, const StaticArtifact& a) {
+void show(SummaryLines& lines, const StaticResult& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", centre distance ",
       a.mesh.centre_distance * 1e3, " mm");
   add(lines, "corner contact", corner_rule(a.mesh));
@@ -167,7 +167,7 @@ void show(SummaryLines& lines, const StaticArtifact& a) {
   if (!std::isinf(a.backlash_margin)) add(lines, "least backlash", a.backlash_margin * 1e6, " µm");
 }
 
-void show(SummaryLines& lines, const LoadedArtifact& a) {
+void show(SummaryLines& lines, const LoadedResult& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", mesh phase ", a.mesh_phase);
   show_modification(lines, a.mesh);
   show_discretisation(lines, a);
@@ -184,7 +184,7 @@ void show(SummaryLines& lines, const LoadedArtifact& a) {
         a.contact_torque[g], ", strain energy over work ", a.strain_energy[g] / a.contact_work[g]);
 }
 
-void show(SummaryLines& lines, const ErrorBudgetArtifact& a) {
+void show(SummaryLines& lines, const ErrorBudgetResult& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", contact ", a.fidelity.contact);
   const auto rows = [&](const StaticChanges& changes, const std::string& before) {
     std::string rest = changes.entry;
@@ -213,7 +213,7 @@ void show(SummaryLines& lines, const ErrorBudgetArtifact& a) {
   if (!a.choice_missing.empty()) add(lines, "not computed", a.choice_missing);
 }
 
-void show(SummaryLines& lines, const ImpactArtifact& a) {
+void show(SummaryLines& lines, const ImpactResult& a) {
   if (a.mesh.friction.acts())
     add(lines, "friction", "left out of ring-downs: teeth do not slide at a fixed mesh phase");
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", ", a.torque_step * 100, " % let go");
@@ -236,7 +236,7 @@ void show(SummaryLines& lines, const ImpactArtifact& a) {
   add(lines, "least mesh force", a.least_mesh_force * 100, " % of the static one");
 }
 
-void show(SummaryLines& lines, const SweepArtifact& a) {
+void show(SummaryLines& lines, const SweepResult& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", ", a.direction, ", ",
       range_of(a.mesh_frequency));
   const LumpedParameters& l = a.lumped;
@@ -275,7 +275,7 @@ void show(SummaryLines& lines, const SweepArtifact& a) {
             return Eigen::ArrayXd(a.energy.col(static_cast<Eigen::Index>(i)));
         return Eigen::ArrayXd();
       };
-      const Eigen::ArrayXd damped = line("modal_damping") + line("lag_damping");
+      const Eigen::ArrayXd damped = line("modal_damping") + line("relaxation_damping");
       add(lines, "energy", "at most ", damped.maxCoeff(),
           " J damped in the stored periods; of that the scheme's own work, ", "strips that switch ",
           (line("switching") / damped).abs().maxCoeff() * 100, " %, averaging ",
@@ -291,7 +291,7 @@ void show(SummaryLines& lines, const SweepArtifact& a) {
   add(lines, "jumps", jump_words(a.jump_frequency, a.jump_width));
 }
 
-void show(SummaryLines& lines, const BranchArtifact& a) {
+void show(SummaryLines& lines, const BranchResult& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", ", range_of(a.mesh_frequency));
   show_friction(lines, a.mesh);
   add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
@@ -321,7 +321,7 @@ void show(SummaryLines& lines, const BranchArtifact& a) {
   add(lines, "end", a.end);
 }
 
-void show(SummaryLines& lines, const FoldCurvesArtifact& a) {
+void show(SummaryLines& lines, const FoldCurvesResult& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", over ", a.quantity);
   show_friction(lines, a.mesh);
   add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
@@ -335,7 +335,7 @@ void show(SummaryLines& lines, const FoldCurvesArtifact& a) {
   add(lines, "end", a.end);
 }
 
-void show(SummaryLines& lines, const RunupArtifact& a) {
+void show(SummaryLines& lines, const RunupResult& a) {
   show_friction(lines, a.mesh);
   add(lines, "operating point", a.torque, " N m, ", a.ramp.from, " to ", a.ramp.to, " Hz at ", a.ramp.rate,
       " rpm/s");
@@ -347,7 +347,7 @@ void show(SummaryLines& lines, const RunupArtifact& a) {
       a.periods.mesh_frequency[worst], " Hz");
 }
 
-void show(SummaryLines& lines, const ResponseArtifact& a) {
+void show(SummaryLines& lines, const ResponseResult& a) {
   show_friction(lines, a.mesh);
   add(lines, "operating point", a.torque, " N m, ", a.direction, ", ", range_of(a.mesh_frequency));
   add(lines, "model", a.model);
@@ -362,9 +362,9 @@ void show(SummaryLines& lines, const ResponseArtifact& a) {
         add(lines, text("bearing of ", a.mesh.gear[g]), "force at most ", a.bearing_force_max[g].maxCoeff(),
             " N, its oscillation at most ", a.bearing_force_rms[g].maxCoeff(), " N RMS");
     for (size_t g = 0; g < kSides; ++g)
-      if (a.root_stress_held[g].size() > 0) {
-        const double stress = a.root_stress_held[g].maxCoeff(&worst);
-        add(lines, "root stress of " + a.mesh.gear[g], stress * 1e-6, " MPa held at ",
+      if (a.root_stress_sustained[g].size() > 0) {
+        const double stress = a.root_stress_sustained[g].maxCoeff(&worst);
+        add(lines, "root stress of " + a.mesh.gear[g], stress * 1e-6, " MPa sustained at ",
             a.mesh_frequency[worst], " Hz, at a tangent of ",
             a.root_stress_angle[g][worst] * 180 / std::numbers::pi, " deg, phase of its pair ",
             a.root_stress_phase[g][worst]);
@@ -377,7 +377,7 @@ void show(SummaryLines& lines, const ResponseArtifact& a) {
   add(lines, "jumps", jump_words(a.jump_frequency, a.jump_width));
 }
 
-void show(SummaryLines& lines, const JumpMapArtifact& a) {
+void show(SummaryLines& lines, const JumpMapResult& a) {
   add(lines, "operating point", a.torque, " N m, ", range_of(a.mesh_frequency));
   add(lines, "model", a.model);
   add(lines, "stiffness", "mean ", a.mean_stiffness * 1e-6, " N/µm, first harmonic ",
@@ -388,8 +388,8 @@ void show(SummaryLines& lines, const JumpMapArtifact& a) {
         two ? text(a.branches_from[i], a.open_below[i] ? " or less" : "", " to ", a.branches_to[i], " Hz")
             : "",
         lost ? text(", contact lost from ", a.loss_from[i], " to ", a.loss_to[i], " Hz") : ", contact kept",
-        ", peak tooth load ", a.peak_tooth_load.row(i).maxCoeff(), " N, held ",
-        a.held_tooth_load.row(i).maxCoeff(), " N");
+        ", peak tooth load ", a.peak_tooth_load.row(i).maxCoeff(), " N, sustained ",
+        a.sustained_tooth_load.row(i).maxCoeff(), " N");
   }
 }
 
@@ -397,7 +397,7 @@ void show(SummaryLines& lines, const JumpMapArtifact& a) {
 
 namespace {
 
-void show(SummaryLines& lines, const HarrisMapArtifact& a) {
+void show(SummaryLines& lines, const HarrisMapResult& a) {
   show_gear(lines, a.gear[0].design, a.gear[0].discretisation);
   show_modification(lines, a.mesh);
   show_errors(lines, a.mesh);
@@ -417,7 +417,7 @@ void show(SummaryLines& lines, const HarrisMapArtifact& a) {
         a.dynamic_rms[s].maxCoeff() * 1e6, " µm");
 }
 
-void show(SummaryLines& lines, const VariantArtifact& a) {
+void show(SummaryLines& lines, const VariantResult& a) {
   show_gear(lines, a.gear[0].design, a.gear[0].discretisation);
   show_modification(lines, a.mesh);
   show_friction(lines, a.mesh);
@@ -431,7 +431,7 @@ void show(SummaryLines& lines, const VariantArtifact& a) {
     add(lines, kinds[i].name, a.quantity[i], " ", kinds[i].units == "1" ? "" : kinds[i].units);
 }
 
-void show(SummaryLines& lines, const StudyArtifact& a) {
+void show(SummaryLines& lines, const StudyResult& a) {
   std::string keys;
   for (const VariedKey& key : a.plan.keys) keys += (keys.empty() ? "" : ", ") + key.name;
   const auto rejected =

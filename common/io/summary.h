@@ -13,8 +13,7 @@ std::string in_words(const FlankModification& modification);
 
 // What every line of a summary is in; a number that stands without a unit is a plain one.
 inline constexpr const char* kSummaryUnits =
-    "units: mm (gears), µm (displacements, gaps), N, N m, N/µm, MPa, Hz, kg, kg m2, µs (eta), % of ratios; "
-    "others at the number";
+    "units: mm (gears), µm (displacements, gaps), N, N m, N/µm, MPa, Hz, kg, kg m2, µs (eta), % of ratios; others at the number";
 
 // Name and text of each number; schema as read_origin gives it. Errors as the reader of that schema.
 std::vector<std::pair<std::string, std::string>> summary(const std::string& path, const std::string& schema);

@@ -14,7 +14,7 @@
 namespace whine {
 namespace {
 
-void show(SummaryLines& lines, const ModesArtifact& a) {
+void show(SummaryLines& lines, const ModesResult& a) {
   std::string bodies;
   for (const System::Body& body : a.layout.bodies) bodies += (bodies.empty() ? "" : ", ") + body.name;
   add(lines, "bodies", bodies);
@@ -30,7 +30,7 @@ void show_differing_teeth(SummaryLines& lines, const SystemStaticParameters& s, 
   if (periods > 1) add(lines, "hunting period", periods, " mesh periods, after which the same teeth meet");
 }
 
-void show(SummaryLines& lines, const SystemStaticArtifact& a) {
+void show(SummaryLines& lines, const SystemStaticResult& a) {
   const System& s = a.settings.layout;
   add(lines, "model", "contact ", a.settings.fidelity.contact, ", ", a.mesh_phase.size() / a.hunting_periods,
       " positions in a mesh period");
@@ -59,7 +59,7 @@ void show_model(SummaryLines& lines, const SystemSweepParameters& s) {
       s.damping.rayleigh_stiffness, " s and ", s.damping.rayleigh_mass, " 1/s");
 }
 
-void show(SummaryLines& lines, const SystemSweepArtifact& a) {
+void show(SummaryLines& lines, const SystemSweepResult& a) {
   const System& s = a.settings.layout;
   add(lines, "operating point", a.direction, ", ", range_of(a.mesh_frequency));
   show_model(lines, a.settings);
@@ -82,7 +82,7 @@ void show(SummaryLines& lines, const SystemSweepArtifact& a) {
   add(lines, "energy imbalance", a.energy_imbalance.cwiseAbs().maxCoeff(), " of the throughput");
 }
 
-void show(SummaryLines& lines, const SystemImpactArtifact& a) {
+void show(SummaryLines& lines, const SystemImpactResult& a) {
   show_model(lines, a.settings);
   add(lines, "ring-down", a.mesh_phase.size(), " mesh phases, ", a.damping_ratio.cols(), " modes");
   for (Eigen::Index k = 0; k < a.damping_ratio.cols(); ++k)
@@ -93,7 +93,7 @@ void show(SummaryLines& lines, const SystemImpactArtifact& a) {
     add(lines, "residual of the fits", a.fit_residual.maxCoeff(), " of the decay");
 }
 
-void show(SummaryLines& lines, const SystemBranchArtifact& a) {
+void show(SummaryLines& lines, const SystemBranchResult& a) {
   show_model(lines, a.settings);
   add(lines, "orbits", a.mesh_frequency.size(), ", ", a.mesh_frequency.size() - a.stable.sum(),
       " of them unstable");

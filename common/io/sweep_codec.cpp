@@ -8,7 +8,7 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kSweepSchema{"sweep", 6};
+constexpr Schema kSweepSchema{"sweep", 7};
 
 // Left out of finite element sweeps, which have no such part.
 void describe_lumped(Codec& c, std::string& model, LumpedParameters& a) {
@@ -29,15 +29,15 @@ void describe_lumped(Codec& c, std::string& model, LumpedParameters& a) {
             &a.gap);
 }
 
-void describe_motions(Codec& c, SweepArtifact& a, bool lumped) {
+void describe_motions(Codec& c, SweepResult& a, bool lumped) {
   c.dataset({"/mesh_frequency", "Hz", "mesh frequency, in the order in which they were computed",
              "mesh_frequency", kSpeed},
             &a.mesh_frequency);
-  c.dataset({"/transmission_error", "m",
-             "dynamic transmission error from phase 0; the first period_multiple mesh periods are one orbit; "
-             "shorter orbits repeat to fill the row",
-             "mesh_frequency sample", kLength, "r1 theta1 + r2 theta2"},
-            &a.transmission_error);
+  c.dataset(
+      {"/transmission_error", "m",
+       "dynamic transmission error from phase 0; the first period_multiple mesh periods are one orbit; shorter orbits repeat to fill the row",
+       "mesh_frequency sample", kLength, "r1 theta1 + r2 theta2"},
+      &a.transmission_error);
   c.dataset({"/mesh_force", "N", "normal force of all tooth pairs together", "mesh_frequency sample", kForce},
             &a.mesh_force);
   c.dataset(
@@ -49,23 +49,21 @@ void describe_motions(Codec& c, SweepArtifact& a, bool lumped) {
     if (c.lists() || (a.mesh.bearing[g].elastic() && !lumped))
       c.dataset(
           {of_body(c, a.mesh, g, "bearing_force"), "N",
-           "force of the gear on its bearing; x, y: the driven gear stands above the driver, which turns "
-           "counter-clockwise",
+           "force of the gear on its bearing; x, y: the driven gear stands above the driver, which turns counter-clockwise",
            "mesh_frequency sample xy", kForce},
           &a.bearing_force[g]);
   for (int g = 0; g < (c.lists() ? 1 : 2); ++g)
     if (c.optional(of_body(c, a.mesh, g, "root_stress"), a.root_stress[g].size() > 0)) {
       c.dataset(
           {of_body(c, a.mesh, g, "root_stress"), "Pa",
-           "largest tangential stress of the teeth that carry load along the root beside the loaded flank, "
-           "tension positive; quasi-static in the tooth loads: the inertia of the body adds none",
+           "largest tangential stress of the teeth that carry load along the root beside the loaded flank, tension positive; quasi-static in the tooth loads: the inertia of the body adds none",
            "mesh_frequency sample", kStress},
           &a.root_stress[g]);
       describe_root_place(c, a.mesh, g, "mesh_frequency", a.root_stress_angle, a.root_stress_phase);
     }
 }
 
-void describe_speed_by_speed(Codec& c, SweepArtifact& a) {
+void describe_speed_by_speed(Codec& c, SweepResult& a) {
   const char* const axis = "mesh_frequency";
   c.dataset({"/periods", "1", "mesh periods run to steady state", axis, kNumber}, &a.periods);
   c.dataset({"/residual", "1", "relative change of the state over the last mesh period", axis, {0, 1e300}},
@@ -106,7 +104,7 @@ void describe_speed_by_speed(Codec& c, SweepArtifact& a) {
 
 }  // namespace
 
-void describe(Codec& c, SweepArtifact& a) {
+void describe(Codec& c, SweepResult& a) {
   describe_pair(c, a);
   describe_motion(c, a);
   describe_bearing_dampers(c, a.mean_stiffness, a.bearing_damper);
@@ -128,7 +126,7 @@ void describe(Codec& c, SweepArtifact& a) {
             &a.jump_width);
 }
 
-void write(const std::string& path, const SweepArtifact& a, const Provenance& provenance) {
+void write(const std::string& path, const SweepResult& a, const Provenance& provenance) {
   const bool lumped = a.lumped.cell_end.size() > 0;
   write_artifact(path, kSweepSchema,
                  text("Sweep ", a.direction, lumped ? ", lumped model " + a.model : "", ": ",
@@ -136,8 +134,8 @@ void write(const std::string& path, const SweepArtifact& a, const Provenance& pr
                  a, provenance);
 }
 
-SweepArtifact read_sweep(const std::string& path) {
-  return read_artifact<SweepArtifact>(path, kSweepSchema);
+SweepResult read_sweep(const std::string& path) {
+  return read_artifact<SweepResult>(path, kSweepSchema);
 }
 
 }  // namespace whine

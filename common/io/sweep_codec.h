@@ -3,14 +3,14 @@
 #include <string>
 
 #include "io/provenance.h"
-#include "signal/sweep_result.h"
+#include "results/sweep.h"
 
 namespace whine {
 
 class Codec;
 
-void describe(Codec& codec, SweepArtifact& a);
-void write(const std::string& path, const SweepArtifact& a, const Provenance& provenance);
-SweepArtifact read_sweep(const std::string& path);
+void describe(Codec& codec, SweepResult& a);
+void write(const std::string& path, const SweepResult& a, const Provenance& provenance);
+SweepResult read_sweep(const std::string& path);
 
 }  // namespace whine

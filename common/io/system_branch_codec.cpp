@@ -12,7 +12,7 @@ using namespace ranges;
 
 constexpr Schema kSystemBranchSchema{"system_branch", 2};
 
-void describe_points(Codec& c, SystemBranchArtifact& a) {
+void describe_points(Codec& c, SystemBranchResult& a) {
   const char* const of_mesh = "point mesh_number";
   c.dataset({"/mesh_frequency", "Hz", "mesh frequency along the branch", "point", kSpeed}, &a.mesh_frequency);
   c.dataset({"/dte_rms", "m", "RMS of the oscillating part of the dynamic transmission error of each mesh",
@@ -37,7 +37,7 @@ void describe_points(Codec& c, SystemBranchArtifact& a) {
 
 }  // namespace
 
-void describe(Codec& c, SystemBranchArtifact& a) {
+void describe(Codec& c, SystemBranchResult& a) {
   describe_system_motion(c, a.settings, a.torque, a.axis_frequency);
   describe_time_steps(c, a.settings.time);
   describe_points(c, a);
@@ -45,15 +45,15 @@ void describe(Codec& c, SystemBranchArtifact& a) {
   c.dataset({"/end", "1", "why the branch was followed no further", ""}, &a.end);
 }
 
-void write(const std::string& path, const SystemBranchArtifact& a, const Provenance& provenance) {
+void write(const std::string& path, const SystemBranchResult& a, const Provenance& provenance) {
   write_artifact(path, kSystemBranchSchema,
                  text("Branch of periodic orbits of a system: ", a.settings.layout.bodies.size(), " bodies, ",
                       a.settings.layout.meshes.size(), " meshes"),
                  a, provenance);
 }
 
-SystemBranchArtifact read_system_branch(const std::string& path) {
-  return read_artifact<SystemBranchArtifact>(path, kSystemBranchSchema);
+SystemBranchResult read_system_branch(const std::string& path) {
+  return read_artifact<SystemBranchResult>(path, kSystemBranchSchema);
 }
 
 }  // namespace whine

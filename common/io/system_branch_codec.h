@@ -3,14 +3,14 @@
 #include <string>
 
 #include "io/provenance.h"
-#include "studies/system_branch_result.h"
+#include "results/system_branch.h"
 
 namespace whine {
 
 class Codec;
 
-void describe(Codec& codec, SystemBranchArtifact& a);
-void write(const std::string& path, const SystemBranchArtifact& a, const Provenance& provenance);
-SystemBranchArtifact read_system_branch(const std::string& path);
+void describe(Codec& codec, SystemBranchResult& a);
+void write(const std::string& path, const SystemBranchResult& a, const Provenance& provenance);
+SystemBranchResult read_system_branch(const std::string& path);
 
 }  // namespace whine

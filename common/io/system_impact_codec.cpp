@@ -14,7 +14,7 @@ constexpr Range kRatio{-1, 1};
 
 }  // namespace
 
-void describe(Codec& c, SystemImpactArtifact& a) {
+void describe(Codec& c, SystemImpactResult& a) {
   const char* const axes = "mesh_phase mode";
   describe_system_motion(c, a.settings, a.torque, a.axis_frequency);
   c.dataset({"/parameters/impulse", "1",
@@ -57,15 +57,15 @@ void describe(Codec& c, SystemImpactArtifact& a) {
             &a.contact_changes);
 }
 
-void write(const std::string& path, const SystemImpactArtifact& a, const Provenance& provenance) {
+void write(const std::string& path, const SystemImpactResult& a, const Provenance& provenance) {
   write_artifact(path, kSystemImpactSchema,
                  text("Ring-down of a system: ", a.settings.layout.bodies.size(), " bodies, ",
                       a.settings.layout.meshes.size(), " meshes"),
                  a, provenance);
 }
 
-SystemImpactArtifact read_system_impact(const std::string& path) {
-  return read_artifact<SystemImpactArtifact>(path, kSystemImpactSchema);
+SystemImpactResult read_system_impact(const std::string& path) {
+  return read_artifact<SystemImpactResult>(path, kSystemImpactSchema);
 }
 
 }  // namespace whine

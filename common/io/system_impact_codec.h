@@ -3,14 +3,14 @@
 #include <string>
 
 #include "io/provenance.h"
-#include "studies/system_impact_result.h"
+#include "results/system_impact.h"
 
 namespace whine {
 
 class Codec;
 
-void describe(Codec& codec, SystemImpactArtifact& a);
-void write(const std::string& path, const SystemImpactArtifact& a, const Provenance& provenance);
-SystemImpactArtifact read_system_impact(const std::string& path);
+void describe(Codec& codec, SystemImpactResult& a);
+void write(const std::string& path, const SystemImpactResult& a, const Provenance& provenance);
+SystemImpactResult read_system_impact(const std::string& path);
 
 }  // namespace whine

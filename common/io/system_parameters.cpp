@@ -180,9 +180,9 @@ System layout_from(const Source& source) {
     if (body.sense == 0) source.reject(text("[[body]] '", body.name, "' has sense = 0; it must be -1 or 1"));
   for (const System::Body& body : out.bodies)
     if (!has_place(out, body))
-      source.reject(text("[[body]] '", body.name, "' stands on number ", body.on,
-                         ", which is no carrier on the ground; stands_on is -1, the ground, or the number "
-                         "of a carrier with stands_on = -1"));
+      source.reject(text(
+          "[[body]] '", body.name, "' stands on number ", body.on,
+          ", which is no carrier on the ground; stands_on is -1, the ground, or the number of a carrier with stands_on = -1"));
   for (const System::Mesh& mesh : out.meshes)
     if (!there(mesh.side[0].body) || !there(mesh.side[1].body))
       source.reject(text("a [[mesh]] names a body that is not there; there are ", bodies));

@@ -36,11 +36,11 @@ void reject_sections(const Source& source, const toml::table& table, const Scene
           *node, text("[gear.", gear.name, ".", key, "]: a gear of a system with body = \"rigid\" has no '",
                       key, "', its mesh is one spring of stiffness_N_um; take the section out"));
     if (node && key == std::string("crack"))
-      source.reject(*node, text("[gear.", gear.name,
-                                ".crack]: a gear of a system (several meshes, carriers or drives) has no "
-                                "'crack': the body of a cracked gear knows what forces on its leading flanks "
-                                "do to the crack, and gears of a system may work with the other ones; take "
-                                "the section out, or compute two of the gears as a pair"));
+      source.reject(
+          *node,
+          text(
+              "[gear.", gear.name,
+              ".crack]: a gear of a system (several meshes, carriers or drives) has no 'crack': the body of a cracked gear knows what forces on its leading flanks do to the crack, and gears of a system may work with the other ones; take the section out, or compute two of the gears as a pair"));
   }
 }
 
@@ -76,37 +76,41 @@ void take_gears(const Source& source, SystemScene& scene) {
     const toml::table* owner = table;
     if (const auto like = (*table)["like"].value<std::string>(); like && !table->get("equivalent_mass_kg"))
       owner = source.section("gear")->get(*like)->as_table();
-    KeyValues values;
+    SceneParameters values;
     SectionReader(source, Dialect::scene, *owner, "rigid_gear", "gear." + own.name)
-        .read(values, {Part::rigid_gear}, false);
+        .read(values, {KeyGroup::rigid_gear}, false);
     gear.equivalent_mass = values.equivalent_mass;
     if (gear.equivalent_mass > 0 && gear.total_inertia > 0)
-      source.reject(*table, text("[gear.", own.name,
-                                 "] gives 'total_inertia_kgm2' and 'equivalent_mass_kg', which say the same; "
-                                 "give one of them"));
+      source.reject(
+          *table,
+          text(
+              "[gear.", own.name,
+              "] gives 'total_inertia_kgm2' and 'equivalent_mass_kg', which say the same; give one of them"));
     if (!(gear.equivalent_mass > 0 || gear.total_inertia > 0))
-      source.reject(*table, text("[gear.", own.name,
-                                 "] of a system with body = \"rigid\" lacks its inertia: give "
-                                 "'total_inertia_kgm2' or 'equivalent_mass_kg'"));
+      source.reject(
+          *table,
+          text(
+              "[gear.", own.name,
+              "] of a system with body = \"rigid\" lacks its inertia: give 'total_inertia_kgm2' or 'equivalent_mass_kg'"));
     scene.gears.push_back(gear);
   }
 }
 
 void take_carriers(const Source& source, SystemScene& scene) {
   for (const toml::table* table : list_of(source, "carrier")) {
-    KeyValues values;
+    SceneParameters values;
     const SectionReader reader(source, Dialect::scene, *table, "carrier", "carrier");
     reader.reject_unknown();
-    reader.read(values, {Part::carrier}, false);
+    reader.read(values, {KeyGroup::carrier}, false);
     if (!plain_name(values.carrier.name))
       source.reject(*table->get("name"), text("'name' in [carrier] = '", values.carrier.name,
                                               "': a name holds letters, digits, '_' and '-' only"));
     const bool one = values.carrier.inertia > 0, other = values.carrier.equivalent_mass > 0;
     if (one && other)
-      source.reject(*table,
-                    text("[carrier] '", values.carrier.name,
-                         "' gives 'inertia_kgm2' and 'equivalent_mass_kg', which say the same; give one "
-                         "of them"));
+      source.reject(
+          *table,
+          text("[carrier] '", values.carrier.name,
+               "' gives 'inertia_kgm2' and 'equivalent_mass_kg', which say the same; give one of them"));
     if (scene.rigid() && !one && !other)
       source.reject(*table, text("[carrier] '", values.carrier.name,
                                  "' needs its inertia, either 'inertia_kgm2' or 'equivalent_mass_kg'"));
@@ -116,17 +120,16 @@ void take_carriers(const Source& source, SystemScene& scene) {
 
 void take_meshes(const Source& source, SystemScene& scene) {
   for (const toml::table* table : list_of(source, "mesh")) {
-    KeyValues values;
+    SceneParameters values;
     const SectionReader reader(source, Dialect::scene, *table, "mesh", "mesh"),
         train(source, Dialect::scene, *table, "train_mesh", "mesh");
     reader.reject_unknown({"direction_deg", "stiffness_N_um"});
-    reader.read(values, {Part::mesh, Part::contact_plane}, false);
-    train.read(values, {Part::train_mesh}, false);
+    reader.read(values, {KeyGroup::mesh, KeyGroup::contact_plane}, false);
+    train.read(values, {KeyGroup::train_mesh}, false);
     if (const toml::node* node = table->get("stiffness_N_um"); node && !scene.rigid())
       source.reject(
           *node,
-          "'stiffness_N_um' in [mesh] belongs to body = \"rigid\"; that of elastic gears is computed, "
-          "take it out");
+          "'stiffness_N_um' in [mesh] belongs to body = \"rigid\"; that of elastic gears is computed, take it out");
     if (scene.rigid() && !(values.train_mesh.stiffness > 0))
       source.reject(*table, text("[mesh] of '", values.mesh.gear[0], "' and '", values.mesh.gear[1],
                                  "' lacks 'stiffness_N_um', which body = \"rigid\" needs"));
@@ -150,10 +153,10 @@ void take_bearings(const Source& source, SystemScene& scene) {
     own.push_back(&carrier.bearing);
   }
   for (const toml::table* table : list_of(source, "bearing")) {
-    KeyValues values;
+    SceneParameters values;
     const SectionReader reader(source, Dialect::scene, *table, "bearing", "bearing");
     reader.reject_unknown();
-    reader.read(values, {Part::bearing, Part::bearing_gear}, false);
+    reader.read(values, {KeyGroup::bearing, KeyGroup::bearing_gear}, false);
     const auto at = std::find(names.begin(), names.end(), values.bearing_gear);
     if (at == names.end())
       source.reject(*table->get("gear"),
@@ -161,9 +164,9 @@ void take_bearings(const Source& source, SystemScene& scene) {
                          advice_for(values.bearing_gear, names)));
     Bearing& bearing = *own[static_cast<size_t>(at - names.begin())];
     if (bearing.elastic())
-      source.reject(*table->get("gear"), text("'gear' in [bearing] = '", values.bearing_gear,
-                                              "' has a bearing already; give one section with what carries "
-                                              "it in all"));
+      source.reject(*table->get("gear"),
+                    text("'gear' in [bearing] = '", values.bearing_gear,
+                         "' has a bearing already; give one section with what carries it in all"));
     const bool drawn = !scene.rigid() && static_cast<size_t>(at - names.begin()) < scene.gears.size();
     if (!drawn && !(values.bearing.mass > 0))
       source.reject(*table, text("[bearing] of '", values.bearing_gear, "' lacks 'mass_kg', which ",
@@ -174,10 +177,10 @@ void take_bearings(const Source& source, SystemScene& scene) {
 
 void take_drives(const Source& source, SystemScene& scene) {
   for (const toml::table* table : list_of(source, "drive")) {
-    KeyValues values;
+    SceneParameters values;
     const SectionReader reader(source, Dialect::scene, *table, "drive", "drive");
     reader.reject_unknown();
-    reader.read(values, {Part::drive}, false);
+    reader.read(values, {KeyGroup::drive}, false);
     const auto only = [&](const char* key, System::DriveKind kind) {
       if (const toml::node* node = table->get(key); node && values.drive.kind != kind)
         source.reject(*node, text("'", key, "' in [drive] belongs to kind = \"", name_of(kind),
@@ -188,8 +191,7 @@ void take_drives(const Source& source, SystemScene& scene) {
     if (const toml::node* node = table->get("stiffness_N_um"); node && !scene.rigid())
       source.reject(
           *node,
-          "'stiffness_N_um' in [drive] belongs to body = \"rigid\"; elastic gears are held rigidly, take "
-          "it out");
+          "'stiffness_N_um' in [drive] belongs to body = \"rigid\"; elastic gears are held rigidly, take it out");
     scene.drives.push_back(values.drive);
   }
 }
@@ -202,38 +204,40 @@ void reject_in_motion(const Source& source, const Fidelity& fidelity) {
     source.reject(words);
   };
   if (fidelity.body == BodyModel::full)
-    reject("body",
-           "body = \"full\" in [fidelity]: systems in motion have \"quasi-static\", \"lagged\" or "
-           "\"modal\"; write one of these, or take [operation] out");
+    reject(
+        "body",
+        "body = \"full\" in [fidelity]: systems in motion have \"quasi-static\", \"relaxed\" or \"modal\"; write one of these, or take [operation] out");
   if (fidelity.integrator != Integrator::exact)
-    reject("integrator",
-           text("integrator = \"", fidelity.integrator,
-                "\" in [fidelity] is for pairs: systems in motion have \"exact\"; write that, or "
-                "take [operation] out"));
+    reject(
+        "integrator",
+        text(
+            "integrator = \"", fidelity.integrator,
+            "\" in [fidelity] is for pairs: systems in motion have \"exact\"; write that, or take [operation] out"));
 }
 
 // [fidelity], [discretisation], [damping] and [operation].
-void take_fidelity(const Source& source, KeyValues& values, SystemScene& scene) {
+void take_fidelity(const Source& source, SceneParameters& values, SystemScene& scene) {
   static const toml::table kNothing;
   if (const toml::node* node = source.root().at_path("operation.torque_Nm").node())
-    source.reject(*node,
-                  "'torque_Nm' in [operation] is of pairs: the torques of a system are those of [[drive]]; "
-                  "take it out");
+    source.reject(
+        *node,
+        "'torque_Nm' in [operation] is of pairs: the torques of a system are those of [[drive]]; take it out");
   const bool moves = source.root().get("operation") != nullptr;
   for (const char* name : {"fidelity", "discretisation", "damping", "operation"}) {
     const std::string section(name);
     if (const toml::node* node = source.root().get(section);
         node && values.fidelity.body == BodyModel::rigid && (section == "damping" || section == "operation"))
-      source.reject(*node,
-                    text("[", section,
-                         "] belongs to elastic gears in motion, and those of this scene are rigid; take it "
-                         "out"));
+      source.reject(
+          *node,
+          text("[", section,
+               "] belongs to elastic gears in motion, and those of this scene are rigid; take it out"));
     const toml::table* table = source.section(name);
     const SectionReader reader(source, Dialect::scene, table ? *table : kNothing, name, name);
     reader.reject_unknown();
-    std::set<Part> parts = {Part::level,   Part::contact_level, Part::body, Part::near_field,
-                            Part::contact, Part::damping,       Part::time};
-    if (moves) parts.insert(Part::operation);
+    std::set<KeyGroup> parts = {KeyGroup::level,      KeyGroup::contact_level, KeyGroup::body,
+                                KeyGroup::near_field, KeyGroup::contact,       KeyGroup::damping,
+                                KeyGroup::time};
+    if (moves) parts.insert(KeyGroup::operation);
     reader.read(values, parts, false);
   }
   if (moves && values.fidelity.body != BodyModel::rigid) reject_in_motion(source, values.fidelity);
@@ -283,9 +287,9 @@ SystemScene read_system_scene(const std::string& path) {
   require_one_train(source);
   const SectionReader top(source, Dialect::scene, source.root(), "", "");
   if (const toml::node* node = source.root().get("friction"))
-    source.reject(*node,
-                  "[friction] stands in a scene of a system (several meshes, carriers or drives), whose "
-                  "meshes have no friction so far; take the section out");
+    source.reject(
+        *node,
+        "[friction] stands in a scene of a system (several meshes, carriers or drives), whose meshes have no friction so far; take the section out");
   top.reject_unknown({"gear", "material", "bearing", "mesh", "carrier", "drive", "damping", "operation",
                       "fidelity", "discretisation"});
   for (const char* name : {"gear", "mesh"})
@@ -294,14 +298,14 @@ SystemScene read_system_scene(const std::string& path) {
                          name == std::string("gear") ? "[gear.<name>]" : "[[mesh]]",
                          "; data/scenes/lin-parker-planetary.toml is an example"));
   SystemScene scene;
-  KeyValues values;
-  top.read(values, {Part::title}, false);
+  SceneParameters values;
+  top.read(values, {KeyGroup::title}, false);
   scene.title = values.title.empty() ? std::filesystem::path(path).stem().string() : values.title;
   take_fidelity(source, values, scene);
   take_gears(source, scene);
   double largest = 0;
   for (const SystemScene::Gear& gear : scene.gears) largest = std::max(largest, gear.design.module);
-  take_module(values, {Part::damping}, largest);
+  take_module(values, {KeyGroup::damping}, largest);
   scene.damping = values.damping;
   take_carriers(source, scene);
   take_meshes(source, scene);
@@ -335,10 +339,9 @@ std::vector<std::string> motion_remarks(const SystemScene& scene) {
                        "\" is that of the statics; in motion a system has contact = \"line\""));
   if (scene.damping.rayleigh_stiffness == kDefaultRayleighStiffness &&
       scene.fidelity.body != BodyModel::quasi_static)
-    out.push_back(text("warning: rayleigh_stiffness_s = ", scene.damping.rayleigh_stiffness,
-                       ", the default, is for the gears of P2000; `make SCENE=path/to/scene.toml "
-                       "system-ringdown` shows the damping ratios that it gives these, write your own into "
-                       "[damping]"));
+    out.push_back(text(
+        "warning: rayleigh_stiffness_s = ", scene.damping.rayleigh_stiffness,
+        ", the default, is for the gears of P2000; `make SCENE=path/to/scene.toml system-ringdown` shows the damping ratios that it gives these, write your own into [damping]"));
   return out;
 }
 

@@ -17,16 +17,16 @@ constexpr Schema kSystemStaticSchema{"system_static", 1};
 // [gear.<name>.modification], of gears that have one.
 void describe_modification(Codec& c, const std::string& gear, SystemStaticParameters& s) {
   const std::string section = "modification_" + gear;
-  KeyValues values;
+  SceneParameters values;
   values.modification = s.modification(gear);
   const bool stands = values.modification != FlankModification{};
   if (c.lists() || !c.optional("/parameters/" + section + "/tip_relief", stands)) return;
-  c.parameters(section, values, Part::modification);
+  c.parameters(section, values, KeyGroup::modification);
   if (c.in()) s.modify(gear, values.modification);
 }
 
 // Gears by name and what bodies and meshes are of them; [[mesh]] and [gear.<name>] of the scene as parameters.
-void describe_settings(Codec& c, SystemStaticArtifact& a) {
+void describe_settings(Codec& c, SystemStaticResult& a) {
   SystemStaticParameters& s = a.settings;
   describe_layout(c, s.layout);
   std::vector<std::string> gears = s.gears();
@@ -36,11 +36,11 @@ void describe_settings(Codec& c, SystemStaticArtifact& a) {
   c.dataset({"/gear", "1", "names of the gears of the scene", "gear_number"}, &gears);
   c.dataset({"/mesh/section", "1", "number of the [[mesh]] of the scene", "mesh_number", {0, 10000}},
             &section);
-  KeyValues values;
+  SceneParameters values;
   values.fidelity = s.fidelity;
   values.contact = s.contact;
-  c.parameters("fidelity", values, Part::contact_level);
-  c.parameters("discretisation", values, Part::contact);
+  c.parameters("fidelity", values, KeyGroup::contact_level);
+  c.parameters("discretisation", values, KeyGroup::contact);
   if (c.in()) {
     s.fidelity = values.fidelity;
     s.contact = values.contact;
@@ -52,8 +52,8 @@ void describe_settings(Codec& c, SystemStaticArtifact& a) {
   for (size_t m = 0; m < s.mesh.size(); ++m) {
     values.mesh = s.mesh[m];
     // Sections of a side have no number of the mesh; what they hold is written gear by gear.
-    for (int g = 0; g < kSides; ++g) put_gear(KeyValues(), values.mesh, g);
-    c.parameters("mesh_" + std::to_string(m), values, Part::mesh);
+    for (int g = 0; g < kSides; ++g) put_gear(SceneParameters(), values.mesh, g);
+    c.parameters("mesh_" + std::to_string(m), values, KeyGroup::mesh);
     if (c.in()) s.mesh[m] = values.mesh;
   }
   for (size_t g = 0; g < gears.size(); ++g) {
@@ -63,12 +63,12 @@ void describe_settings(Codec& c, SystemStaticArtifact& a) {
   describe_errors(c, s);
 }
 
-void describe_motions(Codec& c, SystemStaticArtifact& a) {
-  c.dataset({"/mesh_phase", "1",
-             "phase of the first mesh; 0: its reference pair at the pitch point; from one mesh period to the "
-             "next, up to the hunting period, where teeth differ",
-             "mesh_phase", kPhase},
-            &a.mesh_phase);
+void describe_motions(Codec& c, SystemStaticResult& a) {
+  c.dataset(
+      {"/mesh_phase", "1",
+       "phase of the first mesh; 0: its reference pair at the pitch point; from one mesh period to the next, up to the hunting period, where teeth differ",
+       "mesh_phase", kPhase},
+      &a.mesh_phase);
   c.dataset({"/rotation", "m", "base radius times rotation in the body's sense; 0 of held bodies",
              "mesh_phase body_number", kLength},
             &a.rotation);
@@ -93,7 +93,7 @@ void describe_motions(Codec& c, SystemStaticArtifact& a) {
   c.numbers("order", 0, "number of the harmonic of the hunting frequency; 0: the mean");
 }
 
-void describe_loads(Codec& c, SystemStaticArtifact& a) {
+void describe_loads(Codec& c, SystemStaticResult& a) {
   c.dataset({"/mesh_force", "N", "torque on the driving body over its base radius", "mesh_phase mesh_number",
              kForce},
             &a.mesh_force);
@@ -126,7 +126,7 @@ void describe_loads(Codec& c, SystemStaticArtifact& a) {
 }
 
 // What figures and pages take for granted: one phase, mesh and pair at least, and of each gear the drawing with its teeth.
-void require_whole(const Codec& c, const SystemStaticArtifact& a) {
+void require_whole(const Codec& c, const SystemStaticResult& a) {
   const auto reject = [&](const auto&... words) { c.in()->file().reject(text(words...)); };
   const System& layout = a.settings.layout;
   if (a.mesh_phase.size() == 0) reject("dataset /mesh_phase holds no phase");
@@ -153,7 +153,7 @@ void require_whole(const Codec& c, const SystemStaticArtifact& a) {
 
 }  // namespace
 
-void describe(Codec& c, SystemStaticArtifact& a) {
+void describe(Codec& c, SystemStaticResult& a) {
   describe_settings(c, a);
   c.dataset(
       {"/contact_ratio", "1", "profile contact ratio of the unloaded gears", "mesh_number", {0, 100, true}},
@@ -173,15 +173,15 @@ void describe(Codec& c, SystemStaticArtifact& a) {
   if (c.in()) require_whole(c, a);
 }
 
-void write(const std::string& path, const SystemStaticArtifact& a, const Provenance& provenance) {
+void write(const std::string& path, const SystemStaticResult& a, const Provenance& provenance) {
   write_artifact(path, kSystemStaticSchema,
                  text("System at rest: ", a.settings.layout.bodies.size(), " bodies, ",
                       a.settings.layout.meshes.size(), " meshes"),
                  a, provenance);
 }
 
-SystemStaticArtifact read_system_static(const std::string& path) {
-  return read_artifact<SystemStaticArtifact>(path, kSystemStaticSchema);
+SystemStaticResult read_system_static(const std::string& path) {
+  return read_artifact<SystemStaticResult>(path, kSystemStaticSchema);
 }
 
 }  // namespace whine

@@ -3,14 +3,14 @@
 #include <string>
 
 #include "io/provenance.h"
-#include "system/system_static_result.h"
+#include "results/system_static.h"
 
 namespace whine {
 
 class Codec;
 
-void describe(Codec& codec, SystemStaticArtifact& a);
-void write(const std::string& path, const SystemStaticArtifact& a, const Provenance& provenance);
-SystemStaticArtifact read_system_static(const std::string& path);
+void describe(Codec& codec, SystemStaticResult& a);
+void write(const std::string& path, const SystemStaticResult& a, const Provenance& provenance);
+SystemStaticResult read_system_static(const std::string& path);
 
 }  // namespace whine

@@ -79,37 +79,37 @@ SystemStaticParameters static_parameters_of(const SystemScene& scene, const Syst
 
 namespace {
 
-using Parts = std::set<Part>;
+using Parts = std::set<KeyGroup>;
 
 // values: with what a motion needs, if `moving`.
-std::string parameters_text(const char* stage, const SystemStaticParameters& p, KeyValues values,
+std::string parameters_text(const char* stage, const SystemStaticParameters& p, SceneParameters values,
                             bool moving) {
   StageParametersText out(stage);
   for (size_t m = 0; m < p.mesh.size(); ++m) {
     values.mesh = p.mesh[m];
-    out.add("mesh", mesh_label(m), values, {Part::mesh, Part::contact_plane});
+    out.add("mesh", mesh_label(m), values, {KeyGroup::mesh, KeyGroup::contact_plane});
   }
   for (const auto& [gear, hash] : p.body) {
     values.modification = p.modification(gear);
     if (values.modification != FlankModification{})
-      out.add("modification", modification_label(gear), values, {Part::modification});
+      out.add("modification", modification_label(gear), values, {KeyGroup::modification});
   }
   for (size_t b = 0; b < p.errors.size(); ++b)
     if (p.has_errors(b)) {
       values.errors = p.errors[b];
       const std::string label = error_label(p.layout.bodies[b].name);
-      out.add("error", label, values, {Part::error});
+      out.add("error", label, values, {KeyGroup::error});
     }
   values.fidelity = p.fidelity;
   values.contact = p.contact;
   if (moving) {
-    out.add("damping", "damping", values, {Part::damping});
-    out.add("operation", "operation", values, {Part::operation});
+    out.add("damping", "damping", values, {KeyGroup::damping});
+    out.add("operation", "operation", values, {KeyGroup::operation});
   }
   out.add("fidelity", "fidelity", values,
-          moving ? Parts{Part::level, Part::contact_level} : Parts{Part::contact_level});
+          moving ? Parts{KeyGroup::level, KeyGroup::contact_level} : Parts{KeyGroup::contact_level});
   out.add("discretisation", "discretisation", values,
-          moving ? Parts{Part::contact, Part::time} : Parts{Part::contact});
+          moving ? Parts{KeyGroup::contact, KeyGroup::time} : Parts{KeyGroup::contact});
   for (const auto& [gear, hash] : p.body) out.add_line("bodies", gear, hash);
   for (size_t b = 0; b < p.gear.size(); ++b)
     if (!p.gear[b].empty()) out.add_line("gear_of", p.layout.bodies[b].name, p.gear[b]);
@@ -134,7 +134,7 @@ SystemSweepParameters sweep_parameters_of(const SystemScene& scene, const System
 }
 
 std::string system_sweep_parameters(const SystemSweepParameters& p) {
-  KeyValues values;
+  SceneParameters values;
   values.damping = p.damping;
   values.operation.frequency_from = p.frequency_from;
   values.operation.frequency_to = p.frequency_to;
@@ -169,7 +169,7 @@ std::string system_parameters_for(const std::string& scene, const std::string& p
 namespace {
 
 // values: what a motion needs, if `moving`.
-SystemStaticParameters parameters_from(const Source& source, KeyValues& values, bool moving) {
+SystemStaticParameters parameters_from(const Source& source, SceneParameters& values, bool moving) {
   SystemStaticParameters out;
   out.layout = layout_from(source);
   const auto section = [&](const std::string& name) -> const toml::table& {
@@ -186,31 +186,32 @@ SystemStaticParameters parameters_from(const Source& source, KeyValues& values, 
   });
   for (size_t m = 0; m == 0 || source.section(mesh_label(m)); ++m) {
     SectionReader(source, Dialect::settings, section(mesh_label(m)), "mesh", mesh_label(m))
-        .read(values, {Part::mesh, Part::contact_plane}, false);
+        .read(values, {KeyGroup::mesh, KeyGroup::contact_plane}, false);
     out.mesh.push_back(values.mesh);
   }
   for (const auto& [gear, hash] : out.body) {
-    KeyValues own;
+    SceneParameters own;
     const std::string label = modification_label(gear);
     if (!source.section(label)) continue;
     SectionReader(source, Dialect::settings, section(label), "modification", label)
-        .read(own, {Part::modification}, false);
+        .read(own, {KeyGroup::modification}, false);
     out.modify(gear, own.modification);
   }
   for (size_t b = 0; b < out.layout.bodies.size(); ++b) {
-    KeyValues own;
+    SceneParameters own;
     const std::string label = error_label(out.layout.bodies[b].name);
     if (const toml::table* table = source.section(label))
-      SectionReader(source, Dialect::settings, *table, "error", label).read(own, {Part::error}, false);
+      SectionReader(source, Dialect::settings, *table, "error", label).read(own, {KeyGroup::error}, false);
     out.errors.push_back(own.errors);
   }
   SectionReader(source, Dialect::settings, section("fidelity"), "fidelity", "fidelity")
-      .read(values, moving ? Parts{Part::level, Part::contact_level} : Parts{Part::contact_level}, false);
+      .read(values, moving ? Parts{KeyGroup::level, KeyGroup::contact_level} : Parts{KeyGroup::contact_level},
+            false);
   SectionReader(source, Dialect::settings, section("discretisation"), "discretisation", "discretisation")
-      .read(values, moving ? Parts{Part::contact, Part::time} : Parts{Part::contact}, false);
+      .read(values, moving ? Parts{KeyGroup::contact, KeyGroup::time} : Parts{KeyGroup::contact}, false);
   if (moving)
     for (const auto& [name, part] :
-         {std::pair{"damping", Part::damping}, std::pair{"operation", Part::operation}})
+         {std::pair{"damping", KeyGroup::damping}, std::pair{"operation", KeyGroup::operation}})
       SectionReader(source, Dialect::settings, section(name), name, name).read(values, {part}, false);
   out.fidelity = values.fidelity;
   out.contact = values.contact;
@@ -234,23 +235,23 @@ SystemStaticParameters parameters_from(const Source& source, KeyValues& values, 
 }  // namespace
 
 SystemStaticParameters read_system_static_parameters(const std::string& path) {
-  const Source source(path,
-                      "stage parameters are out/<scene>/params/system_static.toml, made with: make "
-                      "system-static SCENE=...");
+  const Source source(
+      path,
+      "stage parameters are out/<scene>/params/system_static.toml, made with: make system-static SCENE=...");
   if (!source.is_stage_parameters() || source.stage_of() != kSystemStaticStage)
     source.reject(
         "is not what the statics of a system depend on: give out/<scene>/params/system_static.toml");
-  KeyValues values;
+  SceneParameters values;
   return parameters_from(source, values, false);
 }
 
 SystemSweepParameters read_system_sweep_parameters(const std::string& path) {
-  const Source source(path,
-                      "stage parameters are out/<scene>/params/system_sweep.toml, made with: make "
-                      "system-sweep SCENE=...");
+  const Source source(
+      path,
+      "stage parameters are out/<scene>/params/system_sweep.toml, made with: make system-sweep SCENE=...");
   if (!source.is_stage_parameters() || source.stage_of() != kSystemSweepStage)
     source.reject("is not what a sweep of a system depends on: give out/<scene>/params/system_sweep.toml");
-  KeyValues values;
+  SceneParameters values;
   SystemSweepParameters out;
   static_cast<SystemStaticParameters&>(out) = parameters_from(source, values, true);
   out.damping = values.damping;

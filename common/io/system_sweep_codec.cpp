@@ -14,7 +14,7 @@ using namespace ranges;
 constexpr Schema kSystemSweepSchema{"system_sweep", 2};
 constexpr const char* kAxis = "mesh_frequency";
 
-void describe_meshes(Codec& c, SystemSweepArtifact& a) {
+void describe_meshes(Codec& c, SystemSweepResult& a) {
   const std::string axes = std::string(kAxis) + " mesh_number";
   c.dataset({"/dte_rms", "m", "RMS of the oscillating part of the dynamic transmission error of each mesh",
              axes, kSize},
@@ -25,19 +25,17 @@ void describe_meshes(Codec& c, SystemSweepArtifact& a) {
             &a.mesh_force_max);
   c.dataset({"/tooth_force_max", "N", "largest normal force of one pair of teeth", axes, kLoad},
             &a.tooth_force_max);
-  c.dataset({"/load_share_max", "1",
-             "largest share, at one instant, of the meshes that come from one [[mesh]]: of planets the load "
-             "sharing",
-             axes, kShare},
-            &a.load_share_max);
+  c.dataset(
+      {"/load_share_max", "1",
+       "largest share, at one instant, of the meshes that come from one [[mesh]]: of planets the load sharing",
+       axes, kShare},
+      &a.load_share_max);
   c.dataset({"/separation_fraction", "1",
              "share of the time steps at which no pair of the mesh carries force", axes, kShare},
             &a.separation_fraction);
   c.dataset(
       {"/transmission_error", "m",
-       "dynamic transmission error of each mesh over the last mesh period, of teeth that differ the last "
-       "hunting "
-       "period, positive when the driver is ahead",
+       "dynamic transmission error of each mesh over the last mesh period, of teeth that differ the last hunting period, positive when the driver is ahead",
        std::string(kAxis) + " sample mesh_number", kLength, "r1 theta1 - r2 theta2, each in its own sense"},
       &a.transmission_error);
   c.dataset({"/mesh_deflection", "m",
@@ -49,33 +47,33 @@ void describe_meshes(Codec& c, SystemSweepArtifact& a) {
             &a.mesh_force);
 }
 
-void describe_bodies(Codec& c, SystemSweepArtifact& a) {
+void describe_bodies(Codec& c, SystemSweepResult& a) {
   const std::string axes = std::string(kAxis) + " body_number";
   c.dataset(
       {"/bearing_force_max", "N", "largest force of each body on its bearing, pin or axis", axes, kLoad},
       &a.bearing_force_max);
   c.dataset({"/bearing_force_rms", "N", "RMS of the oscillating part of that force", axes, kLoad},
             &a.bearing_force_rms);
-  c.dataset({"/holding_torque", "N m",
-             "mean torque that holds the body, in its sense: of a gear against its contact forces, of a "
-             "carrier against the forces on its pins; 0 of bodies that turn",
-             axes, kMoment},
-            &a.holding_torque);
+  c.dataset(
+      {"/holding_torque", "N m",
+       "mean torque that holds the body, in its sense: of a gear against its contact forces, of a carrier against the forces on its pins; 0 of bodies that turn",
+       axes, kMoment},
+      &a.holding_torque);
   a.bearing_force.resize(c.lists() ? 1 : a.settings.layout.bodies.size());
   for (size_t b = 0; b < a.bearing_force.size(); ++b)
     c.dataset(
         {"/body/" + (c.lists() ? "<body>" : a.settings.layout.bodies[b].name) + "/bearing_force", "N",
-         text("force of the body on its bearing or pin over the last mesh or hunting period; on a rigid "
-              "axis the sum of its contact forces",
-              c.lists() || on_rigid_moving_pin(a.settings.layout, static_cast<int>(b))
-                  ? ", on a rigid pin of a carrier that moves less the rate of its momentum"
-                  : "",
-              "; of a carrier the sum of its pins"),
+         text(
+             "force of the body on its bearing or pin over the last mesh or hunting period; on a rigid axis the sum of its contact forces",
+             c.lists() || on_rigid_moving_pin(a.settings.layout, static_cast<int>(b))
+                 ? ", on a rigid pin of a carrier that moves less the rate of its momentum"
+                 : "",
+             "; of a carrier the sum of its pins"),
          std::string(kAxis) + " sample xy", kForce},
         &a.bearing_force[b]);
 }
 
-void describe_solution(Codec& c, SystemSweepArtifact& a) {
+void describe_solution(Codec& c, SystemSweepResult& a) {
   c.dataset({"/periods", "1", "mesh periods run to steady state", kAxis, kNumber}, &a.periods);
   c.dataset({"/period_multiple", "1", "mesh periods after which the motion repeats; 0: not within the limit",
              kAxis, kMultiple},
@@ -118,30 +116,30 @@ void describe_system_motion(Codec& c, SystemSweepParameters& s, Eigen::VectorXd&
   c.dataset({"/body/torque", "N m", "torque of the drive in the body's sense; 0 where none gives a torque",
              "body_number", kMoment},
             &torque);
-  KeyValues values;
+  SceneParameters values;
   values.fidelity = s.fidelity;
   values.damping = s.damping;
-  c.parameters("fidelity", values, Part::level);
-  c.parameters("fidelity", values, Part::contact_level);
-  c.parameters("damping", values, Part::damping);
-  c.dataset({"/axis_frequency", "Hz",
-             "highest natural frequency of the rigid train on its mean stiffnesses, to which the dampers of "
-             "the axes refer",
-             "", kFrequency},
-            &axis_frequency);
+  c.parameters("fidelity", values, KeyGroup::level);
+  c.parameters("fidelity", values, KeyGroup::contact_level);
+  c.parameters("damping", values, KeyGroup::damping);
+  c.dataset(
+      {"/axis_frequency", "Hz",
+       "highest natural frequency of the rigid train on its mean stiffnesses, to which the dampers of the axes refer",
+       "", kFrequency},
+      &axis_frequency);
   if (!c.in()) return;
   s.fidelity = values.fidelity;
   s.damping = values.damping;
 }
 
 void describe_time_steps(Codec& c, TimeDiscretisation& time) {
-  KeyValues values;
+  SceneParameters values;
   values.time = time;
-  c.parameters("discretisation", values, Part::time);
+  c.parameters("discretisation", values, KeyGroup::time);
   if (c.in()) time = values.time;
 }
 
-void describe(Codec& c, SystemSweepArtifact& a) {
+void describe(Codec& c, SystemSweepResult& a) {
   describe_system_motion(c, a.settings, a.torque, a.axis_frequency);
   describe_errors(c, a.settings);
   describe_hunting(c, a.hunting_periods);
@@ -159,15 +157,15 @@ void describe(Codec& c, SystemSweepArtifact& a) {
   if (a.settings.layout.meshes.empty()) c.in()->file().reject("dataset /mesh/phase holds no mesh");
 }
 
-void write(const std::string& path, const SystemSweepArtifact& a, const Provenance& provenance) {
+void write(const std::string& path, const SystemSweepResult& a, const Provenance& provenance) {
   write_artifact(path, kSystemSweepSchema,
                  text("Sweep ", a.direction, " of a system: ", a.settings.layout.bodies.size(), " bodies, ",
                       a.settings.layout.meshes.size(), " meshes"),
                  a, provenance);
 }
 
-SystemSweepArtifact read_system_sweep(const std::string& path) {
-  return read_artifact<SystemSweepArtifact>(path, kSystemSweepSchema);
+SystemSweepResult read_system_sweep(const std::string& path) {
+  return read_artifact<SystemSweepResult>(path, kSystemSweepSchema);
 }
 
 }  // namespace whine

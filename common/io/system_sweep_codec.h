@@ -3,7 +3,7 @@
 #include <string>
 
 #include "io/provenance.h"
-#include "studies/system_sweep_result.h"
+#include "results/system_sweep.h"
 
 namespace whine {
 
@@ -15,8 +15,8 @@ void describe_system_motion(Codec& codec, SystemSweepParameters& settings, Eigen
                             double& axis_frequency);
 void describe_time_steps(Codec& codec, TimeDiscretisation& time);
 
-void describe(Codec& codec, SystemSweepArtifact& a);
-void write(const std::string& path, const SystemSweepArtifact& a, const Provenance& provenance);
-SystemSweepArtifact read_system_sweep(const std::string& path);
+void describe(Codec& codec, SystemSweepResult& a);
+void write(const std::string& path, const SystemSweepResult& a, const Provenance& provenance);
+SystemSweepResult read_system_sweep(const std::string& path);
 
 }  // namespace whine

@@ -9,11 +9,11 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kVariantSchema{"variant", 2};
+constexpr Schema kVariantSchema{"variant", 3};
 
 }  // namespace
 
-void describe(Codec& c, VariantArtifact& a) {
+void describe(Codec& c, VariantResult& a) {
   describe_pair(c, a);
   describe_torque(c, a.torque);
   c.choices({"/parameters/operation/directions", "1", "directions of the sweeps; none: at rest", ""},
@@ -25,12 +25,13 @@ void describe(Codec& c, VariantArtifact& a) {
               &a.reference_torque);
     describe_speeds(c, a.frequency_from, a.frequency_to, a.frequency_step);
   }
-  c.dataset({"/refusal", "1", "why the variant lies outside the model's range; empty: it does not", ""},
+  c.dataset({"/outside_model_reason", "1",
+             "why the variant lies outside the model's range; empty: it does not", ""},
             &a.rejection);
   if (!a.rejection.empty()) return;
   if (c.lists()) {
     double any = 0;
-    c.dataset({"/answer/<quantity>", "its own", "response quantity, those of sweeps for each direction", "",
+    c.dataset({"/quantity/<quantity>", "its own", "response quantity, those of sweeps for each direction", "",
                kQuantity},
               &any);
     return;
@@ -41,15 +42,16 @@ void describe(Codec& c, VariantArtifact& a) {
     fail(Failure::numerical, "result has ", a.quantity.size(), " rows, expected ", count);
   if (!c.out()) a.quantity.resize(count);
   for (Eigen::Index i = 0; i < count; ++i)
-    c.dataset({"/answer/" + kinds[i].name, kinds[i].units, kinds[i].meaning, "", kQuantity}, &a.quantity[i]);
+    c.dataset({"/quantity/" + kinds[i].name, kinds[i].units, kinds[i].meaning, "", kQuantity},
+              &a.quantity[i]);
 }
 
-void write(const std::string& path, const VariantArtifact& a, const Provenance& provenance) {
+void write(const std::string& path, const VariantResult& a, const Provenance& provenance) {
   write_artifact(path, kVariantSchema, "Variant of a study: " + pair_title(a.mesh, a.torque), a, provenance);
 }
 
-VariantArtifact read_variant(const std::string& path) {
-  return read_artifact<VariantArtifact>(path, kVariantSchema);
+VariantResult read_variant(const std::string& path) {
+  return read_artifact<VariantResult>(path, kVariantSchema);
 }
 
 }  // namespace whine

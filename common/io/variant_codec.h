@@ -3,14 +3,14 @@
 #include <string>
 
 #include "io/provenance.h"
-#include "studies/variant_result.h"
+#include "results/variant.h"
 
 namespace whine {
 
 class Codec;
 
-void describe(Codec& codec, VariantArtifact& a);
-void write(const std::string& path, const VariantArtifact& a, const Provenance& provenance);
-VariantArtifact read_variant(const std::string& path);
+void describe(Codec& codec, VariantResult& a);
+void write(const std::string& path, const VariantResult& a, const Provenance& provenance);
+VariantResult read_variant(const std::string& path);
 
 }  // namespace whine

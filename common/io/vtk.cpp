@@ -41,7 +41,7 @@ Eigen::Vector2d turned(const MatrixRM& position, Eigen::Index node, int copy, in
 // Nodes of the copies of a sector: one on the clockwise edge of copy j is its image on the counter-clockwise edge of copy j - 1.
 class CopiedNodes {
  public:
-  explicit CopiedNodes(const MeshArtifact& sector)
+  explicit CopiedNodes(const SectorGrid& sector)
       : teeth_(sector.design.teeth),
         image_(static_cast<std::size_t>(sector.node_position.rows()), -1),
         own_(image_.size(), -1) {
@@ -68,7 +68,7 @@ class CopiedNodes {
   Eigen::Index per_copy_ = 0;
 };
 
-void require_closed(const MeshArtifact& sector) {
+void require_closed(const SectorGrid& sector) {
   const int teeth = sector.design.teeth;
   for (Eigen::Index k = 0; k < sector.side_node.rows(); ++k) {
     const Eigen::Vector2d low = turned(sector.node_position, sector.side_node(k, 0), 1, teeth),
@@ -81,7 +81,7 @@ void require_closed(const MeshArtifact& sector) {
 
 // The cells of a cracked tooth in the place of the intact one's. Its nodes on the sector edges are those of its neighbours, all
 // others are added.
-void replace_tooth(const MeshArtifact& sector, const MeshArtifact& cracked, const CopiedNodes& nodes,
+void replace_tooth(const SectorGrid& sector, const SectorGrid& cracked, const CopiedNodes& nodes,
                    VtkGrid& out, Eigen::VectorXi& region, Eigen::VectorXi& tooth) {
   const int teeth = sector.design.teeth, copy = sector.design.crack.tooth;
   const Eigen::Index elements = sector.element_node.rows();
@@ -115,7 +115,7 @@ void replace_tooth(const MeshArtifact& sector, const MeshArtifact& cracked, cons
 
 }  // namespace
 
-VtkGrid whole_gear(const MeshArtifact& sector) {
+VtkGrid whole_gear(const SectorGrid& sector) {
   const int teeth = sector.design.teeth;
   const Eigen::Index elements = sector.element_node.rows();
   if (teeth < 1 || sector.node_position.rows() == 0)
@@ -137,7 +137,7 @@ VtkGrid whole_gear(const MeshArtifact& sector) {
       tooth[copy * elements + e] = copy;
     }
   }
-  for (const MeshArtifact& cracked : sector.cracked_tooth)
+  for (const SectorGrid& cracked : sector.cracked_tooth)
     replace_tooth(sector, cracked, nodes, out, region, tooth);
   out.cell_numbers = {{"region", region}, {"tooth", tooth}};
   return out;
@@ -180,7 +180,7 @@ int far_exponent(const MatrixRM& values, const std::vector<bool>& near) {
 
 // Values of points or cells, which `of` names ("PointData"), as many rows as there are of them. `near` is empty, or says of each
 // point whether it keeps three digits.
-void put_fields(h5::Writer& file, const std::vector<LoadedArtifact::Field>& fields, const std::string& of,
+void put_fields(h5::Writer& file, const std::vector<LoadedResult::Field>& fields, const std::string& of,
                 const std::string& axis, std::size_t rows, bool rounded, const std::vector<bool>& near) {
   for (const auto& [name, units, values] : fields) {
     const auto columns = static_cast<std::size_t>(values.cols());

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "io/h5.h"
-#include "solid/sector_mesh.h"
-#include "system/loaded_result.h"
+#include "results/loaded.h"
+#include "results/sector_grid.h"
 
 namespace whine {
 
@@ -20,8 +20,8 @@ struct VtkGrid {
   std::vector<std::pair<std::string, Eigen::VectorXi>> cell_numbers;  // name, (cell)
   MatrixRMi line;                                                     // (line, 2) cells after those
   // Of 1, 2 or 3 columns; two are a vector in the plane.
-  std::vector<LoadedArtifact::Field> point_data;  // (point, k)
-  std::vector<LoadedArtifact::Field> cell_data;   // (cell and line, k)
+  std::vector<LoadedResult::Field> point_data;  // (point, k)
+  std::vector<LoadedResult::Field> cell_data;   // (cell and line, k)
   // Places to 8 nm and values to three digits; points of four-node cells alone, far from load, to 4 um and to 1/64 or less of the
   // largest value among them: a fifth of the file.
   bool rounded = false;
@@ -30,7 +30,7 @@ struct VtkGrid {
 // The whole gear from one sector: copies turned counter-clockwise by 2 pi / teeth, edge nodes merged with
 // their images. Error(numerical) if an edge node and its turned image are further apart than 1e-9 of the
 // radius.
-VtkGrid whole_gear(const MeshArtifact& sector);
+VtkGrid whole_gear(const SectorGrid& sector);
 
 void put_vtk(h5::Writer& file, const VtkGrid& grid);
 

@@ -11,7 +11,7 @@ constexpr int kHertzChords = 16;  // 4e-4 from the law itself over two mesh peri
 
 LumpedParameters springs_of(const LumpedInputs& inputs, const SpringChoice& choice,
                             Eigen::VectorXi& numbers) {
-  const StaticArtifact& pair = inputs.at_torque;
+  const StaticResult& pair = inputs.at_torque;
   numbers = Eigen::VectorXi::Zero(1);
   if (choice.model == "rectangular")
     return cells_of(choice.stated ? stated_wave(pair, choice.fewer, choice.more, choice.duty)

@@ -7,7 +7,7 @@
 namespace whine {
 
 struct LumpedInputs {
-  StaticArtifact at_torque, at_reference;  // equal where the levels are not those of another torque
+  StaticResult at_torque, at_reference;  // equal where the levels are not those of another torque
 };
 
 // Which springs stand for the mesh.

@@ -16,7 +16,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "signal/sweep_result.h"
+#include "results/sweep.h"
 
 namespace whine {
 

@@ -67,7 +67,7 @@ double RectangularWave::at(double phase) const {
   return wrapped(phase - high_begin) < high_end - high_begin ? high : low;
 }
 
-RectangularWave rectangular_wave(const StaticArtifact& s) {
+RectangularWave rectangular_wave(const StaticResult& s) {
   const GearPair pair(s);
   // A pair j, which touches the pitch point at phase j, is in contact from j + start to j + end.
   const double start = pair.path_start() / pair.base_pitch(), end = pair.path_end() / pair.base_pitch();
@@ -82,7 +82,7 @@ RectangularWave rectangular_wave(const StaticArtifact& s) {
   return wave;
 }
 
-RectangularWave stated_wave(const StaticArtifact& s, double fewer, double more, double duty) {
+RectangularWave stated_wave(const StaticResult& s, double fewer, double more, double duty) {
   const GearPair pair(s);
   const double force = s.torque / pair.gear(0).base_radius(), module = s.gear[0].design.module;
   for (double level : {fewer, more})
@@ -151,7 +151,7 @@ namespace {
 // Gap of a pair of flanks at a phase of its own, unloaded.
 class PairGap {
  public:
-  PairGap(const StaticArtifact& s, const GearPair& pair)
+  PairGap(const StaticResult& s, const GearPair& pair)
       : s_(s),
         pair_(pair),
         deviation_{{pair.gear(0), s.mesh.modification[0]}, {pair.gear(1), s.mesh.modification[1]}},
@@ -173,7 +173,7 @@ class PairGap {
   }
 
  private:
-  const StaticArtifact& s_;
+  const StaticResult& s_;
   const GearPair& pair_;
   FlankDeviation deviation_[2];
   PairDeviation flanks_;
@@ -186,7 +186,7 @@ struct PairPoint {
 };
 
 // At static positions where a pair carries load, by phase. force: N, torque over base radius.
-std::vector<PairPoint> loaded_points(const StaticArtifact& s, const PairGap& gap_of, double force) {
+std::vector<PairPoint> loaded_points(const StaticResult& s, const PairGap& gap_of, double force) {
   std::vector<PairPoint> points;
   for (Eigen::Index i = 0; i < s.mesh_phase.size(); ++i) {
     const double total = s.tooth_load.row(i).sum();
@@ -248,7 +248,7 @@ void add_pair(const PairPoint& p, double gap, int chords, double coefficient, do
 
 }  // namespace
 
-LumpedParameters cells_of_pairs(const StaticArtifact& s, int cells, Eigen::VectorXi& numbers, int chords) {
+LumpedParameters cells_of_pairs(const StaticResult& s, int cells, Eigen::VectorXi& numbers, int chords) {
   if (chords < 0 || chords == 1)
     fail(Failure::input, "lumped model: ", chords,
          " chords of Hertz's law; 2 are the least, 0 make linear springs");

@@ -3,8 +3,8 @@
 // Cells make the motion exact; what they leave out is k(t) within a cell. For N cells that carry the means of the curve
 // the error of the response falls with 1 / N^2.
 #pragma once
-#include "signal/static_result.h"
-#include "signal/sweep_result.h"
+#include "results/static.h"
+#include "results/sweep.h"
 
 namespace whine {
 
@@ -19,12 +19,12 @@ struct RectangularWave {
       int harmonic) const;        // N m-1, harmonic >= 1: 2 (high - low) |sin(pi n d)| / (pi n), d the share
   double at(double phase) const;  // N m-1
 };
-RectangularWave rectangular_wave(const StaticArtifact& pair);
+RectangularWave rectangular_wave(const StaticResult& pair);
 
 // Other levels (N m-1) and another share of the high one, about the middle of the statics' own wave. Error(input) unless both
 // are so stiff that the static load bends them by less than a module, the second, of more pairs, is not below the first, and
 // the share lies in (0, 1).
-RectangularWave stated_wave(const StaticArtifact& pair, double fewer, double more, double duty);
+RectangularWave stated_wave(const StaticResult& pair, double fewer, double more, double duty);
 
 // Cells and springs only; mass and damper are left at 0. One spring without a gap for the whole mesh:
 LumpedParameters cells_of(const RectangularWave& wave);
@@ -43,7 +43,7 @@ LumpedParameters cells_of(const Eigen::VectorXd& values, int cells, const Eigen:
 // static point, as a polygon of that many chords (2 or more), half of them up to the static load and half from it to four
 // times T / r: as many springs for the pair, whose number then stands once for each of them. Error(input) if no pair carries
 // load, for 1 chord or fewer than 0.
-LumpedParameters cells_of_pairs(const StaticArtifact& pair, int cells, Eigen::VectorXi& numbers,
+LumpedParameters cells_of_pairs(const StaticResult& pair, int cells, Eigen::VectorXi& numbers,
                                 int chords = 0);
 
 // m: deflection under `load` (N, not below 0) of a pair that deflects static_load / stiffness at its static load. Hertz's

@@ -13,7 +13,7 @@
 #include "lumped/stiffness.h"
 #include "orbits/branch.h"
 #include "orbits/recurrence.h"
-#include "signal/branch_end.h"
+#include "signal/jumps.h"
 
 namespace whine {
 
@@ -45,7 +45,7 @@ bool solve_orbit(LumpedOscillator& oscillator, LumpedOrbit& orbit, int multiple)
   constexpr int kMostIterations = 12;
   LumpedPeriodMap map(oscillator);
   const OrbitSearch search =
-      find_orbit(map, map.flat(orbit.start), multiple, OrbitSettings{kRoundOff, kMostIterations});
+      newton_orbit(map, map.flat(orbit.start), multiple, OrbitSettings{kRoundOff, kMostIterations});
   orbit.periods += multiple * (search.orbit.iterations + 1);
   if (!search.found()) return false;
   orbit.start = map.state(search.orbit.start);
@@ -76,7 +76,8 @@ BranchPoint branch_point(double mesh_frequency, const LumpedOrbit& orbit) {
   BranchPoint point{mesh_frequency, orbit.rms, 0, 0, false};
   for (const LumpedRecord& period : orbit.record) {
     point.tooth_load_max = std::max(point.tooth_load_max, period.load.maxCoeff());
-    point.held_load = std::max(point.held_load, held_load(period.load, static_cast<int>(period.load.rows())));
+    point.sustained_load =
+        std::max(point.sustained_load, sustained_load(period.load, static_cast<int>(period.load.rows())));
     point.parted = point.parted || !(period.load.rowwise().sum().minCoeff() > 0);
   }
   return point;
@@ -96,8 +97,8 @@ std::optional<LumpedJump> jump_from(LumpedOscillator& oscillator, const std::vec
   follower.finest = kFinest;
   follower.run = [&](double mesh_frequency, double) {
     oscillator.set_speed(mesh_frequency);
-    runs.emplace_back(mesh_frequency, find_periodic_orbit(oscillator, branch.start, periodicity,
-                                                          integrate_only, kFollowPeriods));
+    runs.emplace_back(mesh_frequency, iterate_to_orbit(oscillator, branch.start, periodicity, integrate_only,
+                                                       kFollowPeriods));
     return branch_motion(mesh_frequency, runs.back().second);
   };
   follower.keep = [&](int n) {
@@ -120,8 +121,8 @@ double LumpedOrbit::largest_multiplier() const {
   return modulus(monodromy);
 }
 
-LumpedOrbit find_periodic_orbit(LumpedOscillator& oscillator, const State& start, double periodicity,
-                                bool integrate_only, int most_periods) {
+LumpedOrbit iterate_to_orbit(LumpedOscillator& oscillator, const State& start, double periodicity,
+                             bool integrate_only, int most_periods) {
   LumpedOrbit orbit;
   State y = start;
   Recurrence<State> recurrence(periodicity, y);
@@ -197,7 +198,7 @@ LumpedSpeeds integrate_speeds(LumpedOscillator& oscillator, const std::vector<do
   for (long i = 0; i < total; ++i) {
     report(i, total, text(speeds[i], " Hz"));
     oscillator.set_speed(speeds[i]);
-    out.orbits.push_back(find_periodic_orbit(oscillator, state, periodicity, integrate_only));
+    out.orbits.push_back(iterate_to_orbit(oscillator, state, periodicity, integrate_only));
     const LumpedOrbit& orbit = out.orbits.back();
     state = orbit.start;
     motions.push_back(branch_motion(speeds[i], orbit));
@@ -211,7 +212,7 @@ LumpedSpeeds integrate_speeds(LumpedOscillator& oscillator, const std::vector<do
   return out;
 }
 
-double reduced_mass(const StaticArtifact& statics, const std::array<double, kSides>& inertia) {
+double reduced_mass(const StaticResult& statics, const std::array<double, kSides>& inertia) {
   const double r1 = ToothGeometry(statics.gear[0].design).base_radius(),
                r2 = ToothGeometry(statics.gear[1].design).base_radius();
   return inertia[0] * inertia[1] / (inertia[0] * r2 * r2 + inertia[1] * r1 * r1);
@@ -239,12 +240,12 @@ std::vector<double> checked_speeds(const LumpedOptions& o) {
 }
 
 // A sweep without its motions.
-SweepArtifact described(const StaticArtifact& statics, const LumpedParameters& springs, const GearPair& pair,
-                        const LumpedOptions& o) {
-  SweepArtifact a;
+SweepResult described(const StaticResult& statics, const LumpedParameters& springs, const GearPair& pair,
+                      const LumpedOptions& o) {
+  SweepResult a;
   a.model = o.model;
   a.lumped = springs;
-  static_cast<PairParameters&>(a) = statics;
+  static_cast<GearPairParameters&>(a) = statics;
   a.fidelity.body = BodyModel::rigid;
   a.fidelity.integrator = o.integrator;
   a.time = o.time;
@@ -259,7 +260,7 @@ SweepArtifact described(const StaticArtifact& statics, const LumpedParameters& s
 }
 
 // The motions of all speeds. m: the least transmission error.
-double store_motions(const LumpedSpeeds& run, const Eigen::VectorXi& numbers, SweepArtifact& a) {
+double store_motions(const LumpedSpeeds& run, const Eigen::VectorXi& numbers, SweepResult& a) {
   const int count = static_cast<int>(run.orbits.size()), samples = a.time.steps_per_period;
   // Several springs may stand for one pair.
   std::vector<int> pairs(numbers.data(), numbers.data() + numbers.size());
@@ -291,7 +292,7 @@ double store_motions(const LumpedSpeeds& run, const Eigen::VectorXi& numbers, Sw
     a.energy_imbalance[i] = l.imbalance() / l.throughput;
     a.energy(i, line("kinetic")) = l.kinetic;
     a.energy(i, line("local")) = l.spring;
-    a.energy(i, line("torque")) = l.force;
+    a.energy(i, line("drive")) = l.force;
     a.energy(i, line("rolling")) = l.switching;
     a.energy(i, line("modal_damping")) = l.damping;
     MatrixRM loads = MatrixRM::Zero(width, a.pair.size());
@@ -313,10 +314,10 @@ double store_motions(const LumpedSpeeds& run, const Eigen::VectorXi& numbers, Sw
 
 }  // namespace
 
-SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters springs,
-                           const Eigen::VectorXi& numbers, const LumpedOptions& o,
-                           const std::function<void(long, long, const std::string&)>& report,
-                           std::vector<BranchPoint>* left_early) {
+SweepResult lumped_sweep(const StaticResult& statics, LumpedParameters springs,
+                         const Eigen::VectorXi& numbers, const LumpedOptions& o,
+                         const std::function<void(long, long, const std::string&)>& report,
+                         std::vector<BranchPoint>* left_early) {
   const std::vector<double> speeds = checked_speeds(o);
   const GearPair pair(statics);
   const double force = statics.torque / pair.gear(0).base_radius();
@@ -334,7 +335,7 @@ SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters sprin
 
   if (left_early) *left_early = run.left_early;
 
-  SweepArtifact a = described(statics, springs, pair, o);
+  SweepResult a = described(statics, springs, pair, o);
   a.mean_stiffness = stiffness;
   a.natural_frequency = oscillator.mean_frequency();
   a.mesh_frequency =
@@ -351,10 +352,10 @@ SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters sprin
   return a;
 }
 
-JumpMapArtifact lumped_jump_map(const StaticArtifact& statics, LumpedParameters springs,
-                                const Eigen::VectorXi& numbers, LumpedOptions options,
-                                const MapSpeeds& speeds, const std::vector<double>& damping_ratio,
-                                const std::function<void(long, long, const std::string&)>& report) {
+JumpMapResult lumped_jump_map(const StaticResult& statics, LumpedParameters springs,
+                              const Eigen::VectorXi& numbers, LumpedOptions options, const MapSpeeds& speeds,
+                              const std::vector<double>& damping_ratio,
+                              const std::function<void(long, long, const std::string&)>& report) {
   if (damping_ratio.empty()) fail(Failure::input, "no case: give one damping ratio at least");
   for (double ratio : damping_ratio)
     if (!(ratio > 0 && ratio < 1))
@@ -370,9 +371,9 @@ JumpMapArtifact lumped_jump_map(const StaticArtifact& statics, LumpedParameters 
   options.frequency_to = speed[speed.size() - 1];
   options.frequency_step = speeds.step;
 
-  JumpMapArtifact map;
+  JumpMapResult map;
   map.model = options.model + (options.damper_acts == DamperActs::contact ? "-contact" : "");
-  static_cast<PairParameters&>(map) = statics;
+  static_cast<GearPairParameters&>(map) = statics;
   map.torque = statics.torque;
   map.mean_stiffness = at_rest.mean_stiffness();
   map.first_harmonic = at_rest.first_harmonic();
@@ -388,7 +389,7 @@ JumpMapArtifact lumped_jump_map(const StaticArtifact& statics, LumpedParameters 
     map.excitation[c] = map.first_harmonic / map.mean_stiffness / (2 * damping_ratio[c]);
     add_case(map, c, speeds.step, [&](Direction direction, std::vector<BranchPoint>& beyond) {
       options.direction = direction;
-      const SweepArtifact swept = lumped_sweep(
+      const SweepResult swept = lumped_sweep(
           statics, springs, numbers, options, [](long, long, const std::string&) {}, &beyond);
       static_cast<MotionParameters&>(map) = swept;
       report(2 * c + (direction == Direction::up ? 1 : 2), 2 * n, text("damping ratio ", damping_ratio[c]));

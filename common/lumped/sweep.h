@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "lumped/oscillator.h"
+#include "results/jump_map.h"
+#include "results/static.h"
+#include "results/sweep.h"
 #include "signal/branches.h"
-#include "signal/jump_map_result.h"
-#include "signal/static_result.h"
-#include "signal/sweep_result.h"
 
 namespace whine {
 
@@ -28,8 +28,8 @@ struct LumpedOrbit {
 };
 
 // Integrates from start until the state repeats: to `periodicity`, and far below it by Newton's method unless integrate_only.
-LumpedOrbit find_periodic_orbit(LumpedOscillator& oscillator, const LumpedOscillator::State& start,
-                                double periodicity, bool integrate_only, int most_periods = 3000);
+LumpedOrbit iterate_to_orbit(LumpedOscillator& oscillator, const LumpedOscillator::State& start,
+                             double periodicity, bool integrate_only, int most_periods = 3000);
 
 // Where an orbit of `multiple` periods near start meets its unstable partner and both end: P(y) = y and a multiplier +1,
 // as locate_fold() does. Leaves the oscillator at that speed. Nothing if it does not converge.
@@ -58,7 +58,7 @@ LumpedSpeeds integrate_speeds(LumpedOscillator& oscillator, const std::vector<do
 
 // kg, of the relative rotation of two gears on their line of action: I1 I2 / (I1 r2^2 + I2 r1^2), r base radii, inertias in
 // kg m2.
-double reduced_mass(const StaticArtifact& statics, const std::array<double, kSides>& inertia);
+double reduced_mass(const StaticResult& statics, const std::array<double, kSides>& inertia);
 
 struct LumpedOptions {
   std::string model;            // its name
@@ -75,19 +75,19 @@ struct LumpedOptions {
 // other; one spring that stands for all of them is pair 0. left_early: takes the motions on the way to the ends of branches, if
 // given. Fields of a sweep that only elastic bodies have are empty or 0; its inertias are those of equal shares of the mass.
 // Throws Error(input) for values that make no model, Error(numerical) if a motion cannot be followed.
-SweepArtifact lumped_sweep(const StaticArtifact& statics, LumpedParameters springs,
-                           const Eigen::VectorXi& numbers, const LumpedOptions& options,
-                           const std::function<void(long, long, const std::string&)>& report,
-                           std::vector<BranchPoint>* left_early = nullptr);
+SweepResult lumped_sweep(const StaticResult& statics, LumpedParameters springs,
+                         const Eigen::VectorXi& numbers, const LumpedOptions& options,
+                         const std::function<void(long, long, const std::string&)>& report,
+                         std::vector<BranchPoint>* left_early = nullptr);
 
 // A map of jumps of the same model at the torque of the statics: a case per damping ratio, which is options' own, about the
 // mean stiffness; its speeds and direction are not read. The map's model is that of options, with "-contact" if the damper
 // acts in contact only; mean, first harmonic and frequencies are those of the springs that touch at rest. Loads are those
 // of the whole mesh where one spring stands for it. Throws Error(input) for no case or a ratio outside (0, 1), and as
 // map_speeds and lumped_sweep.
-JumpMapArtifact lumped_jump_map(const StaticArtifact& statics, LumpedParameters springs,
-                                const Eigen::VectorXi& numbers, LumpedOptions options,
-                                const MapSpeeds& speeds, const std::vector<double>& damping_ratio,
-                                const std::function<void(long, long, const std::string&)>& report);
+JumpMapResult lumped_jump_map(const StaticResult& statics, LumpedParameters springs,
+                              const Eigen::VectorXi& numbers, LumpedOptions options, const MapSpeeds& speeds,
+                              const std::vector<double>& damping_ratio,
+                              const std::function<void(long, long, const std::string&)>& report);
 
 }  // namespace whine

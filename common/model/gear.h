@@ -42,7 +42,7 @@ struct GearDesign {
   Crack crack;  // of one tooth
 
   // m: of the circle on which the body is held, the bore or, of an internal gear, the outside of the rim.
-  double held_radius() const { return internal ? rim_outer_radius : bore_radius; }
+  double clamped_radius() const { return internal ? rim_outer_radius : bore_radius; }
   bool elastic_rim() const { return internal && rim_radial_stiffness > 0; }
 };
 

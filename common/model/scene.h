@@ -84,9 +84,9 @@ struct Operation {
 };
 
 // What of the elastic body moves by itself, cheapest first.
-enum class BodyModel { rigid, quasi_static, lagged, modal, full };
+enum class BodyModel { rigid, quasi_static, relaxed, modal, full };
 template <>
-inline constexpr const char* kWordsOf<BodyModel> = "rigid quasi-static lagged modal full";
+inline constexpr const char* kWordsOf<BodyModel> = "rigid quasi-static relaxed modal full";
 
 // One force a tooth pair and Hertz's law, or pressure on strips.
 enum class ContactModel { line, strips };
@@ -113,7 +113,7 @@ struct ContactDiscretisation {
 // How a steady motion is found: transients are skipped where they can be, or run through period by period, as a rig would.
 enum class SteadyState { extrapolate, integrate };
 template <>
-inline constexpr const char* kWordsOf<SteadyState> = "extrapolate march";
+inline constexpr const char* kWordsOf<SteadyState> = "extrapolate integrate";
 
 struct TimeDiscretisation {
   int steps_per_period = 128;      // stored samples per mesh period

@@ -55,7 +55,7 @@ struct VariantParameters {
 };
 
 // What a result of a pair says of what it was computed from.
-struct PairParameters {
+struct GearPairParameters {
   std::array<BodyParameters, kSides> gear;  // driver, driven
   GearMeshSpec mesh;
   Fidelity fidelity;  // of a pair at rest the model level of the contact alone
@@ -70,16 +70,16 @@ struct PairParameters {
 };
 
 // The same of a pair in motion.
-struct MotionParameters : PairParameters {
+struct MotionParameters : GearPairParameters {
   TimeDiscretisation time;
   Damping damping;
   std::array<double, kSides> inertia = {};  // kg m2, total
 };
 
 // What a result of a pair of these bodies says of it, at rest and, but for `time`, in motion.
-void set_pair(PairParameters& pair, const std::array<BodyParameters, kSides>& gear,
+void set_pair(GearPairParameters& pair, const std::array<BodyParameters, kSides>& gear,
               const StaticParameters& settings);
 void set_motion(MotionParameters& motion, const std::array<BodyParameters, kSides>& gear,
-                const PairParameters& rest, const ImpactParameters& settings);
+                const GearPairParameters& rest, const ImpactParameters& settings);
 
 }  // namespace whine

@@ -41,13 +41,13 @@ OrbitSearch orbit_beyond_flip(PeriodMap& map, const SpecialPoint& flip, int mult
   const int n = map.size();
   try {
     map.set_parameter(flip.parameter);
-    const OrbitSearch at = find_orbit(map, flip.start, multiple);
+    const OrbitSearch at = newton_orbit(map, flip.start, multiple);
     if (!at.found()) {
       search.failure = "at the flip: " + at.failure;
       return search;
     }
     // The eigenvector W c of -1, (V^T W + 1) c = 0, by inverse iteration.
-    const SlowTangent& slow = at.orbit.slow;
+    const MonodromyMatrix& slow = at.orbit.slow;
     const auto p = slow.basis.cols();
     constexpr double kBeside = 1e-7;  // of the eigenvalue, so that the matrix can be solved with
     const Eigen::PartialPivLU<Eigen::MatrixXd> lu(slow.basis.transpose() * slow.image +
@@ -64,7 +64,7 @@ OrbitSearch orbit_beyond_flip(PeriodMap& map, const SpecialPoint& flip, int mult
       return search;
     }
     map.set_parameter(curve.parameter(point->u));
-    search = find_orbit(map, curve.state(point->u), 2 * multiple);
+    search = newton_orbit(map, curve.state(point->u), 2 * multiple);
     if (search.found() &&
         (image(map, search.orbit.start, multiple) - search.orbit.start).norm() < 0.1 * distance)
       search.failure = "beside the flip only the orbit itself is found";
@@ -78,10 +78,10 @@ OrbitSearch orbit_beyond_flip(PeriodMap& map, const SpecialPoint& flip, int mult
 FoldSearch locate_fold(PeriodMap& map, const VectorXd& start, int multiple, double scale) {
   FoldSearch search;
   Curve curve(map, multiple, scale, {});
-  SlowTangent slow;
+  MonodromyMatrix slow;
   PeriodicOrbit passed;
   const auto jacobian_at = [&](const VectorXd& at) {
-    SlowTangent found;
+    MonodromyMatrix found;
     CurveJacobian jacobian = curve.jacobian(at, slow, found, passed);
     slow = std::move(found);
     return jacobian;

@@ -20,7 +20,7 @@ bool same_sequence(const std::vector<ContactEvent>& a, const std::vector<Contact
          });
 }
 
-CurveJacobian::CurveJacobian(const SlowTangent& tangent, const VectorXd& slope) {
+CurveJacobian::CurveJacobian(const MonodromyMatrix& tangent, const VectorXd& slope) {
   const Index n = slope.size(), p = tangent.basis.cols();
   left_.resize(n, p + 1);
   left_ << tangent.image, slope;
@@ -90,7 +90,7 @@ VectorXd Curve::residual(const VectorXd& u, PeriodicOrbit* passed) {
   return image(map_, state(u), multiple_, passed) - state(u);
 }
 
-CurveJacobian Curve::jacobian(const VectorXd& u, const SlowTangent& nearby, SlowTangent& slow,
+CurveJacobian Curve::jacobian(const VectorXd& u, const MonodromyMatrix& nearby, MonodromyMatrix& slow,
                               PeriodicOrbit& passed, const VectorXd& also) {
   constexpr double kTolerance = 1e-6;  // of multipliers
   const int n = map_.size();
@@ -165,7 +165,7 @@ std::optional<CurvePoint> Curve::correct(const VectorXd& predicted, const Vector
       last = std::min(last, p.residual);
       const bool slow = p.corrections >= kPatience && !(p.residual < kSlow * least);
       if (p.jacobian.empty() || p.slow.whole() || slow) {
-        SlowTangent found;
+        MonodromyMatrix found;
         p.jacobian = jacobian(p.u, p.slow, found, p.passed);
         p.slow = std::move(found);
       } else if (step.size() > 0) {
@@ -185,7 +185,7 @@ std::optional<CurvePoint> Curve::correct(const VectorXd& predicted, const Vector
 
 bool Curve::linearise(CurvePoint& p, const VectorXd& across) {
   try {
-    SlowTangent slow;
+    MonodromyMatrix slow;
     VectorXd also;
     if (p.tangent.size() > 0) also = state(p.tangent);
     p.jacobian = jacobian(p.u, p.slow, slow, p.passed, also);

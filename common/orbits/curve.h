@@ -1,6 +1,6 @@
 // The curve of periodic orbits F(u) = P^m(y) - y = 0 in u = (y, parameter / scale), its points, and Newton's method on to it.
 //
-// The Jacobian is kept as [-1, 0] + Y Z^T: the slow directions of the tangent (orbits/slow_tangent.h), the derivative by the
+// The Jacobian is kept as [-1, 0] + Y Z^T: the slow directions of the tangent (orbits/monodromy_matrix.h), the derivative by the
 // parameter, and Broyden's updates by the periods that a correction integrates. Systems with it have as many unknowns as Y has
 // columns. Where all directions are kept it is computed anew at each iterate, and this is Newton's method.
 #pragma once
@@ -9,8 +9,8 @@
 #include <optional>
 #include <string>
 
+#include "orbits/monodromy_matrix.h"
 #include "orbits/periodic_orbit.h"
-#include "orbits/slow_tangent.h"
 
 namespace whine {
 
@@ -18,7 +18,7 @@ class CurveJacobian {
  public:
   CurveJacobian() = default;
   // slope: (size) dP^m / d(parameter / scale)
-  CurveJacobian(const SlowTangent& tangent, const Eigen::VectorXd& slope);
+  CurveJacobian(const MonodromyMatrix& tangent, const Eigen::VectorXd& slope);
   bool empty() const { return left_.cols() == 0; }
   // Broyden: du changed F by change.
   void update(const Eigen::VectorXd& du, const Eigen::VectorXd& change);
@@ -38,7 +38,7 @@ struct CurvePoint {
   Eigen::VectorXd u, tangent;
   int orientation = 1;                                    // of det [dF; tangent^T]
   double bend = std::numeric_limits<double>::infinity();  // of the tangent's parameter component, per arc
-  SlowTangent slow;
+  MonodromyMatrix slow;
   CurveJacobian jacobian;
   PeriodicOrbit passed;  // events and observable
   double residual = 0;
@@ -67,7 +67,7 @@ class Curve {
   // normal to, and points along. False if they cannot be found.
   bool linearise(CurvePoint& point, const Eigen::VectorXd& across);
   // The Jacobian at any point, and what happens in the periods from there.
-  CurveJacobian jacobian(const Eigen::VectorXd& u, const SlowTangent& nearby, SlowTangent& slow,
+  CurveJacobian jacobian(const Eigen::VectorXd& u, const MonodromyMatrix& nearby, MonodromyMatrix& slow,
                          PeriodicOrbit& passed, const Eigen::VectorXd& also = {});
   Eigen::VectorXd residual(const Eigen::VectorXd& u, PeriodicOrbit* passed = nullptr);
   const std::string& failure() const { return failure_; }

@@ -65,8 +65,7 @@ class Acceleration {
 
 }  // namespace
 
-PeriodicMotion find_periodic_motion(PeriodMap& map, const VectorXd& start,
-                                    const PeriodicMotionOptions& options) {
+PeriodicMotion iterate_to_orbit(PeriodMap& map, const VectorXd& start, const PeriodicMotionOptions& options) {
   PeriodicMotion out;
   VectorXd y = start, integrated;
   Acceleration acceleration;

@@ -26,7 +26,7 @@ struct PeriodicMotion {
 };
 
 // At the map's parameter. Throws what the map throws, but for proposals.
-PeriodicMotion find_periodic_motion(PeriodMap& map, const Eigen::VectorXd& start,
-                                    const PeriodicMotionOptions& options);
+PeriodicMotion iterate_to_orbit(PeriodMap& map, const Eigen::VectorXd& start,
+                                const PeriodicMotionOptions& options);
 
 }  // namespace whine

@@ -36,8 +36,8 @@ VectorXd image(PeriodMap& map, const VectorXd& y, int multiple, PeriodicOrbit* p
 namespace {
 
 // The tangent of P^m at y, and what happens on the way.
-SlowTangent tangent_at(PeriodMap& map, const VectorXd& y, int multiple, const SlowTangent& nearby,
-                       PeriodicOrbit* passed) {
+MonodromyMatrix tangent_at(PeriodMap& map, const VectorXd& y, int multiple, const MonodromyMatrix& nearby,
+                           PeriodicOrbit* passed) {
   constexpr double kTolerance = 1e-8;  // of multipliers
   bool applied = false;
   return slow_tangent(map.size(), nearby, {}, kTolerance, [&](const MatrixXd& directions) {
@@ -52,7 +52,7 @@ SlowTangent tangent_at(PeriodMap& map, const VectorXd& y, int multiple, const Sl
 }
 
 // (1 - W V^T)^-1 change
-VectorXd newton_step(const SlowTangent& t, const VectorXd& change) {
+VectorXd newton_step(const MonodromyMatrix& t, const VectorXd& change) {
   const Eigen::Index p = t.basis.cols();
   const MatrixXd small = MatrixXd::Identity(p, p) - t.basis.transpose() * t.image;
   return change + t.image * lu_solve(small, t.basis.transpose() * change);
@@ -60,7 +60,7 @@ VectorXd newton_step(const SlowTangent& t, const VectorXd& change) {
 
 }  // namespace
 
-OrbitSearch find_orbit(PeriodMap& map, const VectorXd& start, int multiple, const OrbitSettings& settings) {
+OrbitSearch newton_orbit(PeriodMap& map, const VectorXd& start, int multiple, const OrbitSettings& settings) {
   OrbitSearch search;
   PeriodicOrbit& orbit = search.orbit;
   orbit.start = start;

@@ -2,7 +2,7 @@
 //
 // P is piecewise smooth. Where the contacts on the way stay, the method converges quadratically; of a piecewise affine map it
 // ends within one step of the piece that holds the orbit. A step that does not bring the residual down is halved. Of long
-// states the tangent is that on its slow directions (orbits/slow_tangent.h), kept as long as it brings the residual down, and the
+// states the tangent is that on its slow directions (orbits/monodromy_matrix.h), kept as long as it brings the residual down, and the
 // method converges linearly.
 // Stability is read off the multipliers, the eigenvalues of dP^m/dy: all of them inside the unit circle.
 #pragma once
@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "orbits/monodromy_matrix.h"
 #include "orbits/period_map.h"
-#include "orbits/slow_tangent.h"
 
 namespace whine {
 
@@ -22,7 +22,7 @@ struct PeriodicOrbit {
   int multiple = 1;                  // periods after which it repeats
   double residual = 0;               // |P^m(y) - y| / max(1, |y|)
   int iterations = 0;                // tangents that were needed
-  SlowTangent slow;                  // of P^m
+  MonodromyMatrix slow;              // of P^m
   std::vector<ContactEvent> events;  // of its periods in turn, phases from 0 to `multiple`
   Eigen::VectorXd observable;        // of its periods in turn
   Eigen::VectorXd peaks;             // (quantity) the map's, of all its periods
@@ -51,7 +51,7 @@ struct OrbitSearch {
 // From `start`, at the map's parameter. Round-off may keep the residual up to 1000 times above the tolerance: an iterate below
 // that counts if a step no longer halves the residual. Never throws for a state at which the model does not hold: the failure
 // says so.
-OrbitSearch find_orbit(PeriodMap& map, const Eigen::VectorXd& start, int multiple = 1,
-                       const OrbitSettings& settings = {});
+OrbitSearch newton_orbit(PeriodMap& map, const Eigen::VectorXd& start, int multiple = 1,
+                         const OrbitSettings& settings = {});
 
 }  // namespace whine

@@ -44,7 +44,7 @@ ClaimValue of_order_at_speed(const std::function<Finding(const SceneResults&, do
 }
 
 // Of the statics at 100 N m.
-ClaimValue at_rest(const std::function<double(const StaticArtifact&)>& number) {
+ClaimValue at_rest(const std::function<double(const StaticResult&)>& number) {
   return plain([=](const SceneResults& s) { return Finding{number(s.at_rest(100)), ""}; });
 }
 
@@ -53,7 +53,7 @@ ClaimValue nothing() {
 }
 
 // Of the model with the rectangular wave, whose parameters gear-lumped takes from P2000.
-ClaimValue of_lumped(const std::function<double(const SweepArtifact&)>& number) {
+ClaimValue of_lumped(const std::function<double(const SweepResult&)>& number) {
   return plain([=](const SceneResults& s) {
     return Finding{number(s.sweep(kFigureTorque, Direction::up, "rectangular")), ""};
   });
@@ -64,7 +64,7 @@ ClaimValue of_lumped(const std::function<double(const SweepArtifact&)>& number) 
 Finding other_periods(const SceneResults& s) {
   Index other = 0;
   for (int torque : kSweptTorques)
-    for (const ResponseArtifact* r : {&s.branches(torque).up, &s.branches(torque).down})
+    for (const ResponseResult* r : {&s.branches(torque).up, &s.branches(torque).down})
       other += (r->period_multiple.array() != 1).count();
   return {kNone, text("here ", other, " speeds, of all sweeps, that do not repeat with the mesh period")};
 }
@@ -77,7 +77,7 @@ Finding newmark(const SceneResults& s, const PrintedClaim& claim) {
 }
 
 Finding base_radius(const SceneResults& s) {
-  const StaticArtifact& a = s.at_rest(100);
+  const StaticResult& a = s.at_rest(100);
   const double r =
       a.gear[0].design.module * a.gear[0].design.teeth * std::cos(a.gear[0].design.pressure_angle) / 2;
   return {1e3 * r, text(a.gear[0].design.teeth, " teeth of module ", digits(1e3 * a.gear[0].design.module),
@@ -93,17 +93,17 @@ Finding bearing_damping(const SceneResults& s) {
 Named of_the_gears() {
   return {{"other-periods", plain(other_periods)},
           {"newmark", {{}, newmark}},
-          {"teeth", at_rest([](const StaticArtifact& a) { return double(a.gear[0].design.teeth); })},
-          {"module", at_rest([](const StaticArtifact& a) { return 1e3 * a.gear[0].design.module; })},
-          {"pressure-angle", at_rest([](const StaticArtifact& a) {
+          {"teeth", at_rest([](const StaticResult& a) { return double(a.gear[0].design.teeth); })},
+          {"module", at_rest([](const StaticResult& a) { return 1e3 * a.gear[0].design.module; })},
+          {"pressure-angle", at_rest([](const StaticResult& a) {
              return a.gear[0].design.pressure_angle * 180 / std::numbers::pi;
            })},
           {"base-radius", plain(base_radius)},
-          {"contact-ratio", at_rest([](const StaticArtifact& a) { return a.contact_ratio; })},
-          {"face-width", at_rest([](const StaticArtifact& a) { return 1e3 * a.gear[0].design.face_width; })},
+          {"contact-ratio", at_rest([](const StaticResult& a) { return a.contact_ratio; })},
+          {"face-width", at_rest([](const StaticResult& a) { return 1e3 * a.gear[0].design.face_width; })},
           {"youngs-modulus",
-           at_rest([](const StaticArtifact& a) { return 1e-9 * a.gear[0].material.youngs_modulus; })},
-          {"density", at_rest([](const StaticArtifact& a) { return a.gear[0].material.density; })},
+           at_rest([](const StaticResult& a) { return 1e-9 * a.gear[0].material.youngs_modulus; })},
+          {"density", at_rest([](const StaticResult& a) { return a.gear[0].material.density; })},
           {"damping", plain(damping)},
           {"bearing-damping", plain(bearing_damping)},
           {"nothing", nothing()}};
@@ -250,7 +250,7 @@ Named of_branches_at_a_speed() {
 // ---- statics and models with one degree of freedom
 
 Finding lumped_natural_frequency(const SceneResults& s) {
-  const SweepArtifact& a = s.sweep(kFigureTorque, Direction::up, "rectangular");
+  const SweepResult& a = s.sweep(kFigureTorque, Direction::up, "rectangular");
   return {std::sqrt(s.at_rest(100).mean_stiffness / a.lumped.mass) / (2 * std::numbers::pi),
           "secant stiffness at 100 N m"};
 }
@@ -290,7 +290,7 @@ Finding secant_loses_contact(const SceneResults& s, int torque) {
 }
 
 Named of_stiffness() {
-  return {{"mean-stiffness", at_rest([](const StaticArtifact& a) { return a.mean_stiffness * kMega; })},
+  return {{"mean-stiffness", at_rest([](const StaticResult& a) { return a.mean_stiffness * kMega; })},
           {"mean-transmission-errors", plain(mean_transmission_errors)},
           {"rectangular-wave", plain(levels_of_wave)},
           {"mean-stiffness-torque", plain(mean_stiffness_torque)},
@@ -300,8 +300,8 @@ Named of_stiffness() {
 }
 
 Named of_lumped_models() {
-  return {{"sdof-damping", of_lumped([](const SweepArtifact& a) { return 100 * a.lumped.damping_ratio; })},
-          {"sdof-mass", of_lumped([](const SweepArtifact& a) { return a.lumped.mass; })},
+  return {{"sdof-damping", of_lumped([](const SweepResult& a) { return 100 * a.lumped.damping_ratio; })},
+          {"sdof-mass", of_lumped([](const SweepResult& a) { return a.lumped.mass; })},
           {"sdof-natural-frequency", plain(lumped_natural_frequency)},
           {"sdof-amplitudes", amplitudes("rectangular")},
           {"sdof-jumps", at_torque(lumped_jumps)},

@@ -32,7 +32,7 @@ std::string number(double value, int digits) {
   return out.str();
 }
 
-SetFound look_for(const ClaimSet& set, const ReadingsArtifact& a, const std::map<std::string, size_t>& index,
+SetFound look_for(const ClaimSet& set, const ReadingsResult& a, const std::map<std::string, size_t>& index,
                   const std::vector<size_t>& order) {
   SetFound out;
   out.set = set;
@@ -62,7 +62,7 @@ SetFound look_for(const ClaimSet& set, const ReadingsArtifact& a, const std::map
 
 }  // namespace
 
-Consistency consistency(const ReadingsArtifact& a, const std::vector<ClaimSet>& sets) {
+Consistency consistency(const ReadingsResult& a, const std::vector<ClaimSet>& sets) {
   if (a.readings.empty()) fail(Failure::input, "there are no readings; make out/reading/readings.h5 again");
   Consistency out;
   std::map<std::string, size_t> index;
@@ -117,7 +117,7 @@ std::string words_of(const Reading& r) {
               " mm, ", c.steps_per_period, " steps");
 }
 
-std::string consistency_markdown(const ReadingsArtifact& a, const Consistency& found) {
+std::string consistency_markdown(const ReadingsResult& a, const Consistency& found) {
   std::ostringstream out;
   out << a.readings.size() << " readings, " << a.outside
       << " more outside the model's range. Most claims that agree in one reading: "
@@ -146,7 +146,7 @@ std::string consistency_markdown(const ReadingsArtifact& a, const Consistency& f
   return out.str();
 }
 
-std::string confirmed_markdown(const ReadingsArtifact& confirmed) {
+std::string confirmed_markdown(const ReadingsResult& confirmed) {
   const Consistency found = consistency(confirmed, {});
   std::ostringstream out;
   out << "\nThe best readings again with strips and speeds 20 Hz apart, on the bodies of the search:\n\n"
@@ -159,17 +159,11 @@ std::string confirmed_markdown(const ReadingsArtifact& confirmed) {
   return out.str();
 }
 
-std::string readings_tsv(const ReadingsArtifact& a, const Consistency& found) {
+std::string readings_tsv(const ReadingsResult& a, const Consistency& found) {
   std::ostringstream out;
   out << std::setprecision(6);
-  out << "# Readings of P2000, those with the most agreeing claims first; verdicts: 0 agrees, 1 differs, 2 "
-         "given, 3 fitted,"
-         " 4 cannot be compared, 5 misprint\n";
-  out << "agreeing\tdedendum\track_tip_radius\ttooth_thinning_mm\tplane\tcorner_deg\tbore_mm\tinertia_kgm2\t"
-         "inertia_from\tfrequency_offset_percent\tdamped_state\tmass_share\trayleigh_mass_per_s\trayleigh_"
-         "stiffness_s\tundamped_depth_"
-         "mm\t"
-         "steps_per_period\tlevel_ratio\tfirst_harmonic\tjump_up_Hz\tjump_down_Hz";
+  out << "# Readings of P2000, those with the most agreeing claims first; verdicts: 0 agrees, 1 differs, 2 given, 3 fitted, 4 cannot be compared, 5 misprint\n";
+  out << "agreeing\tdedendum\track_tip_radius\ttooth_thinning_mm\tplane\tcorner_deg\tbore_mm\tinertia_kgm2\tinertia_from\tfrequency_offset_percent\tdamped_state\tmass_share\trayleigh_mass_per_s\trayleigh_stiffness_s\tundamped_depth_mm\tsteps_per_period\tlevel_ratio\tfirst_harmonic\tjump_up_Hz\tjump_down_Hz";
   for (const std::string& claim : a.claim) out << "\t" << claim;
   out << "\n";
   for (const size_t i : found.order) {

@@ -33,18 +33,18 @@ struct Consistency {
 
 // A claim holds if its verdict is agrees, given or fitted. Throws Error(input) for a set that names an unknown claim, or no
 // readings.
-Consistency consistency(const ReadingsArtifact& readings, const std::vector<ClaimSet>& sets);
+Consistency consistency(const ReadingsResult& readings, const std::vector<ClaimSet>& sets);
 
 // "dedendum 1.4, rack tip 0.32, bore 46 mm, corner contact to 0.5 deg, ...": one line.
 std::string words_of(const Reading& reading);
 
 // For a page: sets, claims that no reading satisfies, pairs that never meet, the best readings.
-std::string consistency_markdown(const ReadingsArtifact& readings, const Consistency& found);
+std::string consistency_markdown(const ReadingsResult& readings, const Consistency& found);
 
 // A table of the readings that were looked at again with strips, those with the most agreeing claims first.
-std::string confirmed_markdown(const ReadingsArtifact& confirmed);
+std::string confirmed_markdown(const ReadingsResult& confirmed);
 
 // A line for each reading, best first: what it fixes, how many claims agree, the verdict on each.
-std::string readings_tsv(const ReadingsArtifact& readings, const Consistency& found);
+std::string readings_tsv(const ReadingsResult& readings, const Consistency& found);
 
 }  // namespace whine

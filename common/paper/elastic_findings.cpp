@@ -42,7 +42,7 @@ struct Summit {
   double speed = 0, natural_frequency = 0;
 };
 
-Summit summit(const ResponseArtifact& up, int order) {
+Summit summit(const ResponseResult& up, int order) {
   Summit found;
   found.natural_frequency = up.natural_frequency;
   const double centre = up.natural_frequency / order;
@@ -54,11 +54,12 @@ Summit summit(const ResponseArtifact& up, int order) {
   return found;
 }
 
-constexpr std::array kLoadsOf{LoadOf::tooth, LoadOf::sum, LoadOf::held_tooth};
-constexpr std::array kLoadsInWords{"one tooth", "sum over the teeth", "one tooth, held for 1/64 of a period"};
+constexpr std::array kLoadsOf{LoadOf::tooth, LoadOf::sum, LoadOf::sustained_tooth};
+constexpr std::array kLoadsInWords{"one tooth", "sum over the teeth",
+                                   "one tooth, sustained for 1/64 of a period"};
 
 // Largest growth of the RMS across a jump of the rising sweep within 15 % of f_n / order; 0 without a jump there.
-double rise(const ResponseArtifact& up, int order) {
+double rise(const ResponseResult& up, int order) {
   double largest = 0;
   const std::vector<Index> left = rows_before_jumps(up);
   for (size_t j = 0; j < left.size(); ++j)
@@ -83,12 +84,12 @@ Finding no_second_branch(const SceneResults& s, int torque, const Pair& at, doub
 double largest_load(const SceneResults& s, const Motion& m, LoadOf what) {
   if (what == LoadOf::sum) return m.sweep->mesh_force_max[m.row];
   if (what == LoadOf::tooth) return m.sweep->tooth_load_max[m.row];
-  const SweepArtifact& sweep = s.sweep(kFigureTorque, m.sweep->direction);
-  return held_load(sweep.tooth_load[static_cast<size_t>(m.row)], sweep.time.steps_per_period);
+  const SweepResult& sweep = s.sweep(kFigureTorque, m.sweep->direction);
+  return sustained_load(sweep.tooth_load[static_cast<size_t>(m.row)], sweep.time.steps_per_period);
 }
 
 Finding table_frequency(const SceneResults& s, int torque, ContactState state) {
-  const ImpactArtifact& i = s.ring_down(torque);
+  const ImpactResult& i = s.ring_down(torque);
   const auto row = i.row_of(state);
   if (!row) return {kNone, "no part of the period has " + name_of(state) + " loaded pairs"};
   const double frequency = i.natural_frequency[*row];
@@ -109,7 +110,7 @@ Finding table_frequency(const SceneResults& s, int torque, ContactState state) {
 }
 
 Finding damping(const SceneResults& s) {
-  const ImpactArtifact& i = s.ring_down(kFigureTorque);
+  const ImpactResult& i = s.ring_down(kFigureTorque);
   std::vector<Candidate> readings;
   for (const auto& [state, words] : {std::pair{ContactState::one, "one pair in mesh"},
                                      {ContactState::two, "two pairs in mesh"},
@@ -129,7 +130,7 @@ Finding resonance(const SceneResults& s, int order, const std::string& model) {
 }
 
 Finding driven_by_harmonic(const SceneResults& s, int order) {
-  const ResponseArtifact& up = s.branches(kFigureTorque).up;
+  const ResponseResult& up = s.branches(kFigureTorque).up;
   const Summit top = summit(up, order);
   if (top.row < 0) return {kNone, "no summit"};
   const int largest = Motion{&up, top.row}.largest_harmonic();
@@ -246,7 +247,7 @@ Finding softening(const SceneResults& s) {
 }
 
 Finding superharmonic_weaker(const SceneResults& s) {
-  const ResponseArtifact& up = s.branches(kFigureTorque).up;
+  const ResponseResult& up = s.branches(kFigureTorque).up;
   const double first = rise(up, 1), second = rise(up, 2), third = rise(up, 3);
   if (first == 0) return {kNone, "no jump near f_n"};
   return {second < first && third < first ? 1.0 : 0.0,
@@ -343,7 +344,7 @@ Finding two_states_below(const SceneResults& s, int torque, double f) {
   std::erase_if(two, [&](double speed) { return speed < end; });
   if (two.empty()) return {0, text("one branch above ", digits(end), " Hz; ", jumps_text(b))};
   double low = two.front(), high = two.back();
-  for (const ResponseArtifact* r : {&b.up, &b.down})
+  for (const ResponseResult* r : {&b.up, &b.down})
     for (const double jump : r->jump_frequency)
       if (jump >= end) {
         low = std::min(low, jump);

@@ -7,7 +7,7 @@
 namespace whine::paper {
 
 // P2000 does not say of what its largest loads are the largest, nor how it samples them.
-enum class LoadOf { tooth, sum, held_tooth };
+enum class LoadOf { tooth, sum, sustained_tooth };
 enum class Load { lower, upper, increase };
 
 // Of the elastic pair.
@@ -50,7 +50,7 @@ Finding mean_jumps(const SceneResults& s, bool less);
 Finding lumped_two(const SceneResults& s, double f);
 Finding lumped_loss(const SceneResults& s, double f, bool upper);
 // Whether the force of one pair, or of all, has a step or none, at the speed nearest to f.
-Finding force_step(const SweepArtifact& sweep, double f, bool one_pair, bool smooth);
+Finding force_step(const SweepResult& sweep, double f, bool one_pair, bool smooth);
 Finding secant_reduced(const SceneResults& s);
 Finding secant_linear(const SceneResults& s, int torque);
 Finding stiffness_spectrum(const SceneResults& s);

@@ -14,7 +14,7 @@ namespace whine::paper {
 namespace {
 
 // The load of a tooth pair on its whole way through the mesh: pair j at the end of a period is pair j + 1 of the next one.
-Eigen::VectorXd load_of_a_pair(const SweepArtifact& sweep, Index row) {
+Eigen::VectorXd load_of_a_pair(const SweepResult& sweep, Index row) {
   const MatrixRM& load = sweep.tooth_load[static_cast<size_t>(row)];
   Eigen::VectorXd way(load.size());
   for (Index pair = 0; pair < load.cols(); ++pair)
@@ -37,7 +37,7 @@ Finding torque_independent(const SceneResults& s) {
   const auto marks = [&](int torque) {
     const Branches b = s.branches(torque, "rectangular");
     std::vector<double> at;
-    for (const ResponseArtifact* r : {&b.up, &b.down})
+    for (const ResponseResult* r : {&b.up, &b.down})
       at.insert(at.end(), r->jump_frequency.data(), r->jump_frequency.data() + r->jump_frequency.size());
     return at;
   };
@@ -63,7 +63,7 @@ Finding mean_jumps(const SceneResults& s, bool less) {
   const Branches b = s.branches(kFigureTorque, "rectangular");
   bool holds = true;
   std::string note;
-  for (const ResponseArtifact* r : {&b.up, &b.down})
+  for (const ResponseResult* r : {&b.up, &b.down})
     for (const Index i : rows_before_jumps(*r)) {
       if (i < 0) continue;
       const double rms = r->dte_rms[i + 1] - r->dte_rms[i], mean = r->dte_mean[i + 1] - r->dte_mean[i];
@@ -92,7 +92,7 @@ Finding lumped_loss(const SceneResults& s, double f, bool upper) {
                digits(m.speed()), " Hz")};
 }
 
-Finding force_step(const SweepArtifact& sweep, double f, bool one_pair, bool smooth) {
+Finding force_step(const SweepResult& sweep, double f, bool one_pair, bool smooth) {
   Index row;
   (sweep.mesh_frequency.array() - f).abs().minCoeff(&row);
   const Eigen::VectorXd load =
@@ -149,7 +149,7 @@ Finding spectrum_lost(const SceneResults& s) {
   double ratio = 1;
   std::string note;
   for (int torque : kTorques) {
-    const StaticArtifact& a = s.at_rest(torque);
+    const StaticResult& a = s.at_rest(torque);
     ratio = strength([&](int n) { return a.stiffness_harmonic[n]; }) / whole;
     less = less && ratio < 1;
     note += text(note.empty() ? "" : ", ", digits(ratio, 3));
@@ -162,7 +162,7 @@ Finding modest_difference(const SceneResults& s) {
   double largest = 0;
   const RectangularWave wave = rectangular_wave(s.at_rest(100));
   for (int torque : kTorques) {
-    const StaticArtifact& a = s.at_rest(torque);
+    const StaticResult& a = s.at_rest(torque);
     double sum = 0;
     for (Index i = 0; i < a.mesh_phase.size(); ++i)
       sum += std::pow(a.stiffness_secant[i] - wave.at(a.mesh_phase[i]), 2);

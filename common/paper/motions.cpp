@@ -7,7 +7,7 @@
 
 namespace whine::paper {
 
-Index row_at(const ResponseArtifact& r, double f) {
+Index row_at(const ResponseResult& r, double f) {
   Index nearest = 0;
   const auto off = [&](Index i) { return std::abs(r.mesh_frequency[i] - f); };
   for (Index i = 1; i < r.mesh_frequency.size(); ++i)
@@ -55,13 +55,13 @@ std::string speeds_text(std::vector<double> speeds, double step) {
   return words + " Hz";
 }
 
-double step_of(const ResponseArtifact& r) {
+double step_of(const ResponseResult& r) {
   return r.mesh_frequency.size() < 2 ? 0 : std::abs(r.mesh_frequency[1] - r.mesh_frequency[0]);
 }
 
 std::vector<double> speeds_with_loss(const Branches& b) {
   std::vector<double> speeds;
-  for (const ResponseArtifact* r : {&b.up, &b.down})
+  for (const ResponseResult* r : {&b.up, &b.down})
     for (Index i = 0; i < r->mesh_frequency.size(); ++i)
       if (r->separation_fraction[i] > 0) speeds.push_back(r->mesh_frequency[i]);
   std::sort(speeds.begin(), speeds.end());
@@ -86,7 +86,7 @@ bool jumps(const Branches& b) {
 
 std::string jumps_text(const Branches& b) {
   std::string words;
-  for (const ResponseArtifact* r : {&b.up, &b.down}) {
+  for (const ResponseResult* r : {&b.up, &b.down}) {
     words += text(words.empty() ? "" : "; ", r->direction, " ");
     std::vector<double> at(r->jump_frequency.data(), r->jump_frequency.data() + r->jump_frequency.size());
     std::sort(at.begin(), at.end());
@@ -96,7 +96,7 @@ std::string jumps_text(const Branches& b) {
   return "jumps " + words;
 }
 
-double first_harmonic_share(const StaticArtifact& s) {
+double first_harmonic_share(const StaticResult& s) {
   return s.stiffness_harmonic[1] / s.stiffness_harmonic[0];
 }
 

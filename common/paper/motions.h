@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/impact_result.h"
 #include "paper/claims.h"
 #include "paper/results.h"
 #include "report/figures.h"
+#include "results/impact.h"
+#include "results/static.h"
 #include "signal/branches.h"
 #include "signal/response.h"
-#include "signal/static_result.h"
 
 namespace whine::paper {
 
@@ -25,7 +25,7 @@ inline constexpr double kSecondaryEnd = 0.575;  // of f_n: 15 % above f_n / 2, w
 
 // A motion at a speed: one row of one direction.
 struct Motion {
-  const ResponseArtifact* sweep = nullptr;
+  const ResponseResult* sweep = nullptr;
   Index row = -1;
 
   double speed() const { return sweep->mesh_frequency[row]; }
@@ -64,19 +64,19 @@ struct Step {
 };
 
 // The row whose speed is nearest to f, the lower one of two; -1 if the sweep does not come within 1 % of it.
-Index row_at(const ResponseArtifact& r, double f);
+Index row_at(const ResponseResult& r, double f);
 Pair motions(const Branches& b, double f);
 // The motions at a speed that P2000 prints for 150 N m; where there are not two, those of the nearest speed that has two
 // between caption and text.
 Pair printed_branches(const SceneResults& s, double f);
 std::string speeds_text(std::vector<double> speeds, double step);
-double step_of(const ResponseArtifact& r);
+double step_of(const ResponseResult& r);
 std::vector<double> speeds_with_loss(const Branches& b);
 std::vector<double> speeds_with_two(const Branches& b);
 double largest_rms(const Branches& b);
 bool jumps(const Branches& b);
 std::string jumps_text(const Branches& b);
-double first_harmonic_share(const StaticArtifact& s);
+double first_harmonic_share(const StaticResult& s);
 // What decides whether contact is lost: how strongly the stiffness varies, and the damping.
 std::string excitation(const SceneResults& s, int torque);
 std::string loss_text(const Branches& b);

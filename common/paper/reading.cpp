@@ -49,7 +49,7 @@ StaticParameters statics_of_reading(const Scene& scene, const CornerRule& corner
   return settings;
 }
 
-StaticArtifact with_harmonics(StaticArtifact statics) {
+StaticResult with_harmonics(StaticResult statics) {
   const int count = resolved_harmonics(statics.stiffness_secant.size(), 40, 1);
   for (auto [samples, out] : {std::pair{&statics.transmission_error, &statics.transmission_error_harmonic},
                               std::pair{&statics.stiffness_secant, &statics.stiffness_harmonic}}) {
@@ -88,7 +88,7 @@ double root(const Function& excess, double low, double high, double tolerance) {
 // What damping as printed makes of a natural frequency.
 const double kDamped = std::sqrt(1 - kPaperDampingRatio * kPaperDampingRatio);
 
-Index row_of(const ImpactArtifact& impact, const std::string& state) {
+Index row_of(const ImpactResult& impact, const std::string& state) {
   const auto wanted = choice_of<ContactState>(state);
   const auto row = wanted ? impact.row_of(*wanted) : std::nullopt;
   if (!row)
@@ -108,7 +108,7 @@ BoreFamily::BoreFamily(const Scene& scene, const OpenChoices& choices)
   scene_.body.modes = kCoarseModes;
 }
 
-const BodyArtifact& BoreFamily::body(double bore) {
+const ReducedBody& BoreFamily::body(double bore) {
   const int key = static_cast<int>(std::lround(bore / kBoreStep));
   const auto found = bodies_.find(key);
   if (found != bodies_.end()) return found->second;
@@ -118,7 +118,7 @@ const BodyArtifact& BoreFamily::body(double bore) {
 }
 
 double BoreFamily::mean_stiffness(int steps, const CornerRule& corner) {
-  const BodyArtifact& gear = body(steps * kBoreStep);
+  const ReducedBody& gear = body(steps * kBoreStep);
   return static_transmission(gear, gear, statics_of_reading(scene_, corner, ContactModel::line), kTorques[0])
       .mean_stiffness;
 }
@@ -181,7 +181,7 @@ void PaperPair::add_lumped(const Scene& scene) {
     for (const Direction direction : {Direction::up, Direction::down}) {
       o.model = model;
       o.direction = direction;
-      const SweepArtifact sweep = lumped_sweep(pair_.at_rest(torque), springs, numbers, o, kNoReport);
+      const SweepResult sweep = lumped_sweep(pair_.at_rest(torque), springs, numbers, o, kNoReport);
       const std::string place = path_at(torque, text(model, "/", direction, "/"));
       pair_.responses[place + "response.h5"] = response(sweep);
       if (torque == kFigureTorque && model == "rectangular") pair_.sweeps[place + "sweep.h5"] = sweep;
@@ -190,7 +190,7 @@ void PaperPair::add_lumped(const Scene& scene) {
   const LumpedParameters wave = cells_of(rectangular_wave(pair_.at_rest(kTorques[0])));
   for (int torque : {100, 150, 200, 300}) run("rectangular", torque, wave);
   for (int torque : kTorques) {
-    const StaticArtifact& rest = pair_.at_rest(torque);
+    const StaticResult& rest = pair_.at_rest(torque);
     run("secant", torque, cells_of(rest.stiffness_secant, 8 * kPositions, rest.unloaded_error));
   }
 }
@@ -217,7 +217,7 @@ double PaperPair::tied_inertia(const std::string& from) {
     double sum = 0;
     int count = 0;
     for (size_t t = 0; t < (from == "table" ? kTorques.size() : 1); ++t) {
-      const ImpactArtifact at_phase =
+      const ImpactResult at_phase =
           frozen_impact(body_, body_, pair_.at_rest(kTorques[t]), reference_stiffness,
                         impact_parameters({}, inertia), kFixedPhases);
       for (const Claim& row : claims_) {
@@ -235,10 +235,10 @@ double PaperPair::tied_inertia(const std::string& from) {
     const double ratio = off(inertia);
     inertia /= ratio * ratio;
     if (!(inertia > 1.02 * body_.inertia && inertia < 2 * by_mass))
-      fail(Failure::input,
-           "no inertia between that of the body and twice that of 1.4 kg gives the natural "
-           "frequencies of Table 1 (",
-           from, ")");
+      fail(
+          Failure::input,
+          "no inertia between that of the body and twice that of 1.4 kg gives the natural frequencies of Table 1 (",
+          from, ")");
     if (std::abs(ratio - 1) < 1e-4) return inertia_[from] = inertia;
   }
   fail(Failure::numerical, "the inertia fitted to Table 1 (", from, ") does not converge: ", inertia,
@@ -249,7 +249,7 @@ double PaperPair::tied_rayleigh_stiffness(const OpenChoices& choices, double ine
                                           double rayleigh_mass) const {
   ImpactParameters settings = impact_parameters(choices, inertia);
   settings.damping.rayleigh_mass = rayleigh_mass;
-  const StaticArtifact& rest = pair_.at_rest(kFigureTorque);
+  const StaticResult& rest = pair_.at_rest(kFigureTorque);
   const std::vector<FixedPhaseState> states = fixed_phase_states(
       body_, body_, rest, pair_.at_rest(kTorques[0]).mean_stiffness, settings, kFixedPhases);
   // The mean over the period: pairs in mesh by the contact ratio, one pair for the rest.
@@ -291,8 +291,8 @@ Reading PaperPair::evaluate(const OpenChoices& choices) {
   const ImpactParameters at_phase = impact_parameters(choices, out.total_inertia);
   {
     // mu = 2 zeta w with w of the contact state that has the printed ratio.
-    const StaticArtifact& rest = pair_.at_rest(kFigureTorque);
-    const ImpactArtifact at = frozen_impact(body_, body_, rest, bearing_stiffness, at_phase, kFixedPhases);
+    const StaticResult& rest = pair_.at_rest(kFigureTorque);
+    const ImpactResult at = frozen_impact(body_, body_, rest, bearing_stiffness, at_phase, kFixedPhases);
     out.rayleigh_mass = choices.mass_share * 2 * kPaperDampingRatio * 2 * std::numbers::pi *
                         at.undamped_frequency[row_of(at, choices.damped_state)];
   }
@@ -325,7 +325,7 @@ Reading PaperPair::judge(Reading out) const {
   if (choices.steps_per_period != time_.steps_per_period) settings.time.min_sample_rate = 1;
   for (int torque : kSweptTorques)
     for (const Direction direction : {Direction::up, Direction::down}) {
-      SweepArtifact motion =
+      SweepResult motion =
           sweep(body_, body_, rest_.at(torque), bearing_stiffness, settings, direction, kNoReport);
       const std::string place = path_at(torque, text(direction, "/"));
       results.responses[place + "response.h5"] = response(motion);
@@ -334,10 +334,10 @@ Reading PaperPair::judge(Reading out) const {
 
   const RectangularWave wave = rectangular_wave(pair_.at_rest(kTorques[0]));
   out.level_ratio = wave.high / wave.low;
-  const StaticArtifact& rest = pair_.at_rest(kFigureTorque);
+  const StaticResult& rest = pair_.at_rest(kFigureTorque);
   out.first_harmonic = rest.stiffness_harmonic[1] / rest.stiffness_harmonic[0];
   const Branches figure = results.branches(kFigureTorque);
-  const auto primary = [](const ResponseArtifact& r) {
+  const auto primary = [](const ResponseResult& r) {
     const double largest = r.jump_frequency.size() > 0 ? r.jump_frequency.maxCoeff() : 0;
     return largest > 0.575 * r.natural_frequency ? largest : 0;
   };

@@ -18,8 +18,8 @@
 #include "io/readings_codec.h"
 #include "io/scene.h"
 #include "paper/scorecard.h"
-#include "signal/static_result.h"
-#include "solid/reduced_body.h"
+#include "results/reduced_body.h"
+#include "results/static.h"
 
 namespace whine {
 
@@ -40,7 +40,7 @@ class BoreFamily {
   BoreFamily(const Scene& scene, const OpenChoices& choices);
   const GearDesign& design() const { return gear_.design; }
   // The body with the bore nearest to `bore` among multiples of 1 mm.
-  const BodyArtifact& body(double bore);
+  const ReducedBody& body(double bore);
   // m: the bore, a multiple of 1 mm, whose mean mesh stiffness under this corner rule is nearest to 462.1 N/µm at
   // 100 N m. Throws Error(input) if none between 20 mm and the rim does so to 2 %.
   double tied_bore(const CornerRule& corner);
@@ -49,7 +49,7 @@ class BoreFamily {
   double mean_stiffness(int steps, const CornerRule& corner);
   Scene scene_;
   SceneGear gear_;
-  std::map<int, BodyArtifact> bodies_;
+  std::map<int, ReducedBody> bodies_;
 };
 
 // A pair of gears with all that does not depend on inertia and damping: statics, lumped models.
@@ -72,12 +72,12 @@ class PaperPair {
   void add_lumped(const Scene& scene);
 
   std::vector<Claim> claims_;
-  const BodyArtifact& body_;
+  const ReducedBody& body_;
   double bore_;
   ReadingLevel level_;
   TimeDiscretisation time_;
   SceneResults pair_;                      // what all readings of the pair share
-  std::map<int, StaticArtifact> rest_;     // by torque, with one contact line per tooth pair
+  std::map<int, StaticResult> rest_;       // by torque, with one contact line per tooth pair
   std::map<std::string, double> inertia_;  // kg m2, by what it is fitted to
 };
 

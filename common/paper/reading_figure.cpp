@@ -19,7 +19,7 @@ constexpr const char* kKinds[] = {"none", "to 0.5° at most", "to 0.5 ... 5°", 
 
 }  // namespace
 
-Figure reading_figure(const ReadingsArtifact& a, const Consistency& found) {
+Figure reading_figure(const ReadingsResult& a, const Consistency& found) {
   Figure figure;
   figure.title = text(a.readings.size(), " readings of what P2000 leaves open");
   figure.notes = {text("bore, inertia and damping (7 %) fitted in each; sweeps with contact lines; at most ",

@@ -9,6 +9,6 @@ namespace whine {
 
 // Left: each reading by its level ratio and its agreeing claims, a colour for each rule of corner contact, with the ratios that
 // Table 1 and Figure 15 of P2000 ask for. Right: of each set of claims the share that its closest reading satisfies.
-Figure reading_figure(const ReadingsArtifact& readings, const Consistency& found);
+Figure reading_figure(const ReadingsResult& readings, const Consistency& found);
 
 }  // namespace whine

@@ -31,9 +31,9 @@ std::string pair_words(const OpenChoices& pair, int readings) {
               pair.plane, ", ", corner, ": ", readings, " readings");
 }
 
-ReadingsArtifact run_part(const ReadingPlan& plan, const Scene& scene, int part, int parts,
-                          const std::vector<Claim>& claims) {
-  ReadingsArtifact out;
+ReadingsResult run_part(const ReadingPlan& plan, const Scene& scene, int part, int parts,
+                        const std::vector<Claim>& claims) {
+  ReadingsResult out;
   out.title = plan.title;
   for (const Claim& claim : claims) out.claim.push_back(claim.id);
   const std::vector<OpenChoices> pairs = pairs_of(plan);
@@ -47,7 +47,8 @@ ReadingsArtifact run_part(const ReadingPlan& plan, const Scene& scene, int part,
     }
     if (number % parts != part - 1) continue;
     const auto left_out = [&](const Error& error, int count) {
-      tell("gear-reading: outside the model: dedendum ", pairs[i].dedendum, ", pair ", i, ": ", error.what());
+      log_line("gear-reading: outside the model: dedendum ", pairs[i].dedendum, ", pair ", i, ": ",
+               error.what());
       out.outside += count;
     };
     try {
@@ -66,10 +67,10 @@ ReadingsArtifact run_part(const ReadingPlan& plan, const Scene& scene, int part,
   return out;
 }
 
-ReadingsArtifact confirmed(const ReadingsArtifact& readings, const Scene& scene, int count,
-                           const std::vector<Claim>& claims) {
+ReadingsResult confirmed(const ReadingsResult& readings, const Scene& scene, int count,
+                         const std::vector<Claim>& claims) {
   const Consistency found = consistency(readings, {});
-  ReadingsArtifact out;
+  ReadingsResult out;
   out.title = readings.title + ", the best confirmed";
   out.contact = kConfirming.contact;
   out.claim = readings.claim;
@@ -85,10 +86,10 @@ ReadingsArtifact confirmed(const ReadingsArtifact& readings, const Scene& scene,
       PaperPair pair(family, reading.bore_radius, scene, reading.choices, kConfirming, claims);
       out.readings.push_back(pair.judge(reading));
       const auto& verdict = out.readings.back().verdict;
-      tell("gear-reading: ", found.agreeing[i], " -> ", std::count(verdict.begin(), verdict.end(), 0),
-           " claims agree: ", words_of(reading));
+      log_line("gear-reading: ", found.agreeing[i], " -> ", std::count(verdict.begin(), verdict.end(), 0),
+               " claims agree: ", words_of(reading));
     } catch (const Error& error) {
-      tell("gear-reading: outside the model: ", words_of(reading), ": ", error.what());
+      log_line("gear-reading: outside the model: ", words_of(reading), ": ", error.what());
       ++out.outside;
     }
     progress.update(static_cast<long>(out.readings.size()) + out.outside);
@@ -97,10 +98,10 @@ ReadingsArtifact confirmed(const ReadingsArtifact& readings, const Scene& scene,
   return out;
 }
 
-ReadingsArtifact gathered(const std::vector<std::string>& parts) {
-  ReadingsArtifact out;
+ReadingsResult gathered(const std::vector<std::string>& parts) {
+  ReadingsResult out;
   for (const std::string& path : parts) {
-    ReadingsArtifact part = read_readings(path);
+    ReadingsResult part = read_readings(path);
     if (out.claim.empty()) {
       out = std::move(part);
       continue;

@@ -12,14 +12,14 @@ std::string pair_words(const OpenChoices& pair, int readings);
 
 // Part `part` (from 1) of `parts` of the plan. A part takes whole families: pairs that share a tooth form and a plane state.
 // What lies outside the model is told, counted and left out.
-ReadingsArtifact run_part(const ReadingPlan& plan, const Scene& scene, int part, int parts,
-                          const std::vector<Claim>& claims);
+ReadingsResult run_part(const ReadingPlan& plan, const Scene& scene, int part, int parts,
+                        const std::vector<Claim>& claims);
 
 // The `count` best readings once more, with strips and finer steps of the speed.
-ReadingsArtifact confirmed(const ReadingsArtifact& readings, const Scene& scene, int count,
-                           const std::vector<Claim>& claims);
+ReadingsResult confirmed(const ReadingsResult& readings, const Scene& scene, int count,
+                         const std::vector<Claim>& claims);
 
 // Parts in one. Throws Error(input) for a part that is of other claims than the first.
-ReadingsArtifact gathered(const std::vector<std::string>& parts);
+ReadingsResult gathered(const std::vector<std::string>& parts);
 
 }  // namespace whine

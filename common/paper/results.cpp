@@ -34,15 +34,15 @@ std::string motion_folder(int torque, const std::string& model, Direction direct
 
 }  // namespace
 
-const StaticArtifact& SceneResults::at_rest(int torque) const {
+const StaticResult& SceneResults::at_rest(int torque) const {
   return look_up(statics, *this, text("T", torque, "/static.h5"));
 }
 
-const ImpactArtifact& SceneResults::ring_down(int torque) const {
+const ImpactResult& SceneResults::ring_down(int torque) const {
   return look_up(impacts, *this, text("T", torque, "/impact.h5"));
 }
 
-const SweepArtifact& SceneResults::sweep(int torque, Direction direction, const std::string& model) const {
+const SweepResult& SceneResults::sweep(int torque, Direction direction, const std::string& model) const {
   return look_up(sweeps, *this, motion_folder(torque, model, direction) + "sweep.h5");
 }
 
@@ -123,7 +123,7 @@ struct SceneReader {
 
   // Error(input) unless all are of one pair of gears, the elastic ones of one damping, too.
   void require_one_scene() const {
-    const StaticArtifact& first = results.at_rest(kTorques[0]);
+    const StaticResult& first = results.at_rest(kTorques[0]);
     const auto same_gears = [&](const auto& artifacts) {
       for (const auto& [file, a] : artifacts)
         if (gears_made_of(a) != gears_made_of(first))

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/impact_result.h"
-#include "signal/response_result.h"
-#include "signal/static_result.h"
-#include "signal/sweep_result.h"
+#include "results/impact.h"
+#include "results/response.h"
+#include "results/static.h"
+#include "results/sweep.h"
 
 namespace whine {
 
@@ -20,22 +20,22 @@ inline constexpr std::array<int, 5> kSweptTorques{100, 150, 200, 300, 600};  // 
 
 // Both directions of a sweep at a torque.
 struct Branches {
-  const ResponseArtifact& up;
-  const ResponseArtifact& down;
+  const ResponseResult& up;
+  const ResponseResult& down;
 };
 
 // Artifacts by their paths below the scene's folder: "T150/up/response.h5", "T150/rectangular/up/sweep.h5". What is asked
 // for and is not there: Error(input) that names it. model "": elastic gears; otherwise a lumped model.
 struct SceneResults {
   std::string name;
-  std::map<std::string, StaticArtifact> statics;
-  std::map<std::string, ImpactArtifact> impacts;
-  std::map<std::string, SweepArtifact> sweeps;
-  std::map<std::string, ResponseArtifact> responses;
+  std::map<std::string, StaticResult> statics;
+  std::map<std::string, ImpactResult> impacts;
+  std::map<std::string, SweepResult> sweeps;
+  std::map<std::string, ResponseResult> responses;
 
-  const StaticArtifact& at_rest(int torque) const;
-  const ImpactArtifact& ring_down(int torque) const;
-  const SweepArtifact& sweep(int torque, Direction direction, const std::string& model = "") const;
+  const StaticResult& at_rest(int torque) const;
+  const ImpactResult& ring_down(int torque) const;
+  const SweepResult& sweep(int torque, Direction direction, const std::string& model = "") const;
   Branches branches(int torque, const std::string& model = "") const;
 
   mutable std::set<std::string> asked = {};  // paths that these four were asked for

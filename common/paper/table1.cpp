@@ -22,14 +22,13 @@ double printed_frequency(const std::vector<PrintedClaim>& claims, double torque,
 
 }  // namespace
 
-Figure natural_frequency_table(std::vector<ImpactArtifact> impacts,
-                               const std::vector<PrintedClaim>& printed) {
+Figure natural_frequency_table(std::vector<ImpactResult> impacts, const std::vector<PrintedClaim>& printed) {
   if (impacts.empty()) fail(Failure::input, "table: no impact.h5 given; 1 is the least");
   std::sort(impacts.begin(), impacts.end(), [](const auto& a, const auto& b) { return a.torque < b.torque; });
 
   Figure table;
   table.title = "Natural frequencies by ring-down";
-  const ImpactArtifact& first = impacts[0];
+  const ImpactResult& first = impacts[0];
   table.notes.push_back("Rayleigh damping η = " + shown(first.damping.rayleigh_stiffness * kMicro, 6) +
                         " µs; " + corner_words(first.mesh.corner));
   const double ratio = GearPair(first).contact_ratio();
@@ -41,7 +40,7 @@ Figure natural_frequency_table(std::vector<ImpactArtifact> impacts,
                         " with " + name_of(many) + " pairs, as without load");
   FigureBlock block{"natural frequencies", {"torque [N m]"}, {}};
   for (size_t i = 0; i < impacts.size(); ++i) {
-    const ImpactArtifact& a = impacts[i];
+    const ImpactResult& a = impacts[i];
     if (i > 0 && a.torque == impacts[i - 1].torque)
       fail(Failure::input, "table: two impact.h5 of the same torque, ", torque_words(a.torque),
            "; give each once");

@@ -1,8 +1,8 @@
 // Table 1 of P2000: natural frequencies by ring-down beside the printed ones.
 #pragma once
-#include "dynamics/impact_result.h"
 #include "io/printed_claims.h"
 #include "report/figures.h"
+#include "results/impact.h"
 
 namespace whine {
 
@@ -11,7 +11,7 @@ namespace whine {
 // shares of the period that the contact ratio gives them. printed: claims, of which those of the value `natural-frequency` are
 // printed frequencies; deviations from them in percent; none: no such columns. Throws Error(input) for no artifact, two of one
 // torque, or a state or a printed value that is missing.
-Figure natural_frequency_table(std::vector<ImpactArtifact> impacts, const std::vector<PrintedClaim>& printed);
+Figure natural_frequency_table(std::vector<ImpactResult> impacts, const std::vector<PrintedClaim>& printed);
 
 // The same as lines for a terminal.
 std::string natural_frequency_text(const Figure& table);

@@ -7,11 +7,11 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "contact/half_plane.h"
 #include "gear/face_width.h"
 #include "gear/pair.h"
 #include "report/wireframe.h"
 #include "solid/flank_table.h"
-#include "solid/half_plane.h"
 #include "solid/loaded_gear.h"
 #include "solid/reduce.h"
 
@@ -27,7 +27,7 @@ constexpr double kDrawnWidth = 0.1;  // of a module: over which a tooth's force 
 class ElasticOutline {
  public:
   // contact_width: m, on which the mesh meets.
-  ElasticOutline(const MeshArtifact& mesh, const Material& material, double contact_width)
+  ElasticOutline(const SectorGrid& mesh, const Material& material, double contact_width)
       : mesh_(mesh),
         tooth_(mesh.design),
         moduli_(plane_strain_equivalent(material)),
@@ -93,7 +93,7 @@ class ElasticOutline {
     return Eigen::Rotation2Dd(by / p.norm() * from_middle * std::max(0.0, from_space)) * p;
   }
 
-  const MeshArtifact& mesh_;
+  const SectorGrid& mesh_;
   ToothGeometry tooth_;
   PlaneModuli moduli_;
   double concentration_;  // 1: of the load on the part of the width that carries it
@@ -115,12 +115,11 @@ std::string frame_name(int frame) {
   return name;
 }
 
-double half_window_of(const SweepArtifact& s) {
+double half_window_of(const SweepResult& s) {
   return 1.75 * std::numbers::pi * s.gear[0].design.module;
 }
 
-void check_inputs(const MeshArtifact& driver, const MeshArtifact& driven, const SweepArtifact& s,
-                  int frames) {
+void check_inputs(const SectorGrid& driver, const SectorGrid& driven, const SweepResult& s, int frames) {
   if (frames < 2 || frames > 1000)
     fail(Failure::input, "an animation of ", frames, " frames; from 2 to 1000 are possible");
   if (s.model != "finite elements")
@@ -149,7 +148,7 @@ struct ShownMotion {
 };
 
 // At the mesh frequency, Hz; 0: where the transmission error oscillates most.
-ShownMotion motion_of(const SweepArtifact& s, double mesh_frequency) {
+ShownMotion motion_of(const SweepResult& s, double mesh_frequency) {
   const auto oscillation = [&s](Index row) {
     const Eigen::VectorXd x = s.transmission_error.row(row);
     return std::sqrt((x.array() - x.mean()).square().mean());
@@ -182,7 +181,7 @@ struct LoadedPairs {
 };
 
 // What is below the teeth in every picture: the history, and the intervals without contact.
-LoadedPairs add_history(const SweepArtifact& s, const ShownMotion& m, Figure& figure) {
+LoadedPairs add_history(const SweepResult& s, const ShownMotion& m, Figure& figure) {
   LoadedPairs pairs{m.loads.cols()};
   Index &first = pairs.first, &last = pairs.last;
   for (Index j = 0; j < m.loads.cols(); ++j)
@@ -217,8 +216,8 @@ LoadedPairs add_history(const SweepArtifact& s, const ShownMotion& m, Figure& fi
 class Pictures {
  public:
   // drawn_back: m, by which back flanks are drawn thinner.
-  Pictures(const MeshArtifact& driver, const MeshArtifact& driven, const SweepArtifact& s,
-           const ShownMotion& m, double magnified, double drawn_back)
+  Pictures(const SectorGrid& driver, const SectorGrid& driven, const SweepResult& s, const ShownMotion& m,
+           double magnified, double drawn_back)
       : s_(s),
         motion_(m),
         pair_(s),
@@ -240,7 +239,7 @@ class Pictures {
   FigureBlock teeth(const std::string& name, int g, Index k, double phase, const Presses& presses,
                     FigureBlock& pressing) const;
 
-  const SweepArtifact& s_;
+  const SweepResult& s_;
   const ShownMotion& motion_;
   GearPair pair_;
   ElasticOutline outline_[2];
@@ -315,7 +314,7 @@ void Pictures::add(const std::string& name, Index k, Figure& figure) const {
 
 }  // namespace
 
-Figure animation_figure(const MeshArtifact& driver, const MeshArtifact& driven, const SweepArtifact& s,
+Figure animation_figure(const SectorGrid& driver, const SectorGrid& driven, const SweepResult& s,
                         double mesh_frequency, int frames) {
   check_inputs(driver, driven, s, frames);
   // 1. The motion.
@@ -345,13 +344,14 @@ Figure animation_figure(const MeshArtifact& driver, const MeshArtifact& driven, 
   const Vec2 along(-std::cos(pair.working_pressure_angle()), std::sin(pair.working_pressure_angle()));
   figure.title = text("Gears at ", m.speed, " Hz mesh frequency, ", s.torque, " N m, speed ",
                       s.direction == Direction::up ? "rising" : "falling");
-  figure.notes = {text("Vibration and deflection magnified ", magnified,
-                       " times; teeth bend as at rest under the loads of the moment; gaps are "
-                       "drawn wider than at scale as far as teeth would overlap"),
-                  text("Arrows: force of each pair on the driven gear; DTE: dynamic transmission error",
-                       drawn_back > 0 ? text("; back flanks are drawn ", std::round(drawn_back * 1e5) / 1e2,
-                                             " mm thinner, the model has none")
-                                      : "")};
+  figure.notes = {
+      text(
+          "Vibration and deflection magnified ", magnified,
+          " times; teeth bend as at rest under the loads of the moment; gaps are drawn wider than at scale as far as teeth would overlap"),
+      text("Arrows: force of each pair on the driven gear; DTE: dynamic transmission error",
+           drawn_back > 0 ? text("; back flanks are drawn ", std::round(drawn_back * 1e5) / 1e2,
+                                 " mm thinner, the model has none")
+                          : "")};
   figure.numbers = {{"frames", frames},
                     {"periods", m.periods},
                     {"magnified", magnified},

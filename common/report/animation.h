@@ -1,8 +1,8 @@
 // One mesh period of a steady motion, picture by picture: the teeth as they roll, bend and part.
 #pragma once
 #include "report/figures.h"
-#include "signal/sweep_result.h"
-#include "solid/sector_mesh.h"
+#include "results/sector_grid.h"
+#include "results/sweep.h"
 
 namespace whine {
 
@@ -14,7 +14,7 @@ namespace whine {
 // of contact by less than the vibration are magnified alike, by teeth that lean. Back flanks are drawn drawn_back (mm) thinner,
 // so that they stay apart: the model knows none. Throws Error(input) for meshes that are not of the sweep's gears, a lumped
 // model, a frequency that is no speed of the sweep, teeth that differ, and fewer than 2 or more than 1000 frames.
-Figure animation_figure(const MeshArtifact& driver, const MeshArtifact& driven, const SweepArtifact& sweep,
+Figure animation_figure(const SectorGrid& driver, const SectorGrid& driven, const SweepResult& sweep,
                         double mesh_frequency, int frames);
 
 }  // namespace whine

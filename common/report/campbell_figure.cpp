@@ -9,7 +9,7 @@ namespace whine {
 
 using Eigen::Index;
 
-Figure campbell_figure(const ModesArtifact& a) {
+Figure campbell_figure(const ModesResult& a) {
   Figure figure;
   figure.title = "Campbell diagram: natural frequencies and harmonics of the mesh frequency";
   FigureBlock modes{"frequencies",

@@ -67,10 +67,10 @@ class Rows {
 
 std::vector<double> common_torques(const std::vector<Design>& designs) {
   std::vector<double> out;
-  for (const StaticArtifact& s : designs.at(0).content.statics)
+  for (const StaticResult& s : designs.at(0).content.statics)
     if (std::all_of(designs.begin(), designs.end(), [&](const Design& d) {
           return std::any_of(d.content.statics.begin(), d.content.statics.end(),
-                             [&](const StaticArtifact& other) { return other.torque == s.torque; });
+                             [&](const StaticResult& other) { return other.torque == s.torque; });
         }))
       out.push_back(s.torque);
   return out;
@@ -81,8 +81,8 @@ ReportContent by_role(ReportContent c) {
   const auto rename = [](auto& artifact) {
     for (int g = 0; g < kSides; ++g) artifact.mesh.gear[g] = kRole[g];
   };
-  for (StaticArtifact& s : c.statics) rename(s);
-  for (ImpactArtifact& a : c.impacts) rename(a);
+  for (StaticResult& s : c.statics) rename(s);
+  for (ImpactResult& a : c.impacts) rename(a);
   for (ReportSweep& sweep : c.sweeps) rename(sweep.response);
   return c;
 }
@@ -126,10 +126,8 @@ std::string compared_picture(const ReportPicture& picture) {
   const char* title = rest ? "At rest" : "In motion";
   const char* words =
       rest
-          ? "Static transmission error and secant mesh stiffness over the mesh period, and amplitudes of the "
-            "harmonics of the error."
-          : "RMS and first order of the dynamic transmission error and largest tooth load over T / r_b "
-            "against speed; falling speed dashed. Where the two lines of a design part it has two motions.";
+          ? "Static transmission error and secant mesh stiffness over the mesh period, and amplitudes of the harmonics of the error."
+          : "RMS and first order of the dynamic transmission error and largest tooth load over T / r_b against speed; falling speed dashed. Where the two lines of a design part it has two motions.";
   return html::figure(picture.name, picture.bytes, title, html::escaped(words));
 }
 
@@ -212,13 +210,12 @@ std::string compare_html(const std::vector<Design>& designs, const std::vector<R
       "<section id=\"differences\">\n<h2>Differences</h2>\n" +
       differences_table(
           designs, found,
-          "Results that differ, at the torques that all designs have, then geometry; change against the "
-          "first design. compare.tsv holds the same.",
+          "Results that differ, at the torques that all designs have, then geometry; change against the first design. compare.tsv holds the same.",
           false) +
-      (starred ? html::paragraph(
-                     "* At this speed the motion is larger than the backlash; contact of back flanks is not "
-                     "modelled.")
-               : "") +
+      (starred
+           ? html::paragraph(
+                 "* At this speed the motion is larger than the backlash; contact of back flanks is not modelled.")
+           : "") +
       differences_table(designs, scene_differences(designs),
                         "Keys of the scenes that differ; of driver / driven gear where these differ.", true) +
       "</section>\n<section id=\"figures\">\n<h2>On common axes</h2>\n";

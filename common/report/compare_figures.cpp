@@ -14,10 +14,10 @@ namespace {
 using Eigen::Index;
 
 // What messages call the two artifacts.
-const char* artifact_kind(const StaticArtifact&) {
+const char* artifact_kind(const StaticResult&) {
   return "static.h5";
 }
-const char* artifact_kind(const ResponseArtifact&) {
+const char* artifact_kind(const ResponseResult&) {
   return "response.h5";
 }
 
@@ -34,7 +34,7 @@ void require_all_designs(const std::vector<OfDesign<Artifact>>& all, size_t desi
 
 }  // namespace
 
-Figure compared_rest_figure(const std::vector<OfDesign<StaticArtifact>>& designs) {
+Figure compared_rest_figure(const std::vector<OfDesign<StaticResult>>& designs) {
   require_all_designs(designs, designs.size());
   Figure figure;
   figure.title = "Designs at rest, " + torque_words(designs.at(0).artifact.torque);
@@ -84,7 +84,7 @@ Figure compared_rest_figure(const std::vector<OfDesign<StaticArtifact>>& designs
   return figure;
 }
 
-Figure compared_motion_figure(const std::vector<OfDesign<ResponseArtifact>>& sweeps) {
+Figure compared_motion_figure(const std::vector<OfDesign<ResponseResult>>& sweeps) {
   std::vector<std::string> names;
   for (const auto& [name, r] : sweeps)
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
@@ -101,7 +101,7 @@ Figure compared_motion_figure(const std::vector<OfDesign<ResponseArtifact>>& swe
       if (const auto found = std::count_if(sweeps.begin(), sweeps.end(), is); found != 1)
         fail(Failure::input, "figure: ", found, " sweeps ", direction, " of ", names[i],
              " given; one up and one down of each design are wanted");
-      const ResponseArtifact& r = std::find_if(sweeps.begin(), sweeps.end(), is)->artifact;
+      const ResponseResult& r = std::find_if(sweeps.begin(), sweeps.end(), is)->artifact;
       const auto other = std::find_if(sweeps.begin(), sweeps.end(), [&](const auto& one) {
         return one.design == names[i] && one.artifact.direction != direction;
       });
@@ -144,7 +144,7 @@ Figure compared_motion_figure(const std::vector<OfDesign<ResponseArtifact>>& swe
         std::pair{"order_max", order}, std::pair{"load_max", load}, std::pair{"frequency_from", from},
         std::pair{"frequency_to", to}, std::pair{"notes", static_cast<double>(figure.notes.size())}})
     figure.numbers.emplace_back(name, value);
-  std::vector<ResponseArtifact> all;
+  std::vector<ResponseResult> all;
   all.reserve(sweeps.size());
   for (const auto& one : sweeps) all.push_back(one.artifact);
   figure.shafts = shafts_of_all(all);

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "report/figures.h"
-#include "signal/response_result.h"
-#include "signal/static_result.h"
+#include "results/response.h"
+#include "results/static.h"
 
 namespace whine {
 
@@ -19,10 +19,10 @@ struct OfDesign {
 // direction missing or given twice.
 
 // Static transmission error (a) and secant mesh stiffness (b) over the mesh period, amplitudes of the error's harmonics (c).
-Figure compared_rest_figure(const std::vector<OfDesign<StaticArtifact>>& designs);
+Figure compared_rest_figure(const std::vector<OfDesign<StaticResult>>& designs);
 
 // Against mesh frequency, both directions: RMS of the dynamic transmission error (a), its first harmonic (b), the largest tooth
 // load over that of rigid gears with one pair, T / r_b (c).
-Figure compared_motion_figure(const std::vector<OfDesign<ResponseArtifact>>& sweeps);
+Figure compared_motion_figure(const std::vector<OfDesign<ResponseResult>>& sweeps);
 
 }  // namespace whine

@@ -16,10 +16,10 @@
 namespace whine {
 namespace {
 
-const ResponseArtifact& sweep_at(const std::vector<ResponseArtifact>& sweeps, double torque,
-                                 Direction direction) {
-  const ResponseArtifact* found = nullptr;
-  for (const ResponseArtifact& r : sweeps) {
+const ResponseResult& sweep_at(const std::vector<ResponseResult>& sweeps, double torque,
+                               Direction direction) {
+  const ResponseResult* found = nullptr;
+  for (const ResponseResult& r : sweeps) {
     if (r.torque != torque || r.direction != direction) continue;
     if (found) fail(Failure::input, "efficiency: two sweeps ", direction, " at ", torque, " N m; give one");
     found = &r;
@@ -34,7 +34,7 @@ const ResponseArtifact& sweep_at(const std::vector<ResponseArtifact>& sweeps, do
 }
 
 // null where nothing is known of any sweep.
-const SweepBacklash* backlash_of(const std::vector<SweepBacklash>& backlash, const ResponseArtifact& r) {
+const SweepBacklash* backlash_of(const std::vector<SweepBacklash>& backlash, const ResponseResult& r) {
   if (backlash.empty()) return nullptr;
   for (const SweepBacklash& b : backlash)
     if (b.torque == r.torque && b.direction == r.direction && b.left.size() == r.mesh_frequency.size())
@@ -44,10 +44,10 @@ const SweepBacklash* backlash_of(const std::vector<SweepBacklash>& backlash, con
 }
 
 // "2400 to 2600, 3100" (Hz) of a torque, "" for none.
-std::string speeds_beyond(const std::vector<SweepBacklash>& backlash, const ResponseArtifact& up,
-                          const ResponseArtifact& down) {
+std::string speeds_beyond(const std::vector<SweepBacklash>& backlash, const ResponseResult& up,
+                          const ResponseResult& down) {
   std::map<double, bool> beyond;
-  for (const ResponseArtifact* r : {&up, &down})
+  for (const ResponseResult* r : {&up, &down})
     if (const SweepBacklash* known = backlash_of(backlash, *r))
       for (Eigen::Index i = 0; i < known->left.size(); ++i)
         beyond[r->mesh_frequency[i]] |= known->left[i] <= 0;
@@ -55,9 +55,8 @@ std::string speeds_beyond(const std::vector<SweepBacklash>& backlash, const Resp
 }
 
 // rest: of the same torque. Its loss goes with the coefficient at each speed: what a motion without vibration would lose.
-FigureBlock efficiency_block(const std::string& name, const ResponseArtifact& r,
-                             const ResponseArtifact& other, const StaticArtifact& rest,
-                             const SweepBacklash* backlash) {
+FigureBlock efficiency_block(const std::string& name, const ResponseResult& r, const ResponseResult& other,
+                             const StaticResult& rest, const SweepBacklash* backlash) {
   FigureBlock block{name,
                     {"mesh_frequency [Hz]", "efficiency [%]", "friction_power [W]",
                      "friction_coefficient [1]", "loss_factor [1]", "efficiency_without_vibration [%]"},
@@ -97,7 +96,7 @@ std::optional<double> rigid_loss_factor(const GearPair& pair) {
 }
 
 // Where Schlenk's formula is beyond its tests.
-std::vector<std::string> beyond_schlenk(const GearPair& pair, const std::vector<StaticArtifact>& statics,
+std::vector<std::string> beyond_schlenk(const GearPair& pair, const std::vector<StaticResult>& statics,
                                         const Eigen::VectorXd& mesh_frequency) {
   std::vector<std::string> out;
   const double per_frequency = pitch_line_speed(pair, 1);
@@ -110,7 +109,7 @@ std::vector<std::string> beyond_schlenk(const GearPair& pair, const std::vector<
     say("below ", kSchlenkSpeeds[0], "begin");
   if (mesh_frequency.maxCoeff() * per_frequency > kSchlenkSpeeds[1]) say("above ", kSchlenkSpeeds[1], "end");
   std::string light;
-  for (const StaticArtifact& s : statics)
+  for (const StaticResult& s : statics)
     if (line_load(pair, s.face_width(), s.torque) < kSchlenkLoad)
       light += text(light.empty() ? "" : ", ", torque_words(s.torque));
   if (!light.empty())
@@ -120,7 +119,7 @@ std::vector<std::string> beyond_schlenk(const GearPair& pair, const std::vector<
 }
 
 // Moments and loss of friction at rest over the first mesh period, closed.
-FigureBlock friction_cycle(const StaticArtifact& first) {
+FigureBlock friction_cycle(const StaticResult& first) {
   FigureBlock cycle{"cycle",
                     {"mesh_phase [1]", "friction_moment_driver [N m]", "friction_moment_driven [N m]",
                      "friction_loss [N m]"},
@@ -138,14 +137,13 @@ FigureBlock friction_cycle(const StaticArtifact& first) {
 
 }  // namespace
 
-Figure efficiency_figure(const std::vector<StaticArtifact>& statics,
-                         const std::vector<ResponseArtifact>& sweeps,
+Figure efficiency_figure(const std::vector<StaticResult>& statics, const std::vector<ResponseResult>& sweeps,
                          const std::vector<SweepBacklash>& backlash) {
   constexpr size_t kMostTorques = 6;
   if (statics.empty() || statics.size() > kMostTorques || sweeps.size() != 2 * statics.size())
     fail(Failure::input, "efficiency: it needs static.h5 and two response.h5, up and down, at each of 1 to ",
          kMostTorques, " torques; given are ", statics.size(), " and ", sweeps.size());
-  const StaticArtifact& first = statics[0];
+  const StaticResult& first = statics[0];
   if (first.friction_loss.size() == 0)
     fail(Failure::input, "efficiency: static.h5 holds no friction; the scene needs a section [friction]");
   const GearPair pair(first);
@@ -162,14 +160,14 @@ Figure efficiency_figure(const std::vector<StaticArtifact>& statics,
   double power = 0, least = 100, most = 0;
   std::string labels, at_rest, factors, beyond;
   for (size_t t = 0; t < statics.size(); ++t) {
-    const StaticArtifact& s = statics[t];
+    const StaticResult& s = statics[t];
     labels += text(t ? " '" : "'", torque_words(s.torque), "'");
-    const std::array<const ResponseArtifact*, 2> both{&sweep_at(sweeps, s.torque, Direction::up),
-                                                      &sweep_at(sweeps, s.torque, Direction::down)};
+    const std::array<const ResponseResult*, 2> both{&sweep_at(sweeps, s.torque, Direction::up),
+                                                    &sweep_at(sweeps, s.torque, Direction::down)};
     if (const std::string speeds = speeds_beyond(backlash, *both[0], *both[1]); !speeds.empty())
       beyond += text(beyond.empty() ? "" : "; ", "at ", torque_words(s.torque), ": ", speeds, " Hz");
     for (const size_t way : {0, 1}) {
-      const ResponseArtifact& r = *both[way];
+      const ResponseResult& r = *both[way];
       figure.blocks.push_back(
           efficiency_block(text(t + 1, " ", r.direction), r, *both[1 - way], s, backlash_of(backlash, r)));
       for (const std::vector<double>& row : figure.blocks.back().rows) {
@@ -202,7 +200,7 @@ Figure efficiency_figure(const std::vector<StaticArtifact>& statics,
     for (std::string& line : in_lines(
              "rings: the motion goes beyond the backlash, friction of back flanks is left out; " + beyond))
       figure.notes.push_back(std::move(line));
-  const ResponseArtifact& up = sweep_at(sweeps, first.torque, Direction::up);
+  const ResponseResult& up = sweep_at(sweeps, first.torque, Direction::up);
   if (first.mesh.friction.law == FrictionLaw::schlenk) {
     const std::vector<std::string> untested = beyond_schlenk(pair, statics, up.mesh_frequency);
     figure.notes.insert(figure.notes.end(), untested.begin(), untested.end());

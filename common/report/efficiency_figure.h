@@ -1,7 +1,7 @@
 // Losses by friction between the flanks.
 #pragma once
 #include "report/figures.h"
-#include "signal/response_result.h"
+#include "results/response.h"
 
 namespace whine {
 
@@ -18,8 +18,7 @@ struct SweepBacklash {
 // without friction, and unless there is one static.h5 and two sweeps, up and down, at each torque; of 6 torques at most.
 // backlash: of all of these sweeps, or none, which a note then says. Speeds at which the motion goes beyond the backlash are marked,
 // in the figure and in a column: friction of back flanks, which would touch there, is in no number.
-Figure efficiency_figure(const std::vector<StaticArtifact>& statics,
-                         const std::vector<ResponseArtifact>& sweeps,
+Figure efficiency_figure(const std::vector<StaticResult>& statics, const std::vector<ResponseResult>& sweeps,
                          const std::vector<SweepBacklash>& backlash = {});
 
 }  // namespace whine

@@ -25,7 +25,7 @@ class Collector {
   template <class F>
   void add(const std::string& name, const char* unit, const F& value) {
     RexsResult result{name, unit, {}, true};
-    for (const StaticArtifact& s : content_.statics) {
+    for (const StaticResult& s : content_.statics) {
       const Value found = value(s);
       if (!found) return;
       result.values.push_back(*found);
@@ -40,7 +40,7 @@ class Collector {
 };
 
 void export_statics(Collector& all) {
-  using S = const StaticArtifact&;
+  using S = const StaticResult&;
   all.add("mesh_stiffness_mean", "N / mm", [](S s) { return Value(s.mean_stiffness * 1e-3); });
   all.add("mesh_stiffness_mean_per_face_width", "N / (mm mum)",
           [](S s) { return Value(s.mean_stiffness * 1e-6 / (s.face_width() * kMilli)); });
@@ -59,27 +59,27 @@ void export_statics(Collector& all) {
 void export_ring_down(const ReportContent& c, Collector& all) {
   for (const auto& [name, state] :
        {std::pair{"one_pair", ContactState::one}, std::pair{"two_pairs", ContactState::two}}) {
-    const auto at = [&c, wanted = state](const StaticArtifact& s, auto member, double scale) {
-      const ImpactArtifact* a = impact_of(c, s.torque);
+    const auto at = [&c, wanted = state](const StaticResult& s, auto member, double scale) {
+      const ImpactResult* a = impact_of(c, s.torque);
       const auto row = a ? a->row_of(wanted) : std::nullopt;
       return row ? Value((a->*member)[*row] * scale) : Value();
     };
     all.add(text("natural_frequency_", name), kHertz,
-            [&](const StaticArtifact& s) { return at(s, &ImpactArtifact::natural_frequency, 1.0); });
+            [&](const StaticResult& s) { return at(s, &ImpactResult::natural_frequency, 1.0); });
     all.add(text("damping_ratio_", name), "%",
-            [&](const StaticArtifact& s) { return at(s, &ImpactArtifact::damping_ratio, kPercent); });
+            [&](const StaticResult& s) { return at(s, &ImpactResult::damping_ratio, kPercent); });
   }
 }
 
 void export_motion(const ReportContent& c, Direction direction, Collector& all) {
   const std::string way = direction == Direction::up ? "_speed_rising" : "_speed_falling";
   const auto add = [&](const std::string& name, const char* unit, const auto& value) {
-    all.add(name + way, unit, [&](const StaticArtifact& s) {
+    all.add(name + way, unit, [&](const StaticResult& s) {
       const ReportSweep* sweep = sweep_of(c, s.torque, direction);
       return sweep ? Value(value(sweep->response)) : Value();
     });
   };
-  using R = const ResponseArtifact&;
+  using R = const ResponseResult&;
   add("dynamic_transmission_error_rms_max", kMicrometre, [](R r) { return r.dte_rms.maxCoeff() * kMicro; });
   const auto resonance = [](R r) {
     Index at = 0;
@@ -89,7 +89,7 @@ void export_motion(const ReportContent& c, Direction direction, Collector& all) 
   add("resonance_mesh_frequency", kHertz, resonance);
   add("resonance_driver_rpm", kPerMinute, [&](R r) { return 60 * resonance(r) / r.gear[0].design.teeth; });
   add("dynamic_tooth_load_max", kNewton, [](R r) { return r.tooth_load_max.maxCoeff(); });
-  all.add("speeds_beyond_backlash" + way, kNoUnit, [&](const StaticArtifact& s) {
+  all.add("speeds_beyond_backlash" + way, kNoUnit, [&](const StaticResult& s) {
     const ReportSweep* sweep = sweep_of(c, s.torque, direction);
     if (!sweep) return Value();
     double count = 0;
@@ -99,7 +99,7 @@ void export_motion(const ReportContent& c, Direction direction, Collector& all) 
   RexsResult jumps{"jump_mesh_frequency" + way, kHertz, {}, true},
       torques{"jump_torque" + way, "N m", {}, true};
   bool complete = true;
-  for (const StaticArtifact& s : c.statics) {
+  for (const StaticResult& s : c.statics) {
     const ReportSweep* sweep = sweep_of(c, s.torque, direction);
     complete = complete && sweep;
     if (!sweep) continue;
@@ -120,7 +120,7 @@ RexsPair exported_pair(const ReportContent& c) {
   if (c.statics.empty())
     fail(Failure::input, "results: no static.h5 given; that of the scene's first torque is the least");
   require_one_pair(c);
-  const StaticArtifact& s = c.statics.front();
+  const StaticResult& s = c.statics.front();
   return {{s.gear[0].design.teeth, s.gear[1].design.teeth},
           {s.gear[0].design.module, s.gear[1].design.module},
           s.mesh.centre_distance,
@@ -133,14 +133,14 @@ std::vector<RexsResult> exported_results(const ReportContent& c) {
   all.out.push_back({"version", kNoUnit, {}, false, kVersion});
   all.out.push_back({"scene", kNoUnit, {}, false, c.scene});
   all.out.push_back({"contact_ratio", kNoUnit, {GearPair(c.statics.at(0)).contact_ratio()}});
-  all.add("torque", "N m", [](const StaticArtifact& s) { return Value(s.torque); });
+  all.add("torque", "N m", [](const StaticResult& s) { return Value(s.torque); });
   export_statics(all);
-  all.add("critical_mesh_frequency", kHertz, [&](const StaticArtifact& s) {
+  all.add("critical_mesh_frequency", kHertz, [&](const StaticResult& s) {
     for (const ReportSweep& sweep : c.sweeps)
       if (sweep.response.torque == s.torque) return Value(sweep.response.natural_frequency);
     return Value();
   });
-  all.add("critical_driver_speed", kPerMinute, [&](const StaticArtifact& s) {
+  all.add("critical_driver_speed", kPerMinute, [&](const StaticResult& s) {
     for (const ReportSweep& sweep : c.sweeps)
       if (sweep.response.torque == s.torque)
         return Value(60 * sweep.response.natural_frequency / s.gear[0].design.teeth);

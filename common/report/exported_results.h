@@ -1,6 +1,6 @@
 // The results of a report as attributes of a REXS model: one value, or one for each torque.
 #pragma once
-#include "io/rexs_results.h"
+#include "io/rexs/results.h"
 #include "report/report_content.h"
 
 namespace whine {

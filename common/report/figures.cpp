@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "signal/static_result.h"
+#include "results/static.h"
 
 namespace whine {
 
@@ -45,7 +45,7 @@ std::string corner_words(const CornerRule& corner) {
   return "corner contact up to " + shown(corner.largest_angle * 180.0 / std::numbers::pi, 4) + "°";
 }
 
-std::string pair_words(const StaticArtifact& s) {
+std::string pair_words(const StaticResult& s) {
   return text(s.gear[0].design.teeth, "/", s.gear[1].design.teeth, " teeth, module ",
               shown(s.gear[0].design.module * kMilli, 4), " mm, centre distance ",
               shown(s.mesh.centre_distance * kMilli, 6), " mm, contact ratio ", fixed(s.contact_ratio, 4),

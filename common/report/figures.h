@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "io/publish.h"
-#include "signal/static_result.h"
+#include "results/static.h"
 
 namespace whine {
 
@@ -94,7 +94,7 @@ std::vector<Shaft> shafts_of_all(const Artifacts& all) {
 // "150 N m"; "corner contact on"; teeth, module, centre distance, contact ratio and corner rule of a pair.
 std::string torque_words(double torque);
 std::string corner_words(const CornerRule& corner);
-std::string pair_words(const StaticArtifact& s);
+std::string pair_words(const StaticResult& s);
 
 // What P2000 shows as figures of the same: "Figure 7" of a figure named fig07 or fig07-600, "" of one that is not the paper's.
 std::string paper_figure(const std::string& name);

@@ -18,15 +18,15 @@ namespace {
 
 using Eigen::Index;
 
-void require_pressures(const StaticArtifact& s, const std::vector<ResponseArtifact>& sweeps) {
+void require_pressures(const StaticResult& s, const std::vector<ResponseResult>& sweeps) {
   if (sweeps.size() != 2 || sweeps[0].direction == sweeps[1].direction)
     fail(Failure::input, "flank-pressure: it needs two response.h5 beside static.h5, up and down; ",
          sweeps.size(), " given");
-  for (const ResponseArtifact& r : sweeps) {
+  for (const ResponseResult& r : sweeps) {
     if (r.torque != s.torque)
       fail(Failure::input, "flank-pressure: a response.h5 of ", r.torque, " N m; static.h5 is of ", s.torque,
            " N m; give both of one torque");
-    if (r.flank_pressure.size() == 0 || r.flank_pressure_held.size() != r.mesh_frequency.size())
+    if (r.flank_pressure.size() == 0 || r.flank_pressure_sustained.size() != r.mesh_frequency.size())
       fail(Failure::input, "flank-pressure: the response.h5 of the sweep ", r.direction,
            " holds no flank pressure, which lumped models do not have");
   }
@@ -38,7 +38,7 @@ double nominal_roll(const GearPair& pair, double phase) {
   return pair.nominal_roll(0, phase * pair.base_pitch()) * kInDegrees;
 }
 
-FigureBlock map_block(const ResponseArtifact& r, const GearPair& pair) {
+FigureBlock map_block(const ResponseResult& r, const GearPair& pair) {
   FigureBlock block{text("map ", r.direction),
                     {"roll_" + r.mesh.gear[0] + " [deg]", "roll_" + r.mesh.gear[1] + " [deg]",
                      "pair_phase [1]", "mesh_frequency [Hz]", "pressure [MPa]", "load over a tip edge [N]",
@@ -54,7 +54,7 @@ FigureBlock map_block(const ResponseArtifact& r, const GearPair& pair) {
   return block;
 }
 
-FigureBlock pressure_block(const ResponseArtifact& r, const ResponseArtifact& other) {
+FigureBlock pressure_block(const ResponseResult& r, const ResponseResult& other) {
   FigureBlock block{text("speed ", r.direction),
                     {"mesh_frequency [Hz]", "pressure [MPa]", "edge_load_" + r.mesh.gear[0] + " [N]",
                      "edge_load_" + r.mesh.gear[1] + " [N]"},
@@ -63,15 +63,15 @@ FigureBlock pressure_block(const ResponseArtifact& r, const ResponseArtifact& ot
                     name_of(r.direction)};
   const std::vector<bool> broken = broken_after(r, &other);
   for (Index f = 0; f < r.mesh_frequency.size(); ++f) {
-    block.rows.push_back({r.mesh_frequency[f], r.flank_pressure_held[f] * kInMegapascals, r.edge_load[0][f],
-                          r.edge_load[1][f]});
+    block.rows.push_back({r.mesh_frequency[f], r.flank_pressure_sustained[f] * kInMegapascals,
+                          r.edge_load[0][f], r.edge_load[1][f]});
     if (broken[static_cast<size_t>(f)]) block.rows.emplace_back();
   }
   return block;
 }
 
 // 1: largest difference of the two maps over the largest pressure; infinity for other speeds.
-double difference(const ResponseArtifact& up, const ResponseArtifact& down) {
+double difference(const ResponseResult& up, const ResponseResult& down) {
   const Index speeds = up.mesh_frequency.size();
   if (down.mesh_frequency.size() != speeds || down.flank_pressure.cols() != up.flank_pressure.cols())
     return std::numeric_limits<double>::infinity();
@@ -88,10 +88,10 @@ double difference(const ResponseArtifact& up, const ResponseArtifact& down) {
 
 }  // namespace
 
-Figure flank_pressure_figure(const StaticArtifact& s, const std::vector<ResponseArtifact>& given) {
+Figure flank_pressure_figure(const StaticResult& s, const std::vector<ResponseResult>& given) {
   require_pressures(s, given);
   const bool in_order = given[0].direction == Direction::up;
-  const ResponseArtifact &up = given[in_order ? 0 : 1], &down = given[in_order ? 1 : 0];
+  const ResponseResult &up = given[in_order ? 0 : 1], &down = given[in_order ? 1 : 0];
   constexpr double kAlike = 0.01;
   const bool both = difference(up, down) > kAlike;
   Figure figure;
@@ -103,18 +103,16 @@ Figure flank_pressure_figure(const StaticArtifact& s, const std::vector<Response
   figure.blocks.push_back(map_block(up, pair));
   if (both) figure.blocks.push_back(map_block(down, pair));
   double largest = 0, edge = 0;
-  for (const ResponseArtifact* r : {&up, &down}) {
+  for (const ResponseResult* r : {&up, &down}) {
     figure.blocks.push_back(pressure_block(*r, r == &up ? down : up));
-    largest = std::max({largest, r->flank_pressure.maxCoeff(), r->flank_pressure_held.maxCoeff()});
+    largest = std::max({largest, r->flank_pressure.maxCoeff(), r->flank_pressure_sustained.maxCoeff()});
     for (const Eigen::VectorXd& load : r->edge_load) edge = std::max(edge, load.maxCoeff());
   }
   const std::string all[] = {
-      "pressure inside the flanks, by Hertz's law of the load that a pair holds for 1/64 of a mesh period; "
-      "largest over the "
-      "mesh periods" +
+      "pressure inside the flanks, by Hertz's law of the load that a pair sustains for 1/64 of a mesh period; largest over the mesh periods" +
           (rest.smooth > 0 ? "; at rest, by strips, " + shown(rest.smooth * kInMegapascals, 4) + " MPa" : ""),
-      text("grey: held over a tip edge, whose pressure is singular and stated as a load (", both ? "d" : "c",
-           "); white: no load is held; grey lines: ends of the line of action"),
+      text("grey: sustained over a tip edge, whose pressure is singular and stated as a load (",
+           both ? "d" : "c", "); white: no load is sustained; grey lines: ends of the line of action"),
       both ? "the map of falling speed differs from that of rising speed"
            : "falling speed has the same map within 1 % of the largest pressure"};
   for (const std::string& note : all)

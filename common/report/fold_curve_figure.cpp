@@ -12,25 +12,25 @@ namespace {
 
 using Eigen::Index;
 
-bool over_damping(const FoldCurvesArtifact& a) {
+bool over_damping(const FoldCurvesResult& a) {
   return a.quantity == FoldQuantity::damping;
 }
 
-double shown_value(const FoldCurvesArtifact& a, Index i) {
+double shown_value(const FoldCurvesResult& a, Index i) {
   if (over_damping(a)) return a.damping_ratio[i] * kPercent;
   return a.quantity == FoldQuantity::torque ? a.value[i] : a.value[i] * kMicro;
 }
-double shown_cusp(const FoldCurvesArtifact& a, Index i) {
+double shown_cusp(const FoldCurvesResult& a, Index i) {
   if (over_damping(a)) return a.cusp_damping_ratio[i] * kPercent;
   return a.quantity == FoldQuantity::torque ? a.cusp_value[i] : a.cusp_value[i] * kMicro;
 }
 
-std::string unit(const FoldCurvesArtifact& a) {
+std::string unit(const FoldCurvesResult& a) {
   if (over_damping(a)) return " %";
   return a.quantity == FoldQuantity::torque ? " N m" : " µm";
 }
 
-bool same_pair(const FoldCurvesArtifact& a, const JumpMapArtifact& m) {
+bool same_pair(const FoldCurvesResult& a, const JumpMapResult& m) {
   return m.model == "finite elements" && m.torque == a.torque &&
          m.mesh.corner.enabled == a.mesh.corner.enabled &&
          m.mesh.corner.largest_angle == a.mesh.corner.largest_angle &&
@@ -39,7 +39,7 @@ bool same_pair(const FoldCurvesArtifact& a, const JumpMapArtifact& m) {
 }
 
 // Hz from a jump at a damping ratio to the nearest fold curve there, which goes straight from point to point.
-double distance_to_folds(const FoldCurvesArtifact& a, double ratio, double frequency) {
+double distance_to_folds(const FoldCurvesResult& a, double ratio, double frequency) {
   double nearest = std::numeric_limits<double>::infinity();
   for (Index i = 0; i + 1 < a.value.size(); ++i) {
     if (a.curve[i] != a.curve[i + 1]) continue;
@@ -54,7 +54,7 @@ double distance_to_folds(const FoldCurvesArtifact& a, double ratio, double frequ
 }
 
 // Damping ratio of the highest cusp, to which there are two branches.
-double last_cusp(const FoldCurvesArtifact& a) {
+double last_cusp(const FoldCurvesResult& a) {
   return a.cusp_damping_ratio.size() > 0 ? a.cusp_damping_ratio.maxCoeff() : 0;
 }
 
@@ -62,7 +62,7 @@ double last_cusp(const FoldCurvesArtifact& a) {
 class Comparison {
  public:
   // A jump at a damping ratio. One beyond all curves is near none.
-  void jump(const FoldCurvesArtifact& a, double ratio, double frequency, double width) {
+  void jump(const FoldCurvesResult& a, double ratio, double frequency, double width) {
     const double distance = distance_to_folds(a, ratio, frequency);
     ++jumps_;
     near_ += distance < 1 + width;
@@ -72,7 +72,7 @@ class Comparison {
       farthest_ = std::max(farthest_, distance);
   }
   // Below the highest cusp there are two motions. Curves that end without a cusp say nothing of a cell.
-  void cell(const FoldCurvesArtifact& a, double ratio, bool two_branches) {
+  void cell(const FoldCurvesResult& a, double ratio, bool two_branches) {
     if (a.cusp_damping_ratio.size() == 0) {
       ++without_cusp_;
       return;
@@ -103,7 +103,7 @@ class Comparison {
   std::string wrong_;
 };
 
-FigureBlock folds_block(const FoldCurvesArtifact& a, const std::string& number, const std::string& column) {
+FigureBlock folds_block(const FoldCurvesResult& a, const std::string& number, const std::string& column) {
   FigureBlock folds{
       "folds" + number, {"mesh_frequency [Hz]", column, "multiplier_before", "multiplier_after"}, {}};
   folds.table = "folds";
@@ -117,12 +117,12 @@ FigureBlock folds_block(const FoldCurvesArtifact& a, const std::string& number, 
 
 }  // namespace
 
-Figure fold_curve_figure(const std::vector<FoldCurvesArtifact>& curves,
-                         const std::vector<JumpMapArtifact>& maps) {
+Figure fold_curve_figure(const std::vector<FoldCurvesResult>& curves,
+                         const std::vector<JumpMapResult>& maps) {
   if (curves.empty()) fail(Failure::input, "a figure of folds needs one fold_curves.h5 at least");
   if (curves.size() > kMostCurves)
     fail(Failure::input, curves.size(), " artifacts; ", kMostCurves, " can be told apart");
-  for (const FoldCurvesArtifact& a : curves)
+  for (const FoldCurvesResult& a : curves)
     if (a.quantity != curves[0].quantity)
       fail(Failure::input, "folds over ", curves[0].quantity, " and over ", a.quantity,
            "; draw one figure of each");
@@ -137,7 +137,7 @@ Figure fold_curve_figure(const std::vector<FoldCurvesArtifact>& curves,
   figure.title = "Folds of the branches: between a pair of curves there are two stable motions";
   Comparison comparison;
   for (size_t k = 0; k < curves.size(); ++k) {
-    const FoldCurvesArtifact& a = curves[k];
+    const FoldCurvesResult& a = curves[k];
     const std::string number = text(k + 1),
                       label = a.quantity == FoldQuantity::torque ? "folds" : torque_words(a.torque);
     FigureBlock folds = folds_block(a, number, column);
@@ -150,7 +150,7 @@ Figure fold_curve_figure(const std::vector<FoldCurvesArtifact>& curves,
     FigureBlock jumps{"jumps" + number, {"mesh_frequency [Hz]", column}, {}};
     jumps.table = "jumps";
     jumps.curve = label;
-    for (const JumpMapArtifact& m : maps) {
+    for (const JumpMapResult& m : maps) {
       if (!over_damping(a) || !same_pair(a, m)) continue;
       for (Index i = 0; i < m.jump_frequency.size(); ++i) {
         const double ratio = m.damping_ratio[m.jump_case[i]];

@@ -11,22 +11,22 @@
 #include "gear/pair.h"
 #include "io/summary.h"
 #include "report/wireframe.h"
-#include "solid/sector_mesh.h"
+#include "results/sector_grid.h"
 
 namespace whine {
 namespace {
 
 void require_same_gear(const char* role, const GearDesign& mesh, const GearDesign& pair) {
   if (mesh.teeth != pair.teeth || mesh.module != pair.module || mesh.profile_shift != pair.profile_shift ||
-      mesh.internal != pair.internal || mesh.held_radius() != pair.held_radius())
+      mesh.internal != pair.internal || mesh.clamped_radius() != pair.clamped_radius())
     fail(Failure::input, "figure: the mesh.h5 of the ", role, " (", mesh.teeth, " teeth, module ",
-         mesh.module, " m, bore ", mesh.held_radius(), " m) is not that of the static.h5 (", pair.teeth,
-         " teeth, module ", pair.module, " m, bore ", pair.held_radius(),
+         mesh.module, " m, bore ", mesh.clamped_radius(), " m) is not that of the static.h5 (", pair.teeth,
+         " teeth, module ", pair.module, " m, bore ", pair.clamped_radius(),
          " m); give driver, driven, static in this order");
 }
 
 // Closed outlines of the elements of tooth 0 in which the half-plane field is subtracted.
-Strokes tooth_elements(const MeshArtifact& mesh, const Placement& at, double scale) {
+Strokes tooth_elements(const SectorGrid& mesh, const Placement& at, double scale) {
   Strokes rows;
   const int sides = mesh.element_node.cols() == 9 ? 2 : 1;
   for (Eigen::Index e = 0; e < mesh.element_node.rows(); ++e) {
@@ -48,7 +48,7 @@ double outer_radius(const ToothGeometry& gear) {
 
 }  // namespace
 
-Figure mesh_figure(const MeshArtifact& driver, const MeshArtifact& driven, const StaticArtifact& s) {
+Figure mesh_figure(const SectorGrid& driver, const SectorGrid& driven, const StaticResult& s) {
   require_same_gear("driver", driver.design, s.gear[0].design);
   require_same_gear("driven gear", driven.design, s.gear[1].design);
   const GearPair pair(s);
@@ -62,7 +62,7 @@ Figure mesh_figure(const MeshArtifact& driver, const MeshArtifact& driven, const
   figure.title = "Finite element mesh of the gear pair";
   long elements = 0, nodes = 0;
   for (int g = 0; g < kSides; ++g) {
-    const MeshArtifact& mesh = g == 0 ? driver : driven;
+    const SectorGrid& mesh = g == 0 ? driver : driven;
     const std::string name = kRole[g];
     const Wireframe wire(mesh);
     const Placement at = placed(pair, g);
@@ -96,13 +96,14 @@ Figure mesh_figure(const MeshArtifact& driver, const MeshArtifact& driven, const
 
   figure.notes.push_back(pair_words(s));
   const GearDesign &first = s.gear[0].design, &second = s.gear[1].design;
-  figure.notes.push_back(text(
-      elements, driver.discretisation.element_order == 2 ? " nine" : " four", "-node elements, ", nodes,
-      " nodes; ", shown(driver.discretisation.element_size * kMilli, 4), " mm on the flank; rigid ",
-      first.internal ? "rim" : "hub", " of ", shown(first.held_radius() * kMilli, 4), " mm radius",
-      second.held_radius() == first.held_radius() ? std::string()
-                                                  : text(" (driven: ", second.internal ? "rim, " : "",
-                                                         shown(second.held_radius() * kMilli, 4), " mm)")));
+  figure.notes.push_back(
+      text(elements, driver.discretisation.element_order == 2 ? " nine" : " four", "-node elements, ", nodes,
+           " nodes; ", shown(driver.discretisation.element_size * kMilli, 4), " mm on the flank; rigid ",
+           first.internal ? "rim" : "hub", " of ", shown(first.clamped_radius() * kMilli, 4), " mm radius",
+           second.clamped_radius() == first.clamped_radius()
+               ? std::string()
+               : text(" (driven: ", second.internal ? "rim, " : "",
+                      shown(second.clamped_radius() * kMilli, 4), " mm)")));
   figure.notes.push_back("unloaded, mesh phase 0: the reference pair touches at the pitch point");
   figure.numbers = {{"pitch_y", pitch_point.y() * kMilli},
                     {"half_window", half_zone * kMilli},
@@ -125,8 +126,8 @@ Vec2 working_point(const GearPair& pair, int g, double roll, double below) {
 }
 
 // Outline, teeth in the window about `touch`, and the inner region of one gear.
-void add_body(const MeshArtifact& mesh, const StaticArtifact& s, const GearPair& pair, int g,
-              const Vec2& touch, double half_zone, Figure& figure) {
+void add_body(const SectorGrid& mesh, const StaticResult& s, const GearPair& pair, int g, const Vec2& touch,
+              double half_zone, Figure& figure) {
   const std::string name = kRole[g];
   const Wireframe wire(mesh);
   const Placement at = placed(pair, g);
@@ -154,7 +155,7 @@ struct HertzContact {
   double half_width, peak;  // m, Pa
 };
 
-HertzContact hertz_contact(const StaticArtifact& s, const GearPair& pair, double force, double face_width) {
+HertzContact hertz_contact(const StaticResult& s, const GearPair& pair, double force, double face_width) {
   const auto coefficient = [&](const Material& material) {
     return HalfPlaneSurface(in_contact_plane(material, s.mesh.contact_plane), face_width).coefficient();
   };
@@ -176,7 +177,7 @@ FigureBlock hertz_block(const HertzContact& contact) {
 
 }  // namespace
 
-Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& driven, const StaticArtifact& s,
+Figure contact_zone_figure(const SectorGrid& driver, const SectorGrid& driven, const StaticResult& s,
                            const ContactZone& zone) {
   require_same_gear("driver", driver.design, s.gear[0].design);
   require_same_gear("driven gear", driven.design, s.gear[1].design);
@@ -258,7 +259,7 @@ Figure contact_zone_figure(const MeshArtifact& driver, const MeshArtifact& drive
   return figure;
 }
 
-Figure profile_figure(const StaticArtifact& s) {
+Figure profile_figure(const StaticResult& s) {
   const GearPair pair(s);
   const double degree = std::numbers::pi / 180, pitch = pair.base_pitch();
   Figure figure;

@@ -43,7 +43,7 @@ double best_relief(const Eigen::VectorXd& relief, const Eigen::RowVectorXd& valu
 
 }  // namespace
 
-Figure harris_map_figure(const HarrisMapArtifact& map) {
+Figure harris_map_figure(const HarrisMapResult& map) {
   Figure figure;
   Index best = 0;
   for (Index s = 1; s < map.length.size(); ++s)

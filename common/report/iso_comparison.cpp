@@ -17,7 +17,7 @@ std::optional<double> IsoComparison::dynamic_factor(double mesh_frequency) const
   return iso_6336_dynamic_factor(dynamics, mesh_frequency / *resonance);
 }
 
-IsoComparison iso_comparison(const StaticArtifact& s, const std::array<double, kSides>& inertia) {
+IsoComparison iso_comparison(const StaticResult& s, const std::array<double, kSides>& inertia) {
   const GearPair pair(s);
   IsoComparison out;
   const double force = s.torque / pair.gear(0).pitch_radius();

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "gear/iso6336_strength.h"
-#include "signal/response_result.h"
-#include "signal/static_result.h"
+#include "results/response.h"
+#include "results/static.h"
 
 namespace whine {
 
@@ -25,6 +25,6 @@ struct IsoComparison {
 };
 
 // inertia: [gear] kg m2 of all that turns with it, for K_v.
-IsoComparison iso_comparison(const StaticArtifact& statics, const std::array<double, kSides>& inertia);
+IsoComparison iso_comparison(const StaticResult& statics, const std::array<double, kSides>& inertia);
 
 }  // namespace whine

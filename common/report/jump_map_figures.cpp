@@ -13,16 +13,16 @@ namespace {
 
 using Eigen::Index;
 
-bool is_elastic(const JumpMapArtifact& a) {
+bool is_elastic(const JumpMapResult& a) {
   return a.model == "finite elements";
 }
 
 // "secant" of "secant-contact", whose damper acts in contact only.
-std::string base_model(const JumpMapArtifact& a) {
+std::string base_model(const JumpMapResult& a) {
   return a.model.substr(0, a.model.find('-'));
 }
 
-std::string panel_name(const JumpMapArtifact& a) {
+std::string panel_name(const JumpMapResult& a) {
   if (!is_elastic(a)) return base_model(a) + (a.model == base_model(a) ? "" : ", damper in contact");
   const CornerRule& corner = a.mesh.corner;
   const std::string rule =
@@ -35,7 +35,7 @@ std::string panel_name(const JumpMapArtifact& a) {
 }
 
 // P2000, section 2.1; the gears it leaves open are the scene's.
-bool pair_of_paper(const JumpMapArtifact& a) {
+bool pair_of_paper(const JumpMapResult& a) {
   const auto close = [](double x, double y) { return std::abs(x - y) < 1e-9; };
   return a.gear[0].design.teeth == 50 && a.gear[1].design.teeth == 50 &&
          close(a.gear[0].design.module, 3e-3) && close(a.gear[0].design.face_width, 25.4e-3) &&
@@ -44,23 +44,23 @@ bool pair_of_paper(const JumpMapArtifact& a) {
 constexpr double kPaperRatio = 0.07, kPaperLumpedRatio = 0.08;
 const double kPaperTorques[] = {100, 150, 200, 300, 600};  // at which P2000 prints or draws jumps, N m
 
-bool lost(const JumpMapArtifact& a, Index c) {
+bool lost(const JumpMapResult& a, Index c) {
   return a.loss_to[c] > 0;
 }
 
 // The case of a ratio; -1 if the map has none within 1e-4 of it.
-Index case_of(const JumpMapArtifact& a, double ratio) {
+Index case_of(const JumpMapResult& a, double ratio) {
   for (Index c = 0; c < a.damping_ratio.size(); ++c)
     if (std::abs(a.damping_ratio[c] - ratio) < 1e-4 * ratio) return c;
   return -1;
 }
 
 // "20 to 600", "100, 150", "none" of those that hold.
-std::string torques_where(const std::vector<const JumpMapArtifact*>& panel,
-                          const std::function<bool(const JumpMapArtifact&)>& holds) {
+std::string torques_where(const std::vector<const JumpMapResult*>& panel,
+                          const std::function<bool(const JumpMapResult&)>& holds) {
   std::string list;
   size_t count = 0;
-  for (const JumpMapArtifact* a : panel)
+  for (const JumpMapResult* a : panel)
     if (holds(*a)) {
       list += text(list.empty() ? "" : ", ", a->torque);
       ++count;
@@ -72,7 +72,7 @@ std::string torques_where(const std::vector<const JumpMapArtifact*>& panel,
 }
 
 // Damping ratio at which contact loss ends, between the cases beside; 0 if the map does not show it.
-double ratio_of_loss(const JumpMapArtifact& a) {
+double ratio_of_loss(const JumpMapResult& a) {
   std::vector<Index> order(a.damping_ratio.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
@@ -88,9 +88,9 @@ struct Needed {
   double least_lost = 1e300, most_kept = 0;
 };
 
-Needed needed_for_loss(const std::vector<const JumpMapArtifact*>& maps) {
+Needed needed_for_loss(const std::vector<const JumpMapResult*>& maps) {
   Needed needed;
-  for (const JumpMapArtifact* a : maps)
+  for (const JumpMapResult* a : maps)
     for (Index c = 0; c < a->damping_ratio.size(); ++c) {
       const double times = a->first_harmonic / a->mean_stiffness / a->damping_ratio[c];
       if (lost(*a, c))
@@ -111,11 +111,11 @@ std::vector<double> edges(const std::vector<double>& middle) {
   return edge;
 }
 
-using Panel = std::pair<std::string, std::vector<const JumpMapArtifact*>>;
+using Panel = std::pair<std::string, std::vector<const JumpMapResult*>>;
 
-std::vector<Panel> map_panels(const std::vector<JumpMapArtifact>& maps) {
+std::vector<Panel> map_panels(const std::vector<JumpMapResult>& maps) {
   std::vector<Panel> panels;
-  for (const JumpMapArtifact& a : maps) {
+  for (const JumpMapResult& a : maps) {
     if (a.damping_ratio.size() != maps[0].damping_ratio.size() ||
         !((a.damping_ratio - maps[0].damping_ratio).cwiseAbs().maxCoeff() <
           1e-4 * maps[0].damping_ratio.minCoeff()))
@@ -124,16 +124,14 @@ std::vector<Panel> map_panels(const std::vector<JumpMapArtifact>& maps) {
     const std::string name = panel_name(a);
     auto panel = std::find_if(panels.begin(), panels.end(), [&](const Panel& p) { return p.first == name; });
     if (panel == panels.end()) panel = panels.insert(panels.end(), {name, {}});
-    for (const JumpMapArtifact* other : panel->second)
+    for (const JumpMapResult* other : panel->second)
       if (other->torque == a.torque) fail(Failure::input, "two maps of ", a.torque, " N m with ", name);
     panel->second.push_back(&a);
   }
   for (Panel& panel : panels) {
     std::sort(panel.second.begin(), panel.second.end(),
-              [](const JumpMapArtifact* a, const JumpMapArtifact* b) { return a->torque < b->torque; });
-    const auto same = [](const JumpMapArtifact* a, const JumpMapArtifact* b) {
-      return a->torque == b->torque;
-    };
+              [](const JumpMapResult* a, const JumpMapResult* b) { return a->torque < b->torque; });
+    const auto same = [](const JumpMapResult* a, const JumpMapResult* b) { return a->torque == b->torque; };
     if (!std::equal(panel.second.begin(), panel.second.end(), panels[0].second.begin(),
                     panels[0].second.end(), same))
       fail(Failure::input, "the panels '", panels[0].first, "' and '", panel.first,
@@ -142,7 +140,7 @@ std::vector<Panel> map_panels(const std::vector<JumpMapArtifact>& maps) {
   return panels;
 }
 
-FigureBlock cells(const std::string& name, const std::vector<const JumpMapArtifact*>& maps) {
+FigureBlock cells(const std::string& name, const std::vector<const JumpMapResult*>& maps) {
   FigureBlock block{name,
                     {"damping_ratio [%]",
                      "torque [N m]",
@@ -151,14 +149,14 @@ FigureBlock cells(const std::string& name, const std::vector<const JumpMapArtifa
                      "torque_low [N m]",
                      "torque_high [N m]",
                      "class [0 contact kept, 1 lost, 2 two branches]",
-                     "held_tooth_load [kN]",
+                     "sustained_tooth_load [kN]",
                      "branches_from [Hz]",
                      "branches_to [Hz]",
                      "open_below [1]",
                      "loss_from [Hz]",
                      "loss_to [Hz]",
-                     "held_there_up [kN]",
-                     "held_there_down [kN]",
+                     "sustained_there_up [kN]",
+                     "sustained_there_down [kN]",
                      "sampled_there_up [kN]",
                      "sampled_there_down [kN]",
                      "sampled_peak_up [kN]",
@@ -171,10 +169,10 @@ FigureBlock cells(const std::string& name, const std::vector<const JumpMapArtifa
                     "maps"};
   std::vector<double> ratio, torque;
   for (double r : maps[0]->damping_ratio) ratio.push_back(r * 100);
-  for (const JumpMapArtifact* a : maps) torque.push_back(std::log10(a->torque));
+  for (const JumpMapResult* a : maps) torque.push_back(std::log10(a->torque));
   const std::vector<double> x = edges(ratio), y = edges(torque);
   for (size_t t = 0; t < maps.size(); ++t) {
-    const JumpMapArtifact& a = *maps[t];
+    const JumpMapResult& a = *maps[t];
     if (t > 0) block.rows.emplace_back();
     for (Index c = 0; c < a.damping_ratio.size(); ++c) {
       const bool at = a.load_frequency > 0;
@@ -187,14 +185,14 @@ FigureBlock cells(const std::string& name, const std::vector<const JumpMapArtifa
                             a.two_branches[c] ? 2.0
                             : lost(a, c)      ? 1.0
                                               : 0.0,
-                            a.held_tooth_load.row(c).maxCoeff() * 1e-3,
+                            a.sustained_tooth_load.row(c).maxCoeff() * 1e-3,
                             a.branches_from[c],
                             a.branches_to[c],
                             static_cast<double>(a.open_below[c]),
                             a.loss_from[c],
                             a.loss_to[c],
-                            at ? a.held_load_there(c, 0) * 1e-3 : 0,
-                            at ? a.held_load_there(c, 1) * 1e-3 : 0,
+                            at ? a.sustained_load_there(c, 0) * 1e-3 : 0,
+                            at ? a.sustained_load_there(c, 1) * 1e-3 : 0,
                             at ? a.tooth_load(c, 0) * 1e-3 : 0,
                             at ? a.tooth_load(c, 1) * 1e-3 : 0,
                             a.peak_tooth_load(c, 0) * 1e-3,
@@ -208,23 +206,23 @@ FigureBlock cells(const std::string& name, const std::vector<const JumpMapArtifa
   return block;
 }
 
-std::string loads_in_words(const JumpMapArtifact& a, Index c) {
-  const double up = a.held_load_there(c, 0) * 1e-3, down = a.held_load_there(c, 1) * 1e-3;
+std::string loads_in_words(const JumpMapResult& a, Index c) {
+  const double up = a.sustained_load_there(c, 0) * 1e-3, down = a.sustained_load_there(c, 1) * 1e-3;
   const bool both =
       a.two_branches[c] && a.branches_from[c] < a.load_frequency && a.load_frequency < a.branches_to[c];
   return both ? text(rounded(up, 2), " and ", rounded(down, 2)) : rounded(up, 2);
 }
 
 // Cases ascend on the axis.
-void require_ascending(const std::vector<JumpMapArtifact>& maps) {
-  for (const JumpMapArtifact& a : maps)
+void require_ascending(const std::vector<JumpMapResult>& maps) {
+  for (const JumpMapResult& a : maps)
     for (Index c = 1; c < a.damping_ratio.size(); ++c)
       if (!(a.damping_ratio[c] > a.damping_ratio[c - 1]))
         fail(Failure::input, "the damping ratios of the map at ", a.torque,
              " N m do not ascend: ", a.damping_ratio[c - 1], ", then ", a.damping_ratio[c]);
 }
 
-bool same_corner(const JumpMapArtifact& a, const JumpMapArtifact& b) {
+bool same_corner(const JumpMapResult& a, const JumpMapResult& b) {
   const CornerRule &x = a.mesh.corner, &y = b.mesh.corner;
   return x.enabled == y.enabled && (!x.enabled || x.largest_angle == y.largest_angle);
 }
@@ -237,7 +235,7 @@ std::string joined_or_none(const std::vector<std::string>& words, const std::str
 
 // Share of the cells, in percent, in which two maps answer alike.
 double alike(const Panel& one, const Panel& other,
-             const std::function<bool(const JumpMapArtifact&, Index)>& verdict) {
+             const std::function<bool(const JumpMapResult&, Index)>& verdict) {
   double same = 0, cells = 0;
   for (size_t t = 0; t < one.second.size(); ++t)
     for (Index c = 0; c < one.second[t]->damping_ratio.size(); ++c, ++cells)
@@ -245,13 +243,13 @@ double alike(const Panel& one, const Panel& other,
   return 100 * same / cells;
 }
 
-// What the teeth carry at 150 N m in the case `at`, beside P2000's loads; and how far single samples go beyond held loads.
-void add_load_notes(const std::vector<JumpMapArtifact>& maps, const std::vector<Panel>& panels, Index at,
+// What the teeth carry at 150 N m in the case `at`, beside P2000's loads; and how far single samples go beyond sustained loads.
+void add_load_notes(const std::vector<JumpMapResult>& maps, const std::vector<Panel>& panels, Index at,
                     double ratio, bool paper, std::vector<std::string>& notes) {
   std::string loads = paper ? "P2000 prints 3.00 and 4.85" : "";
   bool known = false;
   for (const Panel& panel : panels)
-    for (const JumpMapArtifact* a : panel.second)
+    for (const JumpMapResult* a : panel.second)
       if (a->load_frequency > 0 && a->torque == 150) {
         loads += text(loads.empty() ? "" : "; ", panel.first, " ", loads_in_words(*a, at));
         known = true;
@@ -262,21 +260,21 @@ void add_load_notes(const std::vector<JumpMapArtifact>& maps, const std::vector<
   double spike = 1;
   std::string where = panels[0].first;
   for (const Panel& panel : panels)
-    for (const JumpMapArtifact* a : panel.second)
-      if (const double ratio_of = (a->peak_tooth_load.array() / a->held_tooth_load.array()).maxCoeff();
+    for (const JumpMapResult* a : panel.second)
+      if (const double ratio_of = (a->peak_tooth_load.array() / a->sustained_tooth_load.array()).maxCoeff();
           ratio_of > spike) {
         spike = ratio_of;
         where = panel.first;
       }
-  notes.push_back(text("tooth loads are held for 1/64 of a mesh period; single samples reach ",
+  notes.push_back(text("tooth loads are sustained for 1/64 of a mesh period; single samples reach ",
                        rounded(spike, 2), " times as much (", where,
                        "): spikes at entry, as high as the time step lets them"));
 }
 
-void add_needed_note(const std::vector<JumpMapArtifact>& maps, std::vector<std::string>& notes) {
+void add_needed_note(const std::vector<JumpMapResult>& maps, std::vector<std::string>& notes) {
   std::vector<double> needed;
-  std::vector<const JumpMapArtifact*> all;
-  for (const JumpMapArtifact& a : maps) {
+  std::vector<const JumpMapResult*> all;
+  for (const JumpMapResult& a : maps) {
     all.push_back(&a);
     if (const double edge = ratio_of_loss(a); edge > 0)
       needed.push_back(a.first_harmonic / a.mean_stiffness / edge);
@@ -292,7 +290,7 @@ void add_needed_note(const std::vector<JumpMapArtifact>& maps, std::vector<std::
   }
 }
 
-std::vector<std::string> jump_map_notes(const std::vector<JumpMapArtifact>& maps,
+std::vector<std::string> jump_map_notes(const std::vector<JumpMapResult>& maps,
                                         const std::vector<Panel>& panels, bool paper) {
   std::vector<std::string> notes;
   // Which choices lose contact at every torque, and what the teeth then carry.
@@ -303,21 +301,21 @@ std::vector<std::string> jump_map_notes(const std::vector<JumpMapArtifact>& maps
   std::string everywhere;
   for (const Panel& panel : panels)
     if (std::all_of(panel.second.begin(), panel.second.end(),
-                    [&](const JumpMapArtifact* a) { return lost(*a, at); }))
+                    [&](const JumpMapResult* a) { return lost(*a, at); }))
       everywhere += text(everywhere.empty() ? "" : "; ", panel.first);
   notes.reserve(notes.size() + panels.size());
   for (const Panel& panel : panels)
     notes.push_back(
         text("at ", rounded(ratio * 100, 2), " %, ", panel.first, ": two branches at ",
-             torques_where(panel.second, [&](const JumpMapArtifact& a) { return a.two_branches[at] == 1; }),
+             torques_where(panel.second, [&](const JumpMapResult& a) { return a.two_branches[at] == 1; }),
              ", contact lost at ",
-             torques_where(panel.second, [&](const JumpMapArtifact& a) { return lost(a, at); })));
+             torques_where(panel.second, [&](const JumpMapResult& a) { return lost(a, at); })));
   notes.push_back(
       text("contact is lost at every torque with: ", everywhere.empty() ? "none of these" : everywhere,
            paper ? "; P2000 prints jumps at 100 to 300 and 600 N m (diamonds)" : ""));
   add_load_notes(maps, panels, at, ratio, paper, notes);
   add_needed_note(maps, notes);
-  const JumpMapArtifact& first = maps[0];
+  const JumpMapResult& first = maps[0];
   notes.push_back(text(first.mesh_frequency.size(), " speeds from ", rounded(first.mesh_frequency[0], 0),
                        " to ", rounded(first.mesh_frequency[first.mesh_frequency.size() - 1], 0),
                        " Hz, up and down; contact = ", first.fidelity.contact, ", body = ",
@@ -325,12 +323,12 @@ std::vector<std::string> jump_map_notes(const std::vector<JumpMapArtifact>& maps
   return notes;
 }
 
-bool two_branches(const JumpMapArtifact& a, Index c) {
+bool two_branches(const JumpMapResult& a, Index c) {
   return a.two_branches[c] == 1;
 }
 
-const JumpMapArtifact* at_torque(const Panel& panel, double torque) {
-  for (const JumpMapArtifact* a : panel.second)
+const JumpMapResult* at_torque(const Panel& panel, double torque) {
+  for (const JumpMapResult* a : panel.second)
     if (a->torque == torque) return a;
   return nullptr;
 }
@@ -342,23 +340,23 @@ struct SecondModel {
 };
 
 // first: the map whose damping ratios are named.
-SecondModel second_model_of(const Panel& panel, const JumpMapArtifact& first, Index at) {
+SecondModel second_model_of(const Panel& panel, const JumpMapResult& first, Index at) {
   SecondModel found;
-  const JumpMapArtifact &a100 = *at_torque(panel, 100), &a200 = *at_torque(panel, 200),
-                        &a300 = *at_torque(panel, 300);
+  const JumpMapResult &a100 = *at_torque(panel, 100), &a200 = *at_torque(panel, 200),
+                      &a300 = *at_torque(panel, 300);
   for (Index c = 0; c < first.damping_ratio.size(); ++c)
     if (lost(a100, c) && !lost(a200, c) && !lost(a300, c))
       found.ratios.push_back(rounded(100 * first.damping_ratio[c], 2));
   found.low = !lost(a200, at) && !lost(a300, at) &&
               std::any_of(panel.second.begin(), panel.second.end(),
-                          [&](const JumpMapArtifact* a) { return a->torque < 200 && lost(*a, at); });
+                          [&](const JumpMapResult* a) { return a->torque < 200 && lost(*a, at); });
   return found;
 }
 
 // A line for each panel, then what they have in common, then what (a), (b) and (c) mean. at: the case of the damping ratio.
-std::vector<std::string> lumped_notes(const std::vector<JumpMapArtifact>& maps,
+std::vector<std::string> lumped_notes(const std::vector<JumpMapResult>& maps,
                                       const std::vector<Panel>& panels, Index at, double ratio,
-                                      const JumpMapArtifact& reference) {
+                                      const JumpMapResult& reference) {
   const bool beside = is_elastic(*panels[0].second[0]), paper = pair_of_paper(maps[0]);
   const std::string percent = text(rounded(ratio * 100, 2), " %");
   const bool second_model =
@@ -367,16 +365,16 @@ std::vector<std::string> lumped_notes(const std::vector<JumpMapArtifact>& maps,
   for (const Panel& panel : panels) {
     const auto everywhere = [&](const auto& holds) {
       return std::all_of(panel.second.begin(), panel.second.end(),
-                         [&](const JumpMapArtifact* a) { return holds(*a, at); });
+                         [&](const JumpMapResult* a) { return holds(*a, at); });
     };
     if (everywhere(two_branches)) jumping.push_back(panel.first);
     if (everywhere(lost)) losing.push_back(panel.first);
     const auto [least_lost, most_kept] = needed_for_loss(panel.second);
     std::string said = text(
         panel.first, ": at ", percent, " two branches at ",
-        torques_where(panel.second, [&](const JumpMapArtifact& a) { return two_branches(a, at); }),
+        torques_where(panel.second, [&](const JumpMapResult& a) { return two_branches(a, at); }),
         ", contact lost at ",
-        torques_where(panel.second, [&](const JumpMapArtifact& a) { return lost(a, at); }), "; (a) ",
+        torques_where(panel.second, [&](const JumpMapResult& a) { return lost(a, at); }), "; (a) ",
         least_lost < 1e300 ? rounded(least_lost, 2) : "-", "/", most_kept > 0 ? rounded(most_kept, 2) : "-");
     if (beside && &panel != &panels[0])
       said += text("; (b) ", rounded(alike(panels[0], panel, lost), 0), "/",
@@ -394,19 +392,13 @@ std::vector<std::string> lumped_notes(const std::vector<JumpMapArtifact>& maps,
     notes.push_back(text("at ", percent,
                          " lost at low torque only, kept at 200 and 300 N m: ", joined_or_none(low, "; ")));
   notes.push_back(
-      "(a) (first harmonic / mean of the stiffness) / damping ratio: lowest that loses contact / highest "
-      "that "
-      "keeps it");
+      "(a) (first harmonic / mean of the stiffness) / damping ratio: lowest that loses contact / highest that keeps it");
   if (beside)
     notes.push_back(
-        "(b) cells in which the model does as the elastic pair at that damping ratio: contact lost or "
-        "kept / "
-        "two branches or not");
+        "(b) cells in which the model does as the elastic pair at that damping ratio: contact lost or kept / two branches or not");
   if (second_model)
     notes.push_back(
-        "(c) damping ratios at which contact is lost at 100 N m, kept at 200 and 300 N m, as of P2000's "
-        "second "
-        "lumped model (Figure 16)");
+        "(c) damping ratios at which contact is lost at 100 N m, kept at 200 and 300 N m, as of P2000's second lumped model (Figure 16)");
   notes.push_back(text(
       "damping ratios: lumped models c / 2 sqrt(mean stiffness x mass), as P2000's 8 %",
       beside ? "; elastic pair: with two pairs in contact" : "", "; ", reference.mesh_frequency.size(),
@@ -419,12 +411,12 @@ std::vector<std::string> lumped_notes(const std::vector<JumpMapArtifact>& maps,
 }
 
 // The highest cusps over damping of a panel's corner rule, torques ascending.
-FigureBlock cusps_of(const std::string& block_name, const JumpMapArtifact& panel,
-                     const std::vector<FoldCurvesArtifact>& curves) {
+FigureBlock cusps_of(const std::string& block_name, const JumpMapResult& panel,
+                     const std::vector<FoldCurvesResult>& curves) {
   FigureBlock block{block_name, {"damping_ratio [%]", "torque [N m]"}, {}};
   block.table = "cusps";
   block.curve = panel_name(panel);
-  for (const FoldCurvesArtifact& a : curves)
+  for (const FoldCurvesResult& a : curves)
     if (a.quantity == FoldQuantity::damping && a.cusp_value.size() > 0 &&
         a.mesh.corner.enabled == panel.mesh.corner.enabled &&
         a.mesh.corner.largest_angle == panel.mesh.corner.largest_angle)
@@ -435,7 +427,7 @@ FigureBlock cusps_of(const std::string& block_name, const JumpMapArtifact& panel
 
 }  // namespace
 
-Figure jump_map_figure(std::vector<JumpMapArtifact> maps, const std::vector<FoldCurvesArtifact>& curves) {
+Figure jump_map_figure(std::vector<JumpMapResult> maps, const std::vector<FoldCurvesResult>& curves) {
   if (maps.empty()) fail(Failure::input, "a map of jumps needs one artifact at least");
   require_ascending(maps);
   const std::vector<Panel> panels = map_panels(maps);
@@ -453,8 +445,8 @@ Figure jump_map_figure(std::vector<JumpMapArtifact> maps, const std::vector<Fold
     FigureBlock cusps = cusps_of(text("cusps", p + 1), *panels[p].second[0], curves);
     figure.numbers.emplace_back(text("cusps_", p + 1), static_cast<double>(cusps.rows.size()));
     if (!cusps.rows.empty()) figure.blocks.push_back(std::move(cusps));
-    for (const JumpMapArtifact* a : panels[p].second)
-      largest = std::max(largest, a->held_tooth_load.maxCoeff() * 1e-3);
+    for (const JumpMapResult* a : panels[p].second)
+      largest = std::max(largest, a->sustained_tooth_load.maxCoeff() * 1e-3);
   }
   if (paper) {
     FigureBlock printed{"printed", {"damping_ratio [%]", "torque [N m]"}, {}, "", "", true};
@@ -474,13 +466,13 @@ Figure jump_map_figure(std::vector<JumpMapArtifact> maps, const std::vector<Fold
   return figure;
 }
 
-Figure lumped_jump_map_figure(std::vector<JumpMapArtifact> maps) {
+Figure lumped_jump_map_figure(std::vector<JumpMapResult> maps) {
   const auto lumped = std::find_if(maps.begin(), maps.end(), [](const auto& a) { return !is_elastic(a); });
   if (lumped == maps.end())
     fail(Failure::input, "a map of lumped models needs one of their artifacts at least");
   // The elastic pair beside them has the corner rule of the statics that they are made from.
-  const JumpMapArtifact reference = *lumped;
-  std::erase_if(maps, [&](const JumpMapArtifact& a) { return is_elastic(a) && !same_corner(a, reference); });
+  const JumpMapResult reference = *lumped;
+  std::erase_if(maps, [&](const JumpMapResult& a) { return is_elastic(a) && !same_corner(a, reference); });
   std::stable_partition(maps.begin(), maps.end(), is_elastic);
   require_ascending(maps);
   std::vector<Panel> panels = map_panels(maps);
@@ -503,7 +495,7 @@ Figure lumped_jump_map_figure(std::vector<JumpMapArtifact> maps) {
         std::find(columns.begin(), columns.end(), base) == columns.end())
       columns.push_back(base);
   for (size_t p = 0; p < panels.size(); ++p) {
-    const JumpMapArtifact& a = *panels[p].second[0];
+    const JumpMapResult& a = *panels[p].second[0];
     const std::string name = text("panel", p + 1);
     figure.blocks.push_back(cells(name, panels[p].second));
     figure.blocks.back().curve = panels[p].first;

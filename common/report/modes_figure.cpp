@@ -71,7 +71,7 @@ SystemExtent system_extent(const System& s) {
   return e;
 }
 
-FigureBlock frequency_block(const ModesArtifact& a) {
+FigureBlock frequency_block(const ModesResult& a) {
   FigureBlock block{"frequencies",
                     {"mode", "natural_frequency [Hz]", "type", "planet_harmonic", "energy in meshes [%]"},
                     {}};
@@ -84,7 +84,7 @@ FigureBlock frequency_block(const ModesArtifact& a) {
 
 }  // namespace
 
-Figure modes_figure(const ModesArtifact& a) {
+Figure modes_figure(const ModesResult& a) {
   const System& s = a.layout;
   Figure figure;
   const bool elastic = a.frozen_frequency.size() > 0;
@@ -132,10 +132,9 @@ Figure modes_figure(const ModesArtifact& a) {
            left_out ? text("; the shapes of ", left_out, " higher frequencies are not drawn") : ""));
   const bool planets = std::any_of(s.bodies.begin(), s.bodies.end(),
                                    [](const System::Body& body) { return body.on != System::kGround; });
-  figure.notes.push_back(
-      text(planets ? "blue: central gears, orange: planets, green: carrier, grey" : "blue: moved, grey",
-           ": at rest; a radius of each gear, of a ring a mark outside, shows its rotation; of a double mode "
-           "one shape"));
+  figure.notes.push_back(text(
+      planets ? "blue: central gears, orange: planets, green: carrier, grey" : "blue: moved, grey",
+      ": at rest; a radius of each gear, of a ring a mark outside, shows its rotation; of a double mode one shape"));
   figure.notes.push_back(text("shapes are magnified, the largest motion of each to the same size",
                               planets ? "; in the frame of the carrier, without Coriolis terms" : ""));
   const int lines = (panels + kColumns - 1) / kColumns;

@@ -15,7 +15,7 @@ namespace whine {
 namespace {
 
 struct Motion {
-  const SweepArtifact* sweep = nullptr;
+  const SweepResult* sweep = nullptr;
   Eigen::Index row = 0;
   int periods = 1;    // of one orbit, or all that is stored of a motion that is not periodic
   int first = 0;      // of these periods: the one that is shown amid its neighbours
@@ -27,7 +27,7 @@ struct Motion {
   }
 };
 
-Motion motion_at(const SweepArtifact& s, double frequency) {
+Motion motion_at(const SweepResult& s, double frequency) {
   Motion m;
   m.sweep = &s;
   (s.mesh_frequency.array() - frequency).abs().minCoeff(&m.row);
@@ -40,15 +40,15 @@ Motion motion_at(const SweepArtifact& s, double frequency) {
   return m;
 }
 
-std::vector<LumpedParameters> lumped_of(const std::vector<SweepArtifact>& sweeps) {
+std::vector<LumpedParameters> lumped_of(const std::vector<SweepResult>& sweeps) {
   std::vector<LumpedParameters> lumped;
   lumped.reserve(sweeps.size());
-  for (const SweepArtifact& s : sweeps) lumped.push_back(s.lumped);
+  for (const SweepResult& s : sweeps) lumped.push_back(s.lumped);
   return lumped;
 }
 
-std::vector<Motion> motions_at(const std::vector<SweepArtifact>& sweeps, double frequency,
-                               Background background, Figure& figure) {
+std::vector<Motion> motions_at(const std::vector<SweepResult>& sweeps, double frequency,
+                               CaptionSources background, Figure& figure) {
   constexpr double kSameBranch = 0.02;  // of the larger RMS: far above what periodicity leaves open
   if (sweeps.empty()) fail(Failure::input, "figure: no sweep.h5 given; an up and a down sweep are the least");
   std::vector<Motion> motions;
@@ -103,7 +103,7 @@ void set_motion_title(Figure& figure, const std::string& what, const std::vector
 // Shown of tooth loads: mesh periods about the middle one, teeth from two before tooth i to three after it.
 constexpr int kFirstPeriod = -1, kPeriods = 3, kFirstTooth = -2, kLastTooth = 3;
 
-double force_at_rest(const SweepArtifact& s) {
+double force_at_rest(const SweepResult& s) {
   return s.torque / ToothGeometry(s.gear[0].design).base_radius();
 }
 
@@ -164,7 +164,7 @@ double add_tooth_loads(Figure& figure, const std::string& letter, const Motion& 
   return std::max(most, force.maxCoeff());
 }
 
-void add_load_axes(Figure& figure, const SweepArtifact& sweep, double largest) {
+void add_load_axes(Figure& figure, const SweepResult& sweep, double largest) {
   figure.numbers.emplace_back("largest", largest);
   figure.numbers.emplace_back("static_force", force_at_rest(sweep));
   figure.numbers.emplace_back("phase_from", kFirstPeriod);
@@ -176,8 +176,7 @@ void add_load_axes(Figure& figure, const SweepArtifact& sweep, double largest) {
 constexpr Eigen::Index kWaterfallOrders = 5;  // that a waterfall shows
 
 // Of each `group` neighbouring speeds the spectrum of the one with the largest RMS, up to `end` (Hz).
-FigureBlock spectra_block(const SweepArtifact& sweep, const ResponseArtifact& r, Eigen::Index group,
-                          double end) {
+FigureBlock spectra_block(const SweepResult& sweep, const ResponseResult& r, Eigen::Index group, double end) {
   FigureBlock lines{text("spectra ", sweep.direction),
                     {"mesh_frequency [Hz]", "frequency [Hz]", "amplitude [µm]"},
                     {},
@@ -199,7 +198,7 @@ FigureBlock spectra_block(const SweepArtifact& sweep, const ResponseArtifact& r,
 }
 
 // Amplitudes of the first `known` orders of the mesh frequency at every speed.
-FigureBlock orders_block(const ResponseArtifact& r, const ResponseArtifact* other, Eigen::Index known) {
+FigureBlock orders_block(const ResponseResult& r, const ResponseResult* other, Eigen::Index known) {
   FigureBlock orders{
       text("orders ", r.direction), {"mesh_frequency [Hz]"}, {}, "orders", name_of(r.direction)};
   for (Eigen::Index k = 1; k <= known; ++k) orders.columns.push_back(text("amplitude of order ", k, " [µm]"));
@@ -215,8 +214,8 @@ FigureBlock orders_block(const ResponseArtifact& r, const ResponseArtifact* othe
 
 }  // namespace
 
-Figure vibration_figure(const std::vector<SweepArtifact>& sweeps, double mesh_frequency,
-                        const Background& background) {
+Figure vibration_figure(const std::vector<SweepResult>& sweeps, double mesh_frequency,
+                        const CaptionSources& background) {
   constexpr int kShownPeriods = 3;
   Figure figure;
   const std::vector<Motion> motions = motions_at(sweeps, mesh_frequency, background, figure);
@@ -265,8 +264,8 @@ Figure vibration_figure(const std::vector<SweepArtifact>& sweeps, double mesh_fr
   return figure;
 }
 
-Figure tooth_load_figure(const std::vector<SweepArtifact>& sweeps, double mesh_frequency,
-                         const Background& background) {
+Figure tooth_load_figure(const std::vector<SweepResult>& sweeps, double mesh_frequency,
+                         const CaptionSources& background) {
   Figure figure;
   const std::vector<Motion> motions = motions_at(sweeps, mesh_frequency, background, figure);
   set_motion_title(figure, "Tooth loads", motions, mesh_frequency);
@@ -280,7 +279,7 @@ Figure tooth_load_figure(const std::vector<SweepArtifact>& sweeps, double mesh_f
   return figure;
 }
 
-Figure dynamic_load_figure(const std::vector<SweepArtifact>& sweeps, Background background) {
+Figure dynamic_load_figure(const std::vector<SweepResult>& sweeps, CaptionSources background) {
   background.lumped = lumped_of(sweeps);
   const auto panels = panels_of(sweeps, background);
   const auto& curve = only_curve(panels, "tooth loads against speed");
@@ -292,9 +291,9 @@ Figure dynamic_load_figure(const std::vector<SweepArtifact>& sweeps, Background 
   Motion worst;
   double rms = -1, from = std::numeric_limits<double>::infinity(), to = 0, most = 0;
   bool lost = false, beyond = false;
-  const std::array<ResponseArtifact, 2> both{response(*curve.up), response(*curve.down)};
-  for (const SweepArtifact* sweep : {curve.up, curve.down}) {
-    const ResponseArtifact& r = both[sweep == curve.up ? 0 : 1];
+  const std::array<ResponseResult, 2> both{response(*curve.up), response(*curve.down)};
+  for (const SweepResult* sweep : {curve.up, curve.down}) {
+    const ResponseResult& r = both[sweep == curve.up ? 0 : 1];
     const Eigen::VectorXd left = elastic(*sweep) ? backlash_left(*sweep) : Eigen::VectorXd();
     figure.blocks.push_back(response_block(name_of(sweep->direction), r, &both[sweep == curve.up ? 1 : 0],
                                            elastic(*sweep) ? &left : nullptr));
@@ -335,18 +334,18 @@ Figure dynamic_load_figure(const std::vector<SweepArtifact>& sweeps, Background 
   return figure;
 }
 
-Figure waterfall_figure(const std::vector<SweepArtifact>& sweeps) {
+Figure waterfall_figure(const std::vector<SweepResult>& sweeps) {
   constexpr Eigen::Index kMostSpectra = 160;
   constexpr double kLeast = 1e-4;  // of the largest amplitude
   if (sweeps.empty() || sweeps.size() > 2)
     fail(Failure::input, "figure: ", sweeps.size(),
          " sweep.h5 given; a waterfall is of a sweep, or of those up and down");
-  if (sweeps.size() == 2) panels_of(sweeps, Background{{}, lumped_of(sweeps), {}});
-  std::vector<const SweepArtifact*> shown;
+  if (sweeps.size() == 2) panels_of(sweeps, CaptionSources{{}, lumped_of(sweeps), {}});
+  std::vector<const SweepResult*> shown;
   for (const Direction direction : {Direction::up, Direction::down})
-    for (const SweepArtifact& sweep : sweeps)
+    for (const SweepResult& sweep : sweeps)
       if (sweep.direction == direction) shown.push_back(&sweep);
-  const SweepArtifact& first = *shown.front();
+  const SweepResult& first = *shown.front();
   Figure figure;
   figure.shafts = shafts_of_all(sweeps);
   figure.title = text("Spectra of the dynamic transmission error against mesh frequency, ",
@@ -360,7 +359,7 @@ Figure waterfall_figure(const std::vector<SweepArtifact>& sweeps) {
 
   double slowest = std::numeric_limits<double>::infinity(), fastest = 0, end = 0;
   Eigen::Index group = 1, known = kWaterfallOrders;
-  for (const SweepArtifact* sweep : shown) {
+  for (const SweepResult* sweep : shown) {
     slowest = std::min(slowest, sweep->mesh_frequency.minCoeff());
     fastest = std::max(fastest, sweep->mesh_frequency.maxCoeff());
     end = std::max({end, 2.5 * sweep->natural_frequency, 1.5 * fastest});
@@ -368,12 +367,12 @@ Figure waterfall_figure(const std::vector<SweepArtifact>& sweeps) {
   }
   std::string directions;
   double largest = 0;
-  std::vector<ResponseArtifact> responses;
+  std::vector<ResponseResult> responses;
   responses.reserve(shown.size());
-  for (const SweepArtifact* sweep : shown) responses.push_back(response(*sweep));
+  for (const SweepResult* sweep : shown) responses.push_back(response(*sweep));
   for (size_t i = 0; i < shown.size(); ++i) {
-    const SweepArtifact* sweep = shown[i];
-    const ResponseArtifact& r = responses[i];
+    const SweepResult* sweep = shown[i];
+    const ResponseResult& r = responses[i];
     known = std::min(known, r.dte_harmonic.cols());
     FigureBlock lines = spectra_block(*sweep, r, group, end);
     for (const std::vector<double>& row : lines.rows) largest = std::max(largest, row[2]);
@@ -404,7 +403,7 @@ Figure waterfall_figure(const std::vector<SweepArtifact>& sweeps) {
   return figure;
 }
 
-Figure mesh_force_figure(const std::vector<SweepArtifact>& sweeps,
+Figure mesh_force_figure(const std::vector<SweepResult>& sweeps,
                          const std::vector<double>& mesh_frequencies) {
   if (sweeps.empty()) fail(Failure::input, "figure: no sweep.h5 given; 1 is the least");
   if (sweeps.size() > kMostCurves)
@@ -421,7 +420,7 @@ Figure mesh_force_figure(const std::vector<SweepArtifact>& sweeps,
   const std::vector<std::string> dashes{"solid",       "dashed",      "dotted",
                                         "dash-dotted", "long dashes", "fine dots"};
   for (size_t s = 0; s < sweeps.size(); ++s) {
-    const SweepArtifact& sweep = sweeps[s];
+    const SweepResult& sweep = sweeps[s];
     if (sweep.lumped.cell_end.size() == 0)
       fail(Failure::input, "figure: a sweep of elastic gears given; give those of lumped models");
     if (sweep.torque != torque)

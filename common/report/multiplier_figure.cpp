@@ -11,7 +11,7 @@ namespace whine {
 
 using Eigen::Index;
 
-Figure multiplier_figure(const BranchArtifact& b) {
+Figure multiplier_figure(const BranchResult& b) {
   constexpr double kLeast = 0.05;  // modulus that is shown
   const Index n = b.mesh_frequency.size();
   if (n == 0) fail(Failure::input, "a figure of multipliers needs a branch with one orbit at least");

@@ -40,10 +40,10 @@ void add_shafts(const System& system, Figure& figure) {
 }
 
 void require_one_system(const std::string& what, const SystemSweepParameters& settings,
-                        const Eigen::VectorXd& torque, const std::vector<SystemSweepArtifact>& sweeps) {
+                        const Eigen::VectorXd& torque, const std::vector<SystemSweepResult>& sweeps) {
   const System& s = settings.layout;
   for (size_t i = 0; i < sweeps.size(); ++i) {
-    const SystemSweepArtifact& sweep = sweeps[i];
+    const SystemSweepResult& sweep = sweeps[i];
     const std::string of = text("the sweep ", name_of(sweep.direction));
     if (!one_system(sweep.settings.layout, s))
       fail(Failure::input, "figure: ", what, " and ", of,

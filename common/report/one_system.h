@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "report/figures.h"
-#include "studies/system_sweep_result.h"
+#include "results/system_sweep.h"
 
 namespace whine {
 
@@ -16,6 +16,6 @@ void add_shafts(const System& system, Figure& figure);
 // Throws Error(input) unless all sweeps are of one system, with one torque on each body and one damping, at most one of them in a
 // direction. `settings` and `torque`: of what else stands in the figure, or of the first sweep; `what` it is, such as "the branch".
 void require_one_system(const std::string& what, const SystemSweepParameters& settings,
-                        const Eigen::VectorXd& torque, const std::vector<SystemSweepArtifact>& sweeps);
+                        const Eigen::VectorXd& torque, const std::vector<SystemSweepResult>& sweeps);
 
 }  // namespace whine

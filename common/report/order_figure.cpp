@@ -14,18 +14,18 @@ constexpr Eigen::Index kOrderCuts = 5;
 
 }  // namespace
 
-Figure order_figure(const std::vector<ResponseArtifact>& sweeps) {
+Figure order_figure(const std::vector<ResponseResult>& sweeps) {
   const auto panels = panels_of(sweeps, {});
   const auto& curve = only_curve(panels, "order cuts");
   Figure figure;
   figure.title = "Order cuts of the dynamic transmission error (DTE), " + torque_words(curve.up->torque);
-  figure.notes = {operating_words(panels[0], {}) + "; " + panels[0].choices,
-                  "orders of the mesh frequency; f_n: mean natural frequency over the mesh period, contact "
-                  "frozen under the static load"};
+  figure.notes = {
+      operating_words(panels[0], {}) + "; " + panels[0].choices,
+      "orders of the mesh frequency; f_n: mean natural frequency over the mesh period, contact frozen under the static load"};
   const Eigen::Index orders =
       std::min({kOrderCuts, curve.up->dte_harmonic.cols(), curve.down->dte_harmonic.cols()});
   double from = std::numeric_limits<double>::infinity(), to = 0, largest = 0;
-  for (const ResponseArtifact* r : {curve.up, curve.down}) {
+  for (const ResponseResult* r : {curve.up, curve.down}) {
     FigureBlock block{
         text("orders ", r->direction), {"mesh_frequency [Hz]"}, {}, "orders", name_of(r->direction)};
     for (Eigen::Index k = 1; k <= orders; ++k) block.columns.push_back(text("order_", k, " [µm]"));

@@ -18,7 +18,7 @@ namespace whine {
 namespace {
 
 std::string introduction(const ReportContent& c) {
-  const StaticArtifact& s = c.statics[0];
+  const StaticResult& s = c.statics[0];
   const GearPair pair(s);
   std::vector<std::string> torques;
   for (const auto& a : c.statics) torques.push_back(shown(a.torque, 6));

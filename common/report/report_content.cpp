@@ -25,15 +25,15 @@ const ReportSweep* sweep_of(const ReportContent& c, double torque, Direction dir
   return nullptr;
 }
 
-const ImpactArtifact* impact_of(const ReportContent& c, double torque) {
-  for (const ImpactArtifact& a : c.impacts)
+const ImpactResult* impact_of(const ReportContent& c, double torque) {
+  for (const ImpactResult& a : c.impacts)
     if (a.torque == torque) return &a;
   return nullptr;
 }
 
 void require_one_pair(const ReportContent& c) {
   if (c.statics.empty()) return;
-  const StaticArtifact& first = c.statics[0];
+  const StaticResult& first = c.statics[0];
   const auto same_gear = [](const GearDesign& a, const GearDesign& b) {
     return a.teeth == b.teeth && a.module == b.module && a.pressure_angle == b.pressure_angle &&
            a.profile_shift == b.profile_shift && a.face_width == b.face_width;
@@ -55,7 +55,7 @@ void require_one_pair(const ReportContent& c) {
   if (c.budget) take(*c.budget, "the error_budget.h5");
 }
 
-double static_force(const StaticArtifact& s) {
+double static_force(const StaticResult& s) {
   return s.torque / ToothGeometry(s.gear[0].design).base_radius();
 }
 
@@ -67,7 +67,7 @@ std::string hertz(double f) {
   return fixed(f, 0);
 }
 
-std::string jumps_of(const ResponseArtifact& r) {
+std::string jumps_of(const ResponseResult& r) {
   std::vector<double> jumps(r.jump_frequency.begin(), r.jump_frequency.end());
   std::sort(jumps.begin(), jumps.end());
   std::string out;
@@ -75,7 +75,7 @@ std::string jumps_of(const ResponseArtifact& r) {
   return out.empty() ? "none" : out;
 }
 
-double hertz_pressure(const StaticArtifact& s, double force) {
+double hertz_pressure(const StaticResult& s, double force) {
   const GearPair pair(s);
   const double tangent = std::tan(pair.working_pressure_angle());
   const double curvature = (1 / pair.gear(0).base_radius() + 1 / pair.gear(1).base_radius()) / tangent;
@@ -118,7 +118,7 @@ std::string significant(double value, int digits) {
   return out;
 }
 
-std::vector<Index> resonances(const ResponseArtifact& r) {
+std::vector<Index> resonances(const ResponseResult& r) {
   constexpr double kHigher = 1.2;
   constexpr size_t kMost = 5;
   const Index n = r.mesh_frequency.size();

@@ -4,10 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/impact_result.h"
 #include "io/provenance.h"
-#include "signal/response_result.h"
-#include "studies/error_budget_result.h"
+#include "results/error_budget.h"
+#include "results/impact.h"
+#include "results/response.h"
 #include "system/statics.h"
 
 namespace whine {
@@ -20,7 +20,7 @@ struct ReportPicture {
 
 // One sweep, without its motions.
 struct ReportSweep {
-  ResponseArtifact response;
+  ResponseResult response;
   std::vector<Remark> remarks;
   Eigen::VectorXd backlash_left = {};  // (speed) m, of backlash_left(); none: not known
 };
@@ -33,10 +33,10 @@ struct ReportSource {
 // Artifacts in the order in which the scene lists its torques.
 struct ReportContent {
   std::string scene;  // "file: title"
-  std::vector<StaticArtifact> statics;
-  std::vector<ImpactArtifact> impacts;
+  std::vector<StaticResult> statics;
+  std::vector<ImpactResult> impacts;
   std::vector<ReportSweep> sweeps;
-  std::optional<ErrorBudgetArtifact> budget;
+  std::optional<ErrorBudgetResult> budget;
   std::vector<ReportPicture> pictures;
   std::vector<ReportSource> sources;
   std::string figure_folder =
@@ -45,17 +45,17 @@ struct ReportContent {
 
 // Of the content; nullptr if there is none.
 const ReportSweep* sweep_of(const ReportContent& c, double torque, Direction direction);
-const ImpactArtifact* impact_of(const ReportContent& c, double torque);
+const ImpactResult* impact_of(const ReportContent& c, double torque);
 
 // Throws Error(input) for artifacts of different gears or modifications, and for two of one kind at one torque (of sweeps: and of one
 // direction).
 void require_one_pair(const ReportContent& c);
 
-double static_force(const StaticArtifact& s);  // N: T / r_b
+double static_force(const StaticResult& s);  // N: T / r_b
 double peak_to_peak(const Eigen::VectorXd& v);
 
 // Hertz's pressure (Pa) of a force (N) on one tooth pair at the pitch point.
-double hertz_pressure(const StaticArtifact& s, double force);
+double hertz_pressure(const StaticResult& s, double force);
 
 // Whether the motion at a row of the sweep goes beyond the backlash.
 bool beyond_backlash(const ReportSweep& s, Eigen::Index row);
@@ -64,11 +64,11 @@ std::string speeds_beyond_backlash(const ReportSweep& s);
 
 std::string way_words(const ReportSweep& s);                // "speed rising"
 std::string hertz(double f);                                // whole Hz
-std::string jumps_of(const ResponseArtifact& r);            // "1819, 2645", "none"
+std::string jumps_of(const ResponseResult& r);              // "1819, 2645", "none"
 std::string listed(const std::vector<std::string>& words);  // "a, b and c"
 std::string significant(double value, int digits);  // with all of its digits: 1.400 where shown() has 1.4
 
 // Speeds (rows) at which the RMS of a response has a peak: higher than its surroundings by a fifth, ascending in frequency;
 // the ends of the sweep are none.
-std::vector<Eigen::Index> resonances(const ResponseArtifact& response);
+std::vector<Eigen::Index> resonances(const ResponseResult& response);
 }  // namespace whine

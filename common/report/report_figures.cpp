@@ -15,17 +15,14 @@ namespace {
 
 using Eigen::Index;
 
-std::string at_torques(const ReportContent& c,
-                       const std::function<std::string(const StaticArtifact&)>& said) {
+std::string at_torques(const ReportContent& c, const std::function<std::string(const StaticResult&)>& said) {
   std::vector<std::string> parts;
-  for (const StaticArtifact& s : c.statics) parts.push_back(said(s) + " at " + torque_words(s.torque));
+  for (const StaticResult& s : c.statics) parts.push_back(said(s) + " at " + torque_words(s.torque));
   return listed(parts);
 }
 
-std::string of_transmission_error(const ReportContent& c) {
-  return "Static transmission error over a mesh period and its harmonics: how far the driver runs ahead of "
-         "where rigid, unloaded "
-         "gears would have it. From peak to peak it is " +
+std::string transmission_error_caption(const ReportContent& c) {
+  return "Static transmission error over a mesh period and its harmonics: how far the driver runs ahead of where rigid, unloaded gears would have it. From peak to peak it is " +
          at_torques(c,
                     [](const auto& s) {
                       return significant(peak_to_peak(s.transmission_error) * kMicro, 3) + " µm";
@@ -33,23 +30,17 @@ std::string of_transmission_error(const ReportContent& c) {
          "; this variation is what excites the whine.";
 }
 
-std::string of_stiffness(const ReportContent& c) {
-  return "Mesh stiffness, the load over what it adds to the transmission error, over a mesh period and its "
-         "harmonics; "
-         "black: the rectangular "
-         "wave that lumped models take instead. Its mean is " +
+std::string stiffness_caption(const ReportContent& c) {
+  return "Mesh stiffness, the load over what it adds to the transmission error, over a mesh period and its harmonics; black: the rectangular wave that lumped models take instead. Its mean is " +
          at_torques(c, [](const auto& s) { return fixed(s.mean_stiffness * 1e-6, 1) + " N/µm"; }) + ".";
 }
 
-std::string of_load_sharing(const ReportContent& c) {
-  const StaticArtifact& s = c.statics[0];
+std::string load_sharing_caption(const ReportContent& c) {
+  const StaticResult& s = c.statics[0];
   return text(
-      "The share of the load that a tooth pair carries on its way from the root of the driver's tooth to its "
-      "tip (left), and the loads "
-      "of all pairs over a mesh period at ",
+      "The share of the load that a tooth pair carries on its way from the root of the driver's tooth to its tip (left), and the loads of all pairs over a mesh period at ",
       torque_words(s.torque),
-      " (right). Grey lines: where contact begins and ends on the line of action, and between "
-      "them the part with one pair; load beyond them is carried by tip edges. The contact ratio is ",
+      " (right). Grey lines: where contact begins and ends on the line of action, and between them the part with one pair; load beyond them is carried by tip edges. The contact ratio is ",
       fixed(s.contact_ratio, 3), ".");
 }
 
@@ -67,17 +58,14 @@ std::string beyond_words(const ReportContent& c, double torque) {
              : " Beyond the backlash, where back flanks would touch, which is not modelled: " + list + ".";
 }
 
-std::string of_response(const ReportContent& c) {
+std::string response_caption(const ReportContent& c) {
   std::string out =
-      "RMS of the oscillating part of the dynamic transmission error against speed, with speed "
-      "rising and falling; f_n is the natural frequency with the contact frozen under the static load, mean "
-      "over the "
-      "mesh period. ";
-  for (const StaticArtifact& s : c.statics) {
+      "RMS of the oscillating part of the dynamic transmission error against speed, with speed rising and falling; f_n is the natural frequency with the contact frozen under the static load, mean over the mesh period. ";
+  for (const StaticResult& s : c.statics) {
     const ReportSweep *up = sweep_of(c, s.torque, Direction::up),
                       *down = sweep_of(c, s.torque, Direction::down);
     if (!up || !down) continue;
-    const ResponseArtifact &r = up->response, &f = down->response;
+    const ResponseResult &r = up->response, &f = down->response;
     std::vector<std::string> peaks;
     for (const Index i : resonances(r))
       peaks.push_back(
@@ -97,30 +85,26 @@ std::string of_response(const ReportContent& c) {
   return out + beyond_words(c, 0);
 }
 
-std::string of_waterfall(const ReportContent& c) {
+std::string waterfall_caption(const ReportContent& c) {
   const ReportSweep& s = c.sweeps[0];
   return text(
       "Spectra of the dynamic transmission error at ", torque_words(s.response.torque),
       sweep_of(c, s.response.torque, Direction::up) && sweep_of(c, s.response.torque, Direction::down)
           ? ", speed rising (above) and falling (below)"
           : ", " + way_words(s),
-      " as colours, one line for each speed (left), and the amplitudes of the first orders of the mesh "
-      "frequency (right). Orders run along rays; each "
-      "is strong where it crosses the natural frequency of ",
+      " as colours, one line for each speed (left), and the amplitudes of the first orders of the mesh frequency (right). Orders run along rays; each is strong where it crosses the natural frequency of ",
       hertz(s.response.natural_frequency),
       " Hz (mean over the period, contact frozen under the static load). The mesh frequency is ",
       s.response.gear[0].design.teeth, " times the speed of the driver: 1000 Hz are ",
       fixed(60000.0 / s.response.gear[0].design.teeth, 0), " rpm.", beyond_words(c, s.response.torque));
 }
 
-std::string of_tooth_loads(const ReportContent& c) {
-  const StaticArtifact& s = c.statics[0];
+std::string tooth_loads_caption(const ReportContent& c) {
+  const StaticResult& s = c.statics[0];
   const ReportSweep *up = sweep_of(c, s.torque, Direction::up),
                     *down = sweep_of(c, s.torque, Direction::down);
   std::string out =
-      "Largest load of a tooth pair against speed (above), and the loads over the mesh period at "
-      "the speed with the largest "
-      "vibration (below).";
+      "Largest load of a tooth pair against speed (above), and the loads over the mesh period at the speed with the largest vibration (below).";
   if (up && down) {
     const double load =
         std::max(up->response.tooth_load_max.maxCoeff(), down->response.tooth_load_max.maxCoeff());
@@ -130,11 +114,10 @@ std::string of_tooth_loads(const ReportContent& c) {
   return out + beyond_words(c, s.torque);
 }
 
-std::string of_bearings(const ReportContent& c) {
-  return "Force of each gear on its bearing against speed: what a housing hears. RMS of the "
-         "oscillating part, at most " +
+std::string bearings_caption(const ReportContent& c) {
+  return "Force of each gear on its bearing against speed: what a housing hears. RMS of the oscillating part, at most " +
          at_torques(c,
-                    [&](const StaticArtifact& s) {
+                    [&](const StaticResult& s) {
                       double most = 0;
                       for (const Direction direction : {Direction::up, Direction::down})
                         if (const ReportSweep* sweep = sweep_of(c, s.torque, direction))
@@ -145,18 +128,12 @@ std::string of_bearings(const ReportContent& c) {
          ", and the largest force, beside the load at rest.";
 }
 
-std::string of_losses(const ReportContent& c) {
-  return "Efficiency of the mesh (a) and the mean power that friction between the flanks takes (b) over "
-         "speed, "
-         "rising and falling; dotted: the efficiency at rest, by kinematics. Moments of friction about the "
-         "two "
-         "axes while the teeth pass through the mesh at rest (c). Oil, bearings and windage are left out, "
-         "and so "
-         "is what the dampers of the vibration take." +
+std::string losses_caption(const ReportContent& c) {
+  return "Efficiency of the mesh (a) and the mean power that friction between the flanks takes (b) over speed, rising and falling; dotted: the efficiency at rest, by kinematics. Moments of friction about the two axes while the teeth pass through the mesh at rest (c). Oil, bearings and windage are left out, and so is what the dampers of the vibration take." +
          beyond_words(c, 0);
 }
 
-std::string of_budget(const ReportContent& c) {
+std::string budget_caption(const ReportContent& c) {
   if (!c.budget) return "";
   return text("Error budget of the statics at ", torque_words(c.budget->torque),
               ": what refining each discretisation alone changes. In all the mean stiffness changes by ",
@@ -176,72 +153,59 @@ std::function<std::string(const ReportContent&)> same_words(const char* words) {
 }
 
 const std::vector<ExplainedFigure>& explained_figures() {
-  static const std::vector<ExplainedFigure> all{
-      {"fig01", "gears", "Mesh of the pair",
-       same_words(
-           "Finite element mesh of the pair and of the teeth in mesh. Flanks are exact involutes in the "
-           "contact; the mesh carries their bending.")},
-      {"profile-chart", "gears", "Profile charts",
-       same_words(
-           "Profile charts of the driving flanks as an inspection sheet shows them: material against roll "
-           "angle, the tip to the right.")},
-      {"fig03", "rest", "Contact zone",
-       same_words("Contact zone of the reference pair at the pitch point: strips, gap and pressure, beside "
-                  "Hertz's.")},
-      {"fig12", "rest", "Static transmission error", of_transmission_error},
-      {"fig13", "rest", "Mesh stiffness", of_stiffness},
-      {"load-sharing", "rest", "Load sharing", of_load_sharing},
-      {"sidebands", "rest", "Sidebands",
-       same_words(
-           "Teeth that differ: transmission error over the period after which the same teeth meet, and the "
-           "shafts' orders and sidebands at rest and in motion.")},
-      {"crack", "rest", "The cracked tooth",
-       same_words("The mark of the cracked tooth in the static transmission error, its orders, and the root "
-                  "stress of the teeth about it.")},
-      {"fig05", "motion", "Vibration over speed", of_response},
-      {"fig07", "motion", "Vibration over speed", of_response},
-      {"fig05-branches", "motion", "Branches of periodic motions",
-       same_words(
-           "The same with all orbits of the branch: stable ones as a thin line, also where no sweep was on "
-           "them, unstable ones dashed, and the folds at which stable branches end. A sweep jumps at a "
-           "fold; where it jumps without one it has "
-           "left the basin of a branch that goes on.")},
-      {"multipliers", "motion", "Floquet multipliers",
-       same_words(
-           "Floquet multipliers along the branch in the complex plane: a small disturbance of the motion "
-           "is multiplied by them in each mesh period. Inside the unit circle it decays. A branch folds "
-           "at 1; at -1 its period doubles.")},
-      {"fig14-elastic", "motion", "RMS and mean over speed",
-       same_words("RMS and mean of the dynamic transmission error against speed.")},
-      {"waterfall", "motion", "Spectra over speed", of_waterfall},
-      {"order-cuts", "motion", "Order cuts",
-       same_words(
-           "Order cuts: amplitudes of the first orders of the mesh frequency in the dynamic transmission "
-           "error "
-           "against speed, rising and falling. Where the two differ there are two motions, and the order "
-           "that is "
-           "heard depends on where the speed came from.")},
-      {"tooth-loads", "motion", "Tooth loads in motion", of_tooth_loads},
-      {"root-stress", "motion", "Root stress and dynamic factors",
-       same_words(
-           "Largest tension along the roots beside the loaded flanks: while a tooth passes through the "
-           "mesh at rest (a), and over speed (b). Dynamic factors (c) are the largest mesh force, tooth "
-           "load and root stress at a speed, each held for 1/64 of a mesh period, over T / r_b or over the "
-           "largest at rest; K_v is what ISO 6336-1, method B, says of gears without deviations.")},
-      {"root-stress-branches", "motion", "Root stress along the branch",
-       same_words(
-           "The same with the orbits of the branch: thin lines where they are stable, dots where they are "
-           "not and no "
-           "sweep finds them.")},
-      {"flank-pressure", "motion", "Flank pressure over speed",
-       same_words(
-           "Largest pressure at each place of the flanks, by Hertz's law of the load that a pair holds there "
-           "inside its flanks for 1/64 of a mesh period, against roll angle and speed. Where a tip edge runs "
-           "on a flank the pressure is singular: the map is grey, and the load that the edge carries stands "
-           "beside it. White: no load is held.")},
-      {"efficiency", "motion", "Losses by friction", of_losses},
-      {"bearing-forces", "motion", "Forces on the bearings", of_bearings},
-      {"error-budget", "errors", "Error budget", of_budget}};
+  static const std::vector<ExplainedFigure> all{{"fig01", "gears", "Mesh of the pair",
+                                                 same_words(
+                                                     "Finite element mesh of the pair and of the teeth in mesh. Flanks are exact involutes in the contact; the mesh carries their bending.")},
+                                                {"profile-chart", "gears", "Profile charts",
+                                                 same_words(
+                                                     "Profile charts of the driving flanks as an inspection sheet shows them: material against roll angle, the tip to the right.")},
+                                                {"fig03", "rest", "Contact zone",
+                                                 same_words(
+                                                     "Contact zone of the reference pair at the pitch point: strips, gap and pressure, beside Hertz's.")},
+                                                {"fig12", "rest", "Static transmission error",
+                                                 transmission_error_caption},
+                                                {"fig13", "rest", "Mesh stiffness", stiffness_caption},
+                                                {"load-sharing", "rest", "Load sharing",
+                                                 load_sharing_caption},
+                                                {"sidebands", "rest", "Sidebands",
+                                                 same_words(
+                                                     "Teeth that differ: transmission error over the period after which the same teeth meet, and the shafts' orders and sidebands at rest and in motion.")},
+                                                {"crack", "rest", "The cracked tooth",
+                                                 same_words(
+                                                     "The mark of the cracked tooth in the static transmission error, its orders, and the root stress of the teeth about it.")},
+                                                {"fig05", "motion", "Vibration over speed", response_caption},
+                                                {"fig07", "motion", "Vibration over speed", response_caption},
+                                                {"fig05-branches", "motion", "Branches of periodic motions",
+                                                 same_words(
+                                                     "The same with all orbits of the branch: stable ones as a thin line, also where no sweep was on them, unstable ones dashed, and the folds at which stable branches end. A sweep jumps at a fold; where it jumps without one it has left the basin of a branch that goes on.")},
+                                                {"multipliers", "motion", "Floquet multipliers",
+                                                 same_words(
+                                                     "Floquet multipliers along the branch in the complex plane: a small disturbance of the motion is multiplied by them in each mesh period. Inside the unit circle it decays. A branch folds at 1; at -1 its period doubles.")},
+                                                {"fig14-elastic", "motion", "RMS and mean over speed",
+                                                 same_words(
+                                                     "RMS and mean of the dynamic transmission error against speed.")},
+                                                {"waterfall", "motion", "Spectra over speed",
+                                                 waterfall_caption},
+                                                {"order-cuts", "motion", "Order cuts",
+                                                 same_words(
+                                                     "Order cuts: amplitudes of the first orders of the mesh frequency in the dynamic transmission error against speed, rising and falling. Where the two differ there are two motions, and the order that is heard depends on where the speed came from.")},
+                                                {"tooth-loads", "motion", "Tooth loads in motion",
+                                                 tooth_loads_caption},
+                                                {"root-stress", "motion", "Root stress and dynamic factors",
+                                                 same_words(
+                                                     "Largest tension along the roots beside the loaded flanks: while a tooth passes through the mesh at rest (a), and over speed (b). Dynamic factors (c) are the largest mesh force, tooth load and root stress at a speed, each sustained for 1/64 of a mesh period, over T / r_b or over the largest at rest; K_v is what ISO 6336-1, method B, says of gears without deviations.")},
+                                                {"root-stress-branches", "motion",
+                                                 "Root stress along the branch",
+                                                 same_words(
+                                                     "The same with the orbits of the branch: thin lines where they are stable, dots where they are not and no sweep finds them.")},
+                                                {"flank-pressure", "motion", "Flank pressure over speed",
+                                                 same_words(
+                                                     "Largest pressure at each place of the flanks, by Hertz's law of the load that a pair holds there inside its flanks for 1/64 of a mesh period, against roll angle and speed. Where a tip edge runs on a flank the pressure is singular: the map is grey, and the load that the edge carries stands beside it. White: no load is sustained.")},
+                                                {"efficiency", "motion", "Losses by friction",
+                                                 losses_caption},
+                                                {"bearing-forces", "motion", "Forces on the bearings",
+                                                 bearings_caption},
+                                                {"error-budget", "errors", "Error budget", budget_caption}};
   return all;
 }
 

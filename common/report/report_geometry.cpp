@@ -7,11 +7,11 @@
 #include "gear/pair.h"
 #include "gear/path_points.h"
 #include "report/figures.h"
-#include "signal/static_result.h"
+#include "results/static.h"
 
 namespace whine {
 
-std::vector<GeometryNumber> pair_geometry(const StaticArtifact& s) {
+std::vector<GeometryNumber> pair_geometry(const StaticResult& s) {
   const GearPair pair(s);
   std::vector<GeometryNumber> out;
   const auto add = [&](const std::string& quantity, const std::string& unit, const std::string& value) {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "signal/static_result.h"
+#include "results/static.h"
 
 namespace whine {
 
@@ -12,6 +12,6 @@ struct GeometryNumber {
 };
 
 // Contact ratio, mesh and diameters; of a gear "..., <name> (driver)".
-std::vector<GeometryNumber> pair_geometry(const StaticArtifact& statics);
+std::vector<GeometryNumber> pair_geometry(const StaticResult& statics);
 
 }  // namespace whine

@@ -26,112 +26,71 @@ struct PairGuideRow {
 // Percentages are those of tests/README.md, "Discretisation error of the statics" and "What the settings cost and buy".
 constexpr PairGuideRow kRows[] = {
     {Needs::nothing, "", "Contact ratio, diameters, angles",
-     "Geometry of the gears as drawn: exact involutes at the given centre distance. SAP is where the active "
-     "profile starts; between the diameters at B and D one pair alone is in contact.",
+     "Geometry of the gears as drawn: exact involutes at the given centre distance. SAP is where the active profile starts; between the diameters at B and D one pair alone is in contact.",
      "All digits shown. Compare them with your drawing first: a wrong one shows here.",
      "If one is off, correct the scene: addendum and dedendum, or tip_diameter_mm and root_diameter_mm."},
     {Needs::rest, "fig12 error-budget", "Static transmission error (mean, peak to peak, harmonics)",
-     "How far the driver runs ahead under load, along the line of action. The mean is no noise. The "
-     "variation is what excites the whine; harmonic 1 sounds at the mesh frequency, harmonic 2 at twice it.",
-     "0.1 % against other finite element codes for the same drawing. Real flanks deviate by micrometres, "
-     "and those add to it: trust comparisons of designs more than the level of one.",
-     "Tip relief (harris-map says how much at which torque), other torques, errors of manufacture "
-     "([gear.name.error])."},
+     "How far the driver runs ahead under load, along the line of action. The mean is no noise. The variation is what excites the whine; harmonic 1 sounds at the mesh frequency, harmonic 2 at twice it.",
+     "0.1 % against other finite element codes for the same drawing. Real flanks deviate by micrometres, and those add to it: trust comparisons of designs more than the level of one.",
+     "Tip relief (harris-map says how much at which torque), other torques, errors of manufacture ([gear.name.error])."},
     {Needs::rest, "fig13", "Mesh stiffness",
-     "Load over what it adds to the transmission error. It falls where fewer pairs carry. Per face width it "
-     "compares with c-gamma of ISO 6336-1.",
-     "0.1 % for the drawing; ISO's formula is a fit for solid discs: it stands above where bodies twist "
-     "about "
-     "a bore, and may stand below under less than 100 N/mm, where ISO lowers its value. Compare it with the "
-     "column of bodies that do not twist; the table of compliances says how much is of the body.",
+     "Load over what it adds to the transmission error. It falls where fewer pairs carry. Per face width it compares with c-gamma of ISO 6336-1.",
+     "0.1 % for the drawing; ISO's formula is a fit for solid discs: it stands above where bodies twist about a bore, and may stand below under less than 100 N/mm, where ISO lowers its value. Compare it with the column of bodies that do not twist; the table of compliances says how much is of the body.",
      "If it is far below ISO's, look at bore_radius_mm: inside it the gear is rigid."},
     {Needs::rest, "load-sharing", "Load sharing, static tooth load",
-     "The part of the load that each pair carries. Load beyond the grey lines is carried by tip edges of "
-     "bent "
-     "teeth.",
+     "The part of the load that each pair carries. Load beyond the grey lines is carried by tip edges of bent teeth.",
      "0.1 to 0.2 %, tip edges included.", "Load at a tip edge: relieve the tips."},
     {Needs::rest, "fig03", "Static contact pressure",
      "Largest pressure on a strip of the contact, inside a flank.",
-     "2 % of Hertz's with 8 strips, 0.6 % with 15. At the kink of a linear relief and at tip edges it grows "
-     "with the number of strips: there it is a warning, not a number.",
+     "2 % of Hertz's with 8 strips, 0.6 % with 15. At the kink of a linear relief and at tip edges it grows with the number of strips: there it is a warning, not a number.",
      "Set strips = 15 and then 32 and see whether it stays; make reliefs parabolic."},
     {Needs::ring_down, "", "Natural frequency and damping ratio by ring-down",
      "The pair is at a fixed mesh phase, let go from a part of the torque, and the decay is fitted.",
-     "0.2 % for the inertia and the stiffness of the scene. 1 % of inertia is 0.5 % of frequency. Shafts and "
-     "bearings are rigid unless the scene says otherwise, so that lower modes of a real drive are missing.",
-     "Check total_inertia_kgm2: it is of all that turns with the gear. The damping ratio is an input in "
-     "disguise: see below."},
+     "0.2 % for the inertia and the stiffness of the scene. 1 % of inertia is 0.5 % of frequency. Shafts and bearings are rigid unless the scene says otherwise, so that lower modes of a real drive are missing.",
+     "Check total_inertia_kgm2: it is of all that turns with the gear. The damping ratio is an input in disguise: see below."},
     {Needs::motion, "", "Damping",
      "No drawing says it. 1 to 10 % of critical damping are usual for an oiled pair.",
-     "As good as your guess. At a resonance the amplitude goes with 1 / damping: 5 % instead of 7 % make it "
-     "1.4 times as high, and whether teeth lose contact may depend on it.",
-     "Run the report with a low and a high ratio (make calibrate DAMPING=0.03, then 0.07), and believe what "
-     "both say."},
+     "As good as your guess. At a resonance the amplitude goes with 1 / damping: 5 % instead of 7 % make it 1.4 times as high, and whether teeth lose contact may depend on it.",
+     "Run the report with a low and a high ratio (make calibrate DAMPING=0.03, then 0.07), and believe what both say."},
     {Needs::motion, "fig07 fig05 fig05-branches fig14-elastic",
      "RMS of the dynamic transmission error over speed",
-     "The vibration at each mesh frequency, after it has settled, with speed rising and falling. Peaks stand "
-     "near f_n (the natural frequency), f_n / 2 and f_n / 3. Where the two directions differ there are two "
-     "motions at one speed, and jumps between them.",
-     "0.2 % of numerical error for the scene's damping; a jump's frequency to 4 Hz. Away from resonances it "
-     "is "
-     "as good as the static transmission error, at resonances as good as the damping.",
-     "Keep operating speeds away from the peaks, or lower the harmonic of the static transmission error "
-     "that meets f_n there."},
+     "The vibration at each mesh frequency, after it has settled, with speed rising and falling. Peaks stand near f_n (the natural frequency), f_n / 2 and f_n / 3. Where the two directions differ there are two motions at one speed, and jumps between them.",
+     "0.2 % of numerical error for the scene's damping; a jump's frequency to 4 Hz. Away from resonances it is as good as the static transmission error, at resonances as good as the damping.",
+     "Keep operating speeds away from the peaks, or lower the harmonic of the static transmission error that meets f_n there."},
     {Needs::motion, "", "Contact lost, jumps",
-     "Speeds at which the teeth part in each mesh period, and speeds at which the motion changes to another "
-     "one.",
-     "Yes or no is sharp only away from the limit: contact is lost where the first harmonic of the stiffness "
-     "over its mean is more than about 1.7 times the damping ratio.",
+     "Speeds at which the teeth part in each mesh period, and speeds at which the motion changes to another one.",
+     "Yes or no is sharp only away from the limit: contact is lost where the first harmonic of the stiffness over its mean is more than about 1.7 times the damping ratio.",
      "make jump-map shows both against torque and damping."},
     {Needs::motion, "fig05-branches multipliers", "Branches, stable or not",
-     "All motions of one mesh period that hang together over speed. Between two folds there are two stable "
-     "ones at one speed and an unstable one, which parts their basins.",
-     "A fold to 4 Hz with the steps of the scene, as a jump. Motions that the branch is not joined to are "
-     "not seen.",
+     "All motions of one mesh period that hang together over speed. Between two folds there are two stable ones at one speed and an unstable one, which parts their basins.",
+     "A fold to 4 Hz with the steps of the scene, as a jump. Motions that the branch is not joined to are not seen.",
      ""},
     {Needs::motion, "tooth-loads", "Largest tooth load, over T / r_b",
      "T / r_b is the load of one pair alone at rest; the ratio is the dynamic factor of this model.",
-     "0.7 % of numerical error, else as the RMS. A number with a * is of a motion larger than the backlash: "
-     "not to be trusted at all.",
+     "0.7 % of numerical error, else as the RMS. A number with a * is of a motion larger than the backlash: not to be trusted at all.",
      "For strength take it with speed rising and falling, and at the damping you are sure of."},
     {Needs::motion, "waterfall order-cuts sidebands", "Spectra and orders over speed",
-     "Which frequencies sound at which speed. Orders of the mesh frequency run along rays; teeth that differ "
-     "add orders of the shafts around them.",
+     "Which frequencies sound at which speed. Orders of the mesh frequency run along rays; teeth that differ add orders of the shafts around them.",
      "Amplitudes as the RMS; below 1/1000 of the largest they are numerical.",
      "make histories AT=1250 shows the motion at one speed."},
     {Needs::motion, "root-stress root-stress-branches", "Root stress, loss factor",
-     "Tension in the roots, at rest and in motion; sigma_F0 is that of ISO 6336-3, method B, with its own "
-     "assumptions (one pair carries the load, a beam with a notch).",
-     "At rest as the line root stress of the error budget; in motion as the tooth load, from which it "
-     "follows "
-     "as at rest: the inertia of the body, kept modes included, adds none.",
+     "Tension in the roots, at rest and in motion; sigma_F0 is that of ISO 6336-3, method B, with its own assumptions (one pair carries the load, a beam with a notch).",
+     "At rest as the line root stress of the error budget; in motion as the tooth load, from which it follows as at rest: the inertia of the body, kept modes included, adds none.",
      "Raise element_order or lower element_mm if its line is above 1 %."},
     {Needs::motion, "flank-pressure", "Flank pressure",
-     "Hertz's pressure of the load that a pair holds inside its flanks for 1/64 of a mesh period. Over a tip "
-     "edge the pressure is singular: the load is stated there, apart, and the map is grey; it is white where "
-     "no load is held.",
-     "Half of the relative error of the tooth load; strips at rest are within 2.1 % of it. Edges are sharp "
-     "here "
-     "and round in metal.",
+     "Hertz's pressure of the load that a pair sustains inside its flanks for 1/64 of a mesh period. Over a tip edge the pressure is singular: the load is stated there, apart, and the map is grey; it is white where no load is sustained.",
+     "Half of the relative error of the tooth load; strips at rest are within 2.1 % of it. Edges are sharp here and round in metal.",
      "A load over an edge asks for tip relief: make harris-map."},
     {Needs::motion, "efficiency", "Efficiency, power lost by friction",
-     "What friction between the flanks takes, at rest and in motion; the loss factor H_V is apart from the "
-     "coefficient of friction.",
-     "Proportional to the coefficient of friction, which formulas give to 20 to 35 %; H_V is that of "
-     "the loads: where they jump with the speed, so does it. Oil, bearings and windage are left out.",
+     "What friction between the flanks takes, at rest and in motion; the loss factor H_V is apart from the coefficient of friction.",
+     "Proportional to the coefficient of friction, which formulas give to 20 to 35 %; H_V is that of the loads: where they jump with the speed, so does it. Oil, bearings and windage are left out.",
      "Compare designs by H_V; it depends on no coefficient."},
     {Needs::motion, "bearing-forces", "Forces on the bearings",
-     "What each gear presses its bearing with, spring and damper together; the oscillating part is what a "
-     "housing "
-     "hears.",
-     "As good as stiffness and damping of the bearings, which the scene gives; the bearings are linear and "
-     "alike in "
-     "all directions.",
+     "What each gear presses its bearing with, spring and damper together; the oscillating part is what a housing hears.",
+     "As good as stiffness and damping of the bearings, which the scene gives; the bearings are linear and alike in all directions.",
      ""},
     {Needs::budget, "error-budget", "Error budget",
-     "What each refinement of the computation alone changes. Add the lines: the sum bounds the numerical "
-     "error "
-     "of the statics.",
+     "What each refinement of the computation alone changes. Add the lines: the sum bounds the numerical error of the statics.",
      "It tells nothing of what is not modelled: shafts, what friction does to the bodies, lead errors, heat.",
      "A line above 1 %: refine that key of [discretisation]."},
     {Needs::nothing, "fig01", "Mesh of the pair",
@@ -169,9 +128,7 @@ std::string guide_to_numbers(const ReportContent& c) {
     return true;
   };
   std::string out =
-      "<p>DTE is the dynamic transmission error: how far the driver runs ahead of where rigid, exact gears "
-      "would have it, along the line of action, in motion; STE is the same at rest. Frequencies are mesh "
-      "frequencies in Hz unless said otherwise: teeth of the driver times its turns per second.</p>\n";
+      "<p>DTE is the dynamic transmission error: how far the driver runs ahead of where rigid, exact gears would have it, along the line of action, in motion; STE is the same at rest. Frequencies are mesh frequencies in Hz unless said otherwise: teeth of the driver times its turns per second.</p>\n";
   if (c.budget)
     out += text("<p>For this pair the error budget at ", torque_words(c.budget->torque), " sums up to ",
                 shown(c.budget->refinement.mean_stiffness_change.cwiseAbs().sum() * kPercent, 2),
@@ -183,10 +140,10 @@ std::string guide_to_numbers(const ReportContent& c) {
   std::vector<GuideRow> rows;
   for (const PairGuideRow& row : kRows)
     if (there(row)) rows.push_back({row.figures, row.what, row.reading, row.trust, row.next});
-  return out + guide_table(
-                   "Numerical errors are those that the defaults leave on the pair of P2000; your own pair's "
-                   "stand in the error budget.",
-                   rows, c.pictures);
+  return out +
+         guide_table(
+             "Numerical errors are those that the defaults leave on the pair of P2000; your own pair's stand in the error budget.",
+             rows, c.pictures);
 }
 
 }  // namespace whine

@@ -35,8 +35,8 @@ ReportPicture read_picture(const std::string& path, const std::string& scene) {
   return picture;
 }
 
-ResponseArtifact with_teeth(const SweepArtifact& sweep) {
-  ResponseArtifact out = response(sweep);
+ResponseResult with_teeth(const SweepResult& sweep) {
+  ResponseResult out = response(sweep);
   out.loss_factor = loss_factors(sweep);
   add_flank_pressure(sweep, out);
   return out;
@@ -44,11 +44,11 @@ ResponseArtifact with_teeth(const SweepArtifact& sweep) {
 
 // Of a sweep only what it says: the motions of teeth that differ are large.
 ReportSweep read_sweep_of(const ReportContent& content, const std::string& path) {
-  const SweepArtifact sweep = read_sweep(path);
-  if (sweep.model != SweepArtifact().model)
+  const SweepResult sweep = read_sweep(path);
+  if (sweep.model != SweepResult().model)
     fail(Failure::input, path, ": is of the lumped model ", sweep.model,
          "; a report is of the elastic pair: give the sweep.h5 in T<torque>/up or T<torque>/down");
-  for (const StaticArtifact& statics : content.statics)
+  for (const StaticResult& statics : content.statics)
     if (statics.torque == sweep.torque)
       return {with_teeth(sweep), remarks(sweep, statics), backlash_left(sweep)};
   fail(Failure::input, path, ": is at ", sweep.torque, " N m, at which no static.h5 is given; give it, too");

@@ -57,9 +57,9 @@ std::string remark_list(const std::string& items, bool warned) {
 std::string guide_table(const std::string& caption, const std::vector<GuideRow>& rows,
                         const std::vector<ReportPicture>& pictures) {
   const auto cell = [](const std::string& words) { return "<td>" + words + "</td>"; };
-  std::string out = "<div class=\"wide\"><table class=\"guide\">\n<caption>" + caption +
-                    "</caption>\n<thead><tr><th>what</th><th>how to read it</th><th>how far to trust it</th>"
-                    "<th>what to do next</th></tr></thead>\n<tbody>\n";
+  std::string out =
+      "<div class=\"wide\"><table class=\"guide\">\n<caption>" + caption +
+      "</caption>\n<thead><tr><th>what</th><th>how to read it</th><th>how far to trust it</th><th>what to do next</th></tr></thead>\n<tbody>\n";
   for (const GuideRow& row : rows) {
     std::string links;
     for (const ReportPicture& picture : pictures)
@@ -85,8 +85,7 @@ std::string provenance_table(const std::vector<ReportSource>& sources) {
       if (std::find(history.begin(), history.end(), stage) == history.end()) history.push_back(stage);
   }
   std::string out = html::table(
-      "Artifacts, the SHA-256 of each file, the command that made it, and its inputs with the first "
-      "digits of their SHA-256. `gear-inspect` says of each whether it is still what these inputs give.",
+      "Artifacts, the SHA-256 of each file, the command that made it, and its inputs with the first digits of their SHA-256. `gear-inspect` says of each whether it is still what these inputs give.",
       {"artifact", "SHA-256", "made by", "from"}, rows, "small code");
   html::Rows earlier;
   for (const std::string& stage : history) earlier.push_back({stage});

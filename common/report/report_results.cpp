@@ -29,7 +29,7 @@ struct Adder {
   }
 };
 
-void add_statics(const StaticArtifact& s, const Adder& add) {
+void add_statics(const StaticResult& s, const Adder& add) {
   add("mean mesh stiffness", "N/µm", fixed(s.mean_stiffness * 1e-6, 1));
   add("the same per face width", "N/(mm µm)", fixed(s.mean_stiffness * 1e-6 / (s.face_width() * kMilli), 2));
   add("static transmission error, mean", "µm", significant(s.transmission_error.mean() * kMicro, 4));
@@ -56,7 +56,7 @@ void add_statics(const StaticArtifact& s, const Adder& add) {
   }
 }
 
-void add_ring_down(const ImpactArtifact& a, const Adder& add) {
+void add_ring_down(const ImpactResult& a, const Adder& add) {
   for (size_t i = 0; i < a.contact_state.size(); ++i) {
     const Index at = static_cast<Index>(i);
     const std::string state =
@@ -68,8 +68,8 @@ void add_ring_down(const ImpactArtifact& a, const Adder& add) {
   }
 }
 
-void add_motion(const StaticArtifact& s, const ReportSweep& sweep, const Adder& add) {
-  const ResponseArtifact& r = sweep.response;
+void add_motion(const StaticResult& s, const ReportSweep& sweep, const Adder& add) {
+  const ResponseResult& r = sweep.response;
   const std::string way = r.direction == Direction::up ? ", speed rising" : ", speed falling";
   Index at = 0;
   const double rms = r.dte_rms.maxCoeff(&at);
@@ -83,9 +83,9 @@ void add_motion(const StaticArtifact& s, const ReportSweep& sweep, const Adder& 
   add("largest tooth load over T / r_b" + way, "1", fixed(load / static_force(s), 2), beyond);
   add(kNominalPressure + way, "MPa", fixed(hertz_pressure(s, load) * 1e-6, 0), beyond);
   for (int g = 0; g < s.root_stress_max.size(); ++g)
-    if (r.root_stress_held[g].size() > 0) {
-      const std::string of = "root stress of " + s.mesh.gear[g] + " (held for 1/64 of a mesh period)";
-      const double stress = r.root_stress_held[g].maxCoeff(&at);
+    if (r.root_stress_sustained[g].size() > 0) {
+      const std::string of = "root stress of " + s.mesh.gear[g] + " (sustained for 1/64 of a mesh period)";
+      const double stress = r.root_stress_sustained[g].maxCoeff(&at);
       beyond = beyond_backlash(sweep, at) ? kBeyond : "";
       add("largest " + of + way, "MPa", fixed(stress * 1e-6, 1), beyond);
       add("largest " + of + " over that at rest" + way, "1", fixed(stress / s.root_stress_max[g], 2), beyond);
@@ -110,10 +110,10 @@ void add_motion(const StaticArtifact& s, const ReportSweep& sweep, const Adder& 
 
 std::vector<ReportNumber> report_numbers(const ReportContent& c) {
   Numbers out;
-  for (const StaticArtifact& s : c.statics) {
+  for (const StaticResult& s : c.statics) {
     const Adder add{s.torque, out};
     add_statics(s, add);
-    if (const ImpactArtifact* a = impact_of(c, s.torque)) add_ring_down(*a, add);
+    if (const ImpactResult* a = impact_of(c, s.torque)) add_ring_down(*a, add);
     const ReportSweep *up = sweep_of(c, s.torque, Direction::up),
                       *down = sweep_of(c, s.torque, Direction::down);
     for (const ReportSweep* sweep : {up, down})
@@ -142,8 +142,8 @@ std::string results_table(const ReportContent& c) {
   }
   return html::table("Results by torque on the driver; results.tsv holds the same numbers.", head, rows) +
          (remarked
-              ? html::paragraph("* At this speed the motion is larger than the backlash: back flanks would "
-                                "touch, which is not modelled, so the number is not to be trusted.")
+              ? html::paragraph(
+                    "* At this speed the motion is larger than the backlash: back flanks would touch, which is not modelled, so the number is not to be trusted.")
               : "");
 }
 

@@ -27,7 +27,7 @@ using Eigen::Index;
 // "" for gears on rigid axes.
 std::string bearing_frequencies_table(const ReportContent& c) {
   html::Rows rows;
-  for (const ImpactArtifact& a : c.impacts)
+  for (const ImpactResult& a : c.impacts)
     for (Index i = 0; i < a.state_phase.size() && a.frozen_frequency.size() > 0; ++i) {
       Index phase = 0;
       (a.mesh_phase.array() - a.state_phase[i]).abs().minCoeff(&phase);
@@ -37,16 +37,14 @@ std::string bearing_frequencies_table(const ReportContent& c) {
     }
   if (rows.empty()) return "";
   return html::table(
-      "Lowest natural frequencies with the contact frozen, undamped: the hubs on their bearings, along the "
-      "line of "
-      "action and across, and the mesh, which the table above shows.",
+      "Lowest natural frequencies with the contact frozen, undamped: the hubs on their bearings, along the line of action and across, and the mesh, which the table above shows.",
       {"torque (N m)", "loaded tooth pairs", "frequencies (Hz)"}, rows);
 }
 
 }  // namespace
 
 std::string gears_table(const ReportContent& c) {
-  const StaticArtifact& s = c.statics.front();
+  const StaticResult& s = c.statics.front();
   constexpr double kNoBacklash = 1e-6;  // m: what a centre distance rounded to a micrometre leaves
   const GearPair pair(s);
   const auto degrees = [](double rad) { return fixed(rad * 180 / std::numbers::pi, 3); };
@@ -88,7 +86,7 @@ std::string gears_table(const ReportContent& c) {
                   shown(least_body_inertia(pair.gear(1), s.gear[1].material), 3)});
   if (!c.impacts.empty()) {
     constexpr double kFillets = 1.03;  // what fillets add to the outline at most
-    const ImpactArtifact& a = c.impacts.front();
+    const ImpactResult& a = c.impacts.front();
     const auto total = [&](int g) {
       const bool drawn = a.inertia[g] < kFillets * least_body_inertia(pair.gear(g), s.gear[g].material);
       return shown(a.inertia[g], 4) + (drawn ? ", as drawn" : "");
@@ -131,7 +129,7 @@ std::string stiffness_tables(const ReportContent& c) {
 
 std::string natural_frequencies_table(const ReportContent& c) {
   html::Rows rows;
-  for (const ImpactArtifact& a : c.impacts)
+  for (const ImpactResult& a : c.impacts)
     for (Index i = 0; i < a.natural_frequency.size(); ++i)
       rows.push_back({shown(a.torque, 6),
                       i < a.state_phase.size() ? name_of(a.contact_state[static_cast<size_t>(i)])
@@ -139,24 +137,19 @@ std::string natural_frequencies_table(const ReportContent& c) {
                       fixed(a.natural_frequency[i], 1), fixed(a.damping_ratio[i] * kPercent, 3),
                       fixed(a.undamped_frequency[i], 1)});
   return html::table(
-             "Natural frequency and damping ratio of the mesh by ring-down: the gears are at a fixed mesh "
-             "phase, a part of the torque is let go, and the decay is fitted.",
+             "Natural frequency and damping ratio of the mesh by ring-down: the gears are at a fixed mesh phase, a part of the torque is let go, and the decay is fitted.",
              {"torque (N m)", "loaded tooth pairs", "by ring-down (Hz)", "damping ratio (%)",
               "contact frozen, undamped (Hz)"},
              rows) +
          html::paragraph(
-             "Three kinds of natural frequency stand on this page. By ring-down: of the decay, damped, the "
-             "contact free to change. Contact frozen, undamped: the eigenvalue at the same phases, with the "
-             "contact that the load leaves kept as it is. f_n in the figures of motion: the mean of that "
-             "eigenvalue over phases of the mesh period that need not be those of the ring-downs, under the "
-             "static load; resonances stand near it and its fractions.") +
+             "Three kinds of natural frequency stand on this page. By ring-down: of the decay, damped, the contact free to change. Contact frozen, undamped: the eigenvalue at the same phases, with the contact that the load leaves kept as it is. f_n in the figures of motion: the mean of that eigenvalue over phases of the mesh period that need not be those of the ring-downs, under the static load; resonances stand near it and its fractions.") +
          bearing_frequencies_table(c);
 }
 
 namespace {
 
 // Largest root stress with elements of several sizes; "" where none is known.
-std::string root_refinement_table(const ErrorBudgetArtifact& b) {
+std::string root_refinement_table(const ErrorBudgetResult& b) {
   if (b.root.element_size.size() == 0) return "";
   const RootConvergence found = convergence(b.root);
   html::Rows rows;
@@ -171,15 +164,13 @@ std::string root_refinement_table(const ErrorBudgetArtifact& b) {
     }
   return html::table(
       "Largest root stress at rest at " + torque_words(b.torque) +
-          ", with smaller elements on the roots, all else as it is. Order: p, if the error goes with the "
-          "power p of the "
-          "element size; none of changes below 0.02 %, which go with where the elements lie.",
+          ", with smaller elements on the roots, all else as it is. Order: p, if the error goes with the power p of the element size; none of changes below 0.02 %, which go with where the elements lie.",
       {"gear", "element on the driver's root (mm)", "root stress (MPa)", "change (%)", "order"}, rows);
 }
 
 }  // namespace
 
-std::string budget_table(const ErrorBudgetArtifact& b) {
+std::string budget_table(const ErrorBudgetResult& b) {
   html::Rows rows;
   const auto add = [&](const StaticChanges& changes, const std::string& what) {
     std::string rest = changes.entry;
@@ -232,7 +223,7 @@ std::string parameters_table(const ReportContent& c) {
 namespace {
 
 // A sweep that takes wide steps may leave a branch before its end, with the largest values that stand there.
-std::vector<Remark> wide_steps(const ResponseArtifact& r) {
+std::vector<Remark> wide_steps(const ResponseResult& r) {
   constexpr double kWide =
       0.02;  // of the speed: pairs that were tried lost a quarter of their largest load at 3 to 5 %
   const Eigen::VectorXd& f = r.mesh_frequency;
@@ -241,13 +232,12 @@ std::vector<Remark> wide_steps(const ResponseArtifact& r) {
     while (at + 1 < f.size() && (f[at] - jump) * (f[0] - jump) > 0) ++at;
     const double step = f.size() > 1 ? std::abs(f[at] - f[at - 1]) : 0;
     if (!(step > kWide * jump)) continue;
-    return {remark(true, "the motion jumps at ", fixed(jump, 0), " Hz, where speeds stand ", shown(step, 3),
-                   " Hz apart, ", fixed(step / jump * kPercent, 1), " % of the speed: with steps above ",
-                   shown(kWide * kPercent, 2),
-                   " % a sweep may leave a branch before its end, and its largest values with it. Give "
-                   "mesh_frequency_Hz a step "
-                   "of ",
-                   fixed(0.01 * jump, 0), " Hz, or follow the branch with BRANCHES=yes")};
+    return {remark(
+        true, "the motion jumps at ", fixed(jump, 0), " Hz, where speeds stand ", shown(step, 3),
+        " Hz apart, ", fixed(step / jump * kPercent, 1), " % of the speed: with steps above ",
+        shown(kWide * kPercent, 2),
+        " % a sweep may leave a branch before its end, and its largest values with it. Give mesh_frequency_Hz a step of ",
+        fixed(0.01 * jump, 0), " Hz, or follow the branch with BRANCHES=yes")};
   }
   return {};
 }
@@ -388,8 +378,8 @@ class RemarksByTorque {
 
 std::string remarks_list(const ReportContent& c) {
   RemarksByTorque at_rest, ring_downs, in_motion;
-  for (const StaticArtifact& s : c.statics) at_rest.add("at rest", s.torque, remarks(s));
-  for (const ImpactArtifact& a : c.impacts) {
+  for (const StaticResult& s : c.statics) at_rest.add("at rest", s.torque, remarks(s));
+  for (const ImpactResult& a : c.impacts) {
     std::vector<Remark> found;
     for (Index i = 0; i < a.state_phase.size(); ++i)
       if (const double ratio = a.damping_ratio[i]; ratio < 0.01 || ratio > 0.12)
@@ -404,14 +394,13 @@ std::string remarks_list(const ReportContent& c) {
     std::vector<Remark> found = s.remarks;
     const std::vector<Remark> wide = wide_steps(s.response);
     found.insert(found.begin(), wide.begin(), wide.end());
-    for (const StaticArtifact& at : c.statics) {
+    for (const StaticResult& at : c.statics) {
       if (at.torque != s.response.torque) continue;
       if (const double pressure = hertz_pressure(at, s.response.tooth_load_max.maxCoeff());
           pressure > kHardenedSteelPressure)
-        found.push_back(remark(true,
-                               "the contact pressure of the largest tooth load (Hertz, at the pitch "
-                               "point) of ",
-                               fixed(pressure * 1e-9, 2), kBeyondSteel));
+        found.push_back(
+            remark(true, "the contact pressure of the largest tooth load (Hertz, at the pitch point) of ",
+                   fixed(pressure * 1e-9, 2), kBeyondSteel));
     }
     in_motion.add(way_words(s), s.response.torque, found);
   }

@@ -18,7 +18,7 @@ namespace whine {
 namespace {
 
 // In order of frequency. What the RMS and the mean are after a jump is read off the branch on which the sweep goes on.
-FigureBlock jump_block(const std::string& name, const ResponseArtifact& r) {
+FigureBlock jump_block(const std::string& name, const ResponseResult& r) {
   FigureBlock block{name,
                     {"jump_frequency [Hz]", "dte_rms before [µm]", "dte_rms after [µm]", "jump_width [Hz]",
                      "dte_mean before [µm]", "dte_mean after [µm]", "last speed before [Hz]"},
@@ -44,7 +44,7 @@ FigureBlock jump_block(const std::string& name, const ResponseArtifact& r) {
 }
 
 // Stable or unstable orbits in the order of the arc, in stretches; those of unstable ones go from stable orbit to stable orbit.
-FigureBlock orbit_block(const std::string& name, const BranchArtifact& b, bool stable) {
+FigureBlock orbit_block(const std::string& name, const BranchResult& b, bool stable) {
   FigureBlock block{name,
                     {"mesh_frequency [Hz]", "dte_rms [µm]", "dte_mean [µm]"},
                     {},
@@ -68,7 +68,7 @@ FigureBlock orbit_block(const std::string& name, const BranchArtifact& b, bool s
   return block;
 }
 
-FigureBlock fold_block(const std::string& name, const BranchArtifact& b) {
+FigureBlock fold_block(const std::string& name, const BranchResult& b) {
   FigureBlock block{name,
                     {"fold_frequency [Hz]", "dte_rms [µm]", "multiplier before [1]", "multiplier after [1]"},
                     {},
@@ -90,24 +90,24 @@ std::string listed_jumps(const FigureBlock& jumps) {
                                          : list;
 }
 
-std::string way_word(const ResponseArtifact& r) {
+std::string way_word(const ResponseResult& r) {
   return r.direction == Direction::up ? "rising" : "falling";
 }
 
 // What is left of the backlash of each sweep of a figure.
 struct Backlash {
-  const std::vector<ResponseArtifact>& sweeps;
+  const std::vector<ResponseResult>& sweeps;
   const std::vector<Eigen::VectorXd>& left;
 
   // (speed) m; nullptr: not known
-  const Eigen::VectorXd* of(const ResponseArtifact& r) const {
+  const Eigen::VectorXd* of(const ResponseResult& r) const {
     const auto i = static_cast<size_t>(&r - sweeps.data());
     return i < left.size() && left[i].size() == r.mesh_frequency.size() ? &left[i] : nullptr;
   }
 };
 
 // Of a panel: "contact lost at 150 N m: rising 2820 to 2980, falling 2600 to 2980 Hz".
-std::string loss_words(const ChoicePanel<ResponseArtifact>& panel) {
+std::string loss_words(const ChoicePanel<ResponseResult>& panel) {
   const auto& curves = panel.curves;
   const std::string first = loss_both_ways(*curves[0].up, *curves[0].down);
   std::string each;
@@ -124,12 +124,12 @@ std::string loss_words(const ChoicePanel<ResponseArtifact>& panel) {
 }
 
 // "beyond the backlash at 150 N m: rising 2880 to 2900 Hz", "" where no motion goes there; where it is not known, that.
-std::string beyond_words(const ChoicePanel<ResponseArtifact>& panel, const Backlash& backlash) {
+std::string beyond_words(const ChoicePanel<ResponseResult>& panel, const Backlash& backlash) {
   std::string each;
   bool unknown = false;
   for (const auto& c : panel.curves) {
     std::string ways;
-    for (const ResponseArtifact* r : {c.up, c.down}) {
+    for (const ResponseResult* r : {c.up, c.down}) {
       const Eigen::VectorXd* left = backlash.of(*r);
       unknown = unknown || (!left && elastic(*r) && r->separation_fraction.maxCoeff() > 0);
       if (!left) continue;
@@ -150,7 +150,7 @@ struct Extent {
   double rms = 0, mean_high = -std::numeric_limits<double>::infinity(), mean_low = -mean_high;  // m
   bool lost = false, beyond = false;  // contact; the backlash
 
-  void add(const ResponseArtifact& r) {
+  void add(const ResponseResult& r) {
     rms = std::max(rms, r.dte_rms.maxCoeff());
     mean_high = std::max(mean_high, r.dte_mean.maxCoeff());
     mean_low = std::min(mean_low, r.dte_mean.minCoeff());
@@ -159,9 +159,9 @@ struct Extent {
 };
 
 // "rising 1326.41 Hz: fold at 1326.46; ..." of both sweeps beside their branch; "" without a jump.
-std::string cause_words(const ChoicePanel<ResponseArtifact>::Curve& curve, const BranchArtifact& branch) {
+std::string cause_words(const ChoicePanel<ResponseResult>::Curve& curve, const BranchResult& branch) {
   std::string words;
-  for (const ResponseArtifact* r : {curve.up, curve.down})
+  for (const ResponseResult* r : {curve.up, curve.down})
     for (Eigen::Index j = 0; j < r->jump_frequency.size(); ++j) {
       const CausedJump cause = cause_of_jump(branch, r->jump_frequency[j], r->jump_width[j]);
       words += (words.empty() ? "" : "; ") +
@@ -175,14 +175,14 @@ std::string cause_words(const ChoicePanel<ResponseArtifact>::Curve& curve, const
 // One torque or flank of a panel, number c from 1: both directions, the branch beside them, its natural frequency. "150 N m:
 // jumps rising 2645, falling 1819 Hz"
 std::string add_curve(Figure& figure, const std::string& letter, size_t c, const std::string& label,
-                      const ChoicePanel<ResponseArtifact>::Curve& curve, const Background& background,
+                      const ChoicePanel<ResponseResult>::Curve& curve, const CaptionSources& background,
                       const Backlash& backlash, Extent& extent) {
   const auto number = [&](const std::string& name, double value) {
     figure.numbers.emplace_back(text(name, "_", letter, "_", c), value);
   };
   const std::string name = letter + " " + label + " ";
   std::string found;
-  for (const ResponseArtifact* r : {curve.up, curve.down}) {
+  for (const ResponseResult* r : {curve.up, curve.down}) {
     figure.blocks.push_back(
         response_block(text(name, r->direction), *r, r == curve.up ? curve.down : curve.up, backlash.of(*r)));
     figure.blocks.push_back(jump_block(text(name, "jumps ", r->direction), *r));
@@ -192,7 +192,7 @@ std::string add_curve(Figure& figure, const std::string& letter, size_t c, const
     extent.add(*r);
     if (const Eigen::VectorXd* left = backlash.of(*r)) extent.beyond |= left->minCoeff() <= 0;
   }
-  if (const BranchArtifact* branch = branch_of(*curve.up, background)) {
+  if (const BranchResult* branch = branch_of(*curve.up, background)) {
     for (const bool stable : {true, false}) {
       const std::string kind = stable ? "stable" : "unstable";
       figure.blocks.push_back(orbit_block(name + kind, *branch, stable));
@@ -224,8 +224,8 @@ void add_caption(Figure& figure, const std::string& kind, const std::string& let
   }
 }
 
-void add_panel(Figure& figure, const std::string& letter, const ChoicePanel<ResponseArtifact>& panel,
-               const Background& background, const Backlash& backlash, bool alone) {
+void add_panel(Figure& figure, const std::string& letter, const ChoicePanel<ResponseResult>& panel,
+               const CaptionSources& background, const Backlash& backlash, bool alone) {
   const auto& curves = panel.curves;
   if (curves.size() > kMostCurves)
     fail(Failure::input, "figure: ", curves.size(), " torques of the same choices given; ", kMostCurves,
@@ -265,18 +265,18 @@ void add_panel(Figure& figure, const std::string& letter, const ChoicePanel<Resp
 }
 
 // The tables of a figure have one set of columns.
-void require_backlash_of_all(const std::vector<ResponseArtifact>& sweeps, const Backlash& backlash) {
-  const auto known = [&](const ResponseArtifact& r) { return backlash.of(r) != nullptr; };
+void require_backlash_of_all(const std::vector<ResponseResult>& sweeps, const Backlash& backlash) {
+  const auto known = [&](const ResponseResult& r) { return backlash.of(r) != nullptr; };
   if (std::none_of(sweeps.begin(), sweeps.end(), known)) return;
-  for (const ResponseArtifact& r : sweeps)
+  for (const ResponseResult& r : sweeps)
     if (!known(r))
-      fail(Failure::input, "figure: no sweep.h5 ", r.direction, " at ", torque_words(r.torque),
-           " of the speeds of its response.h5, for the speeds beyond the backlash; give those of all sweeps "
-           "or none");
+      fail(
+          Failure::input, "figure: no sweep.h5 ", r.direction, " at ", torque_words(r.torque),
+          " of the speeds of its response.h5, for the speeds beyond the backlash; give those of all sweeps or none");
 }
 
 // Whether the other sweep has the motion of a row.
-bool found_again(const ResponseArtifact& r, Eigen::Index row, const ResponseArtifact& other) {
+bool found_again(const ResponseResult& r, Eigen::Index row, const ResponseResult& other) {
   constexpr double kAlike = 0.02;  // of the RMS
   for (Eigen::Index i = 0; i < other.mesh_frequency.size(); ++i)
     if (std::abs(other.mesh_frequency[i] / r.mesh_frequency[row] - 1) < 1e-9)
@@ -286,7 +286,7 @@ bool found_again(const ResponseArtifact& r, Eigen::Index row, const ResponseArti
 
 }  // namespace
 
-std::vector<bool> broken_after(const ResponseArtifact& r, const ResponseArtifact* other) {
+std::vector<bool> broken_after(const ResponseResult& r, const ResponseResult* other) {
   const Eigen::Index n = r.mesh_frequency.size();
   std::vector<bool> jumps(n, false), broken;
   for (const Eigen::Index i : rows_before_jumps(r))
@@ -306,7 +306,7 @@ std::vector<bool> broken_after(const ResponseArtifact& r, const ResponseArtifact
   return broken;
 }
 
-FigureBlock response_block(const std::string& name, const ResponseArtifact& r, const ResponseArtifact* other,
+FigureBlock response_block(const std::string& name, const ResponseResult& r, const ResponseResult* other,
                            const Eigen::VectorXd* backlash) {
   FigureBlock block{name,
                     {"mesh_frequency [Hz]", "dte_rms [µm]", "dte_mean [µm]", "separation_fraction [1]",
@@ -327,7 +327,7 @@ FigureBlock response_block(const std::string& name, const ResponseArtifact& r, c
   return block;
 }
 
-std::string loss_ranges(const ResponseArtifact& sweep) {
+std::string loss_ranges(const ResponseResult& sweep) {
   std::map<double, bool> lost;
   for (Eigen::Index f = 0; f < sweep.mesh_frequency.size(); ++f)
     lost[sweep.mesh_frequency[f]] = sweep.separation_fraction[f] > 0;
@@ -336,16 +336,16 @@ std::string loss_ranges(const ResponseArtifact& sweep) {
   return lost.rbegin()->second ? ranges + " or more" : ranges;  // lost at the last speed, too
 }
 
-std::string loss_both_ways(const ResponseArtifact& up, const ResponseArtifact& down) {
+std::string loss_both_ways(const ResponseResult& up, const ResponseResult& down) {
   const std::string rising = loss_ranges(up), falling = loss_ranges(down);
   if (rising == "nowhere" && falling == "nowhere") return "";
   return "rising " + rising + ", falling " + falling + (falling == "nowhere" ? "" : " Hz");
 }
 
-Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Background& background) {
+Figure response_figure(const std::vector<ResponseResult>& sweeps, const CaptionSources& background) {
   if (sweeps.empty())
     fail(Failure::input, "figure: no response.h5 given; an up and a down sweep are the least");
-  const std::vector<ChoicePanel<ResponseArtifact>> panels = panels_of(sweeps, background);
+  const std::vector<ChoicePanel<ResponseResult>> panels = panels_of(sweeps, background);
   Figure figure;
   std::vector<double> torques;
   bool any_elastic = false, any_lumped = false;
@@ -389,7 +389,7 @@ Figure response_figure(const std::vector<ResponseArtifact>& sweeps, const Backgr
   return figure;
 }
 
-Figure bearing_force_figure(const std::vector<ResponseArtifact>& sweeps, const Background& background) {
+Figure bearing_force_figure(const std::vector<ResponseResult>& sweeps, const CaptionSources& background) {
   const auto panels = panels_of(sweeps, background);
   const auto& curve = only_curve(panels, "bearing forces against speed");
   const GearMeshSpec& mesh = curve.up->mesh;
@@ -408,7 +408,7 @@ Figure bearing_force_figure(const std::vector<ResponseArtifact>& sweeps, const B
     if (!bearing.elastic()) continue;
     ++curves;
     labels += text("'", short_name(mesh.gear[g]), ", ", shown(bearing.stiffness * 1e-6, 4), " N/µm' ");
-    for (const ResponseArtifact* r : {curve.up, curve.down}) {
+    for (const ResponseResult* r : {curve.up, curve.down}) {
       const std::string name = text(curves, " ", r->direction);
       FigureBlock block{name,
                         {"mesh_frequency [Hz]", "bearing_force_rms [N]", "bearing_force_max [N]"},

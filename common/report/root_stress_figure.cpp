@@ -19,19 +19,20 @@
 namespace whine {
 namespace {
 
-void require_root_stresses(const StaticArtifact& s, const std::vector<ResponseArtifact>& sweeps) {
+void require_root_stresses(const StaticResult& s, const std::vector<ResponseResult>& sweeps) {
   if (const std::string why = why_no_root_stress(s); !why.empty()) fail(Failure::input, "root-stress: ", why);
   if (sweeps.size() != 2 || sweeps[0].direction == sweeps[1].direction)
     fail(Failure::input, "root-stress: it needs two response.h5 beside static.h5, up and down; ",
          sweeps.size(), " given");
-  for (const ResponseArtifact& r : sweeps) {
+  for (const ResponseResult& r : sweeps) {
     if (r.torque != s.torque)
       fail(Failure::input, "root-stress: a response.h5 of ", r.torque, " N m; static.h5 is of ", s.torque,
            " N m; give both of one torque");
     for (const auto& [name, values] :
-         {std::pair{"root_stress_held of the driver", &r.root_stress_held[0]},
-          std::pair{"root_stress_held of the driven gear", &r.root_stress_held[1]},
-          std::pair{"mesh_force_held", &r.mesh_force_held}, std::pair{"tooth_load_held", &r.tooth_load_held},
+         {std::pair{"root_stress_sustained of the driver", &r.root_stress_sustained[0]},
+          std::pair{"root_stress_sustained of the driven gear", &r.root_stress_sustained[1]},
+          std::pair{"mesh_force_sustained", &r.mesh_force_sustained},
+          std::pair{"tooth_load_sustained", &r.tooth_load_sustained},
           std::pair{"loss_factor", &r.loss_factor}})
       if (values->size() != r.mesh_frequency.size() || values->size() == 0)
         fail(Failure::input, "root-stress: the response.h5 of the sweep ", r.direction, " holds ",
@@ -41,7 +42,7 @@ void require_root_stresses(const StaticArtifact& s, const std::vector<ResponseAr
 }
 
 // While the teeth of gear g pass through the mesh, by the phase of their own pair.
-FigureBlock cycle_block(const StaticArtifact& s, int g) {
+FigureBlock cycle_block(const StaticResult& s, int g) {
   FigureBlock block{
       text("cycle ", g + 1), {"pair_phase [1]", "root_stress [MPa]"}, {}, "cycle", s.mesh.gear[g]};
   const MatrixRM& stress = s.root_stress[static_cast<size_t>(g)];
@@ -54,14 +55,14 @@ FigureBlock cycle_block(const StaticArtifact& s, int g) {
 }
 
 // Where the root stresses stand.
-void add_place_columns(const PairParameters& pair, FigureBlock& block) {
+void add_place_columns(const GearPairParameters& pair, FigureBlock& block) {
   for (const auto& gear : pair.mesh.gear) {
     block.columns.push_back("root_angle_" + gear + " [deg]");
     block.columns.push_back("root_phase_" + gear + " [1]");
   }
 }
 
-// Result: ResponseArtifact or BranchArtifact.
+// Result: ResponseResult or BranchResult.
 template <typename Result>
 void add_place(const Result& r, Eigen::Index i, std::vector<double>& row) {
   for (size_t g = 0; g < kSides; ++g) {
@@ -76,7 +77,7 @@ struct AtRest {
 };
 
 // Of the motions at one torque: speed, stresses and factors.
-std::vector<std::string> motion_columns(const PairParameters& pair) {
+std::vector<std::string> motion_columns(const GearPairParameters& pair) {
   const auto &driver = pair.mesh.gear[0], &driven = pair.mesh.gear[1];
   return {"mesh_frequency [Hz]",
           "root_stress_" + driver + " [MPa]",
@@ -87,16 +88,17 @@ std::vector<std::string> motion_columns(const PairParameters& pair) {
           "factor_root_stress_" + driven + " [1]"};
 }
 
-FigureBlock stress_block(const ResponseArtifact& r, const ResponseArtifact& other, const AtRest& rest) {
+FigureBlock stress_block(const ResponseResult& r, const ResponseResult& other, const AtRest& rest) {
   FigureBlock block{text("speed ", r.direction), motion_columns(r), {}, "speed", name_of(r.direction)};
   block.columns.emplace_back("loss_factor [1]");
   add_place_columns(r, block);
   const std::vector<bool> broken = broken_after(r, &other);
   for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i) {
-    const double a = r.root_stress_held[0][i], b = r.root_stress_held[1][i];
+    const double a = r.root_stress_sustained[0][i], b = r.root_stress_sustained[1][i];
     block.rows.push_back({r.mesh_frequency[i], a * kInMegapascals, b * kInMegapascals,
-                          r.mesh_force_held[i] / rest.mesh_force, r.tooth_load_held[i] / rest.tooth_load,
-                          a / rest.root_stress[0], b / rest.root_stress[1], r.loss_factor[i]});
+                          r.mesh_force_sustained[i] / rest.mesh_force,
+                          r.tooth_load_sustained[i] / rest.tooth_load, a / rest.root_stress[0],
+                          b / rest.root_stress[1], r.loss_factor[i]});
     add_place(r, i, block.rows.back());
     if (broken[static_cast<size_t>(i)]) block.rows.emplace_back();
   }
@@ -104,29 +106,30 @@ FigureBlock stress_block(const ResponseArtifact& r, const ResponseArtifact& othe
 }
 
 // Orbits along a branch, stable or not.
-FigureBlock branch_block(const BranchArtifact& b, const StaticArtifact& s, const AtRest& rest) {
+FigureBlock branch_block(const BranchResult& b, const StaticResult& s, const AtRest& rest) {
   if (b.torque != s.torque)
     fail(Failure::input, "root-stress: a branch.h5 of ", b.torque, " N m; static.h5 is of ", s.torque,
          " N m; give both of one torque");
-  if (b.root_stress_held[0].size() == 0 || b.root_stress_held[1].size() == 0)
+  if (b.root_stress_sustained[0].size() == 0 || b.root_stress_sustained[1].size() == 0)
     fail(Failure::input, "root-stress: branch.h5 holds no root stress; make it anew");
   FigureBlock block{"branch", motion_columns(b), {}};
   for (const char* column : {"stable [1]", "part [1]"}) block.columns.emplace_back(column);
   add_place_columns(b, block);
   for (Eigen::Index i = 0; i < b.mesh_frequency.size(); ++i) {
     if (i > 0 && b.part[i] != b.part[i - 1]) block.rows.emplace_back();
-    const double first = b.root_stress_held[0][i], second = b.root_stress_held[1][i];
+    const double first = b.root_stress_sustained[0][i], second = b.root_stress_sustained[1][i];
     block.rows.push_back({b.mesh_frequency[i], first * kInMegapascals, second * kInMegapascals,
-                          b.mesh_force_held[i] / rest.mesh_force, b.tooth_load_held[i] / rest.tooth_load,
-                          first / rest.root_stress[0], second / rest.root_stress[1],
-                          static_cast<double>(b.stable[i]), static_cast<double>(b.part[i])});
+                          b.mesh_force_sustained[i] / rest.mesh_force,
+                          b.tooth_load_sustained[i] / rest.tooth_load, first / rest.root_stress[0],
+                          second / rest.root_stress[1], static_cast<double>(b.stable[i]),
+                          static_cast<double>(b.part[i])});
     add_place(b, i, block.rows.back());
   }
   return block;
 }
 
 // Columns that are not known are left out.
-FigureBlock rest_block(const StaticArtifact& s, const IsoComparison& iso) {
+FigureBlock rest_block(const StaticResult& s, const IsoComparison& iso) {
   FigureBlock block{"rest", {}, {{}}};
   const auto add = [&](const std::string& column, std::optional<double> value) {
     if (!value) return;
@@ -150,7 +153,7 @@ FigureBlock rest_block(const StaticArtifact& s, const IsoComparison& iso) {
 }
 
 // K_v over the speeds of a sweep.
-FigureBlock dynamic_factor_block(const IsoComparison& iso, const ResponseArtifact& r) {
+FigureBlock dynamic_factor_block(const IsoComparison& iso, const ResponseResult& r) {
   FigureBlock block{"iso", {"mesh_frequency [Hz]", "K_v [1]"}, {}, "iso", ""};
   constexpr int kPoints = 400;
   const double from = r.mesh_frequency.minCoeff(), to = r.mesh_frequency.maxCoeff();
@@ -162,7 +165,7 @@ FigureBlock dynamic_factor_block(const IsoComparison& iso, const ResponseArtifac
 }
 
 // One line each for a picture's width.
-std::vector<std::string> notes_of(const StaticArtifact& s, const IsoComparison& iso, bool branches) {
+std::vector<std::string> notes_of(const StaticResult& s, const IsoComparison& iso, bool branches) {
   std::string at_rest, by_iso;
   for (int g = 0; g < kSides; ++g) {
     at_rest +=
@@ -172,10 +175,9 @@ std::vector<std::string> notes_of(const StaticArtifact& s, const IsoComparison& 
       by_iso += text(by_iso.empty() ? "" : "; ", s.mesh.gear[g], " ", shown(*stress * kInMegapascals, 4),
                      " MPa, ratio ", shown(s.root_stress_max[g] / *stress, 3));
   }
-  std::vector<std::string> all{"largest tension along the root beside the loaded flank; at rest: " + at_rest,
-                               "in motion held for 1/64 of a mesh period; root stress in motion is that of "
-                               "the tooth loads as at rest: the "
-                               "inertia of the body, kept modes included, adds none"};
+  std::vector<std::string> all{
+      "largest tension along the root beside the loaded flank; at rest: " + at_rest,
+      "in motion sustained for 1/64 of a mesh period; root stress in motion is that of the tooth loads as at rest: the inertia of the body, kept modes included, adds none"};
   if (branches)
     all.emplace_back(
         "thin lines: stable orbits of the branch, which a sweep may pass by; dots: unstable ones");
@@ -192,8 +194,8 @@ std::vector<std::string> notes_of(const StaticArtifact& s, const IsoComparison& 
 
 }  // namespace
 
-Figure root_stress_figure(const StaticArtifact& s, const std::vector<ResponseArtifact>& sweeps,
-                          const std::vector<BranchArtifact>& branches) {
+Figure root_stress_figure(const StaticResult& s, const std::vector<ResponseResult>& sweeps,
+                          const std::vector<BranchResult>& branches) {
   require_root_stresses(s, sweeps);
   if (branches.size() > 1)
     fail(Failure::input, "root-stress: ", branches.size(), " branch.h5 given, one at most");
@@ -215,9 +217,8 @@ Figure root_stress_figure(const StaticArtifact& s, const std::vector<ResponseArt
       }
     figure.blocks.push_back(std::move(block));
   };
-  for (const ResponseArtifact& r : sweeps)
-    add_motions(stress_block(r, sweeps[&r == &sweeps[0] ? 1 : 0], rest));
-  for (const BranchArtifact& b : branches) add_motions(branch_block(b, s, rest));
+  for (const ResponseResult& r : sweeps) add_motions(stress_block(r, sweeps[&r == &sweeps[0] ? 1 : 0], rest));
+  for (const BranchResult& b : branches) add_motions(branch_block(b, s, rest));
   if (iso.resonance) figure.blocks.push_back(dynamic_factor_block(iso, sweeps[0]));
   figure.blocks.push_back(rest_block(s, iso));
   figure.notes = notes_of(s, iso, !branches.empty());

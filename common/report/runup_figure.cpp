@@ -18,7 +18,7 @@ constexpr Index kSlices = 400, kBands = 300, kMostPoints = 1200;
 constexpr double kHighest = 5.0 / 12;  // of the sample rate: what the record holds undamped
 
 // Spectrogram in dB re 1 N, RMS: of the bins of a band the one of largest amplitude, so that no line falls between two bands.
-FigureBlock spectrogram_block(const RunupArtifact& a, Figure& figure) {
+FigureBlock spectrogram_block(const RunupResult& a, Figure& figure) {
   const double top = std::max(a.ramp.from, a.ramp.to);
   const double most = std::min((kRunupOrders + 0.5) * top, kHighest * a.sample_rate);
   // The middle order moves twice as fast as the first.
@@ -47,14 +47,13 @@ FigureBlock spectrogram_block(const RunupArtifact& a, Figure& figure) {
   }
   figure.numbers.emplace_back("loudest", loudest);
   figure.numbers.emplace_back("frequency_end", most);
-  figure.notes.push_back(
-      text("(a) Hann windows of ", shown(static_cast<double>(length) / a.sample_rate * kMilli, 3),
-           " ms, RMS of lines in dB re 1 N; orders of the mesh frequency are rays, f_n natural "
-           "frequency of the mesh"));
+  figure.notes.push_back(text(
+      "(a) Hann windows of ", shown(static_cast<double>(length) / a.sample_rate * kMilli, 3),
+      " ms, RMS of lines in dB re 1 N; orders of the mesh frequency are rays, f_n natural frequency of the mesh"));
   return block;
 }
 
-FigureBlock order_block(const RunupArtifact& a, Figure& figure) {
+FigureBlock order_block(const RunupResult& a, Figure& figure) {
   const VectorXd phase = a.samples.time.unaryExpr([&](double t) { return a.mesh_phase(t); });
   const int width = order_width(0.5 * (a.ramp.from + a.ramp.to), a.mesh_acceleration);
   const int orders = std::clamp(static_cast<int>(kHighest * a.sample_rate / std::max(a.ramp.from, a.ramp.to)),
@@ -80,7 +79,7 @@ FigureBlock order_block(const RunupArtifact& a, Figure& figure) {
 }
 
 // Extremes of groups of mesh periods, so that what is short remains.
-FigureBlock runup_period_block(const RunupArtifact& a, double mean_force, Figure& figure) {
+FigureBlock runup_period_block(const RunupResult& a, double mean_force, Figure& figure) {
   figure.numbers.emplace_back("largest_load", a.periods.tooth_load_max.maxCoeff() / mean_force);
   FigureBlock block{
       "periods", {"mesh_frequency [Hz]", "tooth_load_max [mean mesh force]", "separation_fraction [%]"}, {}};
@@ -96,7 +95,7 @@ FigureBlock runup_period_block(const RunupArtifact& a, double mean_force, Figure
 
 }  // namespace
 
-Figure runup_figure(const RunupArtifact& a, const std::vector<ResponseArtifact>& sweeps) {
+Figure runup_figure(const RunupResult& a, const std::vector<ResponseResult>& sweeps) {
   Figure figure;
   const bool up = a.direction == Direction::up;
   figure.title = text("Run-", a.direction, " at ", a.ramp.rate, " rpm/s, ", torque_words(a.torque));
@@ -106,7 +105,7 @@ Figure runup_figure(const RunupArtifact& a, const std::vector<ResponseArtifact>&
   const double low = std::min(a.ramp.from, a.ramp.to), high = std::max(a.ramp.from, a.ramp.to);
   double largest = 0;
   int drawn = 0;
-  for (const ResponseArtifact& r : sweeps) {
+  for (const ResponseResult& r : sweeps) {
     if (r.torque != a.torque)
       fail(Failure::input, "the run-", a.direction, " is at ", a.torque, " N m, a sweep at ", r.torque,
            " N m; give sweeps of the same torque");
@@ -124,11 +123,10 @@ Figure runup_figure(const RunupArtifact& a, const std::vector<ResponseArtifact>&
   }
   figure.numbers.emplace_back("largest_sweep", largest);
   if (drawn > 0) figure.notes.push_back("(b) dots: first order of the periodic motions of the speed sweeps");
-  figure.notes.push_back(
-      text("(c) of each mesh period, at its time steps; load: what a pair holds for 1/64 of it; the mesh "
-           "frequency changes by ",
-           shown(std::abs(a.mesh_acceleration), 4), " Hz/s, ", up ? "rising" : "falling", " for ",
-           shown((a.ramp.to - a.ramp.from) / a.mesh_acceleration, 3), " s"));
+  figure.notes.push_back(text(
+      "(c) of each mesh period, at its time steps; load: what a pair sustains for 1/64 of it; the mesh frequency changes by ",
+      shown(std::abs(a.mesh_acceleration), 4), " Hz/s, ", up ? "rising" : "falling", " for ",
+      shown((a.ramp.to - a.ramp.from) / a.mesh_acceleration, 3), " s"));
   figure.words.emplace_back("driver", without_markup(a.mesh.gear[0]));
   for (const auto& [name, value] :
        {std::pair{"sweeps", static_cast<double>(drawn)}, std::pair{"frequency_from", low},

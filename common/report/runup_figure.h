@@ -3,13 +3,13 @@
 #include <vector>
 
 #include "report/figures.h"
-#include "signal/response_result.h"
-#include "studies/runup_result.h"
+#include "results/response.h"
+#include "results/runup.h"
 
 namespace whine {
 
 // sweeps: of the same torque, up and down or none: their first harmonics, at which a slow ramp must arrive, stand beside the
 // orders. Throws Error(input) for a sweep of another torque or a ramp too short for a window.
-Figure runup_figure(const RunupArtifact& a, const std::vector<ResponseArtifact>& sweeps);
+Figure runup_figure(const RunupResult& a, const std::vector<ResponseResult>& sweeps);
 
 }  // namespace whine

@@ -15,19 +15,18 @@ using Eigen::Index;
 
 struct VariantRow {
   std::string label, key;
-  const JumpMapArtifact* map;
+  const JumpMapResult* map;
 };
 
-double load(const JumpMapArtifact& a, Index c) {
-  return a.held_tooth_load.row(c).maxCoeff();
+double load(const JumpMapResult& a, Index c) {
+  return a.sustained_tooth_load.row(c).maxCoeff();
 }
 
 // One for each variant; those of the key that moves the end of the upper branch most in the last case come first.
-std::vector<VariantRow> variant_rows(const JumpMapArtifact& base,
-                                     const std::vector<JumpMapArtifact>& variants) {
+std::vector<VariantRow> variant_rows(const JumpMapResult& base, const std::vector<JumpMapResult>& variants) {
   const Index cases = base.damping_ratio.size(), shown = cases - 1;
   std::vector<VariantRow> rows;
-  for (const JumpMapArtifact& v : variants) {
+  for (const JumpMapResult& v : variants) {
     if (v.torque != base.torque || v.damping_ratio.size() != cases)
       fail(Failure::input, "a variant at ", v.torque, " N m with ", v.damping_ratio.size(),
            " cases stands beside a base at ", base.torque, " N m with ", cases, "; make all of them again");
@@ -37,10 +36,10 @@ std::vector<VariantRow> variant_rows(const JumpMapArtifact& base,
     rows.push_back({label, label.substr(0, label.find(' ')), &v});
   }
   // What moves the end of the upper branch most stands on top; a branch that is gone moves it most of all.
-  const auto effect = [&](const JumpMapArtifact& v) {
+  const auto effect = [&](const JumpMapResult& v) {
     if (v.two_branches[shown] != base.two_branches[shown])
-      return 1e9 +
-             std::abs(v.held_tooth_load.row(shown).maxCoeff() - base.held_tooth_load.row(shown).maxCoeff());
+      return 1e9 + std::abs(v.sustained_tooth_load.row(shown).maxCoeff() -
+                            base.sustained_tooth_load.row(shown).maxCoeff());
     return std::abs(v.branches_from[shown] - base.branches_from[shown]) +
            1e-6 * std::abs(v.mean_stiffness - base.mean_stiffness);
   };
@@ -53,21 +52,21 @@ std::vector<VariantRow> variant_rows(const JumpMapArtifact& base,
 }
 
 // What each variant changes in case c, and its own numbers.
-FigureBlock changes_block(const JumpMapArtifact& base, const std::vector<VariantRow>& rows, Index c) {
+FigureBlock changes_block(const JumpMapResult& base, const std::vector<VariantRow>& rows, Index c) {
   const bool shown = c == base.damping_ratio.size() - 1;
   FigureBlock block{
       shown ? "changes" : text("changes at eta ", rounded(base.rayleigh_stiffness[c] * 1e6, 3), "e-6 s"),
       {"variant", "mean_stiffness [%]", "one_pair_frequency [Hz]", "two_pair_frequency [Hz]",
-       "branches_from [Hz]", "branches_to [Hz]", "held_tooth_load [%]", "two_branches [1]", "open_below [1]",
-       "damping_ratio [%]", "rayleigh_stiffness [1e-6 s]", "branches_from, itself [Hz]",
-       "branches_to, itself [Hz]", "held_tooth_load, itself [kN]", "sampled peak up, itself [kN]",
+       "branches_from [Hz]", "branches_to [Hz]", "sustained_tooth_load [%]", "two_branches [1]",
+       "open_below [1]", "damping_ratio [%]", "rayleigh_stiffness [1e-6 s]", "branches_from, itself [Hz]",
+       "branches_to, itself [Hz]", "sustained_tooth_load, itself [kN]", "sampled peak up, itself [kN]",
        "sampled peak down, itself [kN]"},
       {},
       "",
       "",
       true};
   for (size_t i = 0; i < rows.size(); ++i) {
-    const JumpMapArtifact& v = *rows[i].map;
+    const JumpMapResult& v = *rows[i].map;
     const bool both = v.two_branches[c] && base.two_branches[c];
     block.rows.push_back(
         {static_cast<double>(i), (v.mean_stiffness / base.mean_stiffness - 1) * 100,
@@ -83,7 +82,7 @@ FigureBlock changes_block(const JumpMapArtifact& base, const std::vector<Variant
 
 }  // namespace
 
-Figure sensitivity_figure(const JumpMapArtifact& base, const std::vector<JumpMapArtifact>& variants) {
+Figure sensitivity_figure(const JumpMapResult& base, const std::vector<JumpMapResult>& variants) {
   if (variants.empty())
     fail(Failure::input, "sensitivity needs the map of one variant at least beside the base's");
   const Index cases = base.damping_ratio.size(), shown = cases - 1;
@@ -91,7 +90,7 @@ Figure sensitivity_figure(const JumpMapArtifact& base, const std::vector<JumpMap
   Figure figure;
   figure.title = text("What inputs are worth at ", base.torque, " N m, ",
                       rounded(base.damping_ratio[shown] * 100, 2), " % damping with two pairs in contact");
-  const auto branch_words = [&](const JumpMapArtifact& a, Index c) {
+  const auto branch_words = [&](const JumpMapResult& a, Index c) {
     return a.two_branches[c]
                ? text("two branches from ", rounded(a.branches_from[c], 0),
                       a.open_below[c] ? " Hz or less to " : " to ", rounded(a.branches_to[c], 0), " Hz")
@@ -102,13 +101,11 @@ Figure sensitivity_figure(const JumpMapArtifact& base, const std::vector<JumpMap
       rounded(base.one_pair_frequency, 0), " Hz (one pair) and ", rounded(base.two_pair_frequency, 0),
       " Hz (two), ", branch_words(base, shown), ", tooth load up to ", rounded(load(base, shown) * 1e-3, 2),
       " kN; eta ", rounded(base.rayleigh_stiffness[shown] * 1e6, 2), "e-6 s"));
-  figure.notes.push_back(
-      text("each variant has an eta of its own for the same ratio; ×: one branch; △: goes on below the least "
-           "speed; "
-           "in the table also at one eta; contact = ",
-           base.fidelity.contact, ", steps of ",
-           rounded(base.mesh_frequency.size() > 1 ? base.mesh_frequency[1] - base.mesh_frequency[0] : 0, 1),
-           " Hz"));
+  figure.notes.push_back(text(
+      "each variant has an eta of its own for the same ratio; ×: one branch; △: goes on below the least speed; in the table also at one eta; contact = ",
+      base.fidelity.contact, ", steps of ",
+      rounded(base.mesh_frequency.size() > 1 ? base.mesh_frequency[1] - base.mesh_frequency[0] : 0, 1),
+      " Hz"));
   std::vector<FigureBlock> named;  // the same rows under the names of the variants
   for (Index c = cases; c-- > 0;) {
     FigureBlock block = changes_block(base, rows, c);

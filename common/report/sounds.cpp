@@ -42,8 +42,8 @@ std::string tones(const std::vector<HeardMotion>& branches, const std::vector<Ve
     const double rms = rms_of(sounds[b]), here = level(rms, 1), above = here - level(rms_of(sounds[0]), 1);
     out << branches[b].name << '\t' << branches[b].fundamental << '\t' << rms << '\t' << here << '\t' << above
         << '\n';
-    tell("gear-sound: ", branches[b].name, ": ", rms, " ", unit, " RMS, ", here, " dB, ", above,
-         " dB above the first");
+    log_line("gear-sound: ", branches[b].name, ": ", rms, " ", unit, " RMS, ", here, " dB, ", above,
+             " dB above the first");
   }
   return out.str();
 }
@@ -94,10 +94,10 @@ std::string bands(const std::vector<HeardRunup>& runs, const std::vector<VectorX
   }
   out << '\n';
   if (of > 0)
-    tell("gear-sound: ", runs[of].name, " differs most from the first at a mesh frequency of ", at,
-         " Hz, by ", most > 0 ? "+" : "", most, " dB");
+    log_line("gear-sound: ", runs[of].name, " differs most from the first at a mesh frequency of ", at,
+             " Hz, by ", most > 0 ? "+" : "", most, " dB");
   else if (runs.size() > 1)
-    tell("gear-sound: all run-ups have the level of the first");
+    log_line("gear-sound: all run-ups have the level of the first");
   return out.str();
 }
 

@@ -8,19 +8,19 @@
 #include <set>
 
 #include "base/error.h"
-#include "dynamics/impact_result.h"
 #include "gear/pair.h"
 #include "lumped/stiffness.h"
 #include "report/figure_words.h"
-#include "signal/response_result.h"
+#include "results/error_budget.h"
+#include "results/impact.h"
+#include "results/response.h"
 #include "signal/spectrum.h"
-#include "studies/error_budget_result.h"
 
 namespace whine {
 namespace {
 
 // They stay in the order in which they are given, which is that of the scene.
-void require_like_pairs(const std::vector<StaticArtifact>& statics) {
+void require_like_pairs(const std::vector<StaticResult>& statics) {
   if (statics.empty()) fail(Failure::input, "figure: no static.h5 given; 1 is the least");
   if (statics.size() > kMostCurves)
     fail(Failure::input, "figure: ", statics.size(), " static.h5 given; ", kMostCurves,
@@ -40,13 +40,13 @@ void require_like_pairs(const std::vector<StaticArtifact>& statics) {
   }
 }
 
-std::string torque_label(const StaticArtifact& s) {
+std::string torque_label(const StaticResult& s) {
   return torque_words(s.torque);
 }
 
 // One column per curve, first column the phase; the first point again at phase 1, so that the period closes.
-FigureBlock period_block(const std::vector<StaticArtifact>& statics, const std::string& quantity,
-                         const std::string& unit, Eigen::VectorXd StaticArtifact::*curve, double factor) {
+FigureBlock period_block(const std::vector<StaticResult>& statics, const std::string& quantity,
+                         const std::string& unit, Eigen::VectorXd StaticResult::*curve, double factor) {
   FigureBlock block{quantity, {"mesh_phase [1]"}, {}};
   for (const auto& s : statics)
     block.columns.push_back(text(quantity, " ", torque_label(s), " [", unit, "]"));
@@ -59,9 +59,8 @@ FigureBlock period_block(const std::vector<StaticArtifact>& statics, const std::
   return block;
 }
 
-FigureBlock spectrum_block(const std::vector<StaticArtifact>& statics, const std::string& quantity,
-                           const std::string& unit, Eigen::VectorXd StaticArtifact::*harmonic,
-                           double factor) {
+FigureBlock spectrum_block(const std::vector<StaticResult>& statics, const std::string& quantity,
+                           const std::string& unit, Eigen::VectorXd StaticResult::*harmonic, double factor) {
   FigureBlock block{quantity + " harmonics", {"harmonic [1]"}, {}, "harmonics"};
   Eigen::Index last = kShownHarmonics;
   for (const auto& s : statics) {
@@ -83,15 +82,15 @@ double wrapped(double phase) {
 
 }  // namespace
 
-Figure transmission_error_figure(const std::vector<StaticArtifact>& statics) {
+Figure transmission_error_figure(const std::vector<StaticResult>& statics) {
   require_like_pairs(statics);
   Figure figure;
   figure.title = "Static transmission error";
   figure.notes.push_back(pair_words(statics[0]));
   figure.blocks.push_back(
-      period_block(statics, "transmission_error", "µm", &StaticArtifact::transmission_error, kMicro));
+      period_block(statics, "transmission_error", "µm", &StaticResult::transmission_error, kMicro));
   figure.blocks.push_back(spectrum_block(statics, "transmission_error", "µm",
-                                         &StaticArtifact::transmission_error_harmonic, kMicro));
+                                         &StaticResult::transmission_error_harmonic, kMicro));
   figure.numbers = {{"curves", static_cast<double>(statics.size())}};
   std::string labels;
   for (const auto& s : statics) labels += text("'", torque_label(s), "' ");
@@ -99,9 +98,9 @@ Figure transmission_error_figure(const std::vector<StaticArtifact>& statics) {
   return figure;
 }
 
-Figure mesh_stiffness_figure(const std::vector<StaticArtifact>& statics) {
+Figure mesh_stiffness_figure(const std::vector<StaticResult>& statics) {
   require_like_pairs(statics);
-  const StaticArtifact& first = statics[0];
+  const StaticResult& first = statics[0];
   const RectangularWave wave = rectangular_wave(first);
   Figure figure;
   const bool bearings = first.mesh.bearing[0].elastic() || first.mesh.bearing[1].elastic();
@@ -123,13 +122,13 @@ Figure mesh_stiffness_figure(const std::vector<StaticArtifact>& statics) {
   rectangle.rows.push_back({1.0, wave.at(1.0 - tiny) * kMega});
 
   FigureBlock spectrum =
-      spectrum_block(statics, "mesh_stiffness", unit, &StaticArtifact::stiffness_harmonic, kMega);
+      spectrum_block(statics, "mesh_stiffness", unit, &StaticResult::stiffness_harmonic, kMega);
   FigureBlock rectangle_spectrum{
       "rectangular wave harmonics", {"harmonic [1]", "amplitude [" + unit + "]"}, {}};
   for (const auto& row : spectrum.rows)
     rectangle_spectrum.rows.push_back({row[0], wave.amplitude(static_cast<int>(row[0])) * kMega});
 
-  figure.blocks = {period_block(statics, "mesh_stiffness", unit, &StaticArtifact::stiffness_secant, kMega),
+  figure.blocks = {period_block(statics, "mesh_stiffness", unit, &StaticResult::stiffness_secant, kMega),
                    rectangle, spectrum, rectangle_spectrum};
   figure.numbers = {{"curves", static_cast<double>(statics.size())}};
   std::string labels;
@@ -142,9 +141,9 @@ Figure mesh_stiffness_figure(const std::vector<StaticArtifact>& statics) {
 
 // What a pair of teeth carries on its way through the mesh. Pair j is j places ahead of the reference pair: at mesh phase f it
 // is at phase f + j of its own.
-Figure load_sharing_figure(const std::vector<StaticArtifact>& statics) {
+Figure load_sharing_figure(const std::vector<StaticResult>& statics) {
   require_like_pairs(statics);
-  const StaticArtifact& first = statics[0];
+  const StaticResult& first = statics[0];
   const GearPair pair(first);
   const Eigen::Index n = first.mesh_phase.size();
   // Pairs that carry load at any torque.
@@ -155,7 +154,7 @@ Figure load_sharing_figure(const std::vector<StaticArtifact>& statics) {
         from = std::min(from, s.pair[c]);
         to = std::max(to, s.pair[c]);
       }
-  const auto load = [](const StaticArtifact& s, Eigen::Index i, int j) {
+  const auto load = [](const StaticResult& s, Eigen::Index i, int j) {
     const auto found = std::find(s.pair.begin(), s.pair.end(), j);
     return found == s.pair.end() ? 0.0 : s.tooth_load(i, found - s.pair.begin());
   };
@@ -224,12 +223,12 @@ double decade_above(const FigureBlock& block) {
 
 }  // namespace
 
-Figure sidebands_figure(const StaticArtifact& s, const ResponseArtifact& r) {
+Figure sidebands_figure(const StaticResult& s, const ResponseResult& r) {
   const int periods = s.hunting_periods;
   if (periods < 2)
-    fail(Failure::input,
-         "figure: the teeth are all alike and have no sidebands; give a gear of the scene a "
-         "section [gear.<name>.error]");
+    fail(
+        Failure::input,
+        "figure: the teeth are all alike and have no sidebands; give a gear of the scene a section [gear.<name>.error]");
   if (r.hunting_periods != periods || r.torque != s.torque)
     fail(Failure::input, "figure: the sweep is of ", r.hunting_periods, " mesh periods at ", r.torque,
          " N m, the statics are of ", periods, " at ", s.torque, " N m; give those of one scene and torque");
@@ -269,7 +268,7 @@ namespace {
 
 // Largest root stress of each tooth of a cracked gear while it is in mesh, about the cracked one; an intact tooth is the farthest
 // from it. Nothing of a result without root stress.
-void add_root_stress_of_teeth(const StaticArtifact& s, int g, int around, Figure& figure) {
+void add_root_stress_of_teeth(const StaticResult& s, int g, int around, Figure& figure) {
   const MatrixRM& stress = s.root_stress[static_cast<size_t>(g)];
   const GearDesign& design = s.gear[static_cast<size_t>(g)].design;
   if (stress.size() == 0 || design.crack.depth == 0) return;
@@ -306,7 +305,7 @@ void add_root_stress_of_teeth(const StaticArtifact& s, int g, int around, Figure
 
 }  // namespace
 
-Figure crack_figure(const StaticArtifact& s) {
+Figure crack_figure(const StaticResult& s) {
   std::string cracks;
   for (size_t g = 0; g < kSides; ++g)
     if (const Crack& crack = s.gear[g].design.crack; crack.depth > 0)
@@ -380,7 +379,7 @@ Figure crack_figure(const StaticArtifact& s) {
 namespace {
 
 // Root stress with elements of several sizes on the roots, and a note of what they change in all; no rows without it.
-FigureBlock root_levels(const ErrorBudgetArtifact& budget, std::vector<std::string>& notes) {
+FigureBlock root_levels(const ErrorBudgetResult& budget, std::vector<std::string>& notes) {
   FigureBlock roots{"roots", {"element [mm]"}, {}, "roots", "largest root stress"};
   if (const RootConvergence root = convergence(budget.root); root.order.rows() > 0) {
     std::string words = "root stress with smaller elements on the roots:";
@@ -405,7 +404,7 @@ FigureBlock root_levels(const ErrorBudgetArtifact& budget, std::vector<std::stri
 
 }  // namespace
 
-Figure error_budget_figure(const ErrorBudgetArtifact& budget) {
+Figure error_budget_figure(const ErrorBudgetResult& budget) {
   Figure figure;
   figure.title = text("Error budget of the static transmission error, ", shown(budget.torque, 6), " N m");
   figure.notes.push_back(

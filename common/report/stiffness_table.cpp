@@ -9,7 +9,7 @@
 
 namespace whine {
 
-WordTable compliance_table(const StaticArtifact& s) {
+WordTable compliance_table(const StaticResult& s) {
   const ComplianceSplit split = compliance_split(s);
   const double width = s.face_width();
   WordTable out{
@@ -29,7 +29,7 @@ WordTable compliance_table(const StaticArtifact& s) {
   return out;
 }
 
-WordTable iso_table(const StaticArtifact& s) {
+WordTable iso_table(const StaticResult& s) {
   const ComplianceSplit split = compliance_split(s);
   const double width = s.face_width();
   const auto per_width = [&](double stiffness) {

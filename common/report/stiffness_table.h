@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "signal/static_result.h"
+#include "results/static.h"
 
 namespace whine {
 
@@ -13,7 +13,7 @@ struct WordTable {
   std::vector<std::vector<std::string>> rows;
 };
 
-WordTable compliance_table(const StaticArtifact& statics);
-WordTable iso_table(const StaticArtifact& statics);
+WordTable compliance_table(const StaticResult& statics);
+WordTable iso_table(const StaticResult& statics);
 
 }  // namespace whine

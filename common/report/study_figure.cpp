@@ -113,7 +113,7 @@ struct Axis {
   std::vector<std::string> levels;  // ascending, or in order of the study
 };
 
-Axis axis_of(const StudyArtifact& a, size_t k) {
+Axis axis_of(const StudyResult& a, size_t k) {
   Axis axis;
   const bool number = a.plan.keys[k].number;
   for (const GatheredVariant& v : a.variants) {
@@ -130,20 +130,20 @@ Axis axis_of(const StudyArtifact& a, size_t k) {
   return axis;
 }
 
-size_t key_of(const StudyArtifact& a, const std::string& name) {
+size_t key_of(const StudyResult& a, const std::string& name) {
   for (size_t k = 0; k < a.plan.keys.size(); ++k)
     if (a.plan.keys[k].name == name) return k;
   fail(Failure::input, "the study varies no key '", name, "'");
 }
 
-Index quantity_of(const StudyArtifact& a, const std::string& name) {
+Index quantity_of(const StudyResult& a, const std::string& name) {
   const auto found = std::find(a.plan.quantities.begin(), a.plan.quantities.end(), name);
   if (found == a.plan.quantities.end())
     fail(Failure::input, "the study gathers no response quantity '", name, "'");
   return found - a.plan.quantities.begin();
 }
 
-ResponseQuantity kind_of(const StudyArtifact& a, const std::string& name) {
+ResponseQuantity kind_of(const StudyResult& a, const std::string& name) {
   for (const ResponseQuantity& kind : response_quantities(a.plan.directions))
     if (kind.name == name) return kind;
   fail(Failure::input, "there is no response quantity '", name, "'");
@@ -176,7 +176,7 @@ struct ShownQuantities {
   std::vector<std::string> rows, constant;
 };
 
-ShownQuantities shown_quantities(const StudyArtifact& a) {
+ShownQuantities shown_quantities(const StudyResult& a) {
   const auto varies = [&](const std::string& name) {
     double least = 0, most = 0;
     bool any = false;
@@ -227,8 +227,8 @@ double percentile(const std::vector<double>& sorted, double share) {
                                : sorted[i];
 }
 
-FigureBlock table_of(const StudyArtifact& a, const std::vector<Axis>& axes) {
-  FigureBlock table{"variants", {"variant [1]", "refused [1]", "unsteady speeds [1]"}, {}};
+FigureBlock table_of(const StudyResult& a, const std::vector<Axis>& axes) {
+  FigureBlock table{"variants", {"variant [1]", "outside_model [1]", "unsteady speeds [1]"}, {}};
   for (const VariedKey& key : a.plan.keys)
     table.columns.push_back(key.name +
                             (key.number ? " [" + spelt_units(key) + "]" : " [place in the list above]"));
@@ -250,7 +250,7 @@ FigureBlock table_of(const StudyArtifact& a, const std::vector<Axis>& axes) {
 }
 
 // Response quantities that are the same in all variants, as words; "" if there are none.
-std::string constant_words(const StudyArtifact& a, const ShownQuantities& quantities) {
+std::string constant_words(const StudyResult& a, const ShownQuantities& quantities) {
   std::string words;
   if (!quantities.constant.empty()) {
     words = "the same in all variants, without a panel:";
@@ -270,7 +270,7 @@ std::string constant_words(const StudyArtifact& a, const ShownQuantities& quanti
 }
 
 // What only the table says: values of keys that are no numbers, and reasons of errors, which may be long.
-void add_notes_of_table(const StudyArtifact& a, const std::vector<Axis>& axes, Figure& figure) {
+void add_notes_of_table(const StudyResult& a, const std::vector<Axis>& axes, Figure& figure) {
   for (size_t k = 0; k < axes.size(); ++k)
     if (!a.plan.keys[k].number) {
       std::string list;
@@ -319,7 +319,7 @@ class ColourScale {
 };
 
 // Adds the legend of the colours.
-Colours colours_of(const StudyArtifact& a, const std::vector<Axis>& axes, Figure& figure) {
+Colours colours_of(const StudyResult& a, const std::vector<Axis>& axes, Figure& figure) {
   const size_t variants = a.variants.size();
   Colours found{!a.plan.figure_colour.empty(), 0, std::vector<double>(variants, colour(0.2)),
                 std::vector<double>(variants, mark(0))};
@@ -356,7 +356,7 @@ Colours colours_of(const StudyArtifact& a, const std::vector<Axis>& axes, Figure
 }
 
 // Column c from 1, of key k.
-void add_column(const StudyArtifact& a, const std::vector<Axis>& axes, const Colours& colours, size_t k,
+void add_column(const StudyResult& a, const std::vector<Axis>& axes, const Colours& colours, size_t k,
                 size_t c, Figure& figure) {
   const VariedKey& key = a.plan.keys[k];
   // Along the key that colours, a line between points of two colours would have the colour of neither.
@@ -378,8 +378,8 @@ struct DrawnAnswer {
 };
 
 // Row r and column c from 1: the answer against key k.
-void add_answer_panel(const StudyArtifact& a, const Axis& axis, const Colours& colours,
-                      const DrawnAnswer& quantity, size_t k, size_t r, size_t c, Figure& figure) {
+void add_quantity_panel(const StudyResult& a, const Axis& axis, const Colours& colours,
+                        const DrawnAnswer& quantity, size_t k, size_t r, size_t c, Figure& figure) {
   // What the pair does at rest does not depend on how its motion ends.
   const bool of_motion = quantity.name.ends_with("_up") || quantity.name.ends_with("_down");
   FigureBlock panel{
@@ -455,7 +455,7 @@ double rank_correlation(const std::vector<double>& x, const std::vector<double>&
   return xx > 0 && yy > 0 ? xy / std::sqrt(xx * yy) : 0;
 }
 
-Figure study_figure(const StudyArtifact& a) {
+Figure study_figure(const StudyResult& a) {
   const size_t variants = a.variants.size();
   const auto rejected = static_cast<size_t>(std::count_if(
       a.rejection.begin(), a.rejection.end(), [](const std::string& why) { return !why.empty(); }));
@@ -470,9 +470,10 @@ Figure study_figure(const StudyArtifact& a) {
   figure.notes.push_back(text(
       variants, " variants of ", a.plan.scene,
       a.plan.random ? text(", drawn with seed ", a.plan.seed) : ", all combinations",
-      rejected > 0 ? text("; ", rejected,
-                          " lie outside the model's range (column 'refused' of the table) and are not drawn")
-                   : ""));
+      rejected > 0
+          ? text("; ", rejected,
+                 " lie outside the model's range (column 'outside_model' of the table) and are not drawn")
+          : ""));
   const auto unsteady = (a.unsteady.array() > 0).count();
   if (unsteady > 0)
     figure.notes[0] += text("; ", unsteady, unsteady == 1 ? " has" : " have",
@@ -507,7 +508,7 @@ Figure study_figure(const StudyArtifact& a) {
       if (a.rejection[v].empty() && !absent(quantity.name, quantity.value[v])) quantity.drawn.push_back(v);
     }
     for (size_t c = 0; c < columns.size(); ++c)
-      add_answer_panel(a, axes[columns[c]], colours, quantity, columns[c], r + 1, c + 1, figure);
+      add_quantity_panel(a, axes[columns[c]], colours, quantity, columns[c], r + 1, c + 1, figure);
     if (a.plan.random) add_spread(quantity, r + 1, figure);
   }
   figure.numbers.emplace_back("rows", static_cast<double>(quantities.rows.size()));

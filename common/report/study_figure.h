@@ -11,7 +11,7 @@ namespace whine {
 // of a sample there are points, the rank correlation (Spearman) of response quantity and key, and the distribution with its
 // 5th, 50th and 95th percentile. Variants outside the model's range are in the table, marked, and in no panel. Throws
 // Error(input) if all lie outside the model's range.
-Figure study_figure(const StudyArtifact& study);
+Figure study_figure(const StudyResult& study);
 
 // Spearman's rank correlation, ties at their mean rank; 0 if one of the two does not vary.
 double rank_correlation(const std::vector<double>& x, const std::vector<double>& y);

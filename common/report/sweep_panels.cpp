@@ -15,7 +15,7 @@ namespace {
 template <class Artifact>
 auto gears_with_model(const Artifact& s) {
   const auto of_gear = [](const GearDesign& g) {
-    return std::tuple(g.teeth, g.module, g.profile_shift, g.face_width, g.held_radius());
+    return std::tuple(g.teeth, g.module, g.profile_shift, g.face_width, g.clamped_radius());
   };
   return std::tuple(of_gear(s.gear[0].design), of_gear(s.gear[1].design), s.inertia[0], s.inertia[1],
                     s.mesh.centre_distance, s.mesh.corner.enabled, s.mesh.corner.largest_angle,
@@ -53,7 +53,8 @@ std::string choice_words(const Sweep& s) {
 }
 
 template <class Sweep>
-std::vector<ChoicePanel<Sweep>> panels_of(const std::vector<Sweep>& sweeps, const Background& background) {
+std::vector<ChoicePanel<Sweep>> panels_of(const std::vector<Sweep>& sweeps,
+                                          const CaptionSources& background) {
   std::vector<ChoicePanel<Sweep>> panels;
   std::vector<const Sweep*> first;  // of each panel
   for (size_t i = 0; i < sweeps.size(); ++i) {
@@ -82,16 +83,16 @@ std::vector<ChoicePanel<Sweep>> panels_of(const std::vector<Sweep>& sweeps, cons
   for (const auto& panel : panels)
     for (const auto& c : panel.curves)
       if (!c.up || !c.down)
-        fail(Failure::input, "figure: the sweep ", c.up ? "up" : "down", " at ",
-             torque_words((c.up ? c.up : c.down)->torque), " with ", panel.choices, " has no sweep ",
-             c.up ? "down" : "up",
-             " of the same torque, gears, model, damping, corner rule and fidelity beside it; make both from "
-             "one scene");
+        fail(
+            Failure::input, "figure: the sweep ", c.up ? "up" : "down", " at ",
+            torque_words((c.up ? c.up : c.down)->torque), " with ", panel.choices, " has no sweep ",
+            c.up ? "down" : "up",
+            " of the same torque, gears, model, damping, corner rule and fidelity beside it; make both from one scene");
   return panels;
 }
 
 template <class Sweep>
-std::string operating_words(const ChoicePanel<Sweep>& panel, const Background& background) {
+std::string operating_words(const ChoicePanel<Sweep>& panel, const CaptionSources& background) {
   std::vector<std::string> torques, at;
   std::string ratios, state, with_one;
   const auto once = [](std::vector<std::string>& list, const std::string& word) {
@@ -102,7 +103,7 @@ std::string operating_words(const ChoicePanel<Sweep>& panel, const Background& b
     const Sweep& s = *curve.up;
     once(torques, shown(s.torque, 6));
     const auto found =
-        std::find_if(background.impacts.begin(), background.impacts.end(), [&](const ImpactArtifact& impact) {
+        std::find_if(background.impacts.begin(), background.impacts.end(), [&](const ImpactResult& impact) {
           return impact.torque == s.torque && gears_with_model(impact) == gears_with_model(s) &&
                  impact.mesh.modification == s.mesh.modification && impact.state_phase.size() > 0;
         });
@@ -146,16 +147,16 @@ std::string curve_label(const ChoicePanel<Sweep>& panel, const Sweep& s) {
   return flanks + (torques ? ", " + torque_words(s.torque) : "");
 }
 
-bool same_motions(const ResponseArtifact& a, const ResponseArtifact& b) {
+bool same_motions(const ResponseResult& a, const ResponseResult& b) {
   return choices_of(a, {}) == choices_of(b, {}) && a.torque == b.torque && a.direction == b.direction &&
          a.mesh.modification == b.mesh.modification && a.mesh_frequency.size() == b.mesh_frequency.size() &&
          a.mesh_frequency == b.mesh_frequency;
 }
 
-const BranchArtifact* branch_of(const ResponseArtifact& r, const Background& background) {
+const BranchResult* branch_of(const ResponseResult& r, const CaptionSources& background) {
   if (!elastic(r)) return nullptr;
   const auto found =
-      std::find_if(background.branches.begin(), background.branches.end(), [&](const BranchArtifact& b) {
+      std::find_if(background.branches.begin(), background.branches.end(), [&](const BranchResult& b) {
         return b.torque == r.torque && gears_with_model(b) == gears_with_model(r) &&
                b.mesh.modification == r.mesh.modification && b.fidelity.body == r.fidelity.body &&
                b.fidelity.contact == r.fidelity.contact && b.fidelity.integrator == r.fidelity.integrator;
@@ -173,19 +174,19 @@ const typename ChoicePanel<Sweep>::Curve& only_curve(const std::vector<ChoicePan
   return panels[0].curves[0];
 }
 
-template std::vector<ChoicePanel<ResponseArtifact>> panels_of(const std::vector<ResponseArtifact>&,
-                                                              const Background&);
-template const ChoicePanel<ResponseArtifact>::Curve& only_curve(
-    const std::vector<ChoicePanel<ResponseArtifact>>&, const std::string&);
-template std::string choice_words(const ResponseArtifact&);
-template std::string operating_words(const ChoicePanel<ResponseArtifact>&, const Background&);
-template std::string curve_label(const ChoicePanel<ResponseArtifact>&, const ResponseArtifact&);
-template std::vector<ChoicePanel<SweepArtifact>> panels_of(const std::vector<SweepArtifact>&,
-                                                           const Background&);
-template const ChoicePanel<SweepArtifact>::Curve& only_curve(const std::vector<ChoicePanel<SweepArtifact>>&,
-                                                             const std::string&);
-template std::string choice_words(const SweepArtifact&);
-template std::string operating_words(const ChoicePanel<SweepArtifact>&, const Background&);
-template std::string curve_label(const ChoicePanel<SweepArtifact>&, const SweepArtifact&);
+template std::vector<ChoicePanel<ResponseResult>> panels_of(const std::vector<ResponseResult>&,
+                                                            const CaptionSources&);
+template const ChoicePanel<ResponseResult>::Curve& only_curve(const std::vector<ChoicePanel<ResponseResult>>&,
+                                                              const std::string&);
+template std::string choice_words(const ResponseResult&);
+template std::string operating_words(const ChoicePanel<ResponseResult>&, const CaptionSources&);
+template std::string curve_label(const ChoicePanel<ResponseResult>&, const ResponseResult&);
+template std::vector<ChoicePanel<SweepResult>> panels_of(const std::vector<SweepResult>&,
+                                                         const CaptionSources&);
+template const ChoicePanel<SweepResult>::Curve& only_curve(const std::vector<ChoicePanel<SweepResult>>&,
+                                                           const std::string&);
+template std::string choice_words(const SweepResult&);
+template std::string operating_words(const ChoicePanel<SweepResult>&, const CaptionSources&);
+template std::string curve_label(const ChoicePanel<SweepResult>&, const SweepResult&);
 
 }  // namespace whine

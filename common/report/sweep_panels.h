@@ -1,22 +1,22 @@
 // Sweeps that belong together in a figure, and what is said of them: torques, damping, model and other choices.
 #pragma once
-#include "dynamics/impact_result.h"
 #include "report/figures.h"
-#include "signal/response_result.h"
-#include "signal/sweep_result.h"
-#include "studies/branch_result.h"
+#include "results/branch.h"
+#include "results/impact.h"
+#include "results/response.h"
+#include "results/sweep.h"
 
 namespace whine {
 
 // What figures of sweeps say about them that is in other artifacts.
-struct Background {
+struct CaptionSources {
   std::vector<std::string> scenes = {};       // of each sweep, "file: title"; or none
   std::vector<LumpedParameters> lumped = {};  // of each sweep, empty for elastic gears; or none
-  std::vector<ImpactArtifact> impacts =
+  std::vector<ImpactResult> impacts =
       {};  // for damping ratios, of any gears and torques; found by what they were made from
   // Of each sweep (speed) m, as backlash_left() has it: 0 or less where back flanks would touch; empty: not known; or none
   std::vector<Eigen::VectorXd> backlash = {};
-  std::vector<BranchArtifact> branches = {};  // for unstable orbits and folds; found likewise
+  std::vector<BranchResult> branches = {};  // for unstable orbits and folds; found likewise
 };
 
 template <class Sweep>
@@ -36,11 +36,11 @@ struct ChoicePanel {
   std::vector<Curve> curves;
 };
 
-// Functions on Sweep are there for ResponseArtifact and SweepArtifact.
+// Functions on Sweep are there for ResponseResult and SweepResult.
 
 // In the order in which the choices come. Throws Error(input) where a direction is missing or given twice.
 template <class Sweep>
-std::vector<ChoicePanel<Sweep>> panels_of(const std::vector<Sweep>& sweeps, const Background& background);
+std::vector<ChoicePanel<Sweep>> panels_of(const std::vector<Sweep>& sweeps, const CaptionSources& background);
 
 // The one curve that figures of one torque and one set of choices are of. what: "order cuts", in the Error(input) for more or none.
 template <class Sweep>
@@ -57,16 +57,16 @@ std::string lumped_words(const LumpedParameters& lumped);
 // Torques and damping of a panel: "150 N m; damping ratio 5.81 % with one pair, 6.95 % with two pairs in contact, by
 // ring-down". Without the impact.h5 of its sweeps the torques alone.
 template <class Sweep>
-std::string operating_words(const ChoicePanel<Sweep>& panel, const Background& background);
+std::string operating_words(const ChoicePanel<Sweep>& panel, const CaptionSources& background);
 
 // What tells the curves of a panel apart: their torques, or their flanks where those differ at one torque.
 template <class Sweep>
 std::string curve_label(const ChoicePanel<Sweep>& panel, const Sweep& s);
 
 // Whether two are of one pair and its choices, torque, flanks, direction and speeds.
-bool same_motions(const ResponseArtifact& a, const ResponseArtifact& b);
+bool same_motions(const ResponseResult& a, const ResponseResult& b);
 
 // The branch of a sweep's pair at its torque; none if it is not among them.
-const BranchArtifact* branch_of(const ResponseArtifact& r, const Background& background);
+const BranchResult* branch_of(const ResponseResult& r, const CaptionSources& background);
 
 }  // namespace whine

@@ -21,7 +21,7 @@ std::string rms_column(const System& s, size_t mesh) {
 }
 
 // Where stability changes the curve of the other kind begins with the last point of this one.
-FigureBlock system_branch_block(const SystemBranchArtifact& b, size_t meshes, bool stable) {
+FigureBlock system_branch_block(const SystemBranchResult& b, size_t meshes, bool stable) {
   FigureBlock block{stable ? "stable" : "unstable",
                     {"mesh_frequency [Hz]", "largest multiplier"},
                     {},
@@ -39,7 +39,7 @@ FigureBlock system_branch_block(const SystemBranchArtifact& b, size_t meshes, bo
   return block;
 }
 
-FigureBlock sweep_block(const SystemSweepArtifact& s, size_t meshes) {
+FigureBlock sweep_block(const SystemSweepResult& s, size_t meshes) {
   const std::string way = text("sweep ", name_of(s.direction));
   FigureBlock block{way, {"mesh_frequency [Hz]"}, {}, text("sweep_", name_of(s.direction))};
   for (size_t m = 0; m < meshes; ++m) block.columns.push_back(rms_column(s.settings.layout, m));
@@ -54,7 +54,7 @@ FigureBlock sweep_block(const SystemSweepArtifact& s, size_t meshes) {
 
 }  // namespace
 
-Figure system_branch_figure(const SystemBranchArtifact& b, const std::vector<SystemSweepArtifact>& sweeps) {
+Figure system_branch_figure(const SystemBranchResult& b, const std::vector<SystemSweepResult>& sweeps) {
   if (b.mesh_frequency.size() == 0) fail(Failure::input, "figure: the branch holds no orbit");
   const System& s = b.settings.layout;
   require_one_system("the branch", b.settings, b.torque, sweeps);
@@ -66,7 +66,7 @@ Figure system_branch_figure(const SystemBranchArtifact& b, const std::vector<Sys
   const bool unstable = b.stable.minCoeff() == 0, stable = b.stable.maxCoeff() == 1;
   if (stable) figure.blocks.push_back(system_branch_block(b, meshes, true));
   if (unstable) figure.blocks.push_back(system_branch_block(b, meshes, false));
-  for (const SystemSweepArtifact& sweep : sweeps) {
+  for (const SystemSweepResult& sweep : sweeps) {
     figure.blocks.push_back(sweep_block(sweep, meshes));
     (sweep.direction == Direction::up ? up : down) = 1;
     most = std::max(most, sweep.dte_rms.leftCols(static_cast<Index>(meshes)).maxCoeff());

@@ -22,7 +22,7 @@ struct DrawnCurve {
 
 // One row of the figure: curves over the mesh period, or over the hunting period of teeth that differ, and their harmonics of the mesh
 // frequency.
-void add_row(const SystemStaticArtifact& a, const std::string& quantity, const std::string& axis,
+void add_row(const SystemStaticResult& a, const std::string& quantity, const std::string& axis,
              const std::string& unit, std::vector<DrawnCurve> curves, Figure& figure) {
   if (curves.size() > kMostLines) {
     figure.notes.push_back(text(axis, ": the first ", kMostLines, " of ", curves.size(), " curves"));
@@ -73,7 +73,7 @@ void add_row(const SystemStaticArtifact& a, const std::string& quantity, const s
 }
 
 // How far the meshes of one [[mesh]] are from sharing the load equally; "" where none has several.
-std::string sharing_words(const SystemStaticArtifact& a) {
+std::string sharing_words(const SystemStaticResult& a) {
   std::string out;
   for (const LoadSharing& of : load_sharing(a))
     out += text(out.empty() ? "load sharing factor (largest share times planets): " : ", ", of.name, " ",
@@ -82,7 +82,7 @@ std::string sharing_words(const SystemStaticArtifact& a) {
 }
 
 // The length of the axis of mesh phases, and why it is not 1. more: of the same note.
-void add_hunting(const SystemStaticArtifact& a, const char* more, Figure& figure) {
+void add_hunting(const SystemStaticResult& a, const char* more, Figure& figure) {
   figure.numbers.emplace_back("periods", a.hunting_periods);
   if (a.hunting_periods > 1)
     figure.notes.push_back(
@@ -98,7 +98,7 @@ void finish_notes(int height, Figure& figure) {
 
 }  // namespace
 
-std::vector<LoadSharing> load_sharing(const SystemStaticArtifact& a) {
+std::vector<LoadSharing> load_sharing(const SystemStaticResult& a) {
   std::vector<LoadSharing> out;
   const std::vector<int>& section = a.settings.section;
   for (size_t k = 0; k < a.settings.mesh.size(); ++k) {
@@ -118,7 +118,7 @@ std::vector<LoadSharing> load_sharing(const SystemStaticArtifact& a) {
   return out;
 }
 
-Figure system_static_figure(const SystemStaticArtifact& a) {
+Figure system_static_figure(const SystemStaticResult& a) {
   const System& s = a.settings.layout;
   Figure figure;
   figure.title = "A system at rest: transmission errors, mesh forces, bearing forces";
@@ -126,8 +126,7 @@ Figure system_static_figure(const SystemStaticArtifact& a) {
   if (const std::string sharing = sharing_words(a); !sharing.empty())
     for (const std::string& line : in_lines(sharing)) figure.notes.push_back(line);
   figure.notes.emplace_back(
-      "transmission error along the line of action, with the displacements of the bearings; mesh force: "
-      "torque on the driving gear over its base radius");
+      "transmission error along the line of action, with the displacements of the bearings; mesh force: torque on the driving gear over its base radius");
   figure.notes.emplace_back("bearing force: its magnitude; on a rigid axis the sum of the contact forces");
   std::vector<DrawnCurve> errors, forces, bearings;
   errors.reserve(s.meshes.size());
@@ -158,7 +157,7 @@ namespace {
 // Loads of the tooth pairs of one mesh that carry load, over a mesh period of its own from 0 to 1: pairs are numbered anew where
 // it begins, so that pair p at 1 is pair p + 1 at 0. Between positions of the statics the ends are interpolated. Where teeth differ it is
 // the first whole one, and the next position is that behind its end.
-FigureBlock pair_loads(const SystemStaticArtifact& a, size_t m, const std::string& table) {
+FigureBlock pair_loads(const SystemStaticResult& a, size_t m, const std::string& table) {
   const Index n = a.mesh_phase.size(), pairs = a.pair.size();
   const auto mesh = static_cast<Index>(m);
   FigureBlock block{table, {text("phase of ", mesh_name(a.settings.layout, m), " [1]")}, {}, table};
@@ -213,7 +212,7 @@ FigureBlock pair_loads(const SystemStaticArtifact& a, size_t m, const std::strin
 }
 
 // The shares of the meshes of one [[mesh]], `shown` of them, over the mesh period.
-FigureBlock shares_block(const SystemStaticArtifact& a, const LoadSharing& of, size_t shown,
+FigureBlock shares_block(const SystemStaticResult& a, const LoadSharing& of, size_t shown,
                          const std::string& table) {
   const Index n = a.mesh_phase.size();
   FigureBlock shares{table, {"mesh_phase [1]"}, {}, table};
@@ -233,19 +232,18 @@ FigureBlock shares_block(const SystemStaticArtifact& a, const LoadSharing& of, s
 
 }  // namespace
 
-Figure system_load_sharing_figure(const SystemStaticArtifact& a) {
+Figure system_load_sharing_figure(const SystemStaticResult& a) {
   const std::vector<LoadSharing> sharing = load_sharing(a);
   if (sharing.empty())
-    fail(Failure::input,
-         "figure: no [[mesh]] of the system stands for those of several planets, so none shares its load "
-         "with another; system-static has the forces of all meshes");
+    fail(
+        Failure::input,
+        "figure: no [[mesh]] of the system stands for those of several planets, so none shares its load with another; system-static has the forces of all meshes");
   Figure figure;
   figure.title = "Load sharing among planets, at rest";
   figure.notes = in_lines(bodies_words(a.settings.layout, a.torque.colwise().mean().transpose()));
   for (const std::string& line : in_lines(sharing_words(a))) figure.notes.push_back(line);
   figure.notes.emplace_back(
-      "left: share of the load of all meshes of a [[mesh]]; right: loads of the tooth pairs of its first "
-      "mesh over a period of its own, 0: reference pair at the pitch point");
+      "left: share of the load of all meshes of a [[mesh]]; right: loads of the tooth pairs of its first mesh over a period of its own, 0: reference pair at the pitch point");
   double low = 100, high = 0;
   for (size_t k = 0; k < sharing.size(); ++k) {
     const LoadSharing& of = sharing[k];

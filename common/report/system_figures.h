@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "report/figures.h"
-#include "system/system_static_result.h"
+#include "results/system_static.h"
 
 namespace whine {
 
 // Transmission error and force of each mesh, size of the force on each bearing, pin and axis; the notes say how planets share
 // the load.
-Figure system_static_figure(const SystemStaticArtifact& a);
+Figure system_static_figure(const SystemStaticResult& a);
 
 // How the planets' meshes of one [[mesh]] share the load.
 struct LoadSharing {
@@ -19,10 +19,10 @@ struct LoadSharing {
   double factor = 0;       // 1: largest share at any phase times number of meshes; 1 where all carry the same
   double mean_factor = 0;  // 1: the same of the mean over the mesh period
 };
-std::vector<LoadSharing> load_sharing(const SystemStaticArtifact& a);
+std::vector<LoadSharing> load_sharing(const SystemStaticResult& a);
 
 // Of each [[mesh]] of planets the share of each over the mesh period, and the loads of the tooth pairs of its first mesh. Throws
 // Error(input) for a system without planets.
-Figure system_load_sharing_figure(const SystemStaticArtifact& a);
+Figure system_load_sharing_figure(const SystemStaticResult& a);
 
 }  // namespace whine

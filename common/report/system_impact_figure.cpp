@@ -10,7 +10,7 @@ namespace whine {
 
 using Eigen::Index;
 
-Figure system_impact_figure(const SystemImpactArtifact& a) {
+Figure system_impact_figure(const SystemImpactResult& a) {
   Figure figure;
   figure.title = "Ring-down of a system: damping ratios and natural frequencies of its modes";
   FigureBlock modes{"modes",

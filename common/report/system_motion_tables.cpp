@@ -25,18 +25,18 @@ struct Peak {
   double value = 0, at = 0;  // at: Hz
 };
 
-Peak peak_of(const SystemSweepArtifact& a, const MatrixRM& values, size_t column) {
+Peak peak_of(const SystemSweepResult& a, const MatrixRM& values, size_t column) {
   Index row = 0;
   const double value = values.col(static_cast<Index>(column)).maxCoeff(&row);
   return {value, a.mesh_frequency[row]};
 }
 
-std::string way_words_of(const SystemSweepArtifact& a) {
+std::string way_words_of(const SystemSweepResult& a) {
   return text("speed ", a.direction == Direction::up ? "rising" : "falling");
 }
 
 // Rows of a sweep by speed.
-std::vector<Index> by_speed(const SystemSweepArtifact& a) {
+std::vector<Index> by_speed(const SystemSweepResult& a) {
   std::vector<Index> order(static_cast<size_t>(a.mesh_frequency.size()));
   std::iota(order.begin(), order.end(), Index{0});
   std::sort(order.begin(), order.end(),
@@ -45,7 +45,7 @@ std::vector<Index> by_speed(const SystemSweepArtifact& a) {
 }
 
 // "" if no row is marked.
-std::string speeds_where(const SystemSweepArtifact& a, const auto& marks) {
+std::string speeds_where(const SystemSweepResult& a, const auto& marks) {
   const std::vector<Index> order = by_speed(a);
   Eigen::VectorXd speeds(a.mesh_frequency.size());
   std::vector<bool> marked;
@@ -70,7 +70,7 @@ std::string factor_words(const SystemReport& r, size_t m, const Peak& force) {
 
 std::string meshes_table(const SystemReport& r) {
   html::Rows rows;
-  for (const SystemSweepArtifact& a : r.sweeps)
+  for (const SystemSweepResult& a : r.sweeps)
     for (size_t m = 0; m < a.settings.layout.meshes.size(); ++m) {
       const Peak error = peak_of(a, a.dte_rms, m), force = peak_of(a, a.mesh_force_max, m),
                  tooth = peak_of(a, a.tooth_force_max, m), share = peak_of(a, a.load_share_max, m),
@@ -94,7 +94,7 @@ std::string meshes_table(const SystemReport& r) {
 
 std::string bodies_table(const SystemReport& r) {
   html::Rows rows;
-  for (const SystemSweepArtifact& a : r.sweeps)
+  for (const SystemSweepResult& a : r.sweeps)
     for (size_t b = 0; b < a.settings.layout.bodies.size(); ++b) {
       const System::Body& body = a.settings.layout.bodies[b];
       const Peak most = peak_of(a, a.bearing_force_max, b), rms = peak_of(a, a.bearing_force_rms, b);
@@ -110,7 +110,7 @@ std::string bodies_table(const SystemReport& r) {
 
 std::string sweeps_table(const SystemReport& r) {
   html::Rows rows;
-  for (const SystemSweepArtifact& a : r.sweeps) {
+  for (const SystemSweepResult& a : r.sweeps) {
     const std::string loss =
         speeds_where(a, [&](Index i) { return a.separation_fraction.row(i).maxCoeff() > 0; });
     const std::string open = speeds_where(a, [&](Index i) { return a.period_multiple[i] == 0; });
@@ -132,14 +132,14 @@ std::string sweeps_table(const SystemReport& r) {
 }
 
 // The sweep the other way; nullptr: there is none.
-const SystemSweepArtifact* other_way(const SystemReport& r, const SystemSweepArtifact& a) {
-  for (const SystemSweepArtifact& other : r.sweeps)
+const SystemSweepResult* other_way(const SystemReport& r, const SystemSweepResult& a) {
+  for (const SystemSweepResult& other : r.sweeps)
     if (other.direction != a.direction) return &other;
   return nullptr;
 }
 
 // Whether the motions of two sweeps at one speed differ in the RMS of a mesh by more than kSamePeak of its larger value.
-bool differs(const SystemSweepArtifact& a, Index row, const SystemSweepArtifact& b) {
+bool differs(const SystemSweepResult& a, Index row, const SystemSweepResult& b) {
   for (Index other = 0; other < b.mesh_frequency.size(); ++other) {
     if (std::abs(b.mesh_frequency[other] - a.mesh_frequency[row]) > 1e-9 * a.mesh_frequency[row]) continue;
     for (Index m = 0; m < a.dte_rms.cols(); ++m) {
@@ -151,7 +151,7 @@ bool differs(const SystemSweepArtifact& a, Index row, const SystemSweepArtifact&
 }
 
 // Hz: speeds at which the RMS of a mesh is far above those at the speeds on either side.
-std::string sharp_peaks(const SystemSweepArtifact& a) {
+std::string sharp_peaks(const SystemSweepResult& a) {
   const std::vector<Index> order = by_speed(a);
   std::string out;
   for (size_t i = 1; i + 1 < order.size(); ++i) {
@@ -206,7 +206,7 @@ std::string motion_tables(const SystemReport& r) {
 
 std::vector<SystemNumber> motion_numbers(const SystemReport& r) {
   std::vector<SystemNumber> out;
-  for (const SystemSweepArtifact& a : r.sweeps) {
+  for (const SystemSweepResult& a : r.sweeps) {
     const System& s = a.settings.layout;
     const std::string way = way_words_of(a);
     const auto add = [&](const std::string& part, const char* what, const char* unit,
@@ -246,7 +246,7 @@ std::vector<SystemNumber> motion_numbers(const SystemReport& r) {
 
 std::vector<Remark> motion_remarks(const SystemReport& r) {
   std::vector<Remark> out;
-  for (const SystemSweepArtifact& a : r.sweeps) {
+  for (const SystemSweepResult& a : r.sweeps) {
     const std::string way = way_words_of(a);
     const auto open = (a.period_multiple.array() == 0).count();
     if (open > 0)
@@ -269,18 +269,17 @@ std::vector<Remark> motion_remarks(const SystemReport& r) {
                            " of the energy that goes through is not accounted for; raise steps_per_period"));
   }
   if (!r.sweeps.empty()) {
-    const SystemSweepArtifact& first = r.sweeps.front();
-    if (const SystemSweepArtifact* other = other_way(r, first)) {
+    const SystemSweepResult& first = r.sweeps.front();
+    if (const SystemSweepResult* other = other_way(r, first)) {
       const std::string two = speeds_where(first, [&](Index i) { return differs(first, i, *other); });
       if (!two.empty())
         out.push_back(remark(false, "rising and falling speed lead to different motions at ", two,
                              " Hz: the vibration jumps at the ends of these ranges"));
     }
     if (const std::string sharp = sharp_peaks(first); !sharp.empty())
-      out.push_back(
-          remark(true, "peaks at ", sharp, " Hz are one speed wide, of more than ", fixed(kSharpPeak, 0),
-                 " times the RMS beside them: their height is that of the step of mesh_frequency_Hz; lower "
-                 "it, or give the bearings their damping"));
+      out.push_back(remark(
+          true, "peaks at ", sharp, " Hz are one speed wide, of more than ", fixed(kSharpPeak, 0),
+          " times the RMS beside them: their height is that of the step of mesh_frequency_Hz; lower it, or give the bearings their damping"));
     std::string undamped;
     for (const System::Body& body : first.settings.layout.bodies)
       if (body.bearing.elastic() && body.bearing.damping == 0)
@@ -298,7 +297,7 @@ std::string motion_words(const SystemReport& r) {
   Peak most;
   std::string mesh, way;
   double loss = 0;
-  for (const SystemSweepArtifact& a : r.sweeps)
+  for (const SystemSweepResult& a : r.sweeps)
     for (size_t m = 0; m < a.settings.layout.meshes.size(); ++m) {
       loss = std::max(loss, peak_of(a, a.separation_fraction, m).value);
       if (const Peak peak = peak_of(a, a.dte_rms, m); peak.value > most.value) {

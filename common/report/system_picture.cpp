@@ -110,13 +110,13 @@ void add_gear(const Train& t, int b, Blocks& out) {
   if (const GearDesign* design = t.design[static_cast<size_t>(b)]) {
     const ToothGeometry tooth(*design);
     const std::vector<Vec2> contour = gear_contour(tooth, kPictureFlankPoints);
-    const auto held = circle_contour(design->held_radius(), kCirclePoints);
+    const auto held = circle_contour(design->clamped_radius(), kCirclePoints);
     // The body of a ring lies between two areas.
     FigureBlock &rim = second ? out.second_rim : out.rim, &hollow = second ? out.second_hollow : out.hollow,
                 &whole = second ? out.planets : out.central;
     add_closed(design->internal ? hollow : whole, contour, at);
     add_closed(design->internal ? rim : out.bores, held, at);
-    add_arrow(out, body, 0.5 * (design->held_radius() + tooth.root_radius()));
+    add_arrow(out, body, 0.5 * (design->clamped_radius() + tooth.root_radius()));
     return;
   }
   FigureBlock& circles = second ? out.planet_circles : out.circles;
@@ -313,8 +313,7 @@ Figure picture_of(Train t, const Eigen::VectorXd& torque) {
   figure.notes.push_back(
       torque.size() > 0
           ? "unloaded at mesh phase 0; black: paths of contact; below a name its number of teeth"
-          : "rigid gears: a working pitch circle for each mesh, a tick at each tooth; black: lines of "
-            "action, one base pitch long; below a name its number of teeth");
+          : "rigid gears: a working pitch circle for each mesh, a tick at each tooth; black: lines of action, one base pitch long; below a name its number of teeth");
   figure.notes.push_back(
       text("arrows: senses of rotation", carriers ? " relative to the carrier; green: its arms" : ""));
   for (const std::string& line : in_lines(numbers)) figure.notes.push_back(line);
@@ -346,13 +345,13 @@ std::string bodies_words(const System& s, const Eigen::VectorXd& torque) {
   return out;
 }
 
-Figure system_picture(const SystemStaticArtifact& a) {
+Figure system_picture(const SystemStaticResult& a) {
   const SystemStaticParameters& settings = a.settings;
   return picture_of({settings.layout, designs_of(a), settings.section},
                     a.torque.colwise().mean().transpose());
 }
 
-Figure system_picture(const ModesArtifact& a) {
+Figure system_picture(const ModesResult& a) {
   return picture_of({a.layout, std::vector<const GearDesign*>(a.layout.bodies.size(), nullptr), {}}, {});
 }
 

@@ -22,17 +22,14 @@ namespace {
 using Eigen::Index;
 
 std::string of_picture(const SystemReport& r) {
-  return r.rest ? "The gears at their places, unloaded at mesh phase 0, with the teeth of their "
-                  "drawings, and the teeth about a pitch point of each [[mesh]]. Check positions and "
-                  "senses of rotation against your drawing."
-                : "The gears at their places by the working pitch circles of their meshes, with a tick "
-                  "at each tooth; rigid gears have no drawing. Check positions and senses of rotation "
-                  "against your drawing.";
+  return r.rest
+             ? "The gears at their places, unloaded at mesh phase 0, with the teeth of their drawings, and the teeth about a pitch point of each [[mesh]]. Check positions and senses of rotation against your drawing."
+             : "The gears at their places by the working pitch circles of their meshes, with a tick at each tooth; rigid gears have no drawing. Check positions and senses of rotation against your drawing.";
 }
 
 std::string of_rest(const SystemReport& r) {
   if (!r.rest) return "";
-  const SystemStaticArtifact& a = *r.rest;
+  const SystemStaticResult& a = *r.rest;
   std::vector<std::string> parts;
   parts.reserve(static_cast<size_t>(a.transmission_error.cols()));
   for (Index m = 0; m < a.transmission_error.cols(); ++m)
@@ -46,9 +43,9 @@ std::string of_rest(const SystemReport& r) {
       "period, and their harmonics. The transmission error from peak to peak is ", listed(parts),
       all > kMost ? text(" (", all - kMost, " more in the table above)") : "",
       "; its variation excites the whine, and the harmonics of the bearing forces act on the housing.",
-      load_sharing(a).empty() ? ""
-                              : " In the torque and the force on a central gear, harmonics are missing "
-                                "that the planets cancel among them; each mesh by itself has them all.");
+      load_sharing(a).empty()
+          ? ""
+          : " In the torque and the force on a central gear, harmonics are missing that the planets cancel among them; each mesh by itself has them all.");
 }
 
 std::string of_sharing(const SystemReport& r) {
@@ -64,7 +61,7 @@ std::string of_sharing(const SystemReport& r) {
 }
 
 std::string of_modes(const SystemReport& r) {
-  const ModesArtifact& a = *r.modes;
+  const ModesResult& a = *r.modes;
   Index lowest = 0;
   while (lowest < a.natural_frequency.size() && a.natural_frequency[lowest] == 0) ++lowest;
   return text("Natural frequencies by type, and the shapes of the modes, magnified; grey: at rest.",
@@ -75,9 +72,7 @@ std::string of_modes(const SystemReport& r) {
 }
 
 std::string of_campbell(const SystemReport&) {
-  return "Natural frequencies and the harmonics of the mesh frequency. Where a ray meets a line that "
-         "harmonic of the transmission error can excite that mode: keep operating speeds away from the "
-         "points that matter.";
+  return "Natural frequencies and the harmonics of the mesh frequency. Where a ray meets a line that harmonic of the transmission error can excite that mode: keep operating speeds away from the points that matter.";
 }
 
 std::string of_sweep(const SystemReport& r) {
@@ -155,7 +150,7 @@ void require_sweeps(const SystemReport& r) {
     fail(Failure::input,
          "report: system_sweep.h5 is given without the system_static.h5 of its scene; give it, too");
   for (size_t i = 0; i < r.sweeps.size(); ++i) {
-    const SystemSweepArtifact& a = r.sweeps[i];
+    const SystemSweepResult& a = r.sweeps[i];
     const System& layout = a.settings.layout;
     if (!one_system(layout, r.rest->settings.layout))
       fail(Failure::input,

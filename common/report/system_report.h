@@ -8,17 +8,17 @@
 #include <vector>
 
 #include "report/report_content.h"
-#include "studies/system_sweep_result.h"
-#include "system/modes_result.h"
-#include "system/system_static_result.h"
+#include "results/modes.h"
+#include "results/system_static.h"
+#include "results/system_sweep.h"
 
 namespace whine {
 
 struct SystemReport {
   std::string scene;  // "file: title"
-  std::optional<SystemStaticArtifact> rest;
-  std::optional<ModesArtifact> modes;
-  std::vector<SystemSweepArtifact> sweeps = {};  // rising, falling, or none
+  std::optional<SystemStaticResult> rest;
+  std::optional<ModesResult> modes;
+  std::vector<SystemSweepResult> sweeps = {};  // rising, falling, or none
   std::vector<ReportPicture> pictures;
   std::vector<ReportSource> sources;
 };

@@ -29,25 +29,21 @@ std::vector<GuideRow> rows_at_rest(bool planets) {
             "line of action, and within 0.6 % for an internal pair whose tip edges carry 14 % of the ",
             "load. A whole train has not been compared. Real flanks deviate by micrometres, and ",
             "housings and carriers are elastic."),
-       "Tip relief ([gear.name.modification]); tooth numbers and planet positions whose phases cancel a "
-       "harmonic."}};
+       "Tip relief ([gear.name.modification]); tooth numbers and planet positions whose phases cancel a harmonic."}};
   if (planets)
     rows.push_back(
         {"load-sharing", "Load sharing",
          text("The part of the load that each planet carries. Equal planets at equal spacing, or ",
               "opposite each other, have equal mean shares; over the mesh period shares vary where ",
               "phases differ."),
-         text("Of teeth as the scene has them, exact unless it gives errors. An error of a pin's position of "
-              "a few ",
-              "micrometres is as large as the deflection of a mesh (compare the mean STE) and then decides "
-              "the ",
-              "sharing; the model has no such errors."),
-         "A floating central gear (soft [[bearing]]) equalises; ISO 6336-1 has the mesh load factor "
-         "K_gamma."});
+         text(
+             "Of teeth as the scene has them, exact unless it gives errors. An error of a pin's position of a few ",
+             "micrometres is as large as the deflection of a mesh (compare the mean STE) and then decides the ",
+             "sharing; the model has no such errors."),
+         "A floating central gear (soft [[bearing]]) equalises; ISO 6336-1 has the mesh load factor K_gamma."});
   rows.push_back(
       {"system-static", "Forces on bearings and pins",
-       "The force of each body on its bearing or pin. The mean loads the bearing, the oscillating part "
-       "acts on the housing.",
+       "The force of each body on its bearing or pin. The mean loads the bearing, the oscillating part acts on the housing.",
        "As good as the load sharing and the stiffness of the bearings that the scene gives.",
        planets ? text("N equal planets at equal spacing, z teeth of the central gear: harmonic l of its ",
                       "force is left only where (z l + 1) / N or (z l - 1) / N is whole, of its torque ",
@@ -77,8 +73,7 @@ const std::vector<GuideRow>& rows_of_modes_and_motion() {
        text("The height of a resonance goes with 1 over the damping, which the scene assumes; its ",
             "frequency is as good as stiffness and inertias. Contact is of lines. Unstable motions and ",
             "those that no sweep enters are left out."),
-       "Measure the damping, or compute with half and twice of it. Finer: steps_per_period, "
-       "element_mm."},
+       "Measure the damping, or compute with half and twice of it. Finer: steps_per_period, element_mm."},
       {"system-sweep", "Contact loss, dynamic factor",
        text("Part of the time in which no pair of teeth of a mesh touches. Dynamic factor: largest mesh ",
             "force over the mean one at rest; with contact loss teeth meet again with impact."),
@@ -89,8 +84,7 @@ const std::vector<GuideRow>& rows_of_modes_and_motion() {
        "The largest force, and the RMS of the oscillating part, over the speeds.",
        text("As the forces at rest, and the dampers of the bearings in the scene. Of a carrier that ",
             "turns, centrifugal and Coriolis forces come in addition."),
-       "They are the input of a housing model; /body/name/bearing_force of system_sweep.h5 has their "
-       "time histories."},
+       "They are the input of a housing model; /body/name/bearing_force of system_sweep.h5 has their time histories."},
   };
   return rows;
 }

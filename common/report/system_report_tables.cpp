@@ -21,7 +21,7 @@
 
 namespace whine {
 
-bool shares_load(const SystemStaticArtifact& a, size_t m) {
+bool shares_load(const SystemStaticResult& a, size_t m) {
   const std::vector<int>& section = a.settings.section;
   return std::count(section.begin(), section.end(), section[m]) > 1;
 }
@@ -30,7 +30,7 @@ namespace {
 
 using Eigen::Index;
 
-const GearDesign& design_of(const SystemStaticArtifact& a, const System::Side& side) {
+const GearDesign& design_of(const SystemStaticResult& a, const System::Side& side) {
   const BodyParameters* drawing = drawing_of(a, side.body);
   if (!drawing)
     fail(Failure::input, "report: no drawing is known of '",
@@ -38,7 +38,7 @@ const GearDesign& design_of(const SystemStaticArtifact& a, const System::Side& s
   return drawing->design;
 }
 
-GearPair pair_of(const SystemStaticArtifact& a, size_t m) {
+GearPair pair_of(const SystemStaticResult& a, size_t m) {
   const System::Mesh& mesh = a.settings.layout.meshes[m];
   return {design_of(a, mesh.side[0]), design_of(a, mesh.side[1]), mesh.centre_distance};
 }
@@ -50,7 +50,7 @@ double largest_load(const std::vector<MatrixRM>& of, size_t m) {
 }
 
 // N: largest load of a pair of a mesh whose tip edge touches, off the line of action.
-double tip_edge_load(const SystemStaticArtifact& a, size_t m) {
+double tip_edge_load(const SystemStaticResult& a, size_t m) {
   const auto row = static_cast<Index>(m);
   double most = 0;
   for (size_t i = 0; i < a.tooth_load.size(); ++i)
@@ -60,12 +60,12 @@ double tip_edge_load(const SystemStaticArtifact& a, size_t m) {
 }
 
 // µm
-std::string harmonic_words(const SystemStaticArtifact& a, Index n, Index mesh) {
+std::string harmonic_words(const SystemStaticResult& a, Index n, Index mesh) {
   if (n >= a.transmission_error_harmonic.rows()) return "–";
   return significant(a.transmission_error_harmonic(n, mesh) * kMicro, 3);
 }
 
-double mean_stiffness(const SystemStaticArtifact& a, size_t m) {
+double mean_stiffness(const SystemStaticResult& a, size_t m) {
   const auto at = static_cast<Index>(m);
   double sum = 0;
   for (const MatrixRM& k : a.mesh_stiffness) sum += k(at, at);
@@ -76,7 +76,7 @@ struct Force {
   double mean_x, mean_y, mean, most, rms;  // N; rms: of the oscillating part
 };
 
-Force force_of(const SystemStaticArtifact& a, size_t b) {
+Force force_of(const SystemStaticResult& a, size_t b) {
   Force f{};
   const auto row = static_cast<Index>(b);
   const auto n = static_cast<double>(a.bearing_force.size());
@@ -122,7 +122,7 @@ std::string plain(double value, int decimals) {
 }
 
 void add_rest(const SystemReport& r, std::vector<SystemNumber>& out) {
-  const SystemStaticArtifact& a = *r.rest;
+  const SystemStaticResult& a = *r.rest;
   const System& s = a.settings.layout;
   for (size_t m = 0; m < s.meshes.size(); ++m) {
     const std::string name = mesh_name(s, m);
@@ -179,7 +179,7 @@ std::vector<SystemNumber> system_numbers(const SystemReport& r) {
 namespace {
 
 // Of the gears as they are drawn, a column for each.
-std::string drawings_table(const SystemStaticArtifact& a) {
+std::string drawings_table(const SystemStaticResult& a) {
   std::vector<std::string> head{"", "unit"};
   std::vector<ToothGeometry> gears;
   head.reserve(a.drawing.size() + 2);
@@ -213,7 +213,7 @@ std::string drawings_table(const SystemStaticArtifact& a) {
   all("tooth thickness at the tip", "mm", [&](G g) { return mm(g.thickness_at_radius(g.tip_radius())); });
   all("face width", "mm", [](G g) { return shown(g.design().face_width * kMilli, 6); });
   all("diameter on which it is held rigidly (bore, of a ring its rim)", "mm",
-      [&](G g) { return mm(2 * g.design().held_radius()); });
+      [&](G g) { return mm(2 * g.design().clamped_radius()); });
   return html::table("Geometry of the gears; all keys of the scene stand below, under Parameters.", head,
                      rows);
 }
@@ -246,15 +246,17 @@ std::string gear_tables(const SystemReport& r) {
     speed_words = text(". Speed: at a mesh frequency of ", kAt, " Hz", with.empty() ? "" : ", with ", with,
                        has_planets(s) ? "; of a planet on its pin" : "");
   }
-  return html::table(text("The bodies. Sense: of rotation",
-                          has_planets(s) ? " relative to the carrier, which the computation holds; a "
-                                           "gear that the machine holds turns against its carrier"
-                                         : "",
-                          speed_words, ". Rotation: by what it is held or driven",
-                          r.rest ? "" : "; torques do not change natural modes",
-                          ". Diameter: of the base circle, of a carrier of the circle of its pins. The ",
-                          "inertia of a body that is held has no meaning."),
-                     head, rows, "small") +
+  return html::table(
+             text(
+                 "The bodies. Sense: of rotation",
+                 has_planets(s)
+                     ? " relative to the carrier, which the computation holds; a gear that the machine holds turns against its carrier"
+                     : "",
+                 speed_words, ". Rotation: by what it is held or driven",
+                 r.rest ? "" : "; torques do not change natural modes",
+                 ". Diameter: of the base circle, of a carrier of the circle of its pins. The ",
+                 "inertia of a body that is held has no meaning."),
+             head, rows, "small") +
          (r.rest ? drawings_table(*r.rest) : "");
 }
 
@@ -271,7 +273,7 @@ std::string mesh_tables(const SystemReport& r) {
       geometry.back().push_back(shown(mesh.stiffness * 1e-6, 5));
       continue;
     }
-    const SystemStaticArtifact& a = *r.rest;
+    const SystemStaticResult& a = *r.rest;
     const GearPair pair = pair_of(a, m);
     geometry.back().push_back(fixed(a.contact_ratio[c], 3));
     geometry.back().push_back(fixed(pair.backlash() * kMilli, 4));
@@ -315,7 +317,7 @@ std::string mesh_tables(const SystemReport& r) {
 
 std::string force_table(const SystemReport& r) {
   if (!r.rest) return "";
-  const SystemStaticArtifact& a = *r.rest;
+  const SystemStaticResult& a = *r.rest;
   const System& s = a.settings.layout;
   html::Rows rows;
   for (size_t b = 0; b < s.bodies.size(); ++b) {
@@ -336,7 +338,7 @@ std::string force_table(const SystemReport& r) {
 
 std::string modes_table(const SystemReport& r) {
   if (!r.modes) return "";
-  const ModesArtifact& a = *r.modes;
+  const ModesResult& a = *r.modes;
   const bool bands = a.frozen_frequency.size() > 0;
   html::Rows rows;
   for (Index i = 0; i < a.natural_frequency.size(); ++i) {
@@ -425,7 +427,7 @@ bool equally_spaced(const System& s, const std::vector<size_t>& meshes) {
   return true;
 }
 
-void remark_rest(const SystemStaticArtifact& a, std::vector<Remark>& out) {
+void remark_rest(const SystemStaticResult& a, std::vector<Remark>& out) {
   const System& s = a.settings.layout;
   constexpr double kSmall = 0.01;   // of the largest load of a pair
   constexpr double kUnequal = 1.3;  // of an equal share
@@ -465,18 +467,16 @@ void remark_rest(const SystemStaticArtifact& a, std::vector<Remark>& out) {
                        shown(a.torque_residual.maxCoeff(), 2)));
 }
 
-void remark_modes(const ModesArtifact& a, std::vector<Remark>& out) {
+void remark_modes(const ModesResult& a, std::vector<Remark>& out) {
   const auto mixed = std::count(a.type.begin(), a.type.end(), ModeType::mixed);
   if (mixed > 0)
-    out.push_back(
-        remark(false, mixed,
-               " modes are mixed: the planets are not alike or not equally spaced, so that modes are "
-               "neither purely rotational nor translational"));
+    out.push_back(remark(
+        false, mixed,
+        " modes are mixed: the planets are not alike or not equally spaced, so that modes are neither purely rotational nor translational"));
   if (a.frozen_frequency.size() > 0)
-    out.push_back(
-        remark(false,
-               "elastic modes of the gear bodies themselves are left out; frequencies near or above the "
-               "lowest of a body (eigenfrequency in its body.h5) are not to be trusted"));
+    out.push_back(remark(
+        false,
+        "elastic modes of the gear bodies themselves are left out; frequencies near or above the lowest of a body (eigenfrequency in its body.h5) are not to be trusted"));
   if (has_planets(a.layout))
     out.push_back(remark(
         false, "Coriolis and centrifugal terms of a turning carrier are left out, of the relative size ",

@@ -15,7 +15,7 @@ struct SystemNumber {
 std::vector<SystemNumber> system_numbers(const SystemReport& r);
 
 // Whether it is one of several meshes of a [[mesh]], which share its load.
-bool shares_load(const SystemStaticArtifact& a, size_t m);
+bool shares_load(const SystemStaticResult& a, size_t m);
 
 // Tables as HTML; "" where there is nothing to say. gear_tables: of elastic gears their drawings, of rigid ones what is known.
 std::string gear_tables(const SystemReport& r);

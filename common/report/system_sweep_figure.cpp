@@ -19,14 +19,14 @@ namespace {
 struct Quantity {
   const char *name, *axis, *unit;
   double scale;
-  MatrixRM SystemSweepArtifact::*values;  // (speed, mesh or body)
+  MatrixRM SystemSweepResult::*values;  // (speed, mesh or body)
   bool of_bodies;
 };
 constexpr Quantity kQuantities[] = {
-    {"dte_rms", "RMS of the transmission error", "µm", kMicro, &SystemSweepArtifact::dte_rms, false},
-    {"separation_fraction", "Time without contact", "%", kPercent, &SystemSweepArtifact::separation_fraction,
+    {"dte_rms", "RMS of the transmission error", "µm", kMicro, &SystemSweepResult::dte_rms, false},
+    {"separation_fraction", "Time without contact", "%", kPercent, &SystemSweepResult::separation_fraction,
      false},
-    {"bearing_force_rms", "Bearing force, oscillating (RMS)", "N", 1, &SystemSweepArtifact::bearing_force_rms,
+    {"bearing_force_rms", "Bearing force, oscillating (RMS)", "N", 1, &SystemSweepResult::bearing_force_rms,
      true}};
 
 std::vector<std::string> curve_names(const System& s, bool bodies) {
@@ -42,7 +42,7 @@ std::string column_of(const Quantity& q, const std::string& curve) {
   return text(q.name, " ", curve, " [", q.unit, "]");
 }
 
-FigureBlock block_of(const Quantity& q, const SystemSweepArtifact& a, size_t curves) {
+FigureBlock block_of(const Quantity& q, const SystemSweepResult& a, size_t curves) {
   const std::vector<std::string> names = curve_names(a.settings.layout, q.of_bodies);
   const std::string way = name_of(a.direction);
   FigureBlock block{text(q.name, " ", way), {"mesh_frequency [Hz]"}, {}, text(q.name, "_", way)};
@@ -62,11 +62,11 @@ FigureBlock block_of(const Quantity& q, const SystemSweepArtifact& a, size_t cur
 
 }  // namespace
 
-Figure system_sweep_figure(const std::vector<SystemSweepArtifact>& sweeps) {
-  for (const SystemSweepArtifact& one : sweeps)
+Figure system_sweep_figure(const std::vector<SystemSweepResult>& sweeps) {
+  for (const SystemSweepResult& one : sweeps)
     if (one.mesh_frequency.size() == 0 || one.settings.layout.meshes.empty())
       fail(Failure::input, "figure: a sweep of no speeds, or of a system without meshes, was given");
-  const SystemSweepArtifact& a = sweeps.front();
+  const SystemSweepResult& a = sweeps.front();
   const System& s = a.settings.layout;
   require_one_system("another sweep", a.settings, a.torque, sweeps);
   Figure figure;
@@ -89,7 +89,7 @@ Figure system_sweep_figure(const std::vector<SystemSweepArtifact>& sweeps) {
       figure.notes.push_back(text(q.axis, ": the first ", kMostLines, " of ", names.size(), " curves"));
     const size_t curves = std::min(names.size(), kMostLines);
     double most = 0;
-    for (const SystemSweepArtifact& sweep : sweeps) {
+    for (const SystemSweepResult& sweep : sweeps) {
       figure.blocks.push_back(block_of(q, sweep, curves));
       most = std::max(most, (sweep.*q.values).leftCols(static_cast<Index>(curves)).maxCoeff() * q.scale);
       from = std::min(from, sweep.mesh_frequency.minCoeff());
@@ -99,7 +99,7 @@ Figure system_sweep_figure(const std::vector<SystemSweepArtifact>& sweeps) {
     labels.reserve(curves);
     for (size_t i = 0; i < curves; ++i) {
       labels.push_back(short_name(names[i]));
-      if (q.values == &SystemSweepArtifact::dte_rms) figure.levels.push_back({column_of(q, names[i]), false});
+      if (q.values == &SystemSweepResult::dte_rms) figure.levels.push_back({column_of(q, names[i]), false});
     }
     const std::string row = std::to_string(++row_number);
     for (const auto& [name, value] :
@@ -112,7 +112,7 @@ Figure system_sweep_figure(const std::vector<SystemSweepArtifact>& sweeps) {
   }
   for (const Direction way : {Direction::up, Direction::down}) {
     double there = 0;
-    for (const SystemSweepArtifact& sweep : sweeps) there += sweep.direction == way;
+    for (const SystemSweepResult& sweep : sweeps) there += sweep.direction == way;
     figure.numbers.emplace_back(text("sweeps_", name_of(way)), there);
   }
   figure.numbers.emplace_back("frequency_from", from);

@@ -28,7 +28,7 @@ std::string megapascal(double stress) {
 }
 
 // [gear] N: largest load at rest of a pair that touches over the gear's tip edge, where no pressure is stated.
-std::array<double, kSides> edge_load_at_rest(const StaticArtifact& s) {
+std::array<double, kSides> edge_load_at_rest(const StaticResult& s) {
   const GearPair gears(s);
   std::array<double, kSides> most{};
   for (Index i = 0; i < s.tooth_load.rows(); ++i)
@@ -51,11 +51,11 @@ std::string or_dash(const std::optional<double>& value, int decimals, double sca
   return value ? fixed(*value * scale, decimals) : html::kNoValue;
 }
 
-WordTable at_rest(const StaticArtifact& s, const IsoComparison& iso) {
+WordTable at_rest(const StaticResult& s, const IsoComparison& iso) {
   WordTable out{
-      text("At rest at ", torque_words(s.torque),
-           ", beside ISO 6336, method B. sigma_F0 is of a tooth that carries the whole load at the outer "
-           "point of single contact; sigma_H0 is at the pitch point."),
+      text(
+          "At rest at ", torque_words(s.torque),
+          ", beside ISO 6336, method B. sigma_F0 is of a tooth that carries the whole load at the outer point of single contact; sigma_H0 is at the pitch point."),
       {"", "unit", s.mesh.gear[0] + " (driver)", s.mesh.gear[1] + " (driven)"},
       {}};
   const auto both = [&](const char* what, const char* unit, const std::function<std::string(size_t)>& value) {
@@ -90,22 +90,18 @@ WordTable at_rest(const StaticArtifact& s, const IsoComparison& iso) {
   return out;
 }
 
-WordTable in_motion(const StaticArtifact& s, const GearPair& pair, const IsoComparison& iso,
-                    const std::array<const ResponseArtifact*, 2>& sweeps) {
+WordTable in_motion(const StaticResult& s, const GearPair& pair, const IsoComparison& iso,
+                    const std::array<const ResponseResult*, 2>& sweeps) {
   WordTable out{
-      text("In motion at ", torque_words(s.torque),
-           ": the largest over all speeds, held for 1/64 of a mesh period, with the mesh frequency at "
-           "which it stands; of forces and of root stress, which goes with them, what it is over its value "
-           "at rest (the "
-           "dynamic factor), and K_v of ISO 6336-1, method B, at that speed; of root stress, where: "
-           "tangent of the root against the tooth's centre line, phase of the tooth's pair from the pitch "
-           "point."),
+      text(
+          "In motion at ", torque_words(s.torque),
+          ": the largest over all speeds, sustained for 1/64 of a mesh period, with the mesh frequency at which it stands; of forces and of root stress, which goes with them, what it is over its value at rest (the dynamic factor), and K_v of ISO 6336-1, method B, at that speed; of root stress, where: tangent of the root against the tooth's centre line, phase of the tooth's pair from the pitch point."),
       {"", "speed", "largest", "at (Hz)", "where", "dynamic factor", "K_v there"},
       {}};
   const double force = s.torque / pair.gear(0).base_radius();
   enum class Factor { none, of_rest };
   for (size_t d = 0; d < sweeps.size(); ++d) {
-    const ResponseArtifact& r = *sweeps[d];
+    const ResponseResult& r = *sweeps[d];
     // 0: it does not occur at any speed
     const auto add = [&](const std::string& what, const Eigen::VectorXd& values, double scale,
                          const char* unit, Factor factor, double rest = 0,
@@ -121,14 +117,14 @@ WordTable in_motion(const StaticArtifact& s, const GearPair& pair, const IsoComp
                           compared ? or_dash(iso.dynamic_factor(speed), 2) : html::kNoValue});
     };
     for (size_t g = 0; g < kSides; ++g)
-      add("root stress of " + s.mesh.gear[g], r.root_stress_held[g], kInMegapascals, " MPa", Factor::of_rest,
-          s.root_stress_max[static_cast<Index>(g)], [&](Index i) {
+      add("root stress of " + s.mesh.gear[g], r.root_stress_sustained[g], kInMegapascals, " MPa",
+          Factor::of_rest, s.root_stress_max[static_cast<Index>(g)], [&](Index i) {
             return fixed(r.root_stress_angle[g][i] * kInDegrees, 0) + " deg, " +
                    fixed(r.root_stress_phase[g][i], 2);
           });
-    add("mesh force", r.mesh_force_held, 1, " N", Factor::of_rest, force);
-    add("load of a pair of teeth", r.tooth_load_held, 1, " N", Factor::of_rest, s.tooth_load.maxCoeff());
-    add("pressure inside the flanks", r.flank_pressure_held, kInMegapascals, " MPa", Factor::none);
+    add("mesh force", r.mesh_force_sustained, 1, " N", Factor::of_rest, force);
+    add("load of a pair of teeth", r.tooth_load_sustained, 1, " N", Factor::of_rest, s.tooth_load.maxCoeff());
+    add("pressure inside the flanks", r.flank_pressure_sustained, kInMegapascals, " MPa", Factor::none);
     for (size_t g = 0; g < kSides; ++g)
       add("load over the tip edge of " + s.mesh.gear[g], r.edge_load[g], 1, " N", Factor::none);
     out.rows.push_back({"loss factor H_V, least to largest", d == 0 ? "rising" : "falling",
@@ -140,20 +136,14 @@ WordTable in_motion(const StaticArtifact& s, const GearPair& pair, const IsoComp
 
 const std::vector<std::string>& limits() {
   static const std::vector<std::string> all{
-      text("Root stress is the tangential stress along the root beside the loaded flank of the teeth that "
-           "carry load. In "
-           "motion it is quasi-static in the tooth loads: the inertia of the body adds none."),
-      text("A tip edge on a flank is a singular contact in this model: it has no largest pressure, so its "
-           "load is stated, apart from the pressure inside the flanks. "
-           "Real edges are rounded and wear."),
-      text("Pressure at rest, by strips, leaves out ridges where a linear relief begins; pressure in motion "
-           "is Hertz's of "
-           "the load of a pair and does not resolve them. It grows with the root of the load, so it has no "
-           "dynamic "
-           "factor beside K_v."),
-      text("K_v is a factor of forces, of gears without deviations. sigma_F0 and sigma_H0 have no "
-           "application, face load "
-           "or dynamic factors: they stand beside values at rest only."),
+      text(
+          "Root stress is the tangential stress along the root beside the loaded flank of the teeth that carry load. In motion it is quasi-static in the tooth loads: the inertia of the body adds none."),
+      text(
+          "A tip edge on a flank is a singular contact in this model: it has no largest pressure, so its load is stated, apart from the pressure inside the flanks. Real edges are rounded and wear."),
+      text(
+          "Pressure at rest, by strips, leaves out ridges where a linear relief begins; pressure in motion is Hertz's of the load of a pair and does not resolve them. It grows with the root of the load, so it has no dynamic factor beside K_v."),
+      text(
+          "K_v is a factor of forces, of gears without deviations. sigma_F0 and sigma_H0 have no application, face load or dynamic factors: they stand beside values at rest only."),
       text("Losses are per unit coefficient of friction.")};
   return all;
 }
@@ -168,12 +158,12 @@ std::vector<WordTable> teeth_tables(const ReportContent& c) {
   if (c.statics.empty())
     fail(Failure::input, "teeth: no static.h5 given; that of the scene's first torque is the least");
   require_one_pair(c);
-  const StaticArtifact& s = c.statics[0];
+  const StaticResult& s = c.statics[0];
   if (const std::string why = why_no_root_stress(s); !why.empty()) fail(Failure::input, "teeth: ", why);
-  std::array<const ResponseArtifact*, 2> sweeps{};
+  std::array<const ResponseResult*, 2> sweeps{};
   for (const Direction direction : {Direction::up, Direction::down}) {
     const ReportSweep* sweep = sweep_of(c, s.torque, direction);
-    if (!sweep || sweep->response.root_stress_held[0].size() == 0)
+    if (!sweep || sweep->response.root_stress_sustained[0].size() == 0)
       fail(Failure::input, "teeth: no sweep.h5 ", direction, " with root stress at ", torque_words(s.torque),
            " is given");
     sweeps[direction == Direction::up ? 0 : 1] = &sweep->response;

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "base/error.h"
-#include "solid/sector_mesh.h"
+#include "results/sector_grid.h"
 
 namespace whine {
 
@@ -60,8 +60,8 @@ Strokes simplified(const Strokes& strokes, double tolerance) {
   return out;
 }
 
-Wireframe::Wireframe(const MeshArtifact& mesh)
-    : node_(mesh.node_position), teeth_(mesh.design.teeth), bore_radius_(mesh.design.held_radius()) {
+Wireframe::Wireframe(const SectorGrid& mesh)
+    : node_(mesh.node_position), teeth_(mesh.design.teeth), bore_radius_(mesh.design.clamped_radius()) {
   const Eigen::Index per_element = mesh.element_node.cols();
   if (per_element != 4 && per_element != 9)
     fail(Failure::input, "mesh: elements of ", per_element, " nodes; 4 or 9 are known");

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "gear/pair.h"
-#include "solid/sector_mesh.h"
+#include "results/sector_grid.h"
 
 namespace whine {
 
@@ -20,7 +20,7 @@ class Wireframe {
  public:
   // Throws Error(input) for elements that are not of 4 or 9 nodes, or a sector whose outer edge is not one
   // line from the clockwise to the counter-clockwise side.
-  explicit Wireframe(const MeshArtifact& mesh);
+  explicit Wireframe(const SectorGrid& mesh);
 
   Strokes whole(const Placement& at, double scale) const;  // all teeth, straight edges
   // Edges of the elements that reach into the square of half width `half` about `point`, through their mid

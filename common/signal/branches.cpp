@@ -40,7 +40,7 @@ std::optional<BranchPoint> between(std::vector<BranchPoint> points, double f) {
                  share = width > 0 ? (f - a.mesh_frequency) / width : 0;
     const auto at = [&](double BranchPoint::*value) { return a.*value + share * (b.*value - a.*value); };
     return BranchPoint{f, at(&BranchPoint::dte_rms), at(&BranchPoint::tooth_load_max),
-                       at(&BranchPoint::held_load), a.parted || b.parted};
+                       at(&BranchPoint::sustained_load), a.parted || b.parted};
   }
   return std::nullopt;
 }
@@ -99,8 +99,8 @@ double least_from(const Column& load, Eigen::Index i, Eigen::Index window, Eigen
 
 }  // namespace
 
-double held_load(const Eigen::Ref<const MatrixRM>& load, int samples, int multiple) {
-  const Eigen::Index window = held_samples(samples);
+double sustained_load(const Eigen::Ref<const MatrixRM>& load, int samples, int multiple) {
+  const Eigen::Index window = sustained_samples(samples);
   const Eigen::Index rows =
       multiple > 0 ? std::min(load.rows(), static_cast<Eigen::Index>(multiple) * samples) : load.rows();
   double held = 0;
@@ -110,8 +110,8 @@ double held_load(const Eigen::Ref<const MatrixRM>& load, int samples, int multip
   return held;
 }
 
-Eigen::Index held_row(const Eigen::Ref<const VectorXd>& load, int samples, int multiple) {
-  const Eigen::Index window = held_samples(samples);
+Eigen::Index sustained_row(const Eigen::Ref<const VectorXd>& load, int samples, int multiple) {
+  const Eigen::Index window = sustained_samples(samples);
   const Eigen::Index rows =
       multiple > 0 ? std::min(load.size(), static_cast<Eigen::Index>(multiple) * samples) : load.size();
   double held = -1;
@@ -147,7 +147,7 @@ VectorXd map_speeds(const MapSpeeds& plan, double natural_frequency) {
   return VectorXd::LinSpaced(count, anchor + first * plan.step, anchor + last * plan.step);
 }
 
-void start_cases(JumpMapArtifact& map, Eigen::Index cases, const VectorXd& speeds, double load_frequency) {
+void start_cases(JumpMapResult& map, Eigen::Index cases, const VectorXd& speeds, double load_frequency) {
   map.load_frequency = load_frequency;
   map.mesh_frequency = speeds;
   for (VectorXd* v : {&map.rayleigh_stiffness, &map.damping_ratio, &map.branches_from, &map.branches_to,
@@ -156,16 +156,17 @@ void start_cases(JumpMapArtifact& map, Eigen::Index cases, const VectorXd& speed
   for (Eigen::VectorXi* v : {&map.two_branches, &map.open_below, &map.unsteady})
     *v = Eigen::VectorXi::Zero(cases);
   map.peak_tooth_load.resize(cases, 2);
-  map.held_tooth_load.resize(cases, 2);
+  map.sustained_tooth_load.resize(cases, 2);
   if (load_frequency > 0)
-    for (MatrixRM* at : {&map.tooth_load, &map.held_load_there, &map.dte_rms_there}) at->resize(cases, 2);
+    for (MatrixRM* at : {&map.tooth_load, &map.sustained_load_there, &map.dte_rms_there})
+      at->resize(cases, 2);
   for (int d = 0; d < 2; ++d)
     for (auto* curve : {&map.dte_rms, &map.tooth_load_max, &map.separation_fraction})
       (*curve)[d].resize(cases, speeds.size());
 }
 
-void add_case(JumpMapArtifact& map, Eigen::Index c, double step,
-              const std::function<SweepArtifact(Direction, std::vector<BranchPoint>&)>& sweep) {
+void add_case(JumpMapResult& map, Eigen::Index c, double step,
+              const std::function<SweepResult(Direction, std::vector<BranchPoint>&)>& sweep) {
   const VectorXd& speed = map.mesh_frequency;
   std::array<std::vector<End>, 2> jumps;
   const auto note_loss = [&](double f) {
@@ -174,22 +175,22 @@ void add_case(JumpMapArtifact& map, Eigen::Index c, double step,
   };
   for (int d = 0; d < 2; ++d) {
     std::vector<BranchPoint> beyond;
-    const SweepArtifact swept = sweep(d == 0 ? Direction::up : Direction::down, beyond);
-    const ResponseArtifact r = response(swept);
+    const SweepResult swept = sweep(d == 0 ? Direction::up : Direction::down, beyond);
+    const ResponseResult r = response(swept);
     VectorXd held(speed.size());
     for (Eigen::Index i = 0; i < speed.size(); ++i)
-      held[i] = held_load(swept.tooth_load[i], swept.time.steps_per_period);
+      held[i] = sustained_load(swept.tooth_load[i], swept.time.steps_per_period);
     const auto ascending = [&](const VectorXd& row) { return d == 0 ? row : VectorXd(row.reverse()); };
     map.dte_rms[d].row(c) = ascending(r.dte_rms).transpose();
     map.tooth_load_max[d].row(c) = ascending(r.tooth_load_max).transpose();
     map.separation_fraction[d].row(c) = ascending(r.separation_fraction).transpose();
     map.peak_tooth_load(c, d) = r.tooth_load_max.maxCoeff();
-    map.held_tooth_load(c, d) = held.maxCoeff();
+    map.sustained_tooth_load(c, d) = held.maxCoeff();
     for (Eigen::Index i = 0; i < speed.size(); ++i)
       if (map.separation_fraction[d](c, i) > 0) note_loss(speed[i]);
     for (const BranchPoint& point : beyond) {
       map.peak_tooth_load(c, d) = std::max(map.peak_tooth_load(c, d), point.tooth_load_max);
-      map.held_tooth_load(c, d) = std::max(map.held_tooth_load(c, d), point.held_load);
+      map.sustained_tooth_load(c, d) = std::max(map.sustained_tooth_load(c, d), point.sustained_load);
       if (point.parted) note_loss(point.mesh_frequency);
     }
     map.unsteady[c] += static_cast<int>((r.period_multiple.array() == 0).count());
@@ -198,10 +199,10 @@ void add_case(JumpMapArtifact& map, Eigen::Index c, double step,
       (speed.array() - map.load_frequency).abs().minCoeff(&row);
       map.tooth_load(c, d) = map.tooth_load_max[d](c, row);
       map.dte_rms_there(c, d) = map.dte_rms[d](c, row);
-      map.held_load_there(c, d) = ascending(held)[row];
+      map.sustained_load_there(c, d) = ascending(held)[row];
       if (const auto found = between(beyond, map.load_frequency)) {
         map.tooth_load(c, d) = found->tooth_load_max;
-        map.held_load_there(c, d) = found->held_load;
+        map.sustained_load_there(c, d) = found->sustained_load;
         map.dte_rms_there(c, d) = found->dte_rms;
       }
     }

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "signal/jump_map_result.h"
-#include "signal/sweep_result.h"
+#include "results/jump_map.h"
+#include "results/sweep.h"
 
 namespace whine {
 
@@ -15,7 +15,7 @@ struct BranchPoint {
   double mesh_frequency = 0;  // Hz
   double dte_rms = 0;         // m
   double tooth_load_max = 0;  // N
-  double held_load = 0;       // N, see held_load()
+  double sustained_load = 0;  // N, see sustained_load()
   bool parted = false;        // contact is lost during the period
 };
 
@@ -23,12 +23,12 @@ struct BranchPoint {
 // samples in a row, which span 1/64 or, where 64 does not divide `samples`, up to one sample more. load: (sample, pair), whole
 // periods of `samples`. multiple: periods after which the motion repeats; only these count, and their end is followed by their
 // begin; not for loads of pairs, which go on in another column there. 0: it does not repeat.
-double held_load(const Eigen::Ref<const MatrixRM>& load, int samples, int multiple = 0);
-// (row) 0 up to the rows that count: where held_load() of one column is held, the row of its largest sample; the first of equals.
-Eigen::Index held_row(const Eigen::Ref<const Eigen::VectorXd>& load, int samples, int multiple = 0);
+double sustained_load(const Eigen::Ref<const MatrixRM>& load, int samples, int multiple = 0);
+// (row) 0 up to the rows that count: where sustained_load() of one column is held, the row of its largest sample; the first of equals.
+Eigen::Index sustained_row(const Eigen::Ref<const Eigen::VectorXd>& load, int samples, int multiple = 0);
 
 // Samples in a row that it looks at.
-constexpr int held_samples(int samples) {
+constexpr int sustained_samples(int samples) {
   return (samples + 63) / 64 + 1;
 }
 
@@ -43,13 +43,13 @@ struct MapSpeeds {
 Eigen::VectorXd map_speeds(const MapSpeeds& speeds, double natural_frequency);
 
 // Sizes what a map holds per case; all values of no case yet. load_frequency: Hz, one of the speeds, or 0.
-void start_cases(JumpMapArtifact& map, Eigen::Index cases, const Eigen::VectorXd& speeds,
+void start_cases(JumpMapResult& map, Eigen::Index cases, const Eigen::VectorXd& speeds,
                  double load_frequency);
 
 // Fills in what the two sweeps of case c say: ends of branches, contact loss, loads, jumps, responses. sweep(direction, beyond)
 // goes through the speeds of the map, first up, then down, and adds to beyond the motions on branches past the speed
 // at which it left them. step: Hz, between the speeds.
-void add_case(JumpMapArtifact& map, Eigen::Index c, double step,
-              const std::function<SweepArtifact(Direction, std::vector<BranchPoint>&)>& sweep);
+void add_case(JumpMapResult& map, Eigen::Index c, double step,
+              const std::function<SweepResult(Direction, std::vector<BranchPoint>&)>& sweep);
 
 }  // namespace whine

@@ -2,11 +2,11 @@
 #pragma once
 #include <string>
 
-#include "signal/static_result.h"
+#include "results/static.h"
 
 namespace whine {
 
 // "" where it holds root stress; else the reason, with what to do, as a message or a line of a page says it.
-std::string why_no_root_stress(const StaticArtifact& statics);
+std::string why_no_root_stress(const StaticResult& statics);
 
 }  // namespace whine

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "signal/branch_end.h"
 #include "signal/branches.h"
+#include "signal/jumps.h"
 #include "signal/spectrum.h"
 
 namespace whine {
@@ -17,7 +17,7 @@ void require_length(const char* what, Eigen::Index length, Eigen::Index speeds) 
     fail(Failure::input, "sweep: ", what, " has ", length, " rows, mesh_frequency has ", speeds);
 }
 
-void require_shapes(const SweepArtifact& s) {
+void require_shapes(const SweepResult& s) {
   const Eigen::Index speeds = s.mesh_frequency.size();
   if (speeds == 0) fail(Failure::input, "sweep: it holds no speed; 1 is the least");
   require_length("transmission_error", s.transmission_error.rows(), speeds);
@@ -89,7 +89,7 @@ Eigen::Index row_before(const Eigen::VectorXd& frequency, double f) {
   return -1;
 }
 
-std::vector<Eigen::Index> rows_before_jumps(const ResponseArtifact& r) {
+std::vector<Eigen::Index> rows_before_jumps(const ResponseResult& r) {
   constexpr Eigen::Index kEarly = 10;  // steps that a sweep may leave a branch before its end
   std::vector<BranchMotion> sweep;
   for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i)
@@ -108,7 +108,7 @@ std::vector<Eigen::Index> rows_before_jumps(const ResponseArtifact& r) {
   return rows;
 }
 
-ResponseArtifact response(const SweepArtifact& s) {
+ResponseResult response(const SweepResult& s) {
   require_shapes(s);
   const Eigen::Index speeds = s.mesh_frequency.size();
   // What one orbit fills of its row; a motion that is not periodic fills it all.
@@ -122,7 +122,7 @@ ResponseArtifact response(const SweepArtifact& s) {
     fail(Failure::input, "sweep: ", per_period,
          " samples per mesh period do not resolve the mesh frequency; raise steps_per_period");
 
-  ResponseArtifact r;
+  ResponseResult r;
   r.torque = s.torque;
   r.direction = s.direction;
   r.model = s.model;
@@ -145,20 +145,21 @@ ResponseArtifact response(const SweepArtifact& s) {
   for (size_t g = 0; g < kSides; ++g)
     if (s.root_stress[g].size() > 0) {
       r.root_stress_max[g] = s.root_stress[g].rowwise().maxCoeff();
-      r.root_stress_held[g].resize(speeds);
+      r.root_stress_sustained[g].resize(speeds);
       r.root_stress_angle[g] = s.root_stress_angle[g];
       r.root_stress_phase[g] = s.root_stress_phase[g];
     }
   if (s.root_stress[0].size() > 0) {
-    for (Eigen::VectorXd* v : {&r.tooth_load_held, &r.mesh_force_held}) v->resize(speeds);
+    for (Eigen::VectorXd* v : {&r.tooth_load_sustained, &r.mesh_force_sustained}) v->resize(speeds);
     const int steps = s.time.steps_per_period;
     for (Eigen::Index f = 0; f < speeds; ++f) {
-      r.tooth_load_held[f] = held_load(s.tooth_load[f], steps);
-      r.mesh_force_held[f] = held_load(s.mesh_force.row(f).transpose(), steps, s.period_multiple[f]);
+      r.tooth_load_sustained[f] = sustained_load(s.tooth_load[f], steps);
+      r.mesh_force_sustained[f] =
+          sustained_load(s.mesh_force.row(f).transpose(), steps, s.period_multiple[f]);
       for (size_t g = 0; g < kSides; ++g)
         if (s.root_stress[g].size() > 0)
-          r.root_stress_held[g][f] =
-              held_load(s.root_stress[g].row(f).transpose(), steps, s.period_multiple[f]);
+          r.root_stress_sustained[g][f] =
+              sustained_load(s.root_stress[g].row(f).transpose(), steps, s.period_multiple[f]);
     }
   }
   r.separation_fraction.resize(speeds);

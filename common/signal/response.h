@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "signal/response_result.h"
-#include "signal/sweep_result.h"
+#include "results/response.h"
+#include "results/sweep.h"
 
 namespace whine {
 
@@ -19,7 +19,7 @@ inline constexpr int kResponseHarmonics = 10;
 // row resolves; of teeth that differ, orders as well, up to the last of these harmonics: harmonics of the hunting frequency,
 // which hold the shafts' orders and the sidebands of the mesh frequency. Jumps are the sweep's own: it bisects them. Throws
 // Error(input) for a sweep without speeds, arrays whose lengths disagree, values that are not finite, or negative forces.
-ResponseArtifact response(const SweepArtifact& sweep);
+ResponseResult response(const SweepResult& sweep);
 
 // Ranges of neighbouring speeds (Hz) of which something is true: "2820 to 2980, 3100"; "" if it is of none.
 std::string speed_ranges(const std::map<double, bool>& speeds);
@@ -30,7 +30,7 @@ Eigen::Index row_before(const Eigen::VectorXd& frequency, double f);
 // (jump) The row after which the sweep left the branch that ends at a jump: the step of the sweep in which the jump lies, or
 // one before it across which the RMS changes more than on a flank, because a branch's basin gets narrower than a step; the
 // sweep then followed the branch to its end by itself. -1 if the jump lies outside the sweep.
-std::vector<Eigen::Index> rows_before_jumps(const ResponseArtifact& r);
+std::vector<Eigen::Index> rows_before_jumps(const ResponseResult& r);
 
 // Whether the RMS of the transmission error of two motions differ by more than 20 %: more than that of neighbouring speeds of
 // one branch.

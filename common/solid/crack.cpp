@@ -33,7 +33,7 @@ struct DirectedSide {
   int from = 0, to = 0, middle = -1;
 };
 
-std::vector<DirectedSide> sides(const MeshArtifact& mesh, Index e) {
+std::vector<DirectedSide> sides(const SectorGrid& mesh, Index e) {
   std::vector<DirectedSide> four(4);
   for (int k = 0; k < 4; ++k)
     four[static_cast<size_t>(k)] = {mesh.element_node(e, k), mesh.element_node(e, (k + 1) % 4),
@@ -74,7 +74,7 @@ struct Hole {
   size_t root_sides = 0;  // the first so many lie on that root curve, from the flank to the tooth space
 };
 
-Hole find_hole(const MeshArtifact& mesh, const Slit& slit, double reach) {
+Hole find_hole(const SectorGrid& mesh, const Slit& slit, double reach) {
   std::map<Edge, int> owners;
   for (Index e = 0; e < mesh.element_node.rows(); ++e)
     for (const DirectedSide& side : sides(mesh, e)) ++owners[edge_of(side.from, side.to)];
@@ -262,7 +262,7 @@ namespace {
 
 // The mesh of the cracked sector while it grows.
 struct Growing {
-  explicit Growing(const MeshArtifact& of)
+  explicit Growing(const SectorGrid& of)
       : sector(of), renumbered(static_cast<size_t>(of.node_position.rows()), -1) {}
   // The number of a node of the sector that stays.
   int kept(int node) {
@@ -271,7 +271,7 @@ struct Growing {
     return number;
   }
 
-  const MeshArtifact& sector;
+  const SectorGrid& sector;
   std::vector<int> renumbered;
   NodeList nodes;
   std::vector<std::vector<int>> elements;
@@ -314,7 +314,7 @@ void divide(const ToothGeometry& tooth, double t0, double t1, double first, doub
 // The root curve anew with a node at the mouth, then the loop as it is.
 Polygon polygon_of(const ToothGeometry& tooth, const Slit& slit, const Hole& hole, double at_mouth,
                    Growing& mesh) {
-  const MeshArtifact& sector = mesh.sector;
+  const SectorGrid& sector = mesh.sector;
   const double h = sector.discretisation.element_size;
   const auto root = [&tooth](double t) { return tooth.root_point(t); };
   const auto length_of = [&](const DirectedSide& s) -> double {
@@ -371,9 +371,9 @@ MatrixRMi add_patch(const ToothGeometry& tooth, const Slit& slit, const Hole& ho
 }
 
 // Nodes, elements and node sets.
-MeshArtifact assembled(Growing& growing) {
-  const MeshArtifact& sector = growing.sector;
-  MeshArtifact mesh;
+SectorGrid assembled(Growing& growing) {
+  const SectorGrid& sector = growing.sector;
+  SectorGrid mesh;
   mesh.design = sector.design;
   mesh.discretisation = sector.discretisation;
   mesh.element_node.resize(static_cast<Index>(growing.elements.size()), sector.element_node.cols());
@@ -400,7 +400,7 @@ MeshArtifact assembled(Growing& growing) {
 
 }  // namespace
 
-MeshArtifact make_cracked_sector(const MeshArtifact& sector) {
+SectorGrid make_cracked_sector(const SectorGrid& sector) {
   const ToothGeometry tooth(sector.design);
   const Slit slit = crack_slit(tooth);
   const double h = sector.discretisation.element_size, depth = sector.design.crack.depth;
@@ -424,7 +424,7 @@ MeshArtifact make_cracked_sector(const MeshArtifact& sector) {
   // 2. The patch in place of the hole, within its boundary.
   const Polygon polygon = polygon_of(tooth, slit, hole, at_mouth, growing);
   const auto slit_node = add_patch(tooth, slit, hole, polygon, at_mouth, finest, growing);
-  MeshArtifact mesh = assembled(growing);
+  SectorGrid mesh = assembled(growing);
   mesh.slit_node = slit_node;
 
   const double area = mesh_area(mesh.node_position, mesh.element_node),
@@ -436,12 +436,12 @@ MeshArtifact make_cracked_sector(const MeshArtifact& sector) {
   return mesh;
 }
 
-MeshArtifact close_slit(const MeshArtifact& cracked) {
+SectorGrid close_slit(const SectorGrid& cracked) {
   std::vector<int> number(static_cast<size_t>(cracked.node_position.rows()), 0);
   for (Index i = 0; i < cracked.slit_node.rows(); ++i)
     number[static_cast<size_t>(cracked.slit_node(i, 1))] = -1;
   int count = 0;
-  MeshArtifact mesh = cracked;
+  SectorGrid mesh = cracked;
   for (size_t i = 0; i < number.size(); ++i)
     if (number[i] == 0) {
       mesh.node_position.row(count) = cracked.node_position.row(static_cast<Index>(i));

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "gear/involute.h"
-#include "solid/sector_mesh.h"
+#include "results/sector_grid.h"
 
 namespace whine {
 
@@ -37,27 +37,27 @@ SlitPatch slit_patch(const std::vector<Vec2>& corner, const std::vector<Vec2>& m
 
 // The sector of the cracked tooth of sector.design, depth above 0. Throws Error(input) for a crack that does not fit the
 // tooth (gear/crack.h), Error(numerical) if the tooth cannot be meshed around it.
-MeshArtifact make_cracked_sector(const MeshArtifact& sector);
+SectorGrid make_cracked_sector(const SectorGrid& sector);
 
 // The same mesh without a crack: the nodes of `slit_node` are one again.
-MeshArtifact close_slit(const MeshArtifact& cracked);
+SectorGrid close_slit(const SectorGrid& cracked);
 
 // Between the teeth -reach .. reach (counter-clockwise) of a gear, tooth by tooth; under unit normal forces at roll angles xi.
 struct TeethTables {
   MatrixRM
-      compliance;  // (tooth flank, tooth flank) m N-1: less the half-plane as in BodyArtifact::compliance, symmetrised
+      compliance;  // (tooth flank, tooth flank) m N-1: less the half-plane as in ReducedBody::compliance, symmetrised
   MatrixRM
-      root_stress;  // (tooth root, tooth flank) Pa N-1: along the driving flank's root, as in BodyArtifact::root_stress
+      root_stress;  // (tooth root, tooth flank) Pa N-1: along the driving flank's root, as in ReducedBody::root_stress
 };
 
 // Of a gear made of `sector` alone but for tooth 0, which is `special`; xi in rad. 2 reach + 1 teeth at most. The near field is by
 // subtraction.
-TeethTables teeth_tables(const MeshArtifact& sector, const MeshArtifact& special, const Material& material,
+TeethTables teeth_tables(const SectorGrid& sector, const SectorGrid& special, const Material& material,
                          const Eigen::VectorXd& xi, int reach);
 
-// BodyArtifact::crack_compliance and crack_root_stress of a mesh whose `cracked_tooth` is there. Throws Error(numerical) if the
+// ReducedBody::crack_compliance and crack_root_stress of a mesh whose `cracked_tooth` is there. Throws Error(numerical) if the
 // compliance is not positive semidefinite to 1e-3 of its largest entry.
-TeethTables crack_tables(const MeshArtifact& sector, const Material& material, const Eigen::VectorXd& xi,
+TeethTables crack_tables(const SectorGrid& sector, const Material& material, const Eigen::VectorXd& xi,
                          int reach);
 
 }  // namespace whine

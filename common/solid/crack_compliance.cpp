@@ -38,13 +38,13 @@ struct Condensed {
 
 // Displacements of a sector by what becomes of them; those of bore nodes are neither.
 struct Unknowns {
-  explicit Unknowns(const MeshArtifact& mesh);
+  explicit Unknowns(const SectorGrid& mesh);
   static constexpr int kNone = -1;
   std::vector<int> edge, inner;     // (2 node): number of the unknown, or kNone
   int of_one_edge = 0, inside = 0;  // how many
 };
 
-Unknowns::Unknowns(const MeshArtifact& mesh)
+Unknowns::Unknowns(const SectorGrid& mesh)
     : edge(2 * static_cast<size_t>(mesh.node_position.rows()), kNone), inner(edge) {
   std::vector<char> held(edge.size() / 2, 0);
   for (int node : mesh.bore_node) held[static_cast<size_t>(node)] = 1;
@@ -65,7 +65,7 @@ Unknowns::Unknowns(const MeshArtifact& mesh)
     if (!held[i / 2]) inner[i] = inside++;
 }
 
-Condensed condense(const MeshArtifact& mesh, const Material& material, const Eigen::VectorXd& xi,
+Condensed condense(const SectorGrid& mesh, const Material& material, const Eigen::VectorXd& xi,
                    const std::string& what) {
   const SparseReal stiffness =
       assemble(mesh.node_position, mesh.element_node, material, mesh.design.face_width).stiffness;
@@ -188,16 +188,16 @@ TeethTables assemble_teeth(const Condensed& plain, const Condensed& special, int
 
 }  // namespace
 
-TeethTables teeth_tables(const MeshArtifact& sector, const MeshArtifact& special, const Material& material,
+TeethTables teeth_tables(const SectorGrid& sector, const SectorGrid& special, const Material& material,
                          const Eigen::VectorXd& xi, int reach) {
   return assemble_teeth(condense(sector, material, xi, "an intact sector"),
                         condense(special, material, xi, "the sector of tooth 0"), sector.design.teeth, reach);
 }
 
-TeethTables crack_tables(const MeshArtifact& sector, const Material& material, const Eigen::VectorXd& xi,
+TeethTables crack_tables(const SectorGrid& sector, const Material& material, const Eigen::VectorXd& xi,
                          int reach) {
   if (sector.cracked_tooth.size() != 1) fail(Failure::input, "the mesh has no cracked tooth");
-  const MeshArtifact& open = sector.cracked_tooth[0];
+  const SectorGrid& open = sector.cracked_tooth[0];
   const Condensed plain = condense(sector, material, xi, "an intact sector");
   const int teeth = sector.design.teeth;
   TeethTables share =

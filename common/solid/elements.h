@@ -8,6 +8,7 @@
 #include <Eigen/SparseCore>
 
 #include "base/matrix.h"
+#include "contact/plane_moduli.h"
 #include "model/gear.h"
 
 namespace whine {
@@ -36,17 +37,6 @@ struct GaussRule {
   Eigen::VectorXd point, weight;  // (point) 1
 };
 GaussRule gauss_rule(int points);
-
-// Plane strain moduli that give the material's plane state: in plane stress E (1 + 2 nu) / (1 + nu)^2 and nu
-// / (1 + nu).
-struct PlaneModuli {
-  double youngs_modulus = 0;  // Pa
-  double poisson_ratio = 0;   // 1
-};
-PlaneModuli plane_strain_equivalent(const Material& material);
-
-// Stress (xx, yy, xy) from strain (xx, yy, engineering xy). (3, 3) Pa
-Eigen::Matrix3d plane_elasticity(const Material& material);
 
 // Where node k of the element stands in the reference square: -1, 0 or 1 along each side.
 Eigen::Vector2d reference_node(int k);

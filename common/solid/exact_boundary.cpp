@@ -15,7 +15,7 @@ namespace {
 // How far the middle of each element side lies off its chord. The bulge of a curved boundary is handed on
 // from layer to layer, fading out, because a thin element with one curved and one straight long side would be
 // folded.
-std::map<std::pair<int, int>, Vec2> side_bulges(const HalfMesh& half, const ExactBoundary& exact) {
+std::map<std::pair<int, int>, Vec2> side_bulges(const HalfGrid& half, const ExactBoundary& exact) {
   std::map<std::pair<int, int>, std::vector<std::pair<size_t, size_t>>>
       owners;  // side: element, number of the side
   auto side_of = [&half](size_t e, size_t k) {
@@ -61,7 +61,7 @@ Vec2 ExactBoundary::put(Curve kind, const Vec2& p) const {
     case Curve::top_land:
       return p * (tooth_.tip_radius() / p.norm());
     case Curve::bore:
-      return p * (tooth_.design().held_radius() / p.norm());
+      return p * (tooth_.design().clamped_radius() / p.norm());
     case Curve::flank:
       return tooth_.flank_point(roll_angle(p));
     case Curve::root:
@@ -89,7 +89,7 @@ Vec2 ExactBoundary::middle(Curve kind, const Vec2& a, const Vec2& b) const {
   return put(kind, 0.5 * (a + b));
 }
 
-void make_exact(HalfMesh& half, const ToothGeometry& tooth, const ExactBoundary& exact) {
+void make_exact(HalfGrid& half, const ToothGeometry& tooth, const ExactBoundary& exact) {
   std::map<int, std::vector<Curve>> kinds;
   for (const auto& [edge, kind] : half.edge)
     for (int node : {edge.first, edge.second}) {
@@ -107,7 +107,7 @@ void make_exact(HalfMesh& half, const ToothGeometry& tooth, const ExactBoundary&
       p = exact.put(Curve::sector_edge, tooth.root_point(1));
     else if (has(Curve::centre_line))
       p = {0, has(Curve::top_land) ? tooth.tip_radius()
-              : has(Curve::bore)   ? tooth.design().held_radius()
+              : has(Curve::bore)   ? tooth.design().clamped_radius()
                                    : p.y()};
     else if (has(Curve::bore) && has(Curve::sector_edge))
       p = exact.put(Curve::bore, exact.put(Curve::sector_edge, p));
@@ -116,7 +116,7 @@ void make_exact(HalfMesh& half, const ToothGeometry& tooth, const ExactBoundary&
   }
 }
 
-std::vector<std::array<int, 9>> raise_order(HalfMesh& half, const ExactBoundary& exact) {
+std::vector<std::array<int, 9>> raise_order(HalfGrid& half, const ExactBoundary& exact) {
   const auto bulge = side_bulges(half, exact);
   std::map<std::pair<int, int>, int> middle;
   std::vector<std::array<int, 9>> nine;

@@ -25,10 +25,10 @@ class ExactBoundary {
 
 // Moves boundary nodes onto their curves; a corner of the sector goes onto both of its curves by taking the
 // point of the geometry itself.
-void make_exact(HalfMesh& half, const ToothGeometry& tooth, const ExactBoundary& exact);
+void make_exact(HalfGrid& half, const ToothGeometry& tooth, const ExactBoundary& exact);
 
 // Adds mid-side and centre nodes. (element, 9)
-std::vector<std::array<int, 9>> raise_order(HalfMesh& half, const ExactBoundary& exact);
+std::vector<std::array<int, 9>> raise_order(HalfGrid& half, const ExactBoundary& exact);
 
 // The parameter in [from, to] of the point of `curve` nearest to p.
 double nearest_parameter(const std::function<Vec2(double)>& curve, const Vec2& p, double from, double to);

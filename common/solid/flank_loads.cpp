@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
-#include "solid/half_plane.h"
+#include "contact/half_plane.h"
 
 namespace whine {
 namespace {
@@ -20,7 +20,7 @@ struct RegionSide {
   bool flank = false;     // on the driving flank
 };
 
-std::vector<RegionSide> sides_of_tooth_region(const MeshArtifact& mesh) {
+std::vector<RegionSide> sides_of_tooth_region(const SectorGrid& mesh) {
   const std::set<int> flank(mesh.flank_node.begin(), mesh.flank_node.end());
   std::set<int> edge;
   for (Eigen::Index i = 0; i < mesh.side_node.size(); ++i) edge.insert(mesh.side_node.data()[i]);
@@ -60,7 +60,7 @@ std::vector<RegionSide> sides_of_tooth_region(const MeshArtifact& mesh) {
 // halved.
 class TractionIntegral {
  public:
-  TractionIntegral(const MeshArtifact& mesh, const ToothGeometry& tooth) : mesh_(mesh), tooth_(tooth) {
+  TractionIntegral(const SectorGrid& mesh, const ToothGeometry& tooth) : mesh_(mesh), tooth_(tooth) {
     for (Eigen::Index i = 0; i < mesh.flank_node.size(); ++i)
       roll_[mesh.flank_node[i]] = mesh.flank_roll_angle[i];
   }
@@ -115,7 +115,7 @@ class TractionIntegral {
     }
   }
 
-  const MeshArtifact& mesh_;
+  const SectorGrid& mesh_;
   const ToothGeometry& tooth_;
   std::map<int, double> roll_;  // rad, of flank nodes
 };
@@ -137,7 +137,7 @@ Vec2 mirrored(const Vec2& v) {
 
 }  // namespace
 
-FlankReader::FlankReader(const MeshArtifact& mesh) : mesh_(mesh), tooth_(mesh.design) {
+FlankReader::FlankReader(const SectorGrid& mesh) : mesh_(mesh), tooth_(mesh.design) {
   const Eigen::Index step = mesh.element_node.cols() == 9 ? 2 : 1;
   if (mesh.flank_node.size() < step + 1 || (mesh.flank_node.size() - 1) % step != 0 ||
       mesh.flank_roll_angle.size() != mesh.flank_node.size())
@@ -243,7 +243,7 @@ SparseReal FlankReader::back_outward(const Eigen::VectorXd& xi) const {
   return reading;
 }
 
-FlankLoads make_matched_loads(const MeshArtifact& mesh, const Material& material, const Eigen::VectorXd& xi,
+FlankLoads make_matched_loads(const SectorGrid& mesh, const Material& material, const Eigen::VectorXd& xi,
                               double depth) {
   const ToothGeometry tooth(mesh.design);
   const PlaneModuli moduli = plane_strain_equivalent(material);
@@ -265,7 +265,7 @@ FlankLoads make_matched_loads(const MeshArtifact& mesh, const Material& material
   return result;
 }
 
-FlankLoads make_flank_loads(const MeshArtifact& mesh, const Material& material, const Eigen::VectorXd& xi) {
+FlankLoads make_flank_loads(const SectorGrid& mesh, const Material& material, const Eigen::VectorXd& xi) {
   const ToothGeometry tooth(mesh.design);
   const PlaneModuli moduli = plane_strain_equivalent(material);
   const double thickness = mesh.design.face_width;

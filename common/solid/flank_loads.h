@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "gear/involute.h"
+#include "results/sector_grid.h"
 #include "solid/elements.h"
-#include "solid/sector_mesh.h"
 
 namespace whine {
 
@@ -14,7 +14,7 @@ constexpr double kReferenceDepth = 1e-3;  // m
 // Reading of displacements on the driving flank of a sector mesh.
 class FlankReader {
  public:
-  explicit FlankReader(const MeshArtifact& mesh);
+  explicit FlankReader(const SectorGrid& mesh);
   // (2 points, 2 node) 1: displacement x0, y0, x1, y1 .. at roll angles xi from nodal displacements of the sector.
   SparseReal displacement(const Eigen::VectorXd& xi) const;
   // (points, 2 node) 1: its outward normal component.
@@ -30,7 +30,7 @@ class FlankReader {
  private:
   // Element of the tooth region that holds p, and where; -1 if none does.
   Eigen::Index element_at(const Vec2& p, Vec2& reference) const;
-  const MeshArtifact& mesh_;
+  const SectorGrid& mesh_;
   ToothGeometry tooth_;
 };
 
@@ -45,8 +45,8 @@ struct FlankLoads {
   // (point, load) m N-1: inward u_hs at the points xi of the other flank of the loaded tooth; of matched loads 0
   MatrixRM across;
 };
-FlankLoads make_flank_loads(const MeshArtifact& mesh, const Material& material, const Eigen::VectorXd& xi);
-FlankLoads make_matched_loads(const MeshArtifact& mesh, const Material& material, const Eigen::VectorXd& xi,
+FlankLoads make_flank_loads(const SectorGrid& mesh, const Material& material, const Eigen::VectorXd& xi);
+FlankLoads make_matched_loads(const SectorGrid& mesh, const Material& material, const Eigen::VectorXd& xi,
                               double depth);
 
 }  // namespace whine

@@ -51,7 +51,7 @@ void with_gmsh(const std::string& what, const std::function<void()>& work) {
 class HalfSector {
  public:
   HalfSector(const ToothGeometry& tooth, const SectorPlan& plan) : tooth_(tooth), plan_(plan) { build(); }
-  HalfMesh mesh();
+  HalfGrid mesh();
 
  private:
   int point(const Vec2& p) { return gmsh::model::geo::addPoint(p.x() * kGmshScale, p.y() * kGmshScale, 0); }
@@ -92,7 +92,7 @@ class HalfSector {
 
 void HalfSector::build() {
   const SectorPlan& p = plan_;
-  const double edge = 0.5 * kPi + kPi / tooth_.design().teeth, bore = tooth_.design().held_radius();
+  const double edge = 0.5 * kPi + kPi / tooth_.design().teeth, bore = tooth_.design().clamped_radius();
   auto polar = [](double r, double angle) { return Vec2(r * std::cos(angle), r * std::sin(angle)); };
   auto flank = [this](double xi) { return tooth_.flank_point(xi); };
   auto root = [this](double t) { return tooth_.root_point(t); };
@@ -153,11 +153,11 @@ void HalfSector::build() {
   surface({rim_edge, -bore_root, -rim_foot, ring_root}, {ring_edge, bore_edge, bore_foot, ring_foot}, 0);
 }
 
-HalfMesh HalfSector::mesh() {
+HalfGrid HalfSector::mesh() {
   gmsh::model::geo::synchronize();
   gmsh::model::mesh::generate(2);
 
-  HalfMesh half;
+  HalfGrid half;
   std::map<std::size_t, int> number;
   std::vector<std::size_t> tags;
   std::vector<double> coordinates, parameters;
@@ -230,8 +230,8 @@ void read_triangles(const std::vector<int>& point, int surface, Triangulation& r
 
 }  // namespace
 
-HalfMesh half_sector_mesh(const ToothGeometry& tooth, double h, double root) {
-  HalfMesh half;
+HalfGrid half_sector_mesh(const ToothGeometry& tooth, double h, double root) {
+  HalfGrid half;
   with_gmsh("the tooth sector", [&] {
     const SectorPlan plan = plan_sector(tooth, h, root);
     half = HalfSector(tooth, plan).mesh();

@@ -13,7 +13,7 @@ namespace whine {
 enum class Curve { none, top_land, flank, root, sector_edge, bore, centre_line };
 
 // The mesh of the half sector as gmsh leaves it; boundary nodes lie on splines.
-struct HalfMesh {
+struct HalfGrid {
   std::vector<Vec2> node;
   std::vector<std::array<int, 4>> element;    // counter-clockwise
   std::vector<int> region;                    // per element
@@ -21,7 +21,7 @@ struct HalfMesh {
 };
 
 // Of elements of the size h (m), on the root of the size `root` (m). Throws Error(numerical) if gmsh cannot.
-HalfMesh half_sector_mesh(const ToothGeometry& tooth, double h, double root);
+HalfGrid half_sector_mesh(const ToothGeometry& tooth, double h, double root);
 
 // Triangles that fill a polygon and keep its edges and those of a slit in it.
 struct Triangulation {

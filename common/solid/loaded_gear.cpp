@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
-#include "solid/half_plane.h"
+#include "contact/half_plane.h"
 #include "solid/reduce.h"
 
 namespace whine {
@@ -67,7 +67,7 @@ StressMeasures stress_measures(const Vector3d& s, const Material& material) {
           std::sqrt(0.5 * ((a - b) * (a - b) + (b - across) * (b - across) + (across - a) * (across - a)))};
 }
 
-std::vector<MatrixXd> teeth_under(const MeshArtifact& mesh, const Material& material, const MatrixXd& force) {
+std::vector<MatrixXd> teeth_under(const SectorGrid& mesh, const Material& material, const MatrixXd& force) {
   const int teeth = mesh.design.teeth;
   const CyclicSector sector(
       mesh, assemble(mesh.node_position, mesh.element_node, material, mesh.design.face_width));
@@ -92,7 +92,7 @@ struct ToothLoads {
   std::vector<char> holds_rest;  // (node) as FlankLoads
 };
 
-ToothLoads loads_by_tooth(const MeshArtifact& mesh, const Material& material, const ToothGeometry& tooth,
+ToothLoads loads_by_tooth(const SectorGrid& mesh, const Material& material, const ToothGeometry& tooth,
                           const std::vector<StripLoad>& loads) {
   const int teeth = mesh.design.teeth;
   const PlaneModuli moduli = plane_strain_equivalent(material);
@@ -123,8 +123,7 @@ ToothLoads loads_by_tooth(const MeshArtifact& mesh, const Material& material, co
 }
 
 // The unknowns x of each tooth, in its own frame.
-std::vector<VectorXd> unknowns_of(const MeshArtifact& mesh, const Material& material,
-                                  const ToothLoads& loads) {
+std::vector<VectorXd> unknowns_of(const SectorGrid& mesh, const Material& material, const ToothLoads& loads) {
   const int teeth = mesh.design.teeth;
   const std::vector<MatrixXd> under = teeth_under(mesh, material, loads.force);
   std::vector<VectorXd> unknown(static_cast<size_t>(teeth), VectorXd::Zero(2 * mesh.node_position.rows()));
@@ -138,7 +137,7 @@ std::vector<VectorXd> unknowns_of(const MeshArtifact& mesh, const Material& mate
 }
 
 // What holds the hub: the torque of the elements' forces on the nodes of the bore.
-double hub_torque(const MeshArtifact& mesh, const Material& material, const ToothLoads& loads,
+double hub_torque(const SectorGrid& mesh, const Material& material, const ToothLoads& loads,
                   const std::vector<VectorXd>& unknown) {
   const SparseReal stiffness =
       assemble(mesh.node_position, mesh.element_node, material, mesh.design.face_width).stiffness;
@@ -164,7 +163,7 @@ struct ToothField {
   MatrixRM near_stress;  // (node, 3) Pa
 };
 
-ToothField field_of(const MeshArtifact& mesh, const LoadedTooth* at, const VectorXd& x,
+ToothField field_of(const SectorGrid& mesh, const LoadedTooth* at, const VectorXd& x,
                     const std::vector<char>& holds_rest) {
   const Index nodes = mesh.node_position.rows();
   ToothField field{at, x, x, VectorXd::Zero(2 * nodes), MatrixRM::Zero(nodes, 3)};
@@ -188,7 +187,7 @@ ToothField field_of(const MeshArtifact& mesh, const LoadedTooth* at, const Vecto
 // best, and carried on to the nodes.
 class ElementStress {
  public:
-  ElementStress(const MeshArtifact& mesh, const Material& material)
+  ElementStress(const SectorGrid& mesh, const Material& material)
       : mesh_(mesh),
         elasticity_(plane_elasticity(material)),
         compliance_(elasticity_.inverse()),
@@ -207,7 +206,7 @@ class ElementStress {
            LoadedGear& out) const;
 
  private:
-  const MeshArtifact& mesh_;
+  const SectorGrid& mesh_;
   Eigen::Matrix3d elasticity_, compliance_;
   GaussRule two_, fine_, coarse_;
   int per_element_;
@@ -255,9 +254,8 @@ void ElementStress::add(Index e, int j, const Eigen::Matrix2d& turn, const Tooth
 }
 
 // How far the loaded flank of a tooth gives way, strip by strip.
-void add_deflections(const MeshArtifact& mesh, const ToothGeometry& tooth,
-                     const std::vector<StripLoad>& loads, const ToothField& field,
-                     const Eigen::Matrix2d& turn, LoadedGear& out) {
+void add_deflections(const SectorGrid& mesh, const ToothGeometry& tooth, const std::vector<StripLoad>& loads,
+                     const ToothField& field, const Eigen::Matrix2d& turn, LoadedGear& out) {
   const LoadedTooth* at = field.at;
   const auto strips = static_cast<Index>(at->strip.size());
   VectorXd roll(strips);
@@ -280,7 +278,7 @@ void add_deflections(const MeshArtifact& mesh, const ToothGeometry& tooth,
 
 }  // namespace
 
-LoadedGear loaded_gear(const MeshArtifact& mesh, const Material& material,
+LoadedGear loaded_gear(const SectorGrid& mesh, const Material& material,
                        const std::vector<StripLoad>& loads) {
   const int teeth = mesh.design.teeth;
   if (loads.empty()) fail(Failure::input, "a gear without load has no deformed shape");

@@ -5,8 +5,8 @@
 // elsewhere the elements alone. One right-hand side per loaded tooth, all harmonics of the cyclic gear. Near the contact,
 // stresses are those of pressure that is even over each strip, at the nodes: what peaks between two nodes is not seen.
 #pragma once
+#include "results/sector_grid.h"
 #include "solid/sector.h"
-#include "solid/sector_mesh.h"
 
 namespace whine {
 
@@ -32,13 +32,12 @@ struct LoadedGear {
 // What forces on tooth 0 do to other teeth: [offset] (2 node, column) m, the unknowns x of FlankLoads on the tooth `offset`
 // counter-clockwise of the loaded one (0 .. teeth - 1), in its own frame. force: (2 node, column) as FlankLoads::force.
 // Throws Error(numerical) if a factorisation fails.
-std::vector<Eigen::MatrixXd> teeth_under(const MeshArtifact& mesh, const Material& material,
+std::vector<Eigen::MatrixXd> teeth_under(const SectorGrid& mesh, const Material& material,
                                          const Eigen::MatrixXd& force);
 
 // Throws Error(input) for a gear with a crack, no loads or a strip beyond the flank, Error(numerical) if a factorisation
 // fails.
-LoadedGear loaded_gear(const MeshArtifact& mesh, const Material& material,
-                       const std::vector<StripLoad>& loads);
+LoadedGear loaded_gear(const SectorGrid& mesh, const Material& material, const std::vector<StripLoad>& loads);
 
 // Of plane stresses xx, yy, xy (Pa): the principal ones, larger first, and von Mises' equivalent. The stress across the
 // plane, which plane strain has, counts in the latter.

@@ -21,13 +21,13 @@ namespace {
 
 using Elements = std::vector<std::array<int, 9>>;  // of four nodes the first four
 
-int nodes_of(const MeshArtifact& mesh) {
+int nodes_of(const SectorGrid& mesh) {
   return mesh.discretisation.element_order == 2 ? 9 : 4;
 }
 
 // Nodes, elements and regions of the half sector and its mirror image. (node of the half) its image; of nodes on the centre
 // line themselves.
-std::vector<int> add_both_halves(const HalfMesh& half, const Elements& elements, MeshArtifact& mesh) {
+std::vector<int> add_both_halves(const HalfGrid& half, const Elements& elements, SectorGrid& mesh) {
   const int count = static_cast<int>(half.node.size()), per_element = nodes_of(mesh);
   std::vector<int> image(half.node.size());
   std::vector<Vec2> node = half.node;
@@ -59,8 +59,8 @@ std::vector<int> add_both_halves(const HalfMesh& half, const Elements& elements,
 }
 
 // Nodes on the flank, the sector edges and the bore, from the edges of the elements that lie on a curve.
-void add_node_sets(const HalfMesh& half, const Elements& elements, const ExactBoundary& exact,
-                   const std::vector<int>& image, MeshArtifact& mesh) {
+void add_node_sets(const HalfGrid& half, const Elements& elements, const ExactBoundary& exact,
+                   const std::vector<int>& image, SectorGrid& mesh) {
   std::map<int, double> flank, side, bore;  // node of the half sector: roll angle, radius, polar angle
   for (const auto& element : elements)
     for (size_t k = 0; k < 4; ++k) {
@@ -128,11 +128,11 @@ double exact_sector_area(const GearDesign& design) {
   auto root = [&](double t) { return tooth.root_point(t); };
   if (tooth.root_corner() > 0) half += swept(root, 0, tooth.root_corner(), 40);
   if (tooth.root_corner() < 1) half += swept(root, tooth.root_corner(), 1, 1);
-  half -= 0.5 * kPi / design.teeth * design.held_radius() * design.held_radius();
+  half -= 0.5 * kPi / design.teeth * design.clamped_radius() * design.clamped_radius();
   return tooth.outwards() * 2 * half;
 }
 
-void check_sector_mesh(const MeshArtifact& mesh) {
+void check_sector_mesh(const SectorGrid& mesh) {
   const double least = least_jacobian(mesh.node_position, mesh.element_node);
   constexpr double kLeastJacobian = 0.01;
   if (!(least > kLeastJacobian))
@@ -159,8 +159,8 @@ void check_sector_mesh(const MeshArtifact& mesh) {
          " is allowed; lower element_mm");
 }
 
-MeshArtifact make_sector_mesh(const GearDesign& design, const BodyDiscretisation& discretisation,
-                              double root_element) {
+SectorGrid make_sector_mesh(const GearDesign& design, const BodyDiscretisation& discretisation,
+                            double root_element) {
   const ToothGeometry tooth(design);
   const double h = discretisation.element_size;
   if (discretisation.element_order != 1 && discretisation.element_order != 2)
@@ -174,7 +174,7 @@ MeshArtifact make_sector_mesh(const GearDesign& design, const BodyDiscretisation
     fail(Failure::input, "bore_radius_mm = ", design.bore_radius * 1e3,
          " is not above 0: the hub on which the gear turns needs a radius");
 
-  HalfMesh half = half_sector_mesh(tooth, h, root_element > 0 ? std::min(root_element, h) : h);
+  HalfGrid half = half_sector_mesh(tooth, h, root_element > 0 ? std::min(root_element, h) : h);
   const ExactBoundary exact(tooth);
   make_exact(half, tooth, exact);
 
@@ -186,7 +186,7 @@ MeshArtifact make_sector_mesh(const GearDesign& design, const BodyDiscretisation
     for (const auto& corner : half.element) elements.push_back({corner[0], corner[1], corner[2], corner[3]});
   }
 
-  MeshArtifact mesh;
+  SectorGrid mesh;
   mesh.design = design;
   mesh.discretisation = discretisation;
   const std::vector<int> image = add_both_halves(half, elements, mesh);

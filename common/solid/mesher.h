@@ -7,7 +7,7 @@
 // map of the eight others. Elements are finest at the tip corner, where the stress of a load near the edge is
 // steepest. The sector of an internal gear is the same with its tips inside and its rim outside.
 #pragma once
-#include "solid/sector_mesh.h"
+#include "results/sector_grid.h"
 
 namespace whine {
 
@@ -16,11 +16,11 @@ namespace whine {
 // Throws Error(input) for an element size or order that cannot be used, Error(numerical) when the mesh does
 // not keep its promises: positive Jacobian everywhere, sector edges that are images of each other, area of
 // the exact sector.
-MeshArtifact make_sector_mesh(const GearDesign& design, const BodyDiscretisation& discretisation,
-                              double root_element = 0);
+SectorGrid make_sector_mesh(const GearDesign& design, const BodyDiscretisation& discretisation,
+                            double root_element = 0);
 
 // The checks alone, for a mesh from anywhere; same errors.
-void check_sector_mesh(const MeshArtifact& mesh);
+void check_sector_mesh(const SectorGrid& mesh);
 
 // m2: area of the exact sector, by quadrature of its boundary curves.
 double exact_sector_area(const GearDesign& design);

@@ -51,11 +51,11 @@ void fix_phase(Eigen::VectorXcd& shape, const SparseReal& outward, bool tip_firs
 }
 
 // A mesh of the same gear whose modes can all be found, in words.
-std::string coarse_enough(const MeshArtifact& mesh) {
+std::string coarse_enough(const SectorGrid& mesh) {
   BodyDiscretisation coarser = mesh.discretisation;
   coarser.element_order = 1;
   for (; coarser.element_size <= mesh.design.module; coarser.element_size *= 1.5) {
-    const MeshArtifact other = make_sector_mesh(mesh.design, coarser);
+    const SectorGrid other = make_sector_mesh(mesh.design, coarser);
     const Eigen::Index size =
         2 * (other.node_position.rows() - other.bore_node.size() - other.side_node.rows());
     if (size <= kMostDense)
@@ -64,7 +64,7 @@ std::string coarse_enough(const MeshArtifact& mesh) {
   return "not even elements of a module of order 1 are coarse enough";
 }
 
-void check_options(const MeshArtifact& mesh, const Material& material, int modes) {
+void check_options(const SectorGrid& mesh, const Material& material, int modes) {
   if (modes < 0 && modes != kAllModes) fail(Failure::input, "modes = ", modes, " is below 0");
   const bool matching = mesh.discretisation.near_field == NearField::matching;
   const double depth = mesh.discretisation.matching_depth;
@@ -79,7 +79,7 @@ void check_options(const MeshArtifact& mesh, const Material& material, int modes
 // What is the same for every step of a reduction.
 struct Reduction {
   // Of these modes; xi: roll angles of the table's points, rad.
-  Reduction(const MeshArtifact& of, const Material& material, int wanted, const Eigen::VectorXd& xi);
+  Reduction(const SectorGrid& of, const Material& material, int wanted, const Eigen::VectorXd& xi);
 
   // R_d = 1/N sum over all n of exp(i theta_n d) R_n; harmonics n and N - n are conjugate.
   template <class OfHarmonic>
@@ -91,7 +91,7 @@ struct Reduction {
     return sum;
   }
 
-  const MeshArtifact& mesh;
+  const SectorGrid& mesh;
   int modes, teeth;
   bool all, matching;
   PlaneSystem system;
@@ -105,13 +105,13 @@ struct Reduction {
   SparseReal below;  // what the loaded tooth is read by in place of its surface
 };
 
-PlaneSystem sector_system(const MeshArtifact& mesh, const Material& material) {
+PlaneSystem sector_system(const SectorGrid& mesh, const Material& material) {
   PlaneSystem system = assemble(mesh.node_position, mesh.element_node, material, mesh.design.face_width);
   add_rim_support(mesh, system.stiffness);
   return system;
 }
 
-Reduction::Reduction(const MeshArtifact& of, const Material& material, int wanted, const Eigen::VectorXd& xi)
+Reduction::Reduction(const SectorGrid& of, const Material& material, int wanted, const Eigen::VectorXd& xi)
     : mesh(of),
       modes(wanted),
       teeth(of.design.teeth),
@@ -220,7 +220,7 @@ std::vector<KeptMode> lowest_of(const Reduction& r, std::vector<KeptMode> found)
 // Fields of the whole gear, for looking.
 class Fields {
  public:
-  Fields(const MeshArtifact& mesh, BodyArtifact& body) : mesh_(mesh), gear_(replicate(mesh)), body_(body) {
+  Fields(const SectorGrid& mesh, ReducedBody& body) : mesh_(mesh), gear_(replicate(mesh)), body_(body) {
     body.vtk_point = gear_.node_position;
     body.vtk_cell = gear_.element_node;
   }
@@ -238,12 +238,12 @@ class Fields {
   }
 
  private:
-  const MeshArtifact& mesh_;
+  const SectorGrid& mesh_;
   WholeGear gear_;
-  BodyArtifact& body_;
+  ReducedBody& body_;
 };
 
-void store_modes(const Reduction& r, const std::vector<KeptMode>& kept, Fields& fields, BodyArtifact& body) {
+void store_modes(const Reduction& r, const std::vector<KeptMode>& kept, Fields& fields, ReducedBody& body) {
   int real_modes = 0;
   for (const KeptMode& mode : kept) real_modes += r.sector.single(mode.harmonic) ? 1 : 2;
   body.eigenfrequency.resize(real_modes);
@@ -277,8 +277,8 @@ void store_modes(const Reduction& r, const std::vector<KeptMode>& kept, Fields& 
 }
 
 // Over all offsets between a loaded and a read tooth. Symmetrises the flexibilities.
-void store_compliance(const Reduction& r, const FlankLoads& loads, Harmonics& harmonics, BodyArtifact& body) {
-  const MeshArtifact& mesh = r.mesh;
+void store_compliance(const Reduction& r, const FlankLoads& loads, Harmonics& harmonics, ReducedBody& body) {
+  const SectorGrid& mesh = r.mesh;
   std::vector<Eigen::MatrixXcd>& flexibility = harmonics.flexibility;
   const auto table_at = [&](int d, const std::vector<Eigen::MatrixXcd>& tables) -> Eigen::MatrixXd {
     return r.offset_sum(d, [&](int n) -> const Eigen::MatrixXcd& { return tables[static_cast<size_t>(n)]; });
@@ -314,7 +314,7 @@ void store_compliance(const Reduction& r, const FlankLoads& loads, Harmonics& ha
 
 // m: size of the elements on the root that its stress is read from: that of the mesh, or less. Where the tangent turns by more
 // than 0.4 from one element to the next the root of a deep tooth is 2 % off with the load low on the flank.
-double element_for_root_stress(const MeshArtifact& mesh) {
+double element_for_root_stress(const SectorGrid& mesh) {
   constexpr double kSharp = 0.25, kTurn = 0.4;  // modules, rad
   const double radius = least_root_radius(ToothGeometry(mesh.design)),
                size = mesh.discretisation.element_size;
@@ -322,7 +322,7 @@ double element_for_root_stress(const MeshArtifact& mesh) {
 }
 
 void store_root_stress(const Reduction& r, const FlankLoads& loads,
-                       const std::vector<Eigen::MatrixXcd>& of_harmonic, BodyArtifact& body) {
+                       const std::vector<Eigen::MatrixXcd>& of_harmonic, ReducedBody& body) {
   const RootPoints at = root_points(ToothGeometry(r.mesh.design));
   body.root_arc_length = at.arc_length;
   body.root_angle = at.angle;
@@ -336,11 +336,11 @@ void store_root_stress(const Reduction& r, const FlankLoads& loads,
 }
 
 // The same from a mesh that is finer on the root: the other tables, and all that moves, stay those of the mesh at hand.
-void store_finer_root_stress(const MeshArtifact& mesh, const Material& material, double element,
-                             BodyArtifact& body) {
+void store_finer_root_stress(const SectorGrid& mesh, const Material& material, double element,
+                             ReducedBody& body) {
   GearDesign intact = mesh.design;
   intact.crack = {};
-  const MeshArtifact finer = make_sector_mesh(intact, mesh.discretisation, element);
+  const SectorGrid finer = make_sector_mesh(intact, mesh.discretisation, element);
   const Reduction r(finer, material, 0, body.flank_position);
   const FlankLoads loads = loads_of(r, material, body.flank_position);
   std::vector<Eigen::MatrixXcd> of_harmonic;
@@ -378,7 +378,7 @@ double least_eigenvalue(const Reduction& r, const std::vector<Eigen::MatrixXcd>&
 
 }  // namespace
 
-BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int modes, int flank_points) {
+ReducedBody reduce(const SectorGrid& mesh, const Material& material, int modes, int flank_points) {
   check_options(mesh, material, modes);
   const FlankTable table(ToothGeometry(mesh.design), flank_points);
   const Eigen::VectorXd& xi = table.points();
@@ -388,7 +388,7 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
   Harmonics harmonics = solve_harmonics(r, loads, shown);
   const std::vector<KeptMode> kept = lowest_of(r, std::move(harmonics.found));
 
-  BodyArtifact body;
+  ReducedBody body;
   body.design = mesh.design;
   body.material = material;
   body.discretisation = mesh.discretisation;
@@ -420,7 +420,7 @@ BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int mode
   return body;
 }
 
-double refine_root_stress(const MeshArtifact& mesh, double share, BodyArtifact& body) {
+double refine_root_stress(const SectorGrid& mesh, double share, ReducedBody& body) {
   if (!(share > 0 && share < 1))
     fail(Failure::input, "elements on the root of ", share,
          " times their size; give a share between 0 and 1");

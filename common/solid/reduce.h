@@ -20,8 +20,8 @@
 // places, so the table is not symmetric, and both the spread of the nodal load, (element / d)^2, and the finite
 // body, d / tooth, leave their errors in it.
 #pragma once
+#include "results/reduced_body.h"
 #include "solid/flank_loads.h"
-#include "solid/reduced_body.h"
 
 namespace whine {
 
@@ -37,11 +37,11 @@ constexpr int kOffsets = 3;
 // among them. The near field is that of mesh.discretisation. Throws Error(input) for a matching depth whose points are
 // not all inside the tooth and for kAllModes of a mesh that is too fine for dense algebra, Error(numerical) if a
 // factorisation, an eigensolution or a table does not pass its check.
-BodyArtifact reduce(const MeshArtifact& mesh, const Material& material, int modes,
-                    int flank_points = kFlankPoints);
+ReducedBody reduce(const SectorGrid& mesh, const Material& material, int modes,
+                   int flank_points = kFlankPoints);
 
 // Reads the root stress of a body anew, from `mesh` with elements on the root that are `share` (0 to 1, neither) times as large as those
 // that reduce() reads it from. All else of the body stays. Returns their size (m). Throws as reduce(), Error(input) for another share.
-double refine_root_stress(const MeshArtifact& mesh, double share, BodyArtifact& body);
+double refine_root_stress(const SectorGrid& mesh, double share, ReducedBody& body);
 
 }  // namespace whine

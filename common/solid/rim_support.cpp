@@ -8,7 +8,7 @@
 
 namespace whine {
 
-void add_rim_support(const MeshArtifact& mesh, SparseReal& stiffness) {
+void add_rim_support(const SectorGrid& mesh, SparseReal& stiffness) {
   const GearDesign& design = mesh.design;
   if (!design.elastic_rim()) return;
   const std::size_t side = mesh.element_node.cols() == 9 ? 3 : 2;  // nodes

@@ -7,13 +7,13 @@
 // over the outside. It is alike all round, so the ring keeps its cyclic symmetry; supports at single places, lugs, would not. Per
 // displacement of the rim as a whole: 2 pi r^3 k_t to turn it (N m), pi r (k_r + k_t) to move it (N m-1).
 #pragma once
+#include "results/sector_grid.h"
 #include "solid/elements.h"
-#include "solid/sector_mesh.h"
 
 namespace whine {
 
 // Adds K of one sector, (2 node, 2 node) N m-1; nothing for a gear that is rigid where it is held. Throws Error(input) if the
 // nodes on the outside do not make whole element sides.
-void add_rim_support(const MeshArtifact& mesh, SparseReal& stiffness);
+void add_rim_support(const SectorGrid& mesh, SparseReal& stiffness);
 
 }  // namespace whine

@@ -9,7 +9,7 @@
 
 #include "base/dense.h"
 #include "base/error.h"
-#include "solid/half_plane.h"
+#include "contact/half_plane.h"
 
 namespace whine {
 namespace {
@@ -40,7 +40,7 @@ Eigen::MatrixXd fitted(const Eigen::VectorXd& at, const Eigen::VectorXd& weight,
 }
 
 // Nodes and their mirror images in the centre line of the tooth.
-int mirror_node(const MeshArtifact& mesh, int node) {
+int mirror_node(const SectorGrid& mesh, int node) {
   const Vec2 image(-mesh.node_position(node, 0), mesh.node_position(node, 1));
   Eigen::Index nearest = 0;
   const double miss = (mesh.node_position.rowwise() - image.transpose()).rowwise().norm().minCoeff(&nearest);
@@ -133,7 +133,7 @@ struct RootReader::Curve {
 
 // From the lower end of the driving flank along the free boundary to the sector's edge, past a slit.
 RootReader::Curve RootReader::curve() const {
-  const MeshArtifact& mesh = mesh_;
+  const SectorGrid& mesh = mesh_;
   std::map<std::pair<int, int>, std::pair<std::vector<int>, int>> all;  // nodes, elements at the side
   for (Eigen::Index e = 0; e < mesh.element_node.rows(); ++e)
     for (int k = 0; k < 4; ++k) {
@@ -214,7 +214,7 @@ Eigen::MatrixXd RootReader::fit(const std::vector<Strain>& strains, double lengt
   return out;
 }
 
-RootReader::RootReader(const MeshArtifact& mesh, const Material& material, Roots roots, int points)
+RootReader::RootReader(const SectorGrid& mesh, const Material& material, Roots roots, int points)
     : mesh_(mesh),
       sides_(roots == Roots::both ? 2 : 1),
       tooth_(mesh.design),

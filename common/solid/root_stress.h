@@ -46,7 +46,7 @@ enum class Roots { both, driving };
 class RootReader {
  public:
   // Throws Error(input) for a mesh whose free boundary is not that of a tooth or, of both roots, that is not its own mirror image.
-  RootReader(const MeshArtifact& mesh, const Material& material, Roots roots = Roots::both,
+  RootReader(const SectorGrid& mesh, const Material& material, Roots roots = Roots::both,
              int points = kRootPoints);
   // (root, 2 node) Pa m-1: of displacements of the nodes.
   const SparseReal& stress() const { return stress_; }
@@ -61,7 +61,7 @@ class RootReader {
   Curve curve() const;
   // (root, strain) 1
   Eigen::MatrixXd fit(const std::vector<Strain>& strains, double length, double mouth) const;
-  const MeshArtifact& mesh_;
+  const SectorGrid& mesh_;
   int sides_;            // how many roots are read
   bool parted_ = false;  // by the mouth of a slit
   ToothGeometry tooth_;

@@ -13,7 +13,7 @@ namespace {
 using Complex = std::complex<double>;
 }  // namespace
 
-CyclicSector::CyclicSector(const MeshArtifact& mesh, const PlaneSystem& system) : teeth_(mesh.design.teeth) {
+CyclicSector::CyclicSector(const SectorGrid& mesh, const PlaneSystem& system) : teeth_(mesh.design.teeth) {
   const Eigen::Index nodes = mesh.node_position.rows();
   if (teeth_ < 3) fail(Failure::input, "cyclic symmetry needs 3 teeth or more, the mesh says ", teeth_);
   if (system.stiffness.rows() != 2 * nodes)
@@ -125,7 +125,7 @@ Eigen::MatrixXcd CyclicSector::expand(int n, const Eigen::MatrixXcd& unknown) co
   return result;
 }
 
-WholeGear replicate(const MeshArtifact& mesh) {
+WholeGear replicate(const SectorGrid& mesh) {
   const Eigen::Index nodes = mesh.node_position.rows(), elements = mesh.element_node.rows();
   const int teeth = mesh.design.teeth;
   std::vector<int> partner(static_cast<size_t>(nodes), -1);  // of a high node

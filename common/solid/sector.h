@@ -6,16 +6,16 @@
 // problems of the size of one sector: Olson, Shaw, Shi, Pierre and Parker, Applied Mechanics Reviews 66
 // (2014) 040803. Nodes at the bore are fixed, those on the outside of a ring unless it is on an elastic support (rim_support.h).
 #pragma once
+#include "results/sector_grid.h"
 #include "solid/elements.h"
 #include "solid/factor.h"
-#include "solid/sector_mesh.h"
 
 namespace whine {
 
 class CyclicSector {
  public:
   // system: of the sector alone, all nodes. Throws Error(input) if the mesh's node sets do not fit together.
-  CyclicSector(const MeshArtifact& mesh, const PlaneSystem& system);
+  CyclicSector(const SectorGrid& mesh, const PlaneSystem& system);
 
   int size() const { return size_; }  // complex unknowns of a harmonic
   int teeth() const { return teeth_; }
@@ -52,6 +52,6 @@ struct WholeGear {
   MatrixRMi element_node;  // (element, 4 or 9), tooth by tooth
   MatrixRMi node;          // (tooth, sector node)
 };
-WholeGear replicate(const MeshArtifact& mesh);
+WholeGear replicate(const SectorGrid& mesh);
 
 }  // namespace whine

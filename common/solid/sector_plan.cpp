@@ -91,7 +91,7 @@ SectorPlan plan_sector(const ToothGeometry& tooth, double h, double root) {
   }
 
   // The tooth region ends on a ring one module below the root, or half way to the bore on a thin rim.
-  const double rim = out * (tooth.root_radius() - design.held_radius());
+  const double rim = out * (tooth.root_radius() - design.clamped_radius());
   const double depth = std::min(design.module, 0.5 * rim);
   plan.ring_radius = tooth.root_radius() - out * depth;
   plan.n_under = std::max(2, static_cast<int>(std::ceil(depth / (1.25 * h))));
@@ -119,7 +119,7 @@ SectorPlan plan_sector(const ToothGeometry& tooth, double h, double root) {
   }
 
   // Towards the bore: growth from the ring.
-  const double rim_length = out * (plan.ring_radius - design.held_radius()),
+  const double rim_length = out * (plan.ring_radius - design.clamped_radius()),
                rim_first = std::min(2 * h, rim_length);
   for (plan.n_rim = 1; plan.n_rim < 1000; ++plan.n_rim) {
     plan.rim_ratio = growth_ratio(rim_first, rim_length, plan.n_rim);

@@ -62,7 +62,7 @@ BranchSettings branch_settings(const SweepParameters& stage_settings, int steps,
 }  // namespace
 
 BranchFollower::BranchFollower(RollingDynamics& dynamics, const GearMeshModel& model,
-                               const StaticArtifact& statics, const SweepParameters& settings, Look look,
+                               const StaticResult& statics, const SweepParameters& settings, Look look,
                                double tolerance)
     : dynamics_(dynamics),
       model_(model),
@@ -217,7 +217,7 @@ void BranchFollower::begin(double at, int steps) {
     map_->set_parameter(at);
     RollingDynamics::State state = dynamics_.rest();
     const auto periodic =
-        find_periodic_orbit(dynamics_, state, settings_.time.periodicity, SteadyState::extrapolate);
+        iterate_to_orbit(dynamics_, state, settings_.time.periodicity, SteadyState::extrapolate);
     if (!periodic) {
       map_.reset();
       continue;
@@ -243,7 +243,7 @@ void BranchFollower::begin_swept(Direction direction, double at) {
     std::optional<Orbit> orbit;
     for (;;) {
       dynamics_.set_speed(speed, steps_at(settings_.time, speed));
-      orbit = find_periodic_orbit(dynamics_, state, settings_.time.periodicity, settings_.time.steady_state);
+      orbit = iterate_to_orbit(dynamics_, state, settings_.time.periodicity, settings_.time.steady_state);
       if (orbit) break;
       widen();
       state = start;
@@ -288,7 +288,7 @@ void BranchFollower::resume(const RollingDynamics::State& state, const VectorXd&
 bool BranchFollower::found(const VectorXd& start, double at, int steps) {
   OrbitSettings settings;
   settings.tolerance = tolerance_;
-  const OrbitSearch search = find_orbit(*map_, start, multiple_, settings);
+  const OrbitSearch search = newton_orbit(*map_, start, multiple_, settings);
   if (search.found()) {
     orbit_ = search.orbit;
     return true;

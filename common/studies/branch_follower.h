@@ -46,7 +46,7 @@ class BranchFollower {
   // folds to 1e-5 of their speed.
   enum class Look { close, at_folds };
   // All must live as long as this. settings: speeds, time discretisation. Nobody else may use the dynamics meanwhile.
-  BranchFollower(RollingDynamics& dynamics, const GearMeshModel& model, const StaticArtifact& statics,
+  BranchFollower(RollingDynamics& dynamics, const GearMeshModel& model, const StaticResult& statics,
                  const SweepParameters& settings, Look look = Look::close,
                  double tolerance = kOrbitTolerance);
   static constexpr double kOrbitTolerance = 1e-9;  // of an orbit's residual
@@ -84,7 +84,7 @@ class BranchFollower {
 
   RollingDynamics& dynamics_;
   const GearMeshModel& model_;
-  const StaticArtifact& statics_;
+  const StaticResult& statics_;
   const SweepParameters& settings_;
   Look look_;
   double tolerance_;

@@ -27,7 +27,7 @@ struct Outcome {
 
 using NamedOutcomes = std::vector<std::pair<std::string, Outcome>>;
 
-Outcome outcome(const StaticArtifact& s) {
+Outcome outcome(const StaticResult& s) {
   return {s.mean_stiffness, s.transmission_error.maxCoeff() - s.transmission_error.minCoeff(),
           flank_pressure(s).smooth, harmonics(s.transmission_error, kJudgedHarmonics).amplitude,
           s.root_stress_max};
@@ -69,7 +69,7 @@ double shown_length(double length) {
 
 // The pair at rest, solved in other ways than the settings say.
 struct Alternatives {
-  const BodyArtifact &driver, &driven;
+  const ReducedBody &driver, &driven;
   const StaticParameters& settings;
   double torque;  // N m
 
@@ -80,26 +80,26 @@ struct Alternatives {
   // Bodies of another discretisation, with `finer` times the points of the flank table.
   Outcome of_bodies(const std::function<void(BodyDiscretisation&)>& change, int finer = 1) const {
     constexpr int kModes = 1;  // statics ask for none
-    const auto again = [&](const BodyArtifact& body) {
+    const auto again = [&](const ReducedBody& body) {
       BodyDiscretisation other = body.discretisation;
       change(other);
       return reduce(make_sector_mesh(body.design, other), body.material, kModes,
                     finer * static_cast<int>(body.flank_position.size()));
     };
     const bool alike = driver.compliance == driven.compliance;  // one body serves both gears
-    const BodyArtifact first = again(driver);
+    const ReducedBody first = again(driver);
     return outcome(static_transmission(first, alike ? first : again(driven), settings, torque));
   }
   // (gear) Pa: largest root stress with elements on the roots that are `share` times as large; size (m) becomes the driver's.
   VectorXd with_root_elements(double share, double& size) const {
-    const auto again = [share, &size](const BodyArtifact& body) {
-      BodyArtifact finer = body;
+    const auto again = [share, &size](const ReducedBody& body) {
+      ReducedBody finer = body;
       size = refine_root_stress(make_sector_mesh(body.design, body.discretisation), share, finer);
       return finer;
     };
     const bool alike = driver.compliance == driven.compliance;
-    const BodyArtifact second = again(driven);  // the driver last: it leaves its size
-    const BodyArtifact first = alike ? second : again(driver);
+    const ReducedBody second = again(driven);  // the driver last: it leaves its size
+    const ReducedBody first = alike ? second : again(driver);
     return static_transmission(first, second, settings, torque).root_stress_max;
   }
 };
@@ -172,13 +172,13 @@ RootRefinement root_levels(const Alternatives& pair, const Outcome& present) {
 
 }  // namespace
 
-ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact& driven,
-                                 const StaticParameters& settings, double torque) {
+ErrorBudgetResult error_budget(const ReducedBody& driver, const ReducedBody& driven,
+                               const StaticParameters& settings, double torque) {
   const Alternatives pair{driver, driven, settings, torque};
-  const StaticArtifact base = static_transmission(driver, driven, settings, torque);
+  const StaticResult base = static_transmission(driver, driven, settings, torque);
   const Outcome reference = outcome(base);
-  ErrorBudgetArtifact budget;
-  static_cast<PairParameters&>(budget) = base;
+  ErrorBudgetResult budget;
+  static_cast<GearPairParameters&>(budget) = base;
   budget.torque = torque;
   budget.refinement = changes(refinements(pair), reference);
   budget.root = root_levels(pair, reference);
@@ -186,18 +186,18 @@ ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact&
   return budget;
 }
 
-NextLevel next_contact_level(const BodyArtifact& driver, const BodyArtifact& driven,
-                             const StaticParameters& settings, const StaticArtifact& result) {
+NextLevel next_contact_level(const ReducedBody& driver, const ReducedBody& driven,
+                             const StaticParameters& settings, const StaticResult& result) {
   if (settings.fidelity.contact != ContactModel::line)
     fail(Failure::input, "contact = \"", settings.fidelity.contact,
          "\" is the last model level of contact; the error budget says what its strips are worth");
   StaticParameters next = settings;
   next.fidelity.contact = ContactModel::strips;
-  const StaticArtifact strips = static_transmission(driver, driven, next, result.torque);
+  const StaticResult strips = static_transmission(driver, driven, next, result.torque);
   const GearPair gears(driver.design, driven.design, settings.mesh.centre_distance);
   const double mean_error = strips.transmission_error.mean(),
                load = result.torque / gears.gear(0).base_radius();
-  const auto load_of = [](const StaticArtifact& a, Eigen::Index position, int pair) {
+  const auto load_of = [](const StaticResult& a, Eigen::Index position, int pair) {
     const int j = pair - a.pair[0];
     return j >= 0 && j < a.pair.size() ? a.tooth_load(position, j) : 0.0;
   };

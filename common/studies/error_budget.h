@@ -2,9 +2,9 @@
 // beside them what another model of near field or contact would change; and what the next model level of contact would, at
 // each position.
 #pragma once
-#include "signal/static_result.h"
-#include "solid/reduced_body.h"
-#include "studies/error_budget_result.h"
+#include "results/error_budget.h"
+#include "results/reduced_body.h"
+#include "results/static.h"
 
 namespace whine {
 
@@ -17,8 +17,8 @@ namespace whine {
 // near field (matching at the body's matching_depth, or subtraction) and the other model level of contact; one that cannot be
 // computed stands in choice_missing with its reason.
 // Errors of all else as static_transmission, make_sector_mesh and reduce.
-ErrorBudgetArtifact error_budget(const BodyArtifact& driver, const BodyArtifact& driven,
-                                 const StaticParameters& settings, double torque);
+ErrorBudgetResult error_budget(const ReducedBody& driver, const ReducedBody& driven,
+                               const StaticParameters& settings, double torque);
 
 // Difference of two static answers over some of the positions.
 struct StaticDifference {
@@ -34,7 +34,7 @@ struct NextLevel {
 
 // What contact = "strips" changes in `result`, an answer with contact = "line" at the same stage parameters; relative to the
 // strips. Throws Error(input) if the stage parameters' contact is another, errors as static_transmission.
-NextLevel next_contact_level(const BodyArtifact& driver, const BodyArtifact& driven,
-                             const StaticParameters& settings, const StaticArtifact& result);
+NextLevel next_contact_level(const ReducedBody& driver, const ReducedBody& driven,
+                             const StaticParameters& settings, const StaticResult& result);
 
 }  // namespace whine

@@ -28,18 +28,18 @@ constexpr int kWiderZones = 1;  // than the branch needed, for folds with larger
 
 // The pair with one value of the quantity.
 struct PairAt {
-  PairAt(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& at_rest,
+  PairAt(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& at_rest,
          const DynamicParameters& parameters)
       : statics(at_rest), model(driver, driven, statics.mesh), dynamics(model, parameters) {}
-  StaticArtifact statics;
+  StaticResult statics;
   GearMeshModel model;
   RollingDynamics dynamics;
 };
 
 class Family {
  public:
-  Family(const BodyArtifact& driver, const BodyArtifact& driven, const StaticParameters& statics,
-         double torque, const SweepParameters& settings, const FoldCurvesPlan& plan)
+  Family(const ReducedBody& driver, const ReducedBody& driven, const StaticParameters& statics, double torque,
+         const SweepParameters& settings, const FoldCurvesPlan& plan)
       : driver_(driver),
         driven_(driven),
         parameters_(statics),
@@ -72,7 +72,7 @@ class Family {
     return frozen_root(with_rayleigh_stiffness(two_->mesh, eta, settings_.fidelity.body)).damping_ratio;
   }
   double bearing_stiffness() const { return bearing_stiffness_; }
-  const StaticArtifact& statics() const { return own_statics_; }
+  const StaticResult& statics() const { return own_statics_; }
   // The pair at a raw value; its zone is not set.
   std::unique_ptr<PairAt> at(double raw) {
     own(raw);
@@ -123,14 +123,14 @@ class Family {
     own_known_ = true;
   }
 
-  const BodyArtifact &driver_, &driven_;
+  const ReducedBody &driver_, &driven_;
   const StaticParameters& parameters_;
   double torque_;
   const SweepParameters& settings_;
   const FoldCurvesPlan& plan_;
   double bearing_stiffness_;
   std::unique_ptr<FixedPhaseState> two_;
-  StaticArtifact own_statics_;
+  StaticResult own_statics_;
   double own_raw_ = 0, current_raw_ = 0;
   bool own_known_ = false;
   std::unique_ptr<PairAt> current_;
@@ -227,7 +227,7 @@ std::optional<std::pair<Fold, Fold>> own_folds(const MapFamily& maps, double val
   return std::pair{std::move(*one), std::move(*other)};
 }
 
-void fill(const Rows& rows, FoldCurvesArtifact& a) {
+void fill(const Rows& rows, FoldCurvesResult& a) {
   a.curve = vector(rows.curve);
   a.value = vector(rows.value);
   a.damping_ratio = vector(rows.ratio);
@@ -245,10 +245,10 @@ void fill(const Rows& rows, FoldCurvesArtifact& a) {
 
 }  // namespace
 
-FoldCurvesArtifact fold_curves(const BodyArtifact& driver, const BodyArtifact& driven,
-                               const StaticParameters& statics, double torque,
-                               const SweepParameters& stage_settings, const FoldCurvesPlan& given,
-                               const std::function<void(long, long, const std::string&)>& report) {
+FoldCurvesResult fold_curves(const ReducedBody& driver, const ReducedBody& driven,
+                             const StaticParameters& statics, double torque,
+                             const SweepParameters& stage_settings, const FoldCurvesPlan& given,
+                             const std::function<void(long, long, const std::string&)>& report) {
   require_ascending(given);
   require_like_teeth(statics.mesh, "a fold curve");
   FoldCurvesPlan plan = given;
@@ -309,8 +309,8 @@ FoldCurvesArtifact fold_curves(const BodyArtifact& driver, const BodyArtifact& d
     number += 2;
   }
 
-  FoldCurvesArtifact a;
-  PairParameters rest;  // without what the curve varies
+  FoldCurvesResult a;
+  GearPairParameters rest;  // without what the curve varies
   set_pair(rest, {driver, driven}, statics);
   set_motion(a, rest.gear, rest, settings);
   a.time = settings.time;

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "solid/reduced_body.h"
-#include "studies/fold_curves_result.h"
+#include "results/fold_curves.h"
+#include "results/reduced_body.h"
 
 namespace whine {
 
@@ -24,9 +24,9 @@ struct FoldCurvesPlan {
 // the highest point of single-pair contact, in place of what the scene has. report(done, total, note) is called after each value.
 // Throws as jump_map() and pair_branch(), and Error(input) for no value, values that do not
 // ascend, or a first damping ratio or torque that is not positive.
-FoldCurvesArtifact fold_curves(const BodyArtifact& driver, const BodyArtifact& driven,
-                               const StaticParameters& statics, double torque,
-                               const SweepParameters& settings, const FoldCurvesPlan& plan,
-                               const std::function<void(long, long, const std::string&)>& report);
+FoldCurvesResult fold_curves(const ReducedBody& driver, const ReducedBody& driven,
+                             const StaticParameters& statics, double torque, const SweepParameters& settings,
+                             const FoldCurvesPlan& plan,
+                             const std::function<void(long, long, const std::string&)>& report);
 
 }  // namespace whine

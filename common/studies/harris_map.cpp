@@ -35,7 +35,7 @@ FlankModification with_tip(FlankModification m, double amount, double length, Re
   return m;
 }
 
-GearMeshSpec relieved_mesh(const HarrisMapArtifact& map, double relief, double length) {
+GearMeshSpec relieved_mesh(const HarrisMapResult& map, double relief, double length) {
   GearMeshSpec mesh = map.mesh;
   for (int g = 0; g < kSides; ++g)
     if (relieves(map.relieved, g))
@@ -203,7 +203,7 @@ void require_plan(const HarrisPlan& plan) {
 
 }  // namespace
 
-double single_pair_relief_length(const BodyArtifact& driver, const BodyArtifact& driven,
+double single_pair_relief_length(const ReducedBody& driver, const ReducedBody& driven,
                                  const GearMeshSpec& mesh) {
   const GearPair pair(driver.design, driven.design, mesh.centre_distance);
   return (pair.contact_ratio() - 1) * pair.base_pitch();
@@ -233,12 +233,12 @@ std::pair<double, double> least_between(double low, double high, double close,
 }
 
 // The axes of a map, its values all 0.
-HarrisMapArtifact blank_map(const BodyArtifact& driver, const BodyArtifact& driven,
-                            const StaticParameters& statics, const HarrisPlan& plan) {
+HarrisMapResult blank_map(const ReducedBody& driver, const ReducedBody& driven,
+                          const StaticParameters& statics, const HarrisPlan& plan) {
   const auto as_vector = [](const std::vector<double>& v) {
     return VectorXd(Eigen::Map<const VectorXd>(v.data(), static_cast<Eigen::Index>(v.size())));
   };
-  HarrisMapArtifact map;
+  HarrisMapResult map;
   set_pair(map, {driver, driven}, statics);
   for (FlankModification& m : map.mesh.modification) m.tip = {};
   map.fidelity = {.contact = ContactModel::strips};
@@ -261,7 +261,7 @@ HarrisMapArtifact blank_map(const BodyArtifact& driver, const BodyArtifact& driv
 // Fills in a map start by start, in ranges of torque and relief whose positions all their points share.
 class MapOfStarts {
  public:
-  MapOfStarts(HarrisMapArtifact& map, const GearMeshModel& model, const HarrisPlan& plan)
+  MapOfStarts(HarrisMapResult& map, const GearMeshModel& model, const HarrisPlan& plan)
       : map_(map),
         model_(model),
         plan_(plan),
@@ -290,7 +290,7 @@ class MapOfStarts {
         relief_ends_.begin());
   }
 
-  HarrisMapArtifact& map_;
+  HarrisMapResult& map_;
   const GearMeshModel& model_;
   const HarrisPlan& plan_;
   std::array<std::vector<MatrixXd>, 2> tables_;
@@ -376,19 +376,19 @@ void MapOfStarts::fill(Eigen::Index start,
 
 }  // namespace
 
-HarrisMapArtifact harris_map(const BodyArtifact& driver, const BodyArtifact& driven,
-                             const StaticParameters& statics, const HarrisPlan& plan,
-                             const std::function<void(long, long, const std::string&)>& report) {
+HarrisMapResult harris_map(const ReducedBody& driver, const ReducedBody& driven,
+                           const StaticParameters& statics, const HarrisPlan& plan,
+                           const std::function<void(long, long, const std::string&)>& report) {
   require_plan(plan);
   require_like_teeth(statics.mesh, "a Harris map");
   require_rigid_bearings(statics.mesh, "a Harris map");
   require_no_friction(statics.mesh, "a Harris map");
   require_external(statics.mesh, driver.design, driven.design, "a Harris map");
   if (hunting_periods(GearMeshModel(driver, driven, statics.mesh)) > 1)
-    fail(Failure::input,
-         "a Harris map is of teeth that are alike, and a gear of this pair has a cracked one; take a scene "
-         "without [gear.<name>.crack]");
-  HarrisMapArtifact map = blank_map(driver, driven, statics, plan);
+    fail(
+        Failure::input,
+        "a Harris map is of teeth that are alike, and a gear of this pair has a cracked one; take a scene without [gear.<name>.crack]");
+  HarrisMapResult map = blank_map(driver, driven, statics, plan);
   const GearMeshModel model(driver, driven, map.mesh);
   MapOfStarts starts(map, model, plan);
   for (Eigen::Index s = 0; s < map.length.size(); ++s) {
@@ -399,7 +399,7 @@ HarrisMapArtifact harris_map(const BodyArtifact& driver, const BodyArtifact& dri
   return map;
 }
 
-void check(HarrisMapArtifact& map, const BodyArtifact& driver, const BodyArtifact& driven, int positions,
+void check(HarrisMapResult& map, const ReducedBody& driver, const ReducedBody& driven, int positions,
            int points, int finer) {
   const Eigen::Index torques = map.torque.size(), reliefs = map.relief.size(), all = torques * reliefs;
   StaticParameters settings;
@@ -410,7 +410,7 @@ void check(HarrisMapArtifact& map, const BodyArtifact& driver, const BodyArtifac
   map.largest_error = 0;
   const auto compare = [&](double relief, double length, double torque, double found) {
     settings.mesh = relieved_mesh(map, relief, length);
-    const StaticArtifact fine = static_transmission(driver, driven, settings, torque);
+    const StaticResult fine = static_transmission(driver, driven, settings, torque);
     map.largest_error =
         std::max(map.largest_error, std::abs(found / peak_to_peak(fine.transmission_error) - 1));
     ++map.checked;
@@ -427,7 +427,7 @@ void check(HarrisMapArtifact& map, const BodyArtifact& driver, const BodyArtifac
   }
 }
 
-void add_dynamics(HarrisMapArtifact& map, const BodyArtifact& driver, const BodyArtifact& driven,
+void add_dynamics(HarrisMapResult& map, const ReducedBody& driver, const ReducedBody& driven,
                   const SweepParameters& settings, double bearing_stiffness,
                   const std::function<void(long, long, const std::string&)>& report) {
   set_motion(map, {driver, driven}, map, settings);
@@ -447,10 +447,10 @@ void add_dynamics(HarrisMapArtifact& map, const BodyArtifact& driver, const Body
     for (Eigen::Index r = 0; r < reliefs; ++r) {
       statics.mesh = relieved_mesh(map, map.relief[r], map.length[s]);
       for (Eigen::Index t = 0; t < torques; ++t) {
-        const StaticArtifact rest = static_transmission(driver, driven, statics, map.torque[t]);
+        const StaticResult rest = static_transmission(driver, driven, statics, map.torque[t]);
         for (const Direction direction : {Direction::up, Direction::down}) {
-          const SweepArtifact sweep = whine::sweep(driver, driven, rest, bearing_stiffness, settings,
-                                                   direction, [](long, long, const std::string&) {});
+          const SweepResult sweep = whine::sweep(driver, driven, rest, bearing_stiffness, settings, direction,
+                                                 [](long, long, const std::string&) {});
           for (Eigen::Index f = 0; f < sweep.mesh_frequency.size(); ++f) {
             const double rms = harmonics(sweep.transmission_error.row(f).transpose(), 0).rms;
             if (rms <= map.dynamic_rms[s](t, r)) continue;

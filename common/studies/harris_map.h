@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "solid/reduced_body.h"
-#include "studies/harris_result.h"
+#include "results/harris_map.h"
+#include "results/reduced_body.h"
 
 namespace whine {
 
@@ -26,23 +26,23 @@ struct HarrisPlan {
 };
 
 // m: length of roll of a tip relief that starts at the highest point of single-pair contact, the same on both gears.
-double single_pair_relief_length(const BodyArtifact& driver, const BodyArtifact& driven,
+double single_pair_relief_length(const ReducedBody& driver, const ReducedBody& driven,
                                  const GearMeshSpec& mesh);
 
 // statics: mesh and discretisation; what it says of tip reliefs is left out, all other modifications stay. Contact is that of
 // strips. The check is left at 0 points. report(done, total, note) is called after each relief. Throws Error(input) for a plan
 // out of order or a relief that does not fit its flank, Error(numerical) where contact leaves the flanks.
-HarrisMapArtifact harris_map(const BodyArtifact& driver, const BodyArtifact& driven,
-                             const StaticParameters& statics, const HarrisPlan& plan,
-                             const std::function<void(long, long, const std::string&)>& report);
+HarrisMapResult harris_map(const ReducedBody& driver, const ReducedBody& driven,
+                           const StaticParameters& statics, const HarrisPlan& plan,
+                           const std::function<void(long, long, const std::string&)>& report);
 
 // Solves the optima and `points` points of the map again, one load at a time (static_transmission), with `finer` times the
 // strips of the map at the same load and `finer` times the positions, and fills checked and largest_error.
-void check(HarrisMapArtifact& map, const BodyArtifact& driver, const BodyArtifact& driven, int positions,
+void check(HarrisMapResult& map, const ReducedBody& driver, const ReducedBody& driven, int positions,
            int points, int finer = 3);
 
 // Fills the dynamic part: sweeps up and down at every point of the map. bearing_stiffness: N m-1, as of sweep().
-void add_dynamics(HarrisMapArtifact& map, const BodyArtifact& driver, const BodyArtifact& driven,
+void add_dynamics(HarrisMapResult& map, const ReducedBody& driver, const ReducedBody& driven,
                   const SweepParameters& settings, double bearing_stiffness,
                   const std::function<void(long, long, const std::string&)>& report);
 

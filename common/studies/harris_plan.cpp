@@ -17,7 +17,7 @@ std::vector<double> default_torques(double design_torque) {
   return torques;
 }
 
-std::vector<double> default_reliefs(const BodyArtifact& driver, const BodyArtifact& driven,
+std::vector<double> default_reliefs(const ReducedBody& driver, const ReducedBody& driven,
                                     StaticParameters settings, double torque) {
   constexpr int kReliefs = 40, kCoarse = 32;
   for (FlankModification& m : settings.mesh.modification) m.tip = {};
@@ -32,8 +32,7 @@ std::vector<double> default_reliefs(const BodyArtifact& driver, const BodyArtifa
 
 namespace {
 
-double default_relief_length(const BodyArtifact& driver, const BodyArtifact& driven,
-                             const GearMeshSpec& mesh) {
+double default_relief_length(const ReducedBody& driver, const ReducedBody& driven, const GearMeshSpec& mesh) {
   const ToothGeometry gear(driver.design);
   const Relief& own = mesh.modification[0].tip;
   if (own.length > 0) return own.length;
@@ -71,7 +70,7 @@ std::vector<double> lengths_of(const std::vector<double>& starts, const GearDesi
 }  // namespace
 
 std::vector<double> relief_lengths(const std::vector<double>& starts, const std::vector<double>& millimetres,
-                                   const BodyArtifact& first, const BodyArtifact& second,
+                                   const ReducedBody& first, const ReducedBody& second,
                                    const GearMeshSpec& mesh, Relieved relieved) {
   require_external(mesh, first.design, second.design, "a Harris map");
   if (!starts.empty()) return lengths_of(starts, first.design, second.design, relieved);

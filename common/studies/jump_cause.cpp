@@ -16,7 +16,7 @@ const char* name(JumpCause cause) {
   return "";
 }
 
-CausedJump cause_of_jump(const BranchArtifact& branch, double frequency, double width) {
+CausedJump cause_of_jump(const BranchResult& branch, double frequency, double width) {
   constexpr double kZones = 2e-4;
   double nearest = 0.5 * width + kZones * frequency;
   CausedJump found;

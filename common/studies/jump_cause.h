@@ -1,6 +1,6 @@
 // Why a sweep jumps, by the branch of periodic orbits at its torque.
 #pragma once
-#include "studies/branch_result.h"
+#include "results/branch.h"
 
 namespace whine {
 
@@ -16,6 +16,6 @@ struct CausedJump {
 
 // frequency, width: Hz, middle and width of the interval in which the sweep jumps. A fold or a flip counts within that interval,
 // widened by 2e-4 of the speed for the wider contact zone that a sweep may have come with.
-CausedJump cause_of_jump(const BranchArtifact& branch, double frequency, double width);
+CausedJump cause_of_jump(const BranchResult& branch, double frequency, double width);
 
 }  // namespace whine

@@ -30,10 +30,9 @@ double rayleigh_stiffness_for(double ratio, const FixedPhaseMesh& mesh, BodyMode
        " with two pairs in contact; ask for less, or lower undamped_depth_mm");
 }
 
-JumpMapArtifact jump_map(const BodyArtifact& driver, const BodyArtifact& driven,
-                         const StaticParameters& statics, double torque, const SweepParameters& settings,
-                         const JumpMapPlan& plan,
-                         const std::function<void(long, long, const std::string&)>& report) {
+JumpMapResult jump_map(const ReducedBody& driver, const ReducedBody& driven, const StaticParameters& statics,
+                       double torque, const SweepParameters& settings, const JumpMapPlan& plan,
+                       const std::function<void(long, long, const std::string&)>& report) {
   const size_t cases = plan.rayleigh_stiffness.size() + plan.damping_ratio.size();
   if (cases == 0)
     fail(Failure::input, "no case: give damping ratios or Rayleigh stiffness factors, one at least");
@@ -44,7 +43,7 @@ JumpMapArtifact jump_map(const BodyArtifact& driver, const BodyArtifact& driven,
         fail(Failure::input, what, " of ", value, "; it must be above 0 and below 1");
 
   require_like_teeth(statics.mesh, "a map of jumps");
-  const StaticArtifact rest = static_transmission(driver, driven, statics, torque);
+  const StaticResult rest = static_transmission(driver, driven, statics, torque);
   const double bearing_stiffness =
       torque == settings.reference_torque
           ? rest.mean_stiffness
@@ -59,7 +58,7 @@ JumpMapArtifact jump_map(const BodyArtifact& driver, const BodyArtifact& driven,
   ImpactParameters fixed = settings;
   fixed.fidelity.contact = ContactModel::strips;  // the body under a fixed contact is read on strips
   fixed.damping.rayleigh_stiffness = 0;
-  JumpMapArtifact result;
+  JumpMapResult result;
   const FixedPhaseState* two = nullptr;
   const std::vector<FixedPhaseState> states =
       fixed_phase_states(driver, driven, rest, bearing_stiffness, fixed, kStatePhases);
@@ -99,7 +98,7 @@ JumpMapArtifact jump_map(const BodyArtifact& driver, const BodyArtifact& driven,
     result.damping_ratio[c] = ratio;
     result.excitation[c] = result.first_harmonic / result.mean_stiffness / (2 * ratio);
     add_case(result, c, plan.step, [&](Direction direction, std::vector<BranchPoint>& beyond) {
-      SweepArtifact swept = sweep(
+      SweepResult swept = sweep(
           driver, driven, rest, bearing_stiffness, own, direction, [](long, long, const std::string&) {},
           &beyond);
       report(2 * c + (direction == Direction::up ? 1 : 2), 2 * n, text("damping ratio ", ratio));

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "dynamics/impact.h"
+#include "results/jump_map.h"
+#include "results/reduced_body.h"
 #include "signal/branches.h"
-#include "signal/jump_map_result.h"
-#include "solid/reduced_body.h"
 
 namespace whine {
 
@@ -30,10 +30,9 @@ struct JumpMapPlan : MapSpeeds {
 // do. Throws Error(input) for no case, a factor or ratio that is not positive, a ratio that bearings and
 // mass-proportional damping exceed or no factor gives, an empty range of speeds or one without load_frequency, a pair
 // that is never in contact with two pairs; other errors as static_transmission, fixed_phase_states and sweep.
-JumpMapArtifact jump_map(const BodyArtifact& driver, const BodyArtifact& driven,
-                         const StaticParameters& statics, double torque, const SweepParameters& settings,
-                         const JumpMapPlan& plan,
-                         const std::function<void(long, long, const std::string&)>& report);
+JumpMapResult jump_map(const ReducedBody& driver, const ReducedBody& driven, const StaticParameters& statics,
+                       double torque, const SweepParameters& settings, const JumpMapPlan& plan,
+                       const std::function<void(long, long, const std::string&)>& report);
 
 // eta (s) of Eq. 21 that gives the damping ratio to the pair at a fixed phase, whose undamped frequency (Hz) this is. Throws
 // Error(input) if bearings and mass-proportional damping exceed the ratio or no factor gives it.

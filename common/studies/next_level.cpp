@@ -14,8 +14,8 @@ namespace whine {
 
 namespace {
 
-StaticArtifact statics_with(const BodyArtifact& driver, const BodyArtifact& driven,
-                            const StaticArtifact& like, ContactModel contact) {
+StaticResult statics_with(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& like,
+                          ContactModel contact) {
   StaticParameters settings;
   settings.mesh = like.mesh;
   settings.fidelity = like.fidelity;
@@ -24,7 +24,7 @@ StaticArtifact statics_with(const BodyArtifact& driver, const BodyArtifact& driv
   return static_transmission(driver, driven, settings, like.torque);
 }
 
-BodyArtifact with_all_modes(const BodyArtifact& body) {
+ReducedBody with_all_modes(const ReducedBody& body) {
   return reduce(make_sector_mesh(body.design, body.discretisation), body.material, kAllModes,
                 static_cast<int>(body.flank_position.size()));
 }
@@ -38,8 +38,8 @@ void add(Change& change, double relative, double frequency) {
 
 }  // namespace
 
-std::vector<NextSweep> next_sweeps(const BodyArtifact& driver, const BodyArtifact& driven,
-                                   const StaticArtifact& statics, const StaticArtifact& reference,
+std::vector<NextSweep> next_sweeps(const ReducedBody& driver, const ReducedBody& driven,
+                                   const StaticResult& statics, const StaticResult& reference,
                                    const SweepParameters& settings) {
   std::vector<NextSweep> sweeps;
   std::string reasons;
@@ -85,14 +85,14 @@ std::vector<NextSweep> next_sweeps(const BodyArtifact& driver, const BodyArtifac
   return sweeps;
 }
 
-SweepChange sweep_change(const SweepArtifact& here, const SweepArtifact& next) {
-  const ResponseArtifact a = response(here), b = response(next);
+SweepChange sweep_change(const SweepResult& here, const SweepResult& next) {
+  const ResponseResult a = response(here), b = response(next);
   const Eigen::Index speeds = a.mesh_frequency.size();
   if (b.mesh_frequency.size() != speeds || a.mesh_frequency != b.mesh_frequency)
     fail(Failure::input, "two sweeps of ", speeds, " and ", b.mesh_frequency.size(),
          " speeds are not of the same speeds in the same order; they cannot be compared");
   std::vector<bool> jumped(static_cast<size_t>(speeds), false);  // a branch was left before this speed
-  for (const ResponseArtifact* r : {&a, &b})
+  for (const ResponseResult* r : {&a, &b})
     for (const Eigen::Index i : rows_before_jumps(*r))
       if (i >= 0) jumped[static_cast<size_t>(i) + 1] = true;
   SweepChange change;

@@ -4,17 +4,17 @@
 #include <string>
 #include <vector>
 
-#include "signal/static_result.h"
-#include "signal/sweep_result.h"
-#include "solid/reduced_body.h"
+#include "results/reduced_body.h"
+#include "results/static.h"
+#include "results/sweep.h"
 
 namespace whine {
 
 // A sweep one model level up in one key of [fidelity], as sweep() wants it.
 struct NextSweep {
   std::string key, from, to;  // key "contact" or "body"; its model levels
-  std::array<BodyArtifact, kSides> body;
-  StaticArtifact statics;
+  std::array<ReducedBody, kSides> body;
+  StaticResult statics;
   double mean_stiffness = 0;  // N m-1
   SweepParameters settings;
   std::string missing;  // why this model level cannot be had here; the rest is then not filled
@@ -24,8 +24,8 @@ struct NextSweep {
 // torques of `statics` and `reference`; body = "full" has bodies of its own, of the same meshes: they are reduced again. What
 // has no next model level is left out. Throws Error(input), with the reasons, if nothing is left or all of it is missing;
 // other errors as static_transmission.
-std::vector<NextSweep> next_sweeps(const BodyArtifact& driver, const BodyArtifact& driven,
-                                   const StaticArtifact& statics, const StaticArtifact& reference,
+std::vector<NextSweep> next_sweeps(const ReducedBody& driver, const ReducedBody& driven,
+                                   const StaticResult& statics, const StaticResult& reference,
                                    const SweepParameters& settings);
 
 // Largest and RMS over the speeds, relative to the next model level.
@@ -42,6 +42,6 @@ struct SweepChange {
 
 // Both of the same speeds in the same order; throws Error(input) otherwise. After a jump of either sweep speeds count as
 // apart for as long as the RMS of the two differ as across a jump.
-SweepChange sweep_change(const SweepArtifact& here, const SweepArtifact& next);
+SweepChange sweep_change(const SweepResult& here, const SweepResult& next);
 
 }  // namespace whine

@@ -9,18 +9,17 @@
 #include "signal/response.h"
 #include "signal/spectrum.h"
 #include "studies/branch_follower.h"
-#include "studies/held_peaks.h"
+#include "studies/sustained_peaks.h"
 
 namespace whine {
 
 using Eigen::VectorXd;
 
 // NOLINTNEXTLINE(readability-function-size): segments of one branch, then its artifact
-BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& driven,
-                           const StaticArtifact& statics, double mean_stiffness,
-                           const SweepParameters& stage_settings,
-                           const std::function<void(long, long, const std::string&)>& report,
-                           const BranchPlan& plan) {
+BranchResult pair_branch(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
+                         double mean_stiffness, const SweepParameters& stage_settings,
+                         const std::function<void(long, long, const std::string&)>& report,
+                         const BranchPlan& plan) {
   if (plan.most_periods != 1 && plan.most_periods != 2 && plan.most_periods != 4)
     fail(Failure::input, "orbits of ", plan.most_periods, " mesh periods are not followed; give 1, 2 or 4");
   if (!(plan.tolerance >= 1e-12 && plan.tolerance <= 1e-3))
@@ -34,7 +33,7 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
       model, dynamic_parameters(statics, mean_stiffness, stage_settings, stage_settings.frequency_to));
   BranchFollower follower(dynamics, model, statics, stage_settings, BranchFollower::Look::close,
                           plan.tolerance);
-  HeldPeaks peaks(model, stage_settings.time.steps_per_period);
+  SustainedPeaks peaks(model, stage_settings.time.steps_per_period);
   follower.measure([&peaks](const RollingDynamics::Period& period, int number, int periods) {
     return peaks.so_far(period, number, periods);
   });
@@ -43,7 +42,7 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
   follower.follow_flips(segments, plan.most_periods, report);
   const std::vector<double>& mismatch = follower.mismatch();
 
-  BranchArtifact a;
+  BranchResult a;
   set_motion(a, {driver, driven}, statics, stage_settings);
   a.time = stage_settings.time;
   a.torque = statics.torque;
@@ -55,8 +54,8 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
   for (const BranchSegment& s : segments) points += static_cast<Eigen::Index>(s.branch.points.size());
   for (VectorXd* x : {&a.mesh_frequency, &a.dte_rms, &a.dte_mean, &a.residual}) x->resize(points);
   for (Eigen::VectorXi* x : {&a.stable, &a.steps, &a.period_multiple, &a.part}) x->resize(points);
-  for (VectorXd* x : {&a.mesh_force_held, &a.tooth_load_held}) x->resize(points);
-  for (auto* x : {&a.root_stress_held, &a.root_stress_angle, &a.root_stress_phase})
+  for (VectorXd* x : {&a.mesh_force_sustained, &a.tooth_load_sustained}) x->resize(points);
+  for (auto* x : {&a.root_stress_sustained, &a.root_stress_angle, &a.root_stress_phase})
     for (VectorXd& of_gear : *x) of_gear.resize(peaks.root_stress() ? points : 0);
   const int harmonic_count = resolved_harmonics(stage_settings.time.steps_per_period, kResponseHarmonics);
   a.dte_harmonic.resize(points, harmonic_count);
@@ -72,10 +71,10 @@ BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& drive
       a.dte_rms[i] = h.rms;
       a.dte_mean[i] = h.mean;
       a.dte_harmonic.row(i) = h.amplitude.transpose();
-      a.mesh_force_held[i] = p.peaks[0];
-      a.tooth_load_held[i] = p.peaks[1];
+      a.mesh_force_sustained[i] = p.peaks[0];
+      a.tooth_load_sustained[i] = p.peaks[1];
       for (int g = 0; peaks.root_stress() && g < kSides; ++g) {
-        a.root_stress_held[static_cast<size_t>(g)][i] = p.peaks[2 + g];
+        a.root_stress_sustained[static_cast<size_t>(g)][i] = p.peaks[2 + g];
         a.root_stress_angle[static_cast<size_t>(g)][i] = p.peaks[2 + kSides + g];
         a.root_stress_phase[static_cast<size_t>(g)][i] = p.peaks[2 + 2 * kSides + g];
       }

@@ -10,9 +10,9 @@
 #include <optional>
 #include <string>
 
-#include "signal/static_result.h"
-#include "solid/reduced_body.h"
-#include "studies/branch_result.h"
+#include "results/branch.h"
+#include "results/reduced_body.h"
+#include "results/static.h"
 
 namespace whine {
 
@@ -27,10 +27,9 @@ struct BranchPlan {
 // steps of the scene's speeds. Throws Error(input) for teeth
 // that differ, Error(numerical) if the pair does not settle into an orbit of one mesh period at the highest speed or contact
 // leaves the flanks.
-BranchArtifact pair_branch(const BodyArtifact& driver, const BodyArtifact& driven,
-                           const StaticArtifact& statics, double mean_stiffness,
-                           const SweepParameters& settings,
-                           const std::function<void(long, long, const std::string&)>& report,
-                           const BranchPlan& plan = {});
+BranchResult pair_branch(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
+                         double mean_stiffness, const SweepParameters& settings,
+                         const std::function<void(long, long, const std::string&)>& report,
+                         const BranchPlan& plan = {});
 
 }  // namespace whine

@@ -14,7 +14,7 @@
 #include "gear/pair.h"
 #include "signal/branches.h"
 #include "signal/uniform_sampler.h"
-#include "studies/held_peaks.h"
+#include "studies/sustained_peaks.h"
 #include "studies/sweep.h"
 #include "studies/zone_levels.h"
 
@@ -56,8 +56,8 @@ struct SpeedBlock {
 
 class Runner {
  public:
-  Runner(const GearMeshModel& model, const StaticArtifact& statics, const SweepParameters& settings,
-         const RunupSettings& wanted, RunupArtifact& head, RunupSink& sink,
+  Runner(const GearMeshModel& model, const StaticResult& statics, const SweepParameters& settings,
+         const RunupSettings& wanted, RunupResult& head, RunupSink& sink,
          const std::function<void(long, long, const std::string&)>& report)
       : model_(model),
         settings_(settings),
@@ -140,7 +140,7 @@ class Runner {
       state_ = dynamics.rest();
       dynamics.set_speed(wanted_.ramp.from, steps_at(settings_.time, wanted_.ramp.from));
       const auto orbit =
-          find_periodic_orbit(dynamics, state_, settings_.time.periodicity, settings_.time.steady_state);
+          iterate_to_orbit(dynamics, state_, settings_.time.periodicity, settings_.time.steady_state);
       if (!orbit) continue;
       if (orbit->multiple == 0)
         fail(Failure::numerical, "no periodic motion is found at ", wanted_.ramp.from,
@@ -211,7 +211,7 @@ class Runner {
   // Samples i = 1 to steps of a period; the last one is the first of the next.
   void record(long k, int steps, int before, int after) {
     const VectorXd& error = period_.transmission_error;
-    const int own_reach = static_cast<int>(period_.pair_load.rows()) / 2;
+    const int own_reach = static_cast<int>(period_.tooth_pair_load.rows()) / 2;
     if (own_reach > reach_)
       fail(Failure::numerical, "pairs up to ", own_reach, " touch, ", reach_, " are foreseen");
     double squares = 0;
@@ -219,7 +219,7 @@ class Runner {
     const double mean = error.mean();
     for (int i = 1; i <= steps; ++i) {
       const int at = i % steps;
-      const auto loads = period_.pair_load.col(at);
+      const auto loads = period_.tooth_pair_load.col(at);
       const double force = loads.sum();
       std::fill(row_.begin(), row_.end(), 0.0);
       row_[0] = error[at];
@@ -247,9 +247,10 @@ class Runner {
     head_.drift_force = std::max(head_.drift_force, period_.drift_force);
     if (k < 0 || k >= periods_) return;
     const double start = clock_.time(static_cast<double>(k));
-    const double most = held_load(period_.pair_load.transpose(), static_cast<int>(period_.pair_load.cols()));
-    const VectorXd peaks = head_.root_stress ? peaks_.of(period_, static_cast<int>(k), HeldPeaks::kNever)
-                                             : VectorXd::Zero(HeldPeaks::kRows);
+    const double most =
+        sustained_load(period_.tooth_pair_load.transpose(), static_cast<int>(period_.tooth_pair_load.cols()));
+    const VectorXd peaks = head_.root_stress ? peaks_.of(period_, static_cast<int>(k), SustainedPeaks::kNever)
+                                             : VectorXd::Zero(SustainedPeaks::kRows);
     for (const double x : {start, clock_.frequency(start), std::sqrt(squares / steps), mean, most,
                            static_cast<double>(parted) / steps, peaks[2], peaks[3]})
       period_rows_.push_back(x);
@@ -277,7 +278,7 @@ class Runner {
       const Eigen::Map<const MatrixRM> rows(period_rows_.data(), n, kPeriodColumns);
       RunupPeriods periods{rows.col(0), rows.col(1), rows.col(2), rows.col(3), rows.col(4), rows.col(5)};
       for (size_t g = 0; head_.root_stress && g < kSides; ++g)
-        periods.root_stress_held[g] = rows.col(6 + static_cast<Index>(g));
+        periods.root_stress_sustained[g] = rows.col(6 + static_cast<Index>(g));
       sink_.take(periods);
       drop(period_rows_, n * kPeriodColumns);
     }
@@ -311,11 +312,11 @@ class Runner {
   const SweepParameters& settings_;
   const RunupSettings& wanted_;
   RampClock clock_;
-  RunupArtifact& head_;
+  RunupResult& head_;
   RunupSink& sink_;
   const std::function<void(long, long, const std::string&)>& report_;
   ZoneLevels levels_;
-  HeldPeaks peaks_;
+  SustainedPeaks peaks_;
   Vec2 normal_ = contact_normal(GearPair(head_));
   int level_ = 0, reach_ = 0, channels_ = 0, floating_ = 0;
   long level_since_ = 0;
@@ -343,20 +344,20 @@ void require_ramp(const RunupSettings& wanted, const TimeDiscretisation& time) {
 
 }  // namespace
 
-std::array<double, kSides> acceleration_torque(const RunupArtifact& a) {
+std::array<double, kSides> acceleration_torque(const RunupResult& a) {
   std::array<double, kSides> torque;
   for (size_t g = 0; g < kSides; ++g)
     torque[g] = a.inertia[g] * 2 * std::numbers::pi * std::abs(a.mesh_acceleration) / a.gear[g].design.teeth;
   return torque;
 }
 
-void runup(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
+void runup(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
            double mean_stiffness, const SweepParameters& settings, const RunupSettings& wanted,
            RunupSink& sink, const std::function<void(long, long, const std::string&)>& report) {
   require_ramp(wanted, settings.time);
   require_inertia(statics.mesh, {driver.inertia, driven.inertia}, settings.inertia);
   const GearMeshModel model(driver, driven, statics.mesh);
-  RunupArtifact head;
+  RunupResult head;
   set_motion(head, {driver, driven}, statics, settings);
   head.time = settings.time;
   head.torque = statics.torque;

@@ -11,9 +11,9 @@
 #include <functional>
 #include <string>
 
-#include "signal/static_result.h"
-#include "solid/reduced_body.h"
-#include "studies/runup_result.h"
+#include "results/reduced_body.h"
+#include "results/runup.h"
+#include "results/static.h"
 
 namespace whine {
 
@@ -22,10 +22,10 @@ class RunupSink {
  public:
   virtual ~RunupSink() = default;
   // Before all else: everything but samples, periods and certificate; what will come.
-  virtual void begin(const RunupArtifact& head, Eigen::Index samples, Eigen::Index periods) = 0;
+  virtual void begin(const RunupResult& head, Eigen::Index samples, Eigen::Index periods) = 0;
   virtual void take(const RunupSamples& samples) = 0;  // blocks of kRunupBlock, the last one shorter
   virtual void take(const RunupPeriods& periods) = 0;  // the same
-  virtual void end(const RunupArtifact& tail) = 0;     // with the certificate
+  virtual void end(const RunupResult& tail) = 0;       // with the certificate
 };
 inline constexpr Eigen::Index kRunupBlock = 16384;
 
@@ -36,13 +36,13 @@ struct RunupSettings {
 };
 
 // N m: what accelerates the inertias of driver and driven gear.
-std::array<double, kSides> acceleration_torque(const RunupArtifact& a);
+std::array<double, kSides> acceleration_torque(const RunupResult& a);
 
 // From the periodic motion at the start into which the pair settles from rest. statics, mean_stiffness, settings: as for
 // sweep(), whose speeds are not used. report(done, total, note) is called after each block of samples. Throws Error(input) for a
 // ramp that is empty, a sample rate above that of the steps, parameters that do not fit; Error(numerical), with the speed, if no
 // periodic motion is found at the start, and with speed and mesh phase, if contact leaves the flanks or has no certified solution.
-void runup(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
+void runup(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
            double mean_stiffness, const SweepParameters& settings, const RunupSettings& wanted,
            RunupSink& sink, const std::function<void(long, long, const std::string&)>& report);
 

@@ -18,7 +18,7 @@ namespace {
 
 using Quantities = std::map<std::string, double>;
 
-void add_static(Quantities& quantities, const StaticArtifact& rest) {
+void add_static(Quantities& quantities, const StaticResult& rest) {
   const Eigen::VectorXd& te = rest.transmission_error;
   const int periods = rest.hunting_periods, count = resolved_harmonics(te.size(), 3, periods);
   const Harmonics spectrum = harmonics(te, count, periods);
@@ -42,7 +42,7 @@ void add_static(Quantities& quantities, const StaticArtifact& rest) {
   quantities["tooth_load_static"] = rest.tooth_load.maxCoeff();
 }
 
-void add_motion(Quantities& quantities, const ResponseArtifact& motion) {
+void add_motion(Quantities& quantities, const ResponseResult& motion) {
   const std::string d = name_of(motion.direction);
   Index worst = 0;
   quantities["natural_frequency"] = motion.natural_frequency;
@@ -66,9 +66,9 @@ void add_motion(Quantities& quantities, const ResponseArtifact& motion) {
 
 }  // namespace
 
-VariantArtifact variant_parameters(const BodyArtifact& driver, const BodyArtifact& driven,
-                                   const VariantParameters& settings) {
-  VariantArtifact out;
+VariantResult variant_parameters(const ReducedBody& driver, const ReducedBody& driven,
+                                 const VariantParameters& settings) {
+  VariantResult out;
   set_pair(out, {driver, driven}, settings.statics);
   set_motion(out, {driver, driven}, out, settings.motion);
   if (settings.directions.empty()) out.fidelity = settings.statics.fidelity;
@@ -82,7 +82,7 @@ VariantArtifact variant_parameters(const BodyArtifact& driver, const BodyArtifac
   return out;
 }
 
-VariantResponse variant_response(const BodyArtifact& driver, const BodyArtifact& driven,
+VariantResponse variant_response(const ReducedBody& driver, const ReducedBody& driven,
                                  const VariantParameters& settings,
                                  const std::function<void(long, long, const std::string&)>& report) {
   VariantResponse out;
@@ -90,7 +90,7 @@ VariantResponse variant_response(const BodyArtifact& driver, const BodyArtifact&
     for (const Remark& r : remarks) out.remarks.push_back({r.warning, where + ": " + r.words});
   };
   Quantities quantities;
-  const StaticArtifact rest = static_transmission(driver, driven, settings.statics, settings.torque);
+  const StaticResult rest = static_transmission(driver, driven, settings.statics, settings.torque);
   add_static(quantities, rest);
   add_remarks("at rest", remarks(rest));
   if (!settings.directions.empty()) {
@@ -102,7 +102,7 @@ VariantResponse variant_response(const BodyArtifact& driver, const BodyArtifact&
               : static_transmission(driver, driven, settings.statics, settings.motion.reference_torque)
                     .mean_stiffness;
     for (Direction direction : settings.directions) {
-      const SweepArtifact motion =
+      const SweepResult motion =
           sweep(driver, driven, rest, bearing_stiffness, settings.motion, direction, report);
       add_motion(quantities, response(motion));
       add_remarks(text("speed ", direction), remarks(motion, rest));

@@ -4,15 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "solid/reduced_body.h"
-#include "studies/variant_result.h"
+#include "results/reduced_body.h"
+#include "results/variant.h"
 #include "system/statics.h"
 
 namespace whine {
 
 // Fills what of the artifact is a parameter: gears, mesh, operation, damping, discretisation.
-VariantArtifact variant_parameters(const BodyArtifact& driver, const BodyArtifact& driven,
-                                   const VariantParameters& settings);
+VariantResult variant_parameters(const ReducedBody& driver, const ReducedBody& driven,
+                                 const VariantParameters& settings);
 
 struct VariantResponse {
   Eigen::VectorXd quantity;     // SI, in the order of response_quantities(settings.directions)
@@ -22,7 +22,7 @@ struct VariantResponse {
 // The response quantities are those of static_transmission at the variant's torque and of the response of sweep() in each
 // direction; equal to what the stages one by one answer, and so are the remarks. report(done, total, note) is called after
 // each speed. Throws as static_transmission, sweep and response.
-VariantResponse variant_response(const BodyArtifact& driver, const BodyArtifact& driven,
+VariantResponse variant_response(const ReducedBody& driver, const ReducedBody& driven,
                                  const VariantParameters& settings,
                                  const std::function<void(long, long, const std::string&)>& report);
 

@@ -12,16 +12,16 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/format.h"
 #include "base/memory.h"
 #include "base/model_range.h"
 #include "dynamics/dynamics.h"
 #include "dynamics/steady_state.h"
 #include "gear/body_inertia.h"
-#include "gear/numbers.h"
 #include "gear/pair.h"
 #include "gear/scene_geometry.h"
-#include "signal/branch_end.h"
 #include "signal/branches.h"
+#include "signal/jumps.h"
 #include "signal/response.h"
 #include "studies/zone_levels.h"
 #include "system/root_stress.h"
@@ -63,14 +63,14 @@ void require_memory(int hunting, int speeds, const SweepParameters& settings, in
          hunting > 1 ? " speeds of that length need " : " speeds need ", memory * 1e-9, " GB, at most ",
          kMostMemory * 1e-9,
          " are allowed; give fewer mesh_frequency_Hz, or lower steps_per_period and min_sample_rate_kHz");
-  tell_memory(text("the motions at ", speeds, " speeds"), memory);
+  log_memory(text("the motions at ", speeds, " speeds"), memory);
 }
 
 // The pair from speed to speed, on the lowest level of candidate contact zones that holds its motion, whatever the speeds before
 // it wanted.
 class Sweeper {
  public:
-  Sweeper(const GearMeshModel& model, const DynamicParameters& parameters, const StaticArtifact& statics,
+  Sweeper(const GearMeshModel& model, const DynamicParameters& parameters, const StaticResult& statics,
           const SweepParameters& settings)
       : settings_(settings),
         finest_(steps_at(settings.time, settings.frequency_from)),
@@ -86,7 +86,7 @@ class Sweeper {
   RollingDynamics::State& state() { return state_; }
   AndersonAcceleration& acceleration() { return acceleration_; }  // to begin the next run with
 
-  // Runs at this speed from the present state until the state repeats, or as find_periodic_orbit() has it.
+  // Runs at this speed from the present state until the state repeats, or as iterate_to_orbit() has it.
   Orbit run(double mesh_frequency, const RmsRange& looked_for = {}) {
     const RollingDynamics::State start = state_;
     for (;; ++level_) {
@@ -121,8 +121,8 @@ class Sweeper {
     try {
       RollingDynamics& dynamics = levels_.at(level_);
       dynamics.set_speed(mesh_frequency, steps_at(settings_.time, mesh_frequency));
-      return find_periodic_orbit(dynamics, state_, settings_.time.periodicity, settings_.time.steady_state,
-                                 looked_for, &acceleration_);
+      return iterate_to_orbit(dynamics, state_, settings_.time.periodicity, settings_.time.steady_state,
+                              looked_for, &acceleration_);
     } catch (const Error& error) {
       fail_as(error, "at ", mesh_frequency, " Hz, ", error.what());
     }
@@ -160,10 +160,11 @@ class Sweeper {
 BranchPoint branch_point(double mesh_frequency, const Orbit& orbit) {
   BranchPoint point{mesh_frequency, orbit.rms, 0, 0, false};
   for (const RollingDynamics::Period& period : orbit.record) {
-    point.tooth_load_max = std::max(point.tooth_load_max, period.pair_load.maxCoeff());
-    point.held_load = std::max(
-        point.held_load, held_load(period.pair_load.transpose(), static_cast<int>(period.pair_load.cols())));
-    point.parted = point.parted || !(period.pair_load.colwise().sum().minCoeff() > 0);
+    point.tooth_load_max = std::max(point.tooth_load_max, period.tooth_pair_load.maxCoeff());
+    point.sustained_load = std::max(
+        point.sustained_load,
+        sustained_load(period.tooth_pair_load.transpose(), static_cast<int>(period.tooth_pair_load.cols())));
+    point.parted = point.parted || !(period.tooth_pair_load.colwise().sum().minCoeff() > 0);
   }
   return point;
 }
@@ -241,7 +242,7 @@ BranchContinuation follow_motion(Sweeper& sweeper, const std::vector<BranchMotio
 
 }  // namespace
 
-double stiffness_damping_ratio(const StaticArtifact& statics, const Damping& damping,
+double stiffness_damping_ratio(const StaticResult& statics, const Damping& damping,
                                const std::array<double, kSides>& inertia) {
   double inverse_mass = 0;
   for (int g = 0; g < kSides; ++g) {
@@ -251,7 +252,7 @@ double stiffness_damping_ratio(const StaticArtifact& statics, const Damping& dam
   return 0.5 * damping.rayleigh_stiffness * std::sqrt(statics.mean_stiffness * inverse_mass);
 }
 
-double steps_per_oscillation(const SweepArtifact& sweep) {
+double steps_per_oscillation(const SweepResult& sweep) {
   double rate = std::numeric_limits<double>::infinity();  // Hz, of time steps
   for (const double f : sweep.mesh_frequency) rate = std::min(rate, f * steps_at(sweep.time, f));
   return rate / sweep.natural_frequency;
@@ -261,7 +262,7 @@ namespace {
 
 // m, (speed): by how little the flanks close along the line of action at least: the transmission error less what elastic
 // bearings give way. Their dampers' forces are taken for those of their springs.
-VectorXd least_closing(const SweepArtifact& s) {
+VectorXd least_closing(const SweepResult& s) {
   if (!s.mesh.on_bearings()) return s.transmission_error.rowwise().minCoeff();
   const GearPair gears(s);
   VectorXd least(s.transmission_error.rows());
@@ -278,7 +279,7 @@ VectorXd least_closing(const SweepArtifact& s) {
 
 }  // namespace
 
-Eigen::VectorXd backlash_left(const SweepArtifact& s) {
+Eigen::VectorXd backlash_left(const SweepResult& s) {
   // By the samples that are stored: between them a motion swings back further by the square of their distance.
   const VectorXd least = least_closing(s);
   return least.array() - least.minCoeff() + s.backlash_margin;
@@ -287,7 +288,7 @@ Eigen::VectorXd backlash_left(const SweepArtifact& s) {
 namespace {
 
 // The eta that a scene without [damping] gets is that of P2000's pair; others it damps by what nobody chose.
-std::optional<Remark> damping_remark(const StaticArtifact& statics, const std::array<double, kSides>& inertia,
+std::optional<Remark> damping_remark(const StaticResult& statics, const std::array<double, kSides>& inertia,
                                      const Damping& damping) {
   const auto of_paper = [](const BodyParameters& gear) {
     return gear.design.teeth == 50 && std::abs(gear.design.module - 3e-3) < 1e-9;
@@ -301,13 +302,12 @@ std::optional<Remark> damping_remark(const StaticArtifact& statics, const std::a
   return remark(
       true, "rayleigh_stiffness_s = ", damping.rayleigh_stiffness,
       ", the default, is for the gears of P2000; these it gives a damping ratio of about ", percent.str(),
-      " % (eta w / 2 on the mean mesh stiffness). `make SCENE=path/to/scene.toml calibrate DAMPING=0.07` "
-      "prints the value for 7 %, to be put into [damping]");
+      " % (eta w / 2 on the mean mesh stiffness). `make SCENE=path/to/scene.toml calibrate DAMPING=0.07` prints the value for 7 %, to be put into [damping]");
 }
 
 }  // namespace
 
-std::vector<Remark> setup_remarks(const StaticArtifact& statics, const std::array<double, kSides>& inertia,
+std::vector<Remark> setup_remarks(const StaticResult& statics, const std::array<double, kSides>& inertia,
                                   const Damping& damping, const Fidelity& fidelity) {
   std::vector<Remark> out;
   if (fidelity.body != BodyModel::rigid && fidelity.body != BodyModel::quasi_static)
@@ -320,7 +320,7 @@ std::vector<Remark> setup_remarks(const StaticArtifact& statics, const std::arra
   return out;
 }
 
-std::vector<Remark> remarks(const SweepArtifact& s, const StaticArtifact& statics) {
+std::vector<Remark> remarks(const SweepResult& s, const StaticResult& statics) {
   constexpr double kFewestSteps = 8;  // an oscillation in so few steps is 5 % off its frequency
   std::vector<Remark> out;
   const auto add = [&](bool warning, const auto&... parts) { out.push_back(remark(warning, parts...)); };
@@ -369,7 +369,7 @@ std::vector<Remark> remarks(const SweepArtifact& s, const StaticArtifact& static
 namespace {
 
 // What one speed shows but for its samples, into its row.
-void store_orbit(const Orbit& orbit, double mesh_frequency, Eigen::Index row, SweepArtifact& a) {
+void store_orbit(const Orbit& orbit, double mesh_frequency, Eigen::Index row, SweepResult& a) {
   a.mesh_frequency[row] = mesh_frequency;
   a.periods[row] = orbit.periods;
   a.residual[row] = orbit.residual;
@@ -387,7 +387,7 @@ void store_orbit(const Orbit& orbit, double mesh_frequency, Eigen::Index row, Sw
 }
 
 // The samples of one speed, pairs up to `reach`; its orbit repeats to fill a row of `longest` mesh periods.
-void store_samples(const Orbit& orbit, size_t longest, int reach, Eigen::Index row, SweepArtifact& a) {
+void store_samples(const Orbit& orbit, size_t longest, int reach, Eigen::Index row, SweepResult& a) {
   const int samples = a.time.steps_per_period;
   const auto width = static_cast<Eigen::Index>(longest) * samples;
   MatrixRM loads = MatrixRM::Zero(width, 2 * reach + 1);
@@ -396,12 +396,12 @@ void store_samples(const Orbit& orbit, size_t longest, int reach, Eigen::Index r
   for (size_t k = 0; k < longest; ++k) {
     const RollingDynamics::Period& period = orbit.record[k % orbit.record.size()];
     const int stride = static_cast<int>(period.transmission_error.size()) / samples;
-    const int own_reach = static_cast<int>(period.pair_load.rows()) / 2;
+    const int own_reach = static_cast<int>(period.tooth_pair_load.rows()) / 2;
     for (int n = 0; n < samples; ++n) {
       const Eigen::Index at = static_cast<Eigen::Index>(k) * samples + n;
       a.transmission_error(row, at) = period.transmission_error[n * stride];
       loads.row(at).segment(reach - own_reach, 2 * own_reach + 1) =
-          period.pair_load.col(n * stride).transpose();
+          period.tooth_pair_load.col(n * stride).transpose();
       a.mesh_force(row, at) = loads.row(at).sum();
       for (size_t g = 0; g < kSides; ++g)
         if (a.mesh.bearing[g].elastic())
@@ -412,7 +412,7 @@ void store_samples(const Orbit& orbit, size_t longest, int reach, Eigen::Index r
 }
 
 // The motions of all speeds, in rows of one length. m: the least transmission error.
-double store_motions(const std::vector<Orbit>& steady, int reach, SweepArtifact& a) {
+double store_motions(const std::vector<Orbit>& steady, int reach, SweepResult& a) {
   size_t longest = 1;
   for (const Orbit& orbit : steady) longest = std::max(longest, orbit.record.size());
   const auto speeds = static_cast<Eigen::Index>(steady.size()),
@@ -438,7 +438,7 @@ double store_motions(const std::vector<Orbit>& steady, int reach, SweepArtifact&
 }
 
 // At the samples that are stored, and the place of the largest; orbits shorter than the row repeat in it.
-void store_root_stress(const GearMeshModel& model, SweepArtifact& a) {
+void store_root_stress(const GearMeshModel& model, SweepResult& a) {
   const int samples = a.time.steps_per_period;
   std::vector<double> phases;
   phases.reserve(static_cast<size_t>(samples));
@@ -464,7 +464,7 @@ void store_root_stress(const GearMeshModel& model, SweepArtifact& a) {
         out(row, n) = at.stress;
       }
       const auto top =
-          static_cast<size_t>(held_row(out.row(row).transpose(), samples, a.period_multiple[row]));
+          static_cast<size_t>(sustained_row(out.row(row).transpose(), samples, a.period_multiple[row]));
       a.root_stress_angle[gear][row] = along[top].angle;
       a.root_stress_phase[gear][row] = phases[top % phases.size()] + along[top].pair;
     }
@@ -489,10 +489,10 @@ std::vector<double> speeds_of(const SweepParameters& settings, Direction directi
 
 }  // namespace
 
-SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
-                    double mean_stiffness, const SweepParameters& settings, Direction direction,
-                    const std::function<void(long, long, const std::string&)>& report,
-                    std::vector<BranchPoint>* left_early, double jump_width) {
+SweepResult sweep(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
+                  double mean_stiffness, const SweepParameters& settings, Direction direction,
+                  const std::function<void(long, long, const std::string&)>& report,
+                  std::vector<BranchPoint>* left_early, double jump_width) {
   const std::vector<double> speed = speeds_of(settings, direction);
   const auto speeds = static_cast<int>(speed.size());
   constexpr double kFinest = 1e-5;  // Hz: below, runs beside the end of a branch take thousands of periods
@@ -504,7 +504,7 @@ SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, cons
   Sweeper sweeper(model, dynamic_parameters(statics, mean_stiffness, settings, settings.frequency_to),
                   statics, settings);
 
-  SweepArtifact result;
+  SweepResult result;
   set_motion(result, {driver, driven}, statics, settings);
   result.time = settings.time;
   result.torque = statics.torque;

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "results/reduced_body.h"
+#include "results/static.h"
+#include "results/sweep.h"
 #include "signal/branches.h"
-#include "signal/static_result.h"
-#include "signal/sweep_result.h"
-#include "solid/reduced_body.h"
 #include "system/statics.h"
 
 namespace whine {
@@ -20,10 +20,10 @@ namespace whine {
 // less; 0: to 1/64 of the step of the speeds. Throws Error(input) for
 // parameters that do not fit, Error(numerical), with speed and mesh phase, if contact leaves the flanks or has no certified
 // solution.
-SweepArtifact sweep(const BodyArtifact& driver, const BodyArtifact& driven, const StaticArtifact& statics,
-                    double mean_stiffness, const SweepParameters& settings, Direction direction,
-                    const std::function<void(long, long, const std::string&)>& report,
-                    std::vector<BranchPoint>* left_early = nullptr, double jump_width = 0);
+SweepResult sweep(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
+                  double mean_stiffness, const SweepParameters& settings, Direction direction,
+                  const std::function<void(long, long, const std::string&)>& report,
+                  std::vector<BranchPoint>* left_early = nullptr, double jump_width = 0);
 
 // Time steps per mesh period at a mesh frequency (Hz): steps_per_period, doubled until the sampling rate is the least that is
 // asked for. Throws Error(input) if that is more than 65536.
@@ -31,24 +31,24 @@ int steps_at(const TimeDiscretisation& time, double mesh_frequency);
 
 // Damping ratio that eta of Eq. 21 alone gives the pair on its mean mesh stiffness k: eta w / 2 with w^2 = k (r1^2 / I1 +
 // r2^2 / I2). An estimate from above: flexibility that follows its load at once is not damped.
-double stiffness_damping_ratio(const StaticArtifact& statics, const Damping& damping,
+double stiffness_damping_ratio(const StaticResult& statics, const Damping& damping,
                                const std::array<double, kSides>& inertia);
 
 // What is out of the ordinary in the numbers of a scene that only motions need: a damping that nobody chose for these gears,
 // inertias a hundred times those of the drawing. inertia: (gear) kg m2.
-std::vector<Remark> setup_remarks(const StaticArtifact& statics, const std::array<double, kSides>& inertia,
+std::vector<Remark> setup_remarks(const StaticResult& statics, const std::array<double, kSides>& inertia,
                                   const Damping& damping, const Fidelity& fidelity);
 
 // What a reader of a sweep of elastic gears has to know beside its numbers, in words: a default damping that is not for these
 // gears, steps too long for the contact, motions that do not repeat or after several mesh periods, backlash used up. `statics`
 // is of the same torque.
-std::vector<Remark> remarks(const SweepArtifact& sweep, const StaticArtifact& statics);
+std::vector<Remark> remarks(const SweepResult& sweep, const StaticResult& statics);
 
 // (speed) m: backlash that the motion leaves, below 0 where back flanks would touch, which is not modelled; infinite where the
 // scene counts no backlash.
-Eigen::VectorXd backlash_left(const SweepArtifact& sweep);
+Eigen::VectorXd backlash_left(const SweepResult& sweep);
 
 // Time steps per oscillation at the natural frequency, at the speed with the fewest.
-double steps_per_oscillation(const SweepArtifact& sweep);
+double steps_per_oscillation(const SweepResult& sweep);
 
 }  // namespace whine

@@ -4,7 +4,7 @@
 
 namespace whine {
 
-Eigen::VectorXd loss_factors(const SweepArtifact& s) {
+Eigen::VectorXd loss_factors(const SweepResult& s) {
   if (s.root_stress[0].size() == 0) return {};
   const GearPair gears(s);
   Eigen::VectorXd out(s.mesh_frequency.size());

@@ -27,7 +27,7 @@ struct Place {
 };
 
 // N: largest over the mesh periods that are stored of the least load at the samples of a place.
-double held_at(const Place& place, const MatrixRM& load, int steps) {
+double sustained_at(const Place& place, const MatrixRM& load, int steps) {
   double held = 0;
   for (Index period = 0; period * steps < load.rows(); ++period)
     held = std::max(
@@ -55,7 +55,7 @@ struct Hertz {
   }
 };
 
-Hertz hertz_of(const SweepArtifact& s, const GearPair& gears) {
+Hertz hertz_of(const SweepResult& s, const GearPair& gears) {
   double compliance = 0;  // Pa-1: 2 / (pi E*)
   for (const BodyParameters& gear : s.gear)
     compliance += HalfPlaneSurface(in_contact_plane(gear.material, s.mesh.contact_plane), 1.0).coefficient();
@@ -63,11 +63,11 @@ Hertz hertz_of(const SweepArtifact& s, const GearPair& gears) {
 }
 
 // The places of the path of contact, and those beyond it at which a pair carries load.
-std::vector<Place> places_of(const SweepArtifact& s, const GearPair& gears) {
+std::vector<Place> places_of(const SweepResult& s, const GearPair& gears) {
   const int steps = s.time.steps_per_period, count = std::min(kPlaces, steps);
   const auto loaded = [&](const Place& place) {
     return std::any_of(s.tooth_load.begin(), s.tooth_load.end(),
-                       [&](const MatrixRM& load) { return held_at(place, load, steps) > 0; });
+                       [&](const MatrixRM& load) { return sustained_at(place, load, steps) > 0; });
   };
   std::vector<Place> out;
   for (Index k = 0; k < s.pair.size(); ++k)
@@ -89,8 +89,8 @@ std::vector<Place> places_of(const SweepArtifact& s, const GearPair& gears) {
   return out;
 }
 
-// Pressure and load over either edge at every sample, each held for 1/64 of a mesh period, wherever that begins.
-void add_held(const SweepArtifact& s, const Hertz& hertz, ResponseArtifact& r) {
+// Pressure and load over either edge at every sample, each sustained for 1/64 of a mesh period, wherever that begins.
+void add_sustained(const SweepResult& s, const Hertz& hertz, ResponseResult& r) {
   struct Touch {
     PairContact contact;
     double curvature = 0;  // m; 0: no pair carries load there, and some have no contact to be asked for
@@ -111,7 +111,7 @@ void add_held(const SweepArtifact& s, const Hertz& hertz, ResponseArtifact& r) {
       touch.push_back(std::move(at));
     }
   const Index speeds = s.mesh_frequency.size();
-  r.flank_pressure_held.resize(speeds);
+  r.flank_pressure_sustained.resize(speeds);
   for (Eigen::VectorXd& load : r.edge_load) load.resize(speeds);
   MatrixRM pressure;
   std::array<MatrixRM, kSides> over_edge;
@@ -129,14 +129,14 @@ void add_held(const SweepArtifact& s, const Hertz& hertz, ResponseArtifact& r) {
         else
           over_edge[static_cast<size_t>(edge)](n, pair) = load(n, pair);
       }
-    r.flank_pressure_held[f] = held_load(pressure, steps);
-    for (size_t g = 0; g < kSides; ++g) r.edge_load[g][f] = held_load(over_edge[g], steps);
+    r.flank_pressure_sustained[f] = sustained_load(pressure, steps);
+    for (size_t g = 0; g < kSides; ++g) r.edge_load[g][f] = sustained_load(over_edge[g], steps);
   }
 }
 
 }  // namespace
 
-void add_flank_pressure(const SweepArtifact& s, ResponseArtifact& r) {
+void add_flank_pressure(const SweepResult& s, ResponseResult& r) {
   if (s.root_stress[0].size() == 0 && s.model != "finite elements") return;
   const GearPair gears(s);
   const Hertz hertz = hertz_of(s, gears);
@@ -151,7 +151,7 @@ void add_flank_pressure(const SweepArtifact& s, ResponseArtifact& r) {
     r.pair_phase[k] = place.phase;
     for (int g = 0; g < kSides; ++g) r.flank_roll(k, g) = place.contact.roll[static_cast<size_t>(g)];
     for (Index f = 0; f < speeds; ++f) {
-      const double load = held_at(place, s.tooth_load[static_cast<size_t>(f)], s.time.steps_per_period);
+      const double load = sustained_at(place, s.tooth_load[static_cast<size_t>(f)], s.time.steps_per_period);
       if (!(load > 0)) continue;
       if (hertz.edge(place.contact, place.curvature, load) < 0)
         r.flank_pressure(f, k) = hertz.pressure(load, place.curvature);
@@ -159,7 +159,7 @@ void add_flank_pressure(const SweepArtifact& s, ResponseArtifact& r) {
         r.edge_load_there(f, k) = load;
     }
   }
-  add_held(s, hertz, r);
+  add_sustained(s, hertz, r);
 }
 
 }  // namespace whine

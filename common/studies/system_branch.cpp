@@ -13,7 +13,7 @@
 #include "orbits/periodic_motion.h"
 #include "studies/branch_follower.h"
 #include "studies/sweep.h"
-#include "studies/system_rig.h"
+#include "studies/train_in_motion.h"
 
 namespace whine {
 
@@ -64,12 +64,12 @@ VectorXd measured(const SystemDynamics::Period& period) {
 
 class Follower {
  public:
-  Follower(const SystemSweepParameters& settings, const std::vector<BodyArtifact>& bodies, double tolerance)
+  Follower(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies, double tolerance)
       : settings_(settings),
         rig_(settings, bodies, steps_at(settings.time, settings.frequency_from)),
         tolerance_(tolerance) {}
 
-  const SystemRig& rig() const { return rig_; }
+  const TrainInMotion& rig() const { return rig_; }
   const std::vector<double>& mismatch() const { return mismatch_; }
 
   // From the orbit at the highest speed, from segment to segment.
@@ -137,8 +137,8 @@ class Follower {
       new_map(at, steps);
       PeriodicMotion motion;
       try {
-        motion = find_periodic_motion(*map_, map_->flat(state),
-                                      {settings_.time.periodicity, kMostSystemPeriods, true});
+        motion = iterate_to_orbit(*map_, map_->flat(state),
+                                  {settings_.time.periodicity, kMostSystemPeriods, true});
       } catch (const ModelRangeError&) {
         if (!map_->left_last()) throw;
         state = rig_.widen(state);
@@ -159,7 +159,7 @@ class Follower {
       new_map(at, steps);
       OrbitSettings settings;
       settings.tolerance = tolerance_;
-      const OrbitSearch search = find_orbit(*map_, map_->flat(state), 1, settings);
+      const OrbitSearch search = newton_orbit(*map_, map_->flat(state), 1, settings);
       if (search.found()) {
         map_->take_left_zone();
         orbit_ = search.orbit;
@@ -173,14 +173,14 @@ class Follower {
   }
 
   const SystemSweepParameters& settings_;
-  SystemRig rig_;
+  TrainInMotion rig_;
   double tolerance_;
   std::unique_ptr<SystemPeriodMap> map_;
   PeriodicOrbit orbit_;
   std::vector<double> mismatch_;
 };
 
-void store_point(const BranchPosition& p, int steps, Index i, SystemBranchArtifact& a) {
+void store_point(const BranchPosition& p, int steps, Index i, SystemBranchResult& a) {
   const Index meshes = a.dte_rms.cols();
   a.mesh_frequency[i] = p.parameter;
   Index at = 0;
@@ -199,7 +199,7 @@ void store_point(const BranchPosition& p, int steps, Index i, SystemBranchArtifa
   a.residual[i] = p.residual;
 }
 
-void store_special(const std::vector<SpecialPoint>& special, SystemBranchArtifact& a) {
+void store_special(const std::vector<SpecialPoint>& special, SystemBranchResult& a) {
   a.fold_frequency = parameters_of(special, Special::fold);
   a.fold_width = widths_of(special, Special::fold, kStepError);
   a.flip_frequency = parameters_of(special, Special::flip);
@@ -218,10 +218,10 @@ void store_special(const std::vector<SpecialPoint>& special, SystemBranchArtifac
 
 }  // namespace
 
-SystemBranchArtifact system_branch(const SystemSweepParameters& settings,
-                                   const std::vector<BodyArtifact>& bodies,
-                                   const std::function<void(long, long, const std::string&)>& report,
-                                   const SystemBranchPlan& plan) {
+SystemBranchResult system_branch(const SystemSweepParameters& settings,
+                                 const std::vector<ReducedBody>& bodies,
+                                 const std::function<void(long, long, const std::string&)>& report,
+                                 const SystemBranchPlan& plan) {
   if (!(plan.tolerance >= 1e-12 && plan.tolerance <= 1e-3))
     fail(Failure::input, "an orbit's tolerance of ", plan.tolerance, "; give 1e-12 to 1e-3");
   if (!(settings.frequency_from > 0) || !(settings.frequency_to > settings.frequency_from))
@@ -233,7 +233,7 @@ SystemBranchArtifact system_branch(const SystemSweepParameters& settings,
   const std::vector<Segment> segments = follower.follow(report);
   const auto meshes = static_cast<Index>(settings.layout.meshes.size()),
              all = static_cast<Index>(settings.layout.bodies.size());
-  SystemBranchArtifact a;
+  SystemBranchResult a;
   a.settings = follower.rig().used();
   a.torque.setZero(all);
   for (int b = 0; b < all; ++b) a.torque[b] = settings.layout.torque(b);

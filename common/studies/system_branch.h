@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "solid/reduced_body.h"
-#include "studies/system_branch_result.h"
+#include "results/reduced_body.h"
+#include "results/system_branch.h"
 
 namespace whine {
 
@@ -21,9 +21,9 @@ struct SystemBranchPlan {
 // bodies: [gear] of settings.body. report(done, total, note) is called after each point, in steps of the scene's speeds. Throws
 // Error(input) for speeds that are no range and a tolerance out of range, Error(numerical) if the system does not settle into an
 // orbit of one mesh period at the highest speed; else as system_sweep().
-SystemBranchArtifact system_branch(const SystemSweepParameters& settings,
-                                   const std::vector<BodyArtifact>& bodies,
-                                   const std::function<void(long, long, const std::string&)>& report,
-                                   const SystemBranchPlan& plan = {});
+SystemBranchResult system_branch(const SystemSweepParameters& settings,
+                                 const std::vector<ReducedBody>& bodies,
+                                 const std::function<void(long, long, const std::string&)>& report,
+                                 const SystemBranchPlan& plan = {});
 
 }  // namespace whine

@@ -10,7 +10,7 @@
 #include "base/model_range.h"
 #include "base/units.h"
 #include "dynamics/impact.h"
-#include "studies/system_rig.h"
+#include "studies/train_in_motion.h"
 #include "system/natural_modes.h"
 
 namespace whine {
@@ -33,7 +33,7 @@ VectorXd loaded_pairs(const SystemDynamics& dynamics, const VectorXd& p) {
   return out;
 }
 
-void measure(SystemDynamics& dynamics, int i, const SystemImpactPlan& plan, SystemImpactArtifact& out) {
+void measure(SystemDynamics& dynamics, int i, const SystemImpactPlan& plan, SystemImpactResult& out) {
   const SystemDynamics::State rest = dynamics.rest(i);
   const SystemDynamics::FrozenModes modes = dynamics.frozen_modes(i);
   const Index count = out.undamped_frequency.cols();
@@ -74,7 +74,7 @@ void measure(SystemDynamics& dynamics, int i, const SystemImpactPlan& plan, Syst
 }
 
 // Hz: of rigid gears on the mean stiffnesses, without free motions.
-VectorXd rigid_frequencies(const SystemRig& rig, const System& layout) {
+VectorXd rigid_frequencies(const TrainInMotion& rig, const System& layout) {
   const VectorXd all = natural_modes(layout, rig.mean_stiffness()).natural_frequency;
   const auto free = static_cast<Index>((all.array() == 0).count());  // they come first
   return all.tail(all.size() - free);
@@ -101,9 +101,9 @@ SystemRingDown ring_down(SystemDynamics& dynamics, int i, const VectorXd& shape,
                                                    out.samples[step / stride] = shape.dot(z) - still;
                                                });
   if (!inside)
-    fail(Failure::numerical,
-         "the ring-down reaches a tip edge that is left out as too far; take a smaller "
-         "impulse or lower the torque");
+    fail(
+        Failure::numerical,
+        "the ring-down reaches a tip edge that is left out as too far; take a smaller impulse or lower the torque");
   return out;
 }
 
@@ -133,17 +133,17 @@ std::vector<DampedRoot> damped_roots(SystemDynamics& dynamics, int i, const Vect
   return out;
 }
 
-SystemImpactArtifact system_impact(const SystemSweepParameters& settings,
-                                   const std::vector<BodyArtifact>& bodies, const SystemImpactPlan& plan,
-                                   const std::function<void(long, long)>& report) {
+SystemImpactResult system_impact(const SystemSweepParameters& settings,
+                                 const std::vector<ReducedBody>& bodies, const SystemImpactPlan& plan,
+                                 const std::function<void(long, long)>& report) {
   if (plan.modes < 1 || plan.phases < 1 || !(plan.impulse > 0 && plan.impulse <= 0.1))
     fail(Failure::input, "a ring-down of ", plan.modes, " modes at ", plan.phases,
          " phases with an impulse of ", plan.impulse,
          "; give at least one mode and phase, and an impulse in (0, 0.1]");
   require_like_teeth(settings, "a ring-down of a system");
-  SystemRig rig(settings, bodies, plan.phases);
+  TrainInMotion rig(settings, bodies, plan.phases);
   SystemDynamics& dynamics = rig.dynamics();
-  SystemImpactArtifact out;
+  SystemImpactResult out;
   out.settings = rig.used();
   const auto all = static_cast<Index>(settings.layout.bodies.size());
   out.torque.setZero(all);

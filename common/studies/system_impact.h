@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "dynamics/system_dynamics.h"
+#include "results/reduced_body.h"
+#include "results/system_impact.h"
 #include "signal/decay.h"
-#include "solid/reduced_body.h"
-#include "studies/system_impact_result.h"
 
 namespace whine {
 
@@ -39,9 +39,9 @@ SystemRingDown ring_down(SystemDynamics& dynamics, int i, const Eigen::VectorXd&
 std::vector<DampedRoot> damped_roots(SystemDynamics& dynamics, int i, const Eigen::VectorXd& frequency);
 
 // bodies: [gear] of settings.body. report(done, total) is called after each phase. Throws Error(input) for a plan without modes or
-// phases, or an impulse outside (0, 0.1]; else as SystemRig and ring_down().
-SystemImpactArtifact system_impact(const SystemSweepParameters& settings,
-                                   const std::vector<BodyArtifact>& bodies, const SystemImpactPlan& plan,
-                                   const std::function<void(long, long)>& report);
+// phases, or an impulse outside (0, 0.1]; else as TrainInMotion and ring_down().
+SystemImpactResult system_impact(const SystemSweepParameters& settings,
+                                 const std::vector<ReducedBody>& bodies, const SystemImpactPlan& plan,
+                                 const std::function<void(long, long)>& report);
 
 }  // namespace whine

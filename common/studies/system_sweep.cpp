@@ -12,7 +12,7 @@
 #include "orbits/periodic_motion.h"
 #include "orbits/recurrence.h"
 #include "studies/sweep.h"
-#include "studies/system_rig.h"
+#include "studies/train_in_motion.h"
 #include "system/system_rest.h"
 
 namespace whine {
@@ -37,7 +37,7 @@ std::vector<double> system_speeds(const SystemSweepParameters& p, Direction dire
 // Statistics over the steps of all recorded periods.
 class Recorded {
  public:
-  Recorded(const SystemSweepArtifact& of, size_t meshes, size_t bodies)
+  Recorded(const SystemSweepResult& of, size_t meshes, size_t bodies)
       : settings_(of.settings),
         sum_(VectorXd::Zero(static_cast<Index>(meshes))),
         squares_(sum_),
@@ -75,7 +75,7 @@ class Recorded {
       force_most_[body] = std::max(force_most_[body], forces[b].colwise().norm().maxCoeff());
     }
   }
-  void give(Index row, SystemSweepArtifact& out) const {
+  void give(Index row, SystemSweepResult& out) const {
     out.dte_mean.row(row) = sum_ / count_;
     out.dte_rms.row(row) = (squares_ / count_ - (sum_ / count_).cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
     out.mesh_force_max.row(row) = most_;
@@ -100,16 +100,16 @@ class Recorded {
 // The system from speed to speed.
 class SystemSweeper {
  public:
-  SystemSweeper(const SystemSweepParameters& settings, const std::vector<BodyArtifact>& bodies)
+  SystemSweeper(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies)
       : settings_(settings),
         rig_(settings, bodies, steps_at(settings.time, settings.frequency_from)),
         state_(rig_.dynamics().rest()) {}
 
-  const SystemRig& rig() const { return rig_; }
+  const TrainInMotion& rig() const { return rig_; }
   int hunting_periods() { return rig_.dynamics().hunting_periods(); }
 
   // The periodic motion at a speed, into row `row`.
-  std::string run(double frequency, Index row, SystemSweepArtifact& out) {
+  std::string run(double frequency, Index row, SystemSweepResult& out) {
     SystemDynamics::State start = state_;
     const int hunting = hunting_periods(), most = std::max(kMostSystemPeriods / hunting, kLeastSystemTurns);
     for (;;) {
@@ -118,7 +118,7 @@ class SystemSweeper {
       try {
         PeriodicMotion motion;
         try {
-          motion = find_periodic_motion(
+          motion = iterate_to_orbit(
               map, map.flat(state_),
               {settings_.time.periodicity, most, settings_.time.steady_state == SteadyState::extrapolate});
         } catch (const ModelRangeError&) {
@@ -143,7 +143,7 @@ class SystemSweeper {
 
  private:
   // False if contact leaves the tip edges that are looked at.
-  bool record(const PeriodicMotion& motion, Index row, SystemSweepArtifact& out) {
+  bool record(const PeriodicMotion& motion, Index row, SystemSweepResult& out) {
     const int hunting = hunting_periods();
     const int periods = hunting * (motion.multiple > 0 ? motion.multiple
                                    : hunting > 1       ? 1
@@ -177,7 +177,7 @@ class SystemSweeper {
     return true;
   }
 
-  void begin_samples(int hunting, Index row, SystemSweepArtifact& out) const {
+  void begin_samples(int hunting, Index row, SystemSweepResult& out) const {
     const auto at = static_cast<size_t>(row);
     const Index samples = static_cast<Index>(hunting) * settings_.time.steps_per_period;
     for (auto* x : {&out.transmission_error, &out.mesh_deflection, &out.mesh_force})
@@ -186,7 +186,7 @@ class SystemSweeper {
   }
 
   // Of mesh period k of a hunting period, which the last one that is recorded overwrites. Sample 0 is that of the period's end.
-  void take_samples(const SystemDynamics::Period& period, int k, Index row, SystemSweepArtifact& out) const {
+  void take_samples(const SystemDynamics::Period& period, int k, Index row, SystemSweepResult& out) const {
     const std::vector<Eigen::Matrix2Xd>& forces = period.bearing_force;
     const Index samples = settings_.time.steps_per_period, stride = period.mesh_force.cols() / samples;
     const auto at = static_cast<size_t>(row);
@@ -202,7 +202,7 @@ class SystemSweeper {
 
   // Mean over the recorded periods of the torques that hold bodies; of a carrier -sum (P - C) x F of its pins, as at rest.
   void take_holding(const SystemDynamics::Period& period, double periods, Index row,
-                    SystemSweepArtifact& out) const {
+                    SystemSweepResult& out) const {
     const System& layout = settings_.layout;
     for (size_t b = 0; b < layout.bodies.size(); ++b)
       if (layout.held(static_cast<int>(b)) && layout.bodies[b].kind == System::BodyKind::gear)
@@ -218,7 +218,7 @@ class SystemSweeper {
     }
   }
 
-  static void take(const SystemEnergyBalance& e, Index row, SystemSweepArtifact& out) {
+  static void take(const SystemEnergyBalance& e, Index row, SystemSweepResult& out) {
     Eigen::RowVectorXd lines(static_cast<Index>(kSystemEnergyLines.size()));
     lines << e.kinetic + e.modal + e.residual + e.local, e.drive.sum(), e.rolling.sum(), e.modal_damping,
         e.bearing_damping.sum(), e.relaxation_damping, e.switching.sum(), e.cutting.sum(), e.averaging,
@@ -229,7 +229,7 @@ class SystemSweeper {
   }
 
   const SystemSweepParameters& settings_;
-  SystemRig rig_;
+  TrainInMotion rig_;
   SystemDynamics::State state_;
 };
 
@@ -249,23 +249,23 @@ void require_memory_for(const SystemSweepParameters& settings, int hunting, size
          "the samples of ", speeds, " speeds need ", memory * 1e-9, " GB, at most ", kMostMemory * 1e-9,
          " are allowed; give fewer mesh_frequency_Hz, or lower steps_per_period",
          hunting > 1 ? ", or give errors to fewer gears" : "");
-  tell_memory(text("the samples of ", speeds, " speeds"), memory);
+  log_memory(text("the samples of ", speeds, " speeds"), memory);
 }
 
 }  // namespace
 
-SystemSweepArtifact system_sweep(const SystemSweepParameters& settings,
-                                 const std::vector<BodyArtifact>& bodies, Direction direction,
-                                 const std::function<void(long, long, const std::string&)>& report) {
+SystemSweepResult system_sweep(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
+                               Direction direction,
+                               const std::function<void(long, long, const std::string&)>& report) {
   const std::vector<double> speeds = system_speeds(settings, direction);
   require_relaxation_range(settings.damping, settings.fidelity.body, settings.frequency_to);
   require_memory_for(settings, whine::hunting_periods(settings), speeds.size());
   report(0, static_cast<long>(speeds.size()), "at rest");
   SystemSweeper sweeper(settings, bodies);
-  const SystemRig& rig = sweeper.rig();
+  const TrainInMotion& rig = sweeper.rig();
   const auto n = static_cast<Index>(speeds.size()), meshes = static_cast<Index>(rig.system().mesh.size()),
              all = static_cast<Index>(settings.layout.bodies.size());
-  SystemSweepArtifact out;
+  SystemSweepResult out;
   out.settings = rig.used();
   out.direction = direction;
   out.hunting_periods = sweeper.hunting_periods();

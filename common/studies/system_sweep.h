@@ -4,16 +4,16 @@
 #include <string>
 #include <vector>
 
-#include "solid/reduced_body.h"
-#include "studies/system_sweep_result.h"
+#include "results/reduced_body.h"
+#include "results/system_sweep.h"
 
 namespace whine {
 
 // bodies: [gear] of settings.body. Statics of lines come first: they give the mean stiffnesses, to which the dampers of the axes
 // refer, and how far tip edges are looked for. report(done, total, note) is called after each speed. A speed at which the motion
 // does not become periodic is kept with period_multiple 0. Throws as system_at_rest() and SystemDynamics, with the speed.
-SystemSweepArtifact system_sweep(const SystemSweepParameters& settings,
-                                 const std::vector<BodyArtifact>& bodies, Direction direction,
-                                 const std::function<void(long, long, const std::string&)>& report);
+SystemSweepResult system_sweep(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
+                               Direction direction,
+                               const std::function<void(long, long, const std::string&)>& report);
 
 }  // namespace whine

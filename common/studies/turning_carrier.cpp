@@ -9,7 +9,7 @@ namespace whine {
 
 using Eigen::Index;
 
-std::vector<TurningCarrier> turning_carriers(const SystemSweepArtifact& sweep) {
+std::vector<TurningCarrier> turning_carriers(const SystemSweepResult& sweep) {
   const System& layout = sweep.settings.layout;
   std::vector<TurningCarrier> out;
   if (sweep.mesh_frequency.size() == 0) return out;

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "studies/system_sweep_result.h"
+#include "results/system_sweep.h"
 
 namespace whine {
 
@@ -29,6 +29,6 @@ inline constexpr double kNotedCentrifugal = 0.05;
 inline constexpr double kLargeCentrifugal = 0.1;
 
 // Carriers whose planets mesh with a held gear, or that turn. Planets without a mass count as weightless.
-std::vector<TurningCarrier> turning_carriers(const SystemSweepArtifact& sweep);
+std::vector<TurningCarrier> turning_carriers(const SystemSweepResult& sweep);
 
 }  // namespace whine

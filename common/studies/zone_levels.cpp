@@ -10,7 +10,7 @@
 
 namespace whine {
 
-CandidateZone zone_of_level(const GearMeshModel& model, const StaticArtifact& statics, int level) {
+CandidateZone zone_of_level(const GearMeshModel& model, const StaticResult& statics, int level) {
   const auto at = [&](int l) {
     return candidate_zone(model, statics, MotionBounds(model, statics, std::pow(kWidening, l)));
   };
@@ -24,10 +24,10 @@ CandidateZone zone_of_level(const GearMeshModel& model, const StaticArtifact& st
 }
 
 ZoneLevels::ZoneLevels(const GearMeshModel& model, const DynamicParameters& parameters,
-                       const StaticArtifact& statics, int steps)
+                       const StaticResult& statics, int steps)
     : model_(model), parameters_(parameters), statics_(statics), steps_(steps) {}
 
-void require_zone_level(const GearMeshModel& model, const StaticArtifact& statics, int level,
+void require_zone_level(const GearMeshModel& model, const StaticResult& statics, int level,
                         double mesh_frequency) {
   if (level <= kMostZoneLevel) return;
   const MotionBounds most(model, statics, std::pow(kWidening, kMostZoneLevel));

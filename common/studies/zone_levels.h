@@ -5,23 +5,23 @@
 #include <vector>
 
 #include "dynamics/dynamics.h"
-#include "signal/static_result.h"
+#include "results/static.h"
 #include "system/rolling_mesh.h"
 
 namespace whine {
 
 // The zone of a level: 0 is what the statics' load asks for, each further one wider by kWidening, with strips as wide as those of
 // level 0.
-CandidateZone zone_of_level(const GearMeshModel& model, const StaticArtifact& statics, int level);
+CandidateZone zone_of_level(const GearMeshModel& model, const StaticResult& statics, int level);
 inline constexpr int kMostZoneLevel = 8;
 // Throws ModelRangeError, with the speed (Hz), above kMostZoneLevel.
-void require_zone_level(const GearMeshModel& model, const StaticArtifact& statics, int level,
+void require_zone_level(const GearMeshModel& model, const StaticResult& statics, int level,
                         double mesh_frequency);
 
 class ZoneLevels {
  public:
   // steps: positions of a mesh period that every level has. model and statics stay where they are.
-  ZoneLevels(const GearMeshModel& model, const DynamicParameters& parameters, const StaticArtifact& statics,
+  ZoneLevels(const GearMeshModel& model, const DynamicParameters& parameters, const StaticResult& statics,
              int steps);
 
   // The pair on a level, built when it is first asked for. Errors of RollingDynamics::set_zone.
@@ -39,7 +39,7 @@ class ZoneLevels {
  private:
   const GearMeshModel& model_;
   DynamicParameters parameters_;
-  const StaticArtifact& statics_;
+  const StaticResult& statics_;
   int steps_ = 0, reach_ = 0;
   std::vector<std::unique_ptr<RollingDynamics>> levels_;
 };

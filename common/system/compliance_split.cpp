@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/format.h"
 #include "contact/hertz_line.h"
-#include "gear/numbers.h"
 #include "gear/pair.h"
 #include "gear/scene_geometry.h"
 
@@ -22,14 +22,14 @@ double body_twist(const GearDesign& gear, const Material& material, double bore)
                              : 0);
 }
 
-ComplianceSplit compliance_split(const StaticArtifact& s) {
+ComplianceSplit compliance_split(const StaticResult& s) {
   const GearPair pair(s);
   ComplianceSplit out;
   out.whole = 1 / s.mean_stiffness;
   constexpr double kWider = 1.1;
   for (size_t g = 0; g < kSides; ++g) {
     const GearDesign& design = s.gear[g].design;
-    const double bore = design.held_radius(), root = pair.gear(static_cast<int>(g)).root_radius();
+    const double bore = design.clamped_radius(), root = pair.gear(static_cast<int>(g)).root_radius();
     out.body[g] = body_twist(design, s.gear[g].material, bore);
     // A bore cannot grow beyond the root circle, nor can the outside of a rim shrink.
     const double wider = design.internal ? std::max(bore / kWider, root) : std::min(kWider * bore, root);
@@ -56,7 +56,7 @@ ComplianceSplit compliance_split(const StaticArtifact& s) {
   return out;
 }
 
-std::vector<Remark> body_remarks(const StaticArtifact& s) {
+std::vector<Remark> body_remarks(const StaticResult& s) {
   constexpr double kMuch = 0.2;
   std::vector<Remark> out;
   for (int g = 0; g < kSides; ++g) {
@@ -67,10 +67,9 @@ std::vector<Remark> body_remarks(const StaticArtifact& s) {
   for (int g = 0; g < kSides; ++g) {
     const GearDesign& design = s.gear[g].design;
     if (!s.gear[g].material.plane_stress || design.face_width <= kWide * design.module) continue;
-    out.push_back(remark(true, "the face of ", s.mesh.gear[g], " is ",
-                         shown_number(design.face_width / design.module),
-                         " modules wide and plane = \"stress\" is for faces up to about 8: plane = "
-                         "\"strain\" is right for it, 10 % stiffer"));
+    out.push_back(remark(
+        true, "the face of ", s.mesh.gear[g], " is ", shown_number(design.face_width / design.module),
+        " modules wide and plane = \"stress\" is for faces up to about 8: plane = \"strain\" is right for it, 10 % stiffer"));
   }
   const ComplianceSplit split = compliance_split(s);
   if (!(split.body_share() > kMuch)) return out;
@@ -80,11 +79,9 @@ std::vector<Remark> body_remarks(const StaticArtifact& s) {
       true, "the bodies between bore and root circle twist: ", percent(split.body_share()),
       " % of the compliance of the mesh (", s.mesh.gear[0], " ", percent(split.body[0] / split.whole), " %, ",
       s.mesh.gear[1], " ", percent(split.body[1] / split.whole),
-      supported ? " %), which bore_radius_mm and rim_tangential_stiffness_N_mm2 decide: give those of the "
-                  "drawing and of "
-                  "the housing"
-                : " %), which bore_radius_mm decides: give the radius inside which the gear is as good as "
-                  "rigid (shaft, hub, web)"));
+      supported
+          ? " %), which bore_radius_mm and rim_tangential_stiffness_N_mm2 decide: give those of the drawing and of the housing"
+          : " %), which bore_radius_mm decides: give the radius inside which the gear is as good as rigid (shaft, hub, web)"));
   return out;
 }
 

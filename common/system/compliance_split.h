@@ -11,7 +11,7 @@
 #include <array>
 
 #include "gear/iso6336.h"
-#include "signal/static_result.h"
+#include "results/static.h"
 #include "system/statics.h"
 
 namespace whine {
@@ -28,12 +28,12 @@ struct ComplianceSplit {
 
   double body_share() const { return (body[0] + body[1]) / whole; }
 };
-ComplianceSplit compliance_split(const StaticArtifact& statics);
+ComplianceSplit compliance_split(const StaticResult& statics);
 
 // m N-1: twist of a gear's body along its line of action, as above; bore: m.
 double body_twist(const GearDesign& gear, const Material& material, double bore);
 
 // Of bodies that twist so much that the bore decides the stiffness.
-std::vector<Remark> body_remarks(const StaticArtifact& statics);
+std::vector<Remark> body_remarks(const StaticResult& statics);
 
 }  // namespace whine

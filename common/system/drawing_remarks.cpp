@@ -20,7 +20,7 @@ std::vector<Remark> drawing_remarks(const GearPair& pair, const std::array<std::
   return out;
 }
 
-std::vector<Remark> drawing_remarks(const SystemStaticArtifact& system) {
+std::vector<Remark> drawing_remarks(const SystemStaticResult& system) {
   std::vector<Remark> out;
   const System& layout = system.settings.layout;
   for (size_t m = 0; m < layout.meshes.size(); ++m) {

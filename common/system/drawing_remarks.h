@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "gear/pair.h"
+#include "results/system_static.h"
 #include "system/statics.h"
-#include "system/system_static_result.h"
 
 namespace whine {
 
@@ -14,6 +14,6 @@ namespace whine {
 std::vector<Remark> drawing_remarks(const GearPair& pair, const std::array<std::string, 2>& name);
 
 // Of all meshes of a system, each remark once.
-std::vector<Remark> drawing_remarks(const SystemStaticArtifact& system);
+std::vector<Remark> drawing_remarks(const SystemStaticResult& system);
 
 }  // namespace whine

@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 namespace {
 
 // A number that is none would reach some loads and not others.
-const BodyArtifact& finite(const BodyArtifact& body) {
+const ReducedBody& finite(const ReducedBody& body) {
   const auto require = [](const auto& numbers, const std::string& name) {
     if (!numbers.allFinite())
       fail(Failure::input, "the body's ", name, " holds a number that is not finite; rebuild body.h5");
@@ -36,8 +36,8 @@ const BodyArtifact& finite(const BodyArtifact& body) {
 
 }  // namespace
 
-ElasticGear::ElasticGear(const BodyArtifact& body, ContactPlane contact_plane)
-    : body_(std::make_shared<const BodyArtifact>(finite(body))),
+ElasticGear::ElasticGear(const ReducedBody& body, ContactPlane contact_plane)
+    : body_(std::make_shared<const ReducedBody>(finite(body))),
       half_plane_(in_contact_plane(body.material, contact_plane), body.design.face_width),
       body_half_plane_(body.material, body.design.face_width),
       contact_material_(in_contact_plane(body.material, contact_plane)),

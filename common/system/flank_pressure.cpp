@@ -47,7 +47,7 @@ const Ridge* ridge_within(const GearPair& gears, const PairContact& contact, dou
 
 }  // namespace
 
-FlankPressure flank_pressure(const StaticArtifact& s) {
+FlankPressure flank_pressure(const StaticResult& s) {
   const GearPair gears(s);
   const auto ridges = ridges_of(gears, s.mesh);
   const bool strips = s.fidelity.contact == ContactModel::strips,
@@ -84,7 +84,7 @@ FlankPressure flank_pressure(const StaticArtifact& s) {
   return out;
 }
 
-std::vector<Remark> pressure_remarks(const StaticArtifact& s) {
+std::vector<Remark> pressure_remarks(const StaticResult& s) {
   const FlankPressure p = flank_pressure(s);
   if (!(p.on_ridge > p.smooth)) return {};
   return {remark(
@@ -95,7 +95,7 @@ std::vector<Remark> pressure_remarks(const StaticArtifact& s) {
       std::round(p.smooth * 1e-6), " MPa")};
 }
 
-LoadedPressure largest_pressure(const LoadedArtifact& a) {
+LoadedPressure largest_pressure(const LoadedResult& a) {
   LoadedPressure out;
   for (Index j = 0; j < a.pair.size(); ++j) {
     Index first = -1, last = -1;

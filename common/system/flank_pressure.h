@@ -5,8 +5,8 @@
 #pragma once
 #include <string>
 
-#include "signal/static_result.h"
-#include "system/loaded_result.h"
+#include "results/loaded.h"
+#include "results/static.h"
 #include "system/statics.h"
 
 namespace whine {
@@ -18,10 +18,10 @@ struct FlankPressure {
   double per_doubling = 0;  // Pa: what the same grows by with each doubling of the strips
   std::string ridge;        // what makes the ridge, of which gear: "the linear tip relief of [gear.wheel]"
 };
-FlankPressure flank_pressure(const StaticArtifact& statics);
+FlankPressure flank_pressure(const StaticResult& statics);
 
 // What a report says of contact over a ridge; none if there is none.
-std::vector<Remark> pressure_remarks(const StaticArtifact& statics);
+std::vector<Remark> pressure_remarks(const StaticResult& statics);
 
 struct LoadedPressure {
   double inside = 0;   // Pa: largest of the pairs that touch inside their flanks; 0: there are none
@@ -29,6 +29,6 @@ struct LoadedPressure {
   int edge_pair = 0;   // its number
   double edge_force = 0;  // N: that it carries
 };
-LoadedPressure largest_pressure(const LoadedArtifact& loaded);
+LoadedPressure largest_pressure(const LoadedResult& loaded);
 
 }  // namespace whine

@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 namespace {
 
 // Largest principal stress at the nodes between root circle and involute on the driving flank's side of a tooth.
-double largest_root_stress(const MeshArtifact& mesh, const Material& material, const LoadedGear& loaded,
+double largest_root_stress(const SectorGrid& mesh, const Material& material, const LoadedGear& loaded,
                            int tooth) {
   const ToothGeometry geometry(mesh.design);
   const double form = geometry.flank_point(geometry.form_roll_angle()).norm();
@@ -67,7 +67,7 @@ struct GridPart {
 
 // The strips of the pairs that carry force, pair after pair. (strip, gear and end) rad: roll angles of their ends.
 MatrixRM take_strips(const std::vector<const ContactZone*>& loaded, const GearPair& gears, int period,
-                     LoadedArtifact& out) {
+                     LoadedResult& out) {
   const auto pairs = static_cast<Index>(loaded.size());
   Index strips = 0;
   for (const ContactZone* zone : loaded) strips += zone->force.size();
@@ -112,19 +112,19 @@ MatrixRM take_strips(const std::vector<const ContactZone*>& loaded, const GearPa
 }  // namespace
 
 // NOLINTNEXTLINE(readability-function-size): one field after the other on the grid of both gears
-LoadedArtifact loaded_pair(const MeshArtifact& driver_mesh, const MeshArtifact& driven_mesh,
-                           const BodyArtifact& driver, const BodyArtifact& driven,
-                           const StaticArtifact& statics, double phase, int period) {
+LoadedResult loaded_pair(const SectorGrid& driver_mesh, const SectorGrid& driven_mesh,
+                         const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
+                         double phase, int period) {
   require_rigid_bearings(statics.mesh, "the view of loaded gears");
   require_no_friction(statics.mesh, "the view of loaded gears");
   require_external(statics.mesh, statics.gear[0].design, statics.gear[1].design, "the view of loaded gears");
   const std::vector<ContactZone> zones = contact_zones(driver, driven, statics, phase, period);
   const GearPair gears(statics);
-  const MeshArtifact* const mesh[2] = {&driver_mesh, &driven_mesh};
-  const BodyArtifact* const body[2] = {&driver, &driven};
+  const SectorGrid* const mesh[2] = {&driver_mesh, &driven_mesh};
+  const ReducedBody* const body[2] = {&driver, &driven};
 
-  LoadedArtifact out;
-  static_cast<PairParameters&>(out) = statics;
+  LoadedResult out;
+  static_cast<GearPairParameters&>(out) = statics;
   out.torque = statics.torque;
   out.mesh_phase = phase + period;
   out.transmission_error = zones.empty() ? 0 : zones.front().approach;

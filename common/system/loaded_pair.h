@@ -1,9 +1,9 @@
 // Both gears of a pair at rest in one mesh position: where their teeth touch, how they are deformed and stressed.
 #pragma once
-#include "signal/static_result.h"
-#include "solid/reduced_body.h"
-#include "solid/sector_mesh.h"
-#include "system/loaded_result.h"
+#include "results/loaded.h"
+#include "results/reduced_body.h"
+#include "results/sector_grid.h"
+#include "results/static.h"
 #include "system/statics.h"
 
 namespace whine {
@@ -12,8 +12,8 @@ namespace whine {
 // forces, with /VTKHDF's grid of both gears. A force acts along the normal of each gear's own flank: where a tip edge touches,
 // off the line of action, contact_torque is therefore by some per cent of that pair's share more than the torque. Throws as
 // contact_zones and loaded_gear.
-LoadedArtifact loaded_pair(const MeshArtifact& driver_mesh, const MeshArtifact& driven_mesh,
-                           const BodyArtifact& driver, const BodyArtifact& driven,
-                           const StaticArtifact& statics, double phase, int period);
+LoadedResult loaded_pair(const SectorGrid& driver_mesh, const SectorGrid& driven_mesh,
+                         const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
+                         double phase, int period);
 
 }  // namespace whine

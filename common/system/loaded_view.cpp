@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Index;
 
-const MatrixRM& cell_field(const LoadedArtifact& a, const char* name) {
+const MatrixRM& cell_field(const LoadedResult& a, const char* name) {
   for (const auto& field : a.vtk_cell_data)
     if (field.name == name) return field.values;
   fail(Failure::numerical, "the view of the loaded gears has no cell field '", name, "'");
@@ -24,7 +24,7 @@ MatrixRM rows_of(const MatrixRM& from, const std::vector<int>& kept) {
 
 }  // namespace
 
-void thin_view(LoadedArtifact& a, int beside) {
+void thin_view(LoadedResult& a, int beside) {
   constexpr Index kCorners = 4;
   if (a.vtk_cell.cols() <= kCorners) return;
   const MatrixRM &gear = cell_field(a, "gear"), &tooth = cell_field(a, "tooth");

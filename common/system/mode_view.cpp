@@ -25,7 +25,7 @@ struct Outline {
 Outline outline_of(const GearDesign& design) {
   Outline out{gear_contour(ToothGeometry(design), kOutlineFlankPoints), {}};
   out.edge.reserve(out.teeth.size());
-  for (const Vec2& p : out.teeth) out.edge.push_back(p.normalized() * design.held_radius());
+  for (const Vec2& p : out.teeth) out.edge.push_back(p.normalized() * design.clamped_radius());
   return out;
 }
 
@@ -104,7 +104,7 @@ double in_digits(double f) {
   return unit < 1 ? std::round(f / unit) / std::round(1 / unit) : std::round(f);
 }
 
-std::string mode_name(const ModesArtifact& a, Index i) {
+std::string mode_name(const ModesResult& a, Index i) {
   const double f = a.natural_frequency[i];
   return text("mode_", i < 9 ? "0" : "", i + 1, "_",
               f == 0 ? std::string("free") : name_of(a.type[static_cast<size_t>(i)]), "_", in_digits(f),
@@ -113,7 +113,7 @@ std::string mode_name(const ModesArtifact& a, Index i) {
 
 }  // namespace
 
-void add_mode_view(ModesArtifact& a, const std::vector<const GearDesign*>& design) {
+void add_mode_view(ModesResult& a, const std::vector<const GearDesign*>& design) {
   const System& s = a.layout;
   if (design.size() != s.bodies.size())
     fail(Failure::input, "a view of ", s.bodies.size(), " bodies needs a drawing, or none, of each; ",
@@ -126,14 +126,14 @@ void add_mode_view(ModesArtifact& a, const std::vector<const GearDesign*>& desig
       add_gear(s, b, design[static_cast<size_t>(b)], drawing);
   const auto points = static_cast<Index>(drawing.point.size()),
              cells = static_cast<Index>(drawing.cell.size()), lines = static_cast<Index>(drawing.line.size());
-  ModesArtifact::View& view = a.view;
+  ModesResult::View& view = a.view;
   view = {};
   if (points == 0) return;
   view.point.resize(points, 2);
   for (Index i = 0; i < points; ++i) view.point.row(i) = drawing.point[static_cast<size_t>(i)].transpose();
   view.cell.resize(cells, 4);
   view.line.resize(lines, 2);
-  LoadedArtifact::Field number{"body", "1", MatrixRM(cells + lines, 1)}, kind = number;
+  LoadedResult::Field number{"body", "1", MatrixRM(cells + lines, 1)}, kind = number;
   kind.name = "kind";
   const auto take = [&](Index row, int body) {
     number.values(row, 0) = body;

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "model/gear.h"
-#include "system/modes_result.h"
+#include "results/modes.h"
 
 namespace whine {
 
@@ -16,6 +16,6 @@ inline constexpr double kShownMotion =
 // Fills modes.view; without gears it stays empty. design: [body] drawing of each gear; nullptr where it is not known, of carriers
 // and rigid gears: of these the teeth are drawn with straight sides on the working pitch circle of their first mesh. Point data
 // "mode_03_planet_1650.21_Hz"; cell data: number of the body, and 0 for a central gear, 1 for a planet, 2 for a carrier.
-void add_mode_view(ModesArtifact& modes, const std::vector<const GearDesign*>& design);
+void add_mode_view(ModesResult& modes, const std::vector<const GearDesign*>& design);
 
 }  // namespace whine

@@ -153,7 +153,7 @@ std::vector<Mode> symmetric_modes(const RigidSystem& system, const MatrixXd& tur
   return out;
 }
 
-ModeType type_by_motion(const ModesArtifact& a, Index mode, const std::vector<int>& planets,
+ModeType type_by_motion(const ModesResult& a, Index mode, const std::vector<int>& planets,
                         const RigidSystem& system) {
   if (planets.empty()) return ModeType::train;
   double turns = 0, moves = 0;
@@ -170,7 +170,7 @@ ModeType type_by_motion(const ModesArtifact& a, Index mode, const std::vector<in
   return turns < kAtRest ? ModeType::translational : ModeType::mixed;
 }
 
-void fill_energies(const RigidSystem& system, Index mode, const VectorXd& q, ModesArtifact& a) {
+void fill_energies(const RigidSystem& system, Index mode, const VectorXd& q, ModesResult& a) {
   double potential = 0, kinetic = 0;
   const VectorXd closing = system.closing * q, force = system.mesh_stiffness * closing;
   for (const RigidSystem::Spring& spring : system.springs) {
@@ -222,7 +222,7 @@ std::vector<Mode> modes_of(const RigidSystem& system, const std::vector<int>& pl
 
 }  // namespace
 
-ModesArtifact natural_modes(const System& layout, const MatrixXd& mesh_stiffness) {
+ModesResult natural_modes(const System& layout, const MatrixXd& mesh_stiffness) {
   const RigidSystem system = rigid_system(layout, mesh_stiffness);
   const std::vector<int> planets = planets_of(layout);
   std::vector<Mode> modes = modes_of(system, planets);
@@ -235,7 +235,7 @@ ModesArtifact natural_modes(const System& layout, const MatrixXd& mesh_stiffness
                    [](const Mode& a, const Mode& b) { return a.squared < b.squared; });
   const auto count = static_cast<Index>(modes.size()), bodies = static_cast<Index>(layout.bodies.size()),
              meshes = static_cast<Index>(layout.meshes.size());
-  ModesArtifact out;
+  ModesResult out;
   out.layout = system.layout;
   out.rigid_frequency = std::sqrt(kFreeMotion * largest) / (2 * kPi);
   out.natural_frequency.resize(count);
@@ -290,7 +290,7 @@ MatrixXd of_alike_planets(const SystemStaticParameters& settings, const MatrixXd
 
 // Modes of meshes that differ a little are near combinations of those of alike ones: the type of a mode is the one whose modes of
 // alike meshes hold most of its kinetic energy, sum (v_type^T M v)^2. It so does not depend on how much the meshes differ.
-void take_types(const ModesArtifact& alike, ModesArtifact& out) {
+void take_types(const ModesResult& alike, ModesResult& out) {
   const auto product = [&](size_t i, size_t j) {
     double sum = 0;
     for (size_t b = 0; b < out.layout.bodies.size(); ++b) {
@@ -312,13 +312,13 @@ void take_types(const ModesArtifact& alike, ModesArtifact& out) {
 
 }  // namespace
 
-ModesArtifact elastic_modes(const SystemStaticArtifact& at_rest) {
+ModesResult elastic_modes(const SystemStaticResult& at_rest) {
   if (at_rest.mesh_stiffness.empty()) fail(Failure::input, "the statics hold no phase");
   const auto meshes = static_cast<Index>(at_rest.settings.layout.meshes.size());
   MatrixXd mean = MatrixXd::Zero(meshes, meshes);
   for (const MatrixRM& frozen : at_rest.mesh_stiffness) mean += frozen;
   mean /= static_cast<double>(at_rest.mesh_stiffness.size());
-  ModesArtifact out = natural_modes(at_rest.settings.layout, mean);
+  ModesResult out = natural_modes(at_rest.settings.layout, mean);
   take_types(natural_modes(at_rest.settings.layout, of_alike_planets(at_rest.settings, mean)), out);
   out.mesh_phase = at_rest.mesh_phase;
   out.frozen_frequency.resize(out.mesh_phase.size(), out.natural_frequency.size());

@@ -7,9 +7,9 @@
 // and the eigenproblem is solved in each. k = 0 are the rotational modes, k = 1 the translational ones (double), others planet
 // modes, in which the central members are at rest (Lin and Parker 1999). So types and degenerate pairs do not hang on round-off.
 #pragma once
-#include "system/modes_result.h"
+#include "results/modes.h"
+#include "results/system_static.h"
 #include "system/rigid_system.h"
-#include "system/system_static_result.h"
 
 namespace whine {
 
@@ -20,11 +20,11 @@ inline constexpr double kFreeMotion = 1e-11;
 // rotation, either nothing (below 1e-8: round-off) or not. Of a pair of equal frequencies the first is turned so that the
 // coordinate that moves most in the pair is at rest in the second; signs make that coordinate positive. Throws as rigid_system, and
 // Error(numerical) if the eigenproblem is not solved. mesh_stiffness: see rigid_system.
-ModesArtifact natural_modes(const System& layout, const Eigen::MatrixXd& mesh_stiffness = {});
+ModesResult natural_modes(const System& layout, const Eigen::MatrixXd& mesh_stiffness = {});
 
 // Of elastic gears that do not vibrate themselves: M of the gears as rigid bodies, and the frozen stiffness of contact and
 // bodies that their statics have, averaged over the mesh period (modes) and at each phase (frozen_frequency). Planets whose meshes
 // differ, in their mean by tenths of a per cent where phases differ, have the types of planets with equal meshes. Throws as above.
-ModesArtifact elastic_modes(const SystemStaticArtifact& at_rest);
+ModesResult elastic_modes(const SystemStaticResult& at_rest);
 
 }  // namespace whine

@@ -5,11 +5,11 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/format.h"
 #include "base/units.h"
 #include "contact/half_plane_strip.h"
 #include "gear/face_width.h"
 #include "gear/involute_start.h"
-#include "gear/numbers.h"
 #include "gear/system_layout.h"
 #include "system/load_balance.h"
 #include "system/undamped_depth.h"

@@ -17,7 +17,7 @@ namespace whine {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-GearMeshModel::GearMeshModel(const BodyArtifact& driver, const BodyArtifact& driven, const GearMeshSpec& mesh)
+GearMeshModel::GearMeshModel(const ReducedBody& driver, const ReducedBody& driven, const GearMeshSpec& mesh)
     : GearMeshModel({std::make_shared<const ElasticGear>(driver, mesh.contact_plane),
                      std::make_shared<const ElasticGear>(driven, mesh.contact_plane)},
                     mesh, pair_system(mesh, driver.design, driven.design).meshes[0]) {}

@@ -17,8 +17,8 @@
 #include "gear/friction.h"
 #include "gear/pair.h"
 #include "model/system.h"
+#include "results/reduced_body.h"
 #include "solid/flank_table.h"
-#include "solid/reduced_body.h"
 
 namespace whine {
 
@@ -50,10 +50,10 @@ class ElasticGear {
  public:
   // Throws Error(input) for numbers that are not finite, by the name of their array, and for a flank table with other
   // points than this program's.
-  explicit ElasticGear(const BodyArtifact& body, ContactPlane contact_plane = ContactPlane::body);
+  explicit ElasticGear(const ReducedBody& body, ContactPlane contact_plane = ContactPlane::body);
   // The same gear as a mesh whose contact is `contact_width` (m) wide sees it.
   ElasticGear in_mesh(double contact_width) const;
-  const BodyArtifact& body() const { return *body_; }
+  const ReducedBody& body() const { return *body_; }
   // 1: b / b_e, by which the stress of a tooth is larger than on the whole width; 1 where it is carried by all of it.
   double concentration() const { return concentration_; }
   // (flank, flank) m N-1: what a contact narrower than the gear adds to the inward displacement of the loaded tooth below the depth of
@@ -73,8 +73,8 @@ class ElasticGear {
   Eigen::MatrixXd compliance(int offset, double depth) const;
   // The same between any two flanks of the gear, however far apart; of one flank relative to `depth`. Without cracks.
   Eigen::MatrixXd compliance(const ToothFlank& read, const ToothFlank& loaded, double depth) const;
-  // The first less the part that the modes listed (columns of BodyArtifact::flank_mode) carry: residual flexibility. Zero
-  // beyond BodyArtifact::offsets, where the modes have nearly all of it.
+  // The first less the part that the modes listed (columns of ReducedBody::flank_mode) carry: residual flexibility. Zero
+  // beyond ReducedBody::offsets, where the modes have nearly all of it.
   Eigen::MatrixXd residual(int offset, double depth, const std::vector<int>& kept) const;
   bool cracked() const { return body_->crack_compliance.size() > 0; }
   // (flank, flank) m N-1: what the crack adds to the inward displacement of tooth `read` by a force on tooth `loaded`: numbers
@@ -93,7 +93,7 @@ class ElasticGear {
  private:
   // The block (rows, flank) of a table of the teeth about the crack.
   Eigen::MatrixXd of_crack(const MatrixRM& table, Eigen::Index rows, int read, int loaded) const;
-  std::shared_ptr<const BodyArtifact> body_;
+  std::shared_ptr<const ReducedBody> body_;
   HalfPlaneSurface half_plane_, body_half_plane_;
   Material contact_material_;
   bool own_surface_;  // the contact has another plane state or width than the body
@@ -120,7 +120,7 @@ class SideGears {
 // images, no compliance.
 struct GearMeshModel {
   // Of a system of one pair.
-  GearMeshModel(const BodyArtifact& driver, const BodyArtifact& driven, const GearMeshSpec& mesh);
+  GearMeshModel(const ReducedBody& driver, const ReducedBody& driven, const GearMeshSpec& mesh);
   GearMeshModel(const SideGears& gears, const GearMeshSpec& mesh, const System::Mesh& layout);
   GearPair kinematics;
   SideGears gear;  // [side] as this mesh sees them

@@ -10,7 +10,7 @@ RootStresses::RootStresses(const GearMeshModel& model, std::vector<double> phase
     : model_(model), phases_(std::move(phases)), known_(true) {
   for (size_t g = 0; g < kSides; ++g) {
     per_force_[g].resize(phases_.size());
-    const BodyArtifact& body = model.gear[g].body();
+    const ReducedBody& body = model.gear[g].body();
     known_ = known_ && static_cast<int>(body.root_stress.size()) == 2 * body.offsets + 1 &&
              body.root_angle.size() > 2 && (body.crack_root_stress.size() > 0 || !model.gear[g].cracked());
   }
@@ -25,7 +25,7 @@ const RootStresses::PerForce& RootStresses::per_force(int g, size_t phase, int p
   const double roll =
       std::clamp(model_.kinematics.contact(phases_[phase] + pair).roll[static_cast<size_t>(g)],
                  flank.lowest(), flank.highest());
-  const BodyArtifact& body = gear.body();
+  const ReducedBody& body = gear.body();
   PerForce at{pair, flank.weights(roll).transpose(),
               Eigen::MatrixXd(body.root_angle.size(), 2 * body.offsets + 1)};
   for (int d = 0; d <= 2 * body.offsets; ++d)
@@ -38,7 +38,7 @@ const RootStresses::PerForce& RootStresses::per_force(int g, size_t phase, int p
 RootStress RootStresses::of_tooth(int g, size_t phase, int of, const Eigen::VectorXi& numbers,
                                   const Eigen::Ref<const Eigen::VectorXd>& load, int period) {
   const ElasticGear& gear = model_.gear[static_cast<size_t>(g)];
-  const BodyArtifact& body = gear.body();
+  const ReducedBody& body = gear.body();
   const auto tooth = [&](int pair) { return GearMeshModel::tooth(g, pair - period); };
   along_.setZero(body.root_angle.size());
   for (Eigen::Index k = 0; k < numbers.size(); ++k) {

@@ -10,11 +10,11 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/format.h"
 #include "base/model_range.h"
 #include "base/progress.h"
 #include "gear/internal_mesh.h"
 #include "gear/losses.h"
-#include "gear/numbers.h"
 #include "system/compliance_split.h"
 #include "system/drawing_remarks.h"
 #include "system/flank_pressure.h"
@@ -28,7 +28,7 @@ using Eigen::VectorXd;
 namespace {
 
 // The system of a scene under a torque (N m) on its first body; all others but the held one are free of torque.
-SystemModel loaded_system(const BodyArtifact& driver, const BodyArtifact& driven, const GearMeshSpec& mesh,
+SystemModel loaded_system(const ReducedBody& driver, const ReducedBody& driven, const GearMeshSpec& mesh,
                           double torque) {
   SystemModel system(driver, driven, mesh);
   system.layout.drives.push_back({0, System::DriveKind::torque, torque});
@@ -38,7 +38,7 @@ SystemModel loaded_system(const BodyArtifact& driver, const BodyArtifact& driven
 
 // What friction takes at a position, and its moments about the axes.
 void store_friction(const SystemModel& system, const SystemSolution& solution, const SystemPosition& position,
-                    int row, StaticArtifact& result) {
+                    int row, StaticResult& result) {
   if (!(system.friction > 0)) return;
   for (VectorXd* v : {&result.friction_loss, &result.friction_moment[0], &result.friction_moment[1]})
     (*v)[row] = 0;
@@ -53,7 +53,7 @@ void store_friction(const SystemModel& system, const SystemSolution& solution, c
 
 // Of the only mesh, one whole hunting period; where and how contact wants more than the range holds, if it does.
 std::string solve_period(const SystemModel& system, const std::vector<CandidateZone>& range, int positions,
-                         StaticArtifact& result) {
+                         StaticResult& result) {
   const GearMeshModel& model = system.mesh[0];
   const double load = mesh_loads(system)[0];
   SystemStatics statics(system, result.fidelity.contact, range);
@@ -114,7 +114,7 @@ std::string solve_period(const SystemModel& system, const std::vector<CandidateZ
 }
 
 // Root stresses at all positions, and where they are largest.
-void store_root_stress(const GearMeshModel& model, StaticArtifact& s) {
+void store_root_stress(const GearMeshModel& model, StaticResult& s) {
   const auto positions = static_cast<size_t>(s.contact.positions);
   std::vector<double> phases;
   for (size_t i = 0; i < positions; ++i)
@@ -149,8 +149,8 @@ void store_root_stress(const GearMeshModel& model, StaticArtifact& s) {
 
 }  // namespace
 
-StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifact& driven,
-                                   const StaticParameters& settings, double torque, double zone_factor) {
+StaticResult static_transmission(const ReducedBody& driver, const ReducedBody& driven,
+                                 const StaticParameters& settings, double torque, double zone_factor) {
   constexpr double kLeastTorque = 1e-9;  // N m: gaps are round-off below
   if (!(torque >= kLeastTorque) || !std::isfinite(torque))
     fail(Failure::input, "torque_Nm = ", torque, " must be finite and at least ", kLeastTorque,
@@ -160,7 +160,7 @@ StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifac
   const double load = mesh_loads(system)[0];
   const int positions = settings.contact.positions;
 
-  StaticArtifact result;
+  StaticResult result;
   set_pair(result, {driver, driven}, settings);
   result.torque = torque;
   result.contact_ratio = model.kinematics.contact_ratio();
@@ -215,7 +215,7 @@ StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifac
   return result;
 }
 
-std::vector<Remark> remarks(const StaticArtifact& s) {
+std::vector<Remark> remarks(const StaticResult& s) {
   std::vector<Remark> out;
   const auto add = [&](bool warning, const auto&... parts) { out.push_back(remark(warning, parts...)); };
   if (s.hunting_periods > 1)
@@ -243,7 +243,7 @@ std::vector<Remark> remarks(const StaticArtifact& s) {
   return out;
 }
 
-std::vector<Remark> schlenk_speed_remarks(const PairParameters& pair, double from, double to) {
+std::vector<Remark> schlenk_speed_remarks(const GearPairParameters& pair, double from, double to) {
   std::vector<Remark> out;
   if (pair.mesh.friction.law != FrictionLaw::schlenk) return out;
   const double per_frequency = pitch_line_speed(GearPair(pair), 1), slow = kSchlenkSpeeds[0] / per_frequency,
@@ -259,21 +259,18 @@ std::vector<Remark> schlenk_speed_remarks(const PairParameters& pair, double fro
   return out;
 }
 
-std::vector<Remark> friction_remarks(const PairParameters& pair, double torque) {
+std::vector<Remark> friction_remarks(const GearPairParameters& pair, double torque) {
   std::vector<Remark> out;
   if (!pair.mesh.friction.acts()) return out;
   out.push_back(remark(
       false,
-      "friction acts by its moments and forces on the hubs; it bends no teeth here, which may change the "
-      "transmission error as much as it does (common/system/README.md, Friction at rest). Losses do not "
-      "depend on that to first order"));
+      "friction acts by its moments and forces on the hubs; it bends no teeth here, which may change the transmission error as much as it does (common/system/README.md, Friction at rest). Losses do not depend on that to first order"));
   if (pair.mesh.friction.law != FrictionLaw::schlenk) return out;
   const GearPair gears(pair);
   if (gears.internal())
-    out.push_back(
-        remark(true,
-               "Schlenk's formula is fit to tests of external gears; of an internal pair its coefficient of "
-               "friction is an extrapolation. Give a number in [friction]: law = \"constant\""));
+    out.push_back(remark(
+        true,
+        "Schlenk's formula is fit to tests of external gears; of an internal pair its coefficient of friction is an extrapolation. Give a number in [friction]: law = \"constant\""));
   if (const double load = line_load(gears, pair.face_width(), torque); load < kSchlenkLoad)
     out.push_back(remark(false, "the coefficient of friction is that of ", kSchlenkLoad,
                          " N/mm, where the tests of Schlenk's formula begin: the line load is ",
@@ -284,8 +281,8 @@ std::vector<Remark> friction_remarks(const PairParameters& pair, double torque) 
   return out;
 }
 
-std::vector<ContactZone> contact_zones(const BodyArtifact& driver, const BodyArtifact& driven,
-                                       const StaticArtifact& statics, double phase, int period) {
+std::vector<ContactZone> contact_zones(const ReducedBody& driver, const ReducedBody& driven,
+                                       const StaticResult& statics, double phase, int period) {
   if (!(phase >= 0 && phase < 1))
     fail(Failure::input, "mesh phase ", phase, " is not within a mesh period: 0 up to, not including, 1");
   if (period < 0 || period >= statics.hunting_periods)
@@ -306,8 +303,7 @@ std::vector<ContactZone> contact_zones(const BodyArtifact& driver, const BodyArt
        " N m contact leaves the flanks; lower the torque");
 }
 
-ContactZone contact_zone(const BodyArtifact& driver, const BodyArtifact& driven,
-                         const StaticArtifact& statics) {
+ContactZone contact_zone(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics) {
   for (ContactZone& zone : contact_zones(driver, driven, statics, 0.0, 0))
     if (zone.strips.pair == 0) return zone;
   fail(Failure::numerical, "at mesh phase 0 the reference pair is out of reach");

@@ -4,19 +4,19 @@
 #include <string>
 #include <vector>
 
-#include "signal/static_result.h"
-#include "solid/reduced_body.h"
+#include "results/reduced_body.h"
+#include "results/static.h"
 #include "system/system_statics.h"
 
 namespace whine {
 
-// The driven hub is held, the driver carries torque (N m, > 0). Fills all of StaticArtifact but the harmonics. zone_factor:
+// The driven hub is held, the driver carries torque (N m, > 0). Fills all of StaticResult but the harmonics. zone_factor:
 // the strips' candidate zone is this many times as wide as the load alone asks for. The tangent stiffness of contact = "line"
 // is off by 0.6 % at most where half the load would reach a tip edge, because the flank tables are read at one place
 // whatever the pair carries (make_line_position). Throws Error(input) for a torque that is not positive,
 // Error(numerical) where no equilibrium within the flanks exists or a tip edge would leave the other's involute.
-StaticArtifact static_transmission(const BodyArtifact& driver, const BodyArtifact& driven,
-                                   const StaticParameters& settings, double torque, double zone_factor = 1);
+StaticResult static_transmission(const ReducedBody& driver, const ReducedBody& driven,
+                                 const StaticParameters& settings, double torque, double zone_factor = 1);
 
 // What a reader of a result has to know beside its numbers, in words without a full stop.
 struct Remark {
@@ -24,7 +24,7 @@ struct Remark {
   std::string words;
 };
 
-// Numbers with 6 digits, as tell() writes them.
+// Numbers with 6 digits, as log_line() writes them.
 template <class... Parts>
 Remark remark(bool warning, const Parts&... parts) {
   std::ostringstream words;
@@ -35,27 +35,23 @@ Remark remark(bool warning, const Parts&... parts) {
 // Pa: what flanks of hardened steel carry in the long run; the strongest go to 2 GPa.
 inline constexpr double kHardenedSteelPressure = 1.5e9;
 inline constexpr const char* kBeyondSteel =
-    " GPa is above the 1.5 GPa that flanks of hardened steel carry in the long run (the strongest 2 GPa); "
-    "the teeth are elastic here and "
-    "know of no "
-    "yielding: check the torque and the face width";
+    " GPa is above the 1.5 GPa that flanks of hardened steel carry in the long run (the strongest 2 GPa); the teeth are elastic here and know of no yielding: check the torque and the face width";
 
 // Of the statics: teeth that differ, no corner contact, backlash used up, a pressure that no steel carries.
-std::vector<Remark> remarks(const StaticArtifact& statics);
+std::vector<Remark> remarks(const StaticResult& statics);
 
 // Of a pair with friction under a torque (N m, on the driver): what is left out of it, and where Schlenk's formula is beyond what it
 // is fit to. Of its speeds between mesh frequencies (Hz) alone; nothing of a constant coefficient.
-std::vector<Remark> friction_remarks(const PairParameters& pair, double torque);
-std::vector<Remark> schlenk_speed_remarks(const PairParameters& pair, double from, double to);
+std::vector<Remark> friction_remarks(const GearPairParameters& pair, double torque);
+std::vector<Remark> schlenk_speed_remarks(const GearPairParameters& pair, double from, double to);
 
 // Of all pairs in reach at a mesh phase (0 to 1) of a mesh period, with the strips of `statics`, whose contact may also be
 // lines: the equilibrium is solved again. Throws as static_transmission, and Error(input) for a phase or a period that is
 // none of `statics`.
-std::vector<ContactZone> contact_zones(const BodyArtifact& driver, const BodyArtifact& driven,
-                                       const StaticArtifact& statics, double phase, int period);
+std::vector<ContactZone> contact_zones(const ReducedBody& driver, const ReducedBody& driven,
+                                       const StaticResult& statics, double phase, int period);
 
 // Of the reference pair at mesh phase 0.
-ContactZone contact_zone(const BodyArtifact& driver, const BodyArtifact& driven,
-                         const StaticArtifact& statics);
+ContactZone contact_zone(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics);
 
 }  // namespace whine

@@ -13,14 +13,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-SystemModel::SystemModel(const BodyArtifact& driver, const BodyArtifact& driven, const GearMeshSpec& spec)
+SystemModel::SystemModel(const ReducedBody& driver, const ReducedBody& driven, const GearMeshSpec& spec)
     : layout(pair_system(spec, driver.design, driven.design)) {
-  for (const BodyArtifact* of : {&driver, &driven})
+  for (const ReducedBody* of : {&driver, &driven})
     body.push_back(std::make_shared<const ElasticGear>(*of, spec.contact_plane));
   mesh.emplace_back(SideGears(body[0], body[1]), spec, layout.meshes[0]);
 }
 
-SystemModel::SystemModel(const System& of, const std::vector<BodyArtifact>& bodies,
+SystemModel::SystemModel(const System& of, const std::vector<ReducedBody>& bodies,
                          const std::vector<GearMeshSpec>& specs)
     : layout(of) {
   const auto gears = static_cast<size_t>(
@@ -39,7 +39,7 @@ SystemModel::SystemModel(const System& of, const std::vector<BodyArtifact>& bodi
       fail(Failure::input, "the meshes of a system have contact_plane = \"", specs[0].contact_plane,
            "\" and \"", spec.contact_plane,
            "\": bodies that take part in both have one; give all meshes the same");
-  for (const BodyArtifact& artifact : bodies)
+  for (const ReducedBody& artifact : bodies)
     body.push_back(std::make_shared<const ElasticGear>(artifact, specs[0].contact_plane));
   for (size_t m = 0; m < specs.size(); ++m) {
     const System::Mesh& placed = layout.meshes[m];

@@ -26,11 +26,11 @@ struct SystemModel {
   std::vector<GearMeshModel> mesh;
 
   // The one pair of a scene.
-  SystemModel(const BodyArtifact& driver, const BodyArtifact& driven, const GearMeshSpec& mesh);
+  SystemModel(const ReducedBody& driver, const ReducedBody& driven, const GearMeshSpec& mesh);
   // bodies: of the gears of the layout; specs: of each mesh of it; of its bearings those of the layout count. Throws Error(input) for a
   // number of gears or meshes that is not the layout's, for a carrier before a gear or on a carrier, and for a cracked gear, whose teeth
   // are not their own mirror images, in several meshes.
-  SystemModel(const System& layout, const std::vector<BodyArtifact>& bodies,
+  SystemModel(const System& layout, const std::vector<ReducedBody>& bodies,
               const std::vector<GearMeshSpec>& specs);
 
   double base_radius(int b) const;  // m; of a carrier the radius of its pins

@@ -16,8 +16,8 @@ using Eigen::Index;
 
 namespace {
 
-const BodyArtifact& body_of(const SystemStaticParameters& settings, const std::vector<BodyArtifact>& bodies,
-                            const std::string& gear) {
+const ReducedBody& body_of(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies,
+                           const std::string& gear) {
   for (size_t g = 0; g < settings.body.size() && g < bodies.size(); ++g)
     if (settings.body[g].first == gear) return bodies[g];
   fail(Failure::input, "[gear.", gear, "] has no body");
@@ -32,9 +32,9 @@ int hunting_periods(const SystemStaticParameters& settings) {
   return hunting_periods_of(teeth);
 }
 
-SystemModel elastic_system(const SystemStaticParameters& settings, const std::vector<BodyArtifact>& bodies) {
+SystemModel elastic_system(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies) {
   const System& layout = settings.layout;
-  std::vector<BodyArtifact> of_body;
+  std::vector<ReducedBody> of_body;
   for (size_t b = 0; b < layout.bodies.size(); ++b)
     if (layout.bodies[b].kind == System::BodyKind::gear)
       of_body.push_back(body_of(settings, bodies, settings.gear[b]));
@@ -49,12 +49,12 @@ SystemModel elastic_system(const SystemStaticParameters& settings, const std::ve
   return {layout, of_body, specs};
 }
 
-void take_masses(const SystemStaticParameters& settings, const std::vector<BodyArtifact>& bodies,
+void take_masses(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies,
                  System& layout) {
   for (size_t b = 0; b < layout.bodies.size(); ++b) {
     System::Body& body = layout.bodies[b];
     if (body.kind == System::BodyKind::carrier) continue;
-    const BodyArtifact& drawn = body_of(settings, bodies, settings.gear[b]);
+    const ReducedBody& drawn = body_of(settings, bodies, settings.gear[b]);
     if (body.inertia == 0) body.inertia = drawn.inertia;
     if (!body.bearing.elastic()) continue;
     if (body.bearing.mass == 0) body.bearing.mass = drawn.mass;
@@ -69,7 +69,7 @@ void take_masses(const SystemStaticParameters& settings, const std::vector<BodyA
 
 namespace {
 
-void take_pairs(const std::vector<SystemSolution>& solutions, Index meshes, SystemStaticArtifact& out) {
+void take_pairs(const std::vector<SystemSolution>& solutions, Index meshes, SystemStaticResult& out) {
   int lowest = -1, highest = 1;
   for (const SystemSolution& at : solutions)
     for (const LoadedSegment& load : at.loads)
@@ -90,7 +90,7 @@ void take_pairs(const std::vector<SystemSolution>& solutions, Index meshes, Syst
 }
 
 // Torques on bodies and forces on bearings; those of carriers follow from their planets.
-void take_balance(const SystemModel& system, const SystemSolution& at, Index row, SystemStaticArtifact& out) {
+void take_balance(const SystemModel& system, const SystemSolution& at, Index row, SystemStaticResult& out) {
   const System& layout = out.settings.layout;
   MatrixRM& force = out.bearing_force[static_cast<size_t>(row)];
   for (size_t b = 0; b < system.body.size(); ++b) {
@@ -119,7 +119,7 @@ void take_balance(const SystemModel& system, const SystemSolution& at, Index row
   }
 }
 
-void take_phase(const SystemModel& system, const SystemSolution& at, Index row, SystemStaticArtifact& out) {
+void take_phase(const SystemModel& system, const SystemSolution& at, Index row, SystemStaticResult& out) {
   const SystemStaticParameters& settings = out.settings;
   std::vector<double> carried(settings.mesh.size(), 0.0);
   for (size_t m = 0; m < system.mesh.size(); ++m)
@@ -146,7 +146,7 @@ void take_phase(const SystemModel& system, const SystemSolution& at, Index row, 
   take_balance(system, at, row, out);
 }
 
-void take_harmonics(SystemStaticArtifact& out) {
+void take_harmonics(SystemStaticResult& out) {
   constexpr int kMostHarmonics = 40, kMostOrders = 1 << 20;
   const auto taken = [&](int most, int periods) {
     const int count = resolved_harmonics(out.mesh_phase.size(), most, periods);
@@ -173,9 +173,9 @@ void check_at_rest(const SystemScene& scene, const System& layout) {
       const System::Body& body = layout.bodies[b];
       if (body.name != scene.carriers[c].name) continue;
       if (!layout.held(static_cast<int>(b)) && !(body.inertia > 0))
-        reject("carrier", c, "carrier '", body.name,
-               "' may turn and has no inertia: give 'inertia_kgm2' or 'equivalent_mass_kg', or hold it by a "
-               "[[drive]] with kind = \"held\"");
+        reject(
+            "carrier", c, "carrier '", body.name,
+            "' may turn and has no inertia: give 'inertia_kgm2' or 'equivalent_mass_kg', or hold it by a [[drive]] with kind = \"held\"");
     }
   std::vector<GearMeshSpec> specs;
   for (const SystemScene::Mesh& mesh : scene.meshes) specs.push_back(mesh.spec);
@@ -223,8 +223,8 @@ void require_rows(const SystemModel& system, int periods, int positions) {
 
 }  // namespace
 
-SystemStaticArtifact system_at_rest(const SystemStaticParameters& settings,
-                                    const std::vector<BodyArtifact>& bodies) {
+SystemStaticResult system_at_rest(const SystemStaticParameters& settings,
+                                  const std::vector<ReducedBody>& bodies) {
   const SystemModel system = elastic_system(settings, bodies);
   const int periods = hunting_periods(system);
   require_rows(system, periods, settings.contact.positions);
@@ -233,7 +233,7 @@ SystemStaticArtifact system_at_rest(const SystemStaticParameters& settings,
   const auto phases = static_cast<Index>(solutions.size()),
              all = static_cast<Index>(settings.layout.bodies.size()),
              meshes = static_cast<Index>(system.mesh.size());
-  SystemStaticArtifact out;
+  SystemStaticResult out;
   out.settings = settings;
   out.hunting_periods = periods;
   for (const auto& [gear, hash] : settings.body) out.drawing.push_back(body_of(settings, bodies, gear));

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "model/system_scene.h"
-#include "solid/reduced_body.h"
+#include "results/reduced_body.h"
+#include "results/system_static.h"
 #include "system/system.h"
-#include "system/system_static_result.h"
 
 namespace whine {
 
@@ -19,10 +19,10 @@ void check_at_rest(const SystemScene& scene, const System& layout);
 int hunting_periods(const SystemStaticParameters& settings);
 
 // The system that the settings describe; bodies: [gear] of settings.body.
-SystemModel elastic_system(const SystemStaticParameters& settings, const std::vector<BodyArtifact>& bodies);
+SystemModel elastic_system(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies);
 
 // Inertias and masses as the gears are drawn, where the scene does not say them.
-void take_masses(const SystemStaticParameters& settings, const std::vector<BodyArtifact>& bodies,
+void take_masses(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies,
                  System& layout);
 
 // bodies: [gear] of settings.body. Throws Error(input) for torques that are not balanced, more positions than memory holds and what
@@ -31,7 +31,7 @@ void take_masses(const SystemStaticParameters& settings, const std::vector<BodyA
 // What holds a carrier, T_c = -sum (P - C) x F over its planets, and its bearing force, sum F, F what a planet presses its pin
 // with, follow from the planets. Where all axes of a train but those of planets are one, sum of sense T over bodies that stand on the
 // ground is 0.
-SystemStaticArtifact system_at_rest(const SystemStaticParameters& settings,
-                                    const std::vector<BodyArtifact>& bodies);
+SystemStaticResult system_at_rest(const SystemStaticParameters& settings,
+                                  const std::vector<ReducedBody>& bodies);
 
 }  // namespace whine

@@ -7,10 +7,10 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/format.h"
 #include "base/model_range.h"
 #include "base/progress.h"
 #include "gear/involute_start.h"
-#include "gear/numbers.h"
 #include "system/rigid_system.h"
 
 namespace whine {
@@ -172,10 +172,10 @@ void require_strips(double strips) {
   constexpr double kMostMemory = 2e9;  // bytes
   const double memory = 2 * 8 * strips * strips;
   if (memory > kMostMemory)
-    fail(Failure::input, "contact is looked for on ", strips, " strips, whose compliance needs ",
-         memory * 1e-9, " GB, at most ", kMostMemory * 1e-9,
-         " are allowed: under this load contact is that narrow beside what flanks and teeth deviate by; "
-         "raise the torque, lower strips, or set contact = \"line\"");
+    fail(
+        Failure::input, "contact is looked for on ", strips, " strips, whose compliance needs ",
+        memory * 1e-9, " GB, at most ", kMostMemory * 1e-9,
+        " are allowed: under this load contact is that narrow beside what flanks and teeth deviate by; raise the torque, lower strips, or set contact = \"line\"");
 }
 
 }  // namespace
@@ -206,12 +206,12 @@ void SystemStatics::take_position(double phase, int period) {
   if (least > 0) return;
   bool soft_rim = false;
   for (const auto& gear : system_.body) soft_rim = soft_rim || (gear && gear->body().design.elastic_rim());
-  fail(Failure::numerical, "at mesh phase ", phase, " the compliance of ", position_->strips(),
-       " strips is not positive definite: pivot ", least, " m/N; ",
-       soft_rim
-           ? "raise rim_radial_stiffness_N_mm2 and rim_tangential_stiffness_N_mm2, or lower element_mm: the "
-             "rim moves so much as a whole that the error of the body's table hides what its teeth do"
-           : "the body's table is wrong, rebuild body.h5");
+  fail(
+      Failure::numerical, "at mesh phase ", phase, " the compliance of ", position_->strips(),
+      " strips is not positive definite: pivot ", least, " m/N; ",
+      soft_rim
+          ? "raise rim_radial_stiffness_N_mm2 and rim_tangential_stiffness_N_mm2, or lower element_mm: the rim moves so much as a whole that the error of the body's table hides what its teeth do"
+          : "the body's table is wrong, rebuild body.h5");
 }
 
 const SystemSolution& SystemStatics::solve(double phase, int period, const VectorXd& start) {
@@ -265,11 +265,11 @@ void SystemStatics::require_small(const SystemSolution& solution) const {
   const auto require = [&](double moved, const GearMeshModel& mesh, const auto&... what) {
     const double most = kMost * mesh.kinematics.gear(0).design().module;
     if (moved > most)
-      fail_outside_range(Failure::input, "at ", torque, " N m ", what..., " is ", millimetres(moved),
-                         ", above ", millimetres(most),
-                         ", a quarter of the module, up to which teeth may stand beside the place that the "
-                         "drawing gives them; lower the torque",
-                         elastic ? ", or raise stiffness_N_um in [[bearing]]" : "");
+      fail_outside_range(
+          Failure::input, "at ", torque, " N m ", what..., " is ", millimetres(moved), ", above ",
+          millimetres(most),
+          ", a quarter of the module, up to which teeth may stand beside the place that the drawing gives them; lower the torque",
+          elastic ? ", or raise stiffness_N_um in [[bearing]]" : "");
   };
   for (size_t m = 0; m < system_.mesh.size(); ++m)
     require(solution.transmission_error[m], system_.mesh[m], "the transmission error of ",

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/format.h"
 #include "gear/face_width.h"
-#include "gear/numbers.h"
 #include "gear/pair.h"
 #include "gear/system_layout.h"
 #include "system/load_balance.h"
@@ -21,8 +21,7 @@ std::string beyond_undamped_depth(double half_width, double widest, double depth
   return text(
       "contact reaches ", millimetres(half_width),
       " to either side, and undamped_depth_mm = ", shown_number(depth * 1e3), " holds ", millimetres(widest),
-      ": under a wider one what gives way without damping would push back. Raise undamped_depth_mm in "
-      "[damping] to ",
+      ": under a wider one what gives way without damping would push back. Raise undamped_depth_mm in [damping] to ",
       shown_number(depth * 1e3 * half_width / widest * 1.05), " or more, or lower the torque");
 }
 

@@ -50,7 +50,7 @@ if (natural_frequency > frequency_from && natural_frequency < frequency_to) {
 set tmargin at screen 0.57 + 0.5 * lift
 set bmargin at screen 0.40 + 0.5 * lift
 set yrange [0 : 1.08 * stress_max]
-set label 1 "{/:Bold (b)} largest over the mesh cycle, held for 1/64 of it"
+set label 1 "{/:Bold (b)} largest over the mesh cycle, sustained for 1/64 of it"
 drawn = ''
 do for [g = 1:2] {
   drawn = drawn . sprintf('tsv index "[speed down]" using 1:%d with lines lt 1 lw %g dt (10, 5) lc rgb "%s" notitle, ', g + 1, width[g], colour[g]) \

@@ -172,7 +172,7 @@ struct Reduction {
   int nodes = 0;          // of a sector
   whine::Usage usage;     // mesh and reduction
 };
-Reduction reduce_apart(const whine::BodyArtifact& like, double element_size) {
+Reduction reduce_apart(const whine::ReducedBody& like, double element_size) {
   using namespace whine;
   int ends[2];
   if (pipe(ends) != 0) fail(Failure::io, "no pipe to a child process");
@@ -182,8 +182,8 @@ Reduction reduce_apart(const whine::BodyArtifact& like, double element_size) {
     try {
       BodyDiscretisation discretisation = like.discretisation;
       discretisation.element_size = element_size;
-      const MeshArtifact mesh = make_sector_mesh(like.design, discretisation);
-      const BodyArtifact body = reduce(mesh, like.material, kModes);
+      const SectorGrid mesh = make_sector_mesh(like.design, discretisation);
+      const ReducedBody body = reduce(mesh, like.material, kModes);
       const ElasticGear gear(body);
       const ToothGeometry tooth(body.design);
       const auto weights = gear.table().weights(tooth.roll_angle_at_radius(tooth.pitch_radius()));
@@ -191,7 +191,7 @@ Reduction reduce_apart(const whine::BodyArtifact& like, double element_size) {
                                 double(mesh.node_position.rows())};
       _exit(write(ends[1], values, sizeof values) == sizeof values ? 0 : 1);
     } catch (const std::exception& error) {
-      tell("reduction at ", element_size * 1e3, " mm: ", error.what());
+      log_line("reduction at ", element_size * 1e3, " mm: ", error.what());
     }
     _exit(1);
   }
@@ -207,7 +207,7 @@ Reduction reduce_apart(const whine::BodyArtifact& like, double element_size) {
   return result;
 }
 
-void reductions(const whine::BodyArtifact& body) {
+void reductions(const whine::ReducedBody& body) {
   constexpr double kElements[] = {0.8e-3, 0.4e-3, 0.2e-3, 0.1e-3};
   std::vector<Reduction> results;
   for (double element : kElements) results.push_back(reduce_apart(body, element));
@@ -285,18 +285,18 @@ PositionTimes static_position(const whine::GearMeshModel& model, const whine::St
 }
 
 // The same position by CalculiX, in plane strain: its elements in plane stress change their thickness.
-void beside_calculix(const whine::BodyArtifact& driver, const whine::BodyArtifact& driven,
+void beside_calculix(const whine::ReducedBody& driver, const whine::ReducedBody& driven,
                      const whine::StaticParameters& settings, double torque, double phase, double element) {
   using namespace whine;
   if (driver.material.youngs_modulus != driven.material.youngs_modulus ||
       driver.material.poisson_ratio != driven.material.poisson_ratio)
     fail(Failure::input, "the gears are of different materials; the comparison with CalculiX knows one");
   double reduction = std::numeric_limits<double>::infinity();  // s of CPU
-  const auto in_plane_strain = [&](const BodyArtifact& body) {
+  const auto in_plane_strain = [&](const ReducedBody& body) {
     const std::clock_t start = std::clock();
     Material material = body.material;
     material.plane_stress = false;
-    const BodyArtifact result = reduce(make_sector_mesh(body.design, body.discretisation), material, kModes);
+    const ReducedBody result = reduce(make_sector_mesh(body.design, body.discretisation), material, kModes);
     reduction = std::min(reduction, double(std::clock() - start) / CLOCKS_PER_SEC);
     return result;
   };
@@ -349,7 +349,7 @@ void rolling_steps(whine::RollingRig& rig, whine::RollingRig& reference, double 
   StepWork work;
   for (int i = 0; i < steps; ++i) {  // problem i is that of sample i + 1
     const int k = strips ? static_cast<int>(problems[(i + steps - 1) % steps].active.strips.size()) : 0;
-    const int loaded = static_cast<int>((rig.period.pair_load.col(i).array() > 0).count());
+    const int loaded = static_cast<int>((rig.period.tooth_pair_load.col(i).array() > 0).count());
     const StepWork one = step_work(rig.sizes(i), loaded, k);
     work.flops += one.flops / steps;
     work.bytes += one.bytes / steps;
@@ -408,9 +408,9 @@ void rolling_steps(whine::RollingRig& rig, whine::RollingRig& reference, double 
 }
 
 // Figure 5 of P2000 on one core, reading and writing apart.
-void rolling_sweep(const whine::BodyArtifact& driver, const whine::BodyArtifact& driven,
-                   const whine::StaticArtifact& statics, double mean_stiffness,
-                   whine::SweepParameters settings, double eta, whine::SteadyState method) {
+void rolling_sweep(const whine::ReducedBody& driver, const whine::ReducedBody& driven,
+                   const whine::StaticResult& statics, double mean_stiffness, whine::SweepParameters settings,
+                   double eta, whine::SteadyState method) {
   using namespace whine;
   settings.damping.rayleigh_stiffness = eta;
   settings.time.steady_state = method;
@@ -419,8 +419,8 @@ void rolling_sweep(const whine::BodyArtifact& driver, const whine::BodyArtifact&
   const double seconds = least_seconds(5, [&] {
     periods = 0;
     for (const Direction direction : {Direction::up, Direction::down}) {
-      const SweepArtifact result = sweep(driver, driven, statics, mean_stiffness, settings, direction,
-                                         [](long, long, const std::string&) {});
+      const SweepResult result = sweep(driver, driven, statics, mean_stiffness, settings, direction,
+                                       [](long, long, const std::string&) {});
       periods += result.periods.sum();
       imbalance = std::max(imbalance, result.energy_imbalance.maxCoeff());
     }
@@ -429,25 +429,22 @@ void rolling_sweep(const whine::BodyArtifact& driver, const whine::BodyArtifact&
               name_of(method).c_str(), seconds, periods, imbalance);
 }
 
-void rolling(const whine::BodyArtifact& driver, const whine::BodyArtifact& driven,
+void rolling(const whine::ReducedBody& driver, const whine::ReducedBody& driven,
              whine::StaticParameters settings, whine::SweepParameters sweep_parameters, double torque) {
   using namespace whine;
   const double peak = peak_flops();
   std::printf(
-      "Rolling dynamics: %g N m, Rayleigh %g s, %d modes a gear; least of %d repeats in turn; per step; RMS "
-      "against Newmark, "
-      "1024 steps a period\n",
+      "Rolling dynamics: %g N m, Rayleigh %g s, %d modes a gear; least of %d repeats in turn; per step; RMS against Newmark, 1024 steps a period\n",
       torque, sweep_parameters.damping.rayleigh_stiffness, static_cast<int>(driver.eigenfrequency.size()),
       kRepeats);
   std::printf(
-      "  machine in this run: %.1f Gflop/s of multiply-adds in registers; reads %.0f, %.0f, %.0f GB/s "
-      "from 16 kB, 512 kB, 8 MB\n",
+      "  machine in this run: %.1f Gflop/s of multiply-adds in registers; reads %.0f, %.0f, %.0f GB/s from 16 kB, 512 kB, 8 MB\n",
       peak * 1e-9, load_bandwidth(16u << 10) * 1e-9, load_bandwidth(512u << 10) * 1e-9,
       load_bandwidth(8u << 20) * 1e-9);
   std::printf("  %-6s %5s %6s %8s %8s %6s %7s %8s %8s %7s %7s %6s %7s   %s\n", "", "Hz", "steps", "ns",
               "balance", "over", "RMS %", "flops", "kB", "Gflop/s", "GB/s", "limit", "mallocs",
               "its contact problem as a matrix, warm: ns, LEMKE's time over it");
-  std::vector<StaticArtifact> at_torque, at_reference;
+  std::vector<StaticResult> at_torque, at_reference;
   for (const auto contact : {ContactModel::strips, ContactModel::line}) {
     settings.fidelity.contact = sweep_parameters.fidelity.contact = contact;
     at_torque.push_back(static_transmission(driver, driven, settings, torque));
@@ -477,7 +474,7 @@ void positions_beside_calculix(const std::string& params, const std::vector<std:
                                double torque, const std::vector<double>& phases, double element) {
   const whine::StaticParameters read = whine::read_static_parameters(params);
   const std::vector<std::string> paths = whine::NamedFiles("--body", bodies).of(read.mesh);
-  const whine::BodyArtifact driving = whine::read_body(paths[0]), following = whine::read_body(paths[1]);
+  const whine::ReducedBody driving = whine::read_body(paths[0]), following = whine::read_body(paths[1]);
   for (const double phase : phases) beside_calculix(driving, following, read, torque, phase, element);
 }
 
@@ -497,9 +494,9 @@ void body(int argc, char** argv) {
   std::vector<double> phases;
   double element = kElement * 1e3;
   options
-      .add("--position", phases,
-           "mesh phases, 0 up to 1, with a pair on the line of action: the static position there beside "
-           "CalculiX, nothing else")
+      .add(
+          "--position", phases,
+          "mesh phases, 0 up to 1, with a pair on the line of action: the static position there beside CalculiX, nothing else")
       .needs(settings);
   options.add("--element", element, "mm, side of its triangles where the flanks touch, of --position")
       .needs(settings);
@@ -529,7 +526,7 @@ void body(int argc, char** argv) {
   const double load = whine::number_option("--torque", torque);
   const whine::StaticParameters read = whine::read_static_parameters(params);
   const std::vector<std::string> paths = whine::NamedFiles("--body", bodies).of(read.mesh);
-  const whine::BodyArtifact driving = whine::read_body(paths[0]), following = whine::read_body(paths[1]);
+  const whine::ReducedBody driving = whine::read_body(paths[0]), following = whine::read_body(paths[1]);
   static_position(whine::GearMeshModel(driving, following, read.mesh), read, load, kPhase, params.c_str());
   if (!sweep_params.empty())
     rolling(driving, following, read, whine::read_sweep_parameters(sweep_params), load);

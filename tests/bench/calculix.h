@@ -187,7 +187,7 @@ class CalculixPair {
     }
     std::vector<int> bore, quarter;
     for (int k = 0; k < 4; ++k)
-      quarter.push_back(point(tooth.design().held_radius() *
+      quarter.push_back(point(tooth.design().clamped_radius() *
                               Vec2(std::cos(k * std::numbers::pi / 2), std::sin(k * std::numbers::pi / 2))));
     for (int k = 0; k < 4; ++k) bore.push_back(geo::addCircleArc(quarter[k], axis, quarter[(k + 1) % 4]));
     std::vector<int> loops{geo::addCurveLoop(outer), geo::addCurveLoop(bore)};

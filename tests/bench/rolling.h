@@ -132,7 +132,7 @@ inline StepWork step_work(const RollingDynamics::StepSizes& s, int loaded, int t
 // A pair as a sweep sets it up, steady at one speed.
 class RollingRig {
  public:
-  RollingRig(const GearMeshModel& model, const StaticArtifact& statics, const SweepParameters& settings)
+  RollingRig(const GearMeshModel& model, const StaticResult& statics, const SweepParameters& settings)
       : dynamics_(model,
                   dynamic_parameters(statics, statics.mean_stiffness, settings, settings.frequency_to)),
         settings_(settings) {

@@ -47,7 +47,7 @@ struct Position {
 };
 
 // By falling root stress of the driver, the first one that touches on the line of action.
-Position position_to_compare(const whine::StaticArtifact& s, const whine::GearPair& gears) {
+Position position_to_compare(const whine::StaticResult& s, const whine::GearPair& gears) {
   std::vector<Position> all;
   for (Eigen::Index row = 0; row < s.root_stress[0].rows(); ++row)
     for (Eigen::Index pair = 0; pair < s.root_stress[0].cols(); ++pair)
@@ -64,24 +64,23 @@ Position position_to_compare(const whine::StaticArtifact& s, const whine::GearPa
   whine::fail(whine::Failure::input, "no position at which a pair touches on the line of action");
 }
 
-whine::BodyArtifact in_plane_strain(const whine::BodyArtifact& body) {
+whine::ReducedBody in_plane_strain(const whine::ReducedBody& body) {
   whine::Material material = body.material;
   material.plane_stress = false;
   return whine::reduce(whine::make_sector_mesh(body.design, body.discretisation), material, 1);
 }
 
-void compare(const whine::BodyArtifact& driver, const whine::BodyArtifact& driven,
+void compare(const whine::ReducedBody& driver, const whine::ReducedBody& driven,
              whine::StaticParameters settings, double torque) {
   using namespace whine;
   settings.mesh.corner = CornerRule();  // CalculiX leaves no tip edge out
   const std::array strained{in_plane_strain(driver), in_plane_strain(driven)};
-  const StaticArtifact s = static_transmission(strained[0], strained[1], settings, torque);
+  const StaticResult s = static_transmission(strained[0], strained[1], settings, torque);
   const GearPair gears(driver.design, driven.design, settings.mesh.centre_distance);
   const auto [row, pair] = position_to_compare(s, gears);
   const double phase = s.mesh_phase[row] + s.pair[pair];
   std::printf(
-      "  %g N m, plane strain, phase of the pair %.4f, elements of %g and %g mm, load of the pair %.1f N of "
-      "%.1f N\n",
+      "  %g N m, plane strain, phase of the pair %.4f, elements of %g and %g mm, load of the pair %.1f N of %.1f N\n",
       torque, phase, driver.discretisation.element_size * 1e3, driven.discretisation.element_size * 1e3,
       s.tooth_load(row, pair), torque / gears.gear(0).base_radius());
   if (!CalculixPair::installed()) {
@@ -110,9 +109,7 @@ void compare(const whine::BodyArtifact& driver, const whine::BodyArtifact& drive
     const double difference = ours.stress / theirs - 1;
     worst = std::max(worst, std::abs(difference));
     std::printf(
-        "    %-8s largest root stress: Whine %.2f MPa at a tangent of %.1f deg, CalculiX %.2f MPa at %.1f "
-        "deg, "
-        "difference %+.2f %%\n",
+        "    %-8s largest root stress: Whine %.2f MPa at a tangent of %.1f deg, CalculiX %.2f MPa at %.1f deg, difference %+.2f %%\n",
         settings.mesh.gear[side].c_str(), ours.stress * 1e-6, ours.angle * kDegrees, theirs * 1e-6,
         tangent_angle(gears.gear(g), peer.root_parameter[side][static_cast<size_t>(top - stress.begin())]),
         100 * difference);
@@ -126,20 +123,20 @@ void compare(const whine::BodyArtifact& driver, const whine::BodyArtifact& drive
 }
 
 // CPU of a sweep up with root stress, over that of bodies without tables; the two in turn, the least of each.
-void time_of_sweeps(const whine::BodyArtifact& driver, const whine::BodyArtifact& driven,
+void time_of_sweeps(const whine::ReducedBody& driver, const whine::ReducedBody& driven,
                     const whine::StaticParameters& settings, const whine::SweepParameters& sweeps,
                     double torque) {
   using namespace whine;
   constexpr int kTurns = 5;
-  const StaticArtifact s = static_transmission(driver, driven, settings, torque);
-  std::array<BodyArtifact, 2> plain{driver, driven};
-  for (BodyArtifact& body : plain) body.root_stress.clear();
+  const StaticResult s = static_transmission(driver, driven, settings, torque);
+  std::array<ReducedBody, 2> plain{driver, driven};
+  for (ReducedBody& body : plain) body.root_stress.clear();
   double least[2] = {1e30, 1e30};  // s
   for (int turn = 0; turn < 2 * kTurns; ++turn) {
     const bool with = turn % 2 == 0;
     const std::clock_t start = std::clock();
-    const SweepArtifact swept = sweep(with ? driver : plain[0], with ? driven : plain[1], s, s.mean_stiffness,
-                                      sweeps, Direction::up, [](long, long, const std::string&) {});
+    const SweepResult swept = sweep(with ? driver : plain[0], with ? driven : plain[1], s, s.mean_stiffness,
+                                    sweeps, Direction::up, [](long, long, const std::string&) {});
     least[turn % 2] = std::min(least[turn % 2], double(std::clock() - start) / CLOCKS_PER_SEC);
     if (with == (swept.root_stress[0].size() == 0))
       fail(Failure::numerical, "root stress where there is none");
@@ -161,7 +158,7 @@ void body(int argc, char** argv) {
   const whine::StaticParameters read = whine::read_static_parameters(params);
   const std::vector<std::string> paths = whine::NamedFiles("--body", bodies).of(read.mesh);
   std::printf("%s\n", params.c_str());
-  const whine::BodyArtifact driver = whine::read_body(paths[0]), driven = whine::read_body(paths[1]);
+  const whine::ReducedBody driver = whine::read_body(paths[0]), driven = whine::read_body(paths[1]);
   if (!sweep_params.empty())
     time_of_sweeps(driver, driven, read, whine::read_sweep_parameters(sweep_params), load);
   compare(driver, driven, read, load);

@@ -36,7 +36,7 @@
 #include "report/figures.h"
 #include "report/gnuplot.h"
 #include "report/plot_file.h"
-#include "signal/branch_end.h"
+#include "signal/jumps.h"
 #include "signal/response.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
@@ -110,7 +110,7 @@ double cpu_seconds(std::clock_t since) {
 // A pair integrated with one setting.
 class Rig {
  public:
-  Rig(const GearMeshModel& model, const DynamicParameters& parameters, const StaticArtifact& statics,
+  Rig(const GearMeshModel& model, const DynamicParameters& parameters, const StaticResult& statics,
       const Setting& setting)
       : model_(model), statics_(statics), dynamics_(model, parameters), setting_(setting) {
     set_zone();
@@ -151,7 +151,7 @@ class Rig {
     const RollingDynamics::State start = state;
     for (;;) {
       dynamics_.set_speed(mesh_frequency, steps_at(mesh_frequency));
-      if (auto orbit = find_periodic_orbit(dynamics_, state, setting_.periodicity, setting_.steady_state))
+      if (auto orbit = iterate_to_orbit(dynamics_, state, setting_.periodicity, setting_.steady_state))
         return *orbit;
       if (++widened_ > 8) fail(Failure::numerical, "at ", mesh_frequency, " Hz contact leaves the flanks");
       set_zone();
@@ -164,7 +164,7 @@ class Rig {
     const RollingDynamics::Period& period = orbit.record[0];
     outcome.rms[motion] = orbit.rms;
     outcome.mean[motion] = period.transmission_error.mean();
-    outcome.peak[motion] = period.pair_load.maxCoeff();
+    outcome.peak[motion] = period.tooth_pair_load.maxCoeff();
   }
 
   // Hz: where the branch ends that rest leads to at a speed; below 0 if it does not within the limits. visit: of the motions
@@ -216,7 +216,7 @@ class Rig {
   }
 
   const GearMeshModel& model_;
-  const StaticArtifact& statics_;
+  const StaticResult& statics_;
   RollingDynamics dynamics_;
   Setting setting_;
   int widened_ = 0;
@@ -225,7 +225,7 @@ class Rig {
 // The pair and its load; reduces a body anew for each discretisation and keeps it.
 class Bench {
  public:
-  Bench(BodyArtifact driver, BodyArtifact driven, StaticParameters statics, SweepParameters settings,
+  Bench(ReducedBody driver, ReducedBody driven, StaticParameters statics, SweepParameters settings,
         double torque)
       : driver_(std::move(driver)),
         driven_(std::move(driven)),
@@ -251,7 +251,7 @@ class Bench {
     const Bodies& bodies = reduced(setting);
     StaticParameters settings = statics_;
     settings.contact.strips = setting.strips;
-    const StaticArtifact statics = static_transmission(bodies.driver, bodies.driven, settings, torque_);
+    const StaticResult statics = static_transmission(bodies.driver, bodies.driven, settings, torque_);
     DynamicParameters parameters;
     parameters.torque = torque_;
     parameters.inertia = {settings_.inertia.begin(), settings_.inertia.end()};
@@ -276,15 +276,15 @@ class Bench {
     outcome.seconds = least;
     outcome.reduction = bodies.seconds;
     const auto found = [](double value) { return value < 0 ? "none" : text(value); };
-    tell("work-precision: ", name, ": ", least, " s; RMS at 2400 Hz ", found(outcome.rms[kUpper2400]),
-         " and ", found(outcome.rms[kLower2400]), " m, branches end at ", found(outcome.down), " and ",
-         found(outcome.up), " Hz");
+    log_line("work-precision: ", name, ": ", least, " s; RMS at 2400 Hz ", found(outcome.rms[kUpper2400]),
+             " and ", found(outcome.rms[kLower2400]), " m, branches end at ", found(outcome.down), " and ",
+             found(outcome.up), " Hz");
     return outcome;
   }
 
  private:
   struct Bodies {
-    BodyArtifact driver, driven;
+    ReducedBody driver, driven;
     double seconds = 0;  // of CPU, mesh and reduction
   };
 
@@ -292,7 +292,7 @@ class Bench {
     const auto key = std::make_tuple(setting.element, setting.modes, setting.flank_points);
     const auto found = bodies_.find(key);
     if (found != bodies_.end()) return found->second;
-    const auto again = [&](const BodyArtifact& body) {
+    const auto again = [&](const ReducedBody& body) {
       BodyDiscretisation discretisation = body.discretisation;
       discretisation.element_size = setting.element;
       discretisation.modes = setting.modes;
@@ -304,12 +304,12 @@ class Bench {
     bodies.driver = again(driver_);
     bodies.driven = driver_.compliance == driven_.compliance ? bodies.driver : again(driven_);
     bodies.seconds = cpu_seconds(start);
-    tell("work-precision: bodies with ", setting.modes, " modes, ", setting.element * 1e3, " mm, ",
-         setting.flank_points, " points: ", bodies.seconds, " s");
+    log_line("work-precision: bodies with ", setting.modes, " modes, ", setting.element * 1e3, " mm, ",
+             setting.flank_points, " points: ", bodies.seconds, " s");
     return bodies_.emplace(key, std::move(bodies)).first->second;
   }
 
-  BodyArtifact driver_, driven_;
+  ReducedBody driver_, driven_;
   StaticParameters statics_;
   SweepParameters settings_;
   double torque_;
@@ -369,8 +369,8 @@ std::vector<Axis> axes(const Setting& usual) {
   vary("periodicity", "change of the state per period", {1e-4, 1e-5, 1e-6, 1e-7}, 1e-9,
        [](Setting& s, double change) { s.periodicity = change; });
   // Not "rigid": nothing but the bearings would damp it, and it has no steady motion at most of these speeds.
-  constexpr BodyModel kLevels[] = {BodyModel::quasi_static, BodyModel::lagged, BodyModel::modal};
-  vary("body", "0 quasi-static, 1 lagged", {0, 1}, 2,
+  constexpr BodyModel kLevels[] = {BodyModel::quasi_static, BodyModel::relaxed, BodyModel::modal};
+  vary("body", "0 quasi-static, 1 relaxed", {0, 1}, 2,
        [&](Setting& s, double level) { s.body = kLevels[static_cast<int>(level)]; });
   all.back().against = "modal";
   vary("contact", "0 line", {0}, 1,
@@ -445,11 +445,8 @@ void body(int argc, char** argv) {
   Figure figure;
   figure.title = text("Error against CPU time, ", torque, " N m, η = ", damping, " s");
   figure.notes = {
-      "one choice varied at a time about the scene's settings (ring), against its finest; tooth loads and "
-      "transmission error: worst of five steady motions",
-      "3300 and 1350 Hz, 2400 Hz on both branches, 2000 Hz on the upper one; jumps: ends of the branches; "
-      "CPU of the integration, for modes, "
-      "flank table and elements with mesh and reduction"};
+      "one choice varied at a time about the scene's settings (ring), against its finest; tooth loads and transmission error: worst of five steady motions",
+      "3300 and 1350 Hz, 2400 Hz on both branches, 2000 Hz on the upper one; jumps: ends of the branches; CPU of the integration, for modes, flank table and elements with mesh and reduction"};
   std::string labels;
   FigureBlock circles{"scene", columns("axis"), {}};
   std::vector<Axis> choices = axes(usual);
@@ -499,7 +496,7 @@ void body(int argc, char** argv) {
   files.push_back({output + ".svg", draw(figure, data.path(), recipe, Picture::svg)});
   files.push_back({output + ".png", draw(figure, data.path(), recipe, Picture::png)});
   publish_all(files);
-  tell("work-precision -> ", output, ".{tsv,svg,png}");
+  log_line("work-precision -> ", output, ".{tsv,svg,png}");
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 
 #include "base/error.h"
 #include "file_of.h"
-#include "io/rexs.h"
-#include "io/rexs_scene.h"
+#include "io/rexs/rexs.h"
+#include "io/rexs/scene.h"
 #include "io/scene.h"
 
 namespace {

@@ -350,8 +350,7 @@ int main(int argc, char** argv) {
     none += rejected[kind];
   }
   std::printf(
-      "%ld contact problems, seed %u: %ld with a certificate (%ld by Lawson and Hanson's method), %ld "
-      "rejected, %ld wrong, %ld rejected without need\n",
+      "%ld contact problems, seed %u: %ld with a certificate (%ld by Lawson and Hanson's method), %ld rejected, %ld wrong, %ld rejected without need\n",
       all + none, seed, all, fallbacks, none, wrong, needless);
   return wrong + needless > 0;
 }

@@ -1,0 +1,104 @@
+#include "io/compatibility.h"
+
+#include <filesystem>
+
+#include "base/error.h"
+#include "io/body_codec.h"
+#include "io/keys.h"
+#include "io/provenance.h"
+#include "io/publish.h"
+
+namespace whine {
+namespace {
+
+const std::string kRecord = "/params/scene.txt";
+
+}  // namespace
+
+void require_mesh(const SectorGrid& mesh, const BodyParameters& settings, const std::string& path) {
+  SceneParameters found, wanted;
+  found.design = mesh.design;
+  found.body = mesh.discretisation;
+  wanted.design = settings.design;
+  wanted.body = settings.discretisation;
+  found.body.modes = wanted.body.modes;
+  for (const KeyGroup part : {KeyGroup::design, KeyGroup::bore, KeyGroup::rim, KeyGroup::rim_support,
+                              KeyGroup::crack, KeyGroup::body}) {
+    const auto have = parameters_of(found, part), want = parameters_of(wanted, part);
+    for (std::size_t i = 0; i < want.size(); ++i) {
+      if (have[i].value == want[i].value) continue;
+      const auto shown = [](const Parameter& parameter) {
+        return std::visit([](const auto& value) { return text(value); }, parameter.value);
+      };
+      fail(Failure::input, path, ": is the mesh of another gear: its ", want[i].name, " is ", shown(have[i]),
+           ", the stage parameters of the scene say ", shown(want[i]),
+           want[i].units == "1" ? "" : " " + want[i].units, "; ", rebuild_advice(path));
+    }
+  }
+}
+
+void require_body(const ReducedBody& body, const std::string& hash, const std::string& role,
+                  const std::string& path) {
+  const std::string found = body_hash(body_parameters({body.design, body.material, body.discretisation}));
+  if (hash.empty() || found == hash) return;
+  fail(Failure::input, path, ": is the body ", found, ", but the ", role, " of this scene is ", hash,
+       ": it is of other gear values, or driver and driven are swapped; give out/bodies/", hash,
+       "/body.h5 (make out/bodies/", hash, "/body.h5)");
+}
+
+std::vector<ReducedBody> read_bodies(const NamedFiles& files, const SystemStaticParameters& settings) {
+  std::vector<ReducedBody> out;
+  const std::vector<std::string> paths = files.of(settings.gears(), "system");
+  out.reserve(paths.size());
+  for (size_t g = 0; g < paths.size(); ++g) {
+    out.push_back(read_body(paths[g]));
+    require_body(out.back(), settings.body[g].second, settings.body[g].first, paths[g]);
+  }
+  return out;
+}
+
+void require_contact(const StaticResult& statics, const Fidelity& wanted, const std::string& path) {
+  if (statics.fidelity.contact == wanted.contact) return;
+  fail(Failure::input, path, ": was made with contact = \"", statics.fidelity.contact,
+       "\", the parameters of this stage say \"", wanted.contact, "\"; ", rebuild_advice(path));
+}
+
+std::string parameters_for(const Scene& scene, const std::string& path) {
+  const std::filesystem::path place(path);
+  const std::string name = place.filename().string();
+  if (name == "static.toml") return static_parameters(scene);
+  if (name == "impact.toml") return impact_parameters(scene);
+  if (name == "sweep.toml") return sweep_parameters(scene);
+  if (name == "map.toml") return map_parameters(scene);
+  if (name == "lumped.toml" || name == "lumped_map.toml")
+    return lumped_parameters(scene, name == "lumped.toml");
+  for (const SceneGear& gear : scene.gears) {
+    const std::string settings = body_parameters(scene, gear.name),
+                      folder = place.parent_path().filename().string();
+    if (name == "body.toml" && (folder == body_hash(settings) || folder == gear.name)) return settings;
+  }
+  return "";
+}
+
+std::string recorded_scene(const std::string& home) {
+  const std::string path = home + kRecord;
+  if (!std::filesystem::is_regular_file(path)) return "";
+  const std::string line = read_bytes(path);
+  return line.substr(0, line.find('\n'));
+}
+
+void record_scene(const std::string& home, const std::string& scene) {
+  namespace fs = std::filesystem;
+  std::error_code gone;
+  const std::string before = recorded_scene(home);
+  if (!before.empty() && fs::is_regular_file(before, gone) && !fs::equivalent(before, scene, gone)) {
+    if (read_bytes(before) != read_bytes(scene))
+      fail(Failure::input, scene, ": ", home, " is of ", before,
+           ", which says otherwise; rename one of the two, or delete ", home);
+    return;  // a copy: the folder stays that of the first
+  }
+  const fs::path path = fs::absolute(scene).lexically_normal().lexically_relative(fs::current_path());
+  publish_if_changed(home + kRecord, path.generic_string() + "\n");
+}
+
+}  // namespace whine

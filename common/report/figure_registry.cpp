@@ -1,0 +1,493 @@
+#include "report/figure_registry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "io/body_codec.h"
+#include "io/branch_codec.h"
+#include "io/error_budget_codec.h"
+#include "io/fold_curves_codec.h"
+#include "io/harris_map_codec.h"
+#include "io/impact_codec.h"
+#include "io/jump_map_codec.h"
+#include "io/mesh_codec.h"
+#include "io/modes_codec.h"
+#include "io/provenance.h"
+#include "io/response_codec.h"
+#include "io/runup_codec.h"
+#include "io/scene_words.h"
+#include "io/static_codec.h"
+#include "io/study_codec.h"
+#include "io/sweep_codec.h"
+#include "io/system_branch_codec.h"
+#include "io/system_impact_codec.h"
+#include "io/system_static_codec.h"
+#include "io/system_sweep_codec.h"
+#include "report/campbell_figure.h"
+#include "report/compare_figures.h"
+#include "report/efficiency_figure.h"
+#include "report/flank_pressure_figure.h"
+#include "report/fold_curve_figure.h"
+#include "report/gear_figures.h"
+#include "report/harris_figure.h"
+#include "report/jump_map_figures.h"
+#include "report/modes_figure.h"
+#include "report/motion_figures.h"
+#include "report/multiplier_figure.h"
+#include "report/order_figure.h"
+#include "report/response_figures.h"
+#include "report/root_stress_figure.h"
+#include "report/runup_figure.h"
+#include "report/sensitivity_figure.h"
+#include "report/static_figures.h"
+#include "report/study_figure.h"
+#include "report/system_branch_figure.h"
+#include "report/system_figures.h"
+#include "report/system_impact_figure.h"
+#include "report/system_picture.h"
+#include "report/system_sweep_figure.h"
+#include "signal/response.h"
+#include "studies/sweep.h"
+
+namespace whine {
+namespace {
+
+using Paths = std::vector<std::string>;
+using Frequencies = std::vector<double>;
+using Drawings = std::map<std::string, Drawing>;
+
+template <class Artifact>
+std::vector<Artifact> read_all(const Paths& inputs, Artifact (*read)(const std::string&)) {
+  std::vector<Artifact> artifacts;
+  for (const std::string& path : inputs) artifacts.push_back(read(path));
+  return artifacts;
+}
+
+// Sweeps of one kind among the inputs, with what other inputs and their scenes tell of them.
+template <class Sweep>
+struct Captioned {
+  std::vector<Sweep> sweeps;
+  CaptionSources background;
+
+  void add(const std::string& path, Sweep sweep, const LumpedParameters& lumped) {
+    sweeps.push_back(std::move(sweep));
+    background.scenes.push_back(scene_words(path));
+    background.lumped.push_back(lumped);
+  }
+};
+
+bool is_a(const char* schema, const std::string& path) {
+  return read_origin(path).schema == schema;
+}
+
+// A sweep.h5 beside the response.h5 of its motions says what they leave of the backlash; else its motions are drawn themselves.
+Captioned<ResponseResult> read_responses(const Paths& inputs) {
+  Captioned<ResponseResult> captions;
+  struct OfSweep {
+    std::string path;
+    ResponseResult response;
+    LumpedParameters lumped;
+    Eigen::VectorXd left;  // (speed) m
+  };
+  std::vector<OfSweep> sweeps;
+  for (const std::string& path : inputs) {
+    if (is_a("whine/impact", path)) {
+      captions.background.impacts.push_back(read_impact(path));
+    } else if (is_a("whine/branch", path)) {
+      captions.background.branches.push_back(read_branch(path));
+    } else if (is_a("whine/sweep", path)) {
+      const SweepResult sweep = read_sweep(path);
+      constexpr double kNoFlanks = std::numeric_limits<double>::infinity();  // of one degree of freedom
+      sweeps.push_back({path, response(sweep), sweep.lumped,
+                        elastic(sweep) ? backlash_left(sweep)
+                                       : Eigen::VectorXd::Constant(sweep.mesh_frequency.size(), kNoFlanks)});
+    } else {
+      captions.add(path, read_response(path), {});
+    }
+  }
+  auto& backlash = captions.background.backlash;
+  backlash.resize(captions.sweeps.size());
+  const auto given = static_cast<std::ptrdiff_t>(captions.sweeps.size());
+  bool known = false;
+  for (const OfSweep& sweep : sweeps) {
+    known = known || elastic(sweep.response);
+    const auto end = captions.sweeps.begin() + given;
+    const auto same = std::find_if(captions.sweeps.begin(), end, [&](const ResponseResult& r) {
+      return elastic(r) && same_motions(r, sweep.response);
+    });
+    if (same == end) {
+      captions.add(sweep.path, sweep.response, sweep.lumped);
+      backlash.push_back(sweep.left);
+    } else if (auto& left = backlash[static_cast<size_t>(same - captions.sweeps.begin())]; left.size() > 0) {
+      fail(Failure::input, sweep.path, ": a sweep.h5 of these motions is given twice; give each once");
+    } else {
+      left = sweep.left;
+    }
+  }
+  if (!known) backlash.clear();
+  return captions;
+}
+
+Captioned<SweepResult> read_sweeps(const Paths& inputs) {
+  Captioned<SweepResult> captions;
+  for (const std::string& path : inputs) {
+    if (is_a("whine/impact", path)) {
+      captions.background.impacts.push_back(read_impact(path));
+    } else {
+      const SweepResult sweep = read_sweep(path);
+      captions.add(path, sweep, sweep.lumped);
+    }
+  }
+  return captions;
+}
+
+Figure draw_responses(const Paths& inputs, const Frequencies&) {
+  const auto captions = read_responses(inputs);
+  return response_figure(captions.sweeps, captions.background);
+}
+
+Figure draw_root_stress(const Paths& inputs, const Frequencies&) {
+  std::vector<StaticResult> statics;
+  std::vector<ResponseResult> sweeps;
+  std::vector<BranchResult> branches;
+  for (const std::string& path : inputs)
+    if (is_a("whine/static", path))
+      statics.push_back(read_static(path));
+    else if (is_a("whine/branch", path))
+      branches.push_back(read_branch(path));
+    else
+      sweeps.push_back(read_response(path));
+  if (statics.size() != 1)
+    fail(Failure::usage, "root-stress needs one static.h5; ", statics.size(), " given");
+  return root_stress_figure(statics[0], sweeps, branches);
+}
+
+Figure draw_efficiency(const Paths& inputs, const Frequencies&) {
+  std::vector<StaticResult> statics;
+  std::vector<ResponseResult> sweeps;
+  std::vector<SweepBacklash> backlash;
+  for (const std::string& path : inputs)
+    if (is_a("whine/static", path)) {
+      statics.push_back(read_static(path));
+    } else if (is_a("whine/sweep", path)) {
+      const SweepResult sweep = read_sweep(path);
+      backlash.push_back({sweep.torque, sweep.direction, backlash_left(sweep)});
+    } else {
+      sweeps.push_back(read_response(path));
+    }
+  return efficiency_figure(statics, sweeps, backlash);
+}
+
+Drawings drawings_at_rest() {
+  return {
+      {"fig01",
+       {"finite element mesh", "mesh.h5 of driver and driven gear, static.h5", 3, 0,
+        [](const Paths& in, const Frequencies&) {
+          return mesh_figure(read_mesh(in[0]), read_mesh(in[1]), read_static(in[2]));
+        }}},
+      {"fig03",
+       {"contact zone: candidate pairs, inner and outer region, pressure",
+        "mesh.h5 of driver and driven gear, body.h5 of driver and driven gear, static.h5", 5, 0,
+        [](const Paths& in, const Frequencies&) {
+          const StaticResult pair = read_static(in[4]);
+          return contact_zone_figure(read_mesh(in[0]), read_mesh(in[1]), pair,
+                                     contact_zone(read_body(in[2]), read_body(in[3]), pair));
+        }}},
+      {"fig12",
+       {"static transmission error and its spectrum", "static.h5, one per torque", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          return transmission_error_figure(read_all(in, read_static));
+        }}},
+      {"fig13",
+       {"mesh stiffness and its spectrum", "what fig12 takes", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          return mesh_stiffness_figure(read_all(in, read_static));
+        }}},
+      {"load-sharing",
+       {"the share of the load that a tooth pair carries on its way through the mesh", "what fig12 takes", 0,
+        0,
+        [](const Paths& in, const Frequencies&) { return load_sharing_figure(read_all(in, read_static)); }}},
+      {"profile",
+       {"profile charts of the driving flanks, as an inspection sheet shows them", "static.h5", 1, 0,
+        [](const Paths& in, const Frequencies&) { return profile_figure(read_static(in[0])); }}},
+      {"error-budget",
+       {"what refining each discretisation alone changes, and what other choices change", "error_budget.h5",
+        1, 0,
+        [](const Paths& in, const Frequencies&) { return error_budget_figure(read_error_budget(in[0])); }}},
+      {"crack",
+       {"the mark of a cracked tooth in the static transmission error, its orders, and the root stress of the teeth about it",
+        "static.h5 of a pair with a crack", 1, 0,
+        [](const Paths& in, const Frequencies&) { return crack_figure(read_static(in[0])); }}},
+      {"efficiency",
+       {"losses and efficiency over speed, moments of friction over a mesh period",
+        "static.h5, then response.h5 of the sweeps up and down, of each torque, of a scene with [friction]; their sweep.h5, for the speeds beyond the backlash",
+        0, 0, draw_efficiency}},
+      {"root-stress",
+       {"root stress over the mesh cycle and over speed, dynamic factors beside K_v",
+        "static.h5, response.h5 of the sweeps up and down, all of one torque; branch.h5, for orbits that no sweep finds",
+        0, 0, draw_root_stress}},
+      {"flank-pressure",
+       {"flank pressure over roll angle and speed, loads over tip edges",
+        "static.h5, response.h5 of the sweeps up and down, all of one torque", 3, 0,
+        [](const Paths& in, const Frequencies&) {
+          return flank_pressure_figure(read_static(in[0]), {read_response(in[1]), read_response(in[2])});
+        }}},
+      {"sidebands",
+       {"teeth that differ: transmission error over the hunting period, shaft orders and sidebands",
+        "static.h5 and response.h5 of one torque", 2, 0,
+        [](const Paths& in, const Frequencies&) {
+          return sidebands_figure(read_static(in[0]), read_response(in[1]));
+        }}},
+  };
+}
+
+template <class Artifact>
+std::vector<OfDesign<Artifact>> read_designs(const Paths& inputs, Artifact (*read)(const std::string&)) {
+  std::vector<OfDesign<Artifact>> designs;
+  for (const std::string& path : inputs) designs.push_back({design_name(path), read(path)});
+  return designs;
+}
+
+Drawings drawings_of_designs() {
+  return {
+      {"compare-rest",
+       {"designs at rest: transmission error, mesh stiffness, harmonics",
+        "static.h5 of each scene, at one torque", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          return compared_rest_figure(read_designs(in, read_static));
+        }}},
+      {"compare-motion",
+       {"designs in motion: RMS, first order and tooth load against speed",
+        "response.h5 of sweeps up and down of each scene, at one torque", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          return compared_motion_figure(read_designs(in, read_response));
+        }}},
+  };
+}
+
+Figure draw_runup(const Paths& inputs, const Frequencies&) {
+  std::vector<RunupResult> runs;
+  std::vector<ResponseResult> sweeps;
+  for (const std::string& path : inputs) {
+    if (is_a("whine/runup", path))
+      runs.push_back(read_runup(path));
+    else
+      sweeps.push_back(read_response(path));
+  }
+  if (runs.size() != 1) fail(Failure::usage, "runup needs one runup.h5; ", runs.size(), " given");
+  return runup_figure(runs[0], sweeps);
+}
+
+Drawings drawings_of_motions() {
+  return {
+      {"runup",
+       {"a run-up: spectrogram of the mesh force, orders of the transmission error, tooth loads",
+        "runup.h5; response.h5 of sweeps at the same torque, to compare", 0, 0, draw_runup}},
+      {"order-cuts",
+       {"order cuts: the first orders of the dynamic transmission error against speed, both ways",
+        "response.h5 of sweeps up and down of one torque", 0, 0,
+        [](const Paths& in, const Frequencies&) { return order_figure(read_all(in, read_response)); }}},
+      {"fig05",
+       {"RMS of the dynamic transmission error against mesh frequency",
+        "response.h5 of sweeps up and down, any torques, or their sweep.h5 (lumped models: with mass and damping ratio), or both, for the speeds beyond the backlash; a panel for each set of choices; impact.h5 of the same torques, for damping ratios; branch.h5, for orbits, stable or not, and folds",
+        0, 0, draw_responses}},
+      {"fig08",
+       {"dynamic transmission error over time and its spectrum, both branches at one speed",
+        "sweep.h5 of sweeps up and down of one torque, any choices; impact.h5 of that torque, for damping ratios",
+        0, 1,
+        [](const Paths& in, const Frequencies& f) {
+          const auto captions = read_sweeps(in);
+          return vibration_figure(captions.sweeps, f[0], captions.background);
+        }}},
+      {"fig10",
+       {"tooth loads over the mesh phase, both branches at one speed", "what fig08 takes", 0, 1,
+        [](const Paths& in, const Frequencies& f) {
+          const auto captions = read_sweeps(in);
+          return tooth_load_figure(captions.sweeps, f[0], captions.background);
+        }}},
+      {"fig15",
+       {"net mesh force of lumped models at one or two speeds", "sweep.h5 of lumped models at one torque", 0,
+        2,
+        [](const Paths& in, const Frequencies& f) {
+          return mesh_force_figure(read_all(in, read_sweep), f);
+        }}},
+      {"fig16", {"RMS and mean of the dynamic transmission error", "what fig05 takes", 0, 0, draw_responses}},
+      {"waterfall",
+       {"spectra of the dynamic transmission error against mesh frequency, and its first orders",
+        "sweep.h5 of a sweep, or of those up and down of one torque", 0, 0,
+        [](const Paths& in, const Frequencies&) { return waterfall_figure(read_all(in, read_sweep)); }}},
+      {"tooth-loads",
+       {"tooth loads against mesh frequency, and over the mesh period at the speed with the largest RMS",
+        "sweep.h5 of sweeps up and down of one torque; impact.h5 of that torque, for damping ratios", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          const auto captions = read_sweeps(in);
+          return dynamic_load_figure(captions.sweeps, captions.background);
+        }}},
+      {"bearing-forces",
+       {"forces on elastic bearings against mesh frequency",
+        "response.h5 of sweeps up and down of one torque; impact.h5 of that torque, for damping ratios", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          const auto captions = read_responses(in);
+          return bearing_force_figure(captions.sweeps, captions.background);
+        }}},
+  };
+}
+
+std::pair<std::vector<FoldCurvesResult>, std::vector<JumpMapResult>> folds_and_maps(const Paths& in) {
+  std::pair<std::vector<FoldCurvesResult>, std::vector<JumpMapResult>> read;
+  for (const std::string& path : in)
+    if (is_a("whine/fold_curves", path))
+      read.first.push_back(read_fold_curves(path));
+    else
+      read.second.push_back(read_jump_map(path));
+  return read;
+}
+
+Drawings drawings_of_maps() {
+  return {
+      {"harris-map",
+       {"peak-to-peak transmission error against torque and tip relief, and the Harris cusp", "harris_map.h5",
+        1, 0, [](const Paths& in, const Frequencies&) { return harris_map_figure(read_harris_map(in[0])); }}},
+      {"jump-map",
+       {"two branches, contact loss and tooth loads against torque, damping and corner rule",
+        "jump_map.h5, one per torque and corner rule; fold_curves.h5 over damping, for the cusps", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          const auto [curves, maps] = folds_and_maps(in);
+          return jump_map_figure(maps, curves);
+        }}},
+      {"multipliers",
+       {"Floquet multipliers of a branch in the complex plane, and their largest modulus", "branch.h5", 1, 0,
+        [](const Paths& in, const Frequencies&) { return multiplier_figure(read_branch(in[0])); }}},
+      {"fold-curves",
+       {"mesh frequencies of folds against damping, torque or tip relief, with their cusps",
+        "fold_curves.h5 of one quantity, one per torque; jump_map.h5 beside them, for the jumps of sweeps", 0,
+        0,
+        [](const Paths& in, const Frequencies&) {
+          const auto [curves, maps] = folds_and_maps(in);
+          return fold_curve_figure(curves, maps);
+        }}},
+      {"jump-map-lumped",
+       {"the same of lumped models, and in how much they agree with the elastic pair",
+        "jump_map.h5 of lumped models and of the elastic pair, one per torque and model or corner rule", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          return lumped_jump_map_figure(read_all(in, read_jump_map));
+        }}},
+      {"sensitivity",
+       {"what each variant of a scene changes", "jump_map.h5 of the scene, then of each variant", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          std::vector<JumpMapResult> maps = read_all(in, read_jump_map);
+          const JumpMapResult base = maps.front();
+          maps.erase(maps.begin());
+          return sensitivity_figure(base, maps);
+        }}},
+      {"study",
+       {"response quantities of the variants of a study against the keys that vary", "study.h5", 1, 0,
+        [](const Paths& in, const Frequencies&) { return study_figure(read_study_artifact(in[0])); }}},
+  };
+}
+
+Drawings drawings_of_systems() {
+  return {
+      {"modes",
+       {"natural frequencies of a system by type, and its mode shapes", "modes.h5", 1, 0,
+        [](const Paths& in, const Frequencies&) { return modes_figure(read_modes(in[0])); }}},
+      {"campbell",
+       {"natural frequencies of a system and the harmonics of the mesh frequency that excite them",
+        "modes.h5", 1, 0,
+        [](const Paths& in, const Frequencies&) { return campbell_figure(read_modes(in[0])); }}},
+      {"system-static",
+       {"a system at rest: transmission errors, forces of meshes, forces on bearings", "system_static.h5", 1,
+        0,
+        [](const Paths& in, const Frequencies&) { return system_static_figure(read_system_static(in[0])); }}},
+      {"system-load-sharing",
+       {"how the planets of a system share the load over the mesh period, and the loads of its tooth pairs",
+        "system_static.h5", 1, 0,
+        [](const Paths& in, const Frequencies&) {
+          return system_load_sharing_figure(read_system_static(in[0]));
+        }}},
+      {"system",
+       {"a system as it stands: gears at their places, teeth in mesh, senses of rotation",
+        "system_static.h5, or of rigid gears modes.h5", 1, 0,
+        [](const Paths& in, const Frequencies&) {
+          return is_a("whine/modes", in[0]) ? system_picture(read_modes(in[0]))
+                                            : system_picture(read_system_static(in[0]));
+        }}},
+      {"system-sweep",
+       {"a system over its speeds: vibration and contact loss of meshes, forces on bearings",
+        "system_sweep.h5 of one system, rising, falling or both", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          return system_sweep_figure(read_all(in, read_system_sweep));
+        }}},
+      {"system-ringdown",
+       {"damping ratios and natural frequencies of the modes of a system by ring-down", "system_impact.h5", 1,
+        0,
+        [](const Paths& in, const Frequencies&) { return system_impact_figure(read_system_impact(in[0])); }}},
+      {"system-branch",
+       {"the branch of periodic motions of a system, stable and unstable, over its sweeps",
+        "system_branch.h5, and system_sweep.h5 of the same system if you like", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          const Paths sweeps(in.begin() + 1, in.end());
+          return system_branch_figure(read_system_branch(in[0]), read_all(sweeps, read_system_sweep));
+        }}},
+  };
+}
+
+// Scenes that all of a figure shows: not those that stand at their panels, nor variants of the first.
+Paths scenes_of(const std::string& name, const Paths& inputs, const Figure& figure) {
+  Paths scenes;
+  if (name.starts_with("compare-")) return scenes;  // its curves bear the names of theirs
+  for (const std::string& path : inputs) {
+    const std::string words = scene_words(path);
+    bool at_panel = words.empty() || (name == "sensitivity" && !scenes.empty());
+    for (const std::string& note : figure.notes) at_panel = at_panel || note.find(words) != std::string::npos;
+    if (!at_panel && std::find(scenes.begin(), scenes.end(), words) == scenes.end()) scenes.push_back(words);
+  }
+  return scenes;
+}
+
+}  // namespace
+
+const std::map<std::string, Drawing>& drawings() {
+  static const std::map<std::string, Drawing> all = [] {
+    Drawings drawings = drawings_at_rest();
+    drawings.merge(drawings_of_motions());
+    drawings.merge(drawings_of_designs());
+    drawings.merge(drawings_of_maps());
+    drawings.merge(drawings_of_systems());
+    return drawings;
+  }();
+  return all;
+}
+
+std::string figure_names() {
+  std::string names;
+  for (const auto& [name, drawing] : drawings()) names += name + ", ";
+  return names;
+}
+
+Figure figure_of(const std::string& name, const Paths& inputs, const Frequencies& mesh_frequencies,
+                 const std::string& others) {
+  const auto found = drawings().find(name);
+  if (found == drawings().end())
+    fail(Failure::usage, "unknown figure '", name, "'; known are ", figure_names() + others);
+  const Drawing& drawing = found->second;
+  if (drawing.count != 0 && inputs.size() != drawing.count)
+    fail(Failure::usage, name, " needs ", drawing.count, " inputs, ", drawing.inputs, "; ", inputs.size(),
+         " given");
+  if (drawing.frequencies == 0 && !mesh_frequencies.empty())
+    fail(Failure::usage, name, " takes no --mesh-frequency: it is not of single speeds");
+  if (drawing.frequencies > 0 && (mesh_frequencies.empty() || mesh_frequencies.size() > drawing.frequencies))
+    fail(Failure::usage, name, " needs --mesh-frequency, in Hz, ",
+         drawing.frequencies == 1 ? "one" : "one or two; two as in 2200,2150", "; ", mesh_frequencies.size(),
+         " given");
+  for (double f : mesh_frequencies)
+    if (!(f > 0) || !std::isfinite(f))
+      fail(Failure::usage, name, ": --mesh-frequency ", f, "; it is in Hz, above 0");
+  Figure figure = drawing.draw(inputs, mesh_frequencies);
+  figure.scenes = scenes_of(name, inputs, figure);
+  return figure;
+}
+
+}  // namespace whine

@@ -1,0 +1,51 @@
+// What refining, and what choosing another model, changes in the static answer.
+#pragma once
+#include <Eigen/Core>
+#include <string>
+
+#include "base/matrix.h"
+#include "model/stages.h"
+
+namespace whine {
+
+// What changing one thing alone changes in the static answer.
+struct StaticChanges {
+  std::string entry;                      // names of the entries, separated by ", "
+  Eigen::VectorXd mean_stiffness_change;  // (entry) 1, relative
+  Eigen::VectorXd peak_to_peak_change;    // (entry) 1, relative, of the transmission error
+  // (entry) 1, relative, of the largest pressure inside a flank; empty: not known, or no contact stays inside
+  Eigen::VectorXd pressure_change;
+  MatrixRM harmonic_change;  // (entry, harmonic 1..5) 1, of the transmission error, over its first harmonic
+  // (entry) 1, relative, of the largest root stress of both gears: the change that is larger; empty: not known
+  Eigen::VectorXd root_stress_change = {};
+};
+
+// Largest root stress at rest, read from meshes with elements of several sizes on the roots; from coarse, those of the result, to fine.
+struct RootRefinement {
+  Eigen::VectorXd element_size;  // (level) m, on the root of the driver; empty: not known
+  MatrixRM stress;               // (level, gear) Pa
+};
+
+// Of the stress: smaller changes go with where the elements lie, and have no order worth a word.
+inline constexpr double kOrderlessChange = 2e-4;
+
+// What refining changes, as the error of its elements would: c h^p leaves change(k) / change(k + 1) = (h_k / h_(k+1))^p.
+struct RootConvergence {
+  MatrixRM change;  // (level - 1, gear) 1: of the stress, from one level to the next, over that of the last
+  MatrixRM order;   // (level - 2, gear) 1: p; NaN where a change is 0
+};
+// Both without rows for fewer than two levels.
+RootConvergence convergence(const RootRefinement& root);
+// 1: order(k, gear) where both changes that it is of exceed kOrderlessChange; else NaN: such changes go with where the elements lie.
+double resolved_order(const RootConvergence& root, Eigen::Index k, Eigen::Index gear);
+
+// error_budget.h5
+struct ErrorBudgetResult : GearPairParameters {
+  double torque = 0;         // N m on the driver
+  StaticChanges refinement;  // discretisations: their changes are errors and add up
+  StaticChanges choice;      // models that could be chosen instead: for information, no errors and in no sum
+  std::string choice_missing;  // which of them could not be computed, and why; "" if all were
+  RootRefinement root;         // elements on the roots once, half, a quarter and an eighth as large
+};
+
+}  // namespace whine

@@ -1,0 +1,22 @@
+// What one variant of a study answers.
+#pragma once
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "base/matrix.h"
+#include "model/stages.h"
+
+namespace whine {
+
+// variants/ab/ab12....h5 of a study: the response quantities of one variant.
+struct VariantResult : MotionParameters {
+  double torque = 0, reference_torque = 0;  // N m on the driver; the second sets the bearing dampers
+  double frequency_from = 0, frequency_to = 0, frequency_step = 0;  // Hz
+  std::vector<Direction> directions;                                // of its sweeps; none: at rest
+  Eigen::VectorXd
+      quantity;  // SI, in the order of response_quantities(directions); empty: outside the model's range
+  std::string rejection;  // why the variant lies outside the model's range, "" if it does not
+};
+
+}  // namespace whine

@@ -1,0 +1,101 @@
+#include "studies/train_in_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/error.h"
+#include "base/model_range.h"
+#include "system/rigid_system.h"
+#include "system/system_rest.h"
+
+namespace whine {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+namespace {
+
+constexpr int kRestPositions = 32;  // of the statics that come first, in each mesh period
+constexpr int kMostRestPositions = 2048,
+              kFewestRestPositions = 4;  // in all of a hunting period; in a mesh period
+constexpr double kBeyondStatics = 2.5;   // deflection that tip edges are looked for, over that of rest
+constexpr int kMostWidenings = 5;
+
+}  // namespace
+
+void require_like_teeth(const SystemStaticParameters& settings, const std::string& stage) {
+  for (size_t b = 0; b < settings.errors.size(); ++b)
+    if (settings.has_errors(b))
+      fail(
+          Failure::input, stage, " does not take teeth that differ: [gear.", settings.gear[b],
+          ".error] gives '", settings.layout.bodies[b].name,
+          "' deviations tooth by tooth; use a scene without this section, or a sweep, which covers the hunting period");
+}
+
+TrainInMotion::TrainInMotion(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
+                             int positions)
+    : system_(elastic_system(settings, bodies)), settings_(settings), positions_(positions) {
+  take_masses(settings, bodies, system_.layout);
+  const auto meshes = static_cast<Index>(system_.mesh.size());
+  stiffness_ = MatrixXd::Zero(meshes, meshes);
+  deflection_.assign(system_.mesh.size(), 0);
+  const std::vector<SystemSolution> rest = rest_over_period(
+      system_, ContactModel::line, settings.contact.strips,
+      std::clamp(kMostRestPositions / hunting_periods(system_), kFewestRestPositions, kRestPositions));
+  for (const SystemSolution& at : rest) {
+    stiffness_ += at.mesh_stiffness / static_cast<double>(rest.size());
+    for (size_t m = 0; m < system_.mesh.size(); ++m)
+      deflection_[m] = std::max(deflection_[m], at.deflection[m]);
+  }
+  // A mesh without load has a tenth of the deflection of the most loaded one.
+  const double most = *std::max_element(deflection_.begin(), deflection_.end());
+  for (double& deflection : deflection_) deflection = std::max(deflection, 0.1 * most);
+  motion_.damping = settings.damping;
+  motion_.fidelity = settings.fidelity;
+  motion_.fidelity.contact = ContactModel::line;
+  motion_.axis_frequency = axis_frequency(system_, stiffness_);
+  dynamics_ = placed();
+}
+
+std::unique_ptr<SystemDynamics> TrainInMotion::placed() const {
+  std::vector<double> gap;
+  gap.reserve(deflection_.size());
+  for (const double deflection : deflection_)
+    gap.push_back(kBeyondStatics * deflection * std::pow(kWidening, widenings_));
+  auto dynamics = std::make_unique<SystemDynamics>(system_, motion_);
+  dynamics->set_positions(gap, positions_);
+  return dynamics;
+}
+
+SystemDynamics::State TrainInMotion::widen(const SystemDynamics::State& state) {
+  if (widenings_ == kMostWidenings) {
+    const auto worst =
+        static_cast<size_t>(std::max_element(deflection_.begin(), deflection_.end()) - deflection_.begin());
+    fail_outside_range(Failure::numerical, "the meshes deflect beyond the tip edges that are looked at, ",
+                       kBeyondStatics * std::pow(kWidening, widenings_) * deflection_[worst] * 1e6,
+                       " micrometres at ", mesh_name(system_.layout, worst),
+                       "; lower the torque or raise the damping");
+  }
+  ++widenings_;
+  std::unique_ptr<SystemDynamics> wider = placed();
+  SystemDynamics::State there = wider->fitted(state, *dynamics_);
+  dynamics_ = std::move(wider);
+  return there;
+}
+
+SystemSweepParameters TrainInMotion::used() const {
+  SystemSweepParameters out = settings_;
+  out.fidelity = motion_.fidelity;
+  for (size_t b = 0; b < system_.layout.bodies.size(); ++b) {
+    out.layout.bodies[b].inertia = system_.layout.bodies[b].inertia;
+    const System::Body& body = system_.layout.bodies[b];
+    // On a rigid pin a planet has the mass of its body, of which a moving carrier's pins feel the inertia.
+    out.layout.bodies[b].bearing.mass = body.on != System::kGround && !body.bearing.elastic()
+                                            ? system_.body[b]->body().mass
+                                            : body.bearing.mass;
+  }
+  return out;
+}
+
+}  // namespace whine

@@ -1,0 +1,47 @@
+// A system of elastic gears made ready for motion: statics for the mean stiffnesses, and tip edges as far as motions want them.
+#pragma once
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dynamics/system_dynamics.h"
+#include "model/system_stages.h"
+#include "results/reduced_body.h"
+
+namespace whine {
+
+// Mesh periods per speed before a motion counts as not periodic, and so many hunting periods at least.
+inline constexpr int kMostSystemPeriods = 3000, kLeastSystemTurns = 100;
+
+// Throws Error(input) that names the gear and `stage` ("a branch"), which knows nothing of teeth that differ from each other.
+void require_like_teeth(const SystemStaticParameters& settings, const std::string& stage);
+
+class TrainInMotion {
+ public:
+  // bodies: [gear] of settings.body; positions: of a mesh period, those of set_positions(). Contact is on lines whatever
+  // settings.fidelity.contact says. Throws as rest_over_period() and SystemDynamics.
+  TrainInMotion(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies, int positions);
+
+  const SystemModel& system() const { return system_; }
+  const SystemMotion& motion() const { return motion_; }
+  SystemDynamics& dynamics() { return *dynamics_; }
+  const Eigen::MatrixXd& mean_stiffness() const { return stiffness_; }  // (mesh, mesh) N m-1, at rest
+  // The settings with the masses, inertias and the contact level that are used.
+  SystemSweepParameters used() const;
+  // Looks for tip edges that are 1.6 times as far off as before, for which dynamics() is made anew. Returns `state` in the new
+  // positions. What is looked for and does not touch changes no force. Throws ModelRangeError after 5 times.
+  SystemDynamics::State widen(const SystemDynamics::State& state);
+
+ private:
+  std::unique_ptr<SystemDynamics> placed() const;  // with the tip edges that `widenings_` asks for
+  SystemModel system_;
+  SystemSweepParameters settings_;
+  SystemMotion motion_;
+  Eigen::MatrixXd stiffness_;
+  std::vector<double> deflection_;  // [mesh] m, largest at rest
+  std::unique_ptr<SystemDynamics> dynamics_;
+  int positions_, widenings_ = 0;
+};
+
+}  // namespace whine
