@@ -644,7 +644,7 @@ rejected "a driven gear of another scene" 3 'the wheel of this scene' "$bin/gear
 "$bin/gear-static" --params out/scene_other/params/static.toml --body pinion=$other/body.h5 --body wheel=$other/body.h5 --torque 100 \
   --output other_static.h5 > /dev/null 2>&1
 rejected "the wave of another scene" 3 'other_static.h5: is of another body pinion than out/scene/T100/static.h5' $(lumped rectangular) --reference-static other_static.h5
-# Changed where HDF5 has a checksum of its own, then the content hash put right. (test_files.cpp: an older schema.)
+# Changed where HDF5 has a checksum of its own, then the content hash put right. (test_artifact.cpp: an older schema.)
 cp out/scene/T100/up/sweep.h5 out/old.h5
 place=$(grep -a -b -o -m1 schema_version out/old.h5 | head -n 1 | cut -d: -f1)
 byte=$(od -An -tu1 -j $((place + 40)) -N1 out/old.h5)

@@ -1,7 +1,7 @@
 // Hard cases of the dynamics with known answers: `make hard-cases` prints what each expects and what the library finds.
 //
 // Expected values are closed forms, published formulas or the same quantity computed another way. The numbers H7 ... H32
-// are those of a longer list of cases, the rest of which stands in tests/test_*.cpp.
+// are those of a longer list of cases, the rest of which stands in tests/*/test_*.cpp.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-// The test program: every tests/test_<module>.cpp is linked into it.
+// The test program: every tests/<layer>/test_<file>.cpp is linked into it.
 #define DOCTEST_CONFIG_IMPLEMENT_WITH_MAIN
 #include <doctest/doctest.h>
 

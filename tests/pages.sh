@@ -71,7 +71,7 @@ while read -r name; do is_variable[$name]=1; done < <(grep -o -w '[A-Z][A-Z_]\+'
 while read -r name; do is_key[$name]=1; done < <("$bin/gear-scene" --keys | cut -d'|' -f3 | tr -d '` ')
 programs=$(set +f; cd tools && echo gear-*.cpp)
 for program in ${programs//.cpp/}; do help_of[$program]=$("$bin/$program" --help | tr -s ' \n,' '   '); done
-sources_of_functions=$(set +f; cat common/*/*.h common/*/*.cpp common/*/*/*.h common/*/*/*.cpp tools/*.cpp tests/*.cpp)
+sources_of_functions=$(set +f; cat common/*/*.h common/*/*.cpp common/io/rexs/*.h common/io/rexs/*.cpp tools/*.cpp tests/*.cpp tests/*/*.cpp)
 sources_of_files=$(set +f; cat common/io/*.h common/io/*.cpp common/io/*/*.h common/io/*/*.cpp common/results/*.h common/model/*.cpp)
 while IFS= read -r line; do
   case $line in '#'* | '') continue ;; esac
@@ -202,8 +202,8 @@ for page in "${pages[@]}"; do
 done
 found=$(for folder in tools pipelines data tests common $(set +f; echo common/*/); do [ -e "${folder%/}/README.md" ] || echo "${folder%/}"; done)
 [ -z "$found" ] && ok "every folder has its page" || wrong "every folder has its page" "$found"
-found=$(set +f; declare -A text; for header in common/*/*.h common/*/*/*.h; do
-  folder=${header#common/}; folder=common/${folder%%/*}
+found=$(set +f; declare -A text; for header in common/*/*.h common/io/rexs/*.h; do
+  folder=${header%/*} folder=${folder%/rexs}
   [ -n "${text[$folder]:-}" ] || text[$folder]=$(< "$folder/README.md")
   [[ ${text[$folder]} == *"\`$header\`"* ]] || echo "$header"; done)
 [ -z "$found" ] && ok "every header of a layer stands on its page" || wrong "every header of a layer stands on its page" "$(tr '\n' ' ' <<< "$found")"

@@ -133,7 +133,7 @@ done
 [ -z "$missing" ] && ok "the page of the teeth has its figures, which say their torque" || wrong "the page of the teeth has its figures, which say their torque" "missing:$missing"
 said=$(sed 's/base64,[^"]*//; s/<[^>]*>/ /g' out/fzg/teeth/index.html | tr -s ' \n' ' ')
 # sigma_F0 = F_t Y_F Y_S / (b m), of either gear, with the numbers of the page: F_t = 200 N m / 36 mm, b = 14 mm, m = 4.5 mm. The published
-# factors of these gears are in tests/test_iso_strength.cpp; they have other tip diameters.
+# factors of these gears are in tests/gear/test_iso6336_strength.cpp; they have other tip diameters.
 grep -q 'What the teeth suffer at 200 N m' <<< "$said" && ok "the page of the teeth says its torque" || wrong "the page of the teeth says its torque" "$(grep -o 'What the teeth suffer.\{20\}' <<< "$said")"
 of_page() { grep -o "$1 [0-9.]* [0-9.]*" <<< "$said" | head -1 | awk -v n="$2" '{ print $(NF - 2 + n) }'; }
 for gear in 1 2; do

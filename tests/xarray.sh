@@ -1,6 +1,6 @@
 # Each kind of artifact in xarray: every group opens with h5netcdf, without a warning, with named axes and their coordinates.
 #
-# Needs Debian's python3-xarray and python3-h5netcdf (make deps-python). The artifacts are those of one case of test_files.cpp.
+# Needs Debian's python3-xarray and python3-h5netcdf (make deps-python). The artifacts are those of one case of test_artifact.cpp.
 set -uo pipefail
 B=${B:-build}
 python=$(for candidate in python3 /usr/bin/python3; do "$candidate" -c 'import xarray, h5netcdf' 2> /dev/null && { echo "$candidate"; break; }; done)

@@ -11,7 +11,7 @@
 // With friction forces act on modes through L = h + mu s T in place of h (T of a pair's force as a whole, gear/friction.h), and
 // gaps are still read through h: A + h (bq / 2) (L - h)^T is not symmetric. Such a step is solved by solve_with_friction().
 // W: (strip, node) interpolation; V: (node, field) of a pair; C: coupling of the fields of two teeth of a gear; lines have a
-// node per pair and W = 1. step_kernel_reference.h has the same equations in plain matrices; tests/test_step_kernel.cpp
+// node per pair and W = 1. step_kernel_reference.h has the same equations in plain matrices; tests/dynamics/test_step_kernel.cpp
 // compares them.
 //
 // Layout: positions one after the other in one stream, rows and columns of whole lanes (contact/lanes.h), four coordinates in

@@ -1,4 +1,4 @@
-// A ring on an even elastic support of its rim; the thin ring on one is in test_elastic.cpp.
+// A ring on an even elastic support of its rim; the thin ring on one is in test_modes.cpp.
 #include <doctest/doctest.h>
 
 #include <array>
