@@ -160,7 +160,7 @@ axis_plan = $(if $(axis_plan_file),$(call plan_rule,$(axis_plan_file),figure $(s
 
 define figure_rule # figure, path without extension, inputs, what else it depends on
 $(axis_plan)
-$(call together,$2.tsv $2.svg $2.png) &: $3 $4 $(axis_plan_file) $(call titles,$3) pipelines/plots/$(drawn_as).gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
+$(call together,$2.tsv $2.svg $2.png) &: $3 $4 $(axis_plan_file) $(call titles,$3) pipelines/plots/$(drawn_as).gp pipelines/plots/common.gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
 	$(B)/bin/gear-plot $(drawn_as) --output $2 $(options_$1) $(axis_options) $(if $(filter out/figures/fig%,$2),--paper-figure $1) $3
 endef
 
@@ -203,7 +203,7 @@ digits := 0 1 2 3 4 5 6 7 8 9
 animation_frames := $(wordlist 2,49,$(foreach t,0 1 2 3 4,$(foreach u,$(digits),0$t$u)))
 define animation_rule # path without extension, scene, torque, options, what else it depends on
 $(call together,$1.tsv $1.gif $(animation_frames:%=$1-%.png)) &: $(call of_gears,$2,mesh) out/$2/T$3/down/sweep.h5 out/$2/params/title.txt $5 \
-    pipelines/plots/animation.gp $(call id,gear-animate) | $(B)/bin/gear-animate $(with_deps)
+    pipelines/plots/animation.gp pipelines/plots/common.gp $(call id,gear-animate) | $(B)/bin/gear-animate $(with_deps)
 	$$(call run,animate) $(call named,--mesh,$2,mesh) \
 	  --sweep out/$2/T$3/down/sweep.h5 $4 --frames $(words $(animation_frames)) --output $1 $$(call landed,animate)
 endef

@@ -44,6 +44,7 @@ inline std::vector<std::string> faults(Figure figure, const std::string& name) {
   std::ofstream(wrapper) << "set terminal epscairo size " << fixed(1600 / 72.0, 6) << "in,"
                          << fixed(figure.height / 72.0, 6)
                          << "in font 'DejaVu Sans,18' fontscale 1 enhanced\nset output '" << eps
+                         << "'\nplots = '" << std::filesystem::absolute("pipelines/plots").string()
                          << "'\nload '" << recipe << "'\nset output\nreset\nset terminal svg\nplot 0\n";
   const PlotFile data(figure);
   draw(figure, data.path(), wrapper, Picture::svg);

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 
 #include "base/error.h"
 #include "base/visible.h"
@@ -24,29 +25,6 @@ namespace {
 std::string plain_path(const std::string& path) {
   return path.starts_with('/') ? path : "./" + path;
 }
-
-// Above a picture stand its title and its scene; notes stand below it, in lines of 24 pixels, those that are too long in several. A
-// template writes `lift = room(2)`, adds lift to each vertical place on the screen, and ends with eval(below), which draws note1 and
-// note2 there (or what foot_name says), once, in a plot of its own without axes; a template that is no multiplot takes
-// eval(foot_labels) before its plot.
-// step_of(x): the step of numbers of an axis, 1, 2 or 5 times a power of ten and not below x > 0.
-constexpr const char* kStep =
-    R"(step_of(x) = 10 ** floor(log10(x)) * (x / 10 ** floor(log10(x)) > 5 ? 10 : x / 10 ** floor(log10(x)) > 2 ? 5 : x / 10 ** floor(log10(x)) > 1 ? 2 : 1); )";
-
-constexpr const char* kFoot =
-    R"(foot_name = "note%d"; foot_rows(n) = sprintf("rows_" . foot_name, n); )"
-    R"(room(lines) = 24.0 * (sum [n = 1:int(lines)] (exists(foot_rows(n)) ? value(foot_rows(n)) : 1)) / height; )"
-    R"(foot_labels = 'foot_row = 0; foot_end = int(lift * height / 24 + 0.5); foot_number = 0; )"
-    R"(while (foot_row < foot_end) { foot_number = foot_number + 1; )"
-    R"(foot_words = sprintf(foot_name, foot_number); many = exists(foot_rows(foot_number)) ? int(value(foot_rows(foot_number))) : 1; )"
-    R"(do for [r = 1:many] { foot_row = foot_row + 1; )"
-    R"(foot_text = many > 1 ? value(sprintf("row%d_%s", r, foot_words)) : value(foot_words); )"
-    R"(set label 900 + foot_row foot_text )"
-    R"(at screen 0.5, screen lift + (2 - 24.0 * foot_row + 12) / height center font ",12" } }'; )"
-    R"(below = 'unset label; unset arrow; unset object; unset border; unset tics; unset grid; unset key; )"
-    R"(unset title; unset xlabel; unset ylabel; unset y2label; unset xzeroaxis; unset logscale; unset colorbox; )"
-    R"(set lmargin at screen 0; set rmargin at screen 1; set bmargin at screen 0; set tmargin at screen 1; )"
-    R"(set xrange [0:1]; set yrange [0:1]; ' . foot_labels . '; plot NaN notitle'; )";
 
 // Words over a picture: letters as large as let them end inside of it. scale: of its letters, 24 pixels each.
 std::string fitting(const std::string& words, double scale) {
@@ -67,7 +45,8 @@ std::string rows_of(const std::string& name, const std::string& words) {
   return script;
 }
 
-std::string prelude(const Figure& figure, const std::string& tsv_path, Picture picture) {
+std::string prelude(const Figure& figure, const std::string& tsv_path, const std::string& template_path,
+                    Picture picture) {
   std::string script = "set encoding utf8; ";
   // A point of pngcairo is 4/3 of its pixels, one of svg is one pixel: the scale makes both pictures alike.
   if (picture == Picture::gif) {
@@ -78,11 +57,10 @@ std::string prelude(const Figure& figure, const std::string& tsv_path, Picture p
     script += text(" size 1600,", figure.height, " font 'DejaVu Sans,18'");
   }
   script += " enhanced background '#ffffff'; ";
-  script += text("height = real(", figure.height, "); ");
+  const auto plots = std::filesystem::path(plain_path(template_path)).parent_path();
+  script += text("plots = ", gnuplot_string(plots), "; height = real(", figure.height, "); ");
   script += text("tsv = ", gnuplot_string(plain_path(tsv_path)),
                  "; title = ", gnuplot_string(fitting(figure.title, 1)), "; ");
-  script += kStep;
-  script += kFoot;
   // What engineering_axes() changes.
   script += "speed_label = 'Mesh frequency (Hz)'; speed_scale = 1.0; level_label = ''; ";
   std::string heading = fitting(without_markup(figure.title), 1), scenes;
@@ -172,7 +150,7 @@ std::string draw(const Figure& figure, const std::string& tsv_path, const std::s
   if (access(template_path.c_str(), R_OK) != 0)
     fail(Failure::io, template_path, ": ", std::strerror(errno),
          "; the template of the figure is needed, see --plots");
-  std::vector<std::string> words{"gnuplot", "-d", "-e", prelude(figure, tsv_path, picture),
+  std::vector<std::string> words{"gnuplot", "-d", "-e", prelude(figure, tsv_path, template_path, picture),
                                  plain_path(template_path)};
   std::vector<std::string> environment = plain_environment();
   const auto pointers = [](std::vector<std::string>& strings) {

@@ -1,8 +1,8 @@
 # One mesh period of a steady motion: the teeth near the mesh, and below them transmission error and tooth loads with a cursor.
 # Variables from gear-animate: tsv, heading, note1, note2, height, first_frame, last_frame, frames, periods, magnified, half_window,
 # along_x, along_y, static_force, largest_force, least_error, largest_error, pairs, first_pair, losses.
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
+unset grid
 lift = room(2)
 
 stats tsv index "[frames]" using 1 nooutput name "place"

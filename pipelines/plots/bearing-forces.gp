@@ -1,18 +1,13 @@
 # Force of each gear on its bearing against mesh frequency, both sweep directions: RMS of the oscillating part (a), the largest (b).
 # Variables from gear-plot: tsv, heading, note1, note2, height, labels, curves, rms_max, force_max, static_force, frequency_from,
 # frequency_to, natural_frequency.
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
 lift = room(2)
 
-array colour[2] = ["#0072b2", "#d55e00"]
 # The second stands on the first, and lets it show where both are alike.
 array width[2] = [4.4, 1.6]
 set multiplot title heading offset 0, -0.3
-set border 3 lw 1.6
-set tics out nomirror
 set mxtics 5
-set grid lt 1 lc rgb "#e4e4e4" lw 1
 set lmargin at screen 0.11
 set rmargin at screen 0.76
 span = frequency_to - frequency_from

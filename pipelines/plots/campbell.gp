@@ -1,17 +1,13 @@
 # Campbell diagram: natural frequencies (lines; bands over the mesh phases), harmonics of the mesh frequency, their crossings.
 # Variables from gear-plot: tsv, heading, note1.., notes, highest, harmonics, bands, and how many modes are rotational, translational, planet,
 # mixed, train; speed_label, speed_scale.
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
 lift = room(notes)
 
 array colour[5] = ["#0072b2", "#d55e00", "#009e73", "#555555", "#0072b2"]
 array number[5] = [rotational, translational, planet, mixed, train]
 kind = "rotational translational planet mixed modes"
 set multiplot title heading offset 0, -0.4
-set border 3 lw 1.6
-set tics out nomirror
-set grid lt 1 lc rgb "#e4e4e4" lw 1
 set lmargin at screen 0.12
 set rmargin at screen 0.80
 set tmargin at screen 0.88

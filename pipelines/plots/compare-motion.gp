@@ -2,19 +2,14 @@
 # the largest tooth load over T / r_b (c); a colour for each design, falling speed dashed.
 # Variables from gear-plot: tsv, heading, height, labels, designs, natural_frequency_1..., rms_max, order_max, load_max, frequency_from,
 # frequency_to, speed_label, level_label, level_low, level_high, notes, line1...
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
 foot_name = "line%d"
 lift = room(notes)
 
-array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#444444"]
 # The second stands on the first, and lets it show where both are alike.
 wide(i) = i == 1 ? 4.4 : 2.6
 top(y) = 1 - y * (1 - lift)
 set multiplot title heading offset 0, -0.4
-set border 3 lw 1.6
-set tics out nomirror
-set grid lt 1 lc rgb "#e4e4e4" lw 1
 set lmargin at screen 0.09
 set rmargin at screen 0.97
 span = frequency_to - frequency_from

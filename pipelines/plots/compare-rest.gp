@@ -2,18 +2,13 @@
 # harmonics (c); a colour for each design.
 # Variables from gear-plot: tsv, heading, height, labels, designs, error_low, error_high, stiffness_high, largest, harmonics, notes,
 # line1...
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
 foot_name = "line%d"
 lift = room(notes)
 
-array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#444444"]
 array dash[6] = [1, 2, 4, 5, 3, 6]
 top(y) = 1 - y * (1 - lift)
 set multiplot title heading offset 0, -0.4
-set border 3 lw 1.6
-set tics out nomirror
-set grid lt 1 lc rgb "#e4e4e4" lw 1
 set lmargin at screen 0.105
 set rmargin at screen 0.97
 set xrange [0 : 1]

@@ -2,15 +2,11 @@
 # crack adds (b), the spectrum in orders of the mesh frequency (c), the largest root stress of each tooth about the cracked one (d).
 # Variables from gear-plot: tsv, heading, note1, note2, ..., notes, around, last_order, top, cracked_gears: those with root stress,
 # labels, stress_max: theirs.
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
 lift = room(notes)
 
 set multiplot layout (cracked_gears > 0 ? 4 : 3), 1 title heading offset 0, -0.4 \
   margins screen 0.1, 0.98, 0.1 + lift, 0.84 + lift spacing screen 0.09
-set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
-set border 3 lw 1.6
-set tics out nomirror
 set key top right horizontal samplen 3
 
 set xlabel "Mesh periods from the one with the largest mark {/:Bold (a)}"

@@ -1,20 +1,16 @@
 # Efficiency (a) and power lost (b) over speed at each torque, both sweep directions; moments of friction over a mesh period (c).
 # Variables from gear-plot: tsv, heading, note1, note2, ..., notes, height, labels, gears, curves, power_max,
 # efficiency_min, efficiency_max, beyond_backlash, frequency_from, frequency_to, natural_frequency.
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
 lift = room(notes)
 
-array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#aa4499", "#e69f00", "#444444"]
 # Of both directions of torque t.
 rings(t, column) = sprintf('tsv index "[%d up]" using ($7 > 0 ? $1 : NaN):%d with points pt 6 ps 1.1 lw 1.4 lc rgb "#202020" notitle, ', t, column) \
   . sprintf('tsv index "[%d down]" using ($7 > 0 ? $1 : NaN):%d with points pt 6 ps 1.1 lw 1.4 lc rgb "#202020" notitle, ', t, column)
 ring_key = beyond_backlash > 0 ? ', keyentry with points pt 6 ps 1.1 lw 1.4 lc rgb "#202020" title "beyond backlash"' : ''
 set multiplot title heading offset 0, -0.3
-set border 3 lw 1.6
 set tics out nomirror font ",14"
 set mxtics 5
-set grid lt 1 lc rgb "#e4e4e4" lw 1
 set lmargin at screen 0.12
 set rmargin at screen 0.78
 set key at graph 1.01, graph 0.98 left top Left reverse vertical samplen 2 spacing 1.2 font ",13" noenhanced

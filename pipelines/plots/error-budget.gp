@@ -2,8 +2,8 @@
 # beyond a line those by another choice of the model.
 # Variables from gear-plot: tsv, heading, line1, line2, ..., notes, labels, entries, choice_labels, choices, bars_each, top (%), pressure (1: budgets
 # that know of pressure).
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
+unset grid
 foot_name = "line%d"
 lift = room(notes)
 set title heading offset 0, -0.2
@@ -11,8 +11,6 @@ set lmargin screen 0.1
 set rmargin screen 0.97
 set bmargin screen 0.2 + lift
 set tmargin screen 0.81 + lift
-set border 3 lw 1.6
-set tics out nomirror
 set grid ytics lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set logscale y
 set format y "10^{%L}"
@@ -25,7 +23,7 @@ do for [i = 1:entries] { set xtics add (two_lines(word(labels, i)) i - 1) }
 first_choice = entries + 0.5
 do for [i = 1:choices] { set xtics add (two_lines(word(choice_labels, i)) first_choice + i - 1) }
 # Bars beyond the seventh: pressure where it is known, then root stress where it is known.
-array colour[9] = ["#0072b2", "#d55e00", "#333333", "#666666", "#8f8f8f", "#b5b5b5", "#d9d9d9", "#009e73", "#aa4499"]
+array colour[9] = ["#0072b2", "#d55e00", "#333333", "#666666", "#8f8f8f", "#b5b5b5", "#d9d9d9", "#009e73", "#cc79a7"]
 array name[9] = ["mean stiffness", "peak to peak", "harmonic 1", "harmonic 2", "harmonic 3", "harmonic 4", "harmonic 5", "flank pressure", "root stress"]
 which(k) = k == 8 && pressure == 0 ? 9 : k
 set key at screen 0.9, screen 0.085 + lift horizontal Left reverse samplen 1.5 maxrows 2

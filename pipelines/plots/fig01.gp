@@ -1,8 +1,8 @@
 # Figure 1: the finite element mesh of the pair (a) and of the teeth in mesh (b); lengths in mm, equal axes.
 # Variables from gear-plot: tsv, heading, note1.., pitch_y, half_window, driver_radius, driven_radius (of the tips, or of a rim),
 # driven_y (its centre), ring (0: none, 1: the driver, 2: the driven gear is internal).
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
+unset grid
 lift = room(3)
 
 driver_line = "#0072b2"
@@ -12,7 +12,6 @@ driven_fill = "#fbeee6"
 
 set multiplot title heading offset 0, -0.2
 set border 15 lw 1.2
-set tics out nomirror
 unset key
 set size ratio -1
 

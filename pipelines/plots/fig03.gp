@@ -1,8 +1,8 @@
 # Figure 3: the contact zone. (a) inner and outer region of the teeth in contact, (b) candidate pairs on the unloaded flanks,
 # (c) pressure and separation under load.
 # Variables from gear-plot: tsv, heading, note1.., matching, touch_y, half_window, reach, peak, strips, ring (0: both gears are external).
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
+unset grid
 lift = room(3)
 
 driver_line = "#0072b2"
@@ -14,7 +14,6 @@ driven_inner = "#f6d6bd"
 
 set multiplot title heading offset 0, -0.2
 set border 15 lw 1.2
-set tics out nomirror
 set lmargin at screen 0.085
 set rmargin at screen 0.475
 set bmargin at screen 0.17 + lift

@@ -3,8 +3,8 @@
 # Variables from gear-plot: tsv, title, note1, captions, caption1.., panels, frequency_from, frequency_to, height, speeds, and for each panel a, b, ..:
 # above_a, curves_a, labels_a, jump_labels_a, rms_max_a, contact_lost_a, beyond_backlash_a, and for each curve
 # natural_frequency_a_1, jumps_up_a_1, jumps_down_a_1, and with a branch of orbits stable_a_1, unstable_a_1, folds_a_1: numbers of rows.
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
+unset grid
 
 up_colour = "#0072b2"
 down_colour = "#d55e00"
@@ -34,7 +34,6 @@ set mxtics 5
 set ytics out nomirror
 set mytics 2
 set grid xtics ytics lt 1 lc rgb "#e4e4e4" lw 1
-set border 3 lw 1.6
 set lmargin at screen 0.088
 set rmargin at screen 0.975
 # Marks at every few speeds, dots at all: marks of neighbours would run into each other. Those of rising and of falling speed stand

@@ -2,17 +2,13 @@
 # (Figures 8 and 9).
 # Variables from gear-plot: tsv, title, lines, line1.., motions, height, time_end, largest, largest_amplitude, frequency_end, and for each
 # motion a, b, ..: title_a, result_a.
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
 
 line = "#0072b2"
 letters = "a b c d e f"
 foot_name = "line%d"
 lift = room(lines)
 set multiplot title title offset 0, -0.3
-set border 3 lw 1.6
-set tics out nomirror
-set grid lt 1 lc rgb "#e4e4e4" lw 1
 unset key
 left = 0.075
 right = 0.985

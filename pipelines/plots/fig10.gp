@@ -2,17 +2,13 @@
 # (Figures 10 and 11).
 # Variables from gear-plot: tsv, title, lines, line1.., motions, height, largest, static_force, phase_from, phase_to, first_tooth,
 # last_tooth, and for each motion a, b, ..: title_a, result_a, lost_a, shown_a_0 .. (does the first, second tooth carry load?).
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
 
 letters = "a b c d e f"
 foot_name = "line%d"
 lift = room(lines)
 set multiplot title title offset 0, -0.3
-set border 3 lw 1.6
-set tics out nomirror
 set mxtics 5
-set grid lt 1 lc rgb "#e4e4e4" lw 1
 set lmargin at screen (largest >= 1e5 ? 0.105 : 0.092)
 set rmargin at screen 0.84
 set xrange [phase_from:phase_to]

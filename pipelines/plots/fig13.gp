@@ -1,10 +1,8 @@
 # Figure 13: mesh stiffness over a mesh period (a) and its harmonics (b), one curve per torque, and the rectangular wave.
 # Variables from gear-plot: tsv, heading, note1, note2, curves, labels, rectangle_label.
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
 lift = room(2)
 
-array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#444444"]
 array mark[6] = [1, 6, 4, 2, 8, 12]   # + o square x triangle diamond
 set for [i = 1:6] linetype i lc rgb colour[i] lw 2.6 pt mark[i] ps 2.0
 set linetype 1 dt (3, 3)
@@ -13,9 +11,6 @@ set linetype 3 dt solid
 
 set multiplot layout 1, 2 title heading offset 0, -0.4 \
   margins screen 0.1, 0.985, (curves > 5 ? 0.28 : 0.245) + lift, 0.815 + lift spacing screen 0.1
-set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
-set border 3 lw 1.6
-set tics out nomirror
 # One legend of both panels, below them.
 set key at screen 0.535, screen 0.012 + lift center bottom Left reverse vertical maxrows (curves > 2 ? curves > 5 ? 3 : 2 : 1) samplen 2.5 spacing 1.2 font ",14"
 

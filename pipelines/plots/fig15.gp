@@ -1,9 +1,7 @@
 # Figure 15: net mesh force of lumped models over two mesh periods, a panel for each mesh frequency, a curve for each sweep.
 # Variables from gear-plot: tsv, heading, note1.., curves, panels, labels_a, labels_b, force_max, static_force.
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
 
-array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#444444"]
 set for [i = 1:6] linetype i lc rgb colour[i] lw 2.4
 set linetype 1 dt solid
 set linetype 2 dt (9, 5)
@@ -14,9 +12,6 @@ set linetype 6 dt (2, 5)
 
 lift = room(curves)
 set multiplot title heading offset 0, -0.4
-set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
-set border 3 lw 1.6
-set tics out nomirror
 set xrange [0:2]
 set xtics 0.5
 set mxtics 5

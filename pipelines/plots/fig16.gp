@@ -1,8 +1,8 @@
 # RMS of the oscillating (left) and mean (right) transmission error against mesh frequency, both sweep directions, a row for each
 # set of choices, a curve for each torque (Figures 14 and 16, and the same of the elastic pair).
 # Variables as fig05.gp, and mean_min_a, mean_max_a, loss_captions, loss_caption1..
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
+unset grid
 
 array torque_colour[6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#444444"]
 # P2000's marks of torques, + o square, for falling speed; filled ones, and x for +, for rising speed
@@ -24,7 +24,6 @@ set mxtics 5
 set ytics out nomirror
 set mytics 2
 set grid xtics ytics lt 1 lc rgb "#e4e4e4" lw 1
-set border 3 lw 1.6
 # Marks of rising and of falling speed stand at speeds of their own, so that both show where the directions agree.
 stride = int(ceil(speeds / 45))
 stride = stride < 2 && speeds > 25 ? 2 : stride

@@ -2,13 +2,12 @@
 # largest over the flank and what tip edges carry, over speed.
 # Variables from gear-plot: tsv, heading, line1, line2, ..., notes, height, labels, both, roll_from, roll_to, roll_step, path_from, path_to, speed_step,
 # pressure_max, pressure_rest, edge_max, frequency_from, frequency_to, natural_frequency; pressure_rest: 0 if none is stated.
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
+unset grid
 foot_name = "line%d"
 lift = room(notes)
 
 set multiplot title heading offset 0, -0.3
-set border 3 lw 1.6
 set tics out nomirror font ",14"
 span = frequency_to - frequency_from
 span = span > 0 ? span : 0.2 * frequency_to

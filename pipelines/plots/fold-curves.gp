@@ -1,15 +1,13 @@
 # Fold curves: mesh frequency of the folds against damping ratio, torque or tip relief; circles: cusps; crosses: jumps of sweeps.
 # Variables from gear-plot: tsv, heading, axis, curves, label1.., folds_1.., cusps_1.., jumps_1.. (rows), notes, line1.., height.
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
+unset grid
 foot_name = "line%d"
 lift = room(notes)
 
 array tone[6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#444444"]
 set title heading offset 0, -0.2
-set border 3 lw 1.6
 set grid xtics ytics lt 1 lc rgb "#e4e4e4" lw 1
-set tics out nomirror
 set xlabel "Mesh frequency (Hz)"
 set ylabel axis offset 0.5, 0
 set key at graph 0.5, 0.98 center top vertical samplen 2 spacing 1.2 font ",15" noenhanced

@@ -1,8 +1,9 @@
 # Harris map: peak-to-peak transmission error against tip relief and torque (a), and against torque for the best relief of the
 # design torque and none (b); with a dynamic part the RMS at the worst speed (c).
 # Variables from gear-plot: tsv, heading, note1, note2, labels, curves, design_torque, largest, moving, height.
+load plots . "/common.gp"
+unset grid
 set datafile separator whitespace
-set datafile commentschars "#"
 lift = room(2)
 
 array colour[7] = ["#444444", "#c8201e", "#1f4e9c", "#1a7f37", "#8a4fbf", "#b06a00", "#0a7c86"]

@@ -2,8 +2,9 @@
 # only; cells by what happens in them. The elastic pair stands first.
 # Variables from gear-plot: tsv, heading, note1.., notes, panels, panel1.., column1.., row1.., columns, marked, ratio_from, ratio_to,
 # torque_from, torque_to.
+load plots . "/common.gp"
+unset grid
 set datafile separator whitespace
-set datafile commentschars "#"
 
 two_colour = "#e8998d"
 lost_colour = "#f6dfa4"

@@ -2,8 +2,9 @@
 # tooth load.
 # Variables from gear-plot: tsv, heading, note1.., notes, panels, panel1.., cusps_1.. (rows), printed, lines, largest, ratio_from, ratio_to,
 # torque_from, torque_to, first_ratio, last_ratio.
+load plots . "/common.gp"
+unset grid
 set datafile separator whitespace
-set datafile commentschars "#"
 
 two_colour = "#e8998d"
 lost_colour = "#f6dfa4"

@@ -1,17 +1,12 @@
 # Load sharing at rest: the share of the load that a tooth pair carries on its way through the mesh, one curve per torque (a), and
 # the loads of all pairs over a mesh period at the first torque (b).
 # Variables from gear-plot: tsv, heading, note1, note2, curves, labels, pairs, first_pair, path_start, path_end, static_force, torque.
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
 lift = room(2)
 
-array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#aa4499", "#e69f00", "#444444"]
 array pair_colour[6] = ["#882255", "#332288", "#88a000", "#44aa99", "#b07030", "#777777"]
 set multiplot layout 1, 2 title heading offset 0, -0.4 \
   margins screen 0.085, 0.985, 0.26 + lift, 0.815 + lift spacing screen 0.1
-set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
-set border 3 lw 1.6
-set tics out nomirror
 set key Left reverse vertical maxrows 3 samplen 2.5 spacing 1.2 font ",14" center bottom
 
 set key at screen 0.285, screen 0.012 + lift

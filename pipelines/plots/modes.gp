@@ -1,14 +1,13 @@
 # Natural modes of a system: frequencies by type (above), and mode shapes, magnified (below); grey: at rest.
 # Variables from gear-plot: tsv, heading, panels, columns, lines, highest, left, right, low, high (mm), train (1: types are not those
 # of a planetary train), mixed (1: there are such modes), panel1.., note1.., height.
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
+unset grid
 lift = room(3)
 
 set multiplot title heading offset 0, -0.2
 set border 1 lw 1.6
 unset key
-set tics out nomirror
 set lmargin at screen 0.13
 set rmargin at screen 0.98
 set tmargin at screen 1 - 110.0 / height

@@ -1,16 +1,13 @@
 # Floquet multipliers of a branch: in the complex plane, with the unit circle (a), and the largest modulus against the mesh
 # frequency (b). Filled: stable orbits, open: unstable ones.
 # Variables from gear-plot: tsv, heading, largest, notes, line1.., height.
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
 foot_name = "line%d"
 lift = room(notes)
 
 stats tsv index "[modulus]" using 1 nooutput name "speed"
 set multiplot title heading offset 0, -0.2
 set border 15 lw 1.6
-set tics out nomirror
-set grid lt 1 lc rgb "#e4e4e4" lw 1
 bottom = 100.0 / height + lift
 top = 1 - 90.0 / height
 reach = largest > 1.05 ? 1.05 * largest : 1.1

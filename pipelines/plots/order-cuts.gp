@@ -2,17 +2,13 @@
 # driver above, or the mesh frequency where the speed is below.
 # Variables from gear-plot: tsv, heading, height, driver, orders, largest, frequency_from, frequency_to, natural_frequency,
 # rpm_per_hertz, speed_label, speed_scale, level_label, level_low, level_high, note1, note2.
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
 lift = room(2)
 
-array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#444444"]
 array dash[6] = [1, 1, 2, 4, 5, 3]
 top(y) = 1 - y * (1 - lift)
 set multiplot title heading offset 0, -0.4
 set border 7 lw 1.6
-set tics out nomirror
-set grid lt 1 lc rgb "#e4e4e4" lw 1
 set lmargin at screen 0.09
 set rmargin at screen 0.86
 span = frequency_to - frequency_from

@@ -1,19 +1,15 @@
 # Profile charts: material on the driving flanks against the roll angle, tip to the right, one panel per gear.
 # Variables from gear-plot: tsv, heading, title_driver, title_driven, lowest, highest; for each gear g: form_g, sap_g, lpstc_g,
 # pitch_g, hpstc_g, tip_g.
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
 foot1 = "thin line: the involute without modification; form: where the involute begins; SAP: start of the active profile"
 foot2 = "LPSTC, HPSTC: lowest and highest point of single tooth contact (B, D of the driver; D, B of the driven gear)"
 foot_name = "foot%d"
 lift = room(2)
 
 set multiplot layout 2, 1 title heading offset 0, -0.3 margins screen 0.11, 0.975, 0.1 + lift, 0.79 + lift spacing screen 0.185
-set border 3 lw 1.6
-set tics out nomirror
 set mxtics 5
 set mytics 2
-set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set ylabel "Material (µm)"
 span = highest - lowest > 0 ? highest - lowest : 1
 set yrange [lowest - 0.12 * span : highest + 0.42 * span]

@@ -1,13 +1,9 @@
 # Readings of P2000: agreeing claims against the level ratio (left), sets of claims that hold together (right).
 # Variables from gear-plot: tsv, title, note1, drawn_0.., kind_0.., sets, set_1.., held_1.., ratio_from, ratio_to, table1_ratio, fig15_from, fig15_to.
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
 array colour[4] = ["#0072b2", "#009e73", "#e69f00", "#c0504d"]
 array mark[4] = [7, 5, 9, 13]
 set multiplot title title . "\n{/*0.68 " . note1 . "}" offset 0, -0.3
-set border 3 lw 1.6
-set tics out nomirror
-set grid lt 1 lc rgb "#e4e4e4" lw 1
 
 set lmargin at screen 0.08
 set rmargin at screen 0.50

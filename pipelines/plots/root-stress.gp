@@ -2,19 +2,15 @@
 # Variables from gear-plot: tsv, heading, line1, line2, ..., notes, height, labels, iso, iso_driver, iso_driven, path_start, path_end,
 # stress_max, factor_max, frequency_from, frequency_to, resonance, natural_frequency, branches; iso: 0 without K_v, iso_driver, iso_driven: 0
 # without sigma_F0, resonance: Hz at which N = 1.
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
 foot_name = "line%d"
 lift = room(notes)
 
-array colour[2] = ["#0072b2", "#d55e00"]
 array width[2] = [4.4, 1.6]
 array level[2] = [iso_driver, iso_driven]
 set multiplot title heading offset 0, -0.3
-set border 3 lw 1.6
 set tics out nomirror font ",14"
 set mxtics 5
-set grid lt 1 lc rgb "#e4e4e4" lw 1
 set lmargin at screen 0.095
 set rmargin at screen 0.76
 set key at graph 1.01, graph 0.98 left top Left reverse vertical samplen 2 spacing 1.2 font ",13" noenhanced
@@ -71,7 +67,7 @@ set ylabel "Dynamic factor (1)"
 unset label 11
 set label 1 "{/:Bold (c)} the same over the largest at rest; root stress is quasi-static in the tooth loads"
 if (iso == 1 && resonance > frequency_from && resonance < frequency_to) {
-  set arrow from resonance, graph 0 to resonance, graph 1 nohead back lt 1 lw 1.6 lc rgb "#aa4499"
+  set arrow from resonance, graph 0 to resonance, graph 1 nohead back lt 1 lw 1.6 lc rgb "#cc79a7"
 }
 array what[4] = ["mesh force (over T / r_b)", "tooth load", "root stress, " . word(labels, 1), "root stress, " . word(labels, 2)]
 array shade[4] = ["#444444", "#009e73", "#0072b2", "#d55e00"]
@@ -85,10 +81,10 @@ if (branches > 0) {
   do for [k = 1:4] { drawn = drawn . sprintf('tsv index "[branch]" using 1:($8 == 1 ? column(%d) : NaN) with lines lt 1 lw 0.8 lc rgb "%s" notitle, ', k + 3, shade[k]) }
   do for [k = 1:4] { drawn = drawn . sprintf('tsv index "[branch]" using 1:($8 == 0 ? column(%d) : NaN) with lines lt 1 lw %g dt (2, 4) lc rgb "%s" notitle, ', k + 3, heavy[k], shade[k]) }
 }
-if (iso == 1) { drawn = drawn . 'tsv index "[iso]" using 1:2 with lines lt 1 lw 2.2 dt (4, 4) lc rgb "#aa4499" title "K_v, ISO 6336-1 method B", ' }
+if (iso == 1) { drawn = drawn . 'tsv index "[iso]" using 1:2 with lines lt 1 lw 2.2 dt (4, 4) lc rgb "#cc79a7" title "K_v, ISO 6336-1 method B", ' }
 # in the key: beside the line a curve would cross the words
 if (iso == 1 && resonance > frequency_from && resonance < frequency_to) {
-  drawn = drawn . sprintf('keyentry with lines lt 1 lw 1.6 lc rgb "#aa4499" title "upright: N = 1 (ISO), %.0f %s", ', resonance, speed_scale == 1.0 ? "Hz" : "rpm")
+  drawn = drawn . sprintf('keyentry with lines lt 1 lw 1.6 lc rgb "#cc79a7" title "upright: N = 1 (ISO), %.0f %s", ', resonance, speed_scale == 1.0 ? "Hz" : "rpm")
 }
 eval("plot " . drawn)
 eval(below)

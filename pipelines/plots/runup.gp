@@ -2,15 +2,12 @@
 # mesh period (c), all over the mesh frequency and the speed of the driver.
 # Variables from gear-plot: tsv, heading, height, driver, loudest, frequency_end, orders, largest, largest_sweep, largest_load, sweeps, sweep1,
 # sweep2, level_label, level_low, level_high, speed_label, speed_scale, frequency_from, frequency_to, natural_frequency, rpm_per_hertz, notes, note1...
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
+unset grid
 lift = room(notes)
 
-array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#444444"]
 set palette defined (0 "#ffffff", 0.15 "#e8eef4", 0.4 "#9fc4de", 0.65 "#3a7fbb", 0.82 "#5b2a86", 1 "#c8201e")
 set multiplot title heading offset 0, -0.4
-set border 3 lw 1.6
-set tics out nomirror
 set lmargin at screen (frequency_end >= 1e4 ? 0.095 : 0.085)
 set rmargin at screen 0.9
 set xrange [frequency_from : frequency_to]

@@ -1,11 +1,11 @@
 # Sensitivity: what each variant of a scene changes, one panel of bars per response quantity.
 # Variables from gear-plot: tsv, heading, note1, note2, variants, label1.., reach1..6: largest change of each response quantity
+load plots . "/common.gp"
+unset grid
 set datafile separator whitespace
-set datafile commentschars "#"
 lift = room(2)
 set multiplot title heading
 set border 3 lw 1.4
-set tics out nomirror
 set grid xtics lt 1 lc rgb "#e4e4e4" lw 1
 set style fill solid 0.9 noborder
 # The keys of a variant that two gears have in turn, a line each.

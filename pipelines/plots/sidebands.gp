@@ -1,14 +1,10 @@
 # Sidebands: static transmission error over the hunting period (a), its spectrum in orders of the mesh frequency (b), and that
 # of the dynamic transmission error (c). Variables from gear-plot: tsv, heading, note1, note2, periods, last_order, top_at_rest, top_in_motion, speed.
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
 lift = room(2)
 
 set multiplot layout 3, 1 title heading offset 0, -0.4 \
   margins screen 0.1, 0.98, 0.1 + lift, 0.835 + lift spacing screen 0.1
-set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
-set border 3 lw 1.6
-set tics out nomirror
 set key off
 
 set xlabel "Mesh periods {/:Bold (a)}"

@@ -1,8 +1,9 @@
 # A study: a row of panels for each response quantity, a column for each key that varies; of a sample the distribution beside them.
 # Variables from gear-plot: tsv, heading, subtitle, second_line, height, rows, columns, random, variants, x1.., ticks1.., tick1_1.., own_colour1.., y1.., drawn1_1.., crossed1_1.., correlation1_1..,
 # percentile1_1.., colours, colour_label, colour_name1.., colour_rgb1.., colour_mark1..
+load plots . "/common.gp"
+unset grid
 set datafile separator whitespace
-set datafile commentschars "#"
 # A long subtitle goes on in a second line.
 cut = 0
 do for [i = 1:strlen(subtitle)] { if (i < 150 && strlen(subtitle) > 150 && subtitle[i:i + 1] eq "; ") { cut = i } }

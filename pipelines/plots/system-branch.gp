@@ -2,15 +2,11 @@
 # largest modulus of the multipliers (below).
 # Variables from gear-plot: tsv, heading, note1.., notes, height, meshes, labels, stable, unstable, up, down (1: there are some), most,
 # largest, frequency_from, frequency_to, speed_label, level_label, level_low, level_high.
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
 
-array colour[8] = ["#0072b2", "#d55e00", "#009e73", "#aa4499", "#e69f00", "#444444", "#56b4e9", "#882255"]
+array colour[8] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#444444", "#56b4e9", "#882255"]
 lift = room(notes)
 set multiplot title heading offset 0, -0.4
-set border 3 lw 1.6
-set tics out nomirror
-set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 span = frequency_to - frequency_from
 set xrange [frequency_from - 0.01 * span : frequency_to + 0.01 * span]
 set lmargin at screen 0.112

@@ -2,19 +2,14 @@
 # tooth pairs of its first mesh (right).
 # Variables from gear-plot: tsv, heading, line1.., notes, height, periods, rows, low, high (%) and, of each row k, first1.., labels1..,
 # pairs1.. (with '|' between), curves1.., loads1.., equal1.. (%).
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
 
-array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#aa4499", "#e69f00", "#444444"]
 array pair_colour[6] = ["#882255", "#332288", "#88a000", "#44aa99", "#b07030", "#777777"]
 foot_name = "line%d"
 lift = room(notes)
 part(words, i) = i == 1 ? words[1 : strstrt(words, "|") - 1] : part(words[strstrt(words, "|") + 1 : *], i - 1)
 
 set multiplot title heading offset 0, -0.4
-set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
-set border 3 lw 1.6
-set tics out nomirror
 of(i) = colour[(i - 1) % 6 + 1]
 dash(i) = i > 6 ? 2 : 1
 row = ((1 - lift) * height - 110) / rows

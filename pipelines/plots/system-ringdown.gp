@@ -1,14 +1,10 @@
 # Ring-down of a system: damping ratio over natural frequency of each mode, over the mesh phases; Rayleigh's damping alone; natural
 # frequencies of rigid gears.
 # Variables from gear-plot: tsv, heading, note1.., notes, from, to, most, rigid (1: there are some in the range).
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
 lift = room(notes)
 
 set multiplot title heading offset 0, -0.4
-set border 3 lw 1.6
-set tics out nomirror
-set grid lt 1 lc rgb "#e4e4e4" lw 1
 set lmargin at screen 0.09
 set rmargin at screen 0.97
 set tmargin at screen 0.77

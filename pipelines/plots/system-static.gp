@@ -1,17 +1,12 @@
 # A system at rest: transmission errors, mesh forces, bearing forces, each over a mesh period, of teeth that differ over the hunting period (left) and its harmonics (right).
 # Variables from gear-plot: tsv, heading, line1.., height, harmonics, periods and, of each row k, quantity1.., axis1.., unit1.., labels1.., curves1..,
 # low1.., high1.., most1..; notes, their number.
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
 
-array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#aa4499", "#e69f00", "#444444"]
 foot_name = "line%d"
 lift = room(notes)
 
 set multiplot title heading offset 0, -0.4
-set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
-set border 3 lw 1.6
-set tics out nomirror
 of(i) = colour[(i - 1) % 6 + 1]
 dashes(i) = i > 6 ? "(10, 5)" : "solid"
 row = ((1 - lift) * height - 100) / 3

@@ -1,17 +1,12 @@
 # A system over its speeds: RMS of the transmission error and time without contact of each mesh, oscillating force on each bearing.
 # Variables from gear-plot: tsv, heading, line1.., height, frequency_from, frequency_to, sweeps_up, sweeps_down and, of each row k,
 # quantity1.., axis1.., unit1.., labels1.., curves1.., most1..; notes, their number; speed_label, level_label, level_low, level_high.
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
 
-array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#aa4499", "#e69f00", "#444444"]
 foot_name = "line%d"
 lift = room(notes)
 
 set multiplot title heading offset 0, -0.4
-set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
-set border 3 lw 1.6
-set tics out nomirror
 of(i) = colour[(i - 1) % 6 + 1]
 # Meshes that are alike lie on each other: dashes let the one below show.
 dashes(i) = i > 6 ? "(10, 5)" : i > 4 ? "(4, 8)" : i > 2 ? "(14, 14)" : "solid"

@@ -2,14 +2,13 @@
 # Variables from gear-plot: tsv, heading, line1.., notes, height; of the main panel main_left, main_top, main_width, main_height (pixels),
 # left, right, low, high (mm); has_<block> (1: there is one); labels, label1.., label_x1.., label_y1.. (mm); close_ups, close_size (pixels), and of each close-up
 # close1.., close_x1.., close_y1.., close_half1.. (mm), close_left1.., close_top1.. (pixels).
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
+unset grid
 foot_name = "line%d"
 lift = room(notes)
 
 set multiplot title heading offset 0, -0.2
 set border 15 lw 1.2
-set tics out nomirror
 unset key
 set size ratio -1
 x_of(pixels) = pixels / 1600.0

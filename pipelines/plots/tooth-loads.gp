@@ -2,15 +2,11 @@
 # phase at the speed with the largest RMS (b); shaded there, marked at the foot here: contact lost.
 # Variables from gear-plot: tsv, heading, note1, note2, height, frequency_from, frequency_to, speeds, load_max, worst_speed, contact_lost, beyond_backlash,
 # largest, static_force, phase_from, phase_to, first_tooth, last_tooth, title_b, result_b, lost_b, shown_b_0 ..
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
 lift = room(2)
 
 set multiplot title heading offset 0, -0.3
-set border 3 lw 1.6
-set tics out nomirror
 set mxtics 5
-set grid lt 1 lc rgb "#e4e4e4" lw 1
 set lmargin at screen 0.108
 set rmargin at screen 0.84
 set ylabel "Force (N)"

@@ -2,11 +2,10 @@
 # frequency (b); below them the same of the other direction, if there are two.
 # Variables from gear-plot: tsv, heading, note1, note2, height, rows, directions, orders, largest, speed_step, natural_frequency, frequency_end,
 # frequency_from, frequency_to.
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
+unset grid
 lift = room(2)
 
-array colour[6] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#444444"]
 span = frequency_to - frequency_from
 span = span > 0 ? span : 0.2 * frequency_to
 unit = largest > 0 ? largest : 1.0
@@ -18,8 +17,6 @@ half_wide(order) = order * half_tall / speed_scale > 0.004 * frequency_end ? ord
 set palette defined (0 "#f4f1ea", 0.25 "#c9dcea", 0.5 "#6aaed6", 0.75 "#2166ac", 0.9 "#7a1f5c", 1 "#c8201e")
 
 set multiplot title heading offset 0, -0.4
-set border 3 lw 1.6
-set tics out nomirror
 # of a row of panels
 tall = (height - 175.0) / rows
 letter(n) = word("a b c d", int(n))

@@ -1,7 +1,6 @@
 # Work-precision: error against CPU time, one panel an observable, one line a choice; rings: the scene's settings.
 # Variables from whine-work-precision: tsv, title, note1, note2, labels, axes, fold_width.
-set datafile separator tab
-set datafile commentschars "#"
+load plots . "/common.gp"
 lift = room(2)
 
 array colour[9] = ["#0072b2", "#6fa8dc", "#d55e00", "#009e73", "#e69f00", "#cc79a7", "#444444", "#d147a3", "#00a0a0"]
@@ -9,9 +8,7 @@ array mark[9] = [7, 6, 5, 9, 11, 13, 4, 8, 2]
 
 set multiplot layout 2, 3 title title offset 0, -0.2 \
   margins screen 0.075, 0.985, 0.09 + lift, 0.82 + lift spacing screen 0.085, 0.125
-set border 3 lw 1.6
 set tics out nomirror font ",15"
-set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set logscale xy
 set format x "10^{%L}"
 set format y "10^{%L}"
