@@ -11,9 +11,7 @@
 #include "io/provenance.h"
 #include "io/response_codec.h"
 #include "io/sweep_codec.h"
-#include "signal/response.h"
-#include "studies/sweep_losses.h"
-#include "studies/sweep_pressure.h"
+#include "studies/sweep_response.h"
 
 namespace {
 
@@ -29,10 +27,7 @@ void body(int argc, char** argv) {
 
   const whine::Provenance provenance = whine::made_by(argc, argv, {"sweep=" + input});
   const whine::SweepResult sweep = whine::read_sweep(input);
-  whine::ResponseResult result = whine::response(sweep);
-  result.loss_factor = whine::loss_factors(sweep);
-  whine::add_flank_pressure(sweep, result);
-  result.friction = sweep.friction;
+  const whine::ResponseResult result = whine::sweep_response(sweep);
   whine::write(output, result, provenance);
 
   Eigen::Index peak = 0;

@@ -17,10 +17,8 @@
 #include "io/sweep_codec.h"
 #include "io/system_static_codec.h"
 #include "io/system_sweep_codec.h"
-#include "signal/response.h"
 #include "studies/sweep.h"
-#include "studies/sweep_losses.h"
-#include "studies/sweep_pressure.h"
+#include "studies/sweep_response.h"
 
 namespace whine {
 namespace {
@@ -35,13 +33,6 @@ ReportPicture read_picture(const std::string& path, const std::string& scene) {
   return picture;
 }
 
-ResponseResult with_teeth(const SweepResult& sweep) {
-  ResponseResult out = response(sweep);
-  out.loss_factor = loss_factors(sweep);
-  add_flank_pressure(sweep, out);
-  return out;
-}
-
 // Of a sweep only what it says: the motions of teeth that differ are large.
 ReportSweep read_sweep_of(const ReportContent& content, const std::string& path) {
   const SweepResult sweep = read_sweep(path);
@@ -50,7 +41,7 @@ ReportSweep read_sweep_of(const ReportContent& content, const std::string& path)
          "; a report is of the elastic pair: give the sweep.h5 in T<torque>/up or T<torque>/down");
   for (const StaticResult& statics : content.statics)
     if (statics.torque == sweep.torque)
-      return {with_teeth(sweep), remarks(sweep, statics), backlash_left(sweep)};
+      return {sweep_response(sweep), remarks(sweep, statics), backlash_left(sweep)};
   fail(Failure::input, path, ": is at ", sweep.torque, " N m, at which no static.h5 is given; give it, too");
 }
 

@@ -24,8 +24,7 @@
 #include "solid/root_stress.h"
 #include "studies/sustained_peaks.h"
 #include "studies/sweep.h"
-#include "studies/sweep_losses.h"
-#include "studies/sweep_pressure.h"
+#include "studies/sweep_response.h"
 #include "system/flank_pressure.h"
 #include "system/root_stress.h"
 
@@ -455,9 +454,7 @@ TEST_CASE(
     CHECK(std::abs(up.root_stress_phase[g][0] - s.root_stress_phase[at]) <= 1.0 / 64);
     CHECK(std::abs(up.root_stress_angle[g][0] - s.root_stress_angle[at]) < 5e-3);
   }
-  ResponseResult r = response(up);
-  r.loss_factor = loss_factors(up);
-  add_flank_pressure(up, r);
+  const ResponseResult r = sweep_response(up);
   // Hertz's of the loads at rest, strips are within 2.1 % of it; where one pair carries all and clear of the edges.
   REQUIRE(r.flank_pressure.cols() == r.pair_phase.size());
   CHECK(r.flank_pressure.maxCoeff() == relative(flank_pressure(s).smooth, 0.03));

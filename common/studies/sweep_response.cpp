@@ -1,0 +1,17 @@
+#include "studies/sweep_response.h"
+
+#include "signal/response.h"
+#include "studies/sweep_losses.h"
+#include "studies/sweep_pressure.h"
+
+namespace whine {
+
+ResponseResult sweep_response(const SweepResult& sweep) {
+  ResponseResult out = response(sweep);
+  out.loss_factor = loss_factors(sweep);
+  add_flank_pressure(sweep, out);
+  out.friction = sweep.friction;
+  return out;
+}
+
+}  // namespace whine
