@@ -1,9 +1,9 @@
 # Readings of P2000: what the paper leaves open, searched, and which of its claims hold together.
 #
 #   make reading        the search over data/studies/reading*.toml, and its best again with strips; out/reading/
-#   make consistency    out/figures/consistency.md, printed, and the figure out/figures/reading.{tsv,svg,png}
-#   make docs           both, and the scorecard, into data/published/README.md; and what docs-tables does
-#   make docs-tables    keys, targets, datasets, options, scenes and studies into their pages: seconds
+#   make consistency    out/figures/consistency{,_sets,_best}.tsv, the sets printed, and the figure out/figures/reading.{tsv,svg,png}
+#   make docs           both, and the scorecard, into data/published; and what docs-tables does
+#   make docs-tables    data/keys.tsv, and the generated tables of the pages: seconds
 #
 # A part holds whole tooth forms, so that a search that is broken off goes on with those that are missing.
 
@@ -27,7 +27,7 @@ out/reading/readings.h5: $(reading_parts) $(call id,gear-reading) | $(B)/bin/gea
 out/reading/confirmed.h5: out/reading/readings.h5 data/scenes/$(reading_scene).toml $(printed_claims) $(call id,gear-reading) | $(B)/bin/gear-reading
 	$(call run,reading) --confirm 20 --printed $(printed_claims) --scene data/scenes/$(reading_scene).toml --output $@ $< $(call landed,reading)
 
-$(call together,out/figures/consistency.md out/figures/consistency.tsv) &: out/reading/readings.h5 out/reading/confirmed.h5 $(claim_sets) $(call id,gear-reading) | $(B)/bin/gear-reading
+$(call together,$(addprefix out/figures/consistency,.tsv _sets.tsv _best.tsv)) &: out/reading/readings.h5 out/reading/confirmed.h5 $(claim_sets) $(call id,gear-reading) | $(B)/bin/gear-reading
 	@mkdir -p out/figures
 	$(B)/bin/gear-reading --sets $(claim_sets) --output out/figures/consistency $(filter %.h5,$^)
 
@@ -40,22 +40,22 @@ define replace_block # page, name, file
 @awk -v name='$2' -v file='$3' '$$0 == "<!-- " name " -->" { print; while ((getline line < file) > 0) print line; skip = 1 } \
   $$0 == "<!-- end of " name " -->" { skip = 0 } !skip' $1 > $1.new && mv $1.new $1
 endef
-published_page := data/published/README.md
 
-.PHONY: reading consistency docs docs-tables
+.PHONY: reading consistency docs docs-tables published_tables
 reading: out/reading/readings.h5 out/reading/confirmed.h5 ## search over what P2000 leaves open: two thousand readings against its claims, an hour of CPU
-consistency: out/figures/consistency.md out/figures/reading.png ## which of P2000's claims hold together in one reading, and which in none
+consistency: out/figures/consistency_sets.tsv out/figures/reading.png ## which of P2000's claims hold together in one reading, and which in none
 	@cat $<
-docs: docs-tables out/figures/scorecard.md out/figures/consistency.md out/figures/reading.png ## all that is generated in the pages: scorecard, sets of claims, the figure of readings, and what docs-tables does
-	$(call replace_block,$(published_page),gear-scorecard,out/figures/scorecard.md)
-	$(call replace_block,$(published_page),gear-reading,out/figures/consistency.md)
+published_tables: out/figures/scorecard.tsv out/figures/consistency_sets.tsv out/figures/consistency_best.tsv out/figures/reading.png
+	cp out/figures/scorecard.tsv data/published/scorecard.tsv
+	cp out/figures/consistency_sets.tsv data/published/claim_sets.tsv
+	cp out/figures/consistency_best.tsv data/published/best_readings.tsv
 	cp out/figures/reading.png data/published/reading.png
-docs-tables: build ## put the tables of keys, targets, datasets, options, scenes and studies into their pages (seconds; tests/pages.sh compares)
+docs: published_tables docs-tables ## all that is generated in data/published (an hour of CPU for the search over readings), and what docs-tables does
+docs-tables: build $(if $(filter docs,$(goals)),published_tables) ## renew data/keys.tsv and the generated tables of the pages (seconds; tests/pages.sh compares)
 	@mkdir -p $(B)/tables
-	@for table in keys targets datasets options scenes studies; do pipelines/tables.sh $$table $(B)/bin > $(B)/tables/$$table; done
-	$(call replace_block,data/README.md,keys,$(B)/tables/keys)
-	$(call replace_block,pipelines/README.md,datasets,$(B)/tables/datasets)
-	$(call replace_block,pipelines/README.md,targets,$(B)/tables/targets)
-	$(call replace_block,tools/README.md,options,$(B)/tables/options)
+	@for table in keys scenes studies scorecard sets; do pipelines/tables.sh $$table $(B)/bin > $(B)/tables/$$table; done
+	cp $(B)/tables/keys data/keys.tsv
 	$(call replace_block,data/scenes/README.md,scenes,$(B)/tables/scenes)
 	$(call replace_block,data/studies/README.md,studies,$(B)/tables/studies)
+	$(call replace_block,data/published/README.md,scorecard,$(B)/tables/scorecard)
+	$(call replace_block,data/published/README.md,sets,$(B)/tables/sets)

@@ -64,7 +64,7 @@ case $name in
   gear-report) written=("$output" "${output%/*}/results.tsv") ;;
   gear-compare) written=("$output" "${output%/*}/compare.tsv") ;;
   gear-sound) written=("$output".{wav,tsv}) ;;
-  gear-plot | gear-scorecard) written=("$output".{tsv,svg,png,txt,md}) ;;
+  gear-plot | gear-scorecard) written=("$output".{tsv,svg,png,txt}) ;;
   *) written=("$output") ;;
 esac
 for file in "${written[@]}"; do echo "$name" > "$file"; done

@@ -2,8 +2,8 @@
 //
 // Reads      a plan of readings (TOML), the scene that it names and what P2000 prints (data/published/claims.toml); or
 //            parts of a search; or readings.h5 and sets of claims
-// Writes     readings.h5: each reading, what it is fitted to, and its verdict on every claim; with --sets <output>.md and
-//            <output>.tsv: which sets of claims hold together
+// Writes     readings.h5: each reading, what it is fitted to, and its verdict on every claim; with --sets <output>_sets.tsv: which
+//            sets of claims hold together, <output>.tsv: all readings, and, of confirmed.h5, <output>_best.tsv
 // Equations  none of its own; paper/reading.h says what is tied to which printed number
 #include <cstdio>
 #include <string>
@@ -29,12 +29,13 @@ void look_for_sets(const std::vector<std::string>& parts, const std::string& set
          " are given");
   const ReadingsResult readings = read_readings(parts.front());
   const Consistency found = consistency(readings, read_claim_sets(sets));
-  std::string page = consistency_markdown(readings, found);
-  if (parts.size() == 2) page += confirmed_markdown(read_readings(parts.back()));
+  std::vector<FileBytes> files{{output + "_sets.tsv", claim_sets_tsv(readings, found)},
+                               {output + ".tsv", readings_tsv(readings, found)}};
+  if (parts.size() == 2) files.push_back({output + "_best.tsv", confirmed_tsv(read_readings(parts.back()))});
   for (const std::string& path : parts) require_fresh(path);
-  publish_all({{output + ".md", page}, {output + ".tsv", readings_tsv(readings, found)}});
+  publish_all(files);
   log_line("gear-reading: ", found.sets.size(), " sets of claims, ", found.conflicts.size(),
-           " pairs of claims that never meet -> ", output, ".{md,tsv}");
+           " pairs of claims that never meet -> ", output, "{,_sets,_best}.tsv");
 }
 
 void body(int argc, char** argv) {

@@ -1,8 +1,8 @@
 // gear-scorecard: what P2000 prints, claim by claim, beside the results of scenes.
 //
 // Reads      the artifacts that `gear-scorecard --files` lists, of each scene; what P2000 prints (data/published/claims.toml)
-// Writes     <output>.tsv, <output>.md, <output>.txt: every claim with its value in each scene, its deviation and its verdict,
-//            for programs, for data/published/README.md and for a terminal
+// Writes     <output>.tsv, <output>.txt: every claim with its value in each scene, its deviation and its verdict, for programs and
+//            for a terminal
 #include <cstdio>
 
 #include "base/error.h"
@@ -24,8 +24,9 @@ void body(int argc, char** argv) {
   options.add("--fitted", fitted,
               "which numbers of scenes were fitted to which claims: data/published/fitted.toml");
   options.flag("--files", files, "print which artifacts of a scene are read");
-  options.flag("--claims", claims,
-               "print the claims as rows of a table: id, place, text, printed value, what decides");
+  options.flag(
+      "--claims", claims,
+      "print the claims, columns between tabs: id, place, text, unit, printed value, tolerance, what decides");
   options.footer(
       "Example:\n"
       "  gear-scorecard --claims --printed data/published/claims.toml");
@@ -36,7 +37,7 @@ void body(int argc, char** argv) {
   if (files && !claims) return;
   if (printed.empty()) whine::fail(whine::Failure::usage, "--printed is needed: data/published/claims.toml");
   const std::vector<whine::Claim> all = whine::read_claims(printed);
-  if (claims) std::fputs(whine::claims_markdown(all).c_str(), stdout);
+  if (claims) std::fputs(whine::claims_tsv(all).c_str(), stdout);
   if (claims) return;
   if (output.empty()) whine::fail(whine::Failure::usage, "--output is needed");
   if (inputs.empty())
@@ -50,7 +51,6 @@ void body(int argc, char** argv) {
   sources.reserve(inputs.size());
   for (const std::string& path : inputs) sources.push_back(whine::recorded_path(path));
   whine::publish_all({{output + ".tsv", whine::scorecard_tsv(card, sources)},
-                      {output + ".md", whine::scorecard_markdown(card)},
                       {output + ".txt", whine::scorecard_text(card)}});
   for (const std::string& line : whine::bottom_line(card)) whine::log_line("gear-scorecard: ", line);
 }

@@ -117,44 +117,40 @@ std::string words_of(const Reading& r) {
               " mm, ", c.steps_per_period, " steps");
 }
 
-std::string consistency_markdown(const ReadingsResult& a, const Consistency& found) {
+std::string claim_sets_tsv(const ReadingsResult& a, const Consistency& found) {
+  const auto listed = [](const std::vector<std::string>& ids) {
+    std::string out;
+    for (const std::string& id : ids) out += (out.empty() ? "" : ", ") + id;
+    return out.empty() ? std::string("none") : out;
+  };
   std::ostringstream out;
-  out << a.readings.size() << " readings, " << a.outside
-      << " more outside the model's range. Most claims that agree in one reading: "
-      << found.agreeing[found.order.front()] << ".\n\n";
-  out << "| claims | readings with all | closest reading lacks | it has |\n|---|---|---|---|\n";
-  for (const SetFound& s : found.sets) {
-    std::string failing;
-    for (const std::string& id : s.failing) failing += (failing.empty() ? "`" : ", `") + id + "`";
-    out << "| **" << s.set.name << "**: " << s.set.says << " | "
-        << (s.readings > 0 ? text(s.readings) : "none") << " | "
-        << (failing.empty() ? "nothing" : text(s.failing.size(), " of ", s.size, ": ", failing)) << " | "
-        << words_of(a.readings[s.closest]) << " |\n";
+  out << "# " << a.readings.size() << " readings, " << a.outside
+      << " more outside the model's range; most claims that agree in one reading: "
+      << found.agreeing[found.order.front()]
+      << "\n# claims that no reading satisfies: " << listed(found.never)
+      << "\n# pairs of claims that hold in a tenth of the readings each and in none together: "
+      << found.conflicts.size() << "\n";
+  for (size_t i = 0; i < std::min(kShownConflicts, found.conflicts.size()); ++i) {
+    const Conflict& c = found.conflicts[i];
+    out << "#   " << c.one << " in " << c.with_one << ", " << c.other << " in " << c.with_other << "\n";
   }
-  out << "\nClaims that no reading satisfies: ";
-  for (size_t i = 0; i < found.never.size(); ++i) out << (i ? ", " : "") << "`" << found.never[i] << "`";
-  out << (found.never.empty() ? "none" : "") << ".\n";
-  if (!found.conflicts.empty()) {
-    out << "\nClaims that hold in a tenth of the readings each and in none together ("
-        << found.conflicts.size() << " pairs, the most frequent first):\n\n"
-        << "| one | holds in | other | holds in |\n|---|---|---|---|\n";
-    for (size_t i = 0; i < std::min(kShownConflicts, found.conflicts.size()); ++i) {
-      const Conflict& c = found.conflicts[i];
-      out << "| `" << c.one << "` | " << c.with_one << " | `" << c.other << "` | " << c.with_other << " |\n";
-    }
-  }
+  out << "# set\tclaims\treadings with all\tclosest reading lacks\tclosest reading\n";
+  for (const SetFound& s : found.sets)
+    out << s.set.name << "\t" << s.set.says << "\t" << s.readings << "\t"
+        << (s.failing.empty() ? "nothing" : text(s.failing.size(), " of ", s.size, ": ", listed(s.failing)))
+        << "\t" << words_of(a.readings[s.closest]) << "\n";
   return out.str();
 }
 
-std::string confirmed_markdown(const ReadingsResult& confirmed) {
-  const Consistency found = consistency(confirmed, {});
+std::string confirmed_tsv(const ReadingsResult& confirmed) {
   std::ostringstream out;
-  out << "\nThe best readings again with strips and speeds 20 Hz apart, on the bodies of the search:\n\n"
-      << "| agree | 150 N m: jump up; down, where above 0.575 f_n (Hz) | reading |\n|---|---|---|\n";
+  out << "# The best readings again with strips and speeds 20 Hz apart, on the bodies of the search; jumps at 150 N m, the one down where it is above 0.575 f_n\n"
+      << "# claims that agree\tjump up (Hz)\tjump down (Hz)\treading\n";
+  const Consistency found = consistency(confirmed, {});
   for (const size_t i : found.order) {
     const Reading& r = confirmed.readings[i];
-    out << "| " << found.agreeing[i] << " | " << (r.jump_up > 0 ? number(r.jump_up, 4) : "none") << "; "
-        << (r.jump_down > 0 ? number(r.jump_down, 4) : "below") << " | " << words_of(r) << " |\n";
+    out << found.agreeing[i] << "\t" << (r.jump_up > 0 ? number(r.jump_up, 4) : "none") << "\t"
+        << (r.jump_down > 0 ? number(r.jump_down, 4) : "below") << "\t" << words_of(r) << "\n";
   }
   return out.str();
 }

@@ -38,11 +38,11 @@ Consistency consistency(const ReadingsResult& readings, const std::vector<ClaimS
 // "dedendum 1.4, rack tip 0.32, bore 46 mm, corner contact to 0.5 deg, ...": one line.
 std::string words_of(const Reading& reading);
 
-// For a page: sets, claims that no reading satisfies, pairs that never meet, the best readings.
-std::string consistency_markdown(const ReadingsResult& readings, const Consistency& found);
+// data/published/claim_sets.tsv: a line for each set; comments name the claims that no reading satisfies and the pairs that never meet.
+std::string claim_sets_tsv(const ReadingsResult& readings, const Consistency& found);
 
-// A table of the readings that were looked at again with strips, those with the most agreeing claims first.
-std::string confirmed_markdown(const ReadingsResult& confirmed);
+// data/published/best_readings.tsv: the readings that were looked at again with strips, those with the most agreeing claims first.
+std::string confirmed_tsv(const ReadingsResult& confirmed);
 
 // A line for each reading, best first: what it fixes, how many claims agree, the verdict on each.
 std::string readings_tsv(const ReadingsResult& readings, const Consistency& found);

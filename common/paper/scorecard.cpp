@@ -158,8 +158,15 @@ std::string notes_text(const Scorecard& card, const ScoredClaim& row) {
   return words;
 }
 
-std::string claim_cells(const Claim& c) {
-  return "| `" + c.id + "` | " + c.place + " | " + c.text + " | " + printed_text(c) + " | " + c.basis + " |";
+std::string exact(double value) {
+  std::ostringstream number;
+  number << std::setprecision(9) << value;
+  return std::isnan(value) ? std::string("-") : number.str();
+}
+
+std::string claim_columns(const Claim& c) {
+  return text(c.id, "\t", c.place, "\t", c.text, "\t", c.unit, "\t", exact(c.printed), "\t",
+              exact(c.tolerance), "\t", c.basis);
 }
 
 size_t width(const std::string& utf8) {
@@ -200,40 +207,15 @@ std::string scorecard_tsv(const Scorecard& card, const std::vector<std::string>&
     for (const char* column : {"value", "deviation", "reading", "verdict", "note"})
       out += "\t" + s + " " + column;
   out += "\tartifacts of a scene\n";
-  const auto exact = [](double value) {
-    std::ostringstream number;
-    number << std::setprecision(9) << value;
-    return std::isnan(value) ? std::string("-") : number.str();
-  };
   for (const ScoredClaim& row : card.rows) {
     const Claim& c = row.claim;
-    out += c.id + "\t" + c.place + "\t" + c.text + "\t" + c.unit + "\t" + exact(c.printed) + "\t" +
-           exact(c.tolerance) + "\t" + c.basis;
+    out += claim_columns(c);
     for (size_t i = 0; i < row.findings.size(); ++i) {
       const Finding& f = row.findings[i];
       out += "\t" + exact(f.value) + "\t" + deviation_text(c, f) + "\t" + f.reading + "\t" +
              verdict_in_words(verdict(card, row, i)) + "\t" + f.note;
     }
     out += "\t" + row.sources + "\n";
-  }
-  return out;
-}
-
-std::string scorecard_markdown(const Scorecard& card) {
-  std::string out = "| claim | in P2000 | it says | printed | decided by |", rule = "|---|---|---|---|---|";
-  for (const std::string& s : card.scenes) {
-    out += " `" + s + "` |";
-    rule += "---|";
-  }
-  out += " reason, where it does not agree | from, in `out/<scene>/` |\n" + rule + "---|---|\n";
-  for (const ScoredClaim& row : card.rows) {
-    out += claim_cells(row.claim);
-    for (size_t i = 0; i < row.findings.size(); ++i) {
-      const std::string found = found_text(row.claim, row.findings[i]);
-      out += " " + found + (found.empty() ? "" : ": ") + verdict_in_words(verdict(card, row, i)) + " |";
-    }
-    out +=
-        " " + notes_text(card, row) + " | " + (row.sources.empty() ? "" : "`" + row.sources + "`") + " |\n";
   }
   return out;
 }
@@ -276,9 +258,9 @@ std::string scorecard_text(const Scorecard& card) {
   return out;
 }
 
-std::string claims_markdown(const std::vector<Claim>& claims) {
+std::string claims_tsv(const std::vector<Claim>& claims) {
   std::string out;
-  for (const Claim& c : claims) out += claim_cells(c) + "\n";
+  for (const Claim& c : claims) out += claim_columns(c) + "\n";
   return out;
 }
 

@@ -32,13 +32,12 @@ Verdict verdict(const Scorecard& card, const ScoredClaim& row, size_t scene);
 // 6 chosen for the number of claims that agree", one for each scene.
 std::vector<std::string> bottom_line(const Scorecard& card);
 
-// sources: paths of the artifacts, named in comment lines.
+// The published table, data/published/scorecard.tsv. sources: paths of the artifacts, named in comment lines.
 std::string scorecard_tsv(const Scorecard& card, const std::vector<std::string>& sources);
-// For data/published/README.md: notes only where a verdict is not "agrees" or there are several readings.
-std::string scorecard_markdown(const Scorecard& card);
-// For the terminal: columns, below each claim its reason as in that page and the artifacts that answer.
+// For the terminal: columns; below each claim its reason, where a verdict is not "agrees" or there are several readings, and the
+// artifacts that answer.
 std::string scorecard_text(const Scorecard& card);
-// id, place, text, printed value and tolerance of each claim, between bars as in the first columns of its table.
-std::string claims_markdown(const std::vector<Claim>& claims);
+// The first columns of the TSV: id, place, text, unit, printed value, tolerance, basis.
+std::string claims_tsv(const std::vector<Claim>& claims);
 
 }  // namespace whine

@@ -23,7 +23,7 @@ struct PairGuideRow {
   const char* next;
 };
 
-// Percentages are those of tests/README.md, "Discretisation error of the statics" and "What the settings cost and buy".
+// Errors are those of tests/accuracy.tsv; tests/report/test_report.cpp compares.
 constexpr PairGuideRow kRows[] = {
     {Needs::nothing, "", "Contact ratio, diameters, angles",
      "Geometry of the gears as drawn: exact involutes at the given centre distance. SAP is where the active profile starts; between the diameters at B and D one pair alone is in contact.",

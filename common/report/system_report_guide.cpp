@@ -9,7 +9,7 @@
 namespace whine {
 namespace {
 
-// Percentages are those of tests/README.md, "Comparison with P2000 and other programs".
+// Errors are those of tests/accuracy.tsv; tests/report/test_report.cpp compares.
 std::vector<GuideRow> rows_at_rest(bool planets) {
   std::vector<GuideRow> rows{
       {"system", "Positions, senses, phases",

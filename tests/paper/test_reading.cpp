@@ -198,7 +198,7 @@ claims = ["b"]
   REQUIRE(found.conflicts.size() == 1);
   CHECK(found.conflicts[0].one == "a");
   CHECK(found.conflicts[0].with_one == 2);
-  CHECK(consistency_markdown(a, found).find("| **all**: x | none | 1 of 2: `b` |") != std::string::npos);
+  CHECK(claim_sets_tsv(a, found).find("\nall\tx\t0\t1 of 2: b\tdedendum ") != std::string::npos);
 
   CHECK(message_of([&] {
           consistency(a, {{"s", "x", {{"z"}}}});

@@ -424,22 +424,20 @@ TEST_CASE("scorecard: the bottom line counts what the rows say, in every renderi
   CHECK(scorecard_text(card).find(line) != std::string::npos);
   CHECK(scorecard_tsv(card, {"out/x/T100/static.h5"}).find("# " + line + "\n# from out/x/T100/static.h5\n") !=
         std::string::npos);
-  const std::string table = scorecard_markdown(card);
-  CHECK(table.find("| 100 Hz ± 1 | why | 100.5 Hz (+0.5 %): agrees |  |  |\n") != std::string::npos);
-  CHECK(table.find("| 50 | why | 50: given |") != std::string::npos);
-  CHECK(table.find("| yes | why | none: differs | a note |") != std::string::npos);
-  CHECK(table.find("| why | cannot be compared | a note |") != std::string::npos);
-  CHECK(table.find("| 7 mm | why | 70 mm (+900.0 %): misprint of P2000 | a note |") != std::string::npos);
-  CHECK(table.find("| 7.25 % (+0.2 percentage points): fitted |") != std::string::npos);
+  const std::string table = scorecard_tsv(card, {});
+  CHECK(table.find("\tHz\t100\t1\twhy\t100.5\t+0.5 %\t\tagrees\t") != std::string::npos);
+  CHECK(table.find("\t50\t0\twhy\t50\t\t\tgiven\t") != std::string::npos);
+  CHECK(table.find("\twhy\t-\t\t\tdiffers\ta note\t") != std::string::npos);
+  CHECK(table.find("\twhy\t-\t\t\tcannot be compared\ta note\t") != std::string::npos);
+  CHECK(table.find("\tmm\t7\t0\twhy\t70\t+900.0 %\t\tmisprint of P2000\ta note\t") != std::string::npos);
+  CHECK(table.find("\t7.25\t+0.2 percentage points\t\tfitted\t") != std::string::npos);
   const std::string sources = "T{100,300}/static.h5 T150/{up,down}/response.h5";
-  CHECK(table.find("| 3000 N (b): agrees | read as a 1 N, b 3000 N | `" + sources + "` |\n") !=
-        std::string::npos);
-  // reasons and artifacts in the terminal's table and in the TSV, too
+  CHECK(table.find("\t3000\t\tb\tagrees\tread as a 1 N, b 3000 N\t" + sources + "\n") != std::string::npos);
+  // reasons and artifacts in the terminal's table, too
   CHECK(scorecard_text(card).find("    why: a note\n") != std::string::npos);
   CHECK(scorecard_text(card).find("    from, in out/x/: " + sources + "\n") != std::string::npos);
-  CHECK(scorecard_tsv(card, {}).find("\t" + sources + "\n") != std::string::npos);
-  // the rows that data/published/README.md is checked against are those of the table, without the scenes
-  std::istringstream rows(claims_markdown(claims));
+  // the rows that data/published/scorecard.tsv is checked against are those of the table, without the scenes
+  std::istringstream rows(claims_tsv(claims));
   std::string row;
   while (std::getline(rows, row)) CHECK(table.find(row) != std::string::npos);
 }

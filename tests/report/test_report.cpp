@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <numbers>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -18,8 +20,10 @@
 #include "report/motion_figures.h"
 #include "report/report.h"
 #include "report/report_figures.h"
+#include "report/report_guide.h"
 #include "report/report_tables.h"
 #include "report/static_figures.h"
+#include "report/system_report_guide.h"
 #include "signal/response.h"
 #include "signal/spectrum.h"
 #include "studies/sweep.h"
@@ -336,6 +340,44 @@ TEST_CASE("report: what the numbers mean is said of what is on the page, and of 
   for (const std::string& name : report_figures()) {
     CAPTURE(name);
     CHECK(all.find("<a href=\"#" + name + "\">") != std::string::npos);
+  }
+}
+
+TEST_CASE(
+    "report: every accuracy that it quotes stands in tests/accuracy.tsv, and every one of the table in the report") {
+  ReportContent content;
+  content.impacts.resize(1);
+  content.sweeps.resize(1);
+  content.pictures = {{"fig05-branches", "\x89PNG"}};
+  SystemReport system;
+  system.rest.emplace();
+  system.pictures = {{"system-static", "\x89PNG"}};
+  const std::string guide = guide_to_numbers(content), of_system = system_guide(system);
+  // "<tr><td>what, links</td><td>reading</td><td>trust</td>..." of the row of a name
+  const auto row = [&](const std::string& name) {
+    const size_t begin = guide.find("<tr><td>" + name);
+    return begin == std::string::npos ? std::string()
+                                      : guide.substr(begin, guide.find("</tr>", begin) - begin);
+  };
+  std::ifstream table("tests/accuracy.tsv");
+  std::string line;
+  std::set<std::string> errors;
+  while (std::getline(table, line)) {
+    if (line.starts_with("#")) continue;
+    CAPTURE(line);
+    std::istringstream columns(line);
+    std::string quantity, error, command, name;
+    std::getline(
+        std::getline(std::getline(std::getline(columns, quantity, '\t'), error, '\t'), command, '\t'), name,
+        '\t');
+    CHECK((name == "system" ? of_system : row(name)).find(error) != std::string::npos);
+    errors.insert(error);
+  }
+  CHECK(errors.size() > 5);
+  const std::regex leading("<td>([0-9.]+( to [0-9.]+)? (%|Hz))");
+  for (std::sregex_iterator found(guide.begin(), guide.end(), leading), none; found != none; ++found) {
+    CAPTURE(found->str());
+    CHECK(errors.contains((*found)[1].str()));
   }
 }
 
