@@ -10,8 +10,9 @@
 
 #include "base/error.h"
 #include "dynamics/dynamics.h"
-#include "io/body_codec.h"
-#include "io/sweep_codec.h"
+#include "io/artifacts.h"
+#include "results/reduced_body.h"
+#include "results/sweep.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
 #include "studies/sweep.h"
@@ -45,7 +46,7 @@ inline const ReducedBody& paper_body(double bore = 40e-3, double element = 0.4e-
     const std::string kept =
         folder ? text(folder, "/", bore * 1e3, "-", element * 1e3, "-", modes, ".h5") : std::string();
     if (folder && std::filesystem::exists(kept)) {
-      cache[key] = read_body(kept);
+      cache[key] = read<ReducedBody>(kept);
     } else {
       BodyDiscretisation discretisation;
       discretisation.element_size = element;

@@ -10,15 +10,16 @@
 
 #include "base/error.h"
 #include "base/tool.h"
-#include "io/mesh_codec.h"
+#include "io/artifacts.h"
 #include "io/named_files.h"
 #include "io/provenance.h"
 #include "io/publish.h"
 #include "io/scene_words.h"
-#include "io/sweep_codec.h"
 #include "report/animation.h"
 #include "report/gnuplot.h"
 #include "report/plot_file.h"
+#include "results/sector_grid.h"
+#include "results/sweep.h"
 
 namespace {
 
@@ -43,10 +44,11 @@ void body(int argc, char** argv) {
   if (!frequency.empty() && !(speed > 0))
     whine::fail(whine::Failure::usage, "--mesh-frequency ", speed, ": it is in Hz, above 0");
   const whine::NamedFiles files("--mesh", meshes);
-  const whine::SweepResult motion = whine::read_sweep(sweep);
+  const whine::SweepResult motion = whine::read<whine::SweepResult>(sweep);
   const std::vector<std::string> paths = files.of(motion.mesh);
   whine::Figure figure =
-      whine::animation_figure(whine::read_mesh(paths[0]), whine::read_mesh(paths[1]), motion, speed, frames);
+      whine::animation_figure(whine::read<whine::SectorGrid>(paths[0]),
+                              whine::read<whine::SectorGrid>(paths[1]), motion, speed, frames);
   const std::string scene = whine::scene_words(sweep);
   if (!scene.empty()) figure.scenes = {scene};
   for (const std::string& path : {paths[0], paths[1], sweep}) whine::require_fresh(path);

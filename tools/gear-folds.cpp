@@ -13,10 +13,11 @@
 #include "base/progress.h"
 #include "base/tool.h"
 #include "gear/body_inertia.h"
-#include "io/fold_curves_codec.h"
+#include "io/artifacts.h"
 #include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "io/scene.h"
+#include "results/fold_curves.h"
 #include "studies/fold_curves.h"
 
 namespace {

@@ -16,11 +16,12 @@
 #include "base/progress.h"
 #include "base/tool.h"
 #include "gear/body_inertia.h"
-#include "io/harris_map_codec.h"
+#include "io/artifacts.h"
 #include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "io/scene.h"
-#include "io/static_codec.h"
+#include "results/harris_map.h"
+#include "results/static.h"
 #include "studies/harris_plan.h"
 
 namespace {
@@ -43,7 +44,7 @@ HarrisMapResult computed(const ReducedBody& first, const ReducedBody& second,
   if (!params.empty()) {
     SweepParameters moving = read_sweep_parameters(params);
     as_drawn(moving, {first.inertia, second.inertia});
-    add_dynamics(map, first, second, moving, read_static(reference).mean_stiffness, report);
+    add_dynamics(map, first, second, moving, read<StaticResult>(reference).mean_stiffness, report);
     progress.reset();
   }
   return map;

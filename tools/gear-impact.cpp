@@ -14,10 +14,11 @@
 #include "base/progress.h"
 #include "base/tool.h"
 #include "dynamics/impact.h"
-#include "io/impact_codec.h"
+#include "io/artifacts.h"
 #include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "io/scene.h"
+#include "results/impact.h"
 #include "studies/sweep.h"
 
 namespace {

@@ -15,10 +15,11 @@
 #include "base/progress.h"
 #include "base/tool.h"
 #include "gear/body_inertia.h"
-#include "io/jump_map_codec.h"
+#include "io/artifacts.h"
 #include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "io/scene.h"
+#include "results/jump_map.h"
 #include "studies/jump_map.h"
 
 namespace {

@@ -13,13 +13,14 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
-#include "io/body_codec.h"
+#include "io/artifacts.h"
 #include "io/compatibility.h"
-#include "io/loaded_codec.h"
-#include "io/mesh_codec.h"
 #include "io/named_files.h"
 #include "io/provenance.h"
-#include "io/static_codec.h"
+#include "results/loaded.h"
+#include "results/reduced_body.h"
+#include "results/sector_grid.h"
+#include "results/static.h"
 #include "system/flank_pressure.h"
 #include "system/loaded_pair.h"
 
@@ -47,14 +48,14 @@ void body(int argc, char** argv) {
   const whine::NamedFiles body_files("--body", bodies), mesh_files("--mesh", meshes);
   const whine::Provenance provenance =
       whine::made_by(argc, argv, mesh_files.and_inputs(body_files.and_inputs({"static=" + statics_path})));
-  const whine::StaticResult statics = whine::read_static(statics_path);
+  const whine::StaticResult statics = whine::read<whine::StaticResult>(statics_path);
   const std::vector<std::string> body_paths = body_files.of(statics.mesh),
                                  mesh_paths = mesh_files.of(statics.mesh);
   std::optional<whine::StepsShown> steps(std::in_place, "gear-loaded");
-  const whine::LoadedResult result =
-      whine::loaded_pair(whine::read_mesh(mesh_paths[0]), whine::read_mesh(mesh_paths[1]),
-                         whine::read_body(body_paths[0]), whine::read_body(body_paths[1]), statics,
-                         position - std::floor(position), static_cast<int>(std::floor(position)));
+  const whine::LoadedResult result = whine::loaded_pair(
+      whine::read<whine::SectorGrid>(mesh_paths[0]), whine::read<whine::SectorGrid>(mesh_paths[1]),
+      whine::read<whine::ReducedBody>(body_paths[0]), whine::read<whine::ReducedBody>(body_paths[1]), statics,
+      position - std::floor(position), static_cast<int>(std::floor(position)));
   steps.reset();
 
   whine::write(output, result, provenance);

@@ -17,10 +17,11 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
-#include "io/jump_map_codec.h"
+#include "io/artifacts.h"
 #include "io/lumped_inputs.h"
 #include "io/provenance.h"
-#include "io/sweep_codec.h"
+#include "results/jump_map.h"
+#include "results/sweep.h"
 #include "signal/jump_words.h"
 
 namespace {

@@ -7,9 +7,10 @@
 
 #include "base/error.h"
 #include "base/tool.h"
-#include "io/mesh_codec.h"
+#include "io/artifacts.h"
 #include "io/provenance.h"
 #include "io/scene.h"
+#include "results/sector_grid.h"
 #include "solid/elements.h"
 #include "solid/mesher.h"
 

@@ -9,10 +9,11 @@
 
 #include "base/error.h"
 #include "base/tool.h"
-#include "io/modes_codec.h"
+#include "io/artifacts.h"
 #include "io/provenance.h"
 #include "io/system_scene.h"
-#include "io/system_static_codec.h"
+#include "results/modes.h"
+#include "results/system_static.h"
 #include "system/mode_view.h"
 #include "system/natural_modes.h"
 
@@ -42,7 +43,7 @@ void body(int argc, char** argv) {
     result = whine::natural_modes(whine::read_system_parameters(params));
     whine::add_mode_view(result, std::vector<const whine::GearDesign*>(result.layout.bodies.size(), nullptr));
   } else {
-    const whine::SystemStaticResult rest = whine::read_system_static(statics);
+    const whine::SystemStaticResult rest = whine::read<whine::SystemStaticResult>(statics);
     result = whine::elastic_modes(rest);
     whine::add_mode_view(result, whine::designs_of(rest));
   }

@@ -13,10 +13,11 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
-#include "io/branch_codec.h"
+#include "io/artifacts.h"
 #include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "io/scene.h"
+#include "results/branch.h"
 #include "signal/jump_words.h"
 #include "studies/pair_branch.h"
 

@@ -7,17 +7,18 @@
 // Equations  k = (T / r_b) / STE
 #include "base/error.h"
 #include "base/tool.h"
-#include "io/impact_codec.h"
+#include "io/artifacts.h"
 #include "io/picture_sources.h"
 #include "io/provenance.h"
 #include "io/publish.h"
-#include "io/readings_codec.h"
+#include "io/readings_result.h"
 #include "paper/reading_figure.h"
 #include "paper/table1.h"
 #include "report/engineering_axes.h"
 #include "report/figure_registry.h"
 #include "report/gnuplot.h"
 #include "report/plot_file.h"
+#include "results/impact.h"
 
 namespace {
 
@@ -84,7 +85,7 @@ void body(int argc, char** argv) {
   if (name == kReading) {
     if (inputs.size() != 1 || claim_sets.empty())
       whine::fail(whine::Failure::usage, "reading needs one readings.h5 and --claim-sets");
-    const whine::ReadingsResult readings = whine::read_readings(inputs.front());
+    const whine::ReadingsResult readings = whine::read<whine::ReadingsResult>(inputs.front());
     publish_figure(
         whine::reading_figure(readings, whine::consistency(readings, whine::read_claim_sets(claim_sets))),
         inputs, sources, output, plots + "/" + name + ".gp");
@@ -92,7 +93,7 @@ void body(int argc, char** argv) {
   }
   if (name == kTable) {
     std::vector<whine::ImpactResult> impacts;
-    for (const std::string& path : inputs) impacts.push_back(whine::read_impact(path));
+    for (const std::string& path : inputs) impacts.push_back(whine::read<whine::ImpactResult>(path));
     const whine::Figure table = whine::natural_frequency_table(
         impacts, printed.empty() ? std::vector<whine::PrintedClaim>{} : whine::read_printed_claims(printed));
     const std::string words = whine::natural_frequency_text(table);

@@ -27,11 +27,11 @@ void look_for_sets(const std::vector<std::string>& parts, const std::string& set
   if (parts.size() > 2)
     fail(Failure::usage, "--sets takes readings.h5 and, if there is one, confirmed.h5; ", parts.size(),
          " are given");
-  const ReadingsResult readings = read_readings(parts.front());
+  const ReadingsResult readings = read<ReadingsResult>(parts.front());
   const Consistency found = consistency(readings, read_claim_sets(sets));
   std::vector<FileBytes> files{{output + "_sets.tsv", claim_sets_tsv(readings, found)},
                                {output + ".tsv", readings_tsv(readings, found)}};
-  if (parts.size() == 2) files.push_back({output + "_best.tsv", confirmed_tsv(read_readings(parts.back()))});
+  if (parts.size() == 2) files.push_back({output + "_best.tsv", confirmed_tsv(read<ReadingsResult>(parts.back()))});
   for (const std::string& path : parts) require_fresh(path);
   publish_all(files);
   log_line("gear-reading: ", found.sets.size(), " sets of claims, ", found.conflicts.size(),
@@ -71,7 +71,7 @@ void body(int argc, char** argv) {
       fail(Failure::usage, "--confirm takes a number from 1 to 1000, one readings.h5, --scene and --printed");
     const Provenance provenance =
         made_by(argc, argv, {"readings=" + parts.front(), "scene=" + scene_path, "claims=" + printed});
-    const ReadingsResult best = confirmed(read_readings(parts.front()), read_scene(scene_path),
+    const ReadingsResult best = confirmed(read<ReadingsResult>(parts.front()), read_scene(scene_path),
                                           static_cast<int>(count), read_claims(printed));
     write(output, best, provenance);
     log_line("gear-reading: ", best.readings.size(), " readings confirmed with strips -> ", output);

@@ -13,11 +13,12 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
-#include "io/body_codec.h"
+#include "io/artifacts.h"
 #include "io/compatibility.h"
-#include "io/mesh_codec.h"
 #include "io/provenance.h"
 #include "io/scene.h"
+#include "results/reduced_body.h"
+#include "results/sector_grid.h"
 #include "solid/reduce.h"
 
 namespace {
@@ -35,7 +36,7 @@ void body(int argc, char** argv) {
 
   const whine::Provenance provenance = whine::made_by(argc, argv, {"params=" + params, "mesh=" + mesh});
   const whine::BodyParameters settings = whine::read_body_parameters(params);
-  whine::SectorGrid sector = whine::read_mesh(mesh);
+  whine::SectorGrid sector = whine::read<whine::SectorGrid>(mesh);
   whine::require_mesh(sector, settings, mesh);
   sector.discretisation = settings.discretisation;  // a mesh does not say how its near field is reduced
   std::optional<whine::StepsShown> steps(std::in_place, "gear-reduce");

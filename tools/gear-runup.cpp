@@ -13,9 +13,10 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
+#include "io/artifacts.h"
 #include "io/pair_inputs.h"
 #include "io/provenance.h"
-#include "io/runup_codec.h"
+#include "io/runup_file.h"
 #include "io/scene.h"
 #include "studies/runup.h"
 

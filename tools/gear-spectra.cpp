@@ -8,9 +8,10 @@
 #include <cstdio>
 
 #include "base/tool.h"
+#include "io/artifacts.h"
 #include "io/provenance.h"
-#include "io/response_codec.h"
-#include "io/sweep_codec.h"
+#include "results/response.h"
+#include "results/sweep.h"
 #include "studies/sweep_response.h"
 
 namespace {
@@ -26,7 +27,7 @@ void body(int argc, char** argv) {
   options.parse(argc, argv);
 
   const whine::Provenance provenance = whine::made_by(argc, argv, {"sweep=" + input});
-  const whine::SweepResult sweep = whine::read_sweep(input);
+  const auto sweep = whine::read<whine::SweepResult>(input);
   const whine::ResponseResult result = whine::sweep_response(sweep);
   whine::write(output, result, provenance);
 

@@ -16,11 +16,12 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "io/artifacts.h"
 #include "io/provenance.h"
 #include "io/publish.h"
 #include "io/scene.h"
-#include "io/study_codec.h"
 #include "io/study_expansion.h"
+#include "io/study_result.h"
 #include "io/variant.h"
 
 namespace {

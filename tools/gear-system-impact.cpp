@@ -11,11 +11,12 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
+#include "io/artifacts.h"
 #include "io/compatibility.h"
 #include "io/named_files.h"
 #include "io/provenance.h"
-#include "io/system_impact_codec.h"
 #include "io/system_scene.h"
+#include "results/system_impact.h"
 #include "studies/system_impact.h"
 
 namespace {

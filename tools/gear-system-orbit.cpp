@@ -12,11 +12,12 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
+#include "io/artifacts.h"
 #include "io/compatibility.h"
 #include "io/named_files.h"
 #include "io/provenance.h"
-#include "io/system_branch_codec.h"
 #include "io/system_scene.h"
+#include "results/system_branch.h"
 #include "signal/jump_words.h"
 #include "studies/system_branch.h"
 

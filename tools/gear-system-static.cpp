@@ -10,11 +10,12 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
+#include "io/artifacts.h"
 #include "io/compatibility.h"
 #include "io/named_files.h"
 #include "io/provenance.h"
 #include "io/system_scene.h"
-#include "io/system_static_codec.h"
+#include "results/system_static.h"
 #include "system/drawing_remarks.h"
 #include "system/system_rest.h"
 

@@ -11,11 +11,12 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/tool.h"
+#include "io/artifacts.h"
 #include "io/compatibility.h"
 #include "io/named_files.h"
 #include "io/provenance.h"
 #include "io/system_scene.h"
-#include "io/system_sweep_codec.h"
+#include "results/system_sweep.h"
 #include "studies/system_sweep.h"
 #include "studies/turning_carrier.h"
 

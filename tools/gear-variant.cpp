@@ -16,10 +16,11 @@
 #include "base/progress.h"
 #include "base/tool.h"
 #include "gear/body_inertia.h"
+#include "io/artifacts.h"
 #include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "io/study.h"
-#include "io/variant_codec.h"
+#include "results/variant.h"
 #include "studies/study_variant.h"
 
 namespace {

@@ -88,12 +88,12 @@ class SectionSource : public ParameterSource {
  public:
   SectionSource(const ArtifactReader& reader, const std::string& section)
       : reader_(reader), prefix_("/parameters/" + section + "/") {}
-  bool has(const std::string& name) const override { return reader_.file().has(prefix_ + name); }
+  bool has(const std::string& name) const override { return reader_.has(prefix_ + name); }
   double number(const std::string& name) const override { return reader_.number(prefix_ + name); }
   int whole(const std::string& name) const override { return reader_.whole(prefix_ + name); }
   std::string word(const std::string& name) const override { return reader_.word(prefix_ + name); }
   [[noreturn]] void reject(const std::string& name, const std::string& what) const override {
-    reader_.file().reject("dataset " + prefix_ + name + " " + what);
+    reader_.reject("dataset " + prefix_ + name + " " + what);
   }
 
  private:
@@ -305,15 +305,11 @@ void ArtifactWriter::publish() {
 }
 
 ArtifactReader::ArtifactReader(const std::string& path, const std::string& kind, int version)
-    : file_(artifact_bytes(path), path, rebuild_advice(path)) {
-  const std::string schema = file_.string_attribute("/", "schema");
-  if (schema != kFamily + kind) {
-    file_.reject(text("is '", schema, "', but '", kFamily + kind, "' is wanted here"));
-  }
-  const int found = file_.int_attribute("/", "schema_version");
-  if (found != version) {
-    file_.reject(text("is schema version ", found, ", this program reads ", version));
-  }
+    : file_(std::make_unique<h5::Reader>(artifact_bytes(path), path, rebuild_advice(path))) {
+  const std::string schema = file_->string_attribute("/", "schema");
+  if (schema != kFamily + kind) reject(text("is '", schema, "', but '", kFamily + kind, "' is wanted here"));
+  const int found = file_->int_attribute("/", "schema_version");
+  if (found != version) reject(text("is schema version ", found, ", this program reads ", version));
 }
 
 namespace {
@@ -326,14 +322,14 @@ void require_range(const h5::Reader& file, const std::string& name, const Range&
       file.reject("dataset " + name + " " + why);
 }
 
-}  // namespace
-
-void ArtifactReader::require_shape(const std::string& name, const std::vector<Eigen::Index>& wanted) const {
-  const h5::Shape shape = file_.shape(name);
+// Names both shapes if they differ.
+h5::Shape required_shape(const h5::Reader& file, const std::string& name,
+                         const std::vector<Eigen::Index>& wanted) {
+  const h5::Shape shape = file.shape(name);
   bool same = shape.size() == wanted.size();
   for (std::size_t i = 0; same && i < shape.size(); ++i)
     same = wanted[i] < 0 || as_index(shape[i]) == wanted[i];
-  if (same) return;
+  if (same) return shape;
   const auto shown = [](const auto& extents) {
     std::string out;
     for (auto extent : extents) {
@@ -342,60 +338,78 @@ void ArtifactReader::require_shape(const std::string& name, const std::vector<Ei
     }
     return out.empty() ? std::string("scalar") : out;
   };
-  file_.reject("dataset " + name + " has shape " + shown(shape) + ", expected " + shown(wanted));
+  file.reject("dataset " + name + " has shape " + shown(shape) + ", expected " + shown(wanted));
 }
 
-std::vector<double> ArtifactReader::doubles(const std::string& name, const Range& range,
-                                            const std::vector<Eigen::Index>& shape) const {
-  require_shape(name, shape);
-  std::vector<double> values = file_.doubles(name);
-  require_range(file_, name, range, values);
-  return values;
+}  // namespace
+
+bool ArtifactReader::has(const std::string& name) const {
+  return file_->has(name);
 }
 
-std::vector<int> ArtifactReader::ints(const std::string& name, const Range& range,
+void ArtifactReader::reject(const std::string& what) const {
+  rejected(what);
+  fail(Failure::input, what);
+}
+
+void ArtifactReader::rejected(const std::string& what) const {
+  file_->reject(what);
+}
+
+Block<double> ArtifactReader::doubles(const std::string& name, const Range& range,
                                       const std::vector<Eigen::Index>& shape) const {
-  require_shape(name, shape);
-  std::vector<int> values = file_.ints(name);
-  require_range(file_, name, range, values);
-  return values;
+  const h5::Shape found = required_shape(*file_, name, shape);
+  Block<double> block{file_->doubles(name), found};
+  require_range(*file_, name, range, block.values);
+  return block;
+}
+
+Block<int> ArtifactReader::ints(const std::string& name, const Range& range,
+                                const std::vector<Eigen::Index>& shape) const {
+  const h5::Shape found = required_shape(*file_, name, shape);
+  Block<int> block{file_->ints(name), found};
+  require_range(*file_, name, range, block.values);
+  return block;
+}
+
+Block<std::string> ArtifactReader::words(const std::string& name,
+                                         const std::vector<Eigen::Index>& shape) const {
+  const h5::Shape found = required_shape(*file_, name, shape);
+  return {file_->strings(name), found};
 }
 
 double ArtifactReader::number(const std::string& name, const Range& range) const {
-  return doubles(name, range, {}).at(0);
+  return doubles(name, range, {}).values.at(0);
 }
 
 int ArtifactReader::whole(const std::string& name, const Range& range) const {
-  return ints(name, range, {}).at(0);
+  return ints(name, range, {}).values.at(0);
 }
 
 std::string ArtifactReader::word(const std::string& name) const {
-  require_shape(name, {});
-  return file_.strings(name).at(0);
+  return words(name, {}).values.at(0);
 }
 
 Eigen::VectorXd ArtifactReader::vector(const std::string& name, const Range& range, Eigen::Index size) const {
-  const auto values = doubles(name, range, {size});
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), as_index(values.size()));
+  const auto block = doubles(name, range, {size});
+  return Eigen::Map<const Eigen::VectorXd>(block.values.data(), as_index(block.values.size()));
 }
 
 Eigen::VectorXi ArtifactReader::whole_vector(const std::string& name, const Range& range,
                                              Eigen::Index size) const {
-  const auto values = ints(name, range, {size});
-  return Eigen::Map<const Eigen::VectorXi>(values.data(), as_index(values.size()));
+  const auto block = ints(name, range, {size});
+  return Eigen::Map<const Eigen::VectorXi>(block.values.data(), as_index(block.values.size()));
 }
 
 MatrixRM ArtifactReader::matrix(const std::string& name, const Range& range, Eigen::Index rows,
                                 Eigen::Index columns) const {
-  const auto values = doubles(name, range, {rows, columns});
-  const auto shape = file_.shape(name);
+  const auto [values, shape] = doubles(name, range, {rows, columns});
   return Eigen::Map<const MatrixRM>(values.data(), as_index(shape[0]), as_index(shape[1]));
 }
 
 MatrixRMi ArtifactReader::whole_matrix(const std::string& name, const Range& range, Eigen::Index rows,
                                        Eigen::Index columns) const {
-  const auto values = ints(name, range, {rows, columns});
-  const auto shape = file_.shape(name);
+  const auto [values, shape] = ints(name, range, {rows, columns});
   return Eigen::Map<const MatrixRMi>(values.data(), as_index(shape[0]), as_index(shape[1]));
 }
 

@@ -59,16 +59,30 @@ class ArtifactWriter {
   std::unique_ptr<h5::Writer> file_;
 };
 
+// Values of a dataset, row by row.
+template <class Value>
+struct Block {
+  std::vector<Value> values;
+  h5::Shape shape;
+};
+
 class ArtifactReader {
  public:
   // Rejects everything that is not the given schema in the given version.
   ArtifactReader(const std::string& path, const std::string& kind, int version);
 
-  const h5::Reader& file() const { return file_; }
+  virtual ~ArtifactReader() = default;
 
+  virtual bool has(const std::string& name) const;
+  // Throws Error(input): "<path>: <what>; <hint>".
+  [[noreturn]] void reject(const std::string& what) const;
   // Values of a dataset. Error(input) if a number is out of range or the shape is another; a length of -1 is any.
-  std::vector<double> doubles(const std::string& name, const Range& range,
-                              const std::vector<Eigen::Index>& shape) const;
+  virtual Block<double> doubles(const std::string& name, const Range& range,
+                                const std::vector<Eigen::Index>& shape) const;
+  virtual Block<int> ints(const std::string& name, const Range& range,
+                          const std::vector<Eigen::Index>& shape) const;
+  virtual Block<std::string> words(const std::string& name, const std::vector<Eigen::Index>& shape) const;
+
   double number(const std::string& name, const Range& range = {}) const;
   int whole(const std::string& name, const Range& range = {}) const;
   std::string word(const std::string& name) const;
@@ -78,16 +92,15 @@ class ArtifactReader {
                   Eigen::Index columns = -1) const;
   MatrixRMi whole_matrix(const std::string& name, const Range& range, Eigen::Index rows = -1,
                          Eigen::Index columns = -1) const;
-  // Names both shapes if they differ.
-  void require_shape(const std::string& name, const std::vector<Eigen::Index>& wanted) const;
 
   void parameters(const std::string& section, SceneParameters& values, KeyGroup part) const;
 
- private:
-  std::vector<int> ints(const std::string& name, const Range& range,
-                        const std::vector<Eigen::Index>& shape) const;
+ protected:
+  ArtifactReader() = default;  // of values that come from elsewhere
+  virtual void rejected(const std::string& what) const;
 
-  h5::Reader file_;
+ private:
+  std::unique_ptr<h5::Reader> file_;
 };
 
 }  // namespace whine

@@ -2,10 +2,12 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <sstream>
 #include <vector>
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "io/artifact_kinds.h"
 
 namespace whine {
 namespace {
@@ -54,14 +56,14 @@ std::string schema_named(const PathParts& place) {
   const std::string& name = place.back();
   const std::string stem = name.substr(0, name.rfind('.'));
   if (place[1] == "studies") return stem == "study" ? "whine/study" : "whine/variant";
-  for (const char* kind : {"mesh", "body", "static", "error_budget", "impact", "sweep", "response", "branch",
-                           "modes", "system_static", "system_sweep", "system_impact", "system_branch"})
-    if (stem == kind) return std::string("whine/") + kind;
-  for (const auto& [start, kind] : {std::pair{"loaded_", "loaded"}, std::pair{"jump_map", "jump_map"},
-                                    std::pair{"branches", "jump_map"}, std::pair{"harris_", "harris_map"},
-                                    std::pair{"runup_", "runup"}, std::pair{"fold_curves", "fold_curves"}})
-    if (stem.starts_with(start)) return std::string("whine/") + kind;
-  return "";
+  std::string schema;
+  for_each_kind([&](const auto& kind) {
+    std::istringstream stems(kind.stems);
+    for (std::string own; stems >> own;)
+      if (own.back() == '*' ? stem.starts_with(own.substr(0, own.size() - 1)) : stem == own)
+        schema = kind.schema();
+  });
+  return schema;
 }
 
 // A torque as the name of its folder has it.

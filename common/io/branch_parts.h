@@ -11,55 +11,41 @@ namespace whine {
 template <class Branch>
 void describe_stability(Codec& c, Branch& a) {
   using namespace ranges;
-  c.dataset({"/floquet_multiplier", "1",
-             "multipliers over the orbit, largest modulus first: real and imaginary part",
-             "point multiplier part", kMultiplier},
-            &a.floquet_multiplier);
-  c.dataset({"/stable", "1", "1: all multipliers lie inside the unit circle", "point", kFlag}, &a.stable);
-  c.dataset({"/steps", "1", "time steps per mesh period", "point", kNumber}, &a.steps);
+  c(a.floquet_multiplier, "/floquet_multiplier", "1", kMultiplier, "point multiplier part",
+    "multipliers over the orbit, largest modulus first: real and imaginary part");
+  c(a.stable, "/stable", "1", kFlag, "point", "1: all multipliers lie inside the unit circle");
+  c(a.steps, "/steps", "1", kNumber, "point", "time steps per mesh period");
   if constexpr (requires { a.period_multiple; }) {
-    c.dataset({"/period_multiple", "1", "mesh periods after which the orbit repeats", "point", kNumber},
-              &a.period_multiple);
-    c.dataset(
-        {"/branch", "1",
-         "number of the part: its points follow each other along the arc; parts begin at one orbit or beside a period doubling",
-         "point", kNumber},
-        &a.part);
+    c(a.period_multiple, "/period_multiple", "1", kNumber, "point",
+      "mesh periods after which the orbit repeats");
+    c(a.part, "/branch", "1", kNumber, "point",
+      "number of the part: its points follow each other along the arc; parts begin at one orbit or beside a period doubling");
   }
-  c.dataset({"/residual", "1", "relative change of the state over the orbit", "point", {0, 1e300}},
-            &a.residual);
-  c.dataset({"/segment_mismatch", "1", "relative change of the orbit where the number of steps changes",
-             "segment", kPositive},
-            &a.segment_mismatch);
+  c(a.residual, "/residual", "1", {0, 1e300}, "point", "relative change of the state over the orbit");
+  c(a.segment_mismatch, "/segment_mismatch", "1", kPositive, "segment",
+    "relative change of the orbit where the number of steps changes");
 }
 
 // Where the branch turns and orbits lose their stability. The RMS of a fold is that of pairs.
 template <class Branch>
 void describe_folds(Codec& c, Branch& a) {
   using namespace ranges;
-  c.dataset({"/fold_frequency", "Hz", "mesh frequency at which the branch turns", "fold", kFrequency},
-            &a.fold_frequency);
-  c.dataset({"/fold_width", "Hz",
-             "of the interval in which it lies; at a kink that in which a smooth map would have it", "fold",
-             kFrequency},
-            &a.fold_width);
+  c(a.fold_frequency, "/fold_frequency", "Hz", kFrequency, "fold",
+    "mesh frequency at which the branch turns");
+  c(a.fold_width, "/fold_width", "Hz", kFrequency, "fold",
+    "of the interval in which it lies; at a kink that in which a smooth map would have it");
   if constexpr (requires { a.fold_rms; })
-    c.dataset({"/fold_rms", "m", "RMS of the oscillating transmission error there", "fold", kSize},
-              &a.fold_rms);
-  c.dataset({"/fold_smooth", "1", "1: a multiplier is 1 there; 0: at a kink, where contacts of a step change",
-             "fold", kFlag},
-            &a.fold_smooth);
-  c.dataset({"/fold_multiplier", "1", "real multiplier nearest to 1, before and after the fold", "fold side",
-             kMultiplier},
-            &a.fold_multiplier);
-  c.dataset({"/flip_frequency", "Hz", "mesh frequency at which a multiplier passes -1", "flip", kFrequency},
-            &a.flip_frequency);
-  c.dataset({"/flip_width", "Hz", "as fold_width", "flip", kFrequency}, &a.flip_width);
-  c.dataset(
-      {"/torus_frequency", "Hz",
-       "mesh frequency at which the modulus of a complex pair of multipliers passes 1", "torus", kFrequency},
-      &a.torus_frequency);
-  c.dataset({"/torus_width", "Hz", "as fold_width", "torus", kFrequency}, &a.torus_width);
+    c(a.fold_rms, "/fold_rms", "m", kSize, "fold", "RMS of the oscillating transmission error there");
+  c(a.fold_smooth, "/fold_smooth", "1", kFlag, "fold",
+    "1: a multiplier is 1 there; 0: at a kink, where contacts of a step change");
+  c(a.fold_multiplier, "/fold_multiplier", "1", kMultiplier, "fold side",
+    "real multiplier nearest to 1, before and after the fold");
+  c(a.flip_frequency, "/flip_frequency", "Hz", kFrequency, "flip",
+    "mesh frequency at which a multiplier passes -1");
+  c(a.flip_width, "/flip_width", "Hz", kFrequency, "flip", "as fold_width");
+  c(a.torus_frequency, "/torus_frequency", "Hz", kFrequency, "torus",
+    "mesh frequency at which the modulus of a complex pair of multipliers passes 1");
+  c(a.torus_width, "/torus_width", "Hz", kFrequency, "torus", "as fold_width");
 }
 
 }  // namespace whine

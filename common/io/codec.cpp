@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "base/error.h"
+#include "io/vtk.h"
 
 namespace whine {
 namespace {
@@ -124,8 +125,7 @@ void take(const ArtifactReader& in, const Dataset& d, const AxisLengths& shape, 
 }
 void take(const ArtifactReader& in, const Dataset& d, const AxisLengths& shape,
           std::vector<MatrixRM>& value) {
-  const std::vector<double> all = in.doubles(d.name, d.range, shape);
-  const h5::Shape found = in.file().shape(d.name);
+  const auto [all, found] = in.doubles(d.name, d.range, shape);
   const auto rows = static_cast<Eigen::Index>(found[1]), columns = static_cast<Eigen::Index>(found[2]);
   value.clear();
   for (std::size_t i = 0; i < found[0]; ++i)
@@ -133,8 +133,7 @@ void take(const ArtifactReader& in, const Dataset& d, const AxisLengths& shape,
 }
 void take(const ArtifactReader& in, const Dataset& d, const AxisLengths& shape,
           std::vector<std::string>& value) {
-  in.require_shape(d.name, shape);
-  value = in.file().strings(d.name);
+  value = in.words(d.name, shape).values;
 }
 
 }  // namespace
@@ -200,6 +199,12 @@ void Codec::put_record(const Dataset& d, const Member& member) {
   out_->file().reserve(d.name, sizes(known_shape(d.axes)), kChunk, !coordinate, label(d));
 }
 
+void Codec::picture(const VtkGrid& grid) {
+  if (!out_ || grid.point.rows() == 0) return;
+  put_vtk(out_->file(), grid);
+  picture_ = true;
+}
+
 void Codec::column(const Dataset& d, MatrixRM& values, Eigen::Index column, Eigen::Index columns) {
   Eigen::VectorXd one;
   if (out_) {
@@ -221,7 +226,7 @@ void Codec::numbers(const std::string& axis, int first, const std::string& meani
 }
 
 bool Codec::optional(const std::string& name, bool there) const {
-  return list_ || (in_ ? in_->file().has(name) : there);
+  return list_ || (in_ ? in_->has(name) : there);
 }
 
 void Codec::axis(const std::string& name, Eigen::Index length) {
@@ -321,43 +326,36 @@ void describe_motion(Codec& c, MotionParameters& a, bool time) {
 }
 
 void describe_torque(Codec& c, double& torque) {
-  c.dataset({"/parameters/operation/torque", "N m", "torque on the driver", "", kDrive}, &torque);
+  c(torque, "/parameters/operation/torque", "N m", kDrive, "", "torque on the driver");
 }
 
 void describe_speeds(Codec& c, double& from, double& to, double& step) {
   for (const auto& [name, value] : {std::pair{"from", &from}, std::pair{"to", &to}, std::pair{"step", &step}})
-    c.dataset(
-        {text("/parameters/operation/mesh_frequency_", name), "Hz", "speeds of the sweeps", "", kFrequency},
-        value);
+    c(*value, text("/parameters/operation/mesh_frequency_", name), "Hz", kFrequency, "",
+      "speeds of the sweeps");
 }
 
 void describe_bearing_dampers(Codec& c, double& mean_stiffness, std::array<double, kSides>& damper) {
   constexpr Range kDamper{0, 1e12};
-  c.dataset({"/parameters/damping/mean_stiffness", "N m-1",
-             "mean secant stiffness that sets the bearing dampers", "", kStiff},
-            &mean_stiffness);
+  c(mean_stiffness, "/parameters/damping/mean_stiffness", "N m-1", kStiff, "",
+    "mean secant stiffness that sets the bearing dampers");
   for (int g = 0; g < kSides; ++g)
-    c.dataset({text("/parameters/damping/", kRole[g], "_bearing_damper"), "N m s",
-               text("torque damper at the axis of the ", kGearName[g]), "", kDamper, "c = 2 ratio I w"},
-              &damper[g]);
+    c(damper[g], text("/parameters/damping/", kRole[g], "_bearing_damper"), "N m s", kDamper, "",
+      text("torque damper at the axis of the ", kGearName[g]), "c = 2 ratio I w");
 }
 
 void describe_certificate(Codec& c, double& least_gap, double& least_force, int& fallbacks) {
-  c.dataset({"/certificate/least_gap", "m", "least gap of a strip without force, over all steps", "", kLength,
-             "d >= 0 where p = 0 (with Eq. 18, 20)"},
-            &least_gap);
-  c.dataset({"/certificate/least_force", "N", "least force of a strip in contact, over all steps", "", kForce,
-             "p >= 0 where d = 0 (with Eq. 18, 20)"},
-            &least_force);
-  c.dataset({"/certificate/fallbacks", "1", "contact solutions that needed Lawson and Hanson's method", "",
-             kNumber},
-            &fallbacks);
+  c(least_gap, "/certificate/least_gap", "m", kLength, "",
+    "least gap of a strip without force, over all steps", "d >= 0 where p = 0 (with Eq. 18, 20)");
+  c(least_force, "/certificate/least_force", "N", kForce, "",
+    "least force of a strip in contact, over all steps", "p >= 0 where d = 0 (with Eq. 18, 20)");
+  c(fallbacks, "/certificate/fallbacks", "1", kNumber, "",
+    "contact solutions that needed Lawson and Hanson's method");
 }
 
 void describe_backlash(Codec& c, double& margin) {
   if (c.optional("/backlash_margin", !std::isinf(margin)))
-    c.dataset({"/backlash_margin", "m", "least backlash left along the line of action", "", kLength},
-              &margin);
+    c(margin, "/backlash_margin", "m", kLength, "", "least backlash left along the line of action");
   else if (c.in())
     margin = std::numeric_limits<double>::infinity();
 }
@@ -365,42 +363,32 @@ void describe_backlash(Codec& c, double& margin) {
 void describe_root_place(Codec& c, const GearMeshSpec& mesh, int g, const std::string& axis,
                          std::array<Eigen::VectorXd, 2>& angle, std::array<Eigen::VectorXd, 2>& phase) {
   const auto gear = static_cast<size_t>(g);
-  c.dataset(
-      {of_body(c, mesh, g, "root_stress_angle"), "1",
-       "angle (rad) of the root's tangent against the centre line of the tooth where the stress is largest of what is sustained for 1/64 of a mesh period",
-       axis, kRoll},
-      &angle[gear]);
-  c.dataset({of_body(c, mesh, g, "root_stress_phase"), "1",
-             "mesh phase of the tooth's pair then, 0 at the pitch point", axis, kPlace},
-            &phase[gear]);
+  c(angle[gear], of_body(c, mesh, g, "root_stress_angle"), "1", kRoll, axis,
+    "angle (rad) of the root's tangent against the centre line of the tooth where the stress is largest of what is sustained for 1/64 of a mesh period");
+  c(phase[gear], of_body(c, mesh, g, "root_stress_phase"), "1", kPlace, axis,
+    "mesh phase of the tooth's pair then, 0 at the pitch point");
 }
 
 void describe_friction(Codec& c, const GearMeshSpec& mesh, FrictionLosses& friction) {
   constexpr Range kPower{-1e12, 1e12};  // W
   if (!c.lists() && !mesh.friction.acts()) return;
   const char* const axis = "mesh_frequency";
-  c.dataset({"/friction_coefficient", "1", "coefficient of friction", axis, kShare}, &friction.coefficient);
-  c.dataset({"/friction_power", "W", "mean power that friction takes, the vibration in the sliding speed",
-             axis, kPower, "mean of mu s F v"},
-            &friction.power);
-  c.dataset({"/efficiency", "1", "share of the power of the driver that friction leaves", axis, kSigned,
-             "1 - friction_power / (T omega)"},
-            &friction.efficiency);
+  c(friction.coefficient, "/friction_coefficient", "1", kShare, axis, "coefficient of friction");
+  c(friction.power, "/friction_power", "W", kPower, axis,
+    "mean power that friction takes, the vibration in the sliding speed", "mean of mu s F v");
+  c(friction.efficiency, "/efficiency", "1", kSigned, axis,
+    "share of the power of the driver that friction leaves", "1 - friction_power / (T omega)");
 }
 
 void describe_hunting(Codec& c, int& periods) {
   if (c.optional("/hunting_periods", periods > 1))
-    c.dataset({"/hunting_periods", "1",
-               "mesh periods of a hunting period, after which the same teeth meet, as far as teeth differ",
-               "", kPeriods},
-              &periods);
+    c(periods, "/hunting_periods", "1", kPeriods, "",
+      "mesh periods of a hunting period, after which the same teeth meet, as far as teeth differ");
 }
 
 void describe_natural_frequency(Codec& c, double& frequency) {
-  c.dataset({"/natural_frequency", "Hz",
-             "natural frequency: mean over the period with the contact frozen under the static load", "",
-             kFrequency},
-            &frequency);
+  c(frequency, "/natural_frequency", "Hz", kFrequency, "",
+    "natural frequency: mean over the period with the contact frozen under the static load");
 }
 
 std::string of_body(const Codec& c, const GearMeshSpec& mesh, int g, const std::string& dataset) {
@@ -419,9 +407,9 @@ void require_indices(const Codec& c, const std::string& name, const Eigen::Ref<c
                      Eigen::Index count) {
   if (!c.in() || index.size() == 0) return;
   if (index.minCoeff() < 0 || index.maxCoeff() >= count)
-    c.in()->file().reject(text("dataset ", name, " holds the number ",
-                               index.minCoeff() < 0 ? index.minCoeff() : index.maxCoeff(),
-                               ", allowed are 0 to ", count - 1));
+    c.in()->reject(text("dataset ", name, " holds the number ",
+                        index.minCoeff() < 0 ? index.minCoeff() : index.maxCoeff(), ", allowed are 0 to ",
+                        count - 1));
 }
 
 }  // namespace whine

@@ -2,9 +2,12 @@
 // member that holds it. Writing, reading, the checks of shapes and the page of datasets all walk that function:
 //
 //   void describe(Codec& c, StaticResult& a) {
-//     c.dataset({"/mesh_phase", "1", "mesh phase", "mesh_phase", kPhase}, &a.mesh_phase);
-//     c.dataset({"/transmission_error", "m", "...", "mesh_phase", kLength}, &a.transmission_error);
+//     c(a.mesh_phase, "/mesh_phase", "1", kPhase, "mesh_phase", "mesh phase");
+//     c(a.transmission_error, "/transmission_error", "m", kLength, "mesh_phase", "...");
+//     c(a.direction, "/parameters/operation/direction", "", "...");  // words and choices have no unit and no range
 //   }
+//   std::string title(const StaticResult& a) { return "..."; }
+//   template struct ArtifactFile<StaticResult>;
 //
 // Datasets of one file that share an axis have the same length along it; the first one sets it. Axes of directions and gears
 // (xy, gear, ...) have the length 2.
@@ -25,6 +28,8 @@
 #include "results/friction_losses.h"
 
 namespace whine {
+
+struct VtkGrid;
 
 struct Dataset {
   std::string name;        // "/certificate/least_gap"
@@ -59,7 +64,31 @@ class Codec {
     rows_ = rows;
   }
 
-  // A choice is stored as its word.
+  // dataset(), the arguments in the order in which they are read; meaning and equation, which may be long, last.
+  template <class Value>
+  void operator()(Value& value, const std::string& name, const std::string& units, const Range& range,
+                  const std::string& axes, const std::string& meaning, const std::string& equation = "") {
+    dataset({name, units, meaning, axes, range, equation}, &value);
+  }
+
+  // Words and choices. A list of choices is stored as the words along its axis or, without axes, as one line of them.
+  template <class Value>
+  void operator()(Value& value, const std::string& name, const std::string& axes,
+                  const std::string& meaning) {
+    const Dataset described{name, "1", meaning, axes};
+    if constexpr (WordedChoice<Value>)
+      choice(described, value);
+    else if constexpr (requires { requires WordedChoice<typename Value::value_type>; })
+      axes.empty() ? choices(described, value) : column_of_choices(described, value);
+    else
+      dataset(described, &value);
+  }
+
+  // The picture of the artifact for ParaView, written if it has points. It is not read.
+  void picture(const VtkGrid& grid);
+  bool has_picture() const { return picture_; }
+
+ private:
   template <WordedChoice Choice>
   void choice(const Dataset& dataset, Choice& choice) {
     std::string word = name_of(choice);
@@ -67,12 +96,10 @@ class Codec {
     if (!in_) return;
     const auto found = choice_of<Choice>(word);
     if (!found)
-      in_->file().reject(
-          text("dataset ", dataset.name, " is '", word, "', which is none of: ", kWordsOf<Choice>));
+      in_->reject(text("dataset ", dataset.name, " is '", word, "', which is none of: ", kWordsOf<Choice>));
     choice = *found;
   }
 
-  // A list of choices along an axis is stored as the words.
   template <WordedChoice Choice>
   void column_of_choices(const Dataset& dataset, std::vector<Choice>& list) {
     std::vector<std::string> words;
@@ -84,13 +111,12 @@ class Codec {
     for (const std::string& word : words) {
       const auto found = choice_of<Choice>(word);
       if (!found)
-        in_->file().reject(
+        in_->reject(
             text("dataset ", dataset.name, " holds '", word, "', which is none of: ", kWordsOf<Choice>));
       list.push_back(*found);
     }
   }
 
-  // A list of choices is stored as one line of its words.
   template <WordedChoice Choice>
   void choices(const Dataset& dataset, std::vector<Choice>& list) {
     std::string line = names_of(list);
@@ -98,11 +124,12 @@ class Codec {
     if (!in_) return;
     const auto found = choices_in<Choice>(line);
     if (!found)
-      in_->file().reject(
+      in_->reject(
           text("dataset ", dataset.name, " is '", line, "', which is no list of: ", kWordsOf<Choice>));
     list = *found;
   }
 
+ public:
   // One column of a matrix of `columns` columns, each of which is a dataset of its own.
   void column(const Dataset& dataset, MatrixRM& values, Eigen::Index column, Eigen::Index columns);
 
@@ -134,33 +161,10 @@ class Codec {
   const ArtifactReader* in_ = nullptr;
   std::vector<Dataset>* list_ = nullptr;
   std::map<std::string, Eigen::Index> lengths_;
+  bool picture_ = false;
   Record record_ = Record::none;
   Eigen::Index rows_ = 0;
 };
-
-// What stands in a file of a schema; version: raised whenever a dataset changes its name, shape or meaning.
-struct Schema {
-  const char* kind;
-  int version;
-};
-
-template <class Artifact>
-void write_artifact(const std::string& path, const Schema& schema, const std::string& title,
-                    const Artifact& a, const Provenance& provenance) {
-  ArtifactWriter out(path, schema.kind, schema.version, title, provenance);
-  Codec codec(out);
-  describe(codec, const_cast<Artifact&>(a));  // a writer changes no member
-  out.publish();
-}
-
-template <class Artifact>
-Artifact read_artifact(const std::string& path, const Schema& schema) {
-  const ArtifactReader in(path, schema.kind, schema.version);
-  Codec codec(in);
-  Artifact a;
-  describe(codec, a);
-  return a;
-}
 
 // --- what several artifacts have in common
 

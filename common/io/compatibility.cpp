@@ -3,10 +3,11 @@
 #include <filesystem>
 
 #include "base/error.h"
-#include "io/body_codec.h"
+#include "io/artifacts.h"
 #include "io/keys.h"
 #include "io/provenance.h"
 #include "io/publish.h"
+#include "results/reduced_body.h"
 
 namespace whine {
 namespace {
@@ -51,7 +52,7 @@ std::vector<ReducedBody> read_bodies(const NamedFiles& files, const SystemStatic
   const std::vector<std::string> paths = files.of(settings.gears(), "system");
   out.reserve(paths.size());
   for (size_t g = 0; g < paths.size(); ++g) {
-    out.push_back(read_body(paths[g]));
+    out.push_back(read<ReducedBody>(paths[g]));
     require_body(out.back(), settings.body[g].second, settings.body[g].first, paths[g]);
   }
   return out;

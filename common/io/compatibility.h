@@ -23,7 +23,7 @@ void require_body(const ReducedBody& body, const std::string& hash, const std::s
                   const std::string& path);
 
 // The bodies of a system's gears, in the order of settings.body, each the one that the stage parameters name. Throws as
-// NamedFiles::of(), read_body() and require_body().
+// NamedFiles::of(), read<ReducedBody>() and require_body().
 std::vector<ReducedBody> read_bodies(const NamedFiles& files, const SystemStaticParameters& settings);
 
 // Error(input), with both model levels and the make target, unless `statics` (read from `path`) has the contact that the

@@ -1,35 +1,27 @@
-#include "io/error_budget_codec.h"
+#include "io/artifacts.h"
 
-#include "io/codec.h"
+#include "io/artifact_file.h"
 
 namespace whine {
 namespace {
 
 using namespace ranges;
 
-constexpr Schema kErrorBudgetSchema{"error_budget", 4};
-
 void describe_changes(Codec& c, const std::string& group, StaticChanges& a, const std::string& what) {
   const std::string axis = group.substr(1) + "/change";  // `entry` names them in one text
-  c.dataset({group + "/entry", "1", what + ", in the order of the entries", ""}, &a.entry);
-  c.dataset(
-      {group + "/mean_stiffness_change", "1", "relative change of the mean secant stiffness", axis, kSigned},
-      &a.mean_stiffness_change);
-  c.dataset({group + "/peak_to_peak_change", "1", "relative change of the peak-to-peak transmission error",
-             axis, kSigned},
-            &a.peak_to_peak_change);
+  c(a.entry, group + "/entry", "", what + ", in the order of the entries");
+  c(a.mean_stiffness_change, group + "/mean_stiffness_change", "1", kSigned, axis,
+    "relative change of the mean secant stiffness");
+  c(a.peak_to_peak_change, group + "/peak_to_peak_change", "1", kSigned, axis,
+    "relative change of the peak-to-peak transmission error");
   if (c.optional(group + "/pressure_change", a.pressure_change.size() > 0))
-    c.dataset({group + "/pressure_change", "1",
-               "relative change of the largest contact pressure inside a flank", axis, kSigned},
-              &a.pressure_change);
+    c(a.pressure_change, group + "/pressure_change", "1", kSigned, axis,
+      "relative change of the largest contact pressure inside a flank");
   if (c.optional(group + "/root_stress_change", a.root_stress_change.size() > 0))
-    c.dataset({group + "/root_stress_change", "1",
-               "relative change of the largest root stress, of the gear where it is larger", axis, kSigned},
-              &a.root_stress_change);
-  c.dataset({group + "/harmonic_change", "1",
-             "change of the first harmonics of the transmission error over its first harmonic",
-             axis + " harmonic", kSigned},
-            &a.harmonic_change);
+    c(a.root_stress_change, group + "/root_stress_change", "1", kSigned, axis,
+      "relative change of the largest root stress, of the gear where it is larger");
+  c(a.harmonic_change, group + "/harmonic_change", "1", kSigned, axis + " harmonic",
+    "change of the first harmonics of the transmission error over its first harmonic");
 }
 
 }  // namespace
@@ -42,27 +34,19 @@ void describe(Codec& c, ErrorBudgetResult& a) {
   describe_changes(c, "/choice", a.choice,
                    "what was chosen instead, for information and in no sum of errors");
   if (c.optional("/choice/missing", !a.choice_missing.empty()))
-    c.dataset({"/choice/missing", "1", "other choices that could not be computed, and why", ""},
-              &a.choice_missing);
+    c(a.choice_missing, "/choice/missing", "", "other choices that could not be computed, and why");
   if (c.optional("/root/element_size", a.root.element_size.size() > 0)) {
-    c.dataset({"/root/element_size", "m",
-               "size of the elements on the root of the driver; those of the driven gear in proportion",
-               "root/level", kSize},
-              &a.root.element_size);
-    c.dataset({"/root/stress", "Pa", "largest root stress at rest with elements of that size on the roots",
-               "root/level gear", kStress},
-              &a.root.stress);
+    c(a.root.element_size, "/root/element_size", "m", kSize, "root/level",
+      "size of the elements on the root of the driver; those of the driven gear in proportion");
+    c(a.root.stress, "/root/stress", "Pa", kStress, "root/level gear",
+      "largest root stress at rest with elements of that size on the roots");
   }
 }
 
-void write(const std::string& path, const ErrorBudgetResult& a, const Provenance& provenance) {
-  write_artifact(path, kErrorBudgetSchema,
-                 "Error budget of the static transmission error: " + pair_title(a.mesh, a.torque), a,
-                 provenance);
+std::string title(const ErrorBudgetResult& a) {
+  return "Error budget of the static transmission error: " + pair_title(a.mesh, a.torque);
 }
 
-ErrorBudgetResult read_error_budget(const std::string& path) {
-  return read_artifact<ErrorBudgetResult>(path, kErrorBudgetSchema);
-}
+template struct ArtifactFile<ErrorBudgetResult>;
 
 }  // namespace whine

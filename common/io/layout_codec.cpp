@@ -161,7 +161,7 @@ void describe_meshes(Codec& codec, Columns& c) {
 
 // What figures and the views of modes divide by, and what they look up.
 void require_gears(const Codec& c, const System& s) {
-  const auto reject = [&](const auto&... words) { c.in()->file().reject(text(words...)); };
+  const auto reject = [&](const auto&... words) { c.in()->reject(text(words...)); };
   for (size_t b = 0; b < s.bodies.size(); ++b) {
     const System::Body& body = s.bodies[b];
     const bool gear = body.kind == System::BodyKind::gear;

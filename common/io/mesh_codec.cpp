@@ -1,38 +1,28 @@
-#include "io/mesh_codec.h"
+#include "io/artifacts.h"
 
-#include "io/codec.h"
-#include "io/vtk.h"
+#include "io/artifact_file.h"
 
 namespace whine {
 namespace {
 
 using namespace ranges;
 
-constexpr Schema kMeshSchema{"mesh", 1};
-
 // The two sectors of a mesh share no axes: names of the second one's are its own.
 void describe_sector(Codec& file, const std::string& group, SectorGrid& a) {
   Codec c = file;  // axes of its own
-  c.dataset({group + "/node_position", "m", "position of the nodes; gear centre at 0, tooth along +y",
-             "node xy", kPlace},
-            &a.node_position);
-  c.dataset(
-      {group + "/element_node", "1", "nodes of the elements: corners counter-clockwise, mid-sides, centre",
-       "element corner", kNumber},
-      &a.element_node);
-  c.dataset({group + "/element_region", "1", "0: rim, 1: tooth, where the half-plane field is subtracted",
-             "element", kFlag},
-            &a.element_region);
-  c.dataset({group + "/bore_node", "1", "nodes on the rigid hub", "bore_node", kNumber}, &a.bore_node);
-  c.dataset(
-      {group + "/side_node", "1", "node on the clockwise edge and its image on the counter-clockwise edge",
-       "side_pair edge", kNumber},
-      &a.side_node);
-  c.dataset({group + "/flank_node", "1", "nodes of the driving flank, root to tip", "flank_node", kNumber},
-            &a.flank_node);
-  c.dataset(
-      {group + "/flank_roll_angle", "rad", "involute roll angle of the flank nodes", "flank_node", kRoll},
-      &a.flank_roll_angle);
+  c(a.node_position, group + "/node_position", "m", kPlace, "node xy",
+    "position of the nodes; gear centre at 0, tooth along +y");
+  c(a.element_node, group + "/element_node", "1", kNumber, "element corner",
+    "nodes of the elements: corners counter-clockwise, mid-sides, centre");
+  c(a.element_region, group + "/element_region", "1", kFlag, "element",
+    "0: rim, 1: tooth, where the half-plane field is subtracted");
+  c(a.bore_node, group + "/bore_node", "1", kNumber, "bore_node", "nodes on the rigid hub");
+  c(a.side_node, group + "/side_node", "1", kNumber, "side_pair edge",
+    "node on the clockwise edge and its image on the counter-clockwise edge");
+  c(a.flank_node, group + "/flank_node", "1", kNumber, "flank_node",
+    "nodes of the driving flank, root to tip");
+  c(a.flank_roll_angle, group + "/flank_roll_angle", "rad", kRoll, "flank_node",
+    "involute roll angle of the flank nodes");
   const Eigen::Index nodes = a.node_position.rows();
   require_indices(c, group + "/element_node", a.element_node, nodes);
   require_indices(c, group + "/bore_node", a.bore_node.transpose(), nodes);
@@ -53,27 +43,21 @@ void describe(Codec& c, SectorGrid& a) {
     if (a.cracked_tooth.empty()) a.cracked_tooth.emplace_back();
     SectorGrid& cracked = a.cracked_tooth.front();
     describe_sector(c, "/cracked_tooth", cracked);
-    c.dataset({"/cracked_tooth/slit_node", "1",
-               "the same point on the two faces of the slit, mouth to tip; the tip itself is one node",
-               "slit_pair face", kNumber},
-              &cracked.slit_node);
+    c(cracked.slit_node, "/cracked_tooth/slit_node", "1", kNumber, "slit_pair face",
+      "the same point on the two faces of the slit, mouth to tip; the tip itself is one node");
     if (c.in()) {
       cracked.design = a.design;
       cracked.discretisation = a.discretisation;
       require_indices(c, "/cracked_tooth/slit_node", cracked.slit_node, cracked.node_position.rows());
     }
   }
-  if (c.out()) put_vtk(c.out()->file(), whole_gear(a));
+  if (c.out()) c.picture(whole_gear(a));
 }
 
-void write(const std::string& path, const SectorGrid& a, const Provenance& provenance) {
-  write_artifact(path, kMeshSchema, "Finite-element mesh of one tooth sector: " + gear_title(a.design), a,
-                 provenance);
-  link_for_paraview(path);
+std::string title(const SectorGrid& a) {
+  return "Finite-element mesh of one tooth sector: " + gear_title(a.design);
 }
 
-SectorGrid read_mesh(const std::string& path) {
-  return read_artifact<SectorGrid>(path, kMeshSchema);
-}
+template struct ArtifactFile<SectorGrid>;
 
 }  // namespace whine

@@ -2,18 +2,19 @@
 
 #include "base/error.h"
 #include "gear/body_inertia.h"
-#include "io/body_codec.h"
+#include "io/artifacts.h"
 #include "io/compatibility.h"
 #include "io/provenance.h"
-#include "io/static_codec.h"
+#include "results/reduced_body.h"
+#include "results/static.h"
 
 namespace whine {
 namespace {
 
 // Gears that are alike share a file, which is read once.
 PairBodies read_both(const std::vector<std::string>& paths) {
-  PairBodies body{read_body(paths[0]), {}};
-  body[1] = paths[1] == paths[0] ? body[0] : read_body(paths[1]);
+  PairBodies body{read<ReducedBody>(paths[0]), {}};
+  body[1] = paths[1] == paths[0] ? body[0] : read<ReducedBody>(paths[1]);
   return body;
 }
 
@@ -30,8 +31,8 @@ PairBodies read_bodies(const NamedFiles& files, const StaticParameters& settings
 PairInputs read_pair_inputs(const NamedFiles& files, const std::string& statics, const std::string& reference,
                             ImpactParameters& settings) {
   PairInputs inputs;
-  inputs.at_torque = read_static(statics);
-  inputs.at_reference = read_static(reference);
+  inputs.at_torque = read<StaticResult>(statics);
+  inputs.at_reference = read<StaticResult>(reference);
   const GearMeshSpec& mesh = inputs.at_torque.mesh;
   const std::vector<std::string> paths = files.of(mesh);
   for (size_t g = 0; g < kSides; ++g)

@@ -1,14 +1,12 @@
-#include "io/readings_codec.h"
+#include "io/artifacts.h"
 
 #include "base/error.h"
-#include "io/codec.h"
+#include "io/artifact_file.h"
 
 namespace whine {
 namespace {
 
 using namespace ranges;
-
-constexpr Schema kReadingsSchema{"readings", 1};
 
 // Every number of a reading, once: what is written and what is read walk this list.
 struct NumberOf {
@@ -89,16 +87,11 @@ void describe_claims(Codec& c, ReadingsResult& a) {
       }
   }
   const char* const axes = "draw claim";
-  c.dataset({"/value", "1", "what the claim is about, in the claim's unit; 0 where it does not exist", axes,
-             kQuantity},
-            &value);
-  c.dataset({"/exists", "1", "0: the state that the claim is about does not exist", axes, kFlag}, &exists);
-  c.dataset({"/verdict",
-             "1",
-             "0 agrees, 1 differs, 2 given, 3 fitted, 4 cannot be compared, 5 misprint",
-             axes,
-             {0, 5}},
-            &verdict);
+  c(value, "/value", "1", kQuantity, axes,
+    "what the claim is about, in the claim's unit; 0 where it does not exist");
+  c(exists, "/exists", "1", kFlag, axes, "0: the state that the claim is about does not exist");
+  c(verdict, "/verdict", "1", {0, 5}, axes,
+    "0 agrees, 1 differs, 2 given, 3 fitted, 4 cannot be compared, 5 misprint");
   if (!c.in()) return;
   a.readings.resize(value.rows());
   for (Eigen::Index i = 0; i < value.rows(); ++i)
@@ -113,33 +106,30 @@ void describe_claims(Codec& c, ReadingsResult& a) {
 
 void describe(Codec& c, ReadingsResult& a) {
   const std::string at = "/parameters/readings/";
-  c.dataset({at + "title", "1", "what the search is", ""}, &a.title);
-  c.choice({at + "contact", "1", "model level of contact in the sweeps", ""}, a.contact);
-  c.dataset({at + "outside", "1", "readings left out because the model of the pair cannot compute them", "",
-             kNumber},
-            &a.outside);
-  c.dataset({"/claim", "1", "names of the claims", "claim"}, &a.claim);
+  c(a.title, at + "title", "", "what the search is");
+  c(a.contact, at + "contact", "", "model level of contact in the sweeps");
+  c(a.outside, at + "outside", "1", kNumber, "",
+    "readings left out because the model of the pair cannot compute them");
+  c(a.claim, "/claim", "claim", "names of the claims");
   describe_claims(c, a);
   for (const NumberOf& n : reading_numbers()) {
     Eigen::VectorXd values(static_cast<Eigen::Index>(a.readings.size()));
     for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = n.get(a.readings[i]);
-    c.dataset({text("/reading/", n.name), n.units, n.meaning, "draw", n.range}, &values);
+    c(values, text("/reading/", n.name), n.units, n.range, "draw", n.meaning);
     for (Eigen::Index i = 0; c.in() && i < values.size(); ++i) n.set(a.readings[i], values[i]);
   }
   for (const WordOf& w : kWords) {
     std::vector<std::string> values;
     for (const Reading& r : a.readings) values.push_back(r.choices.*w.member);
-    c.dataset({text("/reading/", w.name), "1", w.meaning, "draw"}, &values);
+    c(values, text("/reading/", w.name), "draw", w.meaning);
     for (std::size_t i = 0; c.in() && i < values.size(); ++i) a.readings[i].choices.*w.member = values[i];
   }
 }
 
-void write(const std::string& path, const ReadingsResult& a, const Provenance& provenance) {
-  write_artifact(path, kReadingsSchema, "Readings of P2000: " + a.title, a, provenance);
+std::string title(const ReadingsResult& a) {
+  return "Readings of P2000: " + a.title;
 }
 
-ReadingsResult read_readings(const std::string& path) {
-  return read_artifact<ReadingsResult>(path, kReadingsSchema);
-}
+template struct ArtifactFile<ReadingsResult>;
 
 }  // namespace whine

@@ -6,10 +6,11 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "io/artifacts.h"
 #include "io/provenance.h"
 #include "io/publish.h"
-#include "io/runup_codec.h"
-#include "io/sweep_codec.h"
+#include "results/sweep.h"
+#include "studies/runup.h"
 
 namespace whine {
 namespace {
@@ -43,7 +44,7 @@ void require_sound_inputs(const std::vector<std::string>& paths) {
 }
 
 HeardMotion heard_motion(const std::string& path, double frequency, const std::string& bearing) {
-  const SweepResult sweep = read_sweep(path);
+  const SweepResult sweep = read<SweepResult>(path);
   Index row = 0;
   const double off = (sweep.mesh_frequency.array() - frequency).abs().minCoeff(&row);
   if (!(off <= 1e-9 * frequency))
@@ -63,7 +64,7 @@ HeardMotion heard_motion(const std::string& path, double frequency, const std::s
 }
 
 HeardRunup heard_runup(const std::string& path, const std::string& bearing) {
-  const RunupResult a = read_runup(path);
+  const RunupResult a = read<RunupResult>(path);
   if (a.sample_rate != std::round(a.sample_rate))
     fail(Failure::input, path, ": has ", a.sample_rate,
          " samples a second, a sound a whole number; make the run-up with --sample-rate 48000");

@@ -1,87 +1,60 @@
-#include "io/static_codec.h"
+#include "io/artifacts.h"
 
 #include "base/error.h"
-#include "io/codec.h"
+#include "io/artifact_file.h"
 
 namespace whine {
 namespace {
 
 using namespace ranges;
 
-constexpr Schema kStaticSchema{"static", 5};
-
 void describe_curves(Codec& c, StaticResult& a) {
   const char* const without = a.mesh.on_bearings() ? ", without the bearings" : "";
-  c.dataset({"/mesh_phase", "1", "mesh phase; 0: reference pair at the pitch point, 1: one mesh period",
-             "mesh_phase", kPhase},
-            &a.mesh_phase);
-  c.dataset({"/transmission_error", "m",
-             "transmission error along the line of action, positive when the driver is ahead", "mesh_phase",
-             kLength, "r1 theta1 + r2 theta2"},
-            &a.transmission_error);
-  c.dataset({"/unloaded_transmission_error", "m",
-             "transmission error without load: of what flanks deviate by", "mesh_phase", kLength},
-            &a.unloaded_error);
-  c.dataset({"/mesh_stiffness_secant", "N m-1", text("secant mesh stiffness", without), "mesh_phase", kSpring,
-             "(T / r1) / (transmission_error - unloaded_transmission_error)"},
-            &a.stiffness_secant);
-  c.dataset({"/mesh_stiffness_tangent", "N m-1",
-             text("tangent mesh stiffness at fixed phase, contact changes included", without), "mesh_phase",
-             kSpring, "d(T / r1) / d transmission_error"},
-            &a.stiffness_tangent);
-  c.dataset(
-      {"/pair", "1", "number of the tooth pair: -1 following, 0 reference, +1 preceding", "pair", kPair},
-      &a.pair);
-  c.dataset({"/tooth_load", "N", "normal force of each tooth pair", "mesh_phase pair", kForce},
-            &a.tooth_load);
+  c(a.mesh_phase, "/mesh_phase", "1", kPhase, "mesh_phase",
+    "mesh phase; 0: reference pair at the pitch point, 1: one mesh period");
+  c(a.transmission_error, "/transmission_error", "m", kLength, "mesh_phase",
+    "transmission error along the line of action, positive when the driver is ahead",
+    "r1 theta1 + r2 theta2");
+  c(a.unloaded_error, "/unloaded_transmission_error", "m", kLength, "mesh_phase",
+    "transmission error without load: of what flanks deviate by");
+  c(a.stiffness_secant, "/mesh_stiffness_secant", "N m-1", kSpring, "mesh_phase",
+    text("secant mesh stiffness", without), "(T / r1) / (transmission_error - unloaded_transmission_error)");
+  c(a.stiffness_tangent, "/mesh_stiffness_tangent", "N m-1", kSpring, "mesh_phase",
+    text("tangent mesh stiffness at fixed phase, contact changes included", without),
+    "d(T / r1) / d transmission_error");
+  c(a.pair, "/pair", "1", kPair, "pair", "number of the tooth pair: -1 following, 0 reference, +1 preceding");
+  c(a.tooth_load, "/tooth_load", "N", kForce, "mesh_phase pair", "normal force of each tooth pair");
   for (int g = 0; g < (c.lists() ? 1 : 2); ++g)
     if (c.lists() || a.mesh.bearing[g].elastic())
-      c.dataset(
-          {of_body(c, a.mesh, g, "bearing_force"), "N",
-           "force of the gear on its bearing; x, y: the driven gear stands above the driver, which turns counter-clockwise",
-           "mesh_phase xy", kForce},
-          &a.bearing_force[g]);
-  c.dataset(
-      {"/contact_pressure", "Pa",
-       "largest contact pressure of each pair inside its flanks; 0 where nothing touches (tooth_load is 0) and where a tip edge does (tooth_load is not), whose pressure is singular",
-       "mesh_phase pair", kPressure},
-      &a.contact_pressure);
-  c.dataset({"/contact_half_width", "m",
-             "half width of each contact inside the flanks, twice the standard deviation of its pressure",
-             "mesh_phase pair", kSize},
-            &a.contact_half_width);
+      c(a.bearing_force[g], of_body(c, a.mesh, g, "bearing_force"), "N", kForce, "mesh_phase xy",
+        "force of the gear on its bearing; x, y: the driven gear stands above the driver, which turns counter-clockwise");
+  c(a.contact_pressure, "/contact_pressure", "Pa", kPressure, "mesh_phase pair",
+    "largest contact pressure of each pair inside its flanks; 0 where nothing touches (tooth_load is 0) and where a tip edge does (tooth_load is not), whose pressure is singular");
+  c(a.contact_half_width, "/contact_half_width", "m", kSize, "mesh_phase pair",
+    "half width of each contact inside the flanks, twice the standard deviation of its pressure");
 }
 
 void describe_root_stress(Codec& c, StaticResult& a) {
   const bool there = a.root_stress[0].size() > 0;
   for (int g = 0; g < (c.lists() ? 1 : 2); ++g)
     if (c.optional(of_body(c, a.mesh, g, "root_stress"), there))
-      c.dataset(
-          {of_body(c, a.mesh, g, "root_stress"), "Pa",
-           "largest tangential stress along the root beside the loaded flank of each pair's tooth, tension positive",
-           "mesh_phase pair", kStress,
-           "sum over the pairs of root_stress/per_force of body.h5, and of root_stress/crack, times force"},
-          &a.root_stress[g]);
+      c(a.root_stress[g], of_body(c, a.mesh, g, "root_stress"), "Pa", kStress, "mesh_phase pair",
+        "largest tangential stress along the root beside the loaded flank of each pair's tooth, tension positive",
+        "sum over the pairs of root_stress/per_force of body.h5, and of root_stress/crack, times force");
   if (c.optional("/root_stress_max", there)) {
-    c.dataset({"/root_stress_max", "Pa", "largest root stress over the mesh cycle, beside the loaded flanks",
-               "gear", kStress},
-              &a.root_stress_max);
-    c.dataset({"/root_stress_angle", "1",
-               "angle (rad) of the root's tangent there against the centre line of the tooth", "gear", kRoll},
-              &a.root_stress_angle);
-    c.dataset({"/root_stress_phase", "1", "mesh phase of the tooth's pair then, 0 at the pitch point", "gear",
-               kPlace},
-              &a.root_stress_phase);
+    c(a.root_stress_max, "/root_stress_max", "Pa", kStress, "gear",
+      "largest root stress over the mesh cycle, beside the loaded flanks");
+    c(a.root_stress_angle, "/root_stress_angle", "1", kRoll, "gear",
+      "angle (rad) of the root's tangent there against the centre line of the tooth");
+    c(a.root_stress_phase, "/root_stress_phase", "1", kPlace, "gear",
+      "mesh phase of the tooth's pair then, 0 at the pitch point");
     if (c.optional("/root_stress_tooth", a.root_stress_tooth.size() > 0))
-      c.dataset({"/root_stress_tooth", "1",
-                 "number of that tooth, counter-clockwise from tooth 0, where teeth differ or one is cracked",
-                 "gear", kTooth},
-                &a.root_stress_tooth);
+      c(a.root_stress_tooth, "/root_stress_tooth", "1", kTooth, "gear",
+        "number of that tooth, counter-clockwise from tooth 0, where teeth differ or one is cracked");
   }
-  c.dataset({"/loss_factor", "1",
-             "mean power lost by sliding over the power carried, per unit coefficient of friction", "",
-             kPositive, "H_V = mean of sum F |sliding per angle| / T"},
-            &a.loss_factor);
+  c(a.loss_factor, "/loss_factor", "1", kPositive, "",
+    "mean power lost by sliding over the power carried, per unit coefficient of friction",
+    "H_V = mean of sum F |sliding per angle| / T");
 }
 
 constexpr Range kLost{0, 1e7};  // N m
@@ -89,27 +62,19 @@ constexpr Range kLost{0, 1e7};  // N m
 // Left out of flanks without friction.
 void describe_static_friction(Codec& c, StaticResult& a) {
   if (!c.lists() && !a.mesh.friction.acts()) return;
-  c.dataset({"/friction_coefficient", "1", "coefficient of friction", "", kShare}, &a.friction_coefficient);
-  c.dataset({"/certificate/friction_coupling", "m",
-             "largest change of a gap by what friction of the last forces moves, over all positions", "",
-             kSize, "iteration for d = (A + E) p + e, E of friction: E times the last change of p"},
-            &a.friction_coupling);
-  c.dataset({"/friction_loss", "N m", "work that friction takes per angle (rad) of the driver", "mesh_phase",
-             kLost, "sum of mu s F (t1 - t2 z1 / z2)"},
-            &a.friction_loss);
+  c(a.friction_coefficient, "/friction_coefficient", "1", kShare, "", "coefficient of friction");
+  c(a.friction_coupling, "/certificate/friction_coupling", "m", kSize, "",
+    "largest change of a gap by what friction of the last forces moves, over all positions",
+    "iteration for d = (A + E) p + e, E of friction: E times the last change of p");
+  c(a.friction_loss, "/friction_loss", "N m", kLost, "mesh_phase",
+    "work that friction takes per angle (rad) of the driver", "sum of mu s F (t1 - t2 z1 / z2)");
   for (int g = 0; g < (c.lists() ? 1 : 2); ++g)
-    c.dataset(
-        {of_body(c, a.mesh, g, "friction_moment"), "N m",
-         "moment of friction about the axis of the gear, positive where it has the sense of the moment of the normal force, which brakes the driver and drives the driven gear",
-         "mesh_phase", kMoment, "sum of mu s F t"},
-        &a.friction_moment[g]);
-  c.dataset({"/efficiency",
-             "1",
-             "of the mesh at rest: work given by the driven gear over that put into the driver",
-             "",
-             {0, 1},
-             "1 - mean friction_loss / torque"},
-            &a.efficiency);
+    c(a.friction_moment[g], of_body(c, a.mesh, g, "friction_moment"), "N m", kMoment, "mesh_phase",
+      "moment of friction about the axis of the gear, positive where it has the sense of the moment of the normal force, which brakes the driver and drives the driven gear",
+      "sum of mu s F t");
+  c(a.efficiency, "/efficiency", "1", {0, 1}, "",
+    "of the mesh at rest: work given by the driven gear over that put into the driver",
+    "1 - mean friction_loss / torque");
 }
 
 }  // namespace
@@ -117,47 +82,37 @@ void describe_static_friction(Codec& c, StaticResult& a) {
 void describe(Codec& c, StaticResult& a) {
   describe_pair(c, a);
   describe_torque(c, a.torque);
-  c.dataset({"/contact_ratio", "1", "profile contact ratio of the unloaded gears", "", {0, 100, true}},
-            &a.contact_ratio);
+  c(a.contact_ratio, "/contact_ratio", "1", {0, 100, true}, "",
+    "profile contact ratio of the unloaded gears");
   describe_curves(c, a);
   describe_root_stress(c, a);
   describe_static_friction(c, a);
-  c.dataset({"/transmission_error_harmonic", "m",
-             "mean, then amplitudes of the harmonics of the mesh frequency", "harmonic", kLength},
-            &a.transmission_error_harmonic);
-  c.dataset({"/mesh_stiffness_harmonic", "N m-1",
-             "mean, then amplitudes of the harmonics of the secant stiffness", "harmonic", kSpring},
-            &a.stiffness_harmonic);
+  c(a.transmission_error_harmonic, "/transmission_error_harmonic", "m", kLength, "harmonic",
+    "mean, then amplitudes of the harmonics of the mesh frequency");
+  c(a.stiffness_harmonic, "/mesh_stiffness_harmonic", "N m-1", kSpring, "harmonic",
+    "mean, then amplitudes of the harmonics of the secant stiffness");
   c.numbers("harmonic", 0, "number of the harmonic of the mesh frequency; 0: the mean");
   describe_hunting(c, a.hunting_periods);
   if (c.lists() || (c.in() ? a.hunting_periods > 1 : a.transmission_error_order.size() > 0)) {
-    c.dataset({"/transmission_error_order", "m",
-               "mean, then amplitudes of the harmonics of the hunting frequency", "order", kLength},
-              &a.transmission_error_order);
+    c(a.transmission_error_order, "/transmission_error_order", "m", kLength, "order",
+      "mean, then amplitudes of the harmonics of the hunting frequency");
     c.numbers("order", 0, "number of the harmonic of the hunting frequency; 0: the mean");
   }
-  c.dataset({"/mean_stiffness", "N m-1", "mean of the secant stiffness over a mesh period", "", kStiff},
-            &a.mean_stiffness);
-  c.dataset({"/certificate/least_gap", "m", "least gap of a strip without force, over all positions", "",
-             kLength, "d >= 0 where p = 0 (with Eq. 18, 20)"},
-            &a.least_gap);
-  c.dataset({"/certificate/least_force", "N", "least force of a strip in contact, over all positions", "",
-             kForce, "p >= 0 where d = 0 (with Eq. 18, 20)"},
-            &a.least_force);
-  c.dataset(
-      {"/certificate/torque_residual", "1", "largest relative residual of the torque, over all positions", "",
-       kPositive, "|sum a p - T| / T"},
-      &a.torque_residual);
+  c(a.mean_stiffness, "/mean_stiffness", "N m-1", kStiff, "",
+    "mean of the secant stiffness over a mesh period");
+  c(a.least_gap, "/certificate/least_gap", "m", kLength, "",
+    "least gap of a strip without force, over all positions", "d >= 0 where p = 0 (with Eq. 18, 20)");
+  c(a.least_force, "/certificate/least_force", "N", kForce, "",
+    "least force of a strip in contact, over all positions", "p >= 0 where d = 0 (with Eq. 18, 20)");
+  c(a.torque_residual, "/certificate/torque_residual", "1", kPositive, "",
+    "largest relative residual of the torque, over all positions", "|sum a p - T| / T");
   describe_backlash(c, a.backlash_margin);
 }
 
-void write(const std::string& path, const StaticResult& a, const Provenance& provenance) {
-  write_artifact(path, kStaticSchema, "Static transmission error: " + pair_title(a.mesh, a.torque), a,
-                 provenance);
+std::string title(const StaticResult& a) {
+  return "Static transmission error: " + pair_title(a.mesh, a.torque);
 }
 
-StaticResult read_static(const std::string& path) {
-  return read_artifact<StaticResult>(path, kStaticSchema);
-}
+template struct ArtifactFile<StaticResult>;
 
 }  // namespace whine

@@ -1,19 +1,17 @@
-#include "io/study_codec.h"
+#include "io/artifacts.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <sstream>
 
 #include "base/error.h"
-#include "io/codec.h"
+#include "io/artifact_file.h"
 #include "model/response_quantities.h"
 
 namespace whine {
 namespace {
 
 using namespace ranges;
-
-constexpr Schema kStudySchema{"study", 3};
 
 // The dataset of a key: its place without dots, its name without the unit.
 std::string dataset_of(const VariedKey& key) {
@@ -27,20 +25,20 @@ std::string dataset_of(const VariedKey& key) {
 
 void describe_plan(Codec& c, StudyPlan& plan) {
   const std::string at = "/parameters/study/";
-  c.dataset({at + "title", "1", "what the study is", ""}, &plan.title);
-  c.dataset({at + "scene", "1", "scene whose variants these are", ""}, &plan.scene);
-  c.choices({at + "directions", "1", "directions of the sweeps; none: at rest", ""}, plan.directions);
+  c(plan.title, at + "title", "", "what the study is");
+  c(plan.scene, at + "scene", "", "scene whose variants these are");
+  c(plan.directions, at + "directions", "", "directions of the sweeps; none: at rest");
   std::string kind = plan.random ? "sample" : "grid";
-  c.dataset({at + "plan", "1", "all combinations, or random ones", ""}, &kind);
-  c.dataset({at + "seed", "1", "of the draws of a sample", "", {0, 2147483647.0}}, &plan.seed);
+  c(kind, at + "plan", "", "all combinations, or random ones");
+  c(plan.seed, at + "seed", "1", {0, 2147483647.0}, "", "of the draws of a sample");
   std::vector<std::string> keys;
   for (const VariedKey& key : plan.keys) keys.push_back(key.name);
-  c.dataset({at + "key", "1", "keys that vary, as the study names them", "key"}, &keys);
-  c.dataset({at + "quantity", "1", "response quantities that are gathered", "quantity"}, &plan.quantities);
-  c.dataset({at + "figure_quantity", "1", "response quantities that the figure shows", "figure_quantity"},
-            &plan.figure_quantities);
-  c.dataset({at + "figure_key", "1", "keys against which it shows them", "figure_key"}, &plan.figure_keys);
-  c.dataset({at + "figure_colour", "1", "key by which it colours them", ""}, &plan.figure_colour);
+  c(keys, at + "key", "key", "keys that vary, as the study names them");
+  c(plan.quantities, at + "quantity", "quantity", "response quantities that are gathered");
+  c(plan.figure_quantities, at + "figure_quantity", "figure_quantity",
+    "response quantities that the figure shows");
+  c(plan.figure_keys, at + "figure_key", "figure_key", "keys against which it shows them");
+  c(plan.figure_colour, at + "figure_colour", "", "key by which it colours them");
   if (!c.in()) return;
   plan.random = kind == "sample";
   plan.keys.clear();
@@ -58,14 +56,14 @@ void describe_values(Codec& c, StudyResult& a, std::size_t k) {
   if (key.number) {
     Eigen::VectorXd si(c.out() ? variants : 0);
     for (Eigen::Index v = 0; v < si.size(); ++v) si[v] = key.si(texts[v]);
-    c.dataset({dataset_of(key), key.units, meaning, "variant", kQuantity}, &si);
+    c(si, dataset_of(key), key.units, kQuantity, "variant", meaning);
     for (Eigen::Index v = 0; c.in() && v < variants; ++v) {
       char buffer[40];
       std::snprintf(buffer, sizeof buffer, "%.12g", si[v] * key.to_si_divide / key.to_si_multiply);
       texts.emplace_back(buffer);
     }
   } else {
-    c.dataset({dataset_of(key), "1", meaning, "variant"}, &texts);
+    c(texts, dataset_of(key), "variant", meaning);
   }
   for (std::size_t v = 0; c.in() && v < a.variants.size(); ++v) a.variants[v].values.push_back(texts[v]);
 }
@@ -73,10 +71,12 @@ void describe_values(Codec& c, StudyResult& a, std::size_t k) {
 }  // namespace
 
 void describe(Codec& c, StudyResult& a) {
+  if (c.out() && a.quantity.rows() != static_cast<Eigen::Index>(a.variants.size()))
+    fail(Failure::numerical, "result has ", a.quantity.rows(), " rows, expected ", a.variants.size());
   describe_plan(c, a.plan);
   std::vector<std::string> names;
   for (const GatheredVariant& variant : a.variants) names.push_back(variant.name);
-  c.dataset({"/variant", "1", "name of the variant's stage parameters and artifact", "variant"}, &names);
+  c(names, "/variant", "variant", "name of the variant's stage parameters and artifact");
   if (c.in())
     for (const std::string& name : names) a.variants.push_back({name, {}});
   for (std::size_t k = 0; k < a.plan.keys.size(); ++k) describe_values(c, a, k);
@@ -90,38 +90,31 @@ void describe(Codec& c, StudyResult& a) {
                a.quantity, found - a.plan.quantities.begin(), quantities);
   }
   if (c.lists()) {
-    c.dataset({"/key/<key>", "its own", "value in each variant", "variant", kQuantity}, &a.unsteady);
-    c.dataset({"/quantity/<quantity>", "its own", "response quantity of each variant", "variant", kQuantity},
-              &a.unsteady);
+    c(a.unsteady, "/key/<key>", "its own", kQuantity, "variant", "value in each variant");
+    c(a.unsteady, "/quantity/<quantity>", "its own", kQuantity, "variant",
+      "response quantity of each variant");
   }
   for (std::size_t q = 1; c.in() && q < a.plan.quantities.size(); ++q)
     if (std::find(a.plan.quantities.begin(), a.plan.quantities.begin() + static_cast<std::ptrdiff_t>(q),
                   a.plan.quantities[q]) != a.plan.quantities.begin() + static_cast<std::ptrdiff_t>(q))
-      c.in()->file().reject("names the response quantity '" + a.plan.quantities[q] + "' twice");
+      c.in()->reject("names the response quantity '" + a.plan.quantities[q] + "' twice");
   if (c.in())
     for (const std::string& name : a.plan.quantities)
       if (std::none_of(kinds.begin(), kinds.end(), [&](const ResponseQuantity& k) { return k.name == name; }))
-        c.in()->file().reject("names the response quantity '" + name + "', which no variant gives");
+        c.in()->reject("names the response quantity '" + name + "', which no variant gives");
   Eigen::VectorXi rejected(static_cast<Eigen::Index>(a.rejection.size()));
   for (Eigen::Index v = 0; v < rejected.size(); ++v) rejected[v] = a.rejection[v].empty() ? 0 : 1;
-  c.dataset(
-      {"/outside_model", "1", "1: the variant lies outside the model's range and has no response quantities",
-       "variant", kFlag},
-      &rejected);
-  c.dataset({"/outside_model_reason", "1", "why; empty where it was not rejected", "variant"}, &a.rejection);
-  c.dataset(
-      {"/unsteady", "1", "speeds, of all sweeps, at which no periodic motion was found", "variant", kNumber},
-      &a.unsteady);
+  c(rejected, "/outside_model", "1", kFlag, "variant",
+    "1: the variant lies outside the model's range and has no response quantities");
+  c(a.rejection, "/outside_model_reason", "variant", "why; empty where it was not rejected");
+  c(a.unsteady, "/unsteady", "1", kNumber, "variant",
+    "speeds, of all sweeps, at which no periodic motion was found");
 }
 
-void write(const std::string& path, const StudyResult& a, const Provenance& provenance) {
-  if (a.quantity.rows() != static_cast<Eigen::Index>(a.variants.size()))
-    fail(Failure::numerical, "result has ", a.quantity.rows(), " rows, expected ", a.variants.size());
-  write_artifact(path, kStudySchema, "Study: " + a.plan.title, a, provenance);
+std::string title(const StudyResult& a) {
+  return "Study: " + a.plan.title;
 }
 
-StudyResult read_study_artifact(const std::string& path) {
-  return read_artifact<StudyResult>(path, kStudySchema);
-}
+template struct ArtifactFile<StudyResult>;
 
 }  // namespace whine

@@ -8,10 +8,11 @@
 #include "base/error.h"
 #include "base/tool.h"
 #include "gear/scene_geometry.h"
+#include "io/artifacts.h"
 #include "io/provenance.h"
 #include "io/publish.h"
 #include "io/scene.h"
-#include "io/variant_codec.h"
+#include "results/variant.h"
 
 namespace whine {
 namespace {
@@ -120,7 +121,7 @@ GatheredStudy gather_study(const std::string& path) {
   study.unsteady.setZero(static_cast<Eigen::Index>(study.variants.size()));
   for (size_t v = 0; v < study.variants.size(); ++v) {
     const std::string file = home + variant_file(study.variants[v].name) + ".h5";
-    const VariantResult variant = read_variant(file);
+    const VariantResult variant = read<VariantResult>(file);
     if (variant.directions != study.plan.directions)
       fail(Failure::input, file, ": is of another stage than the study; ", rebuild_advice(file));
     study.rejection.push_back(variant.rejection);

@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "io/study_codec.h"
+#include "io/artifacts.h"
+#include "io/study_result.h"
 
 namespace whine {
 

@@ -6,23 +6,10 @@
 
 #include "base/error.h"
 #include "gear/friction.h"
-#include "io/body_codec.h"
-#include "io/branch_codec.h"
-#include "io/error_budget_codec.h"
-#include "io/fold_curves_codec.h"
-#include "io/harris_map_codec.h"
-#include "io/impact_codec.h"
-#include "io/jump_map_codec.h"
-#include "io/loaded_codec.h"
-#include "io/mesh_codec.h"
-#include "io/response_codec.h"
-#include "io/runup_codec.h"
-#include "io/static_codec.h"
+#include "io/artifact_kinds.h"
+#include "io/artifacts.h"
 #include "io/study.h"
-#include "io/study_codec.h"
 #include "io/summary_lines.h"
-#include "io/sweep_codec.h"
-#include "io/variant_codec.h"
 #include "signal/jump_words.h"
 #include "signal/no_root_stress.h"
 
@@ -475,39 +462,12 @@ std::string in_words(const FlankModification& m) {
 
 std::vector<std::pair<std::string, std::string>> summary(const std::string& path, const std::string& schema) {
   SummaryLines lines;
-  if (schema == "whine/mesh") {
-    show(lines, read_mesh(path));
-  } else if (schema == "whine/body") {
-    show(lines, read_body(path));
-  } else if (schema == "whine/static") {
-    show(lines, read_static(path));
-  } else if (schema == "whine/loaded") {
-    show(lines, read_loaded(path));
-  } else if (schema == "whine/error_budget") {
-    show(lines, read_error_budget(path));
-  } else if (schema == "whine/impact") {
-    show(lines, read_impact(path));
-  } else if (schema == "whine/sweep") {
-    show(lines, read_sweep(path));
-  } else if (schema == "whine/response") {
-    show(lines, read_response(path));
-  } else if (schema == "whine/fold_curves") {
-    show(lines, read_fold_curves(path));
-  } else if (schema == "whine/runup") {
-    show(lines, read_runup(path));
-  } else if (schema == "whine/branch") {
-    show(lines, read_branch(path));
-  } else if (schema == "whine/jump_map") {
-    show(lines, read_jump_map(path));
-  } else if (schema == "whine/harris_map") {
-    show(lines, read_harris_map(path));
-  } else if (schema == "whine/variant") {
-    show(lines, read_variant(path));
-  } else if (schema == "whine/study") {
-    show(lines, read_study_artifact(path));
-  } else if (!summary_of_system(lines, path, schema)) {
+  for_each_kind([&]<class A>(const ArtifactKind<A>& kind) {
+    if constexpr (requires(const A& a) { show(lines, a); })
+      if (schema == kind.schema()) show(lines, read<A>(path));
+  });
+  if (lines.empty())
     add(lines, "key numbers", "unknown to this version for ", schema, "; h5dump shows the file");
-  }
   return lines;
 }
 

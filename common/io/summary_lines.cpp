@@ -3,16 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/modes_codec.h"
-#include "io/system_branch_codec.h"
-#include "io/system_impact_codec.h"
-#include "io/system_static_codec.h"
-#include "io/system_sweep_codec.h"
 #include "signal/jump_words.h"
 #include "system/rigid_system.h"
 
 namespace whine {
-namespace {
 
 void show(SummaryLines& lines, const ModesResult& a) {
   std::string bodies;
@@ -24,7 +18,7 @@ void show(SummaryLines& lines, const ModesResult& a) {
 }
 
 // Which gears have errors, and after which time the same teeth meet.
-void show_differing_teeth(SummaryLines& lines, const SystemStaticParameters& s, int periods) {
+static void show_differing_teeth(SummaryLines& lines, const SystemStaticParameters& s, int periods) {
   for (size_t b = 0; b < s.layout.bodies.size(); ++b)
     if (s.has_errors(b)) add(lines, s.layout.bodies[b].name + "'s teeth", words_of(s.errors[b]));
   if (periods > 1) add(lines, "hunting period", periods, " mesh periods, after which the same teeth meet");
@@ -53,7 +47,7 @@ void show(SummaryLines& lines, const SystemStaticResult& a) {
   add(lines, "residual", a.torque_residual.maxCoeff(), " of the largest mesh force");
 }
 
-void show_model(SummaryLines& lines, const SystemSweepParameters& s) {
+static void show_model(SummaryLines& lines, const SystemSweepParameters& s) {
   add(lines, "system", s.layout.bodies.size(), " bodies, ", s.layout.meshes.size(), " meshes");
   add(lines, "model", "body ", s.fidelity.body, ", contact ", s.fidelity.contact, ", damping ",
       s.damping.rayleigh_stiffness, " s and ", s.damping.rayleigh_mass, " 1/s");
@@ -104,8 +98,6 @@ void show(SummaryLines& lines, const SystemBranchResult& a) {
   add(lines, "end", a.end);
 }
 
-}  // namespace
-
 std::string words_of(const ToothErrors& e) {
   const auto largest = [](const std::vector<double>& teeth) {
     double most = 0;
@@ -123,23 +115,6 @@ std::string words_of(const ToothErrors& e) {
         std::pair{"profile slope", &e.profile_slope}, std::pair{"profile form", &e.profile_form}})
     if (largest(*teeth) > 0) part(name, " up to ", largest(*teeth), " µm");
   return words;
-}
-
-bool summary_of_system(SummaryLines& lines, const std::string& path, const std::string& schema) {
-  if (schema == "whine/modes") {
-    show(lines, read_modes(path));
-  } else if (schema == "whine/system_static") {
-    show(lines, read_system_static(path));
-  } else if (schema == "whine/system_sweep") {
-    show(lines, read_system_sweep(path));
-  } else if (schema == "whine/system_impact") {
-    show(lines, read_system_impact(path));
-  } else if (schema == "whine/system_branch") {
-    show(lines, read_system_branch(path));
-  } else {
-    return false;
-  }
-  return true;
 }
 
 }  // namespace whine

@@ -10,6 +10,11 @@
 
 #include "base/error.h"
 #include "model/gear.h"
+#include "results/modes.h"
+#include "results/system_branch.h"
+#include "results/system_impact.h"
+#include "results/system_static.h"
+#include "results/system_sweep.h"
 
 namespace whine {
 
@@ -34,7 +39,11 @@ inline std::string range_of(const Eigen::VectorXd& frequency) {
 // Class, eccentricity and the largest deviations of a gear's teeth.
 std::string words_of(const ToothErrors& errors);
 
-// Adds the lines of an artifact of a system of several meshes; false if the schema is of another kind. Errors as its reader.
-bool summary_of_system(SummaryLines& lines, const std::string& path, const std::string& schema);
+// Of artifacts of systems of several meshes.
+void show(SummaryLines& lines, const ModesResult& a);
+void show(SummaryLines& lines, const SystemStaticResult& a);
+void show(SummaryLines& lines, const SystemSweepResult& a);
+void show(SummaryLines& lines, const SystemImpactResult& a);
+void show(SummaryLines& lines, const SystemBranchResult& a);
 
 }  // namespace whine

@@ -1,37 +1,28 @@
-#include "io/system_branch_codec.h"
+#include "io/artifacts.h"
 
 #include "base/error.h"
+#include "io/artifact_file.h"
 #include "io/branch_parts.h"
-#include "io/codec.h"
-#include "io/system_sweep_codec.h"
+#include "io/system_motion_codec.h"
 
 namespace whine {
 namespace {
 
 using namespace ranges;
 
-constexpr Schema kSystemBranchSchema{"system_branch", 2};
-
 void describe_points(Codec& c, SystemBranchResult& a) {
   const char* const of_mesh = "point mesh_number";
-  c.dataset({"/mesh_frequency", "Hz", "mesh frequency along the branch", "point", kSpeed}, &a.mesh_frequency);
-  c.dataset({"/dte_rms", "m", "RMS of the oscillating part of the dynamic transmission error of each mesh",
-             of_mesh, kSize},
-            &a.dte_rms);
-  c.dataset({"/dte_mean", "m", "mean of the dynamic transmission error of each mesh", of_mesh, kLength},
-            &a.dte_mean);
-  c.dataset(
-      {"/mesh_force_max", "N", "largest torque on the driving body over its base radius", of_mesh, kForce},
-      &a.mesh_force_max);
-  c.dataset({"/tooth_force_max", "N", "largest normal force of one pair of teeth", of_mesh, kLoad},
-            &a.tooth_force_max);
-  c.dataset({"/separation_fraction", "1",
-             "share of the time steps at which no pair of the mesh carries force", of_mesh, kShare},
-            &a.separation_fraction);
-  c.dataset({"/bearing_force_rms", "N",
-             "RMS of the oscillating part of the force of each body on its bearing, pin or axis",
-             "point body_number", kLoad},
-            &a.bearing_force_rms);
+  c(a.mesh_frequency, "/mesh_frequency", "Hz", kSpeed, "point", "mesh frequency along the branch");
+  c(a.dte_rms, "/dte_rms", "m", kSize, of_mesh,
+    "RMS of the oscillating part of the dynamic transmission error of each mesh");
+  c(a.dte_mean, "/dte_mean", "m", kLength, of_mesh, "mean of the dynamic transmission error of each mesh");
+  c(a.mesh_force_max, "/mesh_force_max", "N", kForce, of_mesh,
+    "largest torque on the driving body over its base radius");
+  c(a.tooth_force_max, "/tooth_force_max", "N", kLoad, of_mesh, "largest normal force of one pair of teeth");
+  c(a.separation_fraction, "/separation_fraction", "1", kShare, of_mesh,
+    "share of the time steps at which no pair of the mesh carries force");
+  c(a.bearing_force_rms, "/bearing_force_rms", "N", kLoad, "point body_number",
+    "RMS of the oscillating part of the force of each body on its bearing, pin or axis");
   describe_stability(c, a);
 }
 
@@ -42,18 +33,14 @@ void describe(Codec& c, SystemBranchResult& a) {
   describe_time_steps(c, a.settings.time);
   describe_points(c, a);
   describe_folds(c, a);
-  c.dataset({"/end", "1", "why the branch was followed no further", ""}, &a.end);
+  c(a.end, "/end", "", "why the branch was followed no further");
 }
 
-void write(const std::string& path, const SystemBranchResult& a, const Provenance& provenance) {
-  write_artifact(path, kSystemBranchSchema,
-                 text("Branch of periodic orbits of a system: ", a.settings.layout.bodies.size(), " bodies, ",
-                      a.settings.layout.meshes.size(), " meshes"),
-                 a, provenance);
+std::string title(const SystemBranchResult& a) {
+  return text("Branch of periodic orbits of a system: ", a.settings.layout.bodies.size(), " bodies, ",
+              a.settings.layout.meshes.size(), " meshes");
 }
 
-SystemBranchResult read_system_branch(const std::string& path) {
-  return read_artifact<SystemBranchResult>(path, kSystemBranchSchema);
-}
+template struct ArtifactFile<SystemBranchResult>;
 
 }  // namespace whine

@@ -1,9 +1,9 @@
-#include "io/system_static_codec.h"
+#include "io/artifacts.h"
 
 #include <algorithm>
 
 #include "base/error.h"
-#include "io/codec.h"
+#include "io/artifact_file.h"
 #include "io/keys.h"
 #include "io/layout_codec.h"
 
@@ -11,8 +11,6 @@ namespace whine {
 namespace {
 
 using namespace ranges;
-
-constexpr Schema kSystemStaticSchema{"system_static", 1};
 
 // [gear.<name>.modification], of gears that have one.
 void describe_modification(Codec& c, const std::string& gear, SystemStaticParameters& s) {
@@ -32,10 +30,9 @@ void describe_settings(Codec& c, SystemStaticResult& a) {
   std::vector<std::string> gears = s.gears();
   Eigen::VectorXi section =
       Eigen::Map<Eigen::VectorXi>(s.section.data(), static_cast<Eigen::Index>(s.section.size()));
-  c.dataset({"/body/gear", "1", "name of its gear in the scene; empty of a carrier", "body_number"}, &s.gear);
-  c.dataset({"/gear", "1", "names of the gears of the scene", "gear_number"}, &gears);
-  c.dataset({"/mesh/section", "1", "number of the [[mesh]] of the scene", "mesh_number", {0, 10000}},
-            &section);
+  c(s.gear, "/body/gear", "body_number", "name of its gear in the scene; empty of a carrier");
+  c(gears, "/gear", "gear_number", "names of the gears of the scene");
+  c(section, "/mesh/section", "1", {0, 10000}, "mesh_number", "number of the [[mesh]] of the scene");
   SceneParameters values;
   values.fidelity = s.fidelity;
   values.contact = s.contact;
@@ -64,70 +61,47 @@ void describe_settings(Codec& c, SystemStaticResult& a) {
 }
 
 void describe_motions(Codec& c, SystemStaticResult& a) {
-  c.dataset(
-      {"/mesh_phase", "1",
-       "phase of the first mesh; 0: its reference pair at the pitch point; from one mesh period to the next, up to the hunting period, where teeth differ",
-       "mesh_phase", kPhase},
-      &a.mesh_phase);
-  c.dataset({"/rotation", "m", "base radius times rotation in the body's sense; 0 of held bodies",
-             "mesh_phase body_number", kLength},
-            &a.rotation);
-  c.dataset({"/translation", "m", "displacement of the hub", "mesh_phase body_number xy", kLength},
-            &a.translation);
-  c.dataset({"/transmission_error", "m",
-             "transmission error of each mesh along its line of action, positive when the driver is ahead",
-             "mesh_phase mesh_number", kLength, "r1 theta1 - r2 theta2, each in its own sense"},
-            &a.transmission_error);
-  c.dataset(
-      {"/mesh_deflection", "m", "the same without what bearings give way", "mesh_phase mesh_number", kLength},
-      &a.mesh_deflection);
-  c.dataset({"/transmission_error_harmonic", "m",
-             "mean, then amplitudes of the harmonics of the mesh frequency", "harmonic mesh_number", kLength},
-            &a.transmission_error_harmonic);
+  c(a.mesh_phase, "/mesh_phase", "1", kPhase, "mesh_phase",
+    "phase of the first mesh; 0: its reference pair at the pitch point; from one mesh period to the next, up to the hunting period, where teeth differ");
+  c(a.rotation, "/rotation", "m", kLength, "mesh_phase body_number",
+    "base radius times rotation in the body's sense; 0 of held bodies");
+  c(a.translation, "/translation", "m", kLength, "mesh_phase body_number xy", "displacement of the hub");
+  c(a.transmission_error, "/transmission_error", "m", kLength, "mesh_phase mesh_number",
+    "transmission error of each mesh along its line of action, positive when the driver is ahead",
+    "r1 theta1 - r2 theta2, each in its own sense");
+  c(a.mesh_deflection, "/mesh_deflection", "m", kLength, "mesh_phase mesh_number",
+    "the same without what bearings give way");
+  c(a.transmission_error_harmonic, "/transmission_error_harmonic", "m", kLength, "harmonic mesh_number",
+    "mean, then amplitudes of the harmonics of the mesh frequency");
   c.numbers("harmonic", 0, "number of the harmonic of the mesh frequency; 0: the mean");
   describe_hunting(c, a.hunting_periods);
   if (!c.lists() && !(c.in() ? a.hunting_periods > 1 : a.transmission_error_order.size() > 0)) return;
-  c.dataset({"/transmission_error_order", "m",
-             "mean, then amplitudes of the harmonics of the hunting frequency", "order mesh_number", kLength},
-            &a.transmission_error_order);
+  c(a.transmission_error_order, "/transmission_error_order", "m", kLength, "order mesh_number",
+    "mean, then amplitudes of the harmonics of the hunting frequency");
   c.numbers("order", 0, "number of the harmonic of the hunting frequency; 0: the mean");
 }
 
 void describe_loads(Codec& c, SystemStaticResult& a) {
-  c.dataset({"/mesh_force", "N", "torque on the driving body over its base radius", "mesh_phase mesh_number",
-             kForce},
-            &a.mesh_force);
-  c.dataset({"/load_share",
-             "1",
-             "share of the meshes that come from one [[mesh]]: of planets the load sharing",
-             "mesh_phase mesh_number",
-             {0, 1 + 1e-9}},
-            &a.load_share);
-  c.dataset(
-      {"/pair", "1", "number of the tooth pair: -1 following, 0 reference, +1 preceding", "pair", kPair},
-      &a.pair);
-  c.dataset({"/tooth_load", "N", "normal force of each tooth pair", "mesh_phase mesh_number pair", kForce},
-            &a.tooth_load);
-  c.dataset({"/contact_pressure", "Pa",
-             "largest contact pressure of each pair inside its flanks; 0 where a corner or nothing touches",
-             "mesh_phase mesh_number pair", kPressure},
-            &a.contact_pressure);
-  c.dataset({"/bearing_force", "N",
-             "force of a body on its bearing, of a planet on its pin, of a carrier on the ground",
-             "mesh_phase body_number xy", kForce},
-            &a.bearing_force);
-  c.dataset({"/torque", "N m", "torque of the drive, or of what holds the body, in its sense",
-             "mesh_phase body_number", kMoment},
-            &a.torque);
-  c.dataset(
-      {"/mesh_stiffness", "N m-1", "frozen stiffness between the approaches of the meshes, without bearings",
-       "mesh_phase mesh_number other_mesh", kSpring},
-      &a.mesh_stiffness);
+  c(a.mesh_force, "/mesh_force", "N", kForce, "mesh_phase mesh_number",
+    "torque on the driving body over its base radius");
+  c(a.load_share, "/load_share", "1", {0, 1 + 1e-9}, "mesh_phase mesh_number",
+    "share of the meshes that come from one [[mesh]]: of planets the load sharing");
+  c(a.pair, "/pair", "1", kPair, "pair", "number of the tooth pair: -1 following, 0 reference, +1 preceding");
+  c(a.tooth_load, "/tooth_load", "N", kForce, "mesh_phase mesh_number pair",
+    "normal force of each tooth pair");
+  c(a.contact_pressure, "/contact_pressure", "Pa", kPressure, "mesh_phase mesh_number pair",
+    "largest contact pressure of each pair inside its flanks; 0 where a corner or nothing touches");
+  c(a.bearing_force, "/bearing_force", "N", kForce, "mesh_phase body_number xy",
+    "force of a body on its bearing, of a planet on its pin, of a carrier on the ground");
+  c(a.torque, "/torque", "N m", kMoment, "mesh_phase body_number",
+    "torque of the drive, or of what holds the body, in its sense");
+  c(a.mesh_stiffness, "/mesh_stiffness", "N m-1", kSpring, "mesh_phase mesh_number other_mesh",
+    "frozen stiffness between the approaches of the meshes, without bearings");
 }
 
 // What figures and pages take for granted: one phase, mesh and pair at least, and of each gear the drawing with its teeth.
 void require_whole(const Codec& c, const SystemStaticResult& a) {
-  const auto reject = [&](const auto&... words) { c.in()->file().reject(text(words...)); };
+  const auto reject = [&](const auto&... words) { c.in()->reject(text(words...)); };
   const System& layout = a.settings.layout;
   if (a.mesh_phase.size() == 0) reject("dataset /mesh_phase holds no phase");
   if (a.mesh_phase.size() % a.hunting_periods != 0)
@@ -155,33 +129,24 @@ void require_whole(const Codec& c, const SystemStaticResult& a) {
 
 void describe(Codec& c, SystemStaticResult& a) {
   describe_settings(c, a);
-  c.dataset(
-      {"/contact_ratio", "1", "profile contact ratio of the unloaded gears", "mesh_number", {0, 100, true}},
-      &a.contact_ratio);
+  c(a.contact_ratio, "/contact_ratio", "1", {0, 100, true}, "mesh_number",
+    "profile contact ratio of the unloaded gears");
   describe_motions(c, a);
   describe_loads(c, a);
-  c.dataset({"/certificate/least_gap", "m", "least gap of a strip without force", "mesh_phase", kLength,
-             "d >= 0 where p = 0 (with Eq. 18, 20)"},
-            &a.least_gap);
-  c.dataset({"/certificate/least_force", "N", "least force of a strip in contact", "mesh_phase", kForce,
-             "p >= 0 where d = 0 (with Eq. 18, 20)"},
-            &a.least_force);
-  c.dataset({"/certificate/torque_residual", "1",
-             "largest unbalance of a free body's rotation over the largest mesh force", "mesh_phase",
-             kPositive, "|L^T p - T / r|"},
-            &a.torque_residual);
+  c(a.least_gap, "/certificate/least_gap", "m", kLength, "mesh_phase", "least gap of a strip without force",
+    "d >= 0 where p = 0 (with Eq. 18, 20)");
+  c(a.least_force, "/certificate/least_force", "N", kForce, "mesh_phase", "least force of a strip in contact",
+    "p >= 0 where d = 0 (with Eq. 18, 20)");
+  c(a.torque_residual, "/certificate/torque_residual", "1", kPositive, "mesh_phase",
+    "largest unbalance of a free body's rotation over the largest mesh force", "|L^T p - T / r|");
   if (c.in()) require_whole(c, a);
 }
 
-void write(const std::string& path, const SystemStaticResult& a, const Provenance& provenance) {
-  write_artifact(path, kSystemStaticSchema,
-                 text("System at rest: ", a.settings.layout.bodies.size(), " bodies, ",
-                      a.settings.layout.meshes.size(), " meshes"),
-                 a, provenance);
+std::string title(const SystemStaticResult& a) {
+  return text("System at rest: ", a.settings.layout.bodies.size(), " bodies, ",
+              a.settings.layout.meshes.size(), " meshes");
 }
 
-SystemStaticResult read_system_static(const std::string& path) {
-  return read_artifact<SystemStaticResult>(path, kSystemStaticSchema);
-}
+template struct ArtifactFile<SystemStaticResult>;
 
 }  // namespace whine

@@ -1,7 +1,7 @@
-#include "io/variant_codec.h"
+#include "io/artifacts.h"
 
 #include "base/error.h"
-#include "io/codec.h"
+#include "io/artifact_file.h"
 #include "model/response_quantities.h"
 
 namespace whine {
@@ -9,31 +9,25 @@ namespace {
 
 using namespace ranges;
 
-constexpr Schema kVariantSchema{"variant", 3};
-
 }  // namespace
 
 void describe(Codec& c, VariantResult& a) {
   describe_pair(c, a);
   describe_torque(c, a.torque);
-  c.choices({"/parameters/operation/directions", "1", "directions of the sweeps; none: at rest", ""},
-            a.directions);
+  c(a.directions, "/parameters/operation/directions", "", "directions of the sweeps; none: at rest");
   if (c.lists() || !a.directions.empty()) {
     describe_motion(c, a);
-    c.dataset({"/parameters/operation/reference_torque", "N m",
-               "torque whose mean stiffness sets the bearing dampers", "", kDrive},
-              &a.reference_torque);
+    c(a.reference_torque, "/parameters/operation/reference_torque", "N m", kDrive, "",
+      "torque whose mean stiffness sets the bearing dampers");
     describe_speeds(c, a.frequency_from, a.frequency_to, a.frequency_step);
   }
-  c.dataset({"/outside_model_reason", "1",
-             "why the variant lies outside the model's range; empty: it does not", ""},
-            &a.rejection);
+  c(a.rejection, "/outside_model_reason", "",
+    "why the variant lies outside the model's range; empty: it does not");
   if (!a.rejection.empty()) return;
   if (c.lists()) {
     double any = 0;
-    c.dataset({"/quantity/<quantity>", "its own", "response quantity, those of sweeps for each direction", "",
-               kQuantity},
-              &any);
+    c(any, "/quantity/<quantity>", "its own", kQuantity, "",
+      "response quantity, those of sweeps for each direction");
     return;
   }
   const std::vector<ResponseQuantity> kinds = response_quantities(a.directions);
@@ -42,16 +36,13 @@ void describe(Codec& c, VariantResult& a) {
     fail(Failure::numerical, "result has ", a.quantity.size(), " rows, expected ", count);
   if (!c.out()) a.quantity.resize(count);
   for (Eigen::Index i = 0; i < count; ++i)
-    c.dataset({"/quantity/" + kinds[i].name, kinds[i].units, kinds[i].meaning, "", kQuantity},
-              &a.quantity[i]);
+    c(a.quantity[i], "/quantity/" + kinds[i].name, kinds[i].units, kQuantity, "", kinds[i].meaning);
 }
 
-void write(const std::string& path, const VariantResult& a, const Provenance& provenance) {
-  write_artifact(path, kVariantSchema, "Variant of a study: " + pair_title(a.mesh, a.torque), a, provenance);
+std::string title(const VariantResult& a) {
+  return "Variant of a study: " + pair_title(a.mesh, a.torque);
 }
 
-VariantResult read_variant(const std::string& path) {
-  return read_artifact<VariantResult>(path, kVariantSchema);
-}
+template struct ArtifactFile<VariantResult>;
 
 }  // namespace whine

@@ -8,7 +8,8 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "io/readings_codec.h"
+#include "io/artifacts.h"
+#include "io/readings_result.h"
 #include "paper/scorecard.h"
 
 namespace whine {

@@ -3,9 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "io/artifacts.h"
 #include "io/claim_sets.h"
 #include "io/readings.h"
-#include "io/readings_codec.h"
+#include "io/readings_result.h"
 
 namespace whine {
 

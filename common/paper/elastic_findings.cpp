@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "io/readings_codec.h"
+#include "io/artifacts.h"
+#include "io/readings_result.h"
 #include "signal/branches.h"
 #include "signal/response.h"
 

@@ -14,8 +14,9 @@
 #include <string>
 #include <vector>
 
+#include "io/artifacts.h"
 #include "io/readings.h"
-#include "io/readings_codec.h"
+#include "io/readings_result.h"
 #include "io/scene.h"
 #include "paper/scorecard.h"
 #include "results/reduced_body.h"

@@ -1,7 +1,8 @@
 // The readings of P2000 as a figure: agreeing claims against the level ratio of the mesh stiffness, and which sets of claims
 // hold together.
 #pragma once
-#include "io/readings_codec.h"
+#include "io/artifacts.h"
+#include "io/readings_result.h"
 #include "paper/consistency.h"
 #include "report/figures.h"
 

@@ -101,7 +101,7 @@ ReadingsResult confirmed(const ReadingsResult& readings, const Scene& scene, int
 ReadingsResult gathered(const std::vector<std::string>& parts) {
   ReadingsResult out;
   for (const std::string& path : parts) {
-    ReadingsResult part = read_readings(path);
+    ReadingsResult part = read<ReadingsResult>(path);
     if (out.claim.empty()) {
       out = std::move(part);
       continue;

@@ -4,11 +4,12 @@
 #include <tuple>
 
 #include "base/error.h"
-#include "io/impact_codec.h"
+#include "io/artifacts.h"
 #include "io/provenance.h"
-#include "io/response_codec.h"
-#include "io/static_codec.h"
-#include "io/sweep_codec.h"
+#include "results/impact.h"
+#include "results/response.h"
+#include "results/static.h"
+#include "results/sweep.h"
 
 namespace whine {
 namespace {
@@ -112,13 +113,13 @@ struct SceneReader {
     const std::string& path = paths.at(file);
     const std::string kind = file.substr(file.rfind('/') + 1);
     if (kind == "static.h5")
-      require_operation(file, results.statics[file] = read_static(path));
+      require_operation(file, results.statics[file] = whine::read<StaticResult>(path));
     else if (kind == "impact.h5")
-      require_operation(file, results.impacts[file] = read_impact(path));
+      require_operation(file, results.impacts[file] = whine::read<ImpactResult>(path));
     else if (kind == "sweep.h5")
-      require_sweep(file, results.sweeps[file] = read_sweep(path));
+      require_sweep(file, results.sweeps[file] = whine::read<SweepResult>(path));
     else
-      require_sweep(file, results.responses[file] = read_response(path));
+      require_sweep(file, results.responses[file] = whine::read<ResponseResult>(path));
   }
 
   // Error(input) unless all are of one pair of gears, the elastic ones of one damping, too.

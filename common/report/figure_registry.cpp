@@ -5,26 +5,10 @@
 #include <limits>
 
 #include "base/error.h"
-#include "io/body_codec.h"
-#include "io/branch_codec.h"
-#include "io/error_budget_codec.h"
-#include "io/fold_curves_codec.h"
-#include "io/harris_map_codec.h"
-#include "io/impact_codec.h"
-#include "io/jump_map_codec.h"
-#include "io/mesh_codec.h"
-#include "io/modes_codec.h"
+#include "io/artifact_kinds.h"
+#include "io/artifacts.h"
 #include "io/provenance.h"
-#include "io/response_codec.h"
-#include "io/runup_codec.h"
 #include "io/scene_words.h"
-#include "io/static_codec.h"
-#include "io/study_codec.h"
-#include "io/sweep_codec.h"
-#include "io/system_branch_codec.h"
-#include "io/system_impact_codec.h"
-#include "io/system_static_codec.h"
-#include "io/system_sweep_codec.h"
 #include "report/campbell_figure.h"
 #include "report/compare_figures.h"
 #include "report/efficiency_figure.h"
@@ -94,17 +78,17 @@ Captioned<ResponseResult> read_responses(const Paths& inputs) {
   std::vector<OfSweep> sweeps;
   for (const std::string& path : inputs) {
     if (is_a("whine/impact", path)) {
-      captions.background.impacts.push_back(read_impact(path));
+      captions.background.impacts.push_back(read<ImpactResult>(path));
     } else if (is_a("whine/branch", path)) {
-      captions.background.branches.push_back(read_branch(path));
+      captions.background.branches.push_back(read<BranchResult>(path));
     } else if (is_a("whine/sweep", path)) {
-      const SweepResult sweep = read_sweep(path);
+      const SweepResult sweep = read<SweepResult>(path);
       constexpr double kNoFlanks = std::numeric_limits<double>::infinity();  // of one degree of freedom
       sweeps.push_back({path, response(sweep), sweep.lumped,
                         elastic(sweep) ? backlash_left(sweep)
                                        : Eigen::VectorXd::Constant(sweep.mesh_frequency.size(), kNoFlanks)});
     } else {
-      captions.add(path, read_response(path), {});
+      captions.add(path, read<ResponseResult>(path), {});
     }
   }
   auto& backlash = captions.background.backlash;
@@ -134,9 +118,9 @@ Captioned<SweepResult> read_sweeps(const Paths& inputs) {
   Captioned<SweepResult> captions;
   for (const std::string& path : inputs) {
     if (is_a("whine/impact", path)) {
-      captions.background.impacts.push_back(read_impact(path));
+      captions.background.impacts.push_back(read<ImpactResult>(path));
     } else {
-      const SweepResult sweep = read_sweep(path);
+      const SweepResult sweep = read<SweepResult>(path);
       captions.add(path, sweep, sweep.lumped);
     }
   }
@@ -154,11 +138,11 @@ Figure draw_root_stress(const Paths& inputs, const Frequencies&) {
   std::vector<BranchResult> branches;
   for (const std::string& path : inputs)
     if (is_a("whine/static", path))
-      statics.push_back(read_static(path));
+      statics.push_back(read<StaticResult>(path));
     else if (is_a("whine/branch", path))
-      branches.push_back(read_branch(path));
+      branches.push_back(read<BranchResult>(path));
     else
-      sweeps.push_back(read_response(path));
+      sweeps.push_back(read<ResponseResult>(path));
   if (statics.size() != 1)
     fail(Failure::usage, "root-stress needs one static.h5; ", statics.size(), " given");
   return root_stress_figure(statics[0], sweeps, branches);
@@ -170,12 +154,12 @@ Figure draw_efficiency(const Paths& inputs, const Frequencies&) {
   std::vector<SweepBacklash> backlash;
   for (const std::string& path : inputs)
     if (is_a("whine/static", path)) {
-      statics.push_back(read_static(path));
+      statics.push_back(read<StaticResult>(path));
     } else if (is_a("whine/sweep", path)) {
-      const SweepResult sweep = read_sweep(path);
+      const SweepResult sweep = read<SweepResult>(path);
       backlash.push_back({sweep.torque, sweep.direction, backlash_left(sweep)});
     } else {
-      sweeps.push_back(read_response(path));
+      sweeps.push_back(read<ResponseResult>(path));
     }
   return efficiency_figure(statics, sweeps, backlash);
 }
@@ -185,41 +169,45 @@ Drawings drawings_at_rest() {
       {"fig01",
        {"finite element mesh", "mesh.h5 of driver and driven gear, static.h5", 3, 0,
         [](const Paths& in, const Frequencies&) {
-          return mesh_figure(read_mesh(in[0]), read_mesh(in[1]), read_static(in[2]));
+          return mesh_figure(read<SectorGrid>(in[0]), read<SectorGrid>(in[1]), read<StaticResult>(in[2]));
         }}},
       {"fig03",
        {"contact zone: candidate pairs, inner and outer region, pressure",
         "mesh.h5 of driver and driven gear, body.h5 of driver and driven gear, static.h5", 5, 0,
         [](const Paths& in, const Frequencies&) {
-          const StaticResult pair = read_static(in[4]);
-          return contact_zone_figure(read_mesh(in[0]), read_mesh(in[1]), pair,
-                                     contact_zone(read_body(in[2]), read_body(in[3]), pair));
+          const StaticResult pair = read<StaticResult>(in[4]);
+          return contact_zone_figure(read<SectorGrid>(in[0]), read<SectorGrid>(in[1]), pair,
+                                     contact_zone(read<ReducedBody>(in[2]), read<ReducedBody>(in[3]), pair));
         }}},
       {"fig12",
        {"static transmission error and its spectrum", "static.h5, one per torque", 0, 0,
         [](const Paths& in, const Frequencies&) {
-          return transmission_error_figure(read_all(in, read_static));
+          return transmission_error_figure(read_all(in, read<StaticResult>));
         }}},
       {"fig13",
        {"mesh stiffness and its spectrum", "what fig12 takes", 0, 0,
         [](const Paths& in, const Frequencies&) {
-          return mesh_stiffness_figure(read_all(in, read_static));
+          return mesh_stiffness_figure(read_all(in, read<StaticResult>));
         }}},
       {"load-sharing",
        {"the share of the load that a tooth pair carries on its way through the mesh", "what fig12 takes", 0,
         0,
-        [](const Paths& in, const Frequencies&) { return load_sharing_figure(read_all(in, read_static)); }}},
+        [](const Paths& in, const Frequencies&) {
+          return load_sharing_figure(read_all(in, read<StaticResult>));
+        }}},
       {"profile",
        {"profile charts of the driving flanks, as an inspection sheet shows them", "static.h5", 1, 0,
-        [](const Paths& in, const Frequencies&) { return profile_figure(read_static(in[0])); }}},
+        [](const Paths& in, const Frequencies&) { return profile_figure(read<StaticResult>(in[0])); }}},
       {"error-budget",
        {"what refining each discretisation alone changes, and what other choices change", "error_budget.h5",
         1, 0,
-        [](const Paths& in, const Frequencies&) { return error_budget_figure(read_error_budget(in[0])); }}},
+        [](const Paths& in, const Frequencies&) {
+          return error_budget_figure(read<ErrorBudgetResult>(in[0]));
+        }}},
       {"crack",
        {"the mark of a cracked tooth in the static transmission error, its orders, and the root stress of the teeth about it",
         "static.h5 of a pair with a crack", 1, 0,
-        [](const Paths& in, const Frequencies&) { return crack_figure(read_static(in[0])); }}},
+        [](const Paths& in, const Frequencies&) { return crack_figure(read<StaticResult>(in[0])); }}},
       {"efficiency",
        {"losses and efficiency over speed, moments of friction over a mesh period",
         "static.h5, then response.h5 of the sweeps up and down, of each torque, of a scene with [friction]; their sweep.h5, for the speeds beyond the backlash",
@@ -232,13 +220,14 @@ Drawings drawings_at_rest() {
        {"flank pressure over roll angle and speed, loads over tip edges",
         "static.h5, response.h5 of the sweeps up and down, all of one torque", 3, 0,
         [](const Paths& in, const Frequencies&) {
-          return flank_pressure_figure(read_static(in[0]), {read_response(in[1]), read_response(in[2])});
+          return flank_pressure_figure(read<StaticResult>(in[0]),
+                                       {read<ResponseResult>(in[1]), read<ResponseResult>(in[2])});
         }}},
       {"sidebands",
        {"teeth that differ: transmission error over the hunting period, shaft orders and sidebands",
         "static.h5 and response.h5 of one torque", 2, 0,
         [](const Paths& in, const Frequencies&) {
-          return sidebands_figure(read_static(in[0]), read_response(in[1]));
+          return sidebands_figure(read<StaticResult>(in[0]), read<ResponseResult>(in[1]));
         }}},
   };
 }
@@ -256,13 +245,13 @@ Drawings drawings_of_designs() {
        {"designs at rest: transmission error, mesh stiffness, harmonics",
         "static.h5 of each scene, at one torque", 0, 0,
         [](const Paths& in, const Frequencies&) {
-          return compared_rest_figure(read_designs(in, read_static));
+          return compared_rest_figure(read_designs(in, read<StaticResult>));
         }}},
       {"compare-motion",
        {"designs in motion: RMS, first order and tooth load against speed",
         "response.h5 of sweeps up and down of each scene, at one torque", 0, 0,
         [](const Paths& in, const Frequencies&) {
-          return compared_motion_figure(read_designs(in, read_response));
+          return compared_motion_figure(read_designs(in, read<ResponseResult>));
         }}},
   };
 }
@@ -272,9 +261,9 @@ Figure draw_runup(const Paths& inputs, const Frequencies&) {
   std::vector<ResponseResult> sweeps;
   for (const std::string& path : inputs) {
     if (is_a("whine/runup", path))
-      runs.push_back(read_runup(path));
+      runs.push_back(read<RunupResult>(path));
     else
-      sweeps.push_back(read_response(path));
+      sweeps.push_back(read<ResponseResult>(path));
   }
   if (runs.size() != 1) fail(Failure::usage, "runup needs one runup.h5; ", runs.size(), " given");
   return runup_figure(runs[0], sweeps);
@@ -288,7 +277,9 @@ Drawings drawings_of_motions() {
       {"order-cuts",
        {"order cuts: the first orders of the dynamic transmission error against speed, both ways",
         "response.h5 of sweeps up and down of one torque", 0, 0,
-        [](const Paths& in, const Frequencies&) { return order_figure(read_all(in, read_response)); }}},
+        [](const Paths& in, const Frequencies&) {
+          return order_figure(read_all(in, read<ResponseResult>));
+        }}},
       {"fig05",
        {"RMS of the dynamic transmission error against mesh frequency",
         "response.h5 of sweeps up and down, any torques, or their sweep.h5 (lumped models: with mass and damping ratio), or both, for the speeds beyond the backlash; a panel for each set of choices; impact.h5 of the same torques, for damping ratios; branch.h5, for orbits, stable or not, and folds",
@@ -311,13 +302,15 @@ Drawings drawings_of_motions() {
        {"net mesh force of lumped models at one or two speeds", "sweep.h5 of lumped models at one torque", 0,
         2,
         [](const Paths& in, const Frequencies& f) {
-          return mesh_force_figure(read_all(in, read_sweep), f);
+          return mesh_force_figure(read_all(in, read<SweepResult>), f);
         }}},
       {"fig16", {"RMS and mean of the dynamic transmission error", "what fig05 takes", 0, 0, draw_responses}},
       {"waterfall",
        {"spectra of the dynamic transmission error against mesh frequency, and its first orders",
         "sweep.h5 of a sweep, or of those up and down of one torque", 0, 0,
-        [](const Paths& in, const Frequencies&) { return waterfall_figure(read_all(in, read_sweep)); }}},
+        [](const Paths& in, const Frequencies&) {
+          return waterfall_figure(read_all(in, read<SweepResult>));
+        }}},
       {"tooth-loads",
        {"tooth loads against mesh frequency, and over the mesh period at the speed with the largest RMS",
         "sweep.h5 of sweeps up and down of one torque; impact.h5 of that torque, for damping ratios", 0, 0,
@@ -336,20 +329,21 @@ Drawings drawings_of_motions() {
 }
 
 std::pair<std::vector<FoldCurvesResult>, std::vector<JumpMapResult>> folds_and_maps(const Paths& in) {
-  std::pair<std::vector<FoldCurvesResult>, std::vector<JumpMapResult>> read;
+  std::pair<std::vector<FoldCurvesResult>, std::vector<JumpMapResult>> maps;
   for (const std::string& path : in)
     if (is_a("whine/fold_curves", path))
-      read.first.push_back(read_fold_curves(path));
+      maps.first.push_back(read<FoldCurvesResult>(path));
     else
-      read.second.push_back(read_jump_map(path));
-  return read;
+      maps.second.push_back(read<JumpMapResult>(path));
+  return maps;
 }
 
 Drawings drawings_of_maps() {
   return {
       {"harris-map",
        {"peak-to-peak transmission error against torque and tip relief, and the Harris cusp", "harris_map.h5",
-        1, 0, [](const Paths& in, const Frequencies&) { return harris_map_figure(read_harris_map(in[0])); }}},
+        1, 0,
+        [](const Paths& in, const Frequencies&) { return harris_map_figure(read<HarrisMapResult>(in[0])); }}},
       {"jump-map",
        {"two branches, contact loss and tooth loads against torque, damping and corner rule",
         "jump_map.h5, one per torque and corner rule; fold_curves.h5 over damping, for the cusps", 0, 0,
@@ -359,7 +353,7 @@ Drawings drawings_of_maps() {
         }}},
       {"multipliers",
        {"Floquet multipliers of a branch in the complex plane, and their largest modulus", "branch.h5", 1, 0,
-        [](const Paths& in, const Frequencies&) { return multiplier_figure(read_branch(in[0])); }}},
+        [](const Paths& in, const Frequencies&) { return multiplier_figure(read<BranchResult>(in[0])); }}},
       {"fold-curves",
        {"mesh frequencies of folds against damping, torque or tip relief, with their cusps",
         "fold_curves.h5 of one quantity, one per torque; jump_map.h5 beside them, for the jumps of sweeps", 0,
@@ -372,19 +366,19 @@ Drawings drawings_of_maps() {
        {"the same of lumped models, and in how much they agree with the elastic pair",
         "jump_map.h5 of lumped models and of the elastic pair, one per torque and model or corner rule", 0, 0,
         [](const Paths& in, const Frequencies&) {
-          return lumped_jump_map_figure(read_all(in, read_jump_map));
+          return lumped_jump_map_figure(read_all(in, read<JumpMapResult>));
         }}},
       {"sensitivity",
        {"what each variant of a scene changes", "jump_map.h5 of the scene, then of each variant", 0, 0,
         [](const Paths& in, const Frequencies&) {
-          std::vector<JumpMapResult> maps = read_all(in, read_jump_map);
+          std::vector<JumpMapResult> maps = read_all(in, read<JumpMapResult>);
           const JumpMapResult base = maps.front();
           maps.erase(maps.begin());
           return sensitivity_figure(base, maps);
         }}},
       {"study",
        {"response quantities of the variants of a study against the keys that vary", "study.h5", 1, 0,
-        [](const Paths& in, const Frequencies&) { return study_figure(read_study_artifact(in[0])); }}},
+        [](const Paths& in, const Frequencies&) { return study_figure(read<StudyResult>(in[0])); }}},
   };
 }
 
@@ -392,44 +386,49 @@ Drawings drawings_of_systems() {
   return {
       {"modes",
        {"natural frequencies of a system by type, and its mode shapes", "modes.h5", 1, 0,
-        [](const Paths& in, const Frequencies&) { return modes_figure(read_modes(in[0])); }}},
+        [](const Paths& in, const Frequencies&) { return modes_figure(read<ModesResult>(in[0])); }}},
       {"campbell",
        {"natural frequencies of a system and the harmonics of the mesh frequency that excite them",
         "modes.h5", 1, 0,
-        [](const Paths& in, const Frequencies&) { return campbell_figure(read_modes(in[0])); }}},
+        [](const Paths& in, const Frequencies&) { return campbell_figure(read<ModesResult>(in[0])); }}},
       {"system-static",
        {"a system at rest: transmission errors, forces of meshes, forces on bearings", "system_static.h5", 1,
         0,
-        [](const Paths& in, const Frequencies&) { return system_static_figure(read_system_static(in[0])); }}},
+        [](const Paths& in, const Frequencies&) {
+          return system_static_figure(read<SystemStaticResult>(in[0]));
+        }}},
       {"system-load-sharing",
        {"how the planets of a system share the load over the mesh period, and the loads of its tooth pairs",
         "system_static.h5", 1, 0,
         [](const Paths& in, const Frequencies&) {
-          return system_load_sharing_figure(read_system_static(in[0]));
+          return system_load_sharing_figure(read<SystemStaticResult>(in[0]));
         }}},
       {"system",
        {"a system as it stands: gears at their places, teeth in mesh, senses of rotation",
         "system_static.h5, or of rigid gears modes.h5", 1, 0,
         [](const Paths& in, const Frequencies&) {
-          return is_a("whine/modes", in[0]) ? system_picture(read_modes(in[0]))
-                                            : system_picture(read_system_static(in[0]));
+          return is_a("whine/modes", in[0]) ? system_picture(read<ModesResult>(in[0]))
+                                            : system_picture(read<SystemStaticResult>(in[0]));
         }}},
       {"system-sweep",
        {"a system over its speeds: vibration and contact loss of meshes, forces on bearings",
         "system_sweep.h5 of one system, rising, falling or both", 0, 0,
         [](const Paths& in, const Frequencies&) {
-          return system_sweep_figure(read_all(in, read_system_sweep));
+          return system_sweep_figure(read_all(in, read<SystemSweepResult>));
         }}},
       {"system-ringdown",
        {"damping ratios and natural frequencies of the modes of a system by ring-down", "system_impact.h5", 1,
         0,
-        [](const Paths& in, const Frequencies&) { return system_impact_figure(read_system_impact(in[0])); }}},
+        [](const Paths& in, const Frequencies&) {
+          return system_impact_figure(read<SystemImpactResult>(in[0]));
+        }}},
       {"system-branch",
        {"the branch of periodic motions of a system, stable and unstable, over its sweeps",
         "system_branch.h5, and system_sweep.h5 of the same system if you like", 0, 0,
         [](const Paths& in, const Frequencies&) {
           const Paths sweeps(in.begin() + 1, in.end());
-          return system_branch_figure(read_system_branch(in[0]), read_all(sweeps, read_system_sweep));
+          return system_branch_figure(read<SystemBranchResult>(in[0]),
+                                      read_all(sweeps, read<SystemSweepResult>));
         }}},
   };
 }

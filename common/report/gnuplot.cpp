@@ -187,7 +187,7 @@ std::string draw(const Figure& figure, const std::string& tsv_path, const std::s
     }
     for (size_t i = 0; i < 2; ++i) {
       if (waiting[i].fd < 0 || waiting[i].revents == 0) continue;
-      const ssize_t n = read(waiting[i].fd, buffer, sizeof buffer);
+      const ssize_t n = ::read(waiting[i].fd, buffer, sizeof buffer);
       if (n > 0) {
         text_of[i].append(buffer, static_cast<size_t>(n));
       } else if (n == 0 || errno != EINTR) {

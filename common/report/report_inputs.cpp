@@ -6,17 +6,12 @@
 
 #include "base/error.h"
 #include "base/tool.h"
-#include "io/error_budget_codec.h"
-#include "io/impact_codec.h"
-#include "io/modes_codec.h"
+#include "io/artifact_kinds.h"
+#include "io/artifacts.h"
 #include "io/picture_sources.h"
 #include "io/provenance.h"
 #include "io/publish.h"
 #include "io/scene_words.h"
-#include "io/static_codec.h"
-#include "io/sweep_codec.h"
-#include "io/system_static_codec.h"
-#include "io/system_sweep_codec.h"
 #include "studies/sweep.h"
 #include "studies/sweep_response.h"
 
@@ -35,7 +30,7 @@ ReportPicture read_picture(const std::string& path, const std::string& scene) {
 
 // Of a sweep only what it says: the motions of teeth that differ are large.
 ReportSweep read_sweep_of(const ReportContent& content, const std::string& path) {
-  const SweepResult sweep = read_sweep(path);
+  const SweepResult sweep = read<SweepResult>(path);
   if (sweep.model != SweepResult().model)
     fail(Failure::input, path, ": is of the lumped model ", sweep.model,
          "; a report is of the elastic pair: give the sweep.h5 in T<torque>/up or T<torque>/down");
@@ -99,7 +94,7 @@ SystemReport read_system_report(const std::vector<std::string>& paths) {
     take_source(path, report);
     const std::string& schema = report.sources.back().origin.schema;
     if (schema == "whine/system_sweep") {
-      report.sweeps.push_back(read_system_sweep(path));
+      report.sweeps.push_back(read<SystemSweepResult>(path));
       continue;
     }
     const bool rest = schema == "whine/system_static";
@@ -109,9 +104,9 @@ SystemReport read_system_report(const std::vector<std::string>& paths) {
     if (rest ? report.rest.has_value() : report.modes.has_value())
       fail(Failure::usage, path, ": a second ", schema, "; give one of each");
     if (rest)
-      report.rest = read_system_static(path);
+      report.rest = read<SystemStaticResult>(path);
     else
-      report.modes = read_modes(path);
+      report.modes = read<ModesResult>(path);
   }
   require_one_origin(report.sources);
   for (const std::string& path : pictures) report.pictures.push_back(read_picture(path, report.scene));
@@ -131,11 +126,11 @@ ReportContent read_report_content(const std::vector<std::string>& paths) {
     take_source(path, content);
     const std::string& schema = content.sources.back().origin.schema;
     if (schema == "whine/static") {
-      content.statics.push_back(read_static(path));
+      content.statics.push_back(read<StaticResult>(path));
     } else if (schema == "whine/impact") {
-      content.impacts.push_back(read_impact(path));
+      content.impacts.push_back(read<ImpactResult>(path));
     } else if (schema == "whine/error_budget") {
-      content.budget = read_error_budget(path);
+      content.budget = read<ErrorBudgetResult>(path);
     } else if (schema == "whine/sweep") {
       sweeps.push_back(path);
     } else {

@@ -1,7 +1,8 @@
 // The figure of a study: its response quantities against the keys that vary.
 #pragma once
+#include "io/artifacts.h"
 #include "io/study.h"
-#include "io/study_codec.h"
+#include "io/study_result.h"
 #include "report/figures.h"
 
 namespace whine {

@@ -19,12 +19,13 @@
 #include "base/tool.h"
 #include "calculix.h"
 #include "contact/complementarity.h"
-#include "io/body_codec.h"
-#include "io/mesh_codec.h"
+#include "io/artifacts.h"
 #include "io/named_files.h"
 #include "io/scene.h"
-#include "io/static_codec.h"
-#include "io/sweep_codec.h"
+#include "results/reduced_body.h"
+#include "results/sector_grid.h"
+#include "results/static.h"
+#include "results/sweep.h"
 #include "rolling.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
@@ -474,7 +475,8 @@ void positions_beside_calculix(const std::string& params, const std::vector<std:
                                double torque, const std::vector<double>& phases, double element) {
   const whine::StaticParameters read = whine::read_static_parameters(params);
   const std::vector<std::string> paths = whine::NamedFiles("--body", bodies).of(read.mesh);
-  const whine::ReducedBody driving = whine::read_body(paths[0]), following = whine::read_body(paths[1]);
+  const whine::ReducedBody driving = whine::read<whine::ReducedBody>(paths[0]),
+                           following = whine::read<whine::ReducedBody>(paths[1]);
   for (const double phase : phases) beside_calculix(driving, following, read, torque, phase, element);
 }
 
@@ -526,7 +528,8 @@ void body(int argc, char** argv) {
   const double load = whine::number_option("--torque", torque);
   const whine::StaticParameters read = whine::read_static_parameters(params);
   const std::vector<std::string> paths = whine::NamedFiles("--body", bodies).of(read.mesh);
-  const whine::ReducedBody driving = whine::read_body(paths[0]), following = whine::read_body(paths[1]);
+  const whine::ReducedBody driving = whine::read<whine::ReducedBody>(paths[0]),
+                           following = whine::read<whine::ReducedBody>(paths[1]);
   static_position(whine::GearMeshModel(driving, following, read.mesh), read, load, kPhase, params.c_str());
   if (!sweep_params.empty())
     rolling(driving, following, read, whine::read_sweep_parameters(sweep_params), load);

@@ -18,9 +18,10 @@
 
 #include "base/tool.h"
 #include "calculix.h"
-#include "io/body_codec.h"
+#include "io/artifacts.h"
 #include "io/named_files.h"
 #include "io/scene.h"
+#include "results/reduced_body.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
 #include "studies/sweep.h"
@@ -158,7 +159,8 @@ void body(int argc, char** argv) {
   const whine::StaticParameters read = whine::read_static_parameters(params);
   const std::vector<std::string> paths = whine::NamedFiles("--body", bodies).of(read.mesh);
   std::printf("%s\n", params.c_str());
-  const whine::ReducedBody driver = whine::read_body(paths[0]), driven = whine::read_body(paths[1]);
+  const whine::ReducedBody driver = whine::read<whine::ReducedBody>(paths[0]),
+                           driven = whine::read<whine::ReducedBody>(paths[1]);
   if (!sweep_params.empty())
     time_of_sweeps(driver, driven, read, whine::read_sweep_parameters(sweep_params), load);
   compare(driver, driven, read, load);

@@ -29,13 +29,14 @@
 #include "base/tool.h"
 #include "dynamics/dynamics.h"
 #include "dynamics/steady_state.h"
-#include "io/body_codec.h"
+#include "io/artifacts.h"
 #include "io/named_files.h"
 #include "io/publish.h"
 #include "io/scene.h"
 #include "report/figures.h"
 #include "report/gnuplot.h"
 #include "report/plot_file.h"
+#include "results/reduced_body.h"
 #include "signal/jumps.h"
 #include "signal/response.h"
 #include "solid/mesher.h"
@@ -434,7 +435,7 @@ void body(int argc, char** argv) {
   const double load = number_option("--torque", torque);
   const StaticParameters rest = read_static_parameters(statics);
   const std::vector<std::string> paths = NamedFiles("--body", bodies).of(rest.mesh);
-  Bench bench(read_body(paths[0]), read_body(paths[1]), rest, settings, load);
+  Bench bench(read<ReducedBody>(paths[0]), read<ReducedBody>(paths[1]), rest, settings, load);
   const Setting usual = bench.usual();
   const Outcome present = bench.run(usual, "the scene's settings");
   if (*std::min_element(present.rms.begin(), present.rms.end()) < 0 || present.down < 0 || present.up < 0 ||

@@ -6,9 +6,10 @@
 #include "gear/pair.h"
 #include "gear/scene_geometry.h"
 #include "internal_pair.h"
-#include "io/body_codec.h"
-#include "io/mesh_codec.h"
+#include "io/artifacts.h"
 #include "relative.h"
+#include "results/reduced_body.h"
+#include "results/sector_grid.h"
 #include "scene_file.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
@@ -122,7 +123,7 @@ TEST_CASE(
   supported.rim_tangential_stiffness = 7e8;
   const std::string path = file.path("", "mesh.h5");
   write(path, make_sector_mesh(supported, coarse), Provenance());
-  CHECK(read_mesh(path).design.rim_tangential_stiffness == 7e8);
+  CHECK(read<SectorGrid>(path).design.rim_tangential_stiffness == 7e8);
 
   // As a file of parameters before there were supports.
   CHECK(body_parameters(file.read(with_ring()), "wheel").find("stiffness") == std::string::npos);
@@ -153,7 +154,7 @@ TEST_CASE("artifacts of an internal gear come back as they were; those of extern
   const SectorGrid mesh = make_sector_mesh(ring_gear(), coarse);
   const std::string path = file.path("", "mesh.h5");
   write(path, mesh, Provenance());
-  const SectorGrid back = read_mesh(path);
+  const SectorGrid back = read<SectorGrid>(path);
   CHECK(back.design.internal);
   CHECK(back.design.rim_outer_radius == mesh.design.rim_outer_radius);
   CHECK(back.design.bore_radius == 0);
@@ -163,13 +164,13 @@ TEST_CASE("artifacts of an internal gear come back as they were; those of extern
   const ReducedBody body = reduce(mesh, {206e9, 0.3, 7850, true}, 1);
   const std::string body_path = file.path("", "body.h5");
   write(body_path, body, Provenance());
-  const ReducedBody body_back = read_body(body_path);
+  const ReducedBody body_back = read<ReducedBody>(body_path);
   CHECK(body_back.design.internal);
   CHECK(body_back.design.rim_outer_radius == mesh.design.rim_outer_radius);
   CHECK(body_back.flank_position == body.flank_position);
 
   const std::string external = file.path("", "planet.h5");
   write(external, make_sector_mesh(planet_gear(), coarse), Provenance());
-  CHECK_FALSE(read_mesh(external).design.internal);
-  CHECK(read_mesh(external).design.bore_radius == planet_gear().bore_radius);
+  CHECK_FALSE(read<SectorGrid>(external).design.internal);
+  CHECK(read<SectorGrid>(external).design.bore_radius == planet_gear().bore_radius);
 }

@@ -1,7 +1,7 @@
 // No text in the pictures of designs, maps and studies is cut at an edge or lies on other text.
 #include <doctest/doctest.h>
 
-#include "io/harris_map_codec.h"
+#include "io/artifacts.h"
 #include "paper/reading_figure.h"
 #include "picture_inputs.h"
 #include "report/animation.h"
@@ -19,6 +19,7 @@
 #include "report/sensitivity_figure.h"
 #include "report/static_figures.h"
 #include "report/study_figure.h"
+#include "results/harris_map.h"
 #include "signal/response.h"
 
 using namespace whine;

@@ -13,13 +13,14 @@
 #include "gear/flank_deviation.h"
 #include "gear/system_layout.h"
 #include "gear/tooth_errors.h"
+#include "io/artifacts.h"
 #include "io/system_scene.h"
-#include "io/system_static_codec.h"
-#include "io/system_sweep_codec.h"
 #include "paper_pair.h"
 #include "planetary_train.h"
 #include "relative.h"
 #include "report/system_figures.h"
+#include "results/system_static.h"
+#include "results/system_sweep.h"
 #include "scene_file.h"
 #include "studies/system_branch.h"
 #include "studies/system_impact.h"
@@ -473,7 +474,7 @@ TEST_CASE(
   const SystemStaticResult rest = rest_of(scene);
   const std::string h5 = file.path("") + ".h5";
   write(h5, rest, Provenance());
-  const SystemStaticResult read = read_system_static(h5);
+  const SystemStaticResult read = read<SystemStaticResult>(h5);
   CHECK(read.hunting_periods == 20);
   CHECK(read.transmission_error_order == rest.transmission_error_order);
   CHECK(read.settings.errors[1].profile_slope == rest.settings.errors[1].profile_slope);

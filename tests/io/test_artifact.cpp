@@ -18,42 +18,27 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "filled_artifact.h"
 #include "gear/system_layout.h"
 #include "io/artifact.h"
+#include "io/artifact_kinds.h"
 #include "io/artifact_place.h"
-#include "io/body_codec.h"
-#include "io/branch_codec.h"
+#include "io/artifacts.h"
 #include "io/compatibility.h"
 #include "io/datasets.h"
-#include "io/error_budget_codec.h"
 #include "io/h5.h"
-#include "io/harris_map_codec.h"
-#include "io/impact_codec.h"
-#include "io/jump_map_codec.h"
-#include "io/loaded_codec.h"
-#include "io/mesh_codec.h"
-#include "io/modes_codec.h"
 #include "io/named_files.h"
 #include "io/picture_sources.h"
 #include "io/provenance.h"
 #include "io/publish.h"
 #include "io/ranges.h"
-#include "io/readings_codec.h"
-#include "io/response_codec.h"
-#include "io/runup_codec.h"
+#include "io/runup_file.h"
 #include "io/scene_words.h"
-#include "io/static_codec.h"
 #include "io/study.h"
-#include "io/study_codec.h"
 #include "io/summary.h"
-#include "io/sweep_codec.h"
-#include "io/system_branch_codec.h"
-#include "io/system_impact_codec.h"
 #include "io/system_scene.h"
-#include "io/system_static_codec.h"
-#include "io/system_sweep_codec.h"
-#include "io/variant_codec.h"
 #include "io/vtk.h"
+#include "own_folder.h"
 #include "planetary_train.h"
 #include "relative.h"
 #include "small_system.h"
@@ -63,33 +48,6 @@ using namespace whine;
 namespace fs = std::filesystem;
 
 namespace {
-
-// A folder of its own for each case, in which the case works, removed at the end; WHINE_KEEP=folder keeps a copy.
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "whine-files-XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path_ = name;
-    fs::current_path(path_);
-  }
-  ~Folder() {
-    fs::current_path(before_);
-    std::error_code ignored;
-    if (const char* place = std::getenv("WHINE_KEEP"))
-      fs::copy(path_, place, fs::copy_options::recursive | fs::copy_options::overwrite_existing, ignored);
-    fs::remove_all(path_);
-  }
-  std::vector<std::string> names(const fs::path& where = ".") const {
-    std::vector<std::string> out;
-    for (const auto& entry : fs::directory_iterator(where)) out.push_back(entry.path().filename().string());
-    std::sort(out.begin(), out.end());
-    return out;
-  }
-
- private:
-  fs::path before_ = fs::current_path(), path_;
-};
 
 // Kind and message of the Error that f throws; kind 0 if none.
 struct Caught {
@@ -139,42 +97,6 @@ GearDesign odd_design(int teeth) {
   return out;
 }
 
-bool same(const GearDesign& a, const GearDesign& b) {
-  return a.teeth == b.teeth && a.module == b.module && a.pressure_angle == b.pressure_angle &&
-         a.profile_shift == b.profile_shift && a.addendum == b.addendum && a.dedendum == b.dedendum &&
-         a.rack_tip_radius == b.rack_tip_radius && a.tooth_thinning == b.tooth_thinning &&
-         a.face_width == b.face_width && a.bore_radius == b.bore_radius;
-}
-
-bool same(const GearMeshSpec& a, const GearMeshSpec& b) {
-  return a.gear == b.gear && a.centre_distance == b.centre_distance && a.corner.enabled == b.corner.enabled &&
-         a.corner.largest_angle == b.corner.largest_angle && a.contact_plane == b.contact_plane;
-}
-
-bool same(const Damping& a, const Damping& b) {
-  return a.rayleigh_mass == b.rayleigh_mass && a.rayleigh_stiffness == b.rayleigh_stiffness &&
-         a.undamped_depth == b.undamped_depth && a.bearing_ratio == b.bearing_ratio;
-}
-
-bool same(const BodyDiscretisation& a, const BodyDiscretisation& b) {
-  return a.element_size == b.element_size && a.element_order == b.element_order && a.modes == b.modes &&
-         a.near_field == b.near_field && a.matching_depth == b.matching_depth;
-}
-
-bool same(const Material& a, const Material& b) {
-  return a.youngs_modulus == b.youngs_modulus && a.poisson_ratio == b.poisson_ratio &&
-         a.density == b.density && a.plane_stress == b.plane_stress;
-}
-
-bool same(const ContactDiscretisation& a, const ContactDiscretisation& b) {
-  return a.strips == b.strips && a.positions == b.positions;
-}
-
-bool same(const TimeDiscretisation& a, const TimeDiscretisation& b) {
-  return a.steps_per_period == b.steps_per_period && a.steady_state == b.steady_state &&
-         a.min_sample_rate == b.min_sample_rate && a.periodicity == b.periodicity;
-}
-
 // Both gears of a pair, all different, so that swapped roles show.
 template <class Artifact>
 void set_pair(Artifact& a) {
@@ -184,14 +106,6 @@ void set_pair(Artifact& a) {
   a.gear[1].material = {110e9 / 1.3, 0.27 / 1.1, 7200 / 1.3, true};
   a.gear[0].discretisation = {0.0004 / 1.3, 2, 5};
   a.gear[1].discretisation = {0.0007 / 1.3, 1, 12, NearField::matching, 0.001 / 1.3};
-}
-
-template <class Artifact>
-bool same_pair(const Artifact& a, const Artifact& b) {
-  return same(a.gear[0].design, b.gear[0].design) && same(a.gear[1].design, b.gear[1].design) &&
-         same(a.gear[0].material, b.gear[0].material) && same(a.gear[1].material, b.gear[1].material) &&
-         same(a.gear[0].discretisation, b.gear[0].discretisation) &&
-         same(a.gear[1].discretisation, b.gear[1].discretisation);
 }
 
 // A ring sector of two four-node elements, one on the other, closing exactly after a turn of 360/teeth
@@ -253,37 +167,6 @@ ReducedBody small_body() {
   return a;
 }
 
-StaticResult small_static() {
-  StaticResult a;
-  set_pair(a);
-  a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, 0.05 / 3}};
-  a.contact = {17, 128};
-  a.torque = 150.0 / 1.3;
-  a.contact_ratio = 1.7547 / 1.1;
-  a.mesh_phase = Eigen::VectorXd{{0, 1.0 / 3, 2.0 / 3}};
-  a.transmission_error = odd_vector(3, 1e-5);
-  a.unloaded_error = odd_vector(3, 1e-6);
-  a.stiffness_secant = odd_vector(3, 4e8);
-  a.stiffness_tangent = odd_vector(3, 4.1e8);
-  a.pair = Eigen::VectorXi{{-1, 0, 1}};
-  a.tooth_load = odd_matrix(3, 3, 2e3);
-  a.contact_pressure = odd_matrix(3, 3, 5e8);
-  a.contact_half_width = odd_matrix(3, 3, 1e-4);
-  a.root_stress = {odd_matrix(3, 3, 9e7), odd_matrix(3, 3, 8e7)};
-  a.root_stress_max = Eigen::Vector2d(1e8 / 1.1, 1e8 / 1.2);
-  a.root_stress_angle = Eigen::Vector2d(0.7 / 1.1, 0.8 / 1.1);
-  a.root_stress_phase = Eigen::Vector2d(0.1 / 1.1, -0.1 / 1.1);
-  a.loss_factor = 0.1 / 1.1;
-  a.transmission_error_harmonic = odd_vector(2, 1e-6);
-  a.stiffness_harmonic = odd_vector(2, 1e7);
-  a.mean_stiffness = 463.5e6 / 1.1;
-  a.least_gap = 1e-9 / 3;
-  a.least_force = 1e-3 / 3;
-  a.torque_residual = 1e-12 / 3;
-  a.backlash_margin = 1e-5 / 3;
-  return a;
-}
-
 ErrorBudgetResult small_budget() {
   ErrorBudgetResult a;
   set_pair(a);
@@ -303,317 +186,11 @@ ErrorBudgetResult small_budget() {
   return a;
 }
 
-ImpactResult small_impact() {
-  ImpactResult a;
-  set_pair(a);
-  a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, 0.1 / 3}};
-  a.fidelity = {BodyModel::relaxed, ContactModel::strips, Integrator::newmark};
-  a.contact = {17, 128};
-  a.damping = {1.0 / 3, 7.7e-6 / 1.1, 0.5e-3 / 1.1, 0.005 / 1.1};
-  a.torque = 150;
-  a.torque_step = 0.01 / 3;
-  a.inertia[0] = 0.0148 / 1.1;
-  a.inertia[1] = 0.0148 / 1.3;
-  a.mean_stiffness = 4e8 / 1.1;
-  a.bearing_damper[0] = 1.0 / 3;
-  a.bearing_damper[1] = 2.0 / 3;
-  a.contact_state = {ContactState::one, ContactState::two, ContactState::mean};
-  a.natural_frequency = odd_vector(3, 3e3);
-  a.damping_ratio = odd_vector(3, 0.07);
-  a.undamped_frequency = odd_vector(3, 2.9e3);
-  a.state_phase = odd_vector(2, 0.5);
-  a.time = odd_vector(5, 1e-3);
-  a.transmission_error = odd_matrix(2, 5, 1e-8);
-  a.mesh_phase = odd_vector(4, 0.7);
-  a.loaded_pairs = Eigen::VectorXi{{1, 2, 2, 2}};
-  a.phase_natural_frequency = odd_vector(4, 3e3);
-  a.phase_damping_ratio = odd_vector(4, 0.07);
-  a.phase_undamped_frequency = odd_vector(4, 2.8e3);
-  a.eigen_frequency = odd_vector(4, 2.7e3);
-  a.eigen_damping_ratio = odd_vector(4, 0.06);
-  a.fit_residual = odd_vector(4, 1e-8);
-  a.least_mesh_force = 0.99 / 1.1;
-  return a;
-}
-
-SweepResult small_pair_sweep() {
-  SweepResult a;
-  set_pair(a);
-  a.mesh = {"pinion", "wheel", 0.15 / 1.1, {false, std::numeric_limits<double>::infinity()}};
-  a.fidelity = {BodyModel::relaxed, ContactModel::strips, Integrator::newmark};
-  a.contact = {17, 128};
-  a.time = {64, 250e3 / 1.1, 1e-6 / 3};
-  a.damping = {1.0 / 3, 7.7e-6 / 1.1, 0.5e-3 / 1.1, 0.005 / 1.1};
-  a.torque = 150;
-  a.inertia[0] = 0.0148 / 1.1;
-  a.inertia[1] = 0.0148 / 1.3;
-  a.mean_stiffness = 4e8 / 1.1;
-  a.bearing_damper[0] = 1.0 / 3;
-  a.bearing_damper[1] = 2.0 / 3;
-  a.natural_frequency = 2900.0 / 1.3;
-  a.direction = Direction::down;
-  a.mesh_frequency = Eigen::VectorXd{{4000, 3980 + 1.0 / 3}};
-  a.transmission_error = odd_matrix(2, 64, 1e-5);
-  a.mesh_force = odd_matrix(2, 64, 3e3);
-  a.pair = Eigen::VectorXi{{-1, 0, 1}};
-  a.root_stress = {odd_matrix(2, 64, 9e7), odd_matrix(2, 64, 8e7)};
-  a.root_stress_angle = {odd_vector(2, 0.7), odd_vector(2, 0.8)};
-  a.root_stress_phase = {odd_vector(2, 0.3), odd_vector(2, -0.4)};
-  a.tooth_load = {odd_matrix(64, 3, 1e3), odd_matrix(64, 3, 2e3)};
-  a.periods = Eigen::VectorXi{{80, 120}};
-  a.residual = odd_vector(2, 1e-7);
-  a.period_multiple = Eigen::VectorXi{{1, 2}};
-  a.energy_imbalance = odd_vector(2, 1e-9);
-  a.energy = MatrixRM::Constant(2, kEnergyLines.size(), 1e-3);
-  a.energy(1, 3) = -2e-4;
-  a.drift_force = odd_vector(2, 1e-3).cwiseAbs();
-  a.least_gap = 1e-10 / 3;
-  a.least_force = 1e-4 / 3;
-  a.fallbacks = 3;
-  a.backlash_margin = 1e-5 / 3;
-  a.jump_frequency = Eigen::VectorXd();
-  a.jump_width = Eigen::VectorXd();
-  return a;
-}
-
-// Records are stored in single precision.
-RunupResult small_runup() {
-  const auto single = [](const auto& x) { return x.template cast<float>().template cast<double>().eval(); };
-  const SweepResult other = small_pair_sweep();
-  RunupResult a;
-  static_cast<MotionParameters&>(a) = other;
-  a.torque = 150;
-  a.mean_stiffness = other.mean_stiffness;
-  a.bearing_damper = other.bearing_damper;
-  a.natural_frequency = other.natural_frequency;
-  a.direction = Direction::down;
-  a.ramp = {4000, 3900 + 1.0 / 3, 100.0 / 3};
-  a.mesh_acceleration = -100.0 / 3 / 60 * 50;
-  a.sample_rate = 48000;
-  a.pair = Eigen::VectorXi{{-1, 0, 1}};
-  RunupSamples& s = a.samples;
-  s.time = odd_vector(40, 1e-3);
-  s.mesh_frequency = single(odd_vector(40, 4e3));
-  s.transmission_error = single(odd_vector(40, 1e-5));
-  s.mesh_force = single(odd_vector(40, 3e3));
-  s.tooth_load = single(odd_matrix(40, 3, 1e3));
-  RunupPeriods& p = a.periods;
-  p.time = odd_vector(5, 1e-3);
-  p.mesh_frequency = single(odd_vector(5, 4e3));
-  p.dte_rms = single(odd_vector(5, 1e-6));
-  p.dte_mean = single(odd_vector(5, 1e-5));
-  p.tooth_load_max = single(odd_vector(5, 4e3));
-  p.separation_fraction = single(odd_vector(5, 0.01));
-  p.root_stress_sustained = {single(odd_vector(5, 2e8)), single(odd_vector(5, 1e8))};
-  a.root_stress = true;
-  a.least_gap = 1e-10 / 3;
-  a.least_force = 1e-4 / 3;
-  a.fallbacks = 3;
-  a.drift_force = 1e-3 / 3;
-  a.backlash_margin = 1e-5 / 3;
-  return a;
-}
-
-ResponseResult small_response() {
-  ResponseResult a;
-  set_pair(a);
-  a.inertia[0] = 0.0148 / 1.1;
-  a.inertia[1] = 0.0148 / 1.3;
-  a.contact = {17, 128};
-  a.time = {64, 250e3 / 1.1, 1e-6 / 3};
-  a.torque = 150;
-  a.direction = Direction::up;
-  a.model = "finite elements";
-  a.mesh_frequency = odd_vector(2, 1e3).cwiseAbs();
-  a.dte_rms = odd_vector(2, 1e-6);
-  a.dte_mean = odd_vector(2, 1e-5);
-  a.dte_harmonic = odd_matrix(2, 10, 1e-6);
-  a.tooth_load_max = odd_vector(2, 4e3);
-  a.root_stress_max = {odd_vector(2, 3e8), odd_vector(2, 2e8)};
-  a.root_stress_sustained = {odd_vector(2, 2.5e8), odd_vector(2, 1.5e8)};
-  a.root_stress_angle = {odd_vector(2, 0.7), odd_vector(2, 0.8)};
-  a.root_stress_phase = {odd_vector(2, 0.3), odd_vector(2, -0.4)};
-  a.tooth_load_sustained = odd_vector(2, 4e3).cwiseAbs();
-  a.mesh_force_sustained = odd_vector(2, 6e3).cwiseAbs();
-  a.pair_phase = odd_vector(3, 0.5);
-  a.flank_roll = odd_matrix(3, 2, 0.3);
-  a.flank_pressure = odd_matrix(2, 3, 1e9).cwiseAbs();
-  a.edge_load_there = odd_matrix(2, 3, 700).cwiseAbs();
-  a.flank_pressure_sustained = odd_vector(2, 1.1e9).cwiseAbs();
-  a.edge_load = {odd_vector(2, 900).cwiseAbs(), odd_vector(2, 800).cwiseAbs()};
-  a.loss_factor = odd_vector(2, 0.1).cwiseAbs();
-  a.mesh_force_max = odd_vector(2, 7e3);
-  a.separation_fraction = odd_vector(2, 0.1);
-  a.separations_per_period = odd_vector(2, 1);
-  a.jump_frequency = odd_vector(1, 2.8e3);
-  a.jump_width = odd_vector(1, 10);
-  a.period_multiple = Eigen::VectorXi{{1, 1}};
-  a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, std::numeric_limits<double>::infinity()}};
-  a.fidelity = {BodyModel::modal, ContactModel::strips, Integrator::exact};
-  a.damping = {0, 7.7e-6, 0.5e-3, 0.005};
-  a.natural_frequency = 2900.0 / 1.1;
-  return a;
-}
-
-LoadedResult small_loaded() {
-  LoadedResult a;
-  set_pair(a);
-  a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, 0.05 / 3}};
-  a.contact = {17, 128};
-  a.torque = 150.0 / 1.3;
-  a.mesh_phase = 0.25 / 3;
-  a.transmission_error = 4e-6 / 3;
-  a.pair = Eigen::VectorXi{{-1, 0}};
-  a.tooth_load = odd_vector(2, 2e3);
-  a.tooth.resize(2, 2);
-  a.tooth << 0, 34, 1, 33;
-  a.root_stress = odd_matrix(2, 2, 1e8);
-  a.strip_pair = Eigen::VectorXi{{-1, -1, 0}};
-  a.strip_roll = odd_matrix(3, 2, 0.4);
-  a.strip_width = odd_vector(3, 1e-5);
-  a.strip_force = odd_vector(3, 800);
-  a.strip_pressure = odd_vector(3, 5e8);
-  a.strip_separation = odd_vector(3, 1e-10);
-  a.strip_deflection = odd_matrix(3, 2, 1e-6);
-  a.hub_torque = odd_vector(2, 150);
-  a.contact_torque = odd_vector(2, 151);
-  a.strain_energy = odd_vector(2, 1e-2);
-  a.contact_work = odd_vector(2, 2e-2);
-  return a;
-}
-
-// Two starts, two torques, three reliefs; at rest and in motion.
-HarrisMapResult small_harris_map() {
-  HarrisMapResult a;
-  set_pair(a);
-  a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, 0.05 / 3}};
-  a.fidelity = {BodyModel::relaxed, ContactModel::strips, Integrator::newmark};
-  a.contact = {17, 128};
-  a.relieved = Relieved::both;
-  a.shape = ReliefShape::parabolic;
-  a.torque = Eigen::VectorXd{{50.0 / 3, 150}};
-  a.relief = Eigen::VectorXd{{0, 5e-6 / 3, 1e-5}};
-  a.length = Eigen::VectorXd{{1e-3 / 3, 2e-3 / 3}};
-  a.start_roll = odd_matrix(2, 2, 0.4);
-  a.design_torque = 100.0 / 3;
-  const auto cube = [](double scale) {
-    return std::vector<MatrixRM>{odd_matrix(2, 3, scale), odd_matrix(2, 3, 2 * scale)};
-  };
-  a.peak_to_peak = cube(1e-6);
-  a.harmonic = {cube(2e-6), cube(3e-7), cube(4e-8)};
-  a.optimum_relief = odd_vector(2, 1e-5);
-  a.optimum_peak_to_peak = odd_vector(2, 1e-6);
-  a.cusp = odd_matrix(2, 2, 1e-6);
-  a.unrelieved = odd_vector(2, 2e-6);
-  a.checked = 3;
-  a.largest_error = 1e-3 / 3;
-  a.dynamic_rms = cube(5e-6);
-  a.worst_frequency = cube(3e3);
-  a.time = {64, 250e3 / 1.1, 1e-6 / 3};
-  a.damping = {1.0 / 3, 7.7e-6 / 1.1, 0.5e-3 / 1.1, 0.005 / 1.1};
-  a.inertia[0] = 0.0148 / 1.1;
-  a.inertia[1] = 0.0148 / 1.3;
-  a.frequency_from = 1000.0 / 3;
-  a.frequency_to = 4000.0 / 3;
-  a.frequency_step = 20.0 / 3;
-  return a;
-}
-
-VariantResult small_variant() {
-  VariantResult a;
-  set_pair(a);
-  a.mesh = {"pinion", "wheel", 0.15 / 1.1, {true, 0.05 / 3}};
-  a.fidelity = {BodyModel::relaxed, ContactModel::strips, Integrator::newmark};
-  a.contact = {17, 128};
-  a.time = {64, 250e3 / 1.1, 1e-6 / 3};
-  a.damping = {1.0 / 3, 7.7e-6 / 1.1, 0.5e-3 / 1.1, 0.005 / 1.1};
-  a.torque = 150.0 / 1.3;
-  a.reference_torque = 100.0 / 1.3;
-  a.inertia[0] = 0.0148 / 1.1;
-  a.inertia[1] = 0.0148 / 1.3;
-  a.frequency_from = 1000.0 / 3;
-  a.frequency_to = 4000.0 / 3;
-  a.frequency_step = 20.0 / 3;
-  a.directions = {Direction::up, Direction::down};
-  a.quantity = odd_vector(static_cast<Eigen::Index>(response_quantities(a.directions).size()), 1e-6);
-  return a;
-}
-
-StudyResult small_study() {
-  StudyResult a;
-  a.plan.title = "A study";
-  a.plan.scene = "data/scenes/parker2000.toml";
-  a.plan.directions = {Direction::up};
-  a.plan.random = true;
-  a.plan.seed = 7;
-  a.plan.keys = {varied_key("damping.rayleigh_stiffness_s"), varied_key("fidelity.contact")};
-  a.plan.quantities = {"rms_max_up", "te_mean"};
-  a.plan.figure_quantities = {"te_mean"};
-  a.plan.figure_keys = {"damping.rayleigh_stiffness_s"};
-  a.plan.figure_colour = "fidelity.contact";
-  a.variants = {{"ab01", {"5.5e-06", "strips"}}, {"ab02", {"7.7e-06", "line"}}, {"cd03", {"4e-06", "line"}}};
-  a.quantity = odd_matrix(3, 2, 1e-6);
-  a.quantity.row(1).setZero();
-  a.rejection = {"", "it jams", ""};
-  a.unsteady = Eigen::Vector3i(2, 0, 1);
-  return a;
-}
-
-BranchResult small_branch() {
-  BranchResult a;
-  set_pair(a);
-  a.mesh = small_static().mesh;
-  a.torque = 150;
-  a.inertia[0] = a.inertia[1] = 0.01;
-  a.mesh_frequency = odd_vector(2, 2e3);
-  a.dte_rms = a.dte_mean = a.residual = odd_vector(2, 1e-6);
-  a.mesh_force_sustained = a.tooth_load_sustained = odd_vector(2, 5e3).cwiseAbs();
-  a.root_stress_sustained = {odd_vector(2, 2.5e8), odd_vector(2, 1.5e8)};
-  a.root_stress_angle = {odd_vector(2, 0.7), odd_vector(2, 0.8)};
-  a.root_stress_phase = {odd_vector(2, 0.3), odd_vector(2, -0.4)};
-  a.dte_harmonic = odd_matrix(2, 3, 1e-6);
-  a.floquet_multiplier = {odd_matrix(4, 2, 0.9), odd_matrix(4, 2, 0.7)};
-  a.stable = a.steps = a.period_multiple = Eigen::Vector2i(1, 1);
-  a.part = Eigen::Vector2i(0, 1);
-  a.fold_frequency = odd_vector(1, 2e3);
-  a.fold_width = odd_vector(1, 0.2);
-  a.fold_rms = odd_vector(1, 1e-6);
-  a.fold_smooth = Eigen::VectorXi::Ones(1);
-  a.fold_multiplier = odd_matrix(1, 2, 1);
-  a.end = "leaves the speeds of the scene";
-  return a;
-}
-
-JumpMapResult small_jump_map() {
-  JumpMapResult a;
-  set_pair(a);
-  a.mesh = small_static().mesh;
-  a.torque = 150;
-  a.inertia[0] = a.inertia[1] = 0.01;
-  a.rayleigh_stiffness = a.damping_ratio = a.branches_from = a.branches_to = a.loss_from = a.loss_to =
-      a.excitation = odd_vector(2, 1);
-  a.two_branches = a.open_below = a.unsteady = Eigen::Vector2i(1, 0);
-  a.peak_tooth_load = a.sustained_tooth_load = odd_matrix(2, 2, 3e3);
-  a.jump_case = a.jump_direction = Eigen::VectorXi::Ones(1);
-  a.jump_frequency = a.jump_width = odd_vector(1, 2e3);
-  a.mesh_frequency = odd_vector(3, 2e3);
-  for (int d = 0; d < 2; ++d) {
-    a.dte_rms[d] = odd_matrix(2, 3, 1e-6);
-    a.tooth_load_max[d] = odd_matrix(2, 3, 4e3);
-    a.separation_fraction[d] = odd_matrix(2, 3, 0.9);
-  }
-  return a;
-}
-
-ReadingsResult small_readings() {
-  ReadingsResult a;
-  a.title = "odd";
-  a.claim = {"one", "two"};
-  Reading r;
-  r.verdict = {0, 1};
-  r.value = {1.5, 0};
-  r.exists = {1, 0};
-  a.readings = {r, r, r};
+// Values of no meaning, other ones in each dataset.
+template <class Artifact>
+Artifact any() {
+  Artifact a;
+  fill(a);
   return a;
 }
 
@@ -641,57 +218,11 @@ void write_static_like(const std::string& path, const std::function<void(h5::Wri
 
 }  // namespace
 
-TEST_CASE("mesh.h5 gives back every value bit by bit") {
-  Folder folder;
-  const SectorGrid a = small_mesh();
-  write("mesh.h5", a, kMade);
-  const SectorGrid b = read_mesh("mesh.h5");
-  CHECK(same(a.design, b.design));
-  CHECK(same(a.discretisation, b.discretisation));
-  CHECK(a.node_position == b.node_position);
-  CHECK(a.element_node == b.element_node);
-  CHECK(a.element_region == b.element_region);
-  CHECK(a.bore_node == b.bore_node);
-  CHECK(a.side_node == b.side_node);
-  CHECK(a.flank_node == b.flank_node);
-  CHECK(a.flank_roll_angle == b.flank_roll_angle);
-  CHECK(fs::read_symlink("mesh.hdf") == "mesh.h5");
-}
-
-TEST_CASE("body.h5 gives back every value bit by bit") {
-  Folder folder;
+TEST_CASE("ParaView finds the modes of body.h5 in a picture that is not read again") {
+  OwnFolder folder;
   const ReducedBody a = small_body();
   write("body.h5", a, kMade);
-  const ReducedBody b = read_body("body.h5");
-  CHECK(same(a.design, b.design));
-  CHECK(same(a.discretisation, b.discretisation));
-  CHECK(a.material.youngs_modulus == b.material.youngs_modulus);
-  CHECK(a.material.poisson_ratio == b.material.poisson_ratio);
-  CHECK(a.material.density == b.material.density);
-  CHECK(a.material.plane_stress == b.material.plane_stress);
-  CHECK(a.inertia == b.inertia);
-  CHECK(a.eigenfrequency == b.eigenfrequency);
-  CHECK(a.nodal_diameter == b.nodal_diameter);
-  CHECK(a.component == b.component);
-  CHECK(a.inertia_coupling == b.inertia_coupling);
-  CHECK(a.mass == b.mass);
-  CHECK(a.translation_coupling == b.translation_coupling);
-  CHECK(a.flank_position == b.flank_position);
-  CHECK(a.flank_mode == b.flank_mode);
-  CHECK(a.offsets == b.offsets);
-  REQUIRE(b.compliance.size() == 2);
-  CHECK(a.compliance[0] == b.compliance[0]);
-  CHECK(a.compliance[1] == b.compliance[1]);
-  CHECK(a.far_compliance == b.far_compliance);
-  CHECK(a.back_compliance == b.back_compliance);
-  CHECK(a.back_flank_mode == b.back_flank_mode);
-  CHECK(a.root_arc_length == b.root_arc_length);
-  CHECK(a.root_angle == b.root_angle);
-  CHECK(a.root_stress == b.root_stress);
-  CHECK(a.reference_depth == b.reference_depth);
-  CHECK(a.asymmetry == b.asymmetry);
-  CHECK(a.least_eigenvalue == b.least_eigenvalue);
-  CHECK(b.vtk_point.size() == 0);
+  CHECK(read<ReducedBody>("body.h5").vtk_point.size() == 0);
   const h5::Reader file(read_bytes("body.h5"), "body.h5", "");
   const std::vector<std::string> names = file.children("/VTKHDF/PointData");
   REQUIRE(names.size() == 2);
@@ -708,69 +239,36 @@ TEST_CASE("body.h5 gives back every value bit by bit") {
   CHECK(fs::read_symlink("body.hdf") == "body.h5");
 }
 
-TEST_CASE("modes.h5 gives back every value bit by bit") {
-  Folder folder;
+TEST_CASE("the system in modes.h5 has the same modes; shares of energy below 0 are those of elastic bodies") {
+  OwnFolder folder;
   const ModesResult a = natural_modes(layout_of(planetary_train(3)));
   write("modes.h5", a, kMade);
-  const ModesResult b = read_modes("modes.h5");
-  CHECK(a.natural_frequency == b.natural_frequency);
-  CHECK(a.type == b.type);
-  CHECK(a.planet_harmonic == b.planet_harmonic);
-  CHECK(a.shape == b.shape);
-  CHECK(a.mesh_deflection == b.mesh_deflection);
-  CHECK(a.mesh_energy == b.mesh_energy);
-  CHECK(a.bearing_energy == b.bearing_energy);
-  CHECK(a.kinetic_energy == b.kinetic_energy);
-  CHECK(a.rigid_frequency == b.rigid_frequency);
+  const ModesResult b = read<ModesResult>("modes.h5");
   // The system as it is stored has the same modes.
   CHECK(natural_modes(b.layout).shape == a.shape);
   // Springs have no energy below 0; elastic bodies may join meshes that have.
   ModesResult negative = a;
   negative.mesh_energy(0, 0) = -0.5;
   write("negative.h5", negative, kMade);
-  CHECK_THROWS_WITH(read_modes("negative.h5"), doctest::Contains("mesh_energy"));
+  CHECK_THROWS_WITH(read<ModesResult>("negative.h5"), doctest::Contains("mesh_energy"));
   negative.mesh_phase = Eigen::VectorXd::Zero(1);
   negative.frozen_frequency = a.natural_frequency.transpose();
   write("elastic.h5", negative, kMade);
-  CHECK(read_modes("elastic.h5").mesh_energy(0, 0) == -0.5);
-  REQUIRE(b.layout.bodies.size() == a.layout.bodies.size());
-  for (size_t i = 0; i < a.layout.bodies.size(); ++i)
-    CHECK(a.layout.bodies[i].name == b.layout.bodies[i].name);
+  CHECK(read<ModesResult>("elastic.h5").mesh_energy(0, 0) == -0.5);
 }
 
-TEST_CASE("system_static.h5 gives back every value bit by bit") {
-  Folder folder;
+TEST_CASE(
+    "system_static.h5 keeps the modification of each gear, and is rejected with the name of a gear that there is not") {
+  OwnFolder folder;
   const SystemStaticResult a = small_system();
   write("system_static.h5", a, kMade);
-  const SystemStaticResult b = read_system_static("system_static.h5");
-  for (const auto member :
-       {&SystemStaticResult::rotation, &SystemStaticResult::torque, &SystemStaticResult::transmission_error,
-        &SystemStaticResult::mesh_deflection, &SystemStaticResult::mesh_force,
-        &SystemStaticResult::load_share, &SystemStaticResult::transmission_error_harmonic})
-    CHECK(a.*member == b.*member);
-  for (const auto member :
-       {&SystemStaticResult::translation, &SystemStaticResult::bearing_force, &SystemStaticResult::tooth_load,
-        &SystemStaticResult::contact_pressure, &SystemStaticResult::mesh_stiffness})
-    CHECK(a.*member == b.*member);
-  for (const auto member :
-       {&SystemStaticResult::contact_ratio, &SystemStaticResult::mesh_phase, &SystemStaticResult::least_gap,
-        &SystemStaticResult::least_force, &SystemStaticResult::torque_residual})
-    CHECK(a.*member == b.*member);
-  CHECK(a.pair == b.pair);
-  CHECK(a.settings.gear == b.settings.gear);
-  CHECK(a.settings.section == b.settings.section);
-  CHECK(a.settings.gears() == b.settings.gears());
-  CHECK(a.settings.contact.positions == b.settings.contact.positions);
-  CHECK(a.settings.fidelity.contact == b.settings.fidelity.contact);
+  const SystemStaticResult b = read<SystemStaticResult>("system_static.h5");
   REQUIRE(b.settings.mesh.size() == 2);
   for (const char* gear : {"sun", "planet", "ring"})
     CHECK(a.settings.modification(gear) == b.settings.modification(gear));
   CHECK(a.settings.modification("sun") != a.settings.modification("planet"));
   CHECK(b.settings.mesh[0].modification[1] == b.settings.mesh[1].modification[0]);
   CHECK(b.settings.modification("ring") == FlankModification{});
-  CHECK(a.settings.mesh[1].centre_distance == b.settings.mesh[1].centre_distance);
-  REQUIRE(b.drawing.size() == 3);
-  CHECK(a.drawing[2].design.rim_outer_radius == b.drawing[2].design.rim_outer_radius);
   // What has another name than its schema is misplaced.
   CHECK(misplaced("out/train/system_static.h5", read_origin("system_static.h5")).empty());
   CHECK(misplaced("out/train/static.h5", read_origin("system_static.h5")).find("its name is that of") !=
@@ -782,12 +280,12 @@ TEST_CASE("system_static.h5 gives back every value bit by bit") {
   SystemStaticResult wrong = a;
   wrong.settings.gear[1] = "moon";
   write("system_static.h5", wrong, kMade);
-  CHECK_THROWS_AS(read_system_static("system_static.h5"), Error);
+  CHECK_THROWS_AS(read<SystemStaticResult>("system_static.h5"), Error);
   write("system_static.h5", a, kMade);
 }
 
 TEST_CASE("artifacts of systems belong to their scene and, sweeps, to their direction, whoever wrote them") {
-  Folder folder;
+  OwnFolder folder;
   const auto write_sweep = [](const std::string& scene, const std::string& output) {
     overwrite("out/" + scene + "/params/system_sweep.toml", "of = '" + scene + "'\n");
     char name[] = "gear-system-sweep", option[] = "--output";
@@ -817,106 +315,8 @@ TEST_CASE("artifacts of systems belong to their scene and, sweeps, to their dire
   found("out/b/down/system_sweep.h5", by_hand, "but lies in out/b");
 }
 
-TEST_CASE("system_impact.h5 and system_branch.h5 give back every value bit by bit") {
-  Folder folder;
-  SystemImpactResult a;
-  static_cast<SystemStaticParameters&>(a.settings) = small_system().settings;
-  a.settings.damping.rayleigh_stiffness = 2e-6;
-  const auto bodies = static_cast<Eigen::Index>(a.settings.layout.bodies.size()),
-             meshes = static_cast<Eigen::Index>(a.settings.layout.meshes.size());
-  a.torque = Eigen::VectorXd::LinSpaced(bodies, -1, 1) / 3;
-  a.axis_frequency = 1e4 / 3;
-  a.impulse = 1e-4 / 3;
-  a.rigid_frequency = Eigen::Vector3d(100, 200, 300) / 7;
-  a.mesh_phase = Eigen::Vector2d(0, 0.5);
-  a.loaded_pairs = MatrixRM::Constant(2, meshes, 2);
-  double value = 1.0 / 3;
-  const std::array of_modes{
-      &SystemImpactResult::undamped_frequency, &SystemImpactResult::rayleigh_damping_ratio,
-      &SystemImpactResult::eigen_frequency,    &SystemImpactResult::eigen_damping_ratio,
-      &SystemImpactResult::natural_frequency,  &SystemImpactResult::damping_ratio,
-      &SystemImpactResult::fit_residual,       &SystemImpactResult::contact_changes};
-  for (const auto member : of_modes) a.*member = MatrixRM::Constant(2, 5, value *= 0.9);
-  write("system_impact.h5", a, kMade);
-  const SystemImpactResult b = read_system_impact("system_impact.h5");
-  for (const auto member : of_modes) CHECK(a.*member == b.*member);
-  CHECK(a.rigid_frequency == b.rigid_frequency);
-  CHECK(a.loaded_pairs == b.loaded_pairs);
-  CHECK(a.impulse == b.impulse);
-  CHECK(a.torque == b.torque);
-  CHECK(b.settings.damping.rayleigh_stiffness == 2e-6);
-
-  SystemBranchResult c;
-  c.settings = a.settings;
-  c.torque = a.torque;
-  c.axis_frequency = a.axis_frequency;
-  c.mesh_frequency = Eigen::Vector2d(2000, 1000) / 3;
-  const std::array of_points{&SystemBranchResult::dte_rms, &SystemBranchResult::dte_mean,
-                             &SystemBranchResult::mesh_force_max, &SystemBranchResult::tooth_force_max,
-                             &SystemBranchResult::separation_fraction};
-  for (const auto member : of_points) c.*member = MatrixRM::Constant(2, meshes, value *= 0.9);
-  c.bearing_force_rms = MatrixRM::Constant(2, bodies, value);
-  c.floquet_multiplier.assign(2, MatrixRM::Constant(3, 2, -1.0 / 3));
-  c.stable = Eigen::Vector2i(1, 0);
-  c.steps = Eigen::Vector2i(64, 128);
-  c.residual = Eigen::Vector2d(1e-12, 1e-11) / 3;
-  c.segment_mismatch = Eigen::VectorXd::Constant(1, 1.0 / 7);
-  c.fold_frequency = Eigen::VectorXd::Constant(1, 1e4 / 7);
-  c.fold_smooth = Eigen::VectorXi::Ones(1);
-  c.fold_multiplier = MatrixRM::Constant(1, 2, 1.01);
-  c.fold_width = Eigen::VectorXd::Constant(1, 0.1 / 7);
-  c.flip_frequency = c.torus_frequency = Eigen::Vector2d(1, 2) / 3;
-  c.flip_width = c.torus_width = Eigen::Vector2d(2, 1) / 70;
-  c.end = "the parameter left its range";
-  write("system_branch.h5", c, kMade);
-  const SystemBranchResult d = read_system_branch("system_branch.h5");
-  for (const auto member : of_points) CHECK(c.*member == d.*member);
-  CHECK(c.mesh_frequency == d.mesh_frequency);
-  CHECK(c.bearing_force_rms == d.bearing_force_rms);
-  CHECK(c.floquet_multiplier == d.floquet_multiplier);
-  CHECK(c.stable == d.stable);
-  CHECK(c.steps == d.steps);
-  CHECK(c.residual == d.residual);
-  CHECK(c.segment_mismatch == d.segment_mismatch);
-  CHECK(c.fold_frequency == d.fold_frequency);
-  CHECK(c.fold_multiplier == d.fold_multiplier);
-  CHECK(c.torus_frequency == d.torus_frequency);
-  CHECK(c.fold_width == d.fold_width);
-  CHECK(c.flip_width == d.flip_width);
-  CHECK(c.torus_width == d.torus_width);
-  CHECK(c.end == d.end);
-}
-
-TEST_CASE("system_sweep.h5 gives back every value bit by bit") {
-  Folder folder;
-  const SystemSweepResult a = small_sweep(small_system(), Direction::down);
-  write("system_sweep.h5", a, kMade);
-  CHECK(read_system_sweep("system_sweep.h5").mesh_deflection == a.mesh_deflection);
-  const SystemSweepResult b = read_system_sweep("system_sweep.h5");
-  for (const auto member :
-       {&SystemSweepResult::dte_rms, &SystemSweepResult::dte_mean, &SystemSweepResult::mesh_force_max,
-        &SystemSweepResult::tooth_force_max, &SystemSweepResult::load_share_max,
-        &SystemSweepResult::separation_fraction, &SystemSweepResult::bearing_force_max,
-        &SystemSweepResult::bearing_force_rms, &SystemSweepResult::energy, &SystemSweepResult::rolling,
-        &SystemSweepResult::bearing_damping, &SystemSweepResult::holding_torque})
-    CHECK(a.*member == b.*member);
-  for (const auto member :
-       {&SystemSweepResult::torque, &SystemSweepResult::mesh_frequency, &SystemSweepResult::residual,
-        &SystemSweepResult::energy_imbalance, &SystemSweepResult::drift_force})
-    CHECK(a.*member == b.*member);
-  CHECK(a.transmission_error == b.transmission_error);
-  CHECK(a.mesh_force == b.mesh_force);
-  CHECK(a.bearing_force == b.bearing_force);
-  CHECK(a.periods == b.periods);
-  CHECK(a.period_multiple == b.period_multiple);
-  CHECK(a.axis_frequency == b.axis_frequency);
-  CHECK(a.least_gap == b.least_gap);
-  CHECK(a.direction == b.direction);
-  CHECK(a.settings.damping.rayleigh_stiffness == b.settings.damping.rayleigh_stiffness);
-}
-
 TEST_CASE("modes.h5 whose bodies stand on nothing, or whose meshes join none, is rejected with its dataset") {
-  Folder folder;
+  OwnFolder folder;
   const ModesResult good = natural_modes(layout_of(planetary_train(3)));
   const int carrier = good.layout.bodies[1].on;
   const auto said = [&](const auto& spoil) {
@@ -924,7 +324,7 @@ TEST_CASE("modes.h5 whose bodies stand on nothing, or whose meshes join none, is
     spoil(a.layout);
     write("modes.h5", a, kMade);
     try {
-      read_modes("modes.h5");
+      read<ModesResult>("modes.h5");
     } catch (const Error& error) {
       return std::string(error.what());
     }
@@ -953,13 +353,13 @@ TEST_CASE("modes.h5 whose bodies stand on nothing, or whose meshes join none, is
 
 TEST_CASE(
     "system_static.h5 without a pair, or with the drawing of another gear, is rejected with its dataset") {
-  Folder folder;
+  OwnFolder folder;
   const auto said = [&](const auto& spoil) {
     SystemStaticResult a = small_system();
     spoil(a);
     try {
       write("system_static.h5", a, kMade);
-      read_system_static("system_static.h5");
+      read<SystemStaticResult>("system_static.h5");
     } catch (const Error& error) {
       return std::string(error.what());
     }
@@ -981,254 +381,34 @@ TEST_CASE(
   write("system_static.h5", small_system(), kMade);
 }
 
-TEST_CASE("static.h5 gives back every value bit by bit") {
-  Folder folder;
-  StaticResult a = small_static();
-  write("static.h5", a, kMade);
-  const StaticResult b = read_static("static.h5");
-  CHECK(same_pair(a, b));
-  CHECK(same(a.mesh, b.mesh));
-  CHECK(a.fidelity.contact == b.fidelity.contact);
-  CHECK(same(a.contact, b.contact));
-  CHECK(a.torque == b.torque);
-  CHECK(a.contact_ratio == b.contact_ratio);
-  CHECK(a.mesh_phase == b.mesh_phase);
-  CHECK(a.transmission_error == b.transmission_error);
-  CHECK(a.stiffness_secant == b.stiffness_secant);
-  CHECK(a.stiffness_tangent == b.stiffness_tangent);
-  CHECK(a.pair == b.pair);
-  CHECK(a.tooth_load == b.tooth_load);
-  CHECK(a.contact_pressure == b.contact_pressure);
-  CHECK(a.contact_half_width == b.contact_half_width);
-  CHECK(a.root_stress == b.root_stress);
-  CHECK(a.root_stress_max == b.root_stress_max);
-  CHECK(a.root_stress_angle == b.root_stress_angle);
-  CHECK(a.root_stress_phase == b.root_stress_phase);
-  CHECK(a.loss_factor == b.loss_factor);
-  CHECK(a.transmission_error_harmonic == b.transmission_error_harmonic);
-  CHECK(a.stiffness_harmonic == b.stiffness_harmonic);
-  CHECK(a.mean_stiffness == b.mean_stiffness);
-  CHECK(a.least_gap == b.least_gap);
-  CHECK(a.least_force == b.least_force);
-  CHECK(a.torque_residual == b.torque_residual);
-  CHECK(a.backlash_margin == b.backlash_margin);
-
-  a.backlash_margin = std::numeric_limits<double>::infinity();
-  write("static.h5", a, kMade);
-  CHECK(std::isinf(read_static("static.h5").backlash_margin));
-}
-
-TEST_CASE("error_budget.h5 gives back every value bit by bit, errors and choices apart") {
-  Folder folder;
-  ErrorBudgetResult a = small_budget();
-  write("error_budget.h5", a, kMade);
-  const auto same_changes = [](const StaticChanges& one, const StaticChanges& other) {
-    return one.entry == other.entry && one.mean_stiffness_change == other.mean_stiffness_change &&
-           one.peak_to_peak_change == other.peak_to_peak_change &&
-           one.harmonic_change == other.harmonic_change && one.root_stress_change == other.root_stress_change;
-  };
-  const ErrorBudgetResult b = read_error_budget("error_budget.h5");
-  CHECK(same_pair(a, b));
-  CHECK(same(a.mesh, b.mesh));
-  CHECK(b.fidelity.contact == ContactModel::line);
-  CHECK(same(a.contact, b.contact));
-  CHECK(a.torque == b.torque);
-  CHECK(same_changes(a.refinement, b.refinement));
-  CHECK(same_changes(a.choice, b.choice));
-  CHECK(a.root.element_size == b.root.element_size);
-  CHECK(a.root.stress == b.root.stress);
-  CHECK(b.choice_missing == "");
-
-  a.choice = {"", Eigen::VectorXd(0), Eigen::VectorXd(0), {}, MatrixRM(0, 5)};
-  a.choice_missing = "matching at 1 mm: leaves the tooth";
-  a.root = {};
-  write("without.h5", a, kMade);
-  const ErrorBudgetResult c = read_error_budget("without.h5");
-  CHECK(same_changes(a.choice, c.choice));
-  CHECK(c.choice_missing == a.choice_missing);
-  CHECK(c.root.element_size.size() == 0);
-  a.choice.peak_to_peak_change.resize(1);
-  CHECK(caught([&] { write("x.h5", a, kMade); }).says("peak_to_peak_change"));
-}
-
-TEST_CASE("sweep.h5 gives back every value bit by bit, and an empty list of jumps") {
-  Folder folder;
-  SweepResult a = small_pair_sweep();
-  write("sweep.h5", a, kMade);
-  const SweepResult b = read_sweep("sweep.h5");
-  CHECK(same_pair(a, b));
-  CHECK(same(a.mesh, b.mesh));
-  CHECK(same(a.damping, b.damping));
-  CHECK(a.fidelity.body == b.fidelity.body);
-  CHECK(a.fidelity.contact == b.fidelity.contact);
-  CHECK(a.fidelity.integrator == b.fidelity.integrator);
-  CHECK(same(a.contact, b.contact));
-  CHECK(same(a.time, b.time));
-  CHECK(a.torque == b.torque);
-  CHECK(a.inertia[0] == b.inertia[0]);
-  CHECK(a.inertia[1] == b.inertia[1]);
-  CHECK(a.mean_stiffness == b.mean_stiffness);
-  CHECK(a.bearing_damper[0] == b.bearing_damper[0]);
-  CHECK(a.bearing_damper[1] == b.bearing_damper[1]);
-  CHECK(a.direction == b.direction);
-  CHECK(a.mesh_frequency == b.mesh_frequency);
-  CHECK(a.transmission_error == b.transmission_error);
-  CHECK(a.mesh_force == b.mesh_force);
-  CHECK(a.root_stress == b.root_stress);
-  CHECK(a.root_stress_angle == b.root_stress_angle);
-  CHECK(a.root_stress_phase == b.root_stress_phase);
-  CHECK(a.pair == b.pair);
-  REQUIRE(b.tooth_load.size() == 2);
-  CHECK(a.tooth_load[0] == b.tooth_load[0]);
-  CHECK(a.tooth_load[1] == b.tooth_load[1]);
-  CHECK(a.periods == b.periods);
-  CHECK(a.residual == b.residual);
-  CHECK(a.period_multiple == b.period_multiple);
-  CHECK(a.energy_imbalance == b.energy_imbalance);
-  CHECK(a.energy == b.energy);
-  CHECK(b.jump_frequency.size() == 0);
-  CHECK(b.jump_width.size() == 0);
-  CHECK(a.natural_frequency == b.natural_frequency);
-  CHECK(a.drift_force == b.drift_force);
-  CHECK(a.least_gap == b.least_gap);
-  CHECK(a.least_force == b.least_force);
-  CHECK(a.fallbacks == b.fallbacks);
-  CHECK(a.backlash_margin == b.backlash_margin);
-
-  a.backlash_margin = std::numeric_limits<double>::infinity();
-  write("sweep.h5", a, kMade);
-  CHECK(std::isinf(read_sweep("sweep.h5").backlash_margin));
-}
-
-TEST_CASE("runup.h5 gives back every value bit by bit, and is rejected without samples or mesh periods") {
-  Folder folder;
-  const RunupResult a = small_runup();
+TEST_CASE(
+    "a run-up written block by block is the whole one in single precision; without samples or mesh periods it is rejected") {
+  OwnFolder folder;
+  const RunupResult a = any<RunupResult>();
   write_streamed("runup.h5", a);
-  const RunupResult b = read_runup("runup.h5");
-  CHECK(same_pair(a, b));
-  CHECK(same(a.mesh, b.mesh));
-  CHECK(same(a.damping, b.damping));
-  CHECK(same(a.time, b.time));
-  CHECK(a.torque == b.torque);
-  CHECK(a.mean_stiffness == b.mean_stiffness);
-  CHECK(a.bearing_damper == b.bearing_damper);
-  CHECK(a.natural_frequency == b.natural_frequency);
-  CHECK(a.direction == b.direction);
-  CHECK(a.ramp.from == b.ramp.from);
-  CHECK(a.ramp.to == b.ramp.to);
-  CHECK(a.ramp.rate == b.ramp.rate);
-  CHECK(a.mesh_acceleration == b.mesh_acceleration);
-  CHECK(a.sample_rate == b.sample_rate);
-  CHECK(a.pair == b.pair);
-  for (auto member : {&RunupSamples::time, &RunupSamples::mesh_frequency, &RunupSamples::transmission_error,
-                      &RunupSamples::mesh_force})
-    CHECK(a.samples.*member == b.samples.*member);
-  CHECK(a.samples.tooth_load == b.samples.tooth_load);
-  for (auto member :
-       {&RunupPeriods::time, &RunupPeriods::mesh_frequency, &RunupPeriods::dte_rms, &RunupPeriods::dte_mean,
-        &RunupPeriods::tooth_load_max, &RunupPeriods::separation_fraction})
-    CHECK(a.periods.*member == b.periods.*member);
-  CHECK(a.root_stress == b.root_stress);
-  CHECK(a.periods.root_stress_sustained == b.periods.root_stress_sustained);
-  CHECK(a.least_gap == b.least_gap);
-  CHECK(a.least_force == b.least_force);
-  CHECK(a.fallbacks == b.fallbacks);
-  CHECK(a.drift_force == b.drift_force);
-  CHECK(a.backlash_margin == b.backlash_margin);
+  const RunupResult b = read<RunupResult>("runup.h5");
+  const auto single = [](const auto& x) { return x.template cast<float>().template cast<double>().eval(); };
+  CHECK(b.samples.time == a.samples.time);
+  CHECK(b.samples.mesh_force == single(a.samples.mesh_force));
+  CHECK(b.samples.tooth_load == single(a.samples.tooth_load));
+  CHECK(b.periods.time == a.periods.time);
+  CHECK(b.periods.dte_rms == single(a.periods.dte_rms));
+  CHECK(b.periods.root_stress_sustained[1] == single(a.periods.root_stress_sustained[1]));
+  CHECK(b.drift_force == a.drift_force);
+  const std::string counted = text(a.samples.size(), " samples and ");
 
   RunupResult still = a;
   still.periods = RunupPeriods();
   write_streamed("still.h5", still);
-  CHECK(caught([] { read_runup("still.h5"); }).says("40 samples and 0 mesh periods"));
-  CHECK(caught([] { summary("still.h5", "whine/runup"); }).says("40 samples and 0 mesh periods"));
+  CHECK(caught([] { read<RunupResult>("still.h5"); }).says(counted + "0 mesh periods"));
+  CHECK(caught([] { summary("still.h5", "whine/runup"); }).says(counted + "0 mesh periods"));
   RunupResult silent = a;
   silent.samples = RunupSamples();
-  silent.samples.tooth_load.resize(0, 3);
+  silent.samples.tooth_load.resize(0, a.pair.size());
   write_streamed("silent.h5", silent);
-  CHECK(caught([] { read_runup("silent.h5"); }).says("0 samples and 5 mesh periods"));
-}
-
-TEST_CASE("impact.h5 gives back every value bit by bit, and rejects rows that do not fit") {
-  Folder folder;
-  ImpactResult a = small_impact();
-  write("impact.h5", a, kMade);
-  const ImpactResult b = read_impact("impact.h5");
-  CHECK(same_pair(a, b));
-  CHECK(same(a.mesh, b.mesh));
-  CHECK(same(a.damping, b.damping));
-  CHECK(a.fidelity.body == b.fidelity.body);
-  CHECK(a.fidelity.contact == b.fidelity.contact);
-  CHECK(a.fidelity.integrator == b.fidelity.integrator);
-  CHECK(same(a.contact, b.contact));
-  CHECK(a.torque == b.torque);
-  CHECK(a.torque_step == b.torque_step);
-  CHECK(a.inertia[0] == b.inertia[0]);
-  CHECK(a.inertia[1] == b.inertia[1]);
-  CHECK(a.mean_stiffness == b.mean_stiffness);
-  CHECK(a.bearing_damper[0] == b.bearing_damper[0]);
-  CHECK(a.bearing_damper[1] == b.bearing_damper[1]);
-  CHECK(a.contact_state == b.contact_state);
-  CHECK(a.natural_frequency == b.natural_frequency);
-  CHECK(a.damping_ratio == b.damping_ratio);
-  CHECK(a.undamped_frequency == b.undamped_frequency);
-  CHECK(a.state_phase == b.state_phase);
-  CHECK(a.time == b.time);
-  CHECK(a.transmission_error == b.transmission_error);
-  CHECK(a.mesh_phase == b.mesh_phase);
-  CHECK(a.loaded_pairs == b.loaded_pairs);
-  CHECK(a.phase_natural_frequency == b.phase_natural_frequency);
-  CHECK(a.phase_damping_ratio == b.phase_damping_ratio);
-  CHECK(a.phase_undamped_frequency == b.phase_undamped_frequency);
-  CHECK(a.eigen_frequency == b.eigen_frequency);
-  CHECK(a.eigen_damping_ratio == b.eigen_damping_ratio);
-  CHECK(a.fit_residual == b.fit_residual);
-  CHECK(a.least_mesh_force == b.least_mesh_force);
-
-  a.eigen_frequency = odd_vector(3, 3e3);
-  CHECK(caught([&] { write("impact.h5", a, kMade); }).says("by_phase/eigen_frequency has 3 rows"));
-}
-
-TEST_CASE(
-    "bearings and their forces pass through static.h5, sweep.h5 and response.h5, under the gear's name") {
-  Folder folder;
-  const Bearing own{1e8 / 3, 900 / 1.1, 5 / 1.1};
-  StaticResult rest = small_static();
-  rest.mesh.bearing[1] = own;
-  rest.bearing_force[1] = odd_matrix(3, 2, 2e3);
-  write("static.h5", rest, kMade);
-  const StaticResult at = read_static("static.h5");
-  CHECK(!at.mesh.bearing[0].elastic());
-  CHECK(at.mesh.bearing[1].stiffness == own.stiffness);
-  CHECK(at.mesh.bearing[1].damping == own.damping);
-  CHECK(at.mesh.bearing[1].mass == own.mass);
-  CHECK(at.bearing_force[0].size() == 0);
-  CHECK(at.bearing_force[1] == rest.bearing_force[1]);
-  CHECK(h5::Reader(read_bytes("static.h5"), "static.h5", "").shape("/body/wheel/bearing_force") ==
-        h5::Shape{3, 2});
-
-  SweepResult moving = small_pair_sweep();
-  moving.mesh.bearing = {own, own};
-  for (auto& force : moving.bearing_force) force = {odd_matrix(64, 2, 1e3), odd_matrix(64, 2, 2e3)};
-  write("sweep.h5", moving, kMade);
-  const SweepResult on = read_sweep("sweep.h5");
-  for (int g = 0; g < kSides; ++g)
-    for (int f = 0; f < 2; ++f) CHECK(on.bearing_force[g][f] == moving.bearing_force[g][f]);
-  moving.bearing_force[1].pop_back();
-  CHECK_THROWS_WITH(write("other.h5", moving, kMade),
-                    doctest::Contains("bearing_force has 1 rows, expected 2"));
-
-  ResponseResult heard = small_response();
-  heard.mesh = moving.mesh;
-  for (int g = 0; g < kSides; ++g) {
-    heard.bearing_force_max[g] = odd_vector(2, 3e3);
-    heard.bearing_force_rms[g] = odd_vector(2, 1e3);
-  }
-  write("response.h5", heard, kMade);
-  const ResponseResult back = read_response("response.h5");
-  for (int g = 0; g < kSides; ++g) {
-    CHECK(back.bearing_force_max[g] == heard.bearing_force_max[g]);
-    CHECK(back.bearing_force_rms[g] == heard.bearing_force_rms[g]);
-  }
+  CHECK(caught([] {
+          read<RunupResult>("silent.h5");
+        }).says(text("0 samples and ", a.periods.size(), " mesh periods")));
 }
 
 TEST_CASE("bodies are given by the names of their gears, in any order, one for each") {
@@ -1257,170 +437,8 @@ TEST_CASE("bodies are given by the names of their gears, in any order, one for e
         }).says("no gear of this system is called 'moon'"));
 }
 
-TEST_CASE("response.h5 gives back every value bit by bit") {
-  Folder folder;
-  const ResponseResult a = small_response();
-  write("response.h5", a, kMade);
-  const ResponseResult b = read_response("response.h5");
-  CHECK(a.torque == b.torque);
-  CHECK(a.direction == b.direction);
-  CHECK(a.model == b.model);
-  CHECK(a.mesh_frequency == b.mesh_frequency);
-  CHECK(a.dte_rms == b.dte_rms);
-  CHECK(a.dte_mean == b.dte_mean);
-  CHECK(a.dte_harmonic == b.dte_harmonic);
-  CHECK(a.tooth_load_max == b.tooth_load_max);
-  CHECK(a.mesh_force_max == b.mesh_force_max);
-  CHECK(a.root_stress_max == b.root_stress_max);
-  CHECK(a.root_stress_sustained == b.root_stress_sustained);
-  CHECK(a.root_stress_angle == b.root_stress_angle);
-  CHECK(a.root_stress_phase == b.root_stress_phase);
-  CHECK(a.tooth_load_sustained == b.tooth_load_sustained);
-  CHECK(a.mesh_force_sustained == b.mesh_force_sustained);
-  CHECK(a.pair_phase == b.pair_phase);
-  CHECK(a.flank_roll == b.flank_roll);
-  CHECK(a.flank_pressure == b.flank_pressure);
-  CHECK(a.edge_load_there == b.edge_load_there);
-  CHECK(a.flank_pressure_sustained == b.flank_pressure_sustained);
-  CHECK(a.edge_load == b.edge_load);
-  CHECK(a.loss_factor == b.loss_factor);
-  CHECK(a.separation_fraction == b.separation_fraction);
-  CHECK(a.separations_per_period == b.separations_per_period);
-  CHECK(a.jump_frequency == b.jump_frequency);
-  CHECK(a.jump_width == b.jump_width);
-  CHECK(a.period_multiple == b.period_multiple);
-  CHECK(same_pair(a, b));
-  CHECK(a.inertia[0] == b.inertia[0]);
-  CHECK(a.inertia[1] == b.inertia[1]);
-  CHECK(same(a.mesh, b.mesh));
-  CHECK(same(a.contact, b.contact));
-  CHECK(same(a.time, b.time));
-  CHECK(same(a.damping, b.damping));
-  CHECK(a.fidelity.body == b.fidelity.body);
-  CHECK(a.fidelity.contact == b.fidelity.contact);
-  CHECK(a.fidelity.integrator == b.fidelity.integrator);
-  CHECK(a.natural_frequency == b.natural_frequency);
-}
-
-TEST_CASE("loaded.h5 gives back every value bit by bit") {
-  Folder folder;
-  const LoadedResult a = small_loaded();
-  write("loaded.h5", a, kMade);
-  const LoadedResult b = read_loaded("loaded.h5");
-  CHECK(same_pair(a, b));
-  CHECK(same(a.mesh, b.mesh));
-  CHECK(same(a.contact, b.contact));
-  CHECK(a.torque == b.torque);
-  CHECK(a.mesh_phase == b.mesh_phase);
-  CHECK(a.transmission_error == b.transmission_error);
-  CHECK(a.pair == b.pair);
-  CHECK(a.tooth_load == b.tooth_load);
-  CHECK(a.tooth == b.tooth);
-  CHECK(a.root_stress == b.root_stress);
-  CHECK(a.strip_pair == b.strip_pair);
-  CHECK(a.strip_roll == b.strip_roll);
-  CHECK(a.strip_width == b.strip_width);
-  CHECK(a.strip_force == b.strip_force);
-  CHECK(a.strip_pressure == b.strip_pressure);
-  CHECK(a.strip_separation == b.strip_separation);
-  CHECK(a.strip_deflection == b.strip_deflection);
-  CHECK(a.hub_torque == b.hub_torque);
-  CHECK(a.contact_torque == b.contact_torque);
-  CHECK(a.strain_energy == b.strain_energy);
-  CHECK(a.contact_work == b.contact_work);
-}
-
-TEST_CASE("harris_map.h5 gives back every value bit by bit, with and without motion") {
-  Folder folder;
-  HarrisMapResult a = small_harris_map();
-  const auto same_at_rest = [&](const HarrisMapResult& b) {
-    return same_pair(a, b) && same(a.mesh, b.mesh) && a.fidelity.contact == b.fidelity.contact &&
-           same(a.contact, b.contact) && a.relieved == b.relieved && a.shape == b.shape &&
-           a.torque == b.torque && a.relief == b.relief && a.length == b.length &&
-           a.start_roll == b.start_roll && a.design_torque == b.design_torque &&
-           a.peak_to_peak == b.peak_to_peak && a.harmonic == b.harmonic &&
-           a.optimum_relief == b.optimum_relief && a.optimum_peak_to_peak == b.optimum_peak_to_peak &&
-           a.cusp == b.cusp && a.unrelieved == b.unrelieved && a.checked == b.checked &&
-           a.largest_error == b.largest_error;
-  };
-  write("harris_map.h5", a, kMade);
-  const HarrisMapResult b = read_harris_map("harris_map.h5");
-  CHECK(same_at_rest(b));
-  CHECK(a.dynamic_rms == b.dynamic_rms);
-  CHECK(a.worst_frequency == b.worst_frequency);
-  CHECK(same(a.time, b.time));
-  CHECK(same(a.damping, b.damping));
-  CHECK(a.fidelity.body == b.fidelity.body);
-  CHECK(a.fidelity.integrator == b.fidelity.integrator);
-  CHECK(a.inertia[0] == b.inertia[0]);
-  CHECK(a.inertia[1] == b.inertia[1]);
-  CHECK(a.frequency_from == b.frequency_from);
-  CHECK(a.frequency_to == b.frequency_to);
-  CHECK(a.frequency_step == b.frequency_step);
-  a.dynamic_rms.clear();
-  write("rest.h5", a, kMade);
-  CHECK(same_at_rest(read_harris_map("rest.h5")));
-  CHECK(read_harris_map("rest.h5").dynamic_rms.empty());
-}
-
-TEST_CASE("variant.h5 gives back every value bit by bit, and a refusal instead") {
-  Folder folder;
-  VariantResult a = small_variant();
-  write("variant.h5", a, kMade);
-  const VariantResult b = read_variant("variant.h5");
-  CHECK(same_pair(a, b));
-  CHECK(same(a.mesh, b.mesh));
-  CHECK(a.fidelity.body == b.fidelity.body);
-  CHECK(a.fidelity.contact == b.fidelity.contact);
-  CHECK(a.fidelity.integrator == b.fidelity.integrator);
-  CHECK(same(a.contact, b.contact));
-  CHECK(same(a.time, b.time));
-  CHECK(same(a.damping, b.damping));
-  CHECK(a.torque == b.torque);
-  CHECK(a.reference_torque == b.reference_torque);
-  CHECK(a.inertia[0] == b.inertia[0]);
-  CHECK(a.inertia[1] == b.inertia[1]);
-  CHECK(a.frequency_from == b.frequency_from);
-  CHECK(a.frequency_to == b.frequency_to);
-  CHECK(a.frequency_step == b.frequency_step);
-  CHECK(a.directions == b.directions);
-  CHECK(a.quantity == b.quantity);
-  CHECK(b.rejection == "");
-  a.rejection = "it jams";
-  write("refused.h5", a, kMade);
-  const VariantResult rejected = read_variant("refused.h5");
-  CHECK(rejected.rejection == "it jams");
-  CHECK(rejected.quantity.size() == 0);
-}
-
-TEST_CASE("study.h5 gives back every value bit by bit") {
-  Folder folder;
-  const StudyResult a = small_study();
-  write("study.h5", a, kMade);
-  const StudyResult b = read_study_artifact("study.h5");
-  CHECK(a.plan.title == b.plan.title);
-  CHECK(a.plan.scene == b.plan.scene);
-  CHECK(a.plan.directions == b.plan.directions);
-  CHECK(a.plan.random == b.plan.random);
-  CHECK(a.plan.seed == b.plan.seed);
-  CHECK(a.plan.quantities == b.plan.quantities);
-  CHECK(a.plan.figure_quantities == b.plan.figure_quantities);
-  CHECK(a.plan.figure_keys == b.plan.figure_keys);
-  CHECK(a.plan.figure_colour == b.plan.figure_colour);
-  REQUIRE(a.plan.keys.size() == b.plan.keys.size());
-  for (std::size_t k = 0; k < a.plan.keys.size(); ++k) CHECK(a.plan.keys[k].name == b.plan.keys[k].name);
-  REQUIRE(a.variants.size() == b.variants.size());
-  for (std::size_t v = 0; v < a.variants.size(); ++v) {
-    CHECK(a.variants[v].name == b.variants[v].name);
-    CHECK(a.variants[v].values == b.variants[v].values);
-  }
-  CHECK(a.quantity == b.quantity);
-  CHECK(a.rejection == b.rejection);
-  CHECK(a.unsteady == b.unsteady);
-}
-
 TEST_CASE("two writes of the same values give the same bytes, another value others") {
-  Folder folder;
+  OwnFolder folder;
   write("a.h5", small_body(), kMade);
   write("b.h5", small_body(), kMade);
   CHECK(read_bytes("a.h5") == read_bytes("b.h5"));
@@ -1428,8 +446,8 @@ TEST_CASE("two writes of the same values give the same bytes, another value othe
   changed.inertia = std::nextafter(changed.inertia, 1.0);
   write("c.h5", changed, kMade);
   CHECK(read_bytes("a.h5") != read_bytes("c.h5"));
-  write("d.h5", small_pair_sweep(), kMade);
-  write("e.h5", small_pair_sweep(), kMade);
+  write("d.h5", any<SweepResult>(), kMade);
+  write("e.h5", any<SweepResult>(), kMade);
   CHECK(read_bytes("d.h5") == read_bytes("e.h5"));
 }
 
@@ -1460,7 +478,7 @@ TEST_CASE("the whole gear closes: teeth copies with shared edges, counter-clockw
 }
 
 TEST_CASE("provenance names tool, command, inputs with their SHA-256, and the stages before") {
-  Folder folder;
+  OwnFolder folder;
   // SHA-256 of "abc", FIPS 180-2 example.
   CHECK(sha256("abc") == "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   publish("out/body.toml", "abc");
@@ -1493,7 +511,7 @@ TEST_CASE("provenance names tool, command, inputs with their SHA-256, and the st
 }
 
 TEST_CASE("no file holds a path of the machine: commands and inputs are relative to the working folder") {
-  Folder folder;
+  OwnFolder folder;
   const std::string here = fs::current_path().string();
   CHECK(recorded_path(here + "/out/x.h5") == "out/x.h5");
   CHECK(recorded_path("out/x.h5") == "out/x.h5");
@@ -1506,10 +524,10 @@ TEST_CASE("no file holds a path of the machine: commands and inputs are relative
 }
 
 TEST_CASE("an artifact outside the working folder is rejected without a make target, which it has not") {
-  Folder folder;
+  OwnFolder folder;
   const fs::path place = fs::temp_directory_path() / "whine-nowhere" / "x.h5";
   for (const std::string& path : {place.string(), std::string("../whine-nowhere/x.h5")}) {
-    const Caught absent = caught([&] { read_static(path); });
+    const Caught absent = caught([&] { read<StaticResult>(path); });
     CHECK(absent.kind == kIo);
     CHECK(absent.says("make it again where it was made"));
     CHECK_FALSE(absent.says("make .."));
@@ -1542,12 +560,12 @@ TEST_CASE("a mesh of another gear, element size or order is rejected with both v
 
 TEST_CASE(
     "a body read back has the hash of its stage parameters, and another body is rejected with both hashes") {
-  Folder folder;
+  OwnFolder folder;
   const ReducedBody body = small_body();
   write("body.h5", body, kMade);
   const std::string hash = body_hash(body_parameters({body.design, body.material, body.discretisation}));
   CHECK(hash.size() == 16);
-  CHECK(caught([&] { require_body(read_body("body.h5"), hash, "driver", "body.h5"); }).kind == 0);
+  CHECK(caught([&] { require_body(read<ReducedBody>("body.h5"), hash, "driver", "body.h5"); }).kind == 0);
   CHECK(caught([&] { require_body(body, "", "driver", "body.h5"); }).kind == 0);
   ReducedBody other = body;
   other.material.density *= 2;
@@ -1559,7 +577,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a static result of another contact level than a later stage's is rejected with both") {
-  StaticResult statics = small_static();
+  StaticResult statics = any<StaticResult>();
   statics.fidelity.contact = ContactModel::line;
   Fidelity wanted;
   wanted.contact = ContactModel::line;
@@ -1615,9 +633,9 @@ TEST_CASE("only what lies below out/ has a make target") {
 }
 
 TEST_CASE("an artifact of another schema or version is rejected with what it is and how to rebuild it") {
-  Folder folder;
-  write("out/static.h5", small_static(), kMade);
-  const Caught other = caught([] { read_sweep("out/static.h5"); });
+  OwnFolder folder;
+  write("out/static.h5", any<StaticResult>(), kMade);
+  const Caught other = caught([] { read<SweepResult>("out/static.h5"); });
   CHECK(other.kind == kInput);
   CHECK(other.says("'whine/static'"));
   CHECK(other.says("'whine/sweep'"));
@@ -1627,18 +645,18 @@ TEST_CASE("an artifact of another schema or version is rejected with what it is 
     file.attribute("/", "schema", std::string("whine/static"));
     file.attribute("/", "schema_version", 0);
   });
-  const Caught old = caught([] { read_static("out/old.h5"); });
+  const Caught old = caught([] { read<StaticResult>("out/old.h5"); });
   CHECK(old.kind == kInput);
   CHECK(old.says("is schema version 0, this program reads 5"));
   CHECK(old.says("make out/old.h5"));
 
   write_static_like("out/alien.h5", [](h5::Writer& file) { file.group("/data"); });
-  CHECK(caught([] { read_static("out/alien.h5"); }).kind == kInput);
+  CHECK(caught([] { read<StaticResult>("out/alien.h5"); }).kind == kInput);
 }
 
 TEST_CASE("one flipped bit in any byte of an artifact is found, whatever reads it") {
-  Folder folder;
-  write("out/static.h5", small_static(), kMade);
+  OwnFolder folder;
+  write("out/static.h5", any<StaticResult>(), kMade);
   const std::string whole = read_bytes("out/static.h5");
   std::mt19937 random(8);
   // Bytes of the signature make it no HDF5 file; all others are under the hash.
@@ -1646,18 +664,18 @@ TEST_CASE("one flipped bit in any byte of an artifact is found, whatever reads i
     std::string bytes = whole;
     bytes[place] = static_cast<char>(bytes[place] ^ (1 << random() % 8));
     overwrite("out/static.h5", bytes);
-    const Caught read = caught([] { read_static("out/static.h5"); }),
+    const Caught content = caught([] { read<StaticResult>("out/static.h5"); }),
                  seen = caught([] { read_origin("out/static.h5"); });
-    if (read.kind == kIo && seen.kind == kIo && read.says("make out/static.h5")) continue;
+    if (content.kind == kIo && seen.kind == kIo && content.says("make out/static.h5")) continue;
     FAIL("the flipped bit in byte " << place << " of " << whole.size() << " was not found");
   }
   overwrite("out/static.h5", whole);
-  CHECK(caught([] { read_static("out/static.h5"); }).kind == 0);
+  CHECK(caught([] { read<StaticResult>("out/static.h5"); }).kind == 0);
 }
 
 TEST_CASE("what HDF5 would follow for ever is rejected although the hash is right") {
-  Folder folder;
-  write("out/static.h5", small_static(), kMade);
+  OwnFolder folder;
+  write("out/static.h5", any<StaticResult>(), kMade);
   const std::string whole = read_bytes("out/static.h5");
   const std::size_t heap = whole.find("GCOL");
   REQUIRE(heap != std::string::npos);
@@ -1668,7 +686,7 @@ TEST_CASE("what HDF5 would follow for ever is rejected although the hash is righ
     std::string bytes = whole;
     bytes.replace(heap + kFirstSize, 8, std::string(1, byte) + std::string(7, '\xff'));
     overwrite("out/static.h5", sealed(bytes));
-    const Caught damaged = caught([] { read_static("out/static.h5"); });
+    const Caught damaged = caught([] { read<StaticResult>("out/static.h5"); });
     CHECK(damaged.kind == kIo);
     CHECK(damaged.says("damaged"));
     CHECK(damaged.says("make out/static.h5"));
@@ -1678,7 +696,7 @@ TEST_CASE("what HDF5 would follow for ever is rejected although the hash is righ
   const std::size_t root = bytes.find("schema_version");
   bytes[root] = 'S';
   overwrite("out/static.h5", sealed(bytes));
-  CHECK(caught([] { read_static("out/static.h5"); }).kind != 0);
+  CHECK(caught([] { read<StaticResult>("out/static.h5"); }).kind != 0);
 
   // The heap's mark among numbers is no heap.
   const std::string mark = "a GCOL\1 and what follows it by accident";
@@ -1727,7 +745,7 @@ TEST_CASE("a file that is little else than marks of heaps is looked through in n
 }
 
 TEST_CASE("a file that deflates to little is not read into a thousand times its size") {
-  Folder folder;
+  OwnFolder folder;
   const std::vector<std::uint8_t> bytes(8 << 20);
   const std::vector<std::string> words(1 << 20);
   const std::vector<double> doubles(1 << 14);
@@ -1752,7 +770,7 @@ TEST_CASE("a file that deflates to little is not read into a thousand times its 
 
 TEST_CASE(
     "a number out of its range is rejected by its dataset, its value and the range, whatever the hash") {
-  const Folder folder;
+  const OwnFolder folder;
   const auto said = [](const auto& artifact, auto read) {
     write("a.h5", artifact, kMade);
     const Caught c = caught([&] { read("a.h5"); });
@@ -1767,46 +785,49 @@ TEST_CASE(
   body.offsets = -1;
   body.far_compliance = odd_matrix(4 * (25 + 1), 4, 1e-11);
   body.compliance.clear();
-  CHECK(says(said(body, read_body), "dataset /compliance/offsets holds -1, allowed is 0 to 1000"));
+  CHECK(says(said(body, read<ReducedBody>), "dataset /compliance/offsets holds -1, allowed is 0 to 1000"));
   body = small_body();
   body.design.module = -0.003;
-  CHECK(says(said(body, read_body), "dataset /parameters/gear/module holds -0.003, allowed is "));
+  CHECK(says(said(body, read<ReducedBody>), "dataset /parameters/gear/module holds -0.003, allowed is "));
   body = small_body();
   body.discretisation.near_field = static_cast<NearField>(7);
-  CHECK(says(said(body, read_body), "near_field is '', which is none of: subtraction matching"));
+  CHECK(says(said(body, read<ReducedBody>), "near_field is '', which is none of: subtraction matching"));
   body = small_body();
   body.nodal_diameter[1] = -3;
-  CHECK(says(said(body, read_body), "dataset /nodal_diameter holds -3, allowed is 0 to 2000"));
-  StaticResult statics = small_static();
+  CHECK(says(said(body, read<ReducedBody>), "dataset /nodal_diameter holds -3, allowed is 0 to 2000"));
+  StaticResult statics = any<StaticResult>();
   statics.torque = 1e300;
-  CHECK(says(said(statics, read_static),
+  CHECK(says(said(statics, read<StaticResult>),
              "dataset /parameters/operation/torque holds 1e+300, allowed is more than 0"));
-  statics = small_static();
+  statics = any<StaticResult>();
   statics.mesh.centre_distance = -1;
-  CHECK(says(said(statics, read_static), "dataset /parameters/mesh/centre_distance holds -1, allowed is "));
-  statics = small_static();
+  CHECK(says(said(statics, read<StaticResult>),
+             "dataset /parameters/mesh/centre_distance holds -1, allowed is "));
+  statics = any<StaticResult>();
   statics.hunting_periods = 1 << 30;
-  CHECK(says(said(statics, read_static), "dataset /hunting_periods holds 1073741824, allowed is 1 to "));
-  SweepResult sweep = small_pair_sweep();
+  CHECK(
+      says(said(statics, read<StaticResult>), "dataset /hunting_periods holds 1073741824, allowed is 1 to "));
+  SweepResult sweep = any<SweepResult>();
   sweep.tooth_load[1](0, 0) = 1e18;
-  CHECK(says(said(sweep, read_sweep), "dataset /tooth_load holds 1e+18, allowed is "));
-  sweep = small_pair_sweep();
+  CHECK(says(said(sweep, read<SweepResult>), "dataset /tooth_load holds 1e+18, allowed is "));
+  sweep = any<SweepResult>();
   sweep.mesh_frequency[0] = 0;
-  CHECK(says(said(sweep, read_sweep), "dataset /mesh_frequency holds 0, allowed is more than 0 to "));
+  CHECK(says(said(sweep, read<SweepResult>), "dataset /mesh_frequency holds 0, allowed is more than 0 to "));
   SystemStaticResult rest = small_system();
   rest.settings.layout.bodies[0].radius = 1e-300;
-  CHECK(says(said(rest, read_system_static), "dataset /body/radius holds 1e-300, allowed is 1e-06 to 10"));
+  CHECK(says(said(rest, read<SystemStaticResult>),
+             "dataset /body/radius holds 1e-300, allowed is 1e-06 to 10"));
   SystemSweepResult motion = small_sweep(small_system(), Direction::up);
   motion.residual[0] = 1e300;
-  CHECK(says(said(motion, read_system_sweep), "dataset /residual holds 1e+300, allowed is 0 to 1e+12"));
+  CHECK(says(said(motion, read<SystemSweepResult>), "dataset /residual holds 1e+300, allowed is 0 to 1e+12"));
   motion = small_sweep(small_system(), Direction::up);
   motion.energy_imbalance[0] = 1e300;
-  CHECK(
-      says(said(motion, read_system_sweep), "dataset /energy_imbalance holds 1e+300, allowed is 0 to 1e+12"));
+  CHECK(says(said(motion, read<SystemSweepResult>),
+             "dataset /energy_imbalance holds 1e+300, allowed is 0 to 1e+12"));
 }
 
 TEST_CASE("a picture says what it was drawn from, and one of other files or of another scene is rejected") {
-  const Folder folder;
+  const OwnFolder folder;
   const std::string header("\x89PNG\r\n\x1a\n\0\0\0\rIHDR0123456789abcCRC!", 33),
       end("\0\0\0\0IEND\xae\x42\x60\x82", 12);
   for (const char* scene : {"one", "other"}) {
@@ -1846,19 +867,19 @@ TEST_CASE("a range holds its ends, an open one not its least, and none a number 
 }
 
 TEST_CASE("an artifact without its hash is rejected before HDF5 sees it") {
-  Folder folder;
+  OwnFolder folder;
   h5::Writer file;
   file.attribute("/", "schema", std::string("whine/static"));
   file.attribute("/", "schema_version", 3);
   publish("out/bare.h5", file.finish());
-  const Caught bare = caught([] { read_static("out/bare.h5"); });
+  const Caught bare = caught([] { read<StaticResult>("out/bare.h5"); });
   CHECK(bare.kind == kIo);
   CHECK(bare.says("carries no content hash"));
   CHECK(bare.says("make out/bare.h5"));
 }
 
 TEST_CASE("an input that was replaced, before or while a stage ran, is named and nothing is written") {
-  Folder folder;
+  OwnFolder folder;
   char name[] = "build/bin/gear-test";
   char* arguments[] = {name, nullptr};
   overwrite("slice.toml", "a = 1\n");
@@ -1877,24 +898,24 @@ TEST_CASE("an input that was replaced, before or while a stage ran, is named and
   ReducedBody other = small_body();
   other.inertia *= 2;
   write("out/body.h5", other, kMade);
-  const Caught replaced = caught([&] { write("static.h5", small_static(), now); });
+  const Caught replaced = caught([&] { write("static.h5", any<StaticResult>(), now); });
   CHECK(replaced.kind == kInput);
   CHECK(replaced.says("static.h5: is not written, because its input out/body.h5 was replaced"));
   CHECK_FALSE(fs::exists("static.h5"));
 }
 
 TEST_CASE("a file that is absent, empty, no HDF5 or cut at any of many places is rejected, never read") {
-  Folder folder;
-  CHECK(caught([] { read_static("absent.h5"); }).kind == kIo);
+  OwnFolder folder;
+  CHECK(caught([] { read<StaticResult>("absent.h5"); }).kind == kIo);
   overwrite("empty.h5", "");
-  CHECK(caught([] { read_static("empty.h5"); }).says("is empty"));
+  CHECK(caught([] { read<StaticResult>("empty.h5"); }).says("is empty"));
   overwrite("text.h5", "not an artifact at all");
-  CHECK(caught([] { read_static("text.h5"); }).says("not an HDF5 file"));
-  write("out/whole.h5", small_static(), kMade);
+  CHECK(caught([] { read<StaticResult>("text.h5"); }).says("not an HDF5 file"));
+  write("out/whole.h5", any<StaticResult>(), kMade);
   const std::string bytes = read_bytes("out/whole.h5");
   for (std::size_t part = 1; part < 32; ++part) {
     overwrite("out/cut.h5", bytes.substr(0, bytes.size() * part / 32));
-    const Caught cut = caught([] { read_static("out/cut.h5"); });
+    const Caught cut = caught([] { read<StaticResult>("out/cut.h5"); });
     CHECK(cut.kind == kIo);
     CHECK(fs::exists("out/cut.h5"));
     CHECK(cut.says("make out/cut.h5"));
@@ -1903,13 +924,13 @@ TEST_CASE("a file that is absent, empty, no HDF5 or cut at any of many places is
 
 TEST_CASE(
     "a missing dataset, a wrong shape, a value that is not finite, an index that leads nowhere: rejected by name") {
-  Folder folder;
+  OwnFolder folder;
   const auto head = [](h5::Writer& file) {
     file.attribute("/", "schema", std::string("whine/mesh"));
     file.attribute("/", "schema_version", 1);
   };
   write_static_like("none.h5", head);
-  const Caught none = caught([] { read_mesh("none.h5"); });
+  const Caught none = caught([] { read<SectorGrid>("none.h5"); });
   CHECK(none.kind == kInput);
   CHECK(none.says("/parameters/gear/teeth"));
   CHECK(none.says("is missing"));
@@ -1933,11 +954,11 @@ TEST_CASE(
     file.put("/claim", std::vector<std::string>{"a", "b"}, {"1", "names", "claim", ""});
     file.put("/value", values, {1, 3}, {"1", "numbers", "row column", ""});
   });
-  const Caught shape = caught([] { read_readings("ragged.h5"); });
+  const Caught shape = caught([] { read<ReadingsResult>("ragged.h5"); });
   CHECK(shape.kind == kInput);
   CHECK(shape.says("/value has shape 1 x 3, expected any x 2"));
 
-  StaticResult broken = small_static();
+  StaticResult broken = any<StaticResult>();
   broken.transmission_error[1] = std::nan("");
   const Caught nan = caught([&] { write("nan.h5", broken, kMade); });
   CHECK(nan.kind == kNumerical);
@@ -1947,12 +968,12 @@ TEST_CASE(
   SectorGrid lost = small_mesh();
   lost.flank_node[1] = 99;
   write("lost.h5", lost, kMade);
-  CHECK(caught([] { read_mesh("lost.h5"); }).says("/sector/flank_node holds the number 99"));
+  CHECK(caught([] { read<SectorGrid>("lost.h5"); }).says("/sector/flank_node holds the number 99"));
 }
 
 TEST_CASE(
     "what a killed process left beside a file goes with its next write; what a living one or another machine writes stays") {
-  Folder folder;
+  OwnFolder folder;
   const pid_t gone = fork();
   if (gone == 0) _exit(0);
   REQUIRE(waitpid(gone, nullptr, 0) == gone);  // its number is free now
@@ -1975,7 +996,7 @@ TEST_CASE(
 }
 
 TEST_CASE("what is no regular file is rejected and not waited for") {
-  Folder folder;
+  OwnFolder folder;
   REQUIRE(mkfifo("pipe", 0600) == 0);
   ::alarm(20);  // a reader of such files does not come back by itself
   for (const std::string name : {"pipe", "/dev/zero", "/dev/null"}) {
@@ -1992,7 +1013,7 @@ TEST_CASE("what is no regular file is rejected and not waited for") {
 }
 
 TEST_CASE("writing is all or nothing: a failure leaves the earlier file and no rubbish") {
-  Folder folder;
+  OwnFolder folder;
   publish("out/a/x.txt", "earlier");
   CHECK(folder.names("out/a") == std::vector<std::string>{"x.txt"});
 
@@ -2004,7 +1025,7 @@ TEST_CASE("writing is all or nothing: a failure leaves the earlier file and no r
     small.rlim_cur = 1000;
     setrlimit(RLIMIT_FSIZE, &small);
     const Caught full = caught([] { publish("out/a/x.txt", std::string(5000, 'n')); });
-    const Caught artifact = caught([] { write("out/a/x.h5", small_static(), kMade); });
+    const Caught artifact = caught([] { write("out/a/x.h5", any<StaticResult>(), kMade); });
     setrlimit(RLIMIT_FSIZE, &before);
     std::signal(SIGXFSZ, handler);
     CHECK(full.kind == kIo);
@@ -2025,7 +1046,7 @@ TEST_CASE("writing is all or nothing: a failure leaves the earlier file and no r
 }
 
 TEST_CASE("an unchanged file or link is left alone, a changed one replaced") {
-  Folder folder;
+  OwnFolder folder;
   CHECK(publish_if_changed("p/a.toml", "one"));
   CHECK_FALSE(publish_if_changed("p/a.toml", "one"));
   CHECK(publish_if_changed("p/a.toml", "two"));
@@ -2039,8 +1060,8 @@ TEST_CASE("an unchanged file or link is left alone, a changed one replaced") {
 }
 
 TEST_CASE("the summary names the key numbers in an engineer's units") {
-  Folder folder;
-  StaticResult a = small_static();
+  OwnFolder folder;
+  StaticResult a = any<StaticResult>();
   a.mean_stiffness = 463.5e6;
   a.transmission_error = Eigen::VectorXd{{4e-6, 6e-6, 5e-6}};
   write("static.h5", a, kMade);
@@ -2063,9 +1084,9 @@ TEST_CASE("the summary names the key numbers in an engineer's units") {
         std::string::npos);
   CHECK(all.find("root stress of wheel: 0 % from 0.8 to 0.4 mm, 0 % from 0.4 to 0.2 mm") !=
         std::string::npos);
-  write("impact.h5", small_impact(), kMade);
-  write("sweep.h5", small_pair_sweep(), kMade);
-  write("response.h5", small_response(), kMade);
+  write("impact.h5", any<ImpactResult>(), kMade);
+  write("sweep.h5", any<SweepResult>(), kMade);
+  write("response.h5", any<ResponseResult>(), kMade);
   write("mesh.h5", small_mesh(), kMade);
   write("body.h5", small_body(), kMade);
   for (const char* name : {"impact", "sweep", "response", "mesh", "body"}) {
@@ -2093,8 +1114,8 @@ TEST_CASE("a tool's exit status says the kind of failure") {
 
 // tests/xarray.sh opens what WHINE_KEEP keeps of this case.
 TEST_CASE("an empty list of matrices is given back as such: a branch without a point") {
-  Folder folder;
-  BranchResult a = small_branch();
+  OwnFolder folder;
+  BranchResult a = any<BranchResult>();
   for (Eigen::VectorXd* v :
        {&a.mesh_frequency, &a.dte_rms, &a.dte_mean, &a.residual, &a.fold_frequency, &a.fold_rms,
         &a.fold_width, &a.mesh_force_sustained, &a.tooth_load_sustained, &a.root_stress_sustained[0],
@@ -2107,7 +1128,7 @@ TEST_CASE("an empty list of matrices is given back as such: a branch without a p
   a.fold_smooth.resize(0);
   a.fold_multiplier.resize(0, 2);
   write("branch.h5", a, kMade);
-  const BranchResult b = read_branch("branch.h5");
+  const BranchResult b = read<BranchResult>("branch.h5");
   CHECK(b.floquet_multiplier.empty());
   CHECK(b.mesh_frequency.size() == 0);
   CHECK(b.dte_harmonic.cols() == 3);
@@ -2115,22 +1136,22 @@ TEST_CASE("an empty list of matrices is given back as such: a branch without a p
 }
 
 TEST_CASE("axes of each kind of artifact are dimension scales, the numbers of harmonics among them") {
-  Folder folder;
+  OwnFolder folder;
   write("mesh.h5", small_mesh(), kMade);
   write("body.h5", small_body(), kMade);
-  write("static.h5", small_static(), kMade);
+  write("static.h5", any<StaticResult>(), kMade);
   write("error_budget.h5", small_budget(), kMade);
-  write("loaded.h5", small_loaded(), kMade);
-  write("impact.h5", small_impact(), kMade);
-  write("sweep.h5", small_pair_sweep(), kMade);
-  write("response.h5", small_response(), kMade);
-  write("branch.h5", small_branch(), kMade);
+  write("loaded.h5", any<LoadedResult>(), kMade);
+  write("impact.h5", any<ImpactResult>(), kMade);
+  write("sweep.h5", any<SweepResult>(), kMade);
+  write("response.h5", any<ResponseResult>(), kMade);
+  write("branch.h5", any<BranchResult>(), kMade);
   write("modes.h5", natural_modes(layout_of(planetary_train(3))), kMade);
-  write("jump_map.h5", small_jump_map(), kMade);
-  write("harris_map.h5", small_harris_map(), kMade);
-  write("variant.h5", small_variant(), kMade);
-  write("study.h5", small_study(), kMade);
-  write("readings.h5", small_readings(), kMade);
+  write("jump_map.h5", any<JumpMapResult>(), kMade);
+  write("harris_map.h5", any<HarrisMapResult>(), kMade);
+  write("variant.h5", any<VariantResult>(), kMade);
+  write("study.h5", any<StudyResult>(), kMade);
+  write("readings.h5", any<ReadingsResult>(), kMade);
   // A coordinate is one by HDF5's attribute CLASS.
   const auto is_scale = [](const std::string& path, const std::string& dataset) {
     return h5::Reader(read_bytes(path), path, "").string_attribute(dataset, "CLASS") == "DIMENSION_SCALE";
@@ -2144,10 +1165,10 @@ TEST_CASE("axes of each kind of artifact are dimension scales, the numbers of ha
   };
   CHECK(first("static.h5") == 0);  // the mean
   CHECK(first("response.h5") == 1);
-  CHECK(read_branch("branch.h5").floquet_multiplier[1] == small_branch().floquet_multiplier[1]);
-  CHECK(read_jump_map("jump_map.h5").dte_rms[1] == small_jump_map().dte_rms[1]);
+  CHECK(read<BranchResult>("branch.h5").floquet_multiplier[1] == any<BranchResult>().floquet_multiplier[1]);
+  CHECK(read<JumpMapResult>("jump_map.h5").dte_rms[1] == any<JumpMapResult>().dte_rms[1]);
 
-  SweepResult sweep = small_pair_sweep();
+  SweepResult sweep = any<SweepResult>();
   sweep.pair.conservativeResize(sweep.pair.size() - 1);
   CHECK(caught([&] { write("x.h5", sweep, kMade); }).says("along pair"));
 }

@@ -330,7 +330,7 @@ TEST_CASE("what is gathered of a study comes back from its artifact") {
   a.unsteady = Eigen::Vector4i(0, 3, 0, 0);
   const Written file("", "study.h5");
   write(file.path, a, {"test", "test", {}, {}});
-  const StudyResult b = read_study_artifact(file.path);
+  const StudyResult b = read<StudyResult>(file.path);
   CHECK(b.quantity == a.quantity);
   CHECK(b.rejection == a.rejection);
   CHECK(b.unsteady == a.unsteady);

@@ -9,14 +9,15 @@
 #include "dynamics/impact.h"
 #include "gear/involute.h"
 #include "gear/rack_tip.h"
+#include "io/artifacts.h"
 #include "io/claim_sets.h"
-#include "io/impact_codec.h"
 #include "io/readings.h"
-#include "io/static_codec.h"
 #include "paper/consistency.h"
 #include "paper/reading.h"
 #include "paper_pair.h"
 #include "relative.h"
+#include "results/impact.h"
+#include "results/static.h"
 
 using namespace whine;
 
@@ -152,7 +153,7 @@ TEST_CASE("readings: an artifact gives back what it was given") {
   a.readings[1].bore_radius = 0.047;
   const std::string path = (std::filesystem::temp_directory_path() / "whine-test-readings.h5").string();
   write(path, a, {"test", "test", {}});
-  const ReadingsResult b = read_readings(path);
+  const ReadingsResult b = read<ReadingsResult>(path);
   std::filesystem::remove(path);
   CHECK(b.claim == a.claim);
   CHECK(b.outside == 2);

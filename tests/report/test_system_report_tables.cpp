@@ -10,10 +10,8 @@
 
 #include "base/visible.h"
 #include "gear/system_layout.h"
-#include "io/modes_codec.h"
+#include "io/artifacts.h"
 #include "io/system_scene.h"
-#include "io/system_static_codec.h"
-#include "io/system_sweep_codec.h"
 #include "message_of_input.h"
 #include "relative.h"
 #include "report/figure_words.h"
@@ -24,6 +22,9 @@
 #include "report/system_report.h"
 #include "report/system_sweep_figure.h"
 #include "report/text_width.h"
+#include "results/modes.h"
+#include "results/system_static.h"
+#include "results/system_sweep.h"
 #include "scene_file.h"
 #include "small_system.h"
 #include "system/mode_view.h"
@@ -146,9 +147,9 @@ TEST_CASE(
   write(file + "u.h5", r.sweeps[0], kMade);
   write(file + "d.h5", r.sweeps[1], kMade);
   SystemReport again = r;
-  again.rest = read_system_static(file + "s.h5");
-  again.modes = read_modes(file + "m.h5");
-  again.sweeps = {read_system_sweep(file + "u.h5"), read_system_sweep(file + "d.h5")};
+  again.rest = read<SystemStaticResult>(file + "s.h5");
+  again.modes = read<ModesResult>(file + "m.h5");
+  again.sweeps = {read<SystemSweepResult>(file + "u.h5"), read<SystemSweepResult>(file + "d.h5")};
   CHECK(system_report_html(again) == page);
   CHECK(system_report_tsv(again) == table);
   CHECK(plot_data(system_picture(*again.rest)) == plot_data(system_picture(rest)));

@@ -13,7 +13,8 @@
 
 #include "base/error.h"
 #include "failure_of.h"
-#include "io/runup_codec.h"
+#include "io/artifacts.h"
+#include "io/runup_file.h"
 #include "io/transfer_function.h"
 #include "io/wav.h"
 #include "paper_pair.h"
@@ -21,6 +22,7 @@
 #include "report/sounds.h"
 #include "signal/sound.h"
 #include "signal/spectrum.h"
+#include "studies/runup.h"
 
 using namespace whine;
 using Eigen::Index;

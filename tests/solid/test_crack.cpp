@@ -21,11 +21,12 @@
 #include "cracked_gear.h"
 #include "failure_of.h"
 #include "gear/crack.h"
-#include "io/mesh_codec.h"
+#include "io/artifacts.h"
 #include "io/scene.h"
-#include "io/static_codec.h"
 #include "paper_pair.h"
 #include "relative.h"
+#include "results/sector_grid.h"
+#include "results/static.h"
 #include "solid/crack.h"
 #include "solid/elements.h"
 #include "solid/flank_table.h"
@@ -572,7 +573,7 @@ TEST_CASE("artifacts of a cracked gear give back every value bit by bit") {
   design.crack.tooth = 7;
   const SectorGrid mesh = sector_of(design, 1e-3);
   write(folder.file("mesh.h5"), mesh, {"test", "test", {}});
-  const SectorGrid again = read_mesh(folder.file("mesh.h5"));
+  const SectorGrid again = read<SectorGrid>(folder.file("mesh.h5"));
   REQUIRE(again.cracked_tooth.size() == 1);
   const SectorGrid &a = again.cracked_tooth[0], &b = mesh.cracked_tooth[0];
   CHECK(a.node_position == b.node_position);
@@ -590,7 +591,7 @@ TEST_CASE("artifacts of a cracked gear give back every value bit by bit") {
   }
   const ReducedBody body = reduce(again, kSteel, 1);
   write(folder.file("body.h5"), body, {"test", "test", {}});
-  const ReducedBody back = read_body(folder.file("body.h5"));
+  const ReducedBody back = read<ReducedBody>(folder.file("body.h5"));
   CHECK(back.crack_compliance == body.crack_compliance);
   CHECK(back.crack_root_stress == body.crack_root_stress);
   CHECK(back.design.crack.tooth == 7);

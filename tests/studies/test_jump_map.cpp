@@ -9,16 +9,17 @@
 
 #include "base/error.h"
 #include "dynamics/impact.h"
-#include "io/impact_codec.h"
-#include "io/jump_map_codec.h"
+#include "io/artifacts.h"
 #include "io/scene.h"
 #include "io/scene_keys.h"
-#include "io/static_codec.h"
 #include "io/variant.h"
 #include "paper_pair.h"
 #include "relative.h"
 #include "report/jump_map_figures.h"
 #include "report/sensitivity_figure.h"
+#include "results/impact.h"
+#include "results/jump_map.h"
+#include "results/static.h"
 #include "studies/jump_map.h"
 
 using namespace whine;
@@ -239,7 +240,7 @@ TEST_CASE("a map that was written reads back, and tells what differs from anothe
   const JumpMapResult a = small_map(150, true, {0.04, 0.06}, 0.05);
   const std::string path = (std::filesystem::temp_directory_path() / "whine_jump_map.h5").string();
   write(path, a, {"test", "test", {}});
-  JumpMapResult b = read_jump_map(path);
+  JumpMapResult b = read<JumpMapResult>(path);
   std::filesystem::remove(path);
   CHECK(a.damping_ratio == b.damping_ratio);
   CHECK(a.two_branches == b.two_branches);

@@ -14,14 +14,15 @@
 #include "base/error.h"
 #include "dynamics/period_map.h"
 #include "dynamics/steady_state.h"
-#include "io/branch_codec.h"
-#include "io/response_codec.h"
-#include "io/static_codec.h"
+#include "io/artifacts.h"
 #include "lumped/period_map.h"
 #include "lumped/stiffness.h"
 #include "orbits/branch.h"
 #include "paper_pair.h"
 #include "relative.h"
+#include "results/branch.h"
+#include "results/response.h"
+#include "results/static.h"
 #include "signal/response.h"
 #include "studies/branch_follower.h"
 #include "studies/jump_cause.h"
@@ -782,7 +783,7 @@ TEST_CASE("orbits: a sweep jumps where the branch folds, also across a change of
   // What is written is read.
   const std::string path = (std::filesystem::temp_directory_path() / "whine-branch-test.h5").string();
   write(path, branch, {});
-  const BranchResult again = read_branch(path);
+  const BranchResult again = read<BranchResult>(path);
   std::filesystem::remove(path);
   CHECK(again.mesh_frequency == branch.mesh_frequency);
   CHECK(again.floquet_multiplier.back() == branch.floquet_multiplier.back());

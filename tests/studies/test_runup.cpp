@@ -9,8 +9,9 @@
 
 #include "base/error.h"
 #include "failure_of.h"
+#include "io/artifacts.h"
 #include "io/publish.h"
-#include "io/runup_codec.h"
+#include "io/runup_file.h"
 #include "paper_pair.h"
 #include "relative.h"
 #include "signal/branches.h"
@@ -242,7 +243,7 @@ TEST_CASE(
   const Kept kept = run(3300, 3400, 2000, 7.7e-6, 2e-4, &file);
   run(3300, 3400, 2000, 7.7e-6, 2e-4, &again);
   CHECK(read_bytes(folder("a.h5")) == read_bytes(folder("b.h5")));
-  const RunupResult a = read_runup(folder("a.h5"));
+  const RunupResult a = read<RunupResult>(folder("a.h5"));
   const auto single = [](const auto& x) { return x.template cast<float>().template cast<double>().eval(); };
   CHECK(a.samples.time == kept.all.samples.time);
   CHECK(a.samples.transmission_error == single(kept.all.samples.transmission_error));
@@ -268,7 +269,7 @@ TEST_CASE(
   std::string bytes = read_bytes(folder("a.h5"));
   bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
   publish(folder("b.h5"), bytes);
-  CHECK(failure_of([&] { read_runup(folder("b.h5")); }) == Failure::io);
+  CHECK(failure_of([&] { read<RunupResult>(folder("b.h5")); }) == Failure::io);
 }
 
 TEST_CASE("a run-up that finds no periodic motion at its start says so") {

@@ -10,10 +10,11 @@
 #include <sstream>
 
 #include "gear/system_layout.h"
+#include "io/artifacts.h"
 #include "io/system_scene.h"
-#include "io/system_sweep_codec.h"
 #include "planetary_train.h"
 #include "relative.h"
+#include "results/system_sweep.h"
 #include "scene_file.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"

@@ -12,12 +12,13 @@
 #include "base/error.h"
 #include "contact/half_plane.h"
 #include "failure_of.h"
+#include "io/artifacts.h"
 #include "io/h5.h"
-#include "io/loaded_codec.h"
-#include "io/mesh_codec.h"
-#include "io/static_codec.h"
 #include "paper_pair.h"
 #include "relative.h"
+#include "results/loaded.h"
+#include "results/sector_grid.h"
+#include "results/static.h"
 #include "solid/loaded_gear.h"
 #include "system/loaded_pair.h"
 
@@ -245,7 +246,7 @@ TEST_CASE("loaded: artifacts are read as they were written, and what cannot be s
   const std::string path =
       (std::filesystem::temp_directory_path() / text("whine_loaded_", getpid(), ".h5")).string();
   write(path, at, {"test", "test", {}});
-  const LoadedResult back = read_loaded(path);
+  const LoadedResult back = read<LoadedResult>(path);
   CHECK(back.strip_pressure == at.strip_pressure);
   CHECK(back.strip_deflection == at.strip_deflection);
   CHECK(back.root_stress == at.root_stress);

@@ -5,12 +5,9 @@
 #include <vector>
 
 #include "base/matrix.h"
-#include "io/provenance.h"
 #include "io/study.h"
 
 namespace whine {
-
-class Codec;
 
 struct StudyResult {
   StudyPlan plan;
@@ -20,9 +17,5 @@ struct StudyResult {
   std::vector<std::string> rejection;  // (variant) why, "" if it was not
   Eigen::VectorXi unsteady;  // (variant) speeds, of all its sweeps, at which no periodic motion was found
 };
-
-void describe(Codec& codec, StudyResult& a);
-void write(const std::string& path, const StudyResult& a, const Provenance& provenance);
-StudyResult read_study_artifact(const std::string& path);
 
 }  // namespace whine

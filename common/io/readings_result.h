@@ -3,12 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "io/provenance.h"
 #include "io/readings.h"
 
 namespace whine {
-
-class Codec;
 
 // One reading with all that it fixes, and how it stands to each claim.
 struct Reading {
@@ -32,9 +29,5 @@ struct ReadingsResult {
   std::vector<Reading> readings;
   int outside = 0;  // readings that the model of the pair cannot compute
 };
-
-void describe(Codec& codec, ReadingsResult& a);
-void write(const std::string& path, const ReadingsResult& a, const Provenance& provenance);
-ReadingsResult read_readings(const std::string& path);
 
 }  // namespace whine

@@ -8,10 +8,6 @@
 
 namespace whine {
 
-class Codec;
-
-void describe(Codec& codec, RunupResult& a);
-
 // Writes blocks of samples into a file beside `path` that is published with the last of them; removed if they do not come.
 class RunupFile : public RunupSink {
  public:
@@ -28,7 +24,5 @@ class RunupFile : public RunupSink {
   Provenance provenance_;
   std::unique_ptr<Open> open_;
 };
-
-RunupResult read_runup(const std::string& path);
 
 }  // namespace whine
