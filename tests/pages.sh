@@ -71,7 +71,7 @@ while read -r name; do is_variable[$name]=1; done < <(grep -o -w '[A-Z][A-Z_]\+'
 while read -r name; do is_key[$name]=1; done < <("$bin/gear-scene" --keys | cut -d'|' -f3 | tr -d '` ')
 programs=$(set +f; cd tools && echo gear-*.cpp)
 for program in ${programs//.cpp/}; do help_of[$program]=$("$bin/$program" --help | tr -s ' \n,' '   '); done
-sources_of_functions=$(set +f; cat common/*/*.h common/*/*.cpp common/io/rexs/*.h common/io/rexs/*.cpp tools/*.cpp tests/*.cpp tests/*/*.cpp)
+sources_of_functions=$(set +f; cat common/*/*.h common/*/*.cpp common/io/rexs/*.h common/io/rexs/*.cpp tools/*.cpp tests/*.h tests/*.cpp tests/*/*.cpp)
 sources_of_files=$(set +f; cat common/io/*.h common/io/*.cpp common/io/*/*.h common/io/*/*.cpp common/results/*.h common/model/*.cpp)
 while IFS= read -r line; do
   case $line in '#'* | '') continue ;; esac

@@ -1,10 +1,10 @@
-// Dense decompositions of Eigen, each compiled once: a compiler takes 5 to 20 s for one, wherever it stands.
+// Dense decompositions of Eigen, each compiled once: a compiler takes 5 to 20 s for each.
 #pragma once
 #include <Eigen/Core>
 
 namespace whine {
 
-// Values ascending, a vector in each column (none where only values were asked for). Not converged: no value is meant.
+// Values ascending, a vector in each column (none where only values were asked for). Not converged: the values are undefined.
 struct SymmetricEigen {
   bool converged;
   Eigen::VectorXd values;

@@ -25,7 +25,7 @@ class Error : public std::runtime_error {
   Failure kind_;
 };
 
-// An argument of text(): where it is and how it is printed. A type has one way, whatever list it stands in.
+// An argument of text(): its address and the function that prints it. A type is printed the same way in every list.
 class TextPart {
  public:
   template <class T>

@@ -1,5 +1,5 @@
-// The options of a program. CLI11 stands behind them, in options.cpp alone: its header takes a compiler as long as all else
-// of a program together.
+// The options of a program. CLI11 is included in options.cpp only: its header takes a compiler as long as the rest of a
+// program.
 //
 //   whine::Options options{"What the program does", "gear-x"};
 //   options.add("--input", input, "sweep.h5").required();
@@ -31,7 +31,7 @@ class Option {
   Option& one_of(const std::vector<std::string>& words);
   // Several values in one word, as in --speeds 1200,1350.
   Option& separated_by(char delimiter);
-  // The other option must stand there as well, or must not.
+  // The other option must be given, or must not be given.
   Option& needs(const Option& other);
   Option& excludes(const Option& other);
   bool given() const;  // after parse()
@@ -49,7 +49,7 @@ class Options {
 
   // An option "--name" or a positional "name" that sets target, which must outlive parse(). Target is a std::string, double,
   // int or a vector of strings or doubles; a word that does not convert is an error of parse(). A positional vector takes all words
-  // that are left, a "--name" one word each time that it stands there.
+  // that are left, a "--name" one word each time that it is given.
   template <class Target>
   Option add(const std::string& name, Target& target, const std::string& help);
   Option flag(const std::string& name, bool& target, const std::string& help);

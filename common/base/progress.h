@@ -10,12 +10,12 @@ class Progress {
  public:
   // label: what is being done; total: number of steps, > 0.
   Progress(std::string label, long total);
-  ~Progress();  // wipes the line, so that the summary stands alone
+  ~Progress();  // wipes the line, so that only the summary stays
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
-  // done: steps finished so far; note: a short text shown after the bar. Redraws at most ten times a second. The time that is
-  // left is told as if all steps took as long as those so far; off a terminal first after five seconds, if it is more than a
-  // minute.
+  // done: steps finished so far; note: a short text shown after the bar. Redraws at most ten times a second. The remaining
+  // time assumes that all steps take as long as those so far; off a terminal it is printed first after five seconds, if it is more
+  // than a minute.
   void update(long done, const std::string& note = "");
 
  private:

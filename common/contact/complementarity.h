@@ -2,7 +2,7 @@
 //
 // Block principal pivoting (Judice and Pires; Portugal, Judice and Vicente, Math. Comp. 63 (1994) 625) from a
 // guessed active set; when its block steps stop paying, least-index steps; if even they take too long, Lawson
-// and Hanson's non-negative least squares on the same matrix, whose objective falls with every step. Without a
+// and Hanson's non-negative least squares on the same matrix, whose objective decreases with every step. Without a
 // guess the set first grows with its Cholesky factor, each time by the strip that penetrates most; on contact
 // patches nothing is left to pivot then. An active set that was right before is kept with the inverse of its
 // block, so that a problem whose contact pattern repeats costs one matrix-vector product and a check; strips
@@ -18,7 +18,7 @@ namespace whine {
 
 struct StripCompliance;
 
-// A square matrix that changes its size without changing its memory. Columns stand `stride` apart, a multiple
+// A square matrix that changes its size without changing its memory. Columns are `stride` apart, a multiple
 // of 4; what lies between their ends and the next multiple of 4 is finite.
 class GrowingMatrix {
  public:
@@ -83,16 +83,15 @@ struct Certificate {
       false;  // A is singular to round-off on the active strips: A + shift I was factorised instead
 };
 
-// Largest residual of a solution that a stage may go on with: forces so large against the gaps that more is lost leave
+// Largest residual of a solution that a stage may go on with: a larger one (forces large relative to the gaps) leaves
 // no digits for a pair's share of the load.
 inline constexpr double kMostResidual = 1e-10;
 
 // Throws Error(numerical) with the numbers unless the residual is a number within kMostResidual.
 void require_residual(const Certificate& certificate);
 
-// What becomes of a problem whose A is singular to round-off on the strips that touch. The gaps are closed by many
-// distributions of the force then, and a shift picks one that means nothing: loads of pairs and stiffnesses would
-// depend on round-off.
+// What to do with a problem whose A is singular to round-off on the strips that touch. Many force distributions then close the
+// gaps, and a shift picks one of them arbitrarily: loads of tooth pairs and stiffnesses would depend on round-off.
 enum class Singular { reject, shift };
 
 class ComplementaritySolver {
@@ -109,8 +108,8 @@ class ComplementaritySolver {
   Certificate solve(const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::VectorXd>& e,
                     ActiveSet& active, Eigen::Ref<Eigen::VectorXd> p, Eigen::Ref<Eigen::VectorXd> d);
 
-  // The same for the strips of all pairs, whose A is made up only as far as the problem needs it: a set that is right beyond
-  // doubt, forces and gaps of all strips clear of the tolerances, needs its own rows and columns, once. nodes: as
+  // The same for the strips of all pairs; only the entries of A that are needed are computed. A set that is strictly complementary
+  // (every force and gap exceeds its tolerance) needs its own rows and columns, once. nodes: as
   // StripCompliance::add_product, of the solution.
   Certificate solve(const StripCompliance& a, const Eigen::Ref<const Eigen::VectorXd>& e, ActiveSet& active,
                     Eigen::Ref<Eigen::VectorXd> p, Eigen::Ref<Eigen::VectorXd> d, double* nodes);

@@ -107,7 +107,7 @@ inline void dot_columns(double* result, const double* columns, int stride, int c
   }
 }
 
-// kRows rows of `length`, a multiple of 4, that stand side by side: four numbers of each in turn. Row j . x in lane j.
+// kRows rows of `length`, a multiple of 4, side by side: four numbers of each in turn. Row j . x in lane j.
 template <int kRows>
 inline Lanes dot_rows(const double* rows, int length, const double* x) {
   static_assert(kRows <= kLanes);

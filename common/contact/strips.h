@@ -7,7 +7,7 @@
 // pressure goes with the inverse root of the distance, and the first touch is at the edge itself. A strip's gap
 // and displacement are means over the strip, which makes the compliance symmetric for any widths.
 //
-// The candidate zone stands a quarter strip off the contact point. The force is a piecewise linear function of the approach,
+// The candidate zone is shifted by a quarter strip from the contact point. The force is a piecewise linear function of the approach,
 // its pieces begin where a strip is added; strips that are added in turn at either end halve the pieces.
 // All that is smooth in the candidate zone (body compliance, modes, relaxed loads) is carried by a few nodes and
 // interpolated to the strips; the same weights collect strip forces on the nodes.
@@ -36,7 +36,7 @@ struct PairStrips {
   PairContact contact;
   Eigen::VectorXd border;  // (strip + 1) m along the flank from the nominal contact point
   bool low_is_edge = false,
-       high_is_edge = false;  // the candidate zone ends at a tip edge, where force may stand
+       high_is_edge = false;  // the candidate zone ends at a tip edge, where force is allowed
   Eigen::VectorXd gap;        // (strip) m, unloaded, of what all teeth have in common
   Eigen::Matrix<double, Eigen::Dynamic, kZoneNodes> interpolation;  // (strip, node) 1
   std::array<Eigen::VectorXd, 2> node_roll;                         // (node) rad, on driver and driven gear
@@ -55,8 +55,8 @@ struct ContactPatch {
   double half_width = 0;  // m: twice the standard deviation of the pressure, exact for Hertz's semi-ellipse
 };
 
-// p: (strip) N; face_width: m. Zeros for a pair without force, for a corner contact, and where force stands on a tip edge:
-// there the half-plane is no description of the surface.
+// p: (strip) N; face_width: m. Zeros for a pair without force, for a corner contact, and for force on a tip edge:
+// there the surface is no half-plane.
 ContactPatch contact_patch(const PairStrips& strips, const Eigen::Ref<const Eigen::VectorXd>& p,
                            double face_width);
 

@@ -11,17 +11,17 @@
 // - per gear the elastic modes. Those with zero diameters couple with the hub rotation through gamma and are
 //   diagonalised with it: M0 = [[I, gamma^T], [gamma, 1]], K0 = diag(0, w^2);
 // - what the modes leave of the flanks' flexibility relaxes with the Rayleigh time: eta U' + U = R p. Every truncated
-//   mode has the same time, so loads are relaxed instead and U = R (relaxed loads). A tooth carries them in a few
-//   fields V of its flank table, those that hold all of R that is worth a memory, and gets from other teeth what the first
-//   few of them hold; R - V V^T R V V^T is instantaneous.
+//   mode has the same time, so loads are relaxed instead and U = R (relaxed loads). Relaxed loads are
+//   stored as kFields coefficients per tooth in the basis V (the leading part of R on its flank table); the first kSharedFields
+//   also couple neighbouring teeth. The rest, R - V V^T R V V^T, is instantaneous.
 // With body = "full" the modes are all that the mesh has and nothing relaxes. What the half-plane adds to their flexibility
 // between points of a flank, it being no finite element, is instantaneous: undamped_depth is then without meaning.
 // With friction forces act on hubs along L = h + mu s T (gear/friction.h), its direction s and T of the nominal kinematics; what
 // tangential forces do to the elastic bodies is left out. Torques are then T on the driver and T r_b2 / r_b1 (1 - loss) on the
 // driven gear, the loss that at rest. Natural frequencies are without friction, rest() but for its torques and `force`.
 // Gap of a strip: d = e - h z + U + A_local p >= 0 with p >= 0, p . d = 0 at the end of each step (Eq. 18).
-// With contact = "line" a pair is one strip on one node, and Hertz's law of its force stands in for the half-planes in
-// A_local p. It is relative to the undamped depth and is instantaneous, as they do.
+// With contact = "line" a pair is one strip on one node, and Hertz's law of its force replaces the half-planes in
+// A_local p. Like these it is relative to the undamped depth and instantaneous.
 //
 // Modes are smooth over a candidate zone: what they move there, and what force does on them, goes through kShapeRows functions
 // per pair, the first Chebyshev polynomials on the candidate zone's nodes: mean and slope. What these leave out of the
@@ -31,7 +31,7 @@
 //
 // dynamics.cpp says what is integrated: positions, speeds, states at rest; dynamics_coordinates.cpp: coordinates of gears and
 // what they move; dynamics_frozen.cpp: the pair at a phase that does not roll. integrate.cpp integrates a mesh period over the
-// steps of step_kernel.h, energy_balance.cpp keeps its energy balance. After a range, a speed and a state have been seen no
+// steps of step_kernel.h, energy_balance.cpp computes its energy balance. After a range, a speed and a state have been seen no
 // period allocates memory.
 #pragma once
 #include <Eigen/Core>
@@ -70,8 +70,8 @@ void require_relaxation_range(const Damping& damping, BodyModel body, double hig
 // The same in words; "" within the range.
 std::string beyond_relaxation_range(const Damping& damping, BodyModel body, double highest_frequency);
 
-// What a motion at the torque of `statics` may want of its contact: 2.5 times the load and the deflection of rest, times
-// `widening`, which grows where a motion wants more.
+// Limits of load and deflection in a motion at the torque of `statics`: 2.5 times those at rest, times `widening`, which grows
+// where a motion exceeds them.
 struct MotionBounds {
   MotionBounds(const GearMeshModel& model, const StaticResult& statics, double widening = 1);
   double force;       // N, of a pair
@@ -80,7 +80,7 @@ struct MotionBounds {
 CandidateZone candidate_zone(const GearMeshModel& model, const StaticResult& statics,
                              const MotionBounds& bounds);
 
-// Bytes that a candidate contact zone takes as long as it is held, of what may grow beyond a machine.
+// Bytes of a candidate contact zone in memory, as far as they may grow beyond a machine.
 struct ZoneMemory {
   double coordinates = 0;  // at nodes of all positions
   double gaps = 0;         // of teeth that differ
@@ -111,7 +111,7 @@ class RollingDynamics {
   };
 
   // Builds the strips, or the lines, at `steps` phases; keeps nothing of an earlier range. Of a range lines use the
-  // corner gap alone. beside: of other dynamics that are held at the same time. Throws Error(input) if, with these, the
+  // corner gap alone. beside: of other dynamics in memory at the same time. Throws Error(input) if, with these, the
   // coordinates of all steps need more than 12 GB or gaps of teeth that differ more than 2 GB, Error(numerical) if the
   // residual fields leave more than 1e-3 of a gear's residual flexibility instantaneous.
   void set_zone(const CandidateZone& range, int steps, const ZoneMemory& beside = {});
@@ -184,13 +184,14 @@ class RollingDynamics {
     double damping = 0;       // s-1
     double torque = 0;        // constant force of the torques
     std::vector<double> hub;  // (gear) rad: rotation of its hub per unit
-    double elastic = 0;  // rad2 s-2, of a TranslationalModes: of its frequency squared, what the body holds
+    double elastic =
+        0;  // rad2 s-2, of TranslationalModes: part of its frequency squared that is due to the body
     Vec2 shift = Vec2::Zero();  // m: translation of its gear's hub per unit, in the frame of placed()
     std::vector<std::pair<int, double>> columns;  // body modes and their shares
     int partner = -1;                             // other half of a doublet
     double turn = 0;                              // rad: its turn per mesh period (0 if single)
   };
-  // Coordinates of a gear that stand in the fixed frame: its hub's translations and the modes that couple with them.
+  // Coordinates of a gear in the fixed frame: its hub's translations and the modes that couple with them.
   struct TranslationalModes {
     int first = 0, count = 0;
     double tooth_angle = 0;  // rad

@@ -28,7 +28,7 @@ struct FixedPhaseMesh {
   Eigen::VectorXd gap;              // (strip) m
   std::vector<int> first_strip;     // (pair + 1)
   std::vector<int>
-      zone_end;  // strips at an end of their candidate zone that is no tip edge: no force may stand there
+      zone_end;  // strips at an end of their candidate zone that is no tip edge: no force is allowed there
   double next_corner_gap = std::numeric_limits<double>::infinity();  // m, see MeshPosition
   double lost_corner_gap = std::numeric_limits<double>::infinity();  // m
   double relaxation = 0;  // s; 0: the residual flexibility is instantaneous

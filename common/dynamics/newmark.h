@@ -11,8 +11,8 @@ struct Propagator {
   double a11, a12, a21, a22;
   double bq, bv;
 
-  // What half of a new force takes off q and v by the end of the next step, that force held on it: of this one as bq and bv, bv
-  // being a12.
+  // Change of q and v at the end of the next step per half unit of a new force that is kept constant: push_z = a11 bq + a12^2 + bq,
+  // push_v = a21 bq + a22 a12 + a12. At the end of this step the changes are bq and bv = a12.
   double push_z() const { return a11 * bq + a12 * a12 + bq; }
   double push_v() const { return a21 * bq + a22 * a12 + a12; }
 };

@@ -56,7 +56,7 @@ class AndersonAcceleration {
 };
 
 // Integrates from `state` until it repeats to `periodicity` (relative, RollingDynamics::distance) over a hunting period, which
-// is a mesh period for teeth that are alike; `state` then stands at the start of a mesh period on the orbit. method integrate:
+// is a mesh period for teeth that are alike; `state` is then at the start of a mesh period on the orbit. method integrate:
 // plain integration, as a rig would. extrapolate: once the motion is close, Anderson acceleration of the map that a period is
 // takes its slow multipliers out. It is used only where these lie inside the unit circle, and a state that they propose counts
 // only if integrating on comes closer still: an unstable orbit is left again. Of teeth that are alike a motion whose RMS leaves

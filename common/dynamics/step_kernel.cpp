@@ -251,8 +251,8 @@ struct StepKernel::StripContact {
   static constexpr int kRows = kShapeRows;
   explicit StripContact(StepKernel& of) : kernel(of), coordinates(of.coordinates_), fields(of.fields()) {}
 
-  // All that can be known of a position before its modes are: its relaxed loads, and a start; and which rows of the modes to
-  // read. No tooth but the live ones has any lag.
+  // Computes what does not depend on the modes: relaxed loads and the initial guess; selects the rows of the modes to read.
+  // Relaxed loads are zero outside the live teeth.
   void read_ahead(const Frame& frame, Step&, ModalReading& modal) {
     follow(frame, kernel.vectors_.relaxed.data());
     const double* rows = kernel.stream_.data() + frame.shape;
@@ -289,7 +289,7 @@ struct StepKernel::StripContact {
     Lanes total{};
     for (int k = 0; k < of_pair; k += kLanes) total += lanes(own + k);
     force = sum(total);
-    return Contact::held;
+    return Contact::solved;
   }
 
   // After `carried` of all pairs, force: (pair) N. Fills the loads of the pairs that have force; `share` of it goes to the
@@ -405,7 +405,7 @@ struct StepKernel::LineContact {
   Contact carried(const Frame& frame, int j, double& force) const {
     force = kernel.p_[j];
     return force <= kernel.stream_[frame.line + static_cast<size_t>(j * record.size() + LineRecord::kMost)]
-               ? Contact::held
+               ? Contact::solved
                : Contact::beyond_law;
   }
 
@@ -496,7 +496,7 @@ StepKernel::End StepKernel::finish_with(Model model, int sample, int next) {
                                   : model.solve(frame, steps_[sample], reading_);
   for (int j = 0; j < frame.present; ++j) {
     const Contact contact = model.carried(frame, j, end.carried[j]);
-    if (contact != Contact::held) end.contact = contact;
+    if (contact != Contact::solved) end.contact = contact;
     if (contact == Contact::zone_end) return end;
     if (end.carried[j] != 0) live_.add(frame.pair[j].slot);
   }

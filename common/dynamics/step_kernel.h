@@ -11,7 +11,7 @@
 // With friction forces act on modes through L = h + mu s T in place of h (T of a pair's force as a whole, gear/friction.h), and
 // gaps are still read through h: A + h (bq / 2) (L - h)^T is not symmetric. Such a step is solved by solve_with_friction().
 // W: (strip, node) interpolation; V: (node, field) of a pair; C: coupling of the fields of two teeth of a gear; lines have a
-// node per pair and W = 1. step_kernel_reference.h has the same equations in plain matrices; tests/dynamics/test_step_kernel.cpp
+// node per pair and W = 1. tests/step_kernel_reference.h has the same equations in plain matrices; tests/dynamics/test_step_kernel.cpp
 // compares them.
 //
 // Layout: positions one after the other in one stream, rows and columns of whole lanes (contact/lanes.h), four coordinates in
@@ -95,7 +95,7 @@ class StepKernel {
   using ShapeBasis = Eigen::Matrix<double, kZoneNodes, kShapeRows>;
   static const ShapeBasis& shape_basis();
 
-  // What a step looks up of its position, side by side. Places in the stream, where columns of nodes stand 8 a pair and rows of
+  // What a step looks up of its position, side by side. Places in the stream, where columns of nodes are 8 a pair and rows of
   // coordinates have whole lanes.
   struct Frame {
     struct Pair {
@@ -139,9 +139,9 @@ class StepKernel {
     Eigen::VectorXd relaxed, load;  // (field of all teeth of all sides) N
   };
   // How a step ended. After zone_end, force on a candidate zone's end that is no tip edge, the state means nothing.
-  enum class Contact { held, zone_end, beyond_law };
+  enum class Contact { solved, zone_end, beyond_law };
   struct End {
-    Contact contact = Contact::held;
+    Contact contact = Contact::solved;
     Certificate certificate;
     double error = 0;                 // m: transmission error
     double carried[kMostPairs] = {};  // (pair) N
@@ -194,7 +194,7 @@ class StepKernel {
 
  private:
   // Coefficients of four coordinates in turn, so that a step runs down one array: what it takes them on with, and what they
-  // count for. Those from bq on are of hubs and of the ends of periods, and stand apart.
+  // count for. Those from bq on are of hubs and of the ends of periods, and are kept apart.
   struct Coefficients {
     // bv is a12 in either propagator. push_z, push_v: what half a new force takes off z and v by the end of the next step.
     enum Of { a11, a12, a21, a22, push_z, push_v, kOften, bq = kOften, torque, weight, kCount };
@@ -220,7 +220,7 @@ class StepKernel {
     int first = 0, last = 0;
     void add(int slot);
   };
-  // Contact forces on the modes: h^T n as a sum over pairs, of each some rows of coordinates that stand side by side. Factors
+  // Contact forces on the modes: h^T n as a sum over pairs, of each some rows of coordinates side by side. Factors
   // are halved: the mean force over a step is that of the torques less half of what comes new at its end, and half of what
   // went before.
   struct ModalLoad {
@@ -238,13 +238,13 @@ class StepKernel {
     const double* rows[kMostPairs];
     double moved[kMostPairs][kShapeRows];
   };
-  // Where the numbers of one line stand, all lengths whole lanes.
+  // Places of the numbers of one line; all lengths are whole lanes.
   struct LineRecord {
     int coordinates, fields;               // of all teeth of a side
     static constexpr int kGap = 0;         // m
     static constexpr int kMost = 1;        // N: beyond it neither Hertz's law nor the flanks hold
     static constexpr int kShape = kLanes;  // (coordinate)
-    // m N-1: (shared field) of a tooth, one side after the other so that live teeth stand together; (other field) of its own
+    // m N-1: (shared field) of a tooth, one side after the other so that live teeth are adjacent; (other field) of its own
     int reading(int side, int tooth) const {
       return kShape + coordinates + (kSides * tooth + side) * kSharedFields;
     }
@@ -295,7 +295,7 @@ class StepKernel {
   double friction_ = 0;  // 1: coefficient
   HubLanes hubs_;
   std::vector<Frame> frames_;
-  std::pmr::vector<double> stream_{&huge_pages()};  // so lanes stand in one cache line
+  std::pmr::vector<double> stream_{&huge_pages()};  // so lanes lie in one cache line
   HugeBlock step_memory_;                           // for as many steps as there are positions
   std::unique_ptr<std::pmr::monotonic_buffer_resource> step_pool_;  // on it
   std::vector<Step> steps_;                                         // in it

@@ -12,7 +12,7 @@
 //     M0 = sum m_b X_b^T X_b + (I / r^2) U^T U + modes + G_b^T X_b,   K0 = sum k_b D_b^T D_b + diag(w^2)
 //   is diagonalised at once; without its null vector, the rigid rotation of the carrier.
 // - All other modes turn with their gear; doublets turn back by a tooth at the end of a mesh period.
-// Coriolis and centrifugal terms are left out: nothing where the carrier stands still, see README.md where it turns.
+// Coriolis and centrifugal terms are left out: they vanish where the carrier does not turn; README.md says how large they are where it turns.
 #pragma once
 #include <Eigen/Core>
 #include <vector>

@@ -116,10 +116,10 @@ class SystemDynamics {
   struct Contact {
     int mesh = 0, slot = 0;         // slot of all
     std::array<int, 2> body{};      // [side]
-    std::array<int, 2> load_at{};   // [side] where its fields stand in all relaxed loads
+    std::array<int, 2> load_at{};   // [side] place of its fields among all relaxed loads
     std::array<double, 2> lever{};  // [side] closing per r theta of its body
     Vec2 normal = Vec2::Zero();     // from the first side's flank to the second's
-    double carrier_lever = 0;       // closing per r theta of the carrier on which one of the bodies stands
+    double carrier_lever = 0;       // closing per r theta of the carrier that carries one of the bodies
     int group = -1;                 // of coordinates, in which a side's body moves; -1: none
   };
   struct Position {

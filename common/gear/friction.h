@@ -1,6 +1,6 @@
 // Coulomb friction between the flanks of a pair, its direction and its size known from the kinematics.
 //
-// Where two flanks touch with the normal force N, the friction force mu s N stands across the normal. With n the normal from
+// Where two flanks touch with the normal force N, the friction force mu s N acts across the normal. With n the normal from
 // the driver's flank to the driven gear's and tau = n turned by 90 degrees counter-clockwise, it acts on the driver along
 // -tau, on the driven gear along tau:
 //   v = (t_1 omega_1 - t_2 omega_2) the driver's flank over the driven gear's along tau,   s = v / sqrt(v^2 + v_0^2),
@@ -32,7 +32,7 @@ PairSliding sliding_of(const GearPair& pair, const PairContact& contact, double 
 // with F_bt = T / r_b1 over the face width b on which the teeth meet in N/mm, v_sum = 2 v_t sin(alpha_w) in m/s and the
 // relative radius of curvature rho in mm, both at the pitch point, eta in mPa s and Ra in micrometres. It is a fit to tests of
 // external gears at pitch-line speeds v_t of about 1 to 50 m/s and with 150 N/mm or more. Beyond, the nearest of these values
-// stands in its place. Source: Schlenk, dissertation, TU Muenchen 1994, as Niemann and Winter, Maschinenelemente 2, give it.
+// replaces it. Source: Schlenk, dissertation, TU Muenchen 1994, as Niemann and Winter, Maschinenelemente 2, give it.
 // Throws Error(input) if torque, speed, viscosity or roughness of Schlenk's formula is not above 0 or the coefficient above 0.3.
 double friction_coefficient(const GearPair& pair, double face_width, const Friction& friction, double torque,
                             double mesh_frequency);

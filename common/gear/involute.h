@@ -24,6 +24,11 @@ namespace whine {
 
 using Vec2 = Eigen::Vector2d;
 
+// m; angle: rad from the x axis.
+inline Vec2 polar_point(double r, double angle) {
+  return {r * std::cos(angle), r * std::sin(angle)};
+}
+
 // inv alpha.
 inline double involute_function(double angle) {
   return std::tan(angle) - angle;

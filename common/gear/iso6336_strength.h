@@ -23,7 +23,7 @@
 
 namespace whine {
 
-// The critical section of a tooth, where the tangent of its fillet stands at 30 degrees to its centre line.
+// The critical section of a tooth, where the tangent of its fillet is at 30 degrees to its centre line.
 struct IsoRoot {
   double thickness = 0;          // m: s_Fn
   double form = 0;               // Y_F

@@ -37,7 +37,7 @@ struct PairContact {
   double tilt = 0;                  // rad
   std::array<double, 2> nominal{};  // rad, nominal roll angles (may lie beyond an edge)
 
-  // At which end of the flanks' common range the edge stands, if corner: 0 at x_max, 1 at x_min.
+  // End of the flanks' common range that is the edge, if corner: 0 at x_max, 1 at x_min.
   int end() const { return undercut ? 1 - tip_gear : tip_gear; }
 };
 
@@ -63,7 +63,7 @@ class GearPair {
   int ring() const { return ring_; }  // which gear is internal; -1: none
   // 1 if the flank of gear g is touched farther from its base circle as the gears move on, -1 if nearer to it.
   int rolls_outwards(int g) const { return along_[static_cast<size_t>(g)]; }
-  // rad: of the flank point of gear g that stands on the line of action `path` (m) from the pitch point.
+  // rad: of the flank point of gear g on the line of action, `path` (m) from the pitch point.
   double nominal_roll(int g, double path) const;
   // m: from the driver's centre towards the pitch point: place of the driven gear's centre. Below 0 where a pinion drives a
   // ring.
@@ -113,7 +113,7 @@ class GearPair {
   // m, >= 0: from the nominal touching point to the edge at an end of the flanks' common range, 0 x_max, where the driver's tip edge
   // or that of a driven flank that is undercut stands, 1 x_min, the other way round; infinity if it ends at a root.
   double edge_distance(const PairContact& contact, int end) const;
-  // Whose edge stands there.
+  // The gear whose edge it is.
   int edge_gear(const PairContact& contact, int end) const;
 
  private:
@@ -132,7 +132,12 @@ class GearPair {
   std::array<double, 2> path_lost_{};
 };
 
-// Where a gear stands: its body frame is turned counter-clockwise by angle, then moved to centre.
+// Components of v along the tangent (cos, -sin) and the normal (sin, cos); tilt: rad.
+inline Vec2 rotated(const Vec2& v, double tilt) {
+  return {v.x() * std::cos(tilt) - v.y() * std::sin(tilt), v.x() * std::sin(tilt) + v.y() * std::cos(tilt)};
+}
+
+// Position of a gear: its body frame is turned counter-clockwise by angle, then moved to centre.
 struct Placement {
   double angle = 0;            // rad
   Vec2 centre = Vec2::Zero();  // m

@@ -36,7 +36,7 @@ struct Change {
 std::vector<Change> remedy(const DrawnGears& gears);
 void change(DrawnGears& gears, const std::vector<Change>& changes);
 
-// The words of an error with the remedy of all checks in place of its own, which stands behind the last "; "; as they are if
+// The words of an error with the remedy of all checks in place of its own, which follows the last "; "; as they are if
 // there is none.
 std::string with_remedy(const std::string& words, const DrawnGears& gears);
 

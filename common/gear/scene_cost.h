@@ -1,4 +1,4 @@
-// What a scene makes expensive, told before it is paid.
+// Cost of a scene's settings, estimated before anything is computed.
 #pragma once
 #include <string>
 #include <vector>

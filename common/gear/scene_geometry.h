@@ -1,4 +1,4 @@
-// Whether a scene's gears can exist and run together, told before minutes of work.
+// Whether a scene's gears can exist and run together, checked before minutes of work.
 #pragma once
 #include <functional>
 #include <string>

@@ -24,7 +24,7 @@ inline constexpr const char* kOneShaft =
 // SystemSceneError at the first of the meshes (names of their gears) that no others join to the first mesh.
 void require_joined(const std::vector<std::array<std::string, 2>>& meshes);
 
-// Bodies stand in the order in which meshes name them, planets as <gear>1, <gear>2, ... in the order of their positions, carriers
+// Bodies are in the order in which meshes name them, planets as <gear>1, <gear>2, ... in the order of their positions, carriers
 // last. Throws SystemSceneError with the section that is wrong: unknown names, gears that do not mesh, planets that cannot be
 // assembled or run into each other, meshes that do not form one train.
 System layout_of(const SystemScene& scene);
@@ -34,7 +34,7 @@ std::vector<std::string> gears_of(const SystemScene& scene, const System& layout
 std::vector<int> sections_of(const std::vector<GearMeshSpec>& meshes, const std::vector<std::string>& gears,
                              const System& layout);
 
-// A line for each two external gears that do not mesh and whose tip circles overlap, and for each that stands through a ring: they run
+// A line for each two external gears that do not mesh and whose tip circles overlap, and for each that reaches through a ring: they run
 // into each other unless they lie side by side. Planets among themselves are left out, which layout_of() checks. design: [body]
 // nullptr: not known, of carriers.
 std::vector<std::string> colliding_gears(const System& layout, const std::vector<const GearDesign*>& design);
@@ -42,15 +42,15 @@ std::vector<std::string> colliding_gears(const System& layout, const std::vector
 // Whether a body is an internal gear: in its meshes both sides turn in one sense, and it has more teeth.
 bool is_ring(const System& system, int body);
 
-// The gear that meshes with planets of a carrier and is held, which stands still in a machine in which the carrier turns; -1: none.
+// The gear that meshes with planets of a carrier and is held: it does not turn in a machine in which the carrier turns; -1: none.
 int held_by_planets(const System& system, int carrier);
 
-// How the members of a train turn in a machine, beside the frame of the layout, in which all axes stand still. Where a carrier is free,
-// the gear that holds its planets stands still and the frame turns; else the frame stands still.
+// How the members of a train turn in a machine, beside the frame of the layout, in which no axis moves. Where a carrier is free,
+// the gear that meshes with its planets is at rest and the frame turns; else the frame is at rest.
 struct TrainSpeeds {
   std::vector<double>
       turns;  // (body) 1: revolutions in a mesh period, counter-clockwise positive; of a planet on its pin
-  std::string at_rest;  // the gear or carrier that stands still; "": none is named, as of gears on the ground
+  std::string at_rest;  // the gear or carrier at rest; "": none is named, as of gears on the ground
 };
 // Throws Error(input) where it does not follow from what is held: a free carrier whose planets mesh with no held gear, or carriers that
 // would have to turn at two speeds.

@@ -2,8 +2,8 @@
 // slope and form of the profile; given, or drawn at random within a class of ISO 1328-1.
 //
 // Teeth are counted counter-clockwise, and a pitch deviation is a place along the reference circle in that direction, on either flank
-// of a tooth. The leading flank looks that way: there a positive one is material that stands, and brings the flank into contact early;
-// on the trailing flank it is material that is missing. Those of profiles are positive where material stands, on either flank. The
+// of a tooth. The leading flank looks that way: there a positive one is excess material and brings the flank into contact early;
+// on the trailing flank it is material that is missing. Those of profiles are positive for excess material, on either flank. The
 // pair of a scene works with its leading flanks, a gear of several meshes with either.
 #pragma once
 #include <Eigen/Core>

@@ -1,7 +1,7 @@
-// How the gears of a system stand and turn: senses of rotation, places, phases of the meshes.
+// Positions and rotations of the gears of a system: senses of rotation, places, phases of the meshes.
 //
 // A gear of z teeth and sense s (1: counter-clockwise) has its tooth 0 at the angle A + s f 2 pi / z, f the phase of the
-// system in mesh periods. A flank that stands at the angle phi from tooth 0 passes the pitch point of a mesh in the direction
+// system in mesh periods. A flank at the angle phi from tooth 0 passes the pitch point of a mesh in the direction
 // beta in each mesh period, first at
 //   f = -s (A + phi - beta) z / (2 pi)   modulo 1,
 // so that the mesh is ahead of the system by the negative of that. Its first side turns towards the second one's flank: both
@@ -26,7 +26,7 @@ int add_driven_gear(System& system, int on, const GearDesign& driver, const std:
                     const GearDesign& gear, double centre_distance, double direction,
                     const Bearing& bearing = {});
 
-// A mesh in which body `on` drives body `to`, both of which stand already. Returns by how many pitches, -1/2 to 1/2, the teeth of `to`
+// A mesh in which body `on` drives body `to`, both of which have places already. Returns by how many pitches, -1/2 to 1/2, the teeth of `to`
 // miss the tooth spaces; 0 to round-off if the train can be assembled. Throws Error(input) if `to` would have to turn in
 // both senses, and what GearPair throws.
 double add_mesh(System& system, int on, const GearDesign& driver, int to, const GearDesign& gear);

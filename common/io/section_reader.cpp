@@ -228,7 +228,10 @@ std::string SectionReader::checked_word(const Key& key, const toml::node& node) 
     std::vector<std::string> choices;
     for (std::string choice; list >> choice;) choices.push_back(choice);
     if (std::find(choices.begin(), choices.end(), word) == choices.end()) {
-      reject(key, node, "must be one of: " + joined(choices));
+      const std::string now = renamed(word);
+      const bool known = std::find(choices.begin(), choices.end(), now) != choices.end();
+      reject(key, node,
+             "must be one of: " + joined(choices) + (known ? "; '" + word + "' is now '" + now + "'" : ""));
     }
   } else if (std::any_of(word.begin(), word.end(), [](unsigned char c) { return c < 32 || c == 127; })) {
     reject(key, node, "must be one line of text");

@@ -93,7 +93,7 @@ class StudyFile {
     for (const auto& [name, node] : table) {
       const std::string word(name.str());
       if (among(word, known)) continue;
-      const std::string near = nearest(word, known);
+      const std::string now = renamed(word), near = among(now, known) ? now : nearest(word, known);
       reject_line(
           name.source().begin.line,
           text("unknown key '", word, "'", section.empty() ? "" : " in " + section,

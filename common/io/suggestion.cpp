@@ -1,6 +1,7 @@
 #include "io/suggestion.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstdlib>
 #include <numeric>
@@ -222,6 +223,16 @@ std::string advice_on_key(const std::string& word, const std::string& section,
   if (key && key->section != section && (near.empty() || anywhere < here))
     return text("; did you mean '", elsewhere, "' of ", section_words(*key), "?");
   return near.empty() ? "" : text("; did you mean '", near, "'?");
+}
+
+std::string renamed(const std::string& word) {
+  constexpr std::array<std::array<const char*, 2>, 4> kRenamed{{{"lagged", "relaxed"},
+                                                                {"march", "integrate"},
+                                                                {"answers", "quantities"},
+                                                                {"refusals", "outside_model"}}};
+  for (const auto& [before, now] : kRenamed)
+    if (word == before) return now;
+  return "";
 }
 
 std::string number_advice(const std::string& word) {

@@ -23,6 +23,9 @@ std::string advice_on_key(const std::string& word, const std::string& section,
 // how its value differs, or why there is no such key.
 const Key* meant_key(const std::string& word, std::string& note);
 
+// The present name of a key or choice that earlier versions called `word`; "" if it was not renamed.
+std::string renamed(const std::string& word);
+
 // Behind "must be a number" of a text in quotes, "; write 2.5 without quotes": "" if it holds no number.
 std::string number_advice(const std::string& word);
 

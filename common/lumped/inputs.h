@@ -1,4 +1,4 @@
-// What a lumped model is made from: statics at its torque and at the reference torque, and the springs that stand for the mesh.
+// What a lumped model is made from: statics at its torque and at the reference torque, and the springs of the mesh.
 #pragma once
 #include <string>
 
@@ -10,7 +10,7 @@ struct LumpedInputs {
   StaticResult at_torque, at_reference;  // equal where the levels are not those of another torque
 };
 
-// Which springs stand for the mesh.
+// Spring models of the mesh.
 struct SpringChoice {
   std::string model;    // "rectangular", "secant", "tangent", "pairs"
   bool stated = false;  // rectangular: with these levels (N m-1) and this share of the second
@@ -19,7 +19,7 @@ struct SpringChoice {
   bool hertz = false;  // pairs: polygons of Hertz's law
 };
 
-// numbers: of the tooth pairs that the springs stand for, filled.
+// numbers: the tooth pair of each spring, filled.
 LumpedParameters springs_of(const LumpedInputs& inputs, const SpringChoice& choice, Eigen::VectorXi& numbers);
 
 }  // namespace whine

@@ -8,8 +8,8 @@
 
 namespace whine {
 
-// The rectangular wave that stands for a mesh stiffness: one level per number of pairs in nominal contact.
-// Levels are read from the curve in the middle of the two zones, switches stand where pairs come and go
+// The rectangular wave that approximates a mesh stiffness: one level per number of pairs in nominal contact.
+// Levels are read from the curve in the middle of the two zones, it switches where pairs enter and leave contact
 // without load.
 struct RectangularWave {
   double low = 0, high = 0;             // N m-1
@@ -40,8 +40,8 @@ LumpedParameters cells_of(const Eigen::VectorXd& values, int cells, const Eigen:
 // in each other's deflection is not in it. numbers: of the pairs, filled.
 //
 // chords 0: springs are linear. Otherwise each pair's force follows Hertz's law of a line contact inside a flank through its
-// static point, as a polygon of that many chords (2 or more), half of them up to the static load and half from it to four
-// times T / r: as many springs for the pair, whose number then stands once for each of them. Error(input) if no pair carries
+// static point, as a polygon of that many chords (2 or more): half of them reach up to the static load, half from it to four
+// times T / r. A pair has one spring per chord, and `numbers` repeats the pair once per chord. Error(input) if no pair carries
 // load, for 1 chord or fewer than 0.
 LumpedParameters cells_of_pairs(const StaticResult& pair, int cells, Eigen::VectorXi& numbers,
                                 int chords = 0);

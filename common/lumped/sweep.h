@@ -71,8 +71,8 @@ struct LumpedOptions {
   Direction direction = Direction::up;
 };
 
-// springs: cells only (lumped/stiffness.h). numbers: of the tooth pairs that they stand for, several of one pair one after the
-// other; one spring that stands for all of them is pair 0. left_early: takes the motions on the way to the ends of branches, if
+// springs: cells only (lumped/stiffness.h). numbers: the tooth pair of each spring, several of one pair one after the
+// other; a spring for the whole mesh is pair 0. left_early: takes the motions on the way to the ends of branches, if
 // given. Fields of a sweep that only elastic bodies have are empty or 0; its inertias are those of equal shares of the mass.
 // Throws Error(input) for values that make no model, Error(numerical) if a motion cannot be followed.
 SweepResult lumped_sweep(const StaticResult& statics, LumpedParameters springs,
@@ -83,7 +83,7 @@ SweepResult lumped_sweep(const StaticResult& statics, LumpedParameters springs,
 // A map of jumps of the same model at the torque of the statics: a case per damping ratio, which is options' own, about the
 // mean stiffness; its speeds and direction are not read. The map's model is that of options, with "-contact" if the damper
 // acts in contact only; mean, first harmonic and frequencies are those of the springs that touch at rest. Loads are those
-// of the whole mesh where one spring stands for it. Throws Error(input) for no case or a ratio outside (0, 1), and as
+// of the whole mesh where it is one spring. Throws Error(input) for no case or a ratio outside (0, 1), and as
 // map_speeds and lumped_sweep.
 JumpMapResult lumped_jump_map(const StaticResult& statics, LumpedParameters springs,
                               const Eigen::VectorXi& numbers, LumpedOptions options, const MapSpeeds& speeds,

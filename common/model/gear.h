@@ -67,14 +67,14 @@ struct Relief {
 struct FlankModification {
   Relief tip, root;
   double crowning = 0;                        // m at both ends of the involute, 0 midway in the roll angle
-  double slope = 0;                           // m at the tip, 0 at the foot; below 0: material stands
+  double slope = 0;                           // m at the tip, 0 at the foot; below 0: excess material
   std::vector<std::array<double, 2>> points;  // rad, m: roll angle, ascending, and what is taken off there
 
   bool operator==(const FlankModification&) const = default;
 };
 
 // What a machine leaves on the driving flanks of a gear, tooth by tooth; signs as an inspection sheet has them, positive where
-// material stands. An empty list is none; parts add up.
+// excess material. An empty list is none; parts add up.
 struct ToothErrors {
   std::vector<double>
       single_pitch;  // (tooth) m along the reference circle: from the flank before to this one

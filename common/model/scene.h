@@ -9,7 +9,7 @@
 
 namespace whine {
 
-// BodyDiscretisation::modes that stands for every mode of the mesh.
+// BodyDiscretisation::modes that means every mode of the grid.
 inline constexpr int kAllModes = -1;
 
 // How the half-plane at the contact joins the finite elements: subtracted from them, or matched at a depth as in P2000.

@@ -11,9 +11,9 @@ namespace whine {
 // A flank of a tooth: the one that leads in counter-clockwise rotation, and its mirror image.
 enum class FlankSide { leading, trailing };
 
-// The gears of a scene together: bodies that turn, meshes that join two of them each, drives. Gears stand in the order of the
+// The gears of a scene together: bodies that turn, meshes that join two of them each, drives. Gears are in the order of the
 // flow of power, so that the first side of a mesh pushes the second one. A planetary train is described in the frame of its
-// carrier, in which the axes of the planets stand still.
+// carrier, in which the axes of the planets are fixed.
 struct System {
   static constexpr int kGround = -1;
   enum class BodyKind { gear, carrier };
@@ -25,7 +25,7 @@ struct System {
     std::array<double, 2> centre{};  // m
     Bearing bearing = {};            // on the ground or, of a planet, on its carrier
     BodyKind kind = BodyKind::gear;
-    int on = kGround;    // carrier on which the axis stands
+    int on = kGround;    // carrier of its axis
     double radius = 0;   // m: base circle of a gear, circle of the pins of a carrier
     double inertia = 0;  // kg m2; of rigid bodies only
   };

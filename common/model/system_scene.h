@@ -1,4 +1,4 @@
-// What a scene of several meshes says, in SI: gears, carriers, meshes, drives. Which body stands where follows from it
+// What a scene of several meshes says, in SI: gears, carriers, meshes, drives. Positions of the bodies follow from it
 // (gear/system_layout.h).
 #pragma once
 #include <string>
@@ -14,7 +14,7 @@ struct SystemScene {
     double equivalent_mass = 0;  // kg: I / r_b^2, in place of total_inertia; 0: not given
   };
   struct Carrier {
-    std::string name, planet;       // planet: the gear that stands at each position
+    std::string name, planet;       // planet: the gear at each position
     int planets = 0;                // at equal spacing; 0: at `positions`
     std::vector<double> positions;  // (planet) rad, counter-clockwise from +x
     // kg m2: I, of the carrier about its axis. Planets on elastic pins are not included, each has its own mass. Planets on rigid pins
@@ -24,7 +24,7 @@ struct SystemScene {
     Bearing bearing = {};
   };
   struct Mesh {
-    GearMeshSpec spec;  // a planet's stands for those of all planets
+    GearMeshSpec spec;  // that of one planet is for all planets
     double direction =
         0;  // rad, counter-clockwise from +x: to the pitch point; of planets their positions say it
     double stiffness = 0;  // N m-1 along the line of action, mean; of rigid bodies

@@ -12,7 +12,7 @@ namespace whine {
 struct SystemStaticParameters {
   System layout;                   // with its carriers
   std::vector<std::string> gear;   // [body] the [gear.<name>] that it is; "" of a carrier
-  std::vector<GearMeshSpec> mesh;  // [[mesh]] of the scene: a planet's stands for those of all planets
+  std::vector<GearMeshSpec> mesh;  // [[mesh]] of the scene: that of one planet is for all planets
   std::vector<int> section;        // [mesh of the layout] its number in `mesh`
   Fidelity fidelity;
   ContactDiscretisation contact;

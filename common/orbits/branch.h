@@ -1,7 +1,7 @@
 // Branches of periodic orbits over a parameter: pseudo-arclength continuation, and what happens on the way.
 //
 // Unknowns u = (y, parameter / scale) with P^m(y) = y; the parameter is positive. From a point the branch is predicted along
-// its unit tangent t and corrected by Newton's method in the plane across t, so that it turns at folds without being told
+// its unit tangent t and corrected by Newton's method in the plane across t, so that it passes folds without special treatment
 // (Keller 1977; Allgower and Georg, Introduction to Numerical Continuation Methods, 2003, chapters 6 and 10). The step follows
 // the number of corrections and the angle between tangents.
 //
@@ -10,7 +10,7 @@
 // although no multiplier passes through 1.
 //
 // Located between two points, each by a search along the arc:
-//   fold      the parameter turns: at a smooth one a multiplier is 1; at a kink, multipliers of both sides are told
+//   fold      the parameter turns: at a smooth one a multiplier is 1; at a kink, the multipliers of both sides are given
 //   flip      a real multiplier passes -1 (period doubling)
 //   torus     the modulus of a complex pair passes 1 (Neimark and Sacker)
 //   crossing  a real multiplier passes 1 where the parameter does not turn: another branch crosses
@@ -45,7 +45,7 @@ struct SpecialPoint {
   Eigen::VectorXd start;
   bool smooth = true;  // false: at a kink of the map
   // Of the parameter: of the interval in which it lies; 0 for grazing. At a kink that in which a smooth map through the same two
-  // points would have it: where the kinks stand follows from time steps and strips.
+  // points would have it: the places of kinks depend on time steps and strips.
   double width = 0;
   // The multiplier that makes it what it is, on either side; not of grazing.
   std::complex<double> before, after;

@@ -3,7 +3,7 @@
 // A fold is where the parameter component of the unit tangent, the turn, changes its sign. Near one the turn is linear in the
 // arc: a secant method brackets the fold, regula falsi and halvings narrow the bracket, also where a piecewise affine map turns at
 // a kink. The parameter is extremal there, and an error of the arc goes into it by its square, at a kink times the turn. From one
-// value of the second parameter to the next orbits are predicted along the secant. Two folds that meet in a cusp at value c stand
+// value of the second parameter to the next orbits are predicted along the secant. Two folds that meet in a cusp at value c are
 // apart by an arc that goes as the square root of c - value (Kuznetsov, Elements of Applied Bifurcation Theory, 2004, chapter 9).
 #pragma once
 #include <functional>

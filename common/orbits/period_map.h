@@ -38,9 +38,8 @@ class PeriodMap {
   virtual std::vector<ContactEvent> events() const = 0;
   // Of the period applied last: (sample) the observable of the model, m of transmission error. Samples are evenly spaced.
   virtual Eigen::VectorXd observable() const = 0;
-  // (quantity) what the model is asked for beside the observable, of the period applied last and those of the orbit before it, as
-  // a largest value and where it stands; empty: nothing. It is period `number`, from 0, of the `periods` after which an orbit
-  // repeats, which are asked for in their order: the last answer is of all.
+  // (quantity) maxima that the caller asked for beside the observable, with their positions, over the periods 0..number of the orbit
+  // that repeats after `periods`; empty: none. To be called for number = 0, 1, ... in this order; the last result covers all periods.
   virtual Eigen::VectorXd peaks([[maybe_unused]] int number, [[maybe_unused]] int periods) { return {}; }
 };
 

@@ -40,7 +40,7 @@ class Recurrence {
     if (n >= kWatched) history_.push_back(change_);
     if (static_cast<int>(history_.size()) > kWatched) history_.pop_front();
   }
-  int known() const { return known_; }               // orders that can be told
+  int known() const { return known_; }               // orders that are known
   double change(int m) const { return change_[m]; }  // over m periods; infinite: not known
   bool repeats(int m) const { return change_[m] < periodicity_; }
   // Over m periods the state is not that of before, by more than a subharmonic's states may be alike.

@@ -20,7 +20,7 @@ inline bool relieves(Relieved relieved, int g) {
 }
 
 // harris_map.h5: transmission error of a pair at rest, or its motion at the worst speed, against torque and tip relief. What
-// else is taken off the flanks stands in `mesh`, whose tip reliefs are 0.
+// else is taken off the flanks is in `mesh`, whose tip reliefs are 0.
 struct HarrisMapResult : MotionParameters {
   Relieved relieved = Relieved::both;
   ReliefShape shape = ReliefShape::linear;

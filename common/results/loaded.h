@@ -10,7 +10,7 @@
 namespace whine {
 
 // loaded_<phase>.h5: both gears at rest in one mesh position, loaded and deformed, with the pressure of their contact. Gears
-// stand in their places: the driver's centre at the origin, the driven gear's above it. Strips are numbered pair after pair;
+// are in their places: the driver's centre at the origin, the driven gear's above it. Strips are numbered pair after pair;
 // teeth count counter-clockwise on both gears.
 struct LoadedResult : GearPairParameters {
   double torque = 0;              // N m on the driver

@@ -21,8 +21,8 @@ struct SectorGrid {
                         // counter-clockwise edge
   Eigen::VectorXi flank_node;  // nodes of the driving flank, root to tip, of an internal gear tip to root
   Eigen::VectorXd flank_roll_angle;  // rad, of flank_node
-  // None, or the sector of the cracked tooth, with the same node sets and sector edges. Nodes on the slit stand twice in
-  // it, but for the tip; triangles are elements whose first corner stands also as fourth.
+  // None, or the sector of the cracked tooth, with the same node sets and sector edges. Nodes on the slit occur twice in
+  // it, but for the tip; triangles are elements whose fourth corner is the first.
   std::vector<SectorGrid> cracked_tooth;
   MatrixRMi slit_node;  // (pair, 2) in the cracked tooth's sector: the same point on the slit's two faces
 };

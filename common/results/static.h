@@ -22,7 +22,7 @@ struct StaticResult : GearPairParameters {
   Eigen::VectorXd stiffness_secant, stiffness_tangent;
   Eigen::VectorXi pair;  // (pair)
   MatrixRM tooth_load;   // (phase, pair) N
-  // [gear] (phase, xy) N: what a gear presses its bearing with; empty for a rigid one. The driver's centre stands at the
+  // [gear] (phase, xy) N: what a gear presses its bearing with; empty for a rigid one. The driver's centre is at the
   // origin, the driven gear's above it, the driver turns counter-clockwise.
   std::array<MatrixRM, 2> bearing_force;
   // (phase, pair) Pa, m: of contacts that stay inside the flank, 0 elsewhere
@@ -54,7 +54,7 @@ struct StaticResult : GearPairParameters {
   double least_force = 0;        // N, of strips with force
   double torque_residual = 0;    // relative, |sum a p - T| / T
   double friction_coupling = 0;  // m, by how much gaps are off for what friction of the last forces moves
-  double backlash_margin = 0;    // m left on the line of action; infinite backlash is not stored (see flag)
+  double backlash_margin = 0;    // m left on the line of action; infinite backlash is not stored
 };
 
 }  // namespace whine

@@ -79,7 +79,7 @@ struct SweepResult : MotionParameters {
   Eigen::VectorXd energy_imbalance;  // (speed) relative to the input energy of the stored periods
   MatrixRM energy;                   // (speed, line of kEnergyLines) J over the stored periods
   FrictionLosses friction;
-  // (speed) J over the stored periods: work of the prescribed rolling against friction, and all that friction takes; they stand
+  // (speed) J over the stored periods: work of the prescribed rolling against friction, and all that friction takes; they are kept
   // beside the works and the dampers of `energy`. Empty without friction.
   Eigen::VectorXd friction_rolling, friction_work;
   double friction_coupling = 0;  // m, by how much gaps are off for what friction of the last forces moves
@@ -90,7 +90,7 @@ struct SweepResult : MotionParameters {
   double least_gap = 0;        // m, of strips without force
   double least_force = 0;      // N, of strips with force
   int fallbacks = 0;           // contact solutions that needed Lawson and Hanson's method
-  double backlash_margin = 0;  // m left on the line of action; infinite backlash is not stored (see flag)
+  double backlash_margin = 0;  // m left on the line of action; infinite backlash is not stored
 };
 
 }  // namespace whine

@@ -11,7 +11,7 @@
 namespace whine {
 
 // What a body's rotation and hub, a mesh, a pair of teeth and a bearing do at each phase. Frame: that of the carriers, which
-// stand still.
+// do not turn in it.
 struct SystemStaticResult {
   SystemStaticParameters
       settings;  // inertias and masses of the layout that the scene leaves out are those of the bodies

@@ -103,23 +103,23 @@ double sustained_load(const Eigen::Ref<const MatrixRM>& load, int samples, int m
   const Eigen::Index window = sustained_samples(samples);
   const Eigen::Index rows =
       multiple > 0 ? std::min(load.rows(), static_cast<Eigen::Index>(multiple) * samples) : load.rows();
-  double held = 0;
+  double sustained = 0;
   for (Eigen::Index pair = 0; pair < load.cols(); ++pair)
     for (Eigen::Index i = 0; i + (multiple > 0 ? 1 : window) <= rows; ++i)
-      held = std::max(held, least_from(load.col(pair), i, window, rows));
-  return held;
+      sustained = std::max(sustained, least_from(load.col(pair), i, window, rows));
+  return sustained;
 }
 
 Eigen::Index sustained_row(const Eigen::Ref<const VectorXd>& load, int samples, int multiple) {
   const Eigen::Index window = sustained_samples(samples);
   const Eigen::Index rows =
       multiple > 0 ? std::min(load.size(), static_cast<Eigen::Index>(multiple) * samples) : load.size();
-  double held = -1;
+  double sustained = -1;
   Eigen::Index row = 0;
   for (Eigen::Index i = 0; i + (multiple > 0 ? 1 : window) <= rows; ++i) {
     const double least = least_from(load, i, window, rows);
-    if (!(least > held)) continue;
-    held = least;
+    if (!(least > sustained)) continue;
+    sustained = least;
     row = i;
     for (Eigen::Index n = 1; n < window; ++n)
       if (const Eigen::Index other = (i + n) % rows; load[other] > load[row]) row = other;
@@ -177,15 +177,15 @@ void add_case(JumpMapResult& map, Eigen::Index c, double step,
     std::vector<BranchPoint> beyond;
     const SweepResult swept = sweep(d == 0 ? Direction::up : Direction::down, beyond);
     const ResponseResult r = response(swept);
-    VectorXd held(speed.size());
+    VectorXd sustained(speed.size());
     for (Eigen::Index i = 0; i < speed.size(); ++i)
-      held[i] = sustained_load(swept.tooth_load[i], swept.time.steps_per_period);
+      sustained[i] = sustained_load(swept.tooth_load[i], swept.time.steps_per_period);
     const auto ascending = [&](const VectorXd& row) { return d == 0 ? row : VectorXd(row.reverse()); };
     map.dte_rms[d].row(c) = ascending(r.dte_rms).transpose();
     map.tooth_load_max[d].row(c) = ascending(r.tooth_load_max).transpose();
     map.separation_fraction[d].row(c) = ascending(r.separation_fraction).transpose();
     map.peak_tooth_load(c, d) = r.tooth_load_max.maxCoeff();
-    map.sustained_tooth_load(c, d) = held.maxCoeff();
+    map.sustained_tooth_load(c, d) = sustained.maxCoeff();
     for (Eigen::Index i = 0; i < speed.size(); ++i)
       if (map.separation_fraction[d](c, i) > 0) note_loss(speed[i]);
     for (const BranchPoint& point : beyond) {
@@ -199,7 +199,7 @@ void add_case(JumpMapResult& map, Eigen::Index c, double step,
       (speed.array() - map.load_frequency).abs().minCoeff(&row);
       map.tooth_load(c, d) = map.tooth_load_max[d](c, row);
       map.dte_rms_there(c, d) = map.dte_rms[d](c, row);
-      map.sustained_load_there(c, d) = ascending(held)[row];
+      map.sustained_load_there(c, d) = ascending(sustained)[row];
       if (const auto found = between(beyond, map.load_frequency)) {
         map.tooth_load(c, d) = found->tooth_load_max;
         map.sustained_load_there(c, d) = found->sustained_load;

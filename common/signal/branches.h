@@ -19,17 +19,20 @@ struct BranchPoint {
   bool parted = false;        // contact is lost during the period
 };
 
-// Largest load (N) that one pair carries through 1/64 of a mesh period without a break: the least of ceil(samples / 64) + 1
-// samples in a row, which span 1/64 or, where 64 does not divide `samples`, up to one sample more. load: (sample, pair), whole
+// Sustained, here and in all results: what lasts for 1/64 of a mesh period without a break.
+inline constexpr int kSustainedParts = 64;
+
+// Largest sustained load (N) of one tooth pair: the least of ceil(samples / 64) + 1 samples in a row, which span 1/64 or, where 64
+// does not divide `samples`, up to one sample more. load: (sample, pair), whole
 // periods of `samples`. multiple: periods after which the motion repeats; only these count, and their end is followed by their
 // begin; not for loads of pairs, which go on in another column there. 0: it does not repeat.
 double sustained_load(const Eigen::Ref<const MatrixRM>& load, int samples, int multiple = 0);
-// (row) 0 up to the rows that count: where sustained_load() of one column is held, the row of its largest sample; the first of equals.
+// (row) 0 up to the rows that count: where sustained_load() of one column occurs, the row of its largest sample; the first of equals.
 Eigen::Index sustained_row(const Eigen::Ref<const Eigen::VectorXd>& load, int samples, int multiple = 0);
 
 // Samples in a row that it looks at.
 constexpr int sustained_samples(int samples) {
-  return (samples + 63) / 64 + 1;
+  return (samples + kSustainedParts - 1) / kSustainedParts + 1;
 }
 
 struct MapSpeeds {

@@ -1,7 +1,7 @@
 // Where a branch of periodic motions ends as the speed goes on.
 //
-// On a branch the RMS goes on as the speeds before lead one to expect; where a branch ends it steps, and the step stays when that of
-// the speed goes to zero. However small a jump is, it is told so from a steep flank, which only finer speeds can do.
+// The RMS is continuous along a branch. A jump is a discontinuity that persists as the frequency step tends to zero. A small jump and a
+// steep flank look alike at coarse speeds; smaller steps distinguish them.
 #pragma once
 #include <functional>
 #include <optional>

@@ -7,7 +7,7 @@
 // This is order tracking by resampling to even angles, without the interpolation: the transform over the angle is an integral,
 // taken over the samples where they are (time variant discrete Fourier transform; Blough et al., SAE 971878 (1997)). Record and
 // order below half the rate make its integrand smooth, and the sum exact but for the window's side lobes at the rate, 1e-6
-// of what stands beside the order in a window of 150 samples. Other whole orders of constant amplitude are zero exactly.
+// of neighbouring content in a window of 150 samples. Other whole orders of constant amplitude are zero exactly.
 // An amplitude that varies is averaged by the window: A + A'' <u^2> / 2 = A + 0.0163 width^2 A'' in mesh periods,
 // <u^2> = (1/12 - 1/(2 pi^2)) width^2 of the Hann window.
 #pragma once

@@ -19,7 +19,7 @@ struct Harmonics {
   Eigen::VectorXd amplitude;  // (harmonic 1..count) one-sided: a cos(2 pi k t + phase) has amplitude a
 };
 
-// samples: (sample) over `periods` whole base periods; harmonic k stands k * periods bins from the mean.
+// samples: (sample) over `periods` whole base periods; harmonic k is k * periods bins from the mean.
 // Throws Error(input) for fewer than 2 samples, values that are not finite, periods < 1, count < 0, or a
 // harmonic that the samples do not resolve (count * periods must stay below half the number of samples).
 Harmonics harmonics(const Eigen::Ref<const Eigen::VectorXd>& samples, int count, int periods = 1);

@@ -20,7 +20,7 @@
 
 namespace whine {
 
-// Triangles around a slit, as elements of 4 or 9 nodes whose first corner stands also as fourth.
+// Triangles around a slit, as elements of 4 or 9 nodes whose fourth corner is the first.
 struct SlitPatch {
   // (node, 2) m: the polygon's corners in their order, the middles of its sides if there are any, new ones
   MatrixRM node_position;

@@ -38,7 +38,7 @@ struct GaussRule {
 };
 GaussRule gauss_rule(int points);
 
-// Where node k of the element stands in the reference square: -1, 0 or 1 along each side.
+// Place of node k of the element in the reference square: -1, 0 or 1 along each side.
 Eigen::Vector2d reference_node(int k);
 
 // Strain (xx, yy, engineering xy) 1 at a point of the reference square; nodes and their displacements: (4 or 9, 2) m.

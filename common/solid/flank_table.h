@@ -1,4 +1,4 @@
-// Where the flank tables stand on the flank, and how they are interpolated.
+// Points of the flank tables on the flank, and their interpolation.
 //
 // Table points are Chebyshev points of the first kind in zeta = ln(1 + delta / delta0), delta = arc length
 // along the flank from the tip edge, delta0 = module / 60. Near the corner the elastic field of a wedge

@@ -16,7 +16,7 @@
 //
 // Or by matching at a depth d, as Parker, Vijayakar and Imajo (J. Sound Vib. 237 (2000) 435) do: the finite
 // elements carry the force itself, as consistent nodal forces on the flank, and are read at the point d below
-// s_i; the half-plane gives what lies between that point and the surface. Load and reading stand at different
+// s_i; the half-plane gives what lies between that point and the surface. Load and reading are at different
 // places, so the table is not symmetric, and both the spread of the nodal load, (element / d)^2, and the finite
 // body, d / tooth, leave their errors in it.
 #pragma once

@@ -17,7 +17,7 @@
 
 namespace whine {
 
-// Points on a root from the flank to the middle of the space, as many on the other side of the tooth. They stand evenly in the
+// Points on a root from the flank to the middle of the space, as many on the other side of the tooth. They are spaced evenly in the
 // mean of arc length and turn of the tangent, each over its whole, so that a sharp fillet has enough of them.
 constexpr int kRootPoints = 24;
 
@@ -27,7 +27,7 @@ struct RootPoints {
   Eigen::VectorXd
       angle;  // (root) rad: of the tangent against the centre line of the tooth; grows from the flank on
   double length = 0;  // m: of the whole root curve
-  // 0 to 1: the mean of arc length and turn at the arc length s (m); points stand at (k + 0.5) / points.
+  // 0 to 1: the mean of arc length and turn at the arc length s (m); points are at (k + 0.5) / points.
   double place(double s) const;
   std::vector<double> lengths, places;  // m, 1: of the root curve in small steps
 };

@@ -1,4 +1,4 @@
-// Cyclic symmetry: one sector stands for a gear of N equal teeth.
+// Cyclic symmetry: a gear of N equal teeth by one sector.
 //
 // Displacements are written as a sum over harmonics n of u_j = exp(i theta_n j) u_0, theta_n = 2 pi n / N,
 // tooth j counted counter-clockwise, vectors turned with their tooth. A sector then obeys u_high = exp(i

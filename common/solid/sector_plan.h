@@ -4,7 +4,7 @@
 
 namespace whine {
 
-// Sizes and corner points of the six blocks of the half sector x <= 0. Of an internal gear they stand the other way round: the
+// Sizes and corner points of the six blocks of the half sector x <= 0. Of an internal gear they are the other way round: the
 // tips inside, the rim, which takes the place of the bore, outside.
 struct SectorPlan {
   double tip_size, tip_ratio;  // m, 1: along the flank from the corner

@@ -20,7 +20,7 @@ inline constexpr int kMostSegments = 64;    // of a branch
 // Of the frequency: least width of folds, period doublings and tori of a map with time steps. Half the step moves them by up to 0.3 %
 // (README of orbits), of which nothing shows at the point itself.
 inline constexpr double kStepError = 3e-3;
-// That a branch ends because it has as many, or because no orbit is found beyond a change of steps: a fold may stand in between.
+// That a branch ends because it has as many, or because no orbit is found beyond a change of steps: a fold may lie in between.
 void note_most_segments(OrbitBranch& branch);
 void note_steps_change(OrbitBranch& branch, const std::string& failure);
 

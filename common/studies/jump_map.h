@@ -21,15 +21,17 @@ struct JumpMapPlan : MapSpeeds {
   std::vector<double> rayleigh_stiffness, damping_ratio;
 };
 
-// statics: mesh with its corner rule, contact; both it and settings say which contact. torque: N m. settings: as
-// read_map_parameters gives it; its reference torque sets the bearing dampers, with the corner rule of the map. The natural
-// frequency of the default speeds is that of the mean stiffness between rigid gears. report(done, total, note) is called after
-// each sweep. Peak loads, loads at load_frequency and contact loss count what a branch does beyond the speed at
-// which the sweep left it; between such motions loads at load_frequency are interpolated. Ends of branches are the
-// jumps of the sweeps, as sweep() finds them; where the motions differ without a jump, the last speeds at which they
-// do. Throws Error(input) for no case, a factor or ratio that is not positive, a ratio that bearings and
-// mass-proportional damping exceed or no factor gives, an empty range of speeds or one without load_frequency, a pair
-// that is never in contact with two pairs; other errors as static_transmission, fixed_phase_states and sweep.
+// statics: mesh with its corner rule, and contact, which is also that of settings.
+// torque: N m.
+// settings: as read_map_parameters gives it; its reference torque sets the bearing dampers, with the corner rule of the map.
+// plan: default speeds follow from the natural frequency of the mean stiffness between rigid gears.
+// report(done, total, note): called after each sweep.
+// Result: ends of branches are the jumps that sweep() finds; where motions differ without a jump, the last speeds at which they do.
+//   Peak loads, loads at load_frequency and contact loss include the motions of a branch beyond the speed at which the sweep left
+//   it; loads at load_frequency are interpolated between these.
+// Throws Error(input) for no case, a factor or ratio that is not positive, a ratio that bearings and mass-proportional damping exceed or
+// no factor gives, an empty range of speeds or one without load_frequency, a pair that never has two tooth pairs in contact; other
+// errors as static_transmission, fixed_phase_states and sweep.
 JumpMapResult jump_map(const ReducedBody& driver, const ReducedBody& driven, const StaticParameters& statics,
                        double torque, const SweepParameters& settings, const JumpMapPlan& plan,
                        const std::function<void(long, long, const std::string&)>& report);

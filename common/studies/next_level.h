@@ -10,7 +10,7 @@
 
 namespace whine {
 
-// A sweep one model level up in one key of [fidelity], as sweep() wants it.
+// A sweep one model level up in one key of [fidelity], as sweep() takes it.
 struct NextSweep {
   std::string key, from, to;  // key "contact" or "body"; its model levels
   std::array<ReducedBody, kSides> body;

@@ -4,7 +4,7 @@
 // folds, until it leaves the speeds of the scene or ends; or with the motion of a sweep at a speed, from which it is followed both
 // ways. Beyond period doublings branches of orbits of twice the periods are followed, if asked for. Steps per period change with
 // the speed, as in a sweep (min_sample_rate_kHz): there the orbit is found anew with the other number of steps, and its change
-// is measured. Where an orbit wants a wider candidate contact zone it is found anew with that, as in a sweep; zones only grow.
+// is measured. Where an orbit needs a wider candidate contact zone it is computed again with that, as in a sweep; zones only grow.
 #pragma once
 #include <functional>
 #include <optional>

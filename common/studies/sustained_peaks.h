@@ -17,7 +17,7 @@ class SustainedPeaks {
   SustainedPeaks(const GearMeshModel& model, int steps);
   bool root_stress() const { return roots_.known(); }
   // (2, or kRows with root stress) N, N, Pa, Pa: mesh force, load of one pair, root stress of driver and driven gear; then where
-  // either root stress stands, as in a sweep: rad, angles of the roots' tangents; 1, mesh phases of the teeth's pairs. In mesh
+  // either root stress occurs, as in a sweep: rad, angles of the roots' tangents; 1, mesh phases of the teeth's pairs. In mesh
   // period `number`, from 0, of a motion that repeats after `periods`, or never: kNever. Periods are given in their order: what is held
   // across the start of one counts with it, and across the end of the last with that. The load of one pair is not followed there.
   static constexpr int kNever = 0, kRows = 2 + 3 * kSides;

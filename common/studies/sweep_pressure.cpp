@@ -28,12 +28,12 @@ struct Place {
 
 // N: largest over the mesh periods that are stored of the least load at the samples of a place.
 double sustained_at(const Place& place, const MatrixRM& load, int steps) {
-  double held = 0;
+  double sustained = 0;
   for (Index period = 0; period * steps < load.rows(); ++period)
-    held = std::max(
-        held,
+    sustained = std::max(
+        sustained,
         load.col(place.column).segment(period * steps + place.first, place.last - place.first).minCoeff());
-  return held;
+  return sustained;
 }
 
 // Material and faces of the pair as Hertz's law has them, and where its contacts end.

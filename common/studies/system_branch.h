@@ -3,7 +3,7 @@
 // It begins with the orbit into which the system settles at the highest speed and is followed towards lower ones, round its folds,
 // until it leaves the speeds of the scene or ends: pseudo-arclength continuation (orbits/branch.h) of the period map of
 // dynamics/system_period_map.h. Steps per period change with the speed, as in a sweep: there the orbit is found anew with the other
-// number of steps, and its change is measured. Where an orbit wants tip edges that are farther off, it is found anew with those.
+// number of steps, and its change is measured. Where an orbit needs tip edges that are farther off, it is computed again with those.
 #pragma once
 #include <functional>
 #include <string>

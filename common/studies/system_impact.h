@@ -2,7 +2,7 @@
 //
 // The gears stay at the phase, in static equilibrium. An impulse along a natural mode of the frozen contact gives it a velocity, and
 // the coordinate of the mode decays; the time steps are those of a sweep, with contact solved at each, but nothing rolls.
-// Damped exponentials are fitted to the decay. Beside them stand the eigenvalues of the frozen contact, and the natural
+// Damped exponentials are fitted to the decay. The result also holds the eigenvalues of the frozen contact, and the natural
 // frequencies of rigid gears on the mean stiffnesses of the meshes.
 #pragma once
 #include <Eigen/Core>

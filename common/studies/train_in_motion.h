@@ -1,4 +1,4 @@
-// A system of elastic gears made ready for motion: statics for the mean stiffnesses, and tip edges as far as motions want them.
+// A system of elastic gears made ready for motion: statics for the mean stiffnesses, and tip edges as far as motions need them.
 #pragma once
 #include <Eigen/Core>
 #include <memory>

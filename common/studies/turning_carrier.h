@@ -6,11 +6,10 @@
 
 namespace whine {
 
-// One carrier at the highest speed of a sweep. Its frame turns at Omega = 2 pi f / z against the gear of z teeth that stands still.
+// One carrier at the highest speed of a sweep. Its frame turns at Omega = 2 pi f / z against the gear of z teeth at rest.
 struct TurningCarrier {
-  int carrier = 0;  // number of the body
-  bool turns =
-      false;  // in the scene; false: it is held, and would turn if the gear below stood still in its place
+  int carrier = 0;     // number of the body
+  bool turns = false;  // in the scene; false: it is held, and would turn if the gear below were held instead
   int still =
       -1;  // the held gear that meshes with its planets; -1: none, Omega does not follow from the scene
   double mesh_frequency = 0;  // Hz

@@ -1,4 +1,4 @@
-// Whether the pressure of a mesh under load leaves an involute at its root, told from the drawing before any body is made. At rest
+// Whether the pressure of a mesh under load leaves an involute at its root, judged from the drawing before any body is computed. At rest
 // side_at_root() judges the same of the pressure that is computed.
 //
 // Half-width by Hertz, a^2 = 2 R F C (C of both half-planes). F is not known before the bodies are: a pair has at least 1 / (2 n - 1) of

@@ -33,7 +33,7 @@ Vec2 pin_direction(const System& system, const System::Body& planet);
 
 // A mesh of a planet moves with its carrier: by how much a unit u of the carrier closes it along the line of action.
 struct CarriedMesh {
-  int carrier = -1;  // number of the body; -1: no side of the mesh stands on a carrier
+  int carrier = -1;  // number of the body; -1: no side of the mesh is on a carrier
   int side = 0;      // of the planet
   double closing = 0;
 };
@@ -66,7 +66,7 @@ struct RigidSystem {
 // those of the layout, each by itself. On its diagonal a mesh without load may have 0.
 RigidSystem rigid_system(const System& layout, const Eigen::MatrixXd& mesh_stiffness = {});
 
-// Whether the axis of a body stands on the ground, or on a carrier whose axis stands on the ground. A carrier on a carrier, or on
+// Whether the axis of a body is on the ground, or on a carrier whose axis is on the ground. A carrier on a carrier, or on
 // itself, is not in the model.
 bool has_place(const System& layout, const System::Body& body);
 

@@ -208,17 +208,6 @@ MeshPosition make_position(const GearMeshModel& model, double phase, const Candi
   return position;
 }
 
-MatrixXd local_compliance(const GearMeshModel& model, const MeshPosition& position, double depth) {
-  MatrixXd a = MatrixXd::Zero(position.strips(), position.strips());
-  if (!position.law.empty()) return a;
-  for (size_t j = 0; j < position.pairs.size(); ++j) {
-    const int first = position.first_strip[j], n = position.pairs[j].size();
-    a.block(first, first, n, n) = half_plane_compliance(position.pairs[j], model.gear[0].half_plane(),
-                                                        model.gear[1].half_plane(), depth);
-  }
-  return a;
-}
-
 namespace {
 
 // What a line contact takes in place of the gap of two flanks: a parabola, cut off at the tip edge that is near.
@@ -470,65 +459,6 @@ MatrixXd crack_compliance(const GearMeshModel& model, const MeshPosition& positi
       }
   }
   return c;
-}
-
-Equilibrium equilibrium(const MatrixXd& a, const VectorXd& gap, const VectorXd& approach, double load,
-                        double start, ActiveSet& active, ComplementaritySolver& solver) {
-  VectorXd d(gap.size()), reduced, response;
-  return equilibrium(gap, approach, approach, load, start, [&](const VectorXd& e, VectorXd& p) {
-    FixedContact fixed;
-    fixed.certificate = solver.solve(a, e, active, p, d);
-    const int k = static_cast<int>(active.strips.size());
-    reduced.resize(k);
-    for (int i = 0; i < k; ++i) reduced[i] = approach[active.strips[i]];
-    response = active.inverse * reduced;
-    fixed.stiffness = reduced.dot(response);
-    return fixed;
-  });
-}
-
-Equilibrium equilibrium(const MatrixXd& c, std::span<const HertzLine> law, const VectorXd& gap,
-                        const VectorXd& approach, double load, double start) {
-  VectorXd d(gap.size());
-  return equilibrium(gap, approach, approach, load, start, [&](const VectorXd& e, VectorXd& force) {
-    const Certificate certificate = solve_line_contact(c, law, e, force, d);
-    return FixedContact{certificate, line_contact_stiffness(c, law, approach, force)};
-  });
-}
-
-Equilibrium equilibrium(const VectorXd& gap, const VectorXd& approach, const VectorXd& loading, double load,
-                        double start, const ContactSolve& solve) {
-  const int n = static_cast<int>(gap.size());
-  Equilibrium result;
-  result.p = VectorXd::Zero(n);
-  VectorXd e(n);
-  double touch = std::numeric_limits<double>::infinity();  // where the first strip touches
-  for (int k = 0; k < n; ++k)
-    if (approach[k] > 0) touch = std::min(touch, gap[k] / approach[k]);
-  if (!std::isfinite(touch)) fail(Failure::numerical, "no pair is in reach to carry the load");
-  double low = touch, high = std::numeric_limits<double>::infinity();
-  double x = std::max(start, touch + 1e-3 * std::abs(touch) + 1e-9);
-  for (int iteration = 0; iteration < 200; ++iteration) {
-    e = gap - x * approach;
-    const FixedContact fixed = solve(e, result.p);
-    result.certificate = fixed.certificate;
-    result.stiffness = fixed.stiffness;
-    const double excess = loading.dot(result.p) - load;
-    if (!std::isfinite(excess) || !std::isfinite(result.stiffness))
-      fail(Failure::numerical, "static equilibrium: the contact at x = ", x, " m carries ", excess + load,
-           " N with a stiffness of ", result.stiffness, " N/m: the compliance holds no number");
-    result.x = x;
-    result.residual = std::abs(excess) / load;
-    if (result.residual < 1e-12) return result;
-    (excess > 0 ? high : low) = x;
-    double next = result.stiffness > 0 ? x - excess / result.stiffness : x;
-    // No double between is left to try.
-    if (result.residual < 1e-10 && (next == x || high - low < 4e-16 * std::abs(x))) return result;
-    if (!(next > low && next < high)) next = std::isfinite(high) ? 0.5 * (low + high) : 2 * x - touch + 1e-9;
-    x = next;
-  }
-  fail(Failure::numerical, "static equilibrium did not converge: residual ", result.residual, " of the load ",
-       load, " N after 200 steps at x = ", result.x, " m");
 }
 
 }  // namespace whine

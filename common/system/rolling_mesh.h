@@ -45,7 +45,7 @@ struct ToothFlank {
 //   u = T + (b / b_e - 1) (T - (R_1 + R_1^T) / 2) + H_c(x; D),   T = R + C_b ln(D_0 / D).
 // R_1 is what the next tooth does, so that T - (R_1 + R_1^T) / 2 is half of what two neighbouring teeth open when they are pressed
 // against each other: the tooth without the body under it, whose twist, rim and support have the whole width. It is positive
-// semidefinite. The modes are those of the whole width; what is added stands in the residual flexibility.
+// semidefinite. The modes are those of the whole width; what is added is part of the residual flexibility.
 class ElasticGear {
  public:
   // Throws Error(input) for numbers that are not finite, by the name of their array, and for a flank table with other
@@ -115,7 +115,7 @@ class SideGears {
 };
 
 // One mesh: two bodies, each of which it sees from one side. All that it computes is in its own image: side 0 pushes, turns
-// counter-clockwise and stands at the origin, side 1 above it. `layout` says how the mesh lies in its system: turned by its
+// counter-clockwise and is at the origin, side 1 above it. `layout` says how the mesh lies in its system: turned by its
 // direction, and mirrored where side 0 turns clockwise, which changes no length, no gap and, teeth being their own mirror
 // images, no compliance.
 struct GearMeshModel {
@@ -189,7 +189,7 @@ PairsInReach pairs_in_reach(const GearMeshModel& model, double phase, double cor
 double unloaded_transmission_error(const GearMeshModel& model, double phase, int period = 0);
 
 // All that contact needs at one phase; strips and nodes of all pairs in one row, pair after pair. With one contact line
-// per pair a line stands for a pair's only strip and only node.
+// per pair a line is a pair's only strip and only node.
 struct MeshPosition {
   double phase = 0;
   std::vector<PairStrips> pairs;  // of a line: number, kinematics and gap
@@ -216,7 +216,7 @@ struct MeshPosition {
   Eigen::VectorXd to_nodes(const Eigen::Ref<const Eigen::VectorXd>& on_strips) const;
   // a += L C L^T, C (node, node), a (strip, strip).
   void add_to_strips(const Eigen::MatrixXd& at_nodes, Eigen::MatrixXd& a) const;
-  // True if force stands on a candidate zone's end that is no tip edge: the candidate zone is too narrow.
+  // True if there is force at a candidate zone's end that is no tip edge: the candidate zone is too narrow.
   bool reaches_zone_end(const Eigen::Ref<const Eigen::VectorXd>& p) const;
 };
 
@@ -240,7 +240,7 @@ inline double shared_force(double load) {
   return 0.5 * load;
 }
 
-// p: (strip) N m-1. Throws ModelRangeError where force stands on the last strip before the end of the involute near a root, which no
+// p: (strip) N m-1. Throws ModelRangeError for force on the last strip before the end of the involute near a root, which no
 // wider candidate zone moves.
 void require_above_roots(const GearMeshModel& model, const MeshPosition& position,
                          const Eigen::Ref<const Eigen::VectorXd>& p);

@@ -2,7 +2,7 @@
 //
 //   sigma_q(s) = sum over the pairs p of T_(j_q - j_p)(s, xi_p) F_p
 // s along the root beside the loaded flank, j_p the tooth of a gear in pair p, xi_p the roll angle at which it is touched, T the
-// tables of solid/root_stress.h, and near a cracked tooth with what its crack adds (solid/crack.h). The load of a pair stands at its touching point: a root is far away from the spread of the
+// tables of solid/root_stress.h, and near a cracked tooth with what its crack adds (solid/crack.h). The load of a pair acts at its touching point: a root is far away from the spread of the
 // pressure, on the width b_e of a gear wider than its mate (gear/face_width.h): T times b / b_e. In motion this is quasi-static in the loads of the teeth: T holds all of the static flexibility, kept modes included,
 // and the inertia of the body, kept modes included, adds none.
 #pragma once

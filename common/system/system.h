@@ -1,6 +1,6 @@
 // Any number of elastic bodies and meshes at one phase: contact segments, maps, compliance, equilibrium.
 //
-// Contact forces p (N) and gaps d (m) of all meshes stand in one row of strips, mesh after mesh. With x_b = r_b theta_b (m),
+// Contact forces p (N) and gaps d (m) of all meshes form one row of strips, mesh after mesh. With x_b = r_b theta_b (m),
 // the rotation of body b in its own sense times its base radius,
 //   d = e + A p - D x,   d >= 0, p >= 0, d . p = 0 (Eq. 18),   L^T p = f (Eq. 20),
 // e the gaps of the unloaded flanks, D the displacement map (by how much a motion closes them), L the load map (what forces do
@@ -34,7 +34,7 @@ struct SystemModel {
               const std::vector<GearMeshSpec>& specs);
 
   double base_radius(int b) const;  // m; of a carrier the radius of its pins
-  // Whether body b of several meshes stands on a bearing so soft against teeth that the teeth would drown in its compliance: the
+  // Whether body b of several meshes is on a bearing so soft that the compliance of its teeth would be lost to round-off beside it: the
   // translations of its hub are then freedoms of the equilibrium, and no part of A.
   bool floats(int b) const;
   // The side of mesh m that body b is; -1: none.
@@ -116,16 +116,16 @@ struct SystemEquilibrium {
   Eigen::MatrixXd stiffness;  // (free body, free body) N m-1: d (L^T p) / d x, contact changes included
   Certificate certificate;
   double residual =
-      0;  // largest |L^T p - f| of free bodies over the largest mesh load; what turns a train that can roll left out
+      0;  // largest |L^T p - f| of free bodies over the largest mesh load; rotation of a train that can roll left out
 
   // m: sum of the sides' rotations along the line of action, positive where the first side is ahead; of a mesh on a carrier
   // relative to the carrier.
   double transmission_error(const SystemModel& system, int m) const;
 };
 
-// A train that can roll as a whole, its torques in balance, stands where it is: the moments by which tip edges, with lever arms of
-// their own, would turn it are taken out (orthogonal to the closing of all meshes), as the force that holds the mean speed in motion.
-// Free bodies: those that no drive holds, one at least; start: (body) m, where they stood nearby; 0: not known. With one free body it is
+// If the train can roll freely, its rigid-body rotation is projected out (orthogonal to the closing of all meshes): tip-edge contacts, whose
+// lever arms are not the base radii, would otherwise turn it. In motion the force that holds the mean speed does the same.
+// Free bodies: those that no drive holds, one at least; start: (body) m, a solution nearby; 0: not known. With one free body it is
 // the monotone search of equilibrium(); with more Newton's method with a line search on the convex energy whose gradient L^T p - f is,
 // to 1e-12, or to 1e-10 where round-off allows no more. laws: of lines, else empty. Throws Error(numerical) with the residual if that
 // is not reached.

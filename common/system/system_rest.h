@@ -10,7 +10,7 @@
 
 namespace whine {
 
-// What can be told of a scene before its bodies are made. Throws SystemSceneError with the section that is wrong: a carrier that may
+// Checks of a scene before its bodies are computed. Throws SystemSceneError with the section that is wrong: a carrier that may
 // turn without an inertia, meshes of different contact_plane, torques that are not balanced, that pull a mesh apart or that no mesh
 // carries.
 void check_at_rest(const SystemScene& scene, const System& layout);
@@ -29,7 +29,7 @@ void take_masses(const SystemStaticParameters& settings, const std::vector<Reduc
 // SystemModel and hunting_periods() reject, and what rest_over_period throws.
 //
 // What holds a carrier, T_c = -sum (P - C) x F over its planets, and its bearing force, sum F, F what a planet presses its pin
-// with, follow from the planets. Where all axes of a train but those of planets are one, sum of sense T over bodies that stand on the
+// with, follow from the planets. Where all axes of a train but those of planets are one, sum of sense T over bodies on the
 // ground is 0.
 SystemStaticResult system_at_rest(const SystemStaticParameters& settings,
                                   const std::vector<ReducedBody>& bodies);

@@ -24,7 +24,7 @@ struct SystemSolution {
   std::vector<double> next_corner_gap, lost_corner_gap;  // [mesh] m, see PairsInReach
   bool leaves_zone = false;                              // a wider range may do
   std::string
-      at_root;  // body at the start of whose involute pressure stands, which no wider range helps; "": none
+      at_root;  // body with pressure at the start of its involute, which a wider range does not change; "": none
   Eigen::MatrixXd mesh_stiffness;  // (mesh, mesh) N m-1, see SystemStatics; of rest_over_period alone
 };
 
@@ -48,7 +48,7 @@ double reach_of_edges(const GearMeshModel& mesh, double load);
 // wide as the load alone asks for; widening: of the load that it is for, 1 unless contact has left it.
 std::vector<CandidateZone> static_zones(const SystemModel& system, int strips, double zone, double widening);
 
-// Where and how contact wants more than the range holds, in words; empty if it does not. Throws Error(numerical) where a tip
+// In words, where and by how much contact exceeds the range; empty if it does not. Throws Error(numerical) where a tip
 // edge would leave the other's involute.
 std::string outside_zone(const SystemSolution& solution, double phase);
 
@@ -67,7 +67,7 @@ class SystemStatics {
   const SystemSolution& solve(double phase, int period, const Eigen::VectorXd& start);
   // (mesh, mesh) N m-1, of the position that was solved last: K = W^T C^-1 W, contact frozen: C the compliance without bearings
   // of what carries load, of lines with the slopes of their laws; W by how much each mesh's approach closes it, 1 on the line of
-  // action and at a tip edge the mean of the lever arms over the base radii. Off its diagonal stands what bodies that take part
+  // action and at a tip edge the mean of the lever arms over the base radii. Off-diagonal entries are due to bodies that take part
   // in several meshes join. A mesh without load has the stiffness 0.
   Eigen::MatrixXd mesh_stiffness() const;
   const SystemPosition& position() const { return *position_; }  // that was solved last
@@ -78,7 +78,7 @@ class SystemStatics {
   void take_position(double phase, int period);
   // Throws ModelRangeError for displacements that are not small against the teeth.
   void require_small(const SystemSolution& solution) const;
-  // side: of mesh m, at whose root force stands; -1: none.
+  // side: of mesh m with force at its root; -1: none.
   void note_root(SystemSolution& solution, size_t m, int side) const;
   void take_strips(SystemSolution& solution) const;
   void take_lines(SystemSolution& solution) const;

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "dynamics/step_kernel.h"
-#include "dynamics/step_kernel_reference.h"
 #include "paper_pair.h"
+#include "step_kernel_reference.h"
 
 using namespace whine;
 using Eigen::MatrixXd;

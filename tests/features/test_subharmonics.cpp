@@ -60,7 +60,7 @@ TEST_CASE("subharmonics: beyond a period doubling the branch of two mesh periods
                                   lightly_damped(at, at, 50), Direction::down, no_report);
   REQUIRE(swept.period_multiple[0] == 2);
   const ResponseResult response = whine::response(swept);
-  double nearest = 1, held = 1;  // of the RMS; of what is sustained for 1/64 of a mesh period
+  double nearest = 1, sustained = 1;  // of the RMS; of what is sustained for 1/64 of a mesh period
   for (Eigen::Index i = 0; i + 1 < branch.mesh_frequency.size(); ++i) {
     const double a = branch.mesh_frequency[i], b = branch.mesh_frequency[i + 1];
     if (branch.period_multiple[i] != 2 || branch.part[i] != branch.part[i + 1] || (a - at) * (b - at) > 0)
@@ -75,11 +75,11 @@ TEST_CASE("subharmonics: beyond a period doubling the branch of two mesh periods
     beside(branch.mesh_force_sustained, response.mesh_force_sustained[0]);
     for (size_t g = 0; g < kSides; ++g)
       beside(branch.root_stress_sustained[g], response.root_stress_sustained[g][0]);
-    held = std::min(held, apart);
+    sustained = std::min(sustained, apart);
   }
   CHECK(nearest < 0.01);
-  MESSAGE("mesh force and root stress that two mesh periods hold: " << held);
-  CHECK(held < 0.02);
+  MESSAGE("mesh force and root stress that two mesh periods hold: " << sustained);
+  CHECK(sustained < 0.02);
 }
 
 TEST_CASE(

@@ -297,6 +297,8 @@ TEST_CASE("a value outside its range is rejected with value and limit") {
   CHECK(contains(file.rejection(with_section("[discretisation]\nelement_order = 3\n")), "at most 2"));
   CHECK(contains(file.rejection(with_section("[fidelity]\nbody = \"whole\"\n")),
                  "must be one of: rigid, quasi-static, relaxed, modal, full"));
+  CHECK(
+      contains(file.rejection(with_section("[fidelity]\nbody = \"lagged\"\n")), "'lagged' is now 'relaxed'"));
   CHECK(contains(file.rejection(with_section("[fidelity]\ncontact = \"point\"\n")),
                  "must be one of: line, strips"));
   CHECK(file.read(with_section("[fidelity]\ncontact = \"line\"\n")).fidelity.contact == ContactModel::line);

@@ -135,6 +135,7 @@ TEST_CASE("a study that says nothing sensible is rejected by line, value and lim
   rejects("plan = 'sample'\nsamples = 0\n" + kDamping, "must be a whole number from 1 to 200000");
   rejects("samples = 5\n" + kDamping, "is of a sample");
   rejects("quantities = ['te_peak_to_peek']\n" + kDamping, "did you mean 'te_peak_to_peak'?");
+  rejects("answers=['rms_max_up']\n" + kDamping, "did you mean 'quantities'?");
   rejects("quantities = ['rms_max_up']\n" + kDamping,
           "there is no response quantity of this stage 'rms_max_up'");
   rejects("[figure]\nkeys = ['damping']\n" + kDamping, "there is no varied key");

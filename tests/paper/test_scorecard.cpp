@@ -277,9 +277,9 @@ TEST_CASE("scorecard: two branches with known loads, losses and harmonics") {
   CHECK(claim("load-lower").find(s).reading == "one tooth");
   CHECK(claim("load-increase").find(s).value == relative(50, 1e-12));
   // ... or what a tooth sustains for 1/64 of a period: a spike of one sample is left out
-  MatrixRM& held = s.sweeps["T150/down/sweep.h5"].tooth_load[static_cast<size_t>(primary)];
-  held.setConstant(4850);
-  held(7, 0) = 9000;
+  MatrixRM& sustained = s.sweeps["T150/down/sweep.h5"].tooth_load[static_cast<size_t>(primary)];
+  sustained.setConstant(4850);
+  sustained(7, 0) = 9000;
   CHECK(claim("load-upper").find(s).value == 4850);
   CHECK(claim("load-upper").find(s).reading == "one tooth, sustained for 1/64 of a period");
   CHECK(claim("upper-loses-contact-2400").find(s).value == 1);

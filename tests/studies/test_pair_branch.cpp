@@ -745,7 +745,7 @@ TEST_CASE("orbits: a sweep jumps where the branch folds, also across a change of
     CHECK(cause_of_jump(branch, fold + 50, 1).cause == JumpCause::basin);
     // Stable orbits are the sweep's.
     const ResponseResult response = whine::response(swept);
-    double apart = 0, held = 0;
+    double apart = 0, sustained = 0;
     Eigen::Array2d place = Eigen::Array2d::Zero();  // rad; mesh periods
     int compared = 0;
     for (Eigen::Index i = 0; i < response.mesh_frequency.size(); ++i)
@@ -756,26 +756,27 @@ TEST_CASE("orbits: a sweep jumps where the branch folds, also across a change of
         const double own = (1 - share) * branch.dte_rms[k] + share * branch.dte_rms[k + 1];
         if (std::abs(own / response.dte_rms[i] - 1) > 0.2) continue;  // the other branch
         apart = std::max(apart, std::abs(own / response.dte_rms[i] - 1));
-        const auto held_apart = [&](const VectorXd& along, double swept_value) {
-          held = std::max(held, std::abs(((1 - share) * along[k] + share * along[k + 1]) / swept_value - 1));
+        const auto sustained_apart = [&](const VectorXd& along, double swept_value) {
+          sustained = std::max(sustained,
+                               std::abs(((1 - share) * along[k] + share * along[k + 1]) / swept_value - 1));
         };
         for (size_t g = 0; g < kSides; ++g)
-          held_apart(branch.root_stress_sustained[g], response.root_stress_sustained[g][i]);
+          sustained_apart(branch.root_stress_sustained[g], response.root_stress_sustained[g][i]);
         // Where that stress stands: at the nearer orbit, as the largest may go over to another tooth.
         const Eigen::Index near = share < 0.5 ? k : k + 1;
         for (size_t g = 0; g < kSides; ++g)
           place = place.max(
               Eigen::Array2d(std::abs(branch.root_stress_angle[g][near] - response.root_stress_angle[g][i]),
                              std::abs(branch.root_stress_phase[g][near] - response.root_stress_phase[g][i])));
-        held_apart(branch.tooth_load_sustained, response.tooth_load_sustained[i]);
-        held_apart(branch.mesh_force_sustained, response.mesh_force_sustained[i]);
+        sustained_apart(branch.tooth_load_sustained, response.tooth_load_sustained[i]);
+        sustained_apart(branch.mesh_force_sustained, response.mesh_force_sustained[i]);
         ++compared;
         break;
       }
     CHECK(compared > 20);
     CHECK(apart < 1e-2);
-    MESSAGE("sustained loads and root stress: " << held);
-    CHECK(held < 2e-2);
+    MESSAGE("sustained loads and root stress: " << sustained);
+    CHECK(sustained < 2e-2);
     MESSAGE("place of the root stress: " << place[0] << " rad, " << place[1] << " mesh periods");
     CHECK(place[0] < 0.01);
     CHECK(place[1] < 3.0 / 64);

@@ -1,30 +1,30 @@
-#include "dynamics/step_kernel_reference.h"
-
+// The equations of step_kernel.h in plain matrices, as they read: what the kernel on lanes is compared with. Nothing is packed,
+// pipelined, left out as too small or remembered from step to step; contact is solved by methods of its own, for a few pairs
+// and some tens of strips.
+#pragma once
 #include <Eigen/LU>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "base/dense.h"
 #include "base/error.h"
+#include "dynamics/step_kernel.h"
 
 namespace whine {
 
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
-namespace {
-
 // Eq. 18, d = A p + e >= 0, p >= 0, p . d = 0 of an A that is positive definite, or nearly so with friction: all strips of wrong
 // sign change sides, after some rounds of that the first of them alone, with which no set comes back (Murty, Opsearch 5 (1968) 23).
-VectorXd strip_forces(const MatrixXd& a, const VectorXd& e) {
+inline Eigen::VectorXd strip_forces(const Eigen::MatrixXd& a, const Eigen::VectorXd& e) {
   constexpr int kRounds = 30, kMostPivots = 100000;
   std::vector<bool> carries(static_cast<size_t>(e.size()));
   for (int pivot = 0; pivot < kMostPivots; ++pivot) {
     std::vector<int> set, wrong;
     for (int i = 0; i < e.size(); ++i)
       if (carries[static_cast<size_t>(i)]) set.push_back(i);
-    VectorXd p = VectorXd::Zero(e.size());
+    Eigen::VectorXd p = Eigen::VectorXd::Zero(e.size());
     if (!set.empty()) p(set) = -lu_solve(a(set, set), e(set));
-    const VectorXd d = a * p + e;
+    const Eigen::VectorXd d = a * p + e;
     for (int i = 0; i < e.size(); ++i)
       if ((carries[static_cast<size_t>(i)] ? p[i] : d[i]) < 0) wrong.push_back(i);
     if (wrong.empty()) return p;
@@ -35,27 +35,28 @@ VectorXd strip_forces(const MatrixXd& a, const VectorXd& e) {
 }
 
 // d = C p + law(p) + e >= 0, p >= 0, p . d = 0: every set of pairs in turn, Newton's method on each.
-VectorXd line_forces(const MatrixXd& c, std::span<const HertzLine> law, const VectorXd& e) {
+inline Eigen::VectorXd line_forces(const Eigen::MatrixXd& c, std::span<const HertzLine> law,
+                                   const Eigen::VectorXd& e) {
   constexpr int kMostSteps = 100;
   const auto pairs = static_cast<int>(e.size());
   for (unsigned members = 0; members < 1u << pairs; ++members) {
     std::vector<int> set;
     for (int j = 0; j < pairs; ++j)
       if (members >> j & 1) set.push_back(j);
-    VectorXd p = VectorXd::Zero(pairs);
+    Eigen::VectorXd p = Eigen::VectorXd::Zero(pairs);
     // Small forces, from which Newton's method on the concave law rises to the solution.
     for (const int j : set) p[j] = 1e-6 * std::abs(e[j]) / c(j, j);
     double before = 0;
     for (int n = 0; n < kMostSteps && !set.empty(); ++n) {
-      MatrixXd slope = c(set, set);
-      VectorXd gap = (c * p + e)(set);
+      Eigen::MatrixXd slope = c(set, set);
+      Eigen::VectorXd gap = (c * p + e)(set);
       for (size_t k = 0; k < set.size(); ++k) {
         const HertzLine::Point at = law[static_cast<size_t>(set[k])].at(p[set[k]]);
         slope(static_cast<int>(k), static_cast<int>(k)) += at.slope;
         gap[static_cast<int>(k)] += at.indentation;
       }
-      const VectorXd change = lu_solve(slope, gap);
-      VectorXd next = p;
+      const Eigen::VectorXd change = lu_solve(slope, gap);
+      Eigen::VectorXd next = p;
       next(set) -= change;
       // A force that would change its sign goes half way.
       for (const int j : set)
@@ -65,7 +66,7 @@ VectorXd line_forces(const MatrixXd& c, std::span<const HertzLine> law, const Ve
       if (n > 3 && size <= 1e-12 * p.norm() && !(size < 0.5 * before)) break;
       before = size;
     }
-    VectorXd d = c * p + e;
+    Eigen::VectorXd d = c * p + e;
     double scale = 0;
     for (int j = 0; j < pairs; ++j) scale = std::max(scale, std::abs(e[j]));
     bool solved = true;
@@ -79,16 +80,38 @@ VectorXd line_forces(const MatrixXd& c, std::span<const HertzLine> law, const Ve
   fail(Failure::numerical, "no forces of ", pairs, " lines were found");
 }
 
-VectorXd coefficients(const std::vector<Propagator>& propagators, double Propagator::*which) {
-  VectorXd all(static_cast<Eigen::Index>(propagators.size()));
+inline Eigen::VectorXd coefficients(const std::vector<Propagator>& propagators, double Propagator::*which) {
+  Eigen::VectorXd all(static_cast<Eigen::Index>(propagators.size()));
   for (Eigen::Index i = 0; i < all.size(); ++i) all[i] = propagators[static_cast<size_t>(i)].*which;
   return all;
 }
 
-}  // namespace
+class StepReference {
+ public:
+  // friction: 1, coefficient.
+  StepReference(const StepSystem& system, const std::vector<Propagator>& propagators,
+                const Relaxation& relaxed, double friction = 0);
 
-StepReference::StepReference(const StepSystem& system, const std::vector<Propagator>& propagators,
-                             const Relaxation& relaxed, double friction)
+  // Takes a state by one step to `position`. Result: transmission error, m. Throws Error(numerical) if contact finds no
+  // solution.
+  double step(StepState& state, const StepPosition& position) const;
+  // Gives teeth the names that they have in the next mesh period: doublets turn by a tooth, loads move on by one.
+  void rename(StepState& state) const;
+
+ private:
+  Eigen::MatrixXd compliance(
+      const StepPosition& position) const;  // (strip, strip) m N-1: A without laws of lines
+  Eigen::MatrixXd loading(const StepPosition& position) const;                         // (node, coordinate) L
+  Eigen::VectorXd offset(const StepState& state, const StepPosition& position) const;  // (strip) m: e
+
+  const StepSystem& system_;
+  Eigen::VectorXd a11_, a12_, a21_, a22_, bq_, bv_;  // (coordinate)
+  Relaxation relaxed_step_;
+  double friction_;
+};
+
+inline StepReference::StepReference(const StepSystem& system, const std::vector<Propagator>& propagators,
+                                    const Relaxation& relaxed, double friction)
     : system_(system),
       a11_(coefficients(propagators, &Propagator::a11)),
       a12_(coefficients(propagators, &Propagator::a12)),
@@ -100,8 +123,8 @@ StepReference::StepReference(const StepSystem& system, const std::vector<Propaga
       friction_(friction) {}
 
 // L = h + mu s T, T the same at all nodes of a pair.
-MatrixXd StepReference::loading(const StepPosition& position) const {
-  MatrixXd l = position.participation;
+inline Eigen::MatrixXd StepReference::loading(const StepPosition& position) const {
+  Eigen::MatrixXd l = position.participation;
   for (size_t j = 0; friction_ > 0 && j < position.mesh.pairs.size(); ++j)
     l(position.mesh.nodes_of(j), Eigen::all).rowwise() +=
         friction_ * position.friction.row(static_cast<Eigen::Index>(j));
@@ -109,10 +132,10 @@ MatrixXd StepReference::loading(const StepPosition& position) const {
 }
 
 // A = H + W (B + from_new R + h (bq / 2) L^T) W^T.
-MatrixXd StepReference::compliance(const StepPosition& position) const {
+inline Eigen::MatrixXd StepReference::compliance(const StepPosition& position) const {
   const MeshPosition& mesh = position.mesh;
-  const MatrixXd& h = position.participation;
-  MatrixXd a = MatrixXd::Zero(mesh.strips(), mesh.strips());
+  const Eigen::MatrixXd& h = position.participation;
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(mesh.strips(), mesh.strips());
   mesh.add_to_strips(position.instantaneous_compliance + relaxed_step_.from_new * position.relaxed +
                          h * (0.5 * bq_).asDiagonal() * loading(position).transpose(),
                      a);
@@ -124,13 +147,13 @@ MatrixXd StepReference::compliance(const StepPosition& position) const {
 }
 
 // e = gap - W (h z - sum over sides and teeth of V C g).
-VectorXd StepReference::offset(const StepState& state, const StepPosition& position) const {
+inline Eigen::VectorXd StepReference::offset(const StepState& state, const StepPosition& position) const {
   const MeshPosition& mesh = position.mesh;
-  VectorXd moved = -position.participation * state.z;
+  Eigen::VectorXd moved = -position.participation * state.z;
   for (int side = 0; side < StepKernel::kSides; ++side)
     for (size_t j = 0; j < mesh.pairs.size(); ++j)
       for (int tooth = 0; tooth < system_.teeth(); ++tooth) {
-        const MatrixXd& block = system_.block(side, position.pair[j].slot - tooth);
+        const Eigen::MatrixXd& block = system_.block(side, position.pair[j].slot - tooth);
         moved(mesh.nodes_of(j)) +=
             position.field_weight[static_cast<size_t>(side)](mesh.nodes_of(j), Eigen::seqN(0, block.rows())) *
             block * state.relaxed[static_cast<size_t>(side)].col(tooth).head(block.cols());
@@ -138,25 +161,25 @@ VectorXd StepReference::offset(const StepState& state, const StepPosition& posit
   return mesh.gap + mesh.to_strips(moved);
 }
 
-double StepReference::step(StepState& state, const StepPosition& position) const {
+inline double StepReference::step(StepState& state, const StepPosition& position) const {
   const MeshPosition& mesh = position.mesh;
   // Without new contact force.
-  const VectorXd mean = 0.5 * (state.force + system_.torque_force), z0 = state.z, v0 = state.v;
+  const Eigen::VectorXd mean = 0.5 * (state.force + system_.torque_force), z0 = state.z, v0 = state.v;
   state.z = a11_.cwiseProduct(z0) + a12_.cwiseProduct(v0) + bq_.cwiseProduct(mean);
   state.v = a21_.cwiseProduct(z0) + a22_.cwiseProduct(v0) + bv_.cwiseProduct(mean);
   for (size_t side = 0; side < state.relaxed.size(); ++side)
     state.relaxed[side] =
         relaxed_step_.decay * state.relaxed[side] + relaxed_step_.from_old * state.load[side];
   // Contact.
-  const MatrixXd a = compliance(position);
-  const VectorXd e = offset(state, position);
+  const Eigen::MatrixXd a = compliance(position);
+  const Eigen::VectorXd e = offset(state, position);
   state.p = system_.lines ? line_forces(a, mesh.law, e) : strip_forces(a, e);
   state.d = a * state.p + e;
   for (size_t j = 0; j < mesh.law.size(); ++j)
     if (const auto i = static_cast<Eigen::Index>(j); state.p[i] > 0)
       state.d[i] += mesh.law[j].at(state.p[i]).indentation;
   // Its share of all else.
-  const VectorXd nodes = mesh.to_nodes(state.p), on_modes = loading(position).transpose() * nodes;
+  const Eigen::VectorXd nodes = mesh.to_nodes(state.p), on_modes = loading(position).transpose() * nodes;
   state.z -= 0.5 * bq_.cwiseProduct(on_modes);
   state.v -= 0.5 * bv_.cwiseProduct(on_modes);
   state.force = system_.torque_force - on_modes;
@@ -170,8 +193,8 @@ double StepReference::step(StepState& state, const StepPosition& position) const
   return system_.error_weight.dot(state.z);
 }
 
-void StepReference::rename(StepState& state) const {
-  for (VectorXd* y : {&state.z, &state.v, &state.force})
+inline void StepReference::rename(StepState& state) const {
+  for (Eigen::VectorXd* y : {&state.z, &state.v, &state.force})
     for (const StepSystem::Turn& turn : system_.turns) {
       if (turn.sine < 0) {
         (*y)[turn.cosine] *= -1;
@@ -181,8 +204,8 @@ void StepReference::rename(StepState& state) const {
       (*y)[turn.cosine] = turn.c * cosine + turn.s * sine;
       (*y)[turn.sine] = turn.c * sine - turn.s * cosine;
     }
-  for (std::vector<MatrixXd>* fields : {&state.relaxed, &state.load})
-    for (MatrixXd& field : *fields) {
+  for (std::vector<Eigen::MatrixXd>* fields : {&state.relaxed, &state.load})
+    for (Eigen::MatrixXd& field : *fields) {
       field.rightCols(field.cols() - 1) = field.leftCols(field.cols() - 1).eval();
       field.col(0).setZero();
     }
