@@ -1,6 +1,6 @@
 # Whine: one graph from a scene to the figures. `make` prints the targets; pipelines/*.mk hold the stages.
 #
-#   programs   tools/gear-x.cpp and what it includes of common/ -> build/bin/gear-x   (this file, pipelines/sources.awk)
+#   programs   tools/gear-x.cpp and what it includes of common/ -> build/bin/gear-x   (tools/CMakeLists.txt, called by this file)
 #   names      what a user's paths may hold                                  (pipelines/names.mk)
 #   scenes     which scene files the goals need, and what they say to make       (pipelines/scenes.mk)
 #   studies    variants of a scene -> a table of their response quantities       (pipelines/studies.mk)
@@ -46,169 +46,84 @@ no_such_target = $(error $1: $(if $(filter %.toml,$1),a scene is given by SCENE 
 $(foreach g,$(filter-out $(documented) FORCE fig%,$(goals)),$(if $(or $(findstring /,$g),$(filter-out %.toml,$(wildcard $g))),,$(call no_such_target,$g)))
 
 # A variable that nothing reads is a slip of the pen, which would otherwise be ignored without a word.
-variables_read := $(names_given) LAUNCH B CXX ARCH OPTIMISE CXXFLAGS CPPFLAGS LDFLAGS LDLIBS COLD_FLAGS STEP_FLAGS
+variables_read := $(names_given) LAUNCH B CXX ARCH CXXFLAGS LDFLAGS
 $(foreach v,$(filter-out $(variables_read) LAUNCH_% SHELL MAKE%,$(.VARIABLES)),$(if $(findstring command line,$(origin $v)),\
   $(error $v: there is no such variable;$(call meant,$v,$(variables_read)) pipelines/README.md lists them)))
 
 # --- programs -------------------------------------------------------------------------------------------------
 
+# tools/CMakeLists.txt says how they are compiled. Make asks for a program that is older than a source; ninja knows what of it is.
 # Sanitized objects do not fit others.
 SANITIZE := $(or $(SANITIZE),$(filter test-sanitize,$(goals)))
 B := build$(if $(SANITIZE),/sanitize)
 CXX := g++
+CXXFLAGS :=
+LDFLAGS :=
 # Half the time of a sweep is dense algebra: AVX2 and FMA where the processor has them. Bytes are the same on one type of
 # machine; ARCH= builds for any. Moves of 256 bits (g++ 12 on) clear and copy small arrays without a string instruction, which is slow to start.
 processor := $(if $(wildcard /proc/cpuinfo),$(file < /proc/cpuinfo))
 ARCH := $(if $(and $(filter avx2,$(processor)),$(filter fma,$(processor))),-march=x86-64-v3 -mmove-max=256 -mstore-max=256)
-OPTIMISE := -O2 $(ARCH)
-# Without NDEBUG an assert would put its line number into the program, and a comment would redo results.
-# Hidden: gmsh carries an Eigen without AVX, which would take over exported templates of ours and free what it did not allocate.
-# g++ 12 sees AVX loads beyond the end of Eigen's small vectors that it has itself proved not to happen.
-# Sanitizers: a null pointer and what lies outside its object end in a report of ASan, a vector that is not aligned in a fault: without
-# UBSan's own checks of them, one at each access to memory, a file is compiled in 0.7 of the time.
-# Sections: a program holds the functions that it uses, not all of the units that they are in, so that a change in a unit of which it uses
-# none leaves its bytes.
-CXXFLAGS := -std=c++20 -fvisibility=hidden -ffunction-sections -fdata-sections -Wall -Wextra -Wno-array-bounds $(if $(SANITIZE),-O1 -g1 $(ARCH) -D_GLIBCXX_ASSERTIONS \
-  -fsanitize=address$(,)undefined -fno-sanitize-recover=undefined -fno-sanitize=null$(,)alignment$(,)object-size,\
-  $(OPTIMISE) -DNDEBUG)
-# A step runs through loops over two to five lanes, which -O3 unrolls: with it, and without a precompiled header that was made
-# without, steps of lines take 8 % less.
-STEP_FLAGS := $(if $(SANITIZE),,-O3)
-# Layers that read, write, draw and print, the programs' own sources and tests, whose numbers come out of the other layers: compiled in
-# half the time, with sanitizers in 0.4 of it.
-COLD_FLAGS := $(if $(SANITIZE),-O0,-Og)
-cold_layers := report paper io
-CPPFLAGS := -Icommon -isystem /usr/include/eigen3 -isystem /usr/include/suitesparse
-# gold, where binutils has it, links a program in a fifth of the time of the other linker.
-gold := $(if $(wildcard /usr/bin/ld.gold),-fuse-ld=gold)
-LDFLAGS := $(if $(SANITIZE),-fsanitize=address$(,)undefined) $(gold) -Wl,--as-needed -Wl,--gc-sections
-# Recursive: pkg-config may itself be one of the packages that `deps` installs in the same run.
-HDF5_CFLAGS = $(shell pkg-config --cflags hdf5)
-LDLIBS = -lpugixml -lz -lzip -ljsoncpp -lsndfile -lcholmod $(shell pkg-config --libs-only-L hdf5) -lhdf5_hl $(shell pkg-config --libs hdf5 fftw3 libcrypto)
-
-# Libraries that bring many more: gmsh a hundred of windows, pictures and CAD, whose loading takes 0.25 s of CPU at each start, the others
-# together 18 of 43 ms. Programs that do not call one do without; the linker says where one is missing from this list; of functions that
-# it throws away it asks nothing. Sanitizers keep them.
-users_of_-lgmsh := gear-mesh gear-reduce gear-static gear-sweep gear-reading
-users_of_-lcholmod := gear-reduce gear-loaded gear-animate gear-static gear-sweep gear-reading
-users_of_-lsndfile := gear-sound
-users_of_-lzip := gear-import gear-export whine-replay-rexs
-users_of_-lpugixml := gear-import gear-export whine-replay-rexs
-not_used = $(foreach l,-lgmsh -lcholmod -lsndfile -lzip -lpugixml,$(if $(filter $(@F),$(users_of_$l)),,$l))
-libraries = $(filter-out $(if $(SANITIZE)$(filter-out gear-% whine-replay-%,$(@F)),,$(not_used)),-lgmsh $(LDLIBS))
 
 # With `deps` among the goals whatever uses a package waits for it, in any order of the goals and under -j.
 with_deps := $(filter deps,$(goals))
+with_deps_bench := $(with_deps) $(filter deps-bench,$(goals))
 
-# Sources are compiled in units, a layer or a part of one at a time: alone, each reads and instantiates the same headers again, which
-# took half of a build. Apart from the rest of their layer: what has flags of its own, and parts of the long layers.
-unit_expressions := base/dense=base/dense.* base/eigen_templates=base/eigen_templates base/options=base/options \
-  dynamics/step_kernel=dynamics/step_kernel dynamics/step_kernel_pack=dynamics/step_kernel_pack dynamics/system=dynamics/system_.* \
-  io/codecs=io/.*_codec io/scenes=io/(rexs|scene|section|stage|study|system|toml|variant).* \
-  report/system=report/(system|teeth|root|flank|runup|order|sound|wire).* report/report=report/(report|html|compare|exported).*
-# A program waits for the units behind the headers that it includes, and for no other.
-links := $(shell awk -v units='$(unit_expressions)' -f pipelines/sources.awk $(wildcard common/*/*.h common/*/*.cpp common/*/*/*.h common/*/*/*.cpp tools/*.cpp tests/fuzz/*.cpp))
-# Sorted, here and below: the order of `wildcard` follows the locale, and another order would compile everything anew.
-sources_of = $(sort $(patsubst $1=%,common/%.cpp,$(filter $1=%,$(links))))
-units := $(sort $(foreach l,$(links),$(if $(findstring =,$l),$(firstword $(subst =, ,$l)))))
-cold_units := $(filter $(cold_layers:%=%/%),$(units))
-# The cold ones last: a linker takes an inline function from the first object that has it.
-library := $(patsubst %,$(B)/obj/common/%.o,$(filter-out $(cold_units),$(units)) $(cold_units))
+# Sorted: the order of `wildcard` follows the locale.
+below = $(sort $(wildcard $(foreach d,$1/* $1/*/* $1/*/*/*,$d.h $d.cpp)))
+library_sources := $(call below,common) tools/CMakeLists.txt
+test_sources := $(call below,tests)
+siconos := $(wildcard /usr/include/siconos/numerics/lcp_cst.h)
 tools := $(sort $(patsubst tools/%.cpp,%,$(wildcard tools/gear-*.cpp)))
-tool_objects := $(tools:%=$(B)/obj/tools/%.o)
-hard_cases := $(B)/obj/tests/hard_cases.o
-# Tests go together by the first letters of their names, the rest of them in one unit more.
-test_letters := [a-d] e,f[a-q] f[r-z],[g-i] [j-o] [p-r] s[a-x]
-test_numbers := 1 2 3 4 5 6
-tests_by_letters = $(sort $(wildcard $(patsubst %,tests/test_%*.cpp,$(subst $(,), ,$(word $1,$(test_letters))))))
-tests_of = $(if $(filter rest,$1),$(filter-out $(foreach n,$(test_numbers),$(call tests_by_letters,$n)),$(sort $(wildcard tests/test_*.cpp))),$(call tests_by_letters,$1))
-# Sanitizers look for errors in what is tested and in what tests have inline of it (library objects are linked first): tests are those
-# of the other build, which spares a quarter of the time of compiling.
-test_units := $(patsubst %,build/obj/tests/unit_%.o,$(test_numbers) rest)
-own_test_units := $(if $(SANITIZE),,$(test_units))
-objects := $(library) $(tool_objects) $(B)/obj/tests/main.o $(own_test_units) $(hard_cases)
+programs := $(tools:%=$(B)/bin/%)
+fuzz_targets := scene study rexs transfer artifact sealed
+replays := $(fuzz_targets:%=$(B)/bin/whine-replay-%)
+test_programs := $(addprefix $(B)/bin/,whine-tests whine-hard-cases $(if $(siconos),whine-siconos)) $(replays)
+bench_programs := $(addprefix $(B)/bin/,whine-bench whine-bench-stress whine-work-precision whine-stress-contact)
+test_cases := build/lib/libtest_cases.a
 
-.PHONY: build
-build: $(tools:%=$(B)/bin/%) ## compile the programs into build/bin
+$(programs): $(B)/bin/%: tools/%.cpp
+$(test_programs) $(bench_programs) $(test_cases): $(test_sources)
+$(programs) $(test_programs) $(bench_programs) $(test_cases): $(library_sources) $(B)/settings | $(with_deps_bench)
 
-folders := $(sort $(B)/obj/ $(dir $(objects)) $(B)/bin/ $(B)/id/ $(B)/scenes/)
-$(folders):
-	@mkdir -p $@
-.SECONDEXPANSION: # $$(@D)/ below
-
-# Half of a compilation is reading the headers in it. Compiled headers fit one set of flags.
-precompiled := $(B)/obj/precompiled.h
-cold_precompiled := $(B)/obj/$(if $(COLD_FLAGS),cold,precompiled).h
-$(addsuffix .gch,$(sort $(precompiled) $(cold_precompiled))): common/base/precompiled.h common/base/eigen_templates.h common/base/dense_products.h $(B)/flags | $$(@D)/ $(with_deps)
-	$(CXX) $(CPPFLAGS) $(CXXFLAGS) -x c++-header -o $@ $<
-
-cold_objects := $(tool_objects) $(B)/obj/tests/main.o $(own_test_units) $(hard_cases) $(B)/obj/common/base/options.o $(filter $(foreach r,$(cold_layers),$(B)/obj/common/$r/%),$(library))
-INCLUDE_PRECOMPILED = -include $(precompiled)
-$(cold_objects): private INCLUDE_PRECOMPILED = -include $(cold_precompiled)
-$(cold_objects) $(cold_precompiled).gch: private CXXFLAGS += $(COLD_FLAGS)
-$(cold_objects): $(cold_precompiled).gch
-$(filter-out $(cold_objects),$(objects)): $(precompiled).gch
-compile = $(CXX) $(CPPFLAGS) $(CXXFLAGS) $(INCLUDE_PRECOMPILED) -MMD -MP -MF $(@:.o=.d) -MT $@ -c -o $@
-$(filter-out $(library) $(own_test_units),$(objects)): $(B)/obj/%.o: %.cpp $(B)/flags | $$(@D)/ $(with_deps)
-	$(compile) $<
-$(library): $(B)/obj/common/%.o: $$(call sources_of,$$*) $(B)/flags $$(@:.o=.unit) | $$(@D)/ $(with_deps)
-	printf '#include "%s"\n' $(filter %.cpp,$^) | $(compile) -x c++ -
-$(own_test_units): $(B)/obj/tests/unit_%.o: $$(call tests_of,$$*) pipelines/test_unit.awk $(B)/flags $$(@:.o=.unit) | $$(@D)/ $(with_deps)
-	awk -f pipelines/test_unit.awk $(filter %.cpp,$^) | $(compile) -Itests -x c++ -
-$(if $(SANITIZE),$(test_units)) &: FORCE | $(with_deps)
-	+@$(MAKE) --no-print-directory SANITIZE= B=build $(test_units)
-
-# Assertions as calls rather than as code in place: a third of the time of compiling them. Private: the precompiled header, of
-# which a test may be the first that wants it, is not of the tests.
-$(filter $(B)/obj/tests/%,$(objects)): private CPPFLAGS += -DDOCTEST_CONFIG_SUPER_FAST_ASSERTS
-
-# Nothing of ours but calls of Eigen's decompositions and of the library of options.
-$(filter $(B)/obj/common/base/dense.o $(B)/obj/common/base/eigen_templates.o $(B)/obj/common/base/options.o,$(objects)): private CXXFLAGS += $(if $(SANITIZE),-fno-sanitize=undefined)
-
-step_objects := $(B)/obj/common/dynamics/step_kernel.o $(B)/obj/common/dynamics/step_kernel_pack.o $(filter $(B)/obj/common/contact/%,$(objects))
-$(step_objects): private CXXFLAGS += $(STEP_FLAGS)
-# Nor with the one that says that its templates are compiled elsewhere; products of matrices are the same everywhere.
-$(step_objects): private INCLUDE_PRECOMPILED := -include base/dense_products.h
-$(B)/obj/common/base/eigen_templates.o: private INCLUDE_PRECOMPILED :=
-
-# HDF5 stays in one layer: nobody else finds its headers.
-$(filter $(B)/obj/common/io/%,$(objects)): private CPPFLAGS += $(HDF5_CFLAGS)
-
-linked = $(filter $(patsubst $1:%,$(B)/obj/common/%.o,$(filter $1:%,$(links))),$(library))
-link = $(CXX) $(LDFLAGS) -o $@ $(filter %.o,$^) $(libraries)
-
-$(tools:%=$(B)/bin/%): $(B)/bin/%: $$(call linked,$$*) $(B)/obj/tools/%.o | $(B)/bin/
-	$(link)
-
-# The folder stands for its list of files: a test that goes away leaves the program, too.
-$(B)/bin/whine-tests: $(library) $(B)/obj/tests/main.o $(test_units) tests | $(B)/bin/
-	$(link)
-
-$(B)/bin/whine-hard-cases: $(library) $(hard_cases) | $(B)/bin/
-	$(link)
-
-flags := $(CXX) $(CPPFLAGS) $(CXXFLAGS) $(COLD_FLAGS) $(STEP_FLAGS) $(LDFLAGS)
-# Equal as whole texts: objects of different flags do not fit each other (Eigen's alignment follows the processor). $(strip): make 4.3
-# leaves the newline of $(file <...) where its buffer has moved.
+# What all programs are compiled by. A source that is added may be older than they are. Equal as whole texts; $(strip): make 4.3 leaves the
+# newline of $(file <...) where its buffer has moved.
+settings := $(CXX) $(CXXFLAGS) $(LDFLAGS) $(ARCH) $(siconos) $(wildcard /usr/bin/ld.lld) $(library_sources) $(test_sources)
 said_before = $(strip $(file <$1))
 differs = $(if $(and $(findstring x$(strip $2)x,x$(call said_before,$1)x),$(findstring x$(call said_before,$1)x,x$(strip $2)x)),,FORCE)
-$(B)/flags: $(call differs,$(B)/flags,$(flags))
-$(B)/flags:
+$(B)/settings: export text = $(settings)
+$(B)/settings: $(call differs,$(B)/settings,$(settings))
 	@mkdir -p $(@D)
-	@echo '$(flags)' > $@
+	@echo "$$text" > $@
 
-# The list of sources of a unit: one that is added may be older than it.
-define unit_list
-$1: $(call differs,$1,$2)
-$1: private sources := $2
+# $(call configure,folder,options), $(call ninja,folder,files); $(call compile,files): one ninja at a time, with as many jobs as make.
+configure = cmake -S tools -B $1 -G Ninja -DCMAKE_CXX_COMPILER='$(CXX)' -DCMAKE_CXX_FLAGS='$(CXXFLAGS)' -DCMAKE_EXE_LINKER_FLAGS='$(LDFLAGS)' -DARCH='$(ARCH)' $2 > $1/configured
+ninja = ninja -C $1 $(filter-out -j,$(filter -j%,$(MAKEFLAGS))) $(patsubst $1/%,%,$2)
+define compile
+	@exec 9> $(B)/lock; flock 9; \
+	[ $(B)/build.ninja -nt $(B)/settings ] $(if $(filter deps-bench,$(goals)),&& false) || $(call configure,$(B),-DSANITIZE=$(if $(SANITIZE),ON,OFF)); \
+	$(call ninja,$(B),$1); touch $1
 endef
-$(foreach o,$(library),$(eval $(call unit_list,$(o:.o=.unit),$(call sources_of,$(patsubst $(B)/obj/common/%.o,%,$o)))))
-$(foreach o,$(own_test_units),$(eval $(call unit_list,$(o:.o=.unit),$(call tests_of,$(patsubst $(B)/obj/tests/unit_%.o,%,$o)))))
-$(patsubst %.o,%.unit,$(library) $(own_test_units)):
-	@mkdir -p $(@D)
-	@echo '$(sources)' > $@
+# Who wants many of them asks once.
+every := $(if $(filter build test test-slow test-all test-faults test-report,$(goals)),$(programs)) $(if $(filter test test-slow test-all,$(goals)),$(test_programs))
+ifneq ($(strip $(every)),)
+$(call together,$(every)) &:
+	$(call compile,$(every))
+endif
+$(filter-out $(every),$(programs) $(test_programs) $(bench_programs)) $(if $(SANITIZE),,$(test_cases)):
+	$(call compile,$@)
+# The cases under sanitizers are the objects of the other build.
+ifneq ($(SANITIZE),)
+$(B)/bin/whine-tests: $(test_cases)
+$(test_cases): FORCE
+	+@$(MAKE) --no-print-directory SANITIZE= B=build $@
+endif
 
--include $(objects:.o=.d)
+.PHONY: build
+build: $(programs) ## compile the programs into build/bin
+
+$(B)/id/ $(B)/scenes/:
+	@mkdir -p $@
+.SECONDEXPANSION: # $$(@D)/ in pipelines/
 
 # Tool ids: what results depend on instead of the programs. The hash of a program replaces its file only if it
 # differs, so that a program that was linked anew with the same bytes redoes nothing. `+`: also under make -n,
@@ -230,7 +145,7 @@ $(if $(SCENE),$(if $(filter scorecard out/figures/scorecard%,$(goals)),\
 
 # --- packages -------------------------------------------------------------------------------------------------
 
-packages := g++ pkgconf libgmsh-dev libsuitesparse-dev libeigen3-dev libhdf5-dev libfftw3-dev \
+packages := g++ cmake ninja-build lld pkgconf libgmsh-dev libsuitesparse-dev libeigen3-dev libhdf5-dev libfftw3-dev \
   libtomlplusplus-dev libpugixml-dev libzip-dev zlib1g-dev libjsoncpp-dev libsndfile1-dev libcli11-dev libssl-dev doctest-dev libopenblas0-pthread hdf5-tools gnuplot-nox fonts-dejavu-core
 dry_run := $(findstring n,$(filter-out -%,$(firstword $(MAKEFLAGS))))
 
@@ -269,19 +184,18 @@ deps-python: | $(with_deps) ## install xarray and matplotlib for the checks in `
 hard-cases: $(B)/bin/whine-hard-cases | $(with_deps) ## hard cases with known answers: expected, found, allowed; status 1 if one fails
 	@$<
 
-test test-slow test-all: build $(B)/bin/whine-tests $(tools:%=$(B)/id/%) | $(with_deps)
+test test-slow test-all: build $(tools:%=$(B)/id/%) | $(with_deps)
 	@B=$(B) TESTS=$(patsubst test-%,%,$@) tests/run
-test test-all: $(replays)
-test-slow test-all: $(B)/bin/whine-hard-cases
+test test-slow test-all: $(test_programs)
 test: ## run the tests but for the slow ones; the last line is `N passed, N failed`
 test-slow: ## run those that tests/slow lists
 test-all: ## run both, and the few cases that take half a minute each
 
 format: ## lay out the C++ sources with clang-format
-	clang-format -i $(wildcard common/*/*.h common/*/*.cpp common/*/*/*.h common/*/*/*.cpp tools/*.cpp tests/*.h tests/*.cpp tests/*/*.h tests/*/*.cpp)
+	clang-format -i $(filter-out %.txt,$(library_sources)) $(test_sources) $(tools:%=tools/%.cpp)
 
 check-format: ## fail if clang-format would change a source
-	clang-format --dry-run -Werror $(wildcard common/*/*.h common/*/*.cpp common/*/*/*.h common/*/*/*.cpp tools/*.cpp tests/*.h tests/*.cpp tests/*/*.h tests/*/*.cpp)
+	clang-format --dry-run -Werror $(filter-out %.txt,$(library_sources)) $(test_sources) $(tools:%=tools/%.cpp)
 
 .PHONY: help clean clean-figures clean-studies clean-motion clean-out
 help: ## print this list (its order: pipelines/help.txt)

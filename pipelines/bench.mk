@@ -4,28 +4,16 @@
 #   make work-precision       out/figures/work-precision.{tsv,svg,png}; it holds times, so no two runs give the same bytes
 
 bench_packages := libsiconos-numerics-dev calculix-ccx
-# Recursive: `deps-bench` may bring it in the same run.
-bench_siconos = $(if $(shell ls /usr/include/siconos/numerics/lcp_cst.h 2>/dev/null),$1)
 
 .PHONY: deps-bench
 deps-bench: wanted := $(bench_packages)
 deps-bench: | $(with_deps) ## install the packages that only `bench` and the tests beside Siconos use
 	$(install_wanted)
 
-with_deps_bench := $(with_deps) $(filter deps-bench,$(goals))
-
-# Compiled in every run (seconds), so that it sees whether Siconos has come or gone.
-$(B)/bin/whine-bench: tests/bench/bench.cpp tests/bench/calculix.h tests/bench/rolling.h tests/peer/lemke.h $(library) FORCE | $(B)/bin/ $(with_deps_bench)
-	$(CXX) $(CPPFLAGS) $(if $(call bench_siconos,x),-isystem /usr/include/siconos -isystem /usr/include/siconos/numerics) \
-	  $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(library) -lgmsh $(LDLIBS) $(call bench_siconos,-lsiconos_numerics)
-
 .PHONY: bench
 bench: $(B)/bin/whine-bench $(call pair_bodies,$(standard_scene)) ## speed and memory, beside Siconos and CalculiX if `deps-bench` has installed them
 	@$< --params out/$(standard_scene)/params/static.toml --sweep-params out/$(standard_scene)/params/sweep.toml --torque 150 \
 	  --body pinion=out/$(standard_scene)/pinion/body.h5 --body wheel=out/$(standard_scene)/wheel/body.h5
-
-$(B)/bin/whine-bench-stress: tests/bench/root_stress.cpp tests/bench/calculix.h $(B)/flags $(library) | $(B)/bin/ $(with_deps_bench)
-	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(library) -lgmsh $(LDLIBS)
 
 # Of SCENE, or of a pair with a deep root and of 16 and 24 teeth of module 4.5 mm.
 stress_scenes := $(if $(SCENE),$(own_scene),$(deep_scene) fzg-c)
@@ -43,9 +31,6 @@ $(if $(filter bench-stress,$(goals)),$(foreach s,$(stress_scenes),$(eval $(call 
 .PHONY: bench-internal
 bench-internal: $(B)/bin/whine-bench $(call pair_bodies,$(internal_scene)) ## static positions of a planet in a ring beside CalculiX, if `deps-bench` has installed it
 	@$< --params out/$(internal_scene)/params/static.toml $(call pair_options,$(internal_scene)) --torque 200 --position 0 --position 0.25 --position 0.5
-
-$(B)/bin/whine-work-precision: tests/bench/work_precision.cpp $(B)/flags $(library) | $(B)/bin/ $(with_deps)
-	$(CXX) $(CPPFLAGS) $(CXXFLAGS) $(LDFLAGS) -o $@ $< $(library) -lgmsh $(LDLIBS)
 
 .PHONY: work-precision
 work-precision: $(B)/bin/whine-work-precision $(call pair_bodies,$(deep_scene)) ## error against CPU time of each numerical choice, at a damping with two branches

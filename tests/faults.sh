@@ -24,7 +24,7 @@ skip() { echo "skipped: $1"; }
 plant() {
   mkdir -p "$1/$B"
   cp -a Makefile pipelines common tools tests data "$1"
-  cp -a "$B/bin" "$B/obj" "$B/id" "$B/flags" "$1/$B"
+  cp -a "$B/bin" "$B/id" "$B/settings" "$1/$B"
   sed 's/^element_mm = [^ ]*/element_mm = 1.5/; s/^element_order = [^ ]*/element_order = 1/; s/^torque_Nm = .*/torque_Nm = [100]/
     s/^mesh_frequency_Hz = .*/mesh_frequency_Hz = { from = 2000, to = 2100, step = 50 }/
     s/^modes = [^ ]*/modes = 5/; s/^\[discretisation\]/&\npositions = 16/; s/^steps_per_period = [^ ]*/steps_per_period = 32/

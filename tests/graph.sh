@@ -14,27 +14,32 @@ wrong() { echo "FAILED: $1: $2"; }
 
 cp -a Makefile pipelines common tools data tests "$tree"
 mkdir -p "$tree/$B"
-cp -a "$B/bin" "$B/obj" "$B/id" "$B/flags" "$tree/$B"
+cp -a "$B/bin" "$B/id" "$B/settings" "$tree/$B"
 cd "$tree" || exit 1
 [ "$B" = build ] && sanitize= || sanitize=SANITIZE=1
 make_() { make $sanitize "$@" > "$log" 2>&1; }
 
-# --- comments in sources; needs the real programs, hence first
-before=$(cat "$B/id/gear-inspect")
-sleep 0.01
-printf '// A comment.\n' | cat - tools/gear-inspect.cpp > new && mv new tools/gear-inspect.cpp
-cp -p "$B/id/gear-inspect" id.before
-if make_ "$B/id/gear-inspect" && [ "$(cat "$B/id/gear-inspect")" = "$before" ] && [ ! "$B/id/gear-inspect" -nt id.before ]; then
-  grep -q 'gear-inspect.cpp' "$log" && ok "a comment in a source compiles it and leaves the id of its program" ||
-    wrong "a comment in a source" "nothing was compiled"
-else
-  wrong "a comment in a source leaves the id of its program" "$(tail -n 1 "$log")"
-fi
+# --- a comment in a source: the same object, so the same program. What compiles it is no part of a copied tree.
+compile=$(ninja -C "$top/$B" -t commands gear-inspect | sed -n 's/ -o [^ ]* -c .*gear-inspect\.cpp$//p')
+mkdir one two && cp tools/gear-inspect.cpp one && { echo '// A comment.'; cat tools/gear-inspect.cpp; } > two/gear-inspect.cpp
+objects_of() { for copy in "$@"; do (cd "$top/$B" && $compile -MF "$tree/$copy/d" -o "$tree/$copy/o" -c "$tree/$copy/gear-inspect.cpp") > "$log" 2>&1 || return 1; done; }
+if objects_of one two && cmp one/o two/o > "$log"; then ok "a comment in a source leaves the bytes of its program"
+else wrong "a comment in a source leaves the bytes of its program" "$(tail -n 1 "$log")"; fi
 
-# --- a test that is older than its unit, as one that was moved here or added while make ran
+# --- what is asked of ninja: programs that are older than a source, or all if there are others than before
+asks() { make $sanitize -n "$@" 2>&1 | sed ':a;/\\$/{N;s/\\\n//;ba}' | sed -n 's/.*ninja -C [^ ]* *\(-j[^ ]*\)* *\([^;]*\);.*/\2/p' | xargs; }
+# asked <claim> <words> <goals>
+asked() { local found; found=$(asks "${@:3}"); [ "$found" = "$2" ] && ok "$1" || wrong "$1" "'$found' instead of '$2'"; }
+asked "nothing is asked of ninja while programs are newer than their sources" "" build
+cp -p tools/gear-mesh.cpp mesh.cpp && touch tools/gear-mesh.cpp
+asked "a changed program is asked of ninja, no other one" "bin/gear-mesh" "$B/bin/gear-mesh" "$B/bin/gear-plot"
+cp -p mesh.cpp tools/gear-mesh.cpp
+cp -p tests/test_solid.cpp solid.cpp && touch tests/test_solid.cpp
+asked "a changed test asks for no program that is no test" "" build
+[[ $(asks "$B/bin/whine-tests") = *bin/whine-tests* ]] && ok "a changed test is asked for" || wrong "a changed test is asked for" "nothing is compiled"
+cp -p solid.cpp tests/test_solid.cpp
 printf '// Nothing.\n' > tests/test_older.cpp && touch -d 2020-01-01 tests/test_older.cpp
-make $sanitize -n "$B/obj/tests/unit_4.o" 2> /dev/null | grep -q -- "-o $B/obj/tests/unit_4.o " && ok "a source that is older than its unit is compiled into it" ||
-  wrong "a source that is older than its unit is compiled into it" "nothing was compiled"
+[[ $(asks "$B/bin/whine-tests") = *bin/whine-tests* ]] && ok "a source that is older than its program is noticed" || wrong "a source that is older than its program is noticed" "nothing is compiled"
 rm tests/test_older.cpp
 
 # --- what the scorecard reads, from the real program
@@ -558,14 +563,23 @@ cat > machine/apt-get <<'SCRIPT'
 echo "$DEBIAN_FRONTEND apt-get $*" >> machine/calls
 [ "$1" != install ] || { sleep 0.3; touch machine/installed; }
 SCRIPT
-cat > machine/g++ <<'SCRIPT'
+cat > machine/cmake <<'SCRIPT'
 #!/bin/bash
-[ "${!#}" != - ] || mapfile -t sources # or who writes them is told of a broken pipe
 [ -e machine/installed ] || { echo "$@: compiled before deps" >> machine/early; exit 1; }
-while [ $# -gt 0 ]; do [ "$1" != -o ] || output=$2; shift; done
-cp machine/program "$output"
+touch "$4/build.ninja"
 SCRIPT
-cp machine/g++ machine/ar; sed -i 's/^while.*/output=$2/' machine/ar
+cat > machine/ninja <<'SCRIPT'
+#!/bin/bash
+# -C folder, -j, files: gear-scene is the real one
+for file in "${@:3}"; do
+  case $file in
+    -*) continue ;;
+    */gear-scene) program=gear-scene ;;
+    *) program=program ;;
+  esac
+  mkdir -p "$2/${file%/*}" && cp machine/$program "$2/$file"
+done
+SCRIPT
 printf '#!/bin/bash\necho sudo >> machine/calls\nexec "$@"\n' > machine/sudo
 cp "$B/bin/gear-plot" machine/program
 cp "$B/bin/gear-scene" machine/gear-scene
@@ -582,8 +596,6 @@ make > "$log" 2>&1; grep -q '^  fig05 ' "$log" && ok "make prints the targets" |
 
 for goals in "deps fig05" "fig05 deps" "-j2 deps build" "-j2 build deps"; do
   rm -rf build out machine/installed machine/calls machine/early
-  # the stand-in for g++ cannot link gear-scene; the real one takes its place as soon as it is asked for
-  sed 's|^cp machine/program "$output"|case $output in */gear-scene) cp machine/gear-scene "$output" ;; *) cp machine/program "$output" ;; esac|' -i machine/g++
   PATH=$PWD/machine:$PATH make $goals > "$log" 2>&1
   status=$?
   if [ $status = 0 ] && [ ! -e machine/early ] && grep -q 'noninteractive apt-get install .*--no-install-recommends' machine/calls &&

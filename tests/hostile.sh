@@ -10,7 +10,7 @@ wrong() { echo "FAILED: $1: $2"; }
 tree=$base/tree log=$base/log
 mkdir -p "$tree/$B"
 cp -a Makefile pipelines common tools tests data "$tree"
-cp -a "$B/bin" "$B/obj" "$B/id" "$B/flags" "$tree/$B"
+cp -a "$B/bin" "$B/id" "$B/settings" "$tree/$B"
 cd "$tree" || exit 1
 [ "$B" = build ] && sanitize= || sanitize=SANITIZE=1
 coarse='s/^element_mm = [^ ]*/element_mm = 1.5/; s/^element_order = [^ ]*/element_order = 1/; s/^modes = [^ ]*/modes = 5/
@@ -89,7 +89,7 @@ make $sanitize -n 'SCENE=mü/ß@a+b,c/own_1.toml' static > "$log" 2>&1 && grep -
 # --- a decimal point where the locale has a comma
 if mkdir -p "$base/locale" && localedef -i de_DE -f UTF-8 "$base/locale/de_DE.UTF-8" 2> /dev/null; then
   LOCPATH=$base/locale LC_ALL=de_DE.UTF-8 make $sanitize -n build > "$log" 2>&1
-  ! grep -q '^\(g++\|printf\|awk\) ' "$log" && ok "another order of the alphabet compiles nothing anew" || wrong "another order of the alphabet compiles nothing anew" "$(grep -c . "$log") commands"
+  ! grep -q 'ninja -C' "$log" && ok "another order of the alphabet compiles nothing anew" || wrong "another order of the alphabet compiles nothing anew" "$(grep -c . "$log") commands"
   LOCPATH=$base/locale LC_ALL=de_DE.UTF-8 make $sanitize -n out/parker2000/T62.5/static.h5 > "$log" 2>&1 && ok "a torque of 62.5 in a path, where the locale has a comma" ||
     wrong "a torque of 62.5 in a path, where the locale has a comma" "$(tail -n 1 "$log")"
 else echo "skipped: a torque of 62.5 in a path, where the locale has a comma (localedef cannot make one)"; fi

@@ -1,5 +1,6 @@
 # The layers of common/: a layer includes only layers below it, heavy libraries stay behind their walls.
 set -uo pipefail
+shopt -s globstar
 B=${B:-build}
 
 declare -A below=(
@@ -26,13 +27,13 @@ faults=$(for layer in "${!below[@]}"; do echo "$layer ${below[$layer]}"; done | 
   !/^#include "/ || !(layer in place) { next }
   { split($0, quoted, "\""); slash = index(quoted[2], "/"); other = substr(quoted[2], 1, slash - 1)
     if (!slash) print FILENAME " includes \"" quoted[2] "\" without its layer"
-    else if (!((layer, other) in below)) print FILENAME " includes " other "/, which is not below " layer "/" }' - common/*/*.h common/*/*.cpp common/*/*/*.h common/*/*/*.cpp)
+    else if (!((layer, other) in below)) print FILENAME " includes " other "/, which is not below " layer "/" }' - common/**/*.h common/**/*.cpp)
 if [ -z "$faults" ]; then echo "ok: layers include only layers below them"; else echo "FAILED: $faults"; fi
 
 # confined <header> <pattern of files that may include it>
 confined() {
   local found
-  found=$(grep -l "#include <$1" common/*/* common/*/*/* tools/* tests/*/test_*.cpp 2> /dev/null | grep -v -E "^($2)$" | tr '\n' ' ')
+  found=$(grep -l "#include <$1" common/**/*.* tools/* tests/**/test_*.cpp | grep -v -E "^($2)$" | tr '\n' ' ')
   if [ -z "$found" ]; then echo "ok: only $2 includes $1"; else echo "FAILED: $1 is included by $found"; fi
 }
 confined hdf5 'common/io/.*\.cpp|common/io/h5(_handle)?\.h'
@@ -41,12 +42,12 @@ confined cholmod 'common/solid/.*\.cpp'
 confined fftw3 'common/signal/.*\.cpp'
 confined toml 'common/io/.*\.cpp|common/io/toml\.h'
 confined pugixml 'common/io/rexs/(rexs|results)\.cpp'
-confined jsoncpp 'common/io/rexs/(rexs|results|json)\.cpp|tests/rexs_models\.h'
-confined zip 'common/io/rexs/archive\.cpp|tests/(rexs_models\.h|io/test_rexs\.cpp)'
-confined sndfile 'common/io/wav\.cpp|tests/signal/test_sound\.cpp'
+confined jsoncpp 'common/io/rexs/(rexs|results|json)\.cpp|tests/(.*/)?rexs_models\.h'
+confined zip 'common/io/rexs/archive\.cpp|tests/(.*/)?(rexs_models\.h|test_rexs\.cpp)'
+confined sndfile 'common/io/wav\.cpp|tests/(.*/)?test_sound\.cpp'
 confined CLI/ 'common/base/options\.cpp'
 
-found=$(grep -n -E '__DATE__|__TIME__|__TIMESTAMP__|std::format' common/*/*.* common/*/*/*.* tools/* | head -3)
+found=$(grep -n -E '__DATE__|__TIME__|__TIMESTAMP__|std::format' common/**/*.* tools/* | head -3)
 if [ -z "$found" ]; then echo "ok: no date is compiled in"; else echo "FAILED: a date or std::format: $found"; fi
 # gmsh's library has an Eigen of its own, compiled for another processor: a template that a program exports would take its place.
 programs=$(find "$B/bin" -name 'gear-*' -o -name 'whine-*' 2> /dev/null)
@@ -72,12 +73,12 @@ if [ -x "$B/bin/whine-tests" ]; then
   if [ -z "$found" ]; then echo "ok: each line of tests/slow and tests/unsanitized is a file or a case"; else echo "FAILED: tests/slow, tests/unsanitized: not one case: $found"; fi
 fi
 # An equation of P2000 is found by its number, `grep -rnw "Eq. 18" common`.
-found=$(grep -n -E 'Eqs?\. *$' common/*/*.h common/*/*.cpp tools/*.cpp | head -3)
+found=$(grep -n -E 'Eqs?\. *$' common/**/*.h common/**/*.cpp tools/*.cpp | head -3)
 if [ -z "$found" ]; then echo "ok: no equation is parted from its number by the end of a line"; else echo "FAILED: put the number beside 'Eq.': $found"; fi
-named=$(grep -h -o -w -E 'Eq\. [0-9]+' common/*/*.h common/*/*.cpp | sort -u)
+named=$(grep -h -o -w -E 'Eq\. [0-9]+' common/**/*.h common/**/*.cpp | sort -u)
 found=$(for number in {1..23}; do [[ $'\n'$named$'\n' == *$'\n'"Eq. $number"$'\n'* ]] || echo "Eq. $number"; done)
 if [ -z "$found" ]; then echo "ok: each of the 23 equations of P2000 is named in a source"; else echo "FAILED: no source names ${found//$'\n'/, }"; fi
-found=$(grep -n -w Approx tests/*.h tests/*.cpp tests/*/*.h tests/*/*.cpp | grep -v '^tests/relative\.h:' | head -3)
+found=$(grep -n -w Approx tests/**/*.h tests/**/*.cpp | grep -v '^tests/relative\.h:' | head -3)
 if [ -z "$found" ]; then echo "ok: tests compare numbers by relative() only"; else echo "FAILED: Approx adds 1 to the scale, use relative(): $found"; fi
 if ! command -v clang-format > /dev/null; then
   echo "skipped: layout of the sources (clang-format is not installed)"

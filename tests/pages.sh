@@ -4,6 +4,7 @@
 # Of the text only code is read: spans in backticks and indented or fenced lines. tests/pages.exceptions lists what cannot be checked,
 # with a reason each. A page with planted faults shows that each check can fail.
 set -uo pipefail
+shopt -s globstar
 B=${B:-build}
 top=$PWD
 bin=$PWD/$B/bin
@@ -71,7 +72,7 @@ while read -r name; do is_variable[$name]=1; done < <(grep -o -w '[A-Z][A-Z_]\+'
 while read -r name; do is_key[$name]=1; done < <("$bin/gear-scene" --keys | cut -d'|' -f3 | tr -d '` ')
 programs=$(set +f; cd tools && echo gear-*.cpp)
 for program in ${programs//.cpp/}; do help_of[$program]=$("$bin/$program" --help | tr -s ' \n,' '   '); done
-sources_of_functions=$(set +f; cat common/*/*.h common/*/*.cpp common/io/rexs/*.h common/io/rexs/*.cpp tools/*.cpp tests/*.h tests/*.cpp tests/*/*.cpp)
+sources_of_functions=$(set +f; cat common/**/*.h common/**/*.cpp tools/*.cpp tests/*.h tests/**/test_*.cpp)
 sources_of_files=$(set +f; cat common/io/*.h common/io/*.cpp common/io/*/*.h common/io/*/*.cpp common/results/*.h common/model/*.cpp)
 while IFS= read -r line; do
   case $line in '#'* | '') continue ;; esac
@@ -215,8 +216,8 @@ for page in "${pages[@]}"; do
 done
 found=$(for folder in tools pipelines data tests common $(set +f; echo common/*/); do [ -e "${folder%/}/README.md" ] || echo "${folder%/}"; done)
 [ -z "$found" ] && ok "every folder has its page" || wrong "every folder has its page" "$found"
-found=$(set +f; declare -A text; for header in common/*/*.h common/io/rexs/*.h; do
-  folder=${header%/*} folder=${folder%/rexs}
+found=$(set +f; declare -A text; for header in common/**/*.h; do
+  folder=${header#common/}; folder=common/${folder%%/*}
   [ -n "${text[$folder]:-}" ] || text[$folder]=$(< "$folder/README.md")
   [[ ${text[$folder]} == *"\`$header\`"* ]] || echo "$header"; done)
 [ -z "$found" ] && ok "every header of a layer stands on its page" || wrong "every header of a layer stands on its page" "$(tr '\n' ' ' <<< "$found")"
@@ -235,12 +236,12 @@ found=$(grep -r -o -h -E '\<(common|tools|pipelines|data|tests)/[a-z/]*README\.m
 mkdir -p "$work/tree/$B" "$work/tree/path/to"
 for part in Makefile .clang-tidy common tools pipelines tests; do ln -s "$top/$part" "$work/tree/$part"; done
 cp -a data "$work/tree"
-for part in bin obj id; do ln -s "$top/$B/$part" "$work/tree/$B/$part"; done
-cp -p "$B/flags" "$work/tree/$B"
+for part in bin id; do ln -s "$top/$B/$part" "$work/tree/$B/$part"; done
+cp -p "$B/settings" "$work/tree/$B"
 for name in my-pair mass x path/to/x path/to/pair path/to/scene; do cp data/scenes/first-pair.toml "$work/tree/$name.toml"; done
 sed 's|\.\./scenes|../../data/scenes|' data/studies/tolerances.toml > "$work/tree/path/to/it.toml"
 cp data/studies/tolerances.toml "$work/tree/data/studies/big.toml"
-compiler=$(sed 's/ -Icommon .*//' "$B/flags")
+compiler=$(sed 's/ .*//' "$B/settings")
 [ "$B" = build ] && sanitize= || sanitize=SANITIZE=1
 # A line for each set of variables: where it stands, the variables, the targets. What is to be installed is no part of it, and under
 # sanitizers other objects would be compiled.

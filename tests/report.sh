@@ -12,7 +12,7 @@ wrong() { echo "FAILED: $1: $2"; }
 # The tree with its programs; hard links, because nothing is compiled.
 cp -a Makefile pipelines common tools data tests "$tree"
 mkdir -p "$tree/$B"
-cp -al "$B/bin" "$B/obj" "$B/id" "$B/flags" "$tree/$B"
+cp -al "$B/bin" "$B/id" "$B/settings" "$tree/$B"
 cd "$tree" || exit 1
 [ "$B" = build ] && sanitize= || sanitize=SANITIZE=1
 log=$tree/log

@@ -79,7 +79,7 @@ fi
 tree=$base/tree log=$base/log
 mkdir -p "$tree/$B"
 cp -a Makefile pipelines common tools tests data "$tree"
-cp -a "$B/bin" "$B/obj" "$B/id" "$B/flags" "$tree/$B"
+cp -a "$B/bin" "$B/id" "$B/settings" "$tree/$B"
 cd "$tree" || exit 1
 cat > own.toml <<'STUDY'
 scene = "data/scenes/parker2000.toml"

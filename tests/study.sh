@@ -9,7 +9,7 @@ wrong() { echo "FAILED: $1: $2"; }
 tree=$base/tree log=$base/log
 mkdir -p "$tree/$B"
 cp -a Makefile pipelines common tools tests data "$tree"
-cp -a "$B/bin" "$B/obj" "$B/id" "$B/flags" "$tree/$B"
+cp -a "$B/bin" "$B/id" "$B/settings" "$tree/$B"
 cd "$tree" || exit 1
 [ "$B" = build ] && sanitize= || sanitize=SANITIZE=1
 make_() { make $sanitize "$@" > "$log" 2>&1; }

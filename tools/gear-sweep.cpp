@@ -26,7 +26,7 @@
 
 namespace {
 
-std::string in_words(const whine::Change& change) {
+std::string in_words(const whine::LevelChange& change) {
   std::ostringstream out;
   out << change.largest * 100 << " % at most (" << change.at << " Hz), " << change.rms * 100 << " % RMS";
   return out.str();

@@ -10,6 +10,7 @@
 #include "report/response_figures.h"
 #include "signal/response.h"
 #include "signal/spectrum.h"
+#include "studies/sweep.h"
 
 namespace whine {
 namespace {

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "gear/pair.h"
 #include "lumped/stiffness.h"
 #include "report/figure_words.h"

@@ -29,7 +29,7 @@ ReducedBody with_all_modes(const ReducedBody& body) {
                 static_cast<int>(body.flank_position.size()));
 }
 
-void add(Change& change, double relative, double frequency) {
+void add(LevelChange& change, double relative, double frequency) {
   change.rms += relative * relative;
   if (std::abs(relative) <= change.largest) return;
   change.largest = std::abs(relative);
@@ -110,7 +110,7 @@ SweepChange sweep_change(const SweepResult& here, const SweepResult& next) {
       add(change.tooth_load, a.tooth_load_max[i] / b.tooth_load_max[i] - 1, a.mesh_frequency[i]);
     }
   }
-  for (Change* c : {&change.dte_rms, &change.dte_mean, &change.tooth_load})
+  for (LevelChange* c : {&change.dte_rms, &change.dte_mean, &change.tooth_load})
     c->rms = change.compared > 0 ? std::sqrt(c->rms / change.compared) : 0;
   return change;
 }

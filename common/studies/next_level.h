@@ -29,7 +29,7 @@ std::vector<NextSweep> next_sweeps(const ReducedBody& driver, const ReducedBody&
                                    const SweepParameters& settings);
 
 // Largest and RMS over the speeds, relative to the next model level.
-struct Change {
+struct LevelChange {
   double largest = 0, rms = 0;
   double at = 0;  // Hz: speed of the largest
 };
@@ -37,7 +37,7 @@ struct SweepChange {
   int compared = 0;  // speeds
   int apart = 0;     // speeds at which one sweep has left a branch that the other is on
   int uneven = 0;    // speeds at which a sweep is not periodic, or the two have orbits of other lengths
-  Change dte_rms, dte_mean, tooth_load;
+  LevelChange dte_rms, dte_mean, tooth_load;
 };
 
 // Both of the same speeds in the same order; throws Error(input) otherwise. After a jump of either sweep speeds count as
