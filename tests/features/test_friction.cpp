@@ -349,7 +349,7 @@ TEST_CASE("friction: without it nothing changes, and static.h5 keeps it") {
   StaticResult stored = with;
   stored.transmission_error_harmonic = stored.stiffness_harmonic = VectorXd::Ones(2);
   write(path, stored, Provenance());
-  const StaticResult read = read<StaticResult>(path);
+  const StaticResult read = whine::read<StaticResult>(path);
   std::filesystem::remove(path);
   CHECK(read.friction_loss == with.friction_loss);
   CHECK(read.friction_moment[1] == with.friction_moment[1]);
@@ -363,7 +363,7 @@ TEST_CASE("friction: without it nothing changes, and static.h5 keeps it") {
   torn = stored;
   torn.mesh.friction = {};
   write(path, torn, Provenance());
-  CHECK(read<StaticResult>(path).friction_loss.size() == 0);
+  CHECK(whine::read<StaticResult>(path).friction_loss.size() == 0);
   std::filesystem::remove(path);
   // What is left out is said, and where Schlenk's formula ends.
   const auto said = [](const std::vector<Remark>& remarks) {

@@ -240,7 +240,7 @@ TEST_CASE("friction in motion: slow and light, losses are those at rest; a sweep
   CHECK(slow.energy_imbalance[0] < 1e-9);
   const std::string path = (std::filesystem::temp_directory_path() / "whine-friction-sweep.h5").string();
   write(path, slow, Provenance());
-  const SweepResult read = read<SweepResult>(path);
+  const SweepResult read = whine::read<SweepResult>(path);
   std::filesystem::remove(path);
   CHECK(read.friction.power == slow.friction.power);
   CHECK(read.friction_work == slow.friction_work);

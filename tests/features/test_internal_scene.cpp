@@ -123,7 +123,7 @@ TEST_CASE(
   supported.rim_tangential_stiffness = 7e8;
   const std::string path = file.path("", "mesh.h5");
   write(path, make_sector_mesh(supported, coarse), Provenance());
-  CHECK(read<SectorGrid>(path).design.rim_tangential_stiffness == 7e8);
+  CHECK(whine::read<SectorGrid>(path).design.rim_tangential_stiffness == 7e8);
 
   // As a file of parameters before there were supports.
   CHECK(body_parameters(file.read(with_ring()), "wheel").find("stiffness") == std::string::npos);
@@ -154,7 +154,7 @@ TEST_CASE("artifacts of an internal gear come back as they were; those of extern
   const SectorGrid mesh = make_sector_mesh(ring_gear(), coarse);
   const std::string path = file.path("", "mesh.h5");
   write(path, mesh, Provenance());
-  const SectorGrid back = read<SectorGrid>(path);
+  const SectorGrid back = whine::read<SectorGrid>(path);
   CHECK(back.design.internal);
   CHECK(back.design.rim_outer_radius == mesh.design.rim_outer_radius);
   CHECK(back.design.bore_radius == 0);
@@ -164,13 +164,13 @@ TEST_CASE("artifacts of an internal gear come back as they were; those of extern
   const ReducedBody body = reduce(mesh, {206e9, 0.3, 7850, true}, 1);
   const std::string body_path = file.path("", "body.h5");
   write(body_path, body, Provenance());
-  const ReducedBody body_back = read<ReducedBody>(body_path);
+  const ReducedBody body_back = whine::read<ReducedBody>(body_path);
   CHECK(body_back.design.internal);
   CHECK(body_back.design.rim_outer_radius == mesh.design.rim_outer_radius);
   CHECK(body_back.flank_position == body.flank_position);
 
   const std::string external = file.path("", "planet.h5");
   write(external, make_sector_mesh(planet_gear(), coarse), Provenance());
-  CHECK_FALSE(read<SectorGrid>(external).design.internal);
-  CHECK(read<SectorGrid>(external).design.bore_radius == planet_gear().bore_radius);
+  CHECK_FALSE(whine::read<SectorGrid>(external).design.internal);
+  CHECK(whine::read<SectorGrid>(external).design.bore_radius == planet_gear().bore_radius);
 }

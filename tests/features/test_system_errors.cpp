@@ -474,7 +474,7 @@ TEST_CASE(
   const SystemStaticResult rest = rest_of(scene);
   const std::string h5 = file.path("") + ".h5";
   write(h5, rest, Provenance());
-  const SystemStaticResult read = read<SystemStaticResult>(h5);
+  const SystemStaticResult read = whine::read<SystemStaticResult>(h5);
   CHECK(read.hunting_periods == 20);
   CHECK(read.transmission_error_order == rest.transmission_error_order);
   CHECK(read.settings.errors[1].profile_slope == rest.settings.errors[1].profile_slope);
