@@ -267,25 +267,27 @@ void ArtifactWriter::put(const std::string& name, const MatrixRMi& values, const
              {static_cast<std::size_t>(values.rows()), static_cast<std::size_t>(values.cols())}, label);
 }
 
-void ArtifactWriter::parameters(const std::string& section, const SceneParameters& values, KeyGroup part) {
-  for (const Parameter& parameter : parameters_of(values, part)) {
-    std::visit(
-        [&](const auto& value) {
-          put("/parameters/" + section + "/" + parameter.name, value,
-              {parameter.units, parameter.meaning, "", ""});
-        },
-        parameter.value);
+namespace {
+
+// Section of /parameters that holds a key of a list in `section`.
+std::string held_in(const Key& key, const std::string& section) {
+  if (key.own.empty()) return section;
+  return key.own[0] == '_' ? section + key.own : key.own;
+}
+
+}  // namespace
+
+void ArtifactWriter::parameters(const std::string& section, const KeyList& keys) {
+  for (const Key& key : keys) {
+    if (!is_held(key)) continue;
+    for (const Parameter& parameter : parameters_of(key))
+      std::visit(
+          [&](const auto& value) {
+            put("/parameters/" + held_in(key, section) + "/" + parameter.name, value,
+                {parameter.units, parameter.meaning, "", ""});
+          },
+          parameter.value);
   }
-  if (part != KeyGroup::mesh) return;
-  if (values.mesh.contact_plane != GearMeshSpec{}.contact_plane)
-    parameters(section, values, KeyGroup::contact_plane);
-  if (values.mesh.friction.acts()) parameters("friction", values, KeyGroup::friction);
-  for (const GearSection& own : kGearSections)
-    for (int g = 0; g < kSides; ++g) {
-      SceneParameters of_gear;
-      take_gear(of_gear, values.mesh, g);
-      if (own.stands(of_gear)) parameters(own.of(g), of_gear, own.part);
-    }
 }
 
 void ArtifactWriter::publish() {
@@ -413,21 +415,12 @@ MatrixRMi ArtifactReader::whole_matrix(const std::string& name, const Range& ran
   return Eigen::Map<const MatrixRMi>(values.data(), as_index(shape[0]), as_index(shape[1]));
 }
 
-void ArtifactReader::parameters(const std::string& section, SceneParameters& values, KeyGroup part) const {
-  set_parameters(values, part, SectionSource(*this, section));
-  if (part != KeyGroup::mesh) return;
-  const SectionSource mesh(*this, section);
-  if (mesh.has("contact_plane")) set_parameters(values, KeyGroup::contact_plane, mesh);
-  if (const SectionSource friction(*this, "friction"); friction.has("law"))
-    set_parameters(values, KeyGroup::friction, friction);
-  for (int g = 0; g < kSides; ++g) {
-    SceneParameters of_gear;
-    for (const GearSection& own : kGearSections) {
-      const SectionSource source(*this, own.of(g));
-      if (source.has(own.first)) set_parameters(of_gear, own.part, source);
-    }
-    put_gear(of_gear, values.mesh, g);
-  }
+void ArtifactReader::parameters(const std::string& section, const KeyList& keys) const {
+  const auto section_of = [&](const Key& key) { return held_in(key, section); };
+  const auto has = [&](const Key& key) { return SectionSource(*this, section_of(key)).has(key.si_name()); };
+  read_held(keys, has, section_of, [&](const std::string& own, const KeyList& held) {
+    for (const Key& key : held) set_parameter(key, SectionSource(*this, own));
+  });
 }
 
 }  // namespace whine

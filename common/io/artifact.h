@@ -43,8 +43,8 @@ class ArtifactWriter {
   void put(const std::string& name, const MatrixRM& values, const h5::Label& label);
   void put(const std::string& name, const MatrixRMi& values, const h5::Label& label);
 
-  // /parameters/<section>/<key> for all keys of a part.
-  void parameters(const std::string& section, const SceneParameters& values, KeyGroup part);
+  // /parameters/<section>/<key> for the keys that are held.
+  void parameters(const std::string& section, const KeyList& keys);
 
   // Writes the file whole or not at all. Error(input) if an input is not what it was when the stage read it.
   void publish();
@@ -93,7 +93,7 @@ class ArtifactReader {
   MatrixRMi whole_matrix(const std::string& name, const Range& range, Eigen::Index rows = -1,
                          Eigen::Index columns = -1) const;
 
-  void parameters(const std::string& section, SceneParameters& values, KeyGroup part) const;
+  void parameters(const std::string& section, const KeyList& keys) const;
 
  protected:
   ArtifactReader() = default;  // of values that come from elsewhere

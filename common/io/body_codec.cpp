@@ -70,16 +70,8 @@ void describe_root_stress(Codec& c, ReducedBody& a) {
 
 void describe(Codec& c, ReducedBody& a) {
   describe_design(c, "gear", a.design);
-  SceneParameters values;
-  values.material = a.material;
-  values.body = a.discretisation;
-  c.parameters("material", values, KeyGroup::material);
-  for (const KeyGroup part : {KeyGroup::body, KeyGroup::near_field})
-    c.parameters("discretisation", values, part);
-  if (c.in()) {
-    a.material = values.material;
-    a.discretisation = values.body;
-  }
+  c.parameters("material", keys(a.material));
+  c.parameters("discretisation", keys(a.discretisation).all());
   c(a.inertia, "/inertia", "kg m2", kMass, "",
     "inertia of the meshed body about its axis, hub ring included");
   c(a.mass, "/mass", "kg", kMass, "", "mass of the meshed body, hub ring included");

@@ -238,91 +238,33 @@ Eigen::Index Codec::length(const std::string& axis) const {
   return found == lengths_.end() ? 0 : found->second;
 }
 
-void Codec::parameters(const std::string& section, SceneParameters& values, KeyGroup part) const {
-  if (out_) out_->parameters(section, values, part);
-  if (in_) in_->parameters(section, values, part);
+void Codec::parameters(const std::string& section, const KeyList& keys) const {
+  if (out_) out_->parameters(section, keys);
+  if (in_) in_->parameters(section, keys);
 }
 
 // --- what several artifacts have in common
 
-namespace {
-
-// Gears without a crack have no such section.
-void describe_crack(Codec& c, const std::string& section, SceneParameters& values) {
-  if (!c.lists() && c.optional("/parameters/" + section + "_crack/depth", values.design.crack.depth > 0))
-    c.parameters(section + "_crack", values, KeyGroup::crack);
-}
-
-// The bore of an external gear or, in a section of its own, the rim of an internal one, with the stiffness of its support if that is
-// elastic.
-void describe_blank(Codec& c, const std::string& section, SceneParameters& values) {
-  if (!c.lists() && c.optional("/parameters/" + section + "_rim/rim_outer_radius", values.design.internal)) {
-    c.parameters(section + "_rim", values, KeyGroup::rim);
-    if (c.optional("/parameters/" + section + "_rim/rim_radial_stiffness", values.design.elastic_rim()))
-      c.parameters(section + "_rim", values, KeyGroup::rim_support);
-  } else
-    c.parameters(section, values, KeyGroup::bore);
-}
-
-void describe_inertia(Codec& c, const std::string& role, double& inertia) {
-  SceneParameters values;
-  values.total_inertia = inertia;
-  c.parameters(role, values, KeyGroup::inertia);
-  if (c.in()) inertia = values.total_inertia;
-}
-
-}  // namespace
-
 void describe_gear(Codec& c, const std::string& role, BodyParameters& gear) {
-  SceneParameters values;
-  values.design = gear.design;
-  values.material = gear.material;
-  values.body = gear.discretisation;
-  c.parameters(role, values, KeyGroup::design);
-  describe_blank(c, role, values);
-  for (const KeyGroup part : {KeyGroup::material, KeyGroup::body, KeyGroup::near_field})
-    c.parameters(role, values, part);
-  describe_crack(c, role, values);
-  if (c.in()) gear = {values.design, values.material, values.body};
+  c.parameters(role, keys(gear.design).append(keys(gear.material)).append(keys(gear.discretisation).all()));
 }
 
 void describe_design(Codec& c, const std::string& section, GearDesign& design) {
-  SceneParameters values;
-  values.design = design;
-  c.parameters(section, values, KeyGroup::design);
-  describe_blank(c, section, values);
-  describe_crack(c, section, values);
-  if (c.in()) design = values.design;
+  c.parameters(section, keys(design));
 }
 
 void describe_pair(Codec& c, GearPairParameters& a, bool fidelity) {
   for (int g = 0; g < kSides; ++g) describe_gear(c, kRole[g], a.gear[g]);
-  SceneParameters values;
-  values.mesh = a.mesh;
-  values.fidelity = a.fidelity;
-  values.contact = a.contact;
-  c.parameters("mesh", values, KeyGroup::mesh);
-  if (fidelity) c.parameters("fidelity", values, KeyGroup::contact_level);
-  c.parameters("discretisation", values, KeyGroup::contact);
-  if (!c.in()) return;
-  a.mesh = values.mesh;
-  a.fidelity = values.fidelity;
-  a.contact = values.contact;
+  c.parameters("mesh", keys(a.mesh));
+  if (fidelity) c.parameters("fidelity", keys(a.fidelity).only({"contact"}));
+  c.parameters("discretisation", keys(a.contact));
 }
 
 void describe_motion(Codec& c, MotionParameters& a, bool time) {
-  for (int g = 0; g < kSides; ++g) describe_inertia(c, kRole[g], a.inertia[g]);
-  SceneParameters values;
-  values.damping = a.damping;
-  values.fidelity = a.fidelity;
-  values.time = a.time;
-  c.parameters("damping", values, KeyGroup::damping);
-  c.parameters("fidelity", values, KeyGroup::level);
-  if (time) c.parameters("discretisation", values, KeyGroup::time);
-  if (!c.in()) return;
-  a.damping = values.damping;
-  a.fidelity = values.fidelity;
-  a.time = values.time;
+  for (int g = 0; g < kSides; ++g) c.parameters(kRole[g], inertia_key(a.inertia[g]));
+  c.parameters("damping", keys(a.damping));
+  c.parameters("fidelity", keys(a.fidelity).without({"contact"}));
+  if (time) c.parameters("discretisation", keys(a.time));
 }
 
 void describe_torque(Codec& c, double& torque) {

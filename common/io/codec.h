@@ -146,7 +146,7 @@ class Codec {
   Eigen::Index length(const std::string& axis) const;  // 0 if no dataset has it
 
   // /parameters/<section>/<key> of all keys of a part.
-  void parameters(const std::string& section, SceneParameters& values, KeyGroup part) const;
+  void parameters(const std::string& section, const KeyList& keys) const;
 
   bool lists() const { return list_ != nullptr; }
   ArtifactWriter* out() const { return out_; }      // nullptr unless it writes

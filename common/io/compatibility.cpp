@@ -17,24 +17,25 @@ const std::string kRecord = "/params/scene.txt";
 }  // namespace
 
 void require_mesh(const SectorGrid& mesh, const BodyParameters& settings, const std::string& path) {
-  SceneParameters found, wanted;
-  found.design = mesh.design;
-  found.body = mesh.discretisation;
-  wanted.design = settings.design;
-  wanted.body = settings.discretisation;
-  found.body.modes = wanted.body.modes;
-  for (const KeyGroup part : {KeyGroup::design, KeyGroup::bore, KeyGroup::rim, KeyGroup::rim_support,
-                              KeyGroup::crack, KeyGroup::body}) {
-    const auto have = parameters_of(found, part), want = parameters_of(wanted, part);
-    for (std::size_t i = 0; i < want.size(); ++i) {
-      if (have[i].value == want[i].value) continue;
-      const auto shown = [](const Parameter& parameter) {
-        return std::visit([](const auto& value) { return text(value); }, parameter.value);
-      };
-      fail(Failure::input, path, ": is the mesh of another gear: its ", want[i].name, " is ", shown(have[i]),
-           ", the stage parameters of the scene say ", shown(want[i]),
-           want[i].units == "1" ? "" : " " + want[i].units, "; ", rebuild_advice(path));
-    }
+  // Keys that either may lack are compared, too.
+  const auto all_of = [&](GearDesign design, BodyDiscretisation body) {
+    body.modes = settings.discretisation.modes;
+    std::vector<Parameter> out;
+    for (const KeyList& list : {keys(design).all(), keys(body).plain()})
+      for (const Key& key : list)
+        for (const Parameter& parameter : parameters_of(key)) out.push_back(parameter);
+    return out;
+  };
+  const auto have = all_of(mesh.design, mesh.discretisation),
+             want = all_of(settings.design, settings.discretisation);
+  for (std::size_t i = 0; i < want.size(); ++i) {
+    if (have[i].value == want[i].value) continue;
+    const auto shown = [](const Parameter& parameter) {
+      return std::visit([](const auto& value) { return text(value); }, parameter.value);
+    };
+    fail(Failure::input, path, ": is the mesh of another gear: its ", want[i].name, " is ", shown(have[i]),
+         ", the stage parameters of the scene say ", shown(want[i]),
+         want[i].units == "1" ? "" : " " + want[i].units, "; ", rebuild_advice(path));
   }
 }
 

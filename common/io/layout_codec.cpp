@@ -1,6 +1,7 @@
 #include "io/layout_codec.h"
 
 #include <algorithm>
+#include <type_traits>
 
 #include "base/error.h"
 #include "io/codec.h"
@@ -13,150 +14,120 @@ namespace {
 
 using namespace ranges;
 
-// A system in columns, as its datasets have it.
-struct Columns {
-  std::vector<std::string> name;
-  Eigen::VectorXi carrier, teeth, sense, on, ring_drives, held;
-  Eigen::VectorXd angle, radius, inertia, stiffness, damping, mass, hold;
-  MatrixRM centre;
-  MatrixRMi side;
-  Eigen::VectorXd distance, direction, phase, pressure_angle, mesh_stiffness;
+// A number of each item of a list as one dataset; `member` gives a reference to it.
+template <class Item, class Member>
+void column(Codec& c, const Dataset& d, std::vector<Item>& items, const Member& member) {
+  using Value = std::remove_reference_t<decltype(member(items.front()))>;
+  Eigen::Matrix<std::conditional_t<std::is_same_v<Value, double>, double, int>, Eigen::Dynamic, 1> values(
+      static_cast<Eigen::Index>(items.size()));
+  for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = member(items[static_cast<size_t>(i)]);
+  c.dataset(d, &values);
+  if (!c.in()) return;
+  items.resize(static_cast<size_t>(values.size()));
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    member(items[static_cast<size_t>(i)]) = static_cast<Value>(values[i]);
+}
+
+// The rotation of a body that a drive holds.
+struct Hold {
+  int held = 0;
+  double stiffness = 0;
 };
 
-Columns columns_of(const System& s) {
-  const auto n = static_cast<Eigen::Index>(s.bodies.size()), m = static_cast<Eigen::Index>(s.meshes.size());
-  Columns c;
-  for (Eigen::VectorXi* list : {&c.carrier, &c.teeth, &c.sense, &c.on, &c.held}) list->setZero(n);
-  for (Eigen::VectorXd* list : {&c.angle, &c.radius, &c.inertia, &c.stiffness, &c.damping, &c.mass, &c.hold})
-    list->setZero(n);
-  c.centre.resize(n, 2);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const System::Body& b = s.bodies[static_cast<size_t>(i)];
-    c.name.push_back(b.name);
-    c.carrier[i] = b.kind == System::BodyKind::carrier;
-    c.teeth[i] = b.teeth;
-    c.sense[i] = b.sense;
-    c.on[i] = b.on;
-    c.angle[i] = b.angle;
-    c.radius[i] = b.radius;
-    c.inertia[i] = b.inertia;
-    c.stiffness[i] = b.bearing.stiffness;
-    c.damping[i] = b.bearing.damping;
-    c.mass[i] = b.bearing.mass;
-    c.centre.row(i) << b.centre[0], b.centre[1];
+void describe_bodies(Codec& c, System& s) {
+  using Body = System::Body;
+  const Range count{-1, 10000}, mass{0, kKilograms};
+  const auto number = [&](const char* name, const char* units, const char* meaning, const Range& range,
+                          const auto& member) {
+    column(c, {std::string("/body/") + name, units, meaning, "body_number", range}, s.bodies, member);
+  };
+  std::vector<std::string> names;
+  std::vector<int> carrier;
+  for (const Body& body : s.bodies) {
+    names.push_back(body.name);
+    carrier.push_back(body.kind == System::BodyKind::carrier);
   }
+  c.dataset({"/body/name", "1", "name of the body", "body_number"}, &names);
+  column(c, {"/body/is_carrier", "1", "1: a carrier, 0: a gear", "body_number", kFlag}, carrier,
+         [](int& own) -> int& { return own; });
+  number("teeth", "1", "number of teeth, 0 of a carrier", kTooth, [](Body& b) -> int& { return b.teeth; });
+  for (size_t b = 0; c.in() && b < s.bodies.size(); ++b) {
+    s.bodies[b].name = names[b];
+    s.bodies[b].kind = carrier[b] ? System::BodyKind::carrier : System::BodyKind::gear;
+  }
+  number("sense", "1", "sense of rotation: 1 counter-clockwise, -1 clockwise", {-1, 1},
+         [](Body& b) -> int& { return b.sense; });
+  number("stands_on", "1", "number of the carrier that carries the axis, -1: the ground", count,
+         [](Body& b) -> int& { return b.on; });
+  MatrixRM centre(static_cast<Eigen::Index>(s.bodies.size()), 2);
+  for (size_t b = 0; b < s.bodies.size(); ++b)
+    centre.row(static_cast<Eigen::Index>(b)) << s.bodies[b].centre[0], s.bodies[b].centre[1];
+  c.dataset({"/body/centre", "m", "place of the axis", "body_number xy", kPlace}, &centre);
+  for (size_t b = 0; c.in() && b < s.bodies.size(); ++b)
+    s.bodies[b].centre = {centre(static_cast<Eigen::Index>(b), 0), centre(static_cast<Eigen::Index>(b), 1)};
+  number("angle", "rad", "angle of tooth 0 from +y at mesh phase 0, counter-clockwise", kSigned,
+         [](Body& b) -> double& { return b.angle; });
+  number("radius", "m", "base radius; of a carrier that of the pins", kRadius,
+         [](Body& b) -> double& { return b.radius; });
+  number("inertia", "kg m2", "inertia about the axis", mass, [](Body& b) -> double& { return b.inertia; });
+  number("mass", "kg", "mass of what moves with the hub; 0: rigid bearing", mass,
+         [](Body& b) -> double& { return b.bearing.mass; });
+  number("bearing_stiffness", "N m-1", "radial stiffness of the bearing; 0: rigid", kStiff,
+         [](Body& b) -> double& { return b.bearing.stiffness; });
+  number("bearing_damping", "N s m-1", "radial damping of the bearing", {0, kStiffnesses},
+         [](Body& b) -> double& { return b.bearing.damping; });
+}
+
+void describe_holds(Codec& c, System& s) {
+  std::vector<Hold> holds(s.bodies.size());
   for (const System::Drive& drive : s.drives)
-    if (drive.kind == System::DriveKind::held) {
-      c.held[drive.body] = 1;
-      c.hold[drive.body] = drive.stiffness;
+    if (drive.kind == System::DriveKind::held) holds[static_cast<size_t>(drive.body)] = {1, drive.stiffness};
+  column(c, {"/body/held", "1", "1: a drive holds the rotation", "body_number", kFlag}, holds,
+         [](Hold& hold) -> int& { return hold.held; });
+  column(c,
+         {"/body/hold_stiffness", "N m-1", "stiffness of what holds it, at the radius; 0: rigid",
+          "body_number", kStiff},
+         holds, [](Hold& hold) -> double& { return hold.stiffness; });
+  for (size_t b = 0; c.in() && b < holds.size(); ++b)
+    if (holds[b].held)
+      s.drives.push_back({static_cast<int>(b), System::DriveKind::held, 0, holds[b].stiffness});
+}
+
+void describe_meshes(Codec& c, System& s) {
+  using Mesh = System::Mesh;
+  const auto number = [&](const char* name, const char* units, const char* meaning, const Range& range,
+                          const auto& member) {
+    column(c, {std::string("/mesh/") + name, units, meaning, "mesh_number", range}, s.meshes, member);
+  };
+  MatrixRMi side(static_cast<Eigen::Index>(s.meshes.size()), 2);
+  for (size_t m = 0; m < s.meshes.size(); ++m)
+    side.row(static_cast<Eigen::Index>(m)) << s.meshes[m].side[0].body, s.meshes[m].side[1].body;
+  c.dataset({"/mesh/body_number",
+             "1",
+             "numbers of the driving and the driven body",
+             "mesh_number gear",
+             {0, 10000}},
+            &side);
+  number("ring_drives", "1", "1: the driving gear is internal", kFlag,
+         [](Mesh& m) -> bool& { return m.ring_drives; });
+  number("centre_distance", "m", "distance of the axes", kSize,
+         [](Mesh& m) -> double& { return m.centre_distance; });
+  number("direction", "rad", "from the driving body's axis to the pitch point, counter-clockwise from +x",
+         kSigned, [](Mesh& m) -> double& { return m.direction; });
+  number("phase", "1", "mesh periods that it is ahead of the first mesh", kShare,
+         [](Mesh& m) -> double& { return m.phase; });
+  number("pressure_angle", "rad", "working pressure angle", {0, 1.5},
+         [](Mesh& m) -> double& { return m.pressure_angle; });
+  number("stiffness", "N m-1", "mean stiffness along the line of action", kStiff,
+         [](Mesh& m) -> double& { return m.stiffness; });
+  if (!c.in()) return;
+  require_indices(c, "/mesh/body_number", side, static_cast<Eigen::Index>(s.bodies.size()));
+  for (size_t m = 0; m < s.meshes.size(); ++m)
+    for (size_t k = 0; k < 2; ++k) {
+      System::Side& own = s.meshes[m].side[k];
+      own.body = side(static_cast<Eigen::Index>(m), static_cast<Eigen::Index>(k));
+      own.sense = s.bodies[static_cast<size_t>(own.body)].sense;
     }
-  c.ring_drives.setZero(m);
-  for (Eigen::VectorXd* list : {&c.distance, &c.direction, &c.phase, &c.pressure_angle, &c.mesh_stiffness})
-    list->setZero(m);
-  c.side.resize(m, 2);
-  for (Eigen::Index i = 0; i < m; ++i) {
-    const System::Mesh& mesh = s.meshes[static_cast<size_t>(i)];
-    c.side.row(i) << mesh.side[0].body, mesh.side[1].body;
-    c.ring_drives[i] = mesh.ring_drives;
-    c.distance[i] = mesh.centre_distance;
-    c.direction[i] = mesh.direction;
-    c.phase[i] = mesh.phase;
-    c.pressure_angle[i] = mesh.pressure_angle;
-    c.mesh_stiffness[i] = mesh.stiffness;
-  }
-  return c;
-}
-
-System system_of(const Columns& c) {
-  System s;
-  for (Eigen::Index i = 0; i < c.carrier.size(); ++i) {
-    System::Body b;
-    b.name = c.name[static_cast<size_t>(i)];
-    b.kind = c.carrier[i] ? System::BodyKind::carrier : System::BodyKind::gear;
-    b.teeth = c.teeth[i];
-    b.sense = c.sense[i];
-    b.on = c.on[i];
-    b.angle = c.angle[i];
-    b.radius = c.radius[i];
-    b.inertia = c.inertia[i];
-    b.bearing = {c.stiffness[i], c.damping[i], c.mass[i]};
-    b.centre = {c.centre(i, 0), c.centre(i, 1)};
-    s.bodies.push_back(b);
-    if (c.held[i]) s.drives.push_back({static_cast<int>(i), System::DriveKind::held, 0, c.hold[i]});
-  }
-  for (Eigen::Index i = 0; i < c.distance.size(); ++i) {
-    System::Mesh mesh;
-    for (int k = 0; k < kSides; ++k) {
-      mesh.side[static_cast<size_t>(k)].body = c.side(i, k);
-      mesh.side[static_cast<size_t>(k)].sense = c.sense[c.side(i, k)];
-    }
-    mesh.ring_drives = c.ring_drives[i] != 0;
-    mesh.centre_distance = c.distance[i];
-    mesh.direction = c.direction[i];
-    mesh.phase = c.phase[i];
-    mesh.pressure_angle = c.pressure_angle[i];
-    mesh.stiffness = c.mesh_stiffness[i];
-    s.meshes.push_back(mesh);
-  }
-  return s;
-}
-
-void describe_bodies(Codec& codec, Columns& c) {
-  const std::string at = "/body/";
-  const Range count{-1, 10000};
-  codec.dataset({at + "name", "1", "name of the body", "body_number"}, &c.name);
-  codec.dataset({at + "is_carrier", "1", "1: a carrier, 0: a gear", "body_number", kFlag}, &c.carrier);
-  codec.dataset({at + "teeth", "1", "number of teeth, 0 of a carrier", "body_number", kTooth}, &c.teeth);
-  codec.dataset(
-      {at + "sense", "1", "sense of rotation: 1 counter-clockwise, -1 clockwise", "body_number", {-1, 1}},
-      &c.sense);
-  codec.dataset({at + "stands_on", "1", "number of the carrier that carries the axis, -1: the ground",
-                 "body_number", count},
-                &c.on);
-  codec.dataset({at + "centre", "m", "place of the axis", "body_number xy", kPlace}, &c.centre);
-  codec.dataset({at + "angle", "rad", "angle of tooth 0 from +y at mesh phase 0, counter-clockwise",
-                 "body_number", kSigned},
-                &c.angle);
-  codec.dataset({at + "radius", "m", "base radius; of a carrier that of the pins", "body_number", kRadius},
-                &c.radius);
-  codec.dataset({at + "inertia", "kg m2", "inertia about the axis", "body_number", {0, kKilograms}},
-                &c.inertia);
-  codec.dataset({at + "mass",
-                 "kg",
-                 "mass of what moves with the hub; 0: rigid bearing",
-                 "body_number",
-                 {0, kKilograms}},
-                &c.mass);
-  codec.dataset(
-      {at + "bearing_stiffness", "N m-1", "radial stiffness of the bearing; 0: rigid", "body_number", kStiff},
-      &c.stiffness);
-  codec.dataset(
-      {at + "bearing_damping", "N s m-1", "radial damping of the bearing", "body_number", {0, kStiffnesses}},
-      &c.damping);
-  codec.dataset({at + "held", "1", "1: a drive holds the rotation", "body_number", kFlag}, &c.held);
-  codec.dataset({at + "hold_stiffness", "N m-1", "stiffness of what holds it, at the radius; 0: rigid",
-                 "body_number", kStiff},
-                &c.hold);
-}
-
-void describe_meshes(Codec& codec, Columns& c) {
-  const std::string at = "/mesh/";
-  codec.dataset(
-      {at + "body_number", "1", "numbers of the driving and the driven body", "mesh_number gear", {0, 10000}},
-      &c.side);
-  codec.dataset({at + "ring_drives", "1", "1: the driving gear is internal", "mesh_number", kFlag},
-                &c.ring_drives);
-  codec.dataset({at + "centre_distance", "m", "distance of the axes", "mesh_number", kSize}, &c.distance);
-  codec.dataset(
-      {at + "direction", "rad", "from the driving body's axis to the pitch point, counter-clockwise from +x",
-       "mesh_number", kSigned},
-      &c.direction);
-  codec.dataset({at + "phase", "1", "mesh periods that it is ahead of the first mesh", "mesh_number", kShare},
-                &c.phase);
-  codec.dataset({at + "pressure_angle", "rad", "working pressure angle", "mesh_number", {0, 1.5}},
-                &c.pressure_angle);
-  codec.dataset({at + "stiffness", "N m-1", "mean stiffness along the line of action", "mesh_number", kStiff},
-                &c.mesh_stiffness);
 }
 
 // What figures and the views of modes divide by, and what they look up.
@@ -186,12 +157,11 @@ void require_gears(const Codec& c, const System& s) {
 }  // namespace
 
 void describe_layout(Codec& c, System& layout) {
-  Columns columns = columns_of(layout);
-  describe_bodies(c, columns);
-  describe_meshes(c, columns);
+  if (c.in()) layout = {};
+  describe_bodies(c, layout);
+  describe_holds(c, layout);
+  describe_meshes(c, layout);
   if (!c.in()) return;
-  require_indices(c, "/mesh/body_number", columns.side, columns.carrier.size());
-  layout = system_of(columns);
   require_gears(c, layout);
 }
 
@@ -202,10 +172,9 @@ void describe_errors(Codec& c, SystemStaticParameters& s) {
     const std::string section = "error_" + s.layout.bodies[b].name;
     if (!c.optional("/parameters/" + section + "/iso_class", s.has_errors(b))) continue;
     differ = true;
-    SceneParameters values;
-    if (b < s.errors.size()) values.errors = s.errors[b];
-    c.parameters(section, values, KeyGroup::error);
-    if (c.in()) s.errors[b] = values.errors;
+    ToothErrors errors = b < s.errors.size() ? s.errors[b] : ToothErrors{};
+    c.parameters(section, keys(errors));
+    if (c.in()) s.errors[b] = errors;
   }
   if (!differ && !c.lists()) return;
   MatrixRMi tooth(static_cast<Eigen::Index>(s.layout.meshes.size()), 2);

@@ -34,10 +34,7 @@ void describe_sector(Codec& file, const std::string& group, SectorGrid& a) {
 
 void describe(Codec& c, SectorGrid& a) {
   describe_design(c, "gear", a.design);
-  SceneParameters values;
-  values.body = a.discretisation;
-  c.parameters("discretisation", values, KeyGroup::body);
-  if (c.in()) a.discretisation = values.body;
+  c.parameters("discretisation", keys(a.discretisation).plain());
   describe_sector(c, "/sector", a);
   if (c.optional("/cracked_tooth/slit_node", !a.cracked_tooth.empty())) {
     if (a.cracked_tooth.empty()) a.cracked_tooth.emplace_back();

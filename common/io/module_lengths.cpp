@@ -11,11 +11,11 @@ double length_of_module(const Key& key, double module) {
   return word.starts_with(start) ? module / std::strtod(word.c_str() + start.size(), nullptr) : 0;
 }
 
-void take_module(SceneParameters& values, const std::set<KeyGroup>& parts, double module) {
-  for (const Key& key : scene_keys()) {
+void take_module(const KeyList& keys, double module) {
+  for (const Key& key : keys) {
     const double length = length_of_module(key, module);
-    if (!parts.contains(key.part) || !(length > 0)) continue;
-    double& value = *std::get<double*>(key.slot(values));
+    if (!(length > 0)) continue;
+    double& value = *std::get<double*>(key.slot);
     if (value == 0) value = length;
   }
 }

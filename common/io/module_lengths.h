@@ -3,8 +3,6 @@
 //
 // Private to the layer io/.
 #pragma once
-#include <set>
-
 #include "io/keys.h"
 
 namespace whine {
@@ -12,7 +10,7 @@ namespace whine {
 // m: the default for a gear of this module (m); 0: the default of the key is no length that goes with it.
 double length_of_module(const Key& key, double module);
 
-// Gives those lengths of some parts that the scene leaves open their defaults.
-void take_module(SceneParameters& values, const std::set<KeyGroup>& parts, double module);
+// Gives those lengths of the list that the scene leaves open their defaults.
+void take_module(const KeyList& keys, double module);
 
 }  // namespace whine

@@ -1,5 +1,5 @@
 // Ranges of numbers in artifacts, in SI: what a reader accepts. Each dataset names its own in its codec (io/codec.h);
-// parameters that are keys of a scene have theirs in the table of the keys (io/keys.h). Ranges are wide: they keep out what no
+// parameters that are keys of a scene have theirs in the lists of keys (model/keys.h). Ranges are wide: they keep out what no
 // computation of this program writes, and what would index beyond an array, overflow or never end.
 //
 // Private to the layer io/.

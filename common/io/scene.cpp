@@ -66,9 +66,17 @@ std::string advice_for(const std::string& word, const std::vector<std::string>& 
 
 namespace {
 
+// What [gear.<name>] says.
+struct GearValues {
+  GearDesign design;
+  GearWords words;
+  FlankModification modification;
+  ToothErrors errors;
+};
+
 // Fills what stands in [gear.<name>.modification], if that is there.
 void read_modification(const Source& source, const toml::table& gear, const std::string& label,
-                       SceneParameters& values) {
+                       FlankModification& modification) {
   const toml::node* node = gear.get("modification");
   if (!node) return;
   const toml::table* table = node->as_table();
@@ -90,11 +98,10 @@ void read_modification(const Source& source, const toml::table& gear, const std:
     return !given.empty();
   };
   for (const auto& [end, relief] :
-       {std::pair{"tip", &values.modification.tip}, std::pair{"root", &values.modification.root}})
+       {std::pair{"tip", &modification.tip}, std::pair{"root", &modification.root}})
     if (starts(end)) relief->start_roll = relief->start_radius = relief->length = 0;
-  reader.read(values, {KeyGroup::modification}, true);
-  for (const auto& [end, relief] :
-       {std::pair{"tip", values.modification.tip}, std::pair{"root", values.modification.root}})
+  reader.read(keys(modification), true);
+  for (const auto& [end, relief] : {std::pair{"tip", modification.tip}, std::pair{"root", modification.root}})
     if (relief.amount > 0 && !(relief.start_roll > 0 || relief.start_radius > 0 || relief.length > 0))
       source.reject(*table, text("[", own, "] lacks the start of ", end, "_relief_um = ", relief.amount * 1e6,
                                  "; give one of ", end, "_relief_start_deg, ", end,
@@ -104,7 +111,7 @@ void read_modification(const Source& source, const toml::table& gear, const std:
 // Fills what stands in [gear.<name>.error] and in the file that it names, if it is there. Errors are a gear's own: `like` does
 // not take them over.
 void read_errors(const Source& source, const toml::table& gear, const std::string& label,
-                 SceneParameters& values) {
+                 GearValues& values) {
   values.errors = {};
   const toml::node* node = gear.get("error");
   if (!node) return;
@@ -113,21 +120,22 @@ void read_errors(const Source& source, const toml::table& gear, const std::strin
     source.reject(*node, text("'error' in [", label, "] must be a section: write [", label, ".error]"));
   const SectionReader reader(source, Dialect::scene, *table, "error", label + ".error");
   reader.reject_unknown();
-  reader.read(values, {KeyGroup::error_file}, false);
-  if (!values.error_file.empty()) {
-    const std::filesystem::path name = std::filesystem::path(source.path()).parent_path() / values.error_file;
+  std::string file;
+  reader.read(error_file_key(file));
+  if (!file.empty()) {
+    const std::filesystem::path name = std::filesystem::path(source.path()).parent_path() / file;
     if (name.extension() != ".toml" && name.extension() != ".csv")
-      source.reject(*table->get("file"), text("'file' in [", label, ".error] = '", values.error_file,
-                                              "' is neither a .toml nor a .csv"));
+      source.reject(*table->get("file"),
+                    text("'file' in [", label, ".error] = '", file, "' is neither a .toml nor a .csv"));
     const Source measured =
         name.extension() == ".csv" ? Source::table_of_teeth(name.string()) : Source(name.string());
     if (const toml::node* another = measured.root().get("file"))
       measured.reject(*another, "a file of measured errors cannot name another");
     const SectionReader lists(measured, Dialect::scene, measured.root(), "error", "");
     lists.reject_unknown();
-    lists.read(values, {KeyGroup::error}, false);
+    lists.read(keys(values.errors));
   }
-  reader.read(values, {KeyGroup::error}, !values.error_file.empty());
+  reader.read(keys(values.errors), !file.empty());
   for (const auto& [key, list] : {std::pair{"single_pitch_um", &values.errors.single_pitch},
                                   std::pair{"cumulative_pitch_um", &values.errors.cumulative_pitch},
                                   std::pair{"profile_slope_um", &values.errors.profile_slope},
@@ -150,20 +158,19 @@ void read_crack(const Source& source, const toml::table& gear, const std::string
     source.reject(*node, text("'crack' in [", label, "] must be a section: write [", label, ".crack]"));
   const SectionReader reader(source, Dialect::scene, *table, "crack", label + ".crack");
   reader.reject_unknown();
-  SceneParameters values;
-  reader.read(values, {KeyGroup::crack}, false);
-  if (values.design.crack.tooth >= design.teeth)
-    source.reject(*table->get("tooth"), text("'tooth' in [", label, ".crack] = ", values.design.crack.tooth,
+  GearDesign cracked;
+  const Crack& crack = cracked.crack;
+  reader.read(keys(cracked).section("crack"));
+  if (crack.tooth >= design.teeth)
+    source.reject(*table->get("tooth"), text("'tooth' in [", label, ".crack] = ", crack.tooth,
                                              ": the gear has the teeth 0 to ", design.teeth - 1));
-  if (values.design.crack.depth > 0) design.crack = values.design.crack;
+  if (crack.depth > 0) design.crack = crack;
 }
 
-// internal: of the gear whose keys these are; it has a rim and no bore.
-std::set<KeyGroup> gear_parts(bool internal) {
-  std::set<KeyGroup> parts{KeyGroup::reference,   KeyGroup::design,   KeyGroup::rim,
-                           KeyGroup::rim_support, KeyGroup::diameter, KeyGroup::inertia};
-  if (!internal) parts.insert(KeyGroup::bore);
-  return parts;
+// internal: the gear has a rim and no bore.
+KeyList gear_keys(GearValues& values, bool internal) {
+  const KeyList own = keys(values.design, &values.words).section("gear");
+  return internal ? own.without({"bore_radius_mm"}) : own;
 }
 
 // Whether [gear.<name>] says so; what it says otherwise is rejected when it is read.
@@ -249,7 +256,7 @@ void fill_blank(GearDesign& d) {
 // Turns the diameters of tip and root into addendum and dedendum. `like`: the gear whose keys `values` began with, nullptr:
 // none.
 void take_diameters(const Source& source, const toml::table& table, const std::string& label,
-                    const GearDesign* like, SceneParameters& values) {
+                    const GearDesign* like, GearValues& values) {
   GearDesign& d = values.design;
   // Of one end, in modules beyond the reference circle; the tip +1, the root -1.
   const auto take = [&](const char* diameter_key, const char* height_key, double& diameter, double& height,
@@ -285,8 +292,8 @@ void take_diameters(const Source& source, const toml::table& table, const std::s
                            std::max(pitch, limit) * 1e3, " mm (", height_key, " above 0, at most 3)",
                            other_sign ? "; " + other_sign_words(-d.profile_shift) : ""));
   };
-  take("tip_diameter_mm", "addendum", values.tip_diameter, d.addendum, 1);
-  take("root_diameter_mm", "dedendum", values.root_diameter, d.dedendum, -1);
+  take("tip_diameter_mm", "addendum", values.words.tip_diameter, d.addendum, 1);
+  take("root_diameter_mm", "dedendum", values.words.root_diameter, d.dedendum, -1);
 }
 
 // The name of a gear that is misspelt in [gear.<name>.modification] is that of a gear which has nothing else.
@@ -320,11 +327,9 @@ void read_gears(const Source& source, Scene& scene, bool rigid) {
   const auto materials = named_sections(source, "material");
   std::map<std::string, Material> material;
   for (const auto& [name, table] : materials) {
-    SceneParameters values;
     const SectionReader reader(source, Dialect::scene, *table, "material", "material." + name);
     reader.reject_unknown();
-    reader.read(values, {KeyGroup::material}, false);
-    material[name] = values.material;
+    reader.read(keys(material[name]));
   }
 
   const auto gears = named_sections(source, "gear");
@@ -342,7 +347,7 @@ void read_gears(const Source& source, Scene& scene, bool rigid) {
     std::vector<std::string> others{"crack", "modification", "error"};
     if (rigid) others.push_back("equivalent_mass_kg");
     reader.reject_unknown(others);
-    SceneParameters values;
+    GearValues values;
     GearDesign base_design;
     const toml::node* like = table->get("like");
     const toml::table* model = nullptr;
@@ -358,12 +363,12 @@ void read_gears(const Source& source, Scene& scene, bool rigid) {
                                   as_written(*chain), " itself; name the first gear"));
       }
       SectionReader(source, Dialect::scene, *model, "gear", "gear." + base)
-          .read(values, gear_parts(says_internal(*model, false)), false, optional);
+          .read(gear_keys(values, says_internal(*model, false)), false, optional);
       take_diameters(source, *model, "gear." + base, nullptr, values);
       base_design = values.design;
-      read_modification(source, *model, "gear." + base, values);
+      read_modification(source, *model, "gear." + base, values.modification);
     }
-    reader.read(values, gear_parts(says_internal(*table, values.design.internal)), like != nullptr, optional);
+    reader.read(gear_keys(values, says_internal(*table, values.design.internal)), like != nullptr, optional);
     if (rigid)
       fill_blank(values.design);
     else
@@ -372,20 +377,20 @@ void read_gears(const Source& source, Scene& scene, bool rigid) {
     take_diameters(source, *table, "gear." + name, like ? &base_design : nullptr, values);
     if (!table->contains("rack_tip_radius") && !(model && model->contains("rack_tip_radius")))
       values.design.rack_tip_radius = default_rack_tip_radius(values.design);
-    read_modification(source, *table, "gear." + name, values);
+    read_modification(source, *table, "gear." + name, values.modification);
     read_errors(source, *table, "gear." + name, values);
     read_crack(source, *table, "gear." + name, values.design);
-    if (rigid && values.material_name.empty()) {
+    if (rigid && values.words.material.empty()) {
       material[""] = {};
-    } else if (!material.count(values.material_name)) {
+    } else if (!material.count(values.words.material)) {
       const toml::node* key = table->get("material");
       source.reject(key ? *key : static_cast<const toml::node&>(*table),
-                    text("'material' in [gear.", name, "] = '", values.material_name,
+                    text("'material' in [gear.", name, "] = '", values.words.material,
                          "' names no [material.<name>] section",
-                         advice_for(values.material_name, section_names(materials))));
+                         advice_for(values.words.material, section_names(materials))));
     }
-    scene.gears.push_back({name, values.design, material.at(values.material_name), values.total_inertia,
-                           values.modification, values.errors});
+    scene.gears.push_back({name, values.design, material.at(values.words.material),
+                           values.words.total_inertia, values.modification, values.errors});
   }
 }
 
@@ -401,21 +406,21 @@ void read_bearings(const Source& source, Scene& scene) {
   for (const SceneGear& gear : scene.gears) names.push_back(gear.name);
   for (const toml::node& item : *list) {
     const toml::table& table = *item.as_table();
-    SceneParameters values;
     const SectionReader reader(source, Dialect::scene, table, "bearing", "bearing");
     reader.reject_unknown();
-    reader.read(values, {KeyGroup::bearing, KeyGroup::bearing_gear}, false);
-    const auto gear = std::find(names.begin(), names.end(), values.bearing_gear);
+    std::string name;
+    Bearing bearing;
+    reader.read(bearing_gear_key(name).append(keys(bearing)));
+    const auto gear = std::find(names.begin(), names.end(), name);
     if (gear == names.end())
-      source.reject(*table.get("gear"),
-                    text("'gear' in [bearing] = '", values.bearing_gear, "' names no [gear.<name>] section",
-                         advice_for(values.bearing_gear, names)));
+      source.reject(*table.get("gear"), text("'gear' in [bearing] = '", name,
+                                             "' names no [gear.<name>] section", advice_for(name, names)));
     Bearing& own = scene.gears[static_cast<std::size_t>(gear - names.begin())].bearing;
     if (own.elastic())
       source.reject(*table.get("gear"),
-                    text("'gear' in [bearing] = '", values.bearing_gear,
+                    text("'gear' in [bearing] = '", name,
                          "' has a bearing already; give one section with what carries it in all"));
-    own = values.bearing;
+    own = bearing;
   }
 }
 
@@ -425,27 +430,25 @@ void read_mesh_section(const Source& source, Scene& scene) {
   if (!list || !list->is_array_of_tables())
     source.reject(*node, "'mesh' must be a list of sections: write [[mesh]]");
   const toml::table& table = *list->get(0)->as_table();
-  SceneParameters values;
   const SectionReader reader(source, Dialect::scene, table, "mesh", "mesh");
   reader.reject_unknown();
-  reader.read(values, {KeyGroup::mesh, KeyGroup::contact_plane}, false);
+  GearMeshSpec& mesh = scene.mesh;
+  reader.read(keys(mesh).section("mesh"));
   std::vector<std::string> names;
   for (const SceneGear& gear : scene.gears) names.push_back(gear.name);
   for (int g = 0; g < kSides; ++g)
-    if (const std::string& name = values.mesh.gear[g];
-        std::find(names.begin(), names.end(), name) == names.end())
+    if (const std::string& name = mesh.gear[g]; std::find(names.begin(), names.end(), name) == names.end())
       source.reject(*table.get(kRole[g]), text("'", kRole[g], "' in [mesh] = '", name,
                                                "' names no [gear.<name>] section", advice_for(name, names)));
-  if (values.mesh.gear[0] == values.mesh.gear[1]) {
-    source.reject(*table.get("driven"), text("'driven' in [mesh] = '", values.mesh.gear[1],
+  if (mesh.gear[0] == mesh.gear[1]) {
+    source.reject(*table.get("driven"), text("'driven' in [mesh] = '", mesh.gear[1],
                                              "' is the driver, too; a gear cannot mesh with itself"));
   }
-  scene.mesh = values.mesh;
   for (int g = 0; g < kSides; ++g) {
-    const SceneGear& own = scene.gear(values.mesh.gear[g]);
-    scene.mesh.modification[g] = own.modification;
-    scene.mesh.errors[g] = own.errors;
-    scene.mesh.bearing[g] = own.bearing;
+    const SceneGear& own = scene.gear(mesh.gear[g]);
+    mesh.modification[g] = own.modification;
+    mesh.errors[g] = own.errors;
+    mesh.bearing[g] = own.bearing;
   }
 }
 
@@ -454,9 +457,7 @@ void read_friction(const Source& source, GearMeshSpec& mesh) {
   if (!table) return;
   const SectionReader reader(source, Dialect::scene, *table, "friction", "friction");
   reader.reject_unknown();
-  SceneParameters values;
-  reader.read(values, {KeyGroup::friction}, false);
-  mesh.friction = values.mesh.friction;
+  reader.read(keys(mesh.friction));
   const auto reject_key = [&](const char* key, const auto&... why) {
     const toml::node* at = table->get(key);
     source.reject(at ? *at : static_cast<const toml::node&>(*table),
@@ -531,37 +532,33 @@ Scene scene_from(const Source& source) {
   if (!missing.empty()) source.reject(text("the scene lacks ", joined(missing), "; ", kExample));
 
   Scene scene;
-  SceneParameters values;
-  top.read(values, {KeyGroup::title}, false);
-  scene.title = values.title.empty() ? std::filesystem::path(source.path()).stem().string() : values.title;
+  top.read(title_key(scene.title));
+  if (scene.title.empty()) scene.title = std::filesystem::path(source.path()).stem().string();
   read_gears(source, scene, false);
   read_bearings(source, scene);
   read_mesh_section(source, scene);
   read_friction(source, scene.mesh);
-  const std::set<KeyGroup> rest = {KeyGroup::damping,    KeyGroup::load,          KeyGroup::operation,
-                                   KeyGroup::level,      KeyGroup::contact_level, KeyGroup::body,
-                                   KeyGroup::near_field, KeyGroup::contact,       KeyGroup::time};
+  const KeyList rest = keys(scene.damping)
+                           .append(keys(scene.operation))
+                           .append(keys(scene.fidelity))
+                           .append(keys(scene.body))
+                           .append(keys(scene.contact))
+                           .append(keys(scene.time));
   static const toml::table kNothing;
   for (const char* name : {"damping", "operation", "fidelity", "discretisation"}) {
     const toml::table* table = source.section(name);
     const SectionReader reader(source, Dialect::scene, table ? *table : kNothing, name, name);
     reader.reject_unknown();
-    reader.read(values, rest, false);
+    reader.read(rest.section(name));
     const toml::node* depth = table ? table->get("matching_depth_mm") : nullptr;
-    if (depth && values.body.near_field != NearField::matching)
+    if (depth && scene.body.near_field != NearField::matching)
       source.reject_value("matching_depth_mm", *depth,
                           text("'matching_depth_mm' in [", name, "] = ", as_written(*depth),
-                               ": near_field is \"", values.body.near_field,
+                               ": near_field is \"", scene.body.near_field,
                                "\", which has no depth; set near_field = \"matching\" or take it out"));
   }
-  take_module(values, {KeyGroup::damping}, scene.gear(scene.mesh.gear[0]).design.module);
-  scene.damping = values.damping;
-  scene.operation = values.operation;
-  scene.fidelity = values.fidelity;
-  scene.body = values.body;
+  take_module(keys(scene.damping), scene.gear(scene.mesh.gear[0]).design.module);
   if (scene.fidelity.body == BodyModel::full) scene.body.modes = kAllModes;
-  scene.contact = values.contact;
-  scene.time = values.time;
   return scene;
 }
 

@@ -11,43 +11,94 @@
 namespace whine {
 namespace {
 
+// What an artifact says to the keys of a scene, from the side of one of its gears.
+struct View {
+  GearDesign design;
+  GearWords words;
+  FlankModification modification;
+  ToothErrors errors;
+  Material material;
+  GearMeshSpec mesh;
+  Bearing bearing;
+  Damping damping;
+  Fidelity fidelity;
+  BodyDiscretisation body;
+  ContactDiscretisation contact;
+  TimeDiscretisation time;
+};
+
 // m: d_a = m (z + 2 x + 2 h_a), d_f = m (z + 2 x - 2 h_f); of an internal gear, whose tips lie inside, with the other signs.
-void diameters_as_heights(SceneParameters& values) {
-  const GearDesign& gear = values.design;
+void set_drawing(View& view, const BodyParameters& drawing) {
+  view.design = drawing.design;
+  view.material = drawing.material;
+  view.body = drawing.discretisation;
+  const GearDesign& gear = view.design;
   const double outwards = gear.internal ? -1 : 1, middle = gear.teeth + outwards * 2 * gear.profile_shift;
-  values.tip_diameter = gear.module * (middle + outwards * 2 * gear.addendum);
-  values.root_diameter = gear.module * (middle - outwards * 2 * gear.dedendum);
+  view.words.tip_diameter = gear.module * (middle + outwards * 2 * gear.addendum);
+  view.words.root_diameter = gear.module * (middle - outwards * 2 * gear.dedendum);
 }
 
-// What an artifact of a pair says to the keys of a scene, from the side of one of its gears. It need not know of motion.
+// It need not know of motion.
 template <class Artifact>
-SceneParameters keys_of(const Artifact& a, int g) {
-  SceneParameters values;
-  values.mesh = a.mesh;
-  values.contact = a.contact;
-  values.fidelity = a.fidelity;
+View view_of(const Artifact& a, int g) {
+  View view;
+  view.mesh = a.mesh;
+  view.contact = a.contact;
+  view.fidelity = a.fidelity;
+  set_drawing(view, a.gear[g]);
+  view.modification = a.mesh.modification[g];
+  view.errors = a.mesh.errors[g];
+  view.bearing = a.mesh.bearing[g];
   if constexpr (requires { a.damping; }) {
-    values.time = a.time;
-    values.damping = a.damping;
+    view.time = a.time;
+    view.damping = a.damping;
+    view.words.total_inertia = a.inertia[g];
   }
-  values.design = a.gear[g].design;
-  diameters_as_heights(values);
-  values.material = a.gear[g].material;
-  values.body = a.gear[g].discretisation;
-  take_gear(values, a.mesh, g);
-  if constexpr (requires { a.damping; }) values.total_inertia = a.inertia[g];
-  return values;
+  return view;
+}
+
+// A key, and whether the artifact says something of it.
+struct Row {
+  Key key;
+  bool stands;
+};
+
+// In the order of scenes. Title, names of other sections, torques and speeds are no properties of what was computed.
+std::vector<Row> rows_of(View& v, bool moves) {
+  std::vector<Row> out;
+  const auto add = [&](const KeyList& list, bool stands) {
+    for (const Key& key : list) out.push_back({key, stands && is_held(key)});
+  };
+  const KeyList gear = keys(v.design, &v.words).without({"like", "material"});
+  add(gear.section("gear"), true);
+  add(keys(v.modification), v.modification != FlankModification{});
+  add(keys(v.errors), !v.errors.none());
+  add(gear.section("crack"), true);
+  add(keys(v.material), true);
+  add(keys(v.mesh).section("mesh").all(), true);
+  add(keys(v.bearing), v.bearing.elastic());
+  add(keys(v.mesh.friction), v.mesh.friction.acts());
+  add(keys(v.damping), moves);
+  add(keys(v.fidelity), moves);
+  add(keys(v.body).all(), true);
+  add(keys(v.contact), true);
+  add(keys(v.time), moves);
+  for (Row& row : out) {
+    if (row.key.called("total_inertia_kgm2")) row.stands = moves;
+    if (row.key.section == std::string("fidelity") && row.key.called("contact")) row.stands = true;
+  }
+  return out;
 }
 
 // As a scene would have it; "" for a list that is empty.
-std::string in_scene_unit(SceneParameters& values, const Key& key) {
+std::string in_scene_unit(const Key& key) {
   const auto number = [](double si, const Unit& unit) {
     char buffer[32];
     std::snprintf(buffer, sizeof buffer, "%.6g", si * unit.divide / unit.multiply);
     return std::string(buffer);
   };
   std::string list;
-  const Slot slot = key.slot(values);
+  const Slot& slot = key.slot;
   if (const auto* one = std::get_if<double*>(&slot)) return number(**one, key.unit);
   if (const auto* whole = std::get_if<int*>(&slot)) return text(**whole);
   if (const auto* word = std::get_if<std::string*>(&slot)) return **word;
@@ -68,52 +119,22 @@ std::string in_scene_unit(SceneParameters& values, const Key& key) {
   return list.empty() ? "" : "[" + list + "]";
 }
 
-// Title, names of other sections, torques and speeds are no properties of what was computed.
-bool of_operation(const Key& key) {
-  return of_systems(key.part) || key.part == KeyGroup::title || key.part == KeyGroup::reference ||
-         key.part == KeyGroup::error_file || key.part == KeyGroup::bearing_gear ||
-         key.part == KeyGroup::load || key.part == KeyGroup::operation;
-}
-
 template <class Artifact>
 std::vector<SceneKey> scene_keys_in(const Artifact& a) {
-  SceneParameters driver = keys_of(a, 0), driven = keys_of(a, 1);
+  View driver = view_of(a, 0), driven = view_of(a, 1);
   const bool moves = requires {
     a.damping;
   };
-  const auto stands = [&](KeyGroup part) {
-    switch (part) {
-      case KeyGroup::inertia:
-      case KeyGroup::damping:
-      case KeyGroup::level:
-      case KeyGroup::time:
-        return moves;
-      case KeyGroup::bore:
-        return !driver.design.internal || !driven.design.internal;
-      case KeyGroup::rim:
-        return driver.design.internal || driven.design.internal;
-      case KeyGroup::rim_support:
-        return driver.design.elastic_rim() || driven.design.elastic_rim();
-      case KeyGroup::friction:
-        return driver.mesh.friction.acts();
-      case KeyGroup::crack:
-        return driver.design.crack.depth > 0 || driven.design.crack.depth > 0;
-      default:
-        break;
-    }
-    for (const GearSection& own : kGearSections)
-      if (own.part == part) return own.stands(driver) || own.stands(driven);
-    return true;
-  };
+  const std::vector<Row> first = rows_of(driver, moves), second = rows_of(driven, moves);
   std::vector<SceneKey> out;
-  for (const Key& key : scene_keys()) {
-    if (of_operation(key) || !stands(key.part)) continue;
-    const std::string section(key.section), first = in_scene_unit(driver, key),
-                                            second = in_scene_unit(driven, key);
+  for (size_t i = 0; i < first.size(); ++i) {
+    if (!first[i].stands && !second[i].stands) continue;
+    const Key& key = first[i].key;
+    const std::string section(key.section), one = in_scene_unit(key), other = in_scene_unit(second[i].key);
     const bool of_gears = section != "mesh" && section != "friction" && section != "damping" &&
                           section != "fidelity" && section != "discretisation";
-    if (!first.empty() || !second.empty())
-      out.push_back({section, key.name, {first, of_gears || first != second ? second : ""}, key.meaning});
+    if (!one.empty() || !other.empty())
+      out.push_back({section, key.name, {one, of_gears || one != other ? other : ""}, key.meaning});
   }
   return out;
 }
@@ -130,29 +151,25 @@ std::vector<SceneKey> scene_keys_of(const ResponseResult& a) {
 
 namespace {
 
-// Keys of one of the gears of a system, and what all of its meshes have in common.
-SceneParameters keys_of(const SystemStaticResult& a, size_t g, const SystemSweepResult* moving) {
-  SceneParameters values;
+// One of the gears of a system, and what all of its meshes have in common.
+View view_of(const SystemStaticResult& a, size_t g, const SystemSweepResult* moving) {
+  View view;
   const std::string& name = a.settings.body[g].first;
-  values.design = a.drawing[g].design;
-  diameters_as_heights(values);
-  values.material = a.drawing[g].material;
-  values.body = a.drawing[g].discretisation;
-  values.modification = a.settings.modification(name);
+  set_drawing(view, a.drawing[g]);
+  view.modification = a.settings.modification(name);
   for (size_t b = a.settings.gear.size(); b-- > 0;)  // of planets the first
     if (a.settings.gear[b] == name) {
-      if (a.settings.has_errors(b)) values.errors = a.settings.errors[b];
-      values.bearing = a.settings.layout.bodies[b].bearing;
-      values.total_inertia = a.settings.layout.bodies[b].inertia;
+      if (a.settings.has_errors(b)) view.errors = a.settings.errors[b];
+      view.bearing = a.settings.layout.bodies[b].bearing;
+      view.words.total_inertia = a.settings.layout.bodies[b].inertia;
     }
-  values.fidelity = a.settings.fidelity;
-  values.contact = a.settings.contact;
+  view.fidelity = moving ? moving->settings.fidelity : a.settings.fidelity;
+  view.contact = a.settings.contact;
   if (moving) {
-    values.fidelity = moving->settings.fidelity;
-    values.damping = moving->settings.damping;
-    values.time = moving->settings.time;
+    view.damping = moving->settings.damping;
+    view.time = moving->settings.time;
   }
-  return values;
+  return view;
 }
 
 }  // namespace
@@ -160,70 +177,47 @@ SceneParameters keys_of(const SystemStaticResult& a, size_t g, const SystemSweep
 SystemKeys scene_keys_of(const SystemStaticResult& a, const SystemSweepResult* moving) {
   SystemKeys out;
   out.gears = a.settings.gears();
-  std::vector<SceneParameters> of;
-  of.reserve(out.gears.size());
-  for (size_t g = 0; g < out.gears.size(); ++g) of.push_back(keys_of(a, g, moving));
-  const auto stands = [&](const SceneParameters& gear, KeyGroup part) {
-    switch (part) {
-      case KeyGroup::bore:
-        return !gear.design.internal;
-      case KeyGroup::rim:
-        return gear.design.internal;
-      case KeyGroup::rim_support:
-        return gear.design.elastic_rim();
-      case KeyGroup::bearing:
-        return gear.bearing.elastic();
-      case KeyGroup::error:
-        return !gear.errors.none();
-      case KeyGroup::modification:
-        return std::any_of(of.begin(), of.end(), [](const SceneParameters& one) {
-          return one.modification != FlankModification{};
-        });
-      case KeyGroup::damping:
-      case KeyGroup::level:
-      case KeyGroup::time:
-        return moving != nullptr;
-      default:
-        return !of_pairs(part) && part != KeyGroup::mesh && part != KeyGroup::contact_plane;
-    }
-  };
-  for (const Key& key : scene_keys()) {
-    if (of_operation(key)) continue;
-    SystemKeys::Row row{key.section, key.name, {}, key.meaning};
+  std::vector<View> views;
+  std::vector<std::vector<Row>> of;
+  views.reserve(out.gears.size());  // rows point at views
+  for (size_t g = 0; g < out.gears.size(); ++g)
+    of.push_back(rows_of(views.emplace_back(view_of(a, g, moving)), moving != nullptr));
+  const bool modified = std::any_of(
+      views.begin(), views.end(), [](const View& view) { return view.modification != FlankModification{}; });
+  for (size_t i = 0; !of.empty() && i < of.front().size(); ++i) {
+    const Key& key = of.front()[i].key;
+    const std::string section(key.section);
+    if (section == "mesh" || of_pairs(key)) continue;
+    SystemKeys::Row row{section, key.name, {}, key.meaning};
     row.value.reserve(of.size());
-    for (SceneParameters& gear : of)
-      row.value.push_back(stands(gear, key.part) ? in_scene_unit(gear, key) : "");
+    for (const std::vector<Row>& gear : of) {
+      const bool always = (section == "modification" && modified) || key.called("total_inertia_kgm2");
+      row.value.push_back(always || gear[i].stands ? in_scene_unit(gear[i].key) : "");
+    }
     const bool alike = std::all_of(row.value.begin(), row.value.end(),
                                    [&](const std::string& value) { return value == row.value.front(); });
-    const bool of_all =
-        row.section == "damping" || row.section == "fidelity" || row.section == "discretisation";
-    if (alike && of_all && !row.value.empty()) row.value.resize(1);
+    const bool of_all = section == "damping" || section == "fidelity" || section == "discretisation";
+    if (alike && of_all) row.value.resize(1);
     const bool said = std::any_of(row.value.begin(), row.value.end(),
                                   [](const std::string& value) { return !value.empty(); });
     if (said) out.rows.push_back(row);
   }
-  for (const GearMeshSpec& mesh : a.settings.mesh) {
-    SceneParameters values;
-    values.mesh = mesh;
-    for (const Key& key : scene_keys())
-      if (key.part == KeyGroup::contact_plane ||
-          (key.part == KeyGroup::mesh && key.name != std::string("driver") &&
-           key.name != std::string("driven")))
-        out.rows.push_back({text("mesh ", mesh.gear[0], "-", mesh.gear[1]),
-                            key.name,
-                            {in_scene_unit(values, key)},
-                            key.meaning});
-  }
+  for (GearMeshSpec mesh : a.settings.mesh)
+    for (const Key& key : keys(mesh).section("mesh").without({"driver", "driven"}))
+      out.rows.push_back(
+          {text("mesh ", mesh.gear[0], "-", mesh.gear[1]), key.name, {in_scene_unit(key)}, key.meaning});
   return out;
 }
 
 std::string changed_keys(const JumpMapResult& from, const JumpMapResult& to) {
   const auto changes = [&](int g) {
-    SceneParameters old = keys_of(from, g), fresh = keys_of(to, g);
+    View old = view_of(from, g), fresh = view_of(to, g);
+    const std::vector<Row> before = rows_of(old, true), after = rows_of(fresh, true);
     std::string out;
-    for (const Key& key : scene_keys()) {
-      if (of_operation(key) || key.part == KeyGroup::diameter) continue;
-      const std::string a = in_scene_unit(old, key), b = in_scene_unit(fresh, key);
+    for (size_t i = 0; i < before.size(); ++i) {
+      const Key& key = before[i].key;
+      if (key.called("tip_diameter_mm") || key.called("root_diameter_mm")) continue;
+      const std::string a = in_scene_unit(key), b = in_scene_unit(after[i].key);
       if (a != b) out += text(out.empty() ? "" : ", ", key.name, " ", a, " → ", b);
     }
     return out;

@@ -166,19 +166,17 @@ void SectionReader::reject_unknown(const std::vector<std::string>& others) const
   }
 }
 
-void SectionReader::read(SceneParameters& values, const std::set<KeyGroup>& parts, bool inherit,
-                         const std::set<std::string>& optional) const {
+void SectionReader::read(const KeyList& keys, bool inherit, const std::set<std::string>& optional) const {
   std::vector<std::string> missing;
-  for (const Key& key : scene_keys()) {
-    if (key.section != section_ || !parts.count(key.part)) continue;
+  for (const Key& key : keys) {
     const std::string name = name_in(key, dialect_);
     const toml::node* node = table_.get(name);
     if (node) {
-      assign(key, *node, key.slot(values));
+      assign(key, *node, key.slot);
     } else if ((inherit && key.name != std::string("like")) || optional.count(name)) {
       continue;
     } else if (key.fallback && dialect_ == Dialect::scene) {
-      assign_fallback(key, key.slot(values));
+      assign_fallback(key, key.slot);
     } else {
       missing.push_back("'" + name + "'");
     }
@@ -210,13 +208,15 @@ double SectionReader::finite_number(const Key& key, const toml::node& node, cons
 double SectionReader::checked_number(const Key& key, const toml::node& node, const std::string& item) const {
   const double value = finite_number(key, node, item);
   if (dialect_ == Dialect::settings) return value;
-  if (key.or_zero && value == 0) return value;
-  const std::string why = *key.reason ? text(": ", key.reason) : "";
-  if (value < key.least || (key.open && value == key.least)) {
+  if (key.limits.or_zero && value == 0) return value;
+  const std::string why = *key.limits.reason ? text(": ", key.limits.reason) : "";
+  if (value < key.limits.least || (key.limits.open && value == key.limits.least)) {
     reject(key, node,
-           text(item, "must be ", key.open ? "greater than " : "at least ", key.least, unit_of(key), why));
+           text(item, "must be ", key.limits.open ? "greater than " : "at least ", key.limits.least,
+                unit_of(key), why));
   }
-  if (value > key.most) reject(key, node, text(item, "must be at most ", key.most, unit_of(key)));
+  if (value > key.limits.most)
+    reject(key, node, text(item, "must be at most ", key.limits.most, unit_of(key)));
   return key.to_si(value);
 }
 
@@ -343,7 +343,7 @@ void SectionReader::assign_points(const Key& key, const toml::node& node, Points
       const double value = finite_number(key, *pair->get(i), kCoordinate[i]);
       point[i] = value;
       if (dialect_ == Dialect::settings) continue;
-      const double least = i == 0 ? 0 : key.least, most = i == 0 ? 90 : key.most;
+      const double least = i == 0 ? 0 : key.limits.least, most = i == 0 ? 90 : key.limits.most;
       if (value < least || value > most)
         reject(key, item,
                text(kCoordinate[i], "must be from ", least, " to ", most, i == 0 ? " deg" : " um"));

@@ -79,11 +79,9 @@ class SectionReader {
   // Rejects keys that no key of this section is called; `others` are section names allowed besides.
   void reject_unknown(const std::vector<std::string>& others = {}) const;
 
-  // Fills the keys of this section that belong to one of `parts`. Keys left out keep what stands in `values`
-  // if `inherit`, else take their default; required ones are rejected together, but for `optional` ones, which then keep what stands
-  // there, too.
-  void read(SceneParameters& values, const std::set<KeyGroup>& parts, bool inherit,
-            const std::set<std::string>& optional = {}) const;
+  // Fills these keys. Those left out keep what they hold if `inherit`, else take their default; required ones are rejected together,
+  // but for `optional` ones, which then keep what they hold, too.
+  void read(const KeyList& keys, bool inherit = false, const std::set<std::string>& optional = {}) const;
 
  private:
   [[noreturn]] void reject(const Key& key, const toml::node& node, const std::string& what) const;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <numeric>
-#include <set>
 #include <sstream>
 #include <utility>
 
@@ -45,19 +44,6 @@ Source stage_parameters_source(const std::string& path, const std::string& name,
   return source;
 }
 
-// Reads one section of stage parameters; all its keys must be there.
-void read_parameter_section(const Source& source, const std::string& section, const std::string& label,
-                            const std::set<KeyGroup>& parts, SceneParameters& values) {
-  const toml::table* table = source.section(label);
-  if (!table)
-    source.reject(text(
-        "lacks the section [", label, "]: ",
-        source.is_stage_parameters()
-            ? "it holds the parameters of another stage, or old ones; give out/<scene>/params/<stage>.toml"
-            : "it holds no stage parameters; gear-scene writes them from a scene, out/<scene>/params/<stage>.toml"));
-  SectionReader(source, Dialect::settings, *table, section, label).read(values, parts, false);
-}
-
 }  // namespace
 
 std::string body_parameters(const Scene& scene, const std::string& gear) {
@@ -65,161 +51,140 @@ std::string body_parameters(const Scene& scene, const std::string& gear) {
   return body_parameters({chosen.design, chosen.material, scene.body});
 }
 
+namespace {
+
+KeyList body_keys(BodyParameters& p) {
+  return keys(p.design).append(keys(p.material)).append(keys(p.discretisation));
+}
+
+}  // namespace
+
 std::string body_parameters(const BodyParameters& chosen) {
-  SceneParameters values;
-  values.design = chosen.design;
-  values.material = chosen.material;
-  values.body = chosen.discretisation;
-  take_module(values, {KeyGroup::body, KeyGroup::near_field}, chosen.design.module);
+  BodyParameters p = chosen;  // keys point at what may be changed
+  take_module(keys(p.discretisation), p.design.module);
   StageParametersText out(kBodyStage);
-  out.add("gear", "gear", values,
-          values.design.internal ? std::set{KeyGroup::design} : std::set{KeyGroup::design, KeyGroup::bore});
-  if (values.design.internal) out.add("gear", "rim", values, {KeyGroup::rim});
-  if (values.design.elastic_rim()) out.add("gear", "rim", values, {KeyGroup::rim_support});
-  if (values.design.crack.depth > 0) out.add("crack", "crack", values, {KeyGroup::crack});
-  out.add("material", "material", values, {KeyGroup::material});
-  out.add("fidelity", "fidelity", values, {KeyGroup::body});
-  out.add("discretisation", "discretisation", values, {KeyGroup::body});
-  if (values.body.near_field != BodyDiscretisation{}.near_field)
-    out.add("discretisation", "discretisation", values, {KeyGroup::near_field});
+  out.add(body_keys(p));
   return out.text();
 }
 
 namespace {
 
-SceneParameters static_values(const Scene& scene) {
-  SceneParameters values;
-  values.mesh = scene.mesh;
-  values.fidelity = scene.fidelity;
-  values.contact = scene.contact;
-  if (values.contact.positions == 0) {
-    values.contact.positions = std::max(128, scene.time.steps_per_period);
+StaticParameters static_of(const Scene& scene) {
+  StaticParameters out{scene.mesh, scene.fidelity, scene.contact};
+  if (out.contact.positions == 0) {
+    out.contact.positions = std::max(128, scene.time.steps_per_period);
     int periods = 1;  // after which the same teeth meet
     for (const std::string& name : scene.mesh.gear)
       if (!scene.gear(name).errors.none()) periods = std::lcm(periods, scene.gear(name).design.teeth);
     constexpr int kMostInAll = 16384, kLeast = 16;
-    if (periods > 1)
-      values.contact.positions = std::clamp(kMostInAll / periods, kLeast, values.contact.positions);
+    if (periods > 1) out.contact.positions = std::clamp(kMostInAll / periods, kLeast, out.contact.positions);
   }
-  return values;
+  // make redoes static.h5 by these hashes when a scene goes back to an earlier design, whose body.h5 is older than it.
+  for (int g = 0; g < kSides; ++g) out.body[g] = body_hash(body_parameters(scene, scene.mesh.gear[g]));
+  return out;
 }
 
-// moving: with what a motion needs in the same sections.
-void add_static(StageParametersText& out, const Scene& scene, SceneParameters& values, bool moving) {
-  out.add("mesh", "mesh", values, {KeyGroup::mesh});
-  // Left out where contact has the bodies' plane state, as all stage parameters had before there was a choice.
-  if (values.mesh.contact_plane != GearMeshSpec{}.contact_plane)
-    out.add("mesh", "mesh", values, {KeyGroup::contact_plane});
-  if (values.mesh.friction.acts()) out.add("friction", "friction", values, {KeyGroup::friction});
-  for (const GearSection& own : kGearSections)
-    for (int g = 0; g < kSides; ++g) {
-      take_gear(values, scene.mesh, g);
-      if (own.stands(values)) out.add(own.name, own.of(g), values, {own.part});
-    }
-  using Parts = std::set<KeyGroup>;
-  out.add("fidelity", "fidelity", values,
-          moving ? Parts{KeyGroup::level, KeyGroup::contact_level} : Parts{KeyGroup::contact_level});
-  out.add("discretisation", "discretisation", values,
-          moving ? Parts{KeyGroup::contact, KeyGroup::time} : Parts{KeyGroup::contact});
-  // Going back to an earlier design finds its old body.h5, older than the static result of the design
-  // between: only this text can tell make that the result is stale.
-  for (int g = 0; g < kSides; ++g)
-    out.add_line("body", kRole[g], body_hash(body_parameters(scene, scene.mesh.gear[g])));
+// moving: what a motion needs in the same sections; nullptr: without.
+KeyList static_keys(StaticParameters& p, TimeDiscretisation* moving) {
+  KeyList out = keys(p.mesh);
+  out.append(moving ? keys(p.fidelity) : keys(p.fidelity).only({"contact"})).append(keys(p.contact));
+  return moving ? out.append(keys(*moving)) : out;
+}
+
+void add_bodies(StageParametersText& out, const StaticParameters& p) {
+  for (int g = 0; g < kSides; ++g) out.add_line("body", kRole[g], p.body[g]);
+}
+
+// What a stage of a pair in motion depends on, beside inertia and torque.
+struct MotionStage {
+  const char *name, *file;
+  bool damping, speeds, body_model, time;
+};
+constexpr MotionStage kImpact{kImpactStage, "params/impact.toml", true, false, true, false},
+    kSweep{kSweepStage, "params/sweep.toml", true, true, true, true},
+    kMap{kMapStage, "params/map.toml", true, false, true, true},
+    kLumped{kLumpedStage, "params/lumped.toml", false, true, false, true},
+    kLumpedMap{kLumpedMapStage, "params/lumped_map.toml", false, false, false, true};
+
+struct Motion {
+  SweepParameters p;
+  std::vector<double> torques;  // one
+};
+
+Motion motion_of(const Scene& scene) {
+  if (scene.operation.torques.empty()) fail(Failure::input, "the scene lists no torque");
+  Motion out;
+  for (int g = 0; g < kSides; ++g) out.p.inertia[g] = scene.gear(scene.mesh.gear[g]).total_inertia;
+  out.p.damping = scene.damping;
+  out.p.fidelity = scene.fidelity;
+  out.p.frequency_from = scene.operation.frequency_from;
+  out.p.frequency_to = scene.operation.frequency_to;
+  out.p.frequency_step = scene.operation.frequency_step;
+  out.p.time = scene.time;
+  out.torques = {scene.operation.torques.front()};
+  return out;
+}
+
+// Without what a variant says beside its statics.
+KeyList running_keys(Motion& m, const MotionStage& stage) {
+  KeyList out;
+  for (int g = 0; g < kSides; ++g) out.append(inertia_key(m.p.inertia[g]).labelled(kRole[g]));
+  if (stage.damping) out.append(keys(m.p.damping));
+  out.append(torque_key(m.torques));
+  if (stage.speeds) out.append(speeds_key(m.p.frequency_from, m.p.frequency_to, m.p.frequency_step));
+  return out;
+}
+
+KeyList motion_keys(Motion& m, const MotionStage& stage) {
+  KeyList out = running_keys(m, stage);
+  out.append(stage.body_model ? keys(m.p.fidelity) : keys(m.p.fidelity).only({"contact"}));
+  return stage.time ? out.append(keys(m.p.time)) : out;
+}
+
+std::string motion_text(Motion motion, const MotionStage& stage) {
+  StageParametersText out(stage.name);
+  out.add(motion_keys(motion, stage));
+  return out.text();
 }
 
 }  // namespace
 
 std::string static_parameters(const Scene& scene) {
-  SceneParameters values = static_values(scene);
+  StaticParameters p = static_of(scene);
   StageParametersText out(kStaticStage);
-  add_static(out, scene, values, false);
+  out.add(static_keys(p, nullptr));
+  add_bodies(out, p);
   return out.text();
 }
-
-namespace {
-
-SceneParameters motion_values(const Scene& scene) {
-  SceneParameters values;
-  values.damping = scene.damping;
-  values.operation = scene.operation;
-  if (scene.operation.torques.empty()) fail(Failure::input, "the scene lists no torque");
-  values.operation.torques = {scene.operation.torques.front()};
-  values.fidelity = scene.fidelity;
-  values.time = scene.time;
-  return values;
-}
-
-void add_inertia(StageParametersText& out, const Scene& scene, SceneParameters& values) {
-  for (int g = 0; g < kSides; ++g) {
-    values.total_inertia = scene.gear(scene.mesh.gear[g]).total_inertia;
-    out.add("gear", kRole[g], values, {KeyGroup::inertia});
-  }
-}
-
-void add_inertia_and_damping(StageParametersText& out, const Scene& scene, SceneParameters& values) {
-  add_inertia(out, scene, values);
-  out.add("damping", "damping", values, {KeyGroup::damping});
-}
-
-}  // namespace
 
 std::string impact_parameters(const Scene& scene) {
-  SceneParameters values = motion_values(scene);
-  StageParametersText out(kImpactStage);
-  add_inertia_and_damping(out, scene, values);
-  out.add("operation", "operation", values, {KeyGroup::load});
-  out.add("fidelity", "fidelity", values, {KeyGroup::level, KeyGroup::contact_level});
-  return out.text();
+  return motion_text(motion_of(scene), kImpact);
 }
 
 std::string sweep_parameters(const Scene& scene) {
-  SceneParameters values = motion_values(scene);
-  StageParametersText out(kSweepStage);
-  add_inertia_and_damping(out, scene, values);
-  out.add("operation", "operation", values, {KeyGroup::load, KeyGroup::operation});
-  out.add("fidelity", "fidelity", values, {KeyGroup::level, KeyGroup::contact_level});
-  out.add("discretisation", "discretisation", values, {KeyGroup::time});
-  return out.text();
+  return motion_text(motion_of(scene), kSweep);
 }
 
 std::string map_parameters(const Scene& scene) {
-  SceneParameters values = motion_values(scene);
-  values.damping.rayleigh_stiffness = 0;
-  StageParametersText out(kMapStage);
-  add_inertia_and_damping(out, scene, values);
-  out.add("operation", "operation", values, {KeyGroup::load});
-  out.add("fidelity", "fidelity", values, {KeyGroup::level, KeyGroup::contact_level});
-  out.add("discretisation", "discretisation", values, {KeyGroup::time});
-  return out.text();
+  Motion motion = motion_of(scene);
+  motion.p.damping.rayleigh_stiffness = 0;
+  return motion_text(motion, kMap);
 }
 
 std::string lumped_parameters(const Scene& scene, bool speeds) {
-  SceneParameters values = motion_values(scene);
-  StageParametersText out(speeds ? kLumpedStage : kLumpedMapStage);
-  add_inertia(out, scene, values);
-  out.add(
-      "operation", "operation", values,
-      speeds ? std::set<KeyGroup>{KeyGroup::load, KeyGroup::operation} : std::set<KeyGroup>{KeyGroup::load});
-  out.add("fidelity", "fidelity", values, {KeyGroup::contact_level});
-  out.add("discretisation", "discretisation", values, {KeyGroup::time});
-  return out.text();
+  return motion_text(motion_of(scene), speeds ? kLumped : kLumpedMap);
 }
 
 std::string variant_stage_parameters(const Scene& scene, double torque,
                                      const std::vector<Direction>& directions) {
-  SceneParameters values = static_values(scene);
-  const SceneParameters moving = motion_values(scene);
-  values.damping = moving.damping;
-  values.time = moving.time;
+  StaticParameters p = static_of(scene);
+  Motion motion = motion_of(scene);
   StageParametersText out(kVariantStage);
-  add_static(out, scene, values, !directions.empty());
-  if (!directions.empty()) {
-    add_inertia_and_damping(out, scene, values);
-    values.operation = moving.operation;
-    out.add("operation", "operation", values, {KeyGroup::load, KeyGroup::operation});
-  }
-  values.operation.torques = {torque};
-  out.add("operation", kVariant, values, {KeyGroup::load});
+  out.add(static_keys(p, directions.empty() ? nullptr : &motion.p.time));
+  add_bodies(out, p);
+  if (!directions.empty()) out.add(running_keys(motion, kSweep));
+  std::vector<double> torques{torque};
+  out.add(torque_key(torques).labelled(kVariant));
   out.add_line(kVariant, "directions", names_of(directions));
   return out.text();
 }
@@ -229,86 +194,33 @@ std::string body_hash(const std::string& settings) {
 }
 
 BodyParameters read_body_parameters(const std::string& path) {
-  const Source source = stage_parameters_source(path, "<gear>/body.toml", kBodyStage);
-  SceneParameters values;
-  const bool internal = source.section("rim") != nullptr;
-  read_parameter_section(source, "gear", "gear",
-                         internal ? std::set{KeyGroup::design} : std::set{KeyGroup::design, KeyGroup::bore},
-                         values);
-  if (internal) read_parameter_section(source, "gear", "rim", {KeyGroup::rim}, values);
-  if (internal && source.section("rim")->contains("rim_radial_stiffness"))
-    read_parameter_section(source, "gear", "rim", {KeyGroup::rim_support}, values);
-  if (source.section("crack")) read_parameter_section(source, "crack", "crack", {KeyGroup::crack}, values);
-  read_parameter_section(source, "material", "material", {KeyGroup::material}, values);
-  read_parameter_section(source, "fidelity", "fidelity", {KeyGroup::body}, values);
-  read_parameter_section(source, "discretisation", "discretisation", {KeyGroup::body}, values);
-  if (source.section("discretisation")->contains("near_field"))
-    read_parameter_section(source, "discretisation", "discretisation", {KeyGroup::near_field}, values);
-  else
-    values.body.matching_depth = 0;  // of the other near field that the error budget tries: its default
-  take_module(values, {KeyGroup::near_field}, values.design.module);
-  return {values.design, values.material, values.body};
+  BodyParameters out;
+  out.discretisation.matching_depth =
+      0;  // if it is not said: of the other near field that the error budget tries
+  read_stage(stage_parameters_source(path, "<gear>/body.toml", kBodyStage), body_keys(out));
+  take_module(keys(out.discretisation).only({"matching_depth_mm"}), out.design.module);
+  return out;
 }
 
 namespace {
 
 StaticParameters static_from(const Source& source) {
-  SceneParameters values;
-  read_parameter_section(source, "mesh", "mesh", {KeyGroup::mesh}, values);
-  if (source.section("mesh")->contains("contact_plane"))
-    read_parameter_section(source, "mesh", "mesh", {KeyGroup::contact_plane}, values);
-  if (source.section("friction"))
-    read_parameter_section(source, "friction", "friction", {KeyGroup::friction}, values);
-  read_parameter_section(source, "fidelity", "fidelity", {KeyGroup::contact_level}, values);
-  read_parameter_section(source, "discretisation", "discretisation", {KeyGroup::contact}, values);
-  StaticParameters out{values.mesh, values.fidelity, values.contact};
-  const toml::table* bodies = source.section("body");
-  for (int g = 0; g < kSides; ++g) {
-    SceneParameters of_gear;
-    for (const GearSection& own : kGearSections)
-      if (source.section(own.of(g))) read_parameter_section(source, own.name, own.of(g), {own.part}, of_gear);
-    put_gear(of_gear, out.mesh, g);
-    if (bodies) out.body[g] = (*bodies)[kRole[g]].value_or(std::string());
-  }
+  StaticParameters out;
+  read_stage(source, static_keys(out, nullptr));
+  if (const toml::table* bodies = source.section("body"))
+    for (int g = 0; g < kSides; ++g) out.body[g] = (*bodies)[kRole[g]].value_or(std::string());
   return out;
 }
 
-void read_inertia(const Source& source, ImpactParameters& out) {
-  for (int g = 0; g < kSides; ++g) {
-    SceneParameters values;
-    read_parameter_section(source, "gear", kRole[g], {KeyGroup::inertia}, values);
-    out.inertia[g] = values.total_inertia;
-  }
+SweepParameters motion_from(const Source& source, const MotionStage& stage) {
+  Motion out;
+  read_stage(source, motion_keys(out, stage));
+  out.p.reference_torque = out.torques.front();
+  return out.p;
 }
 
-ImpactParameters impact_from(const Source& source) {
-  SceneParameters values;
-  ImpactParameters out;
-  read_inertia(source, out);
-  read_parameter_section(source, "damping", "damping", {KeyGroup::damping}, values);
-  read_parameter_section(source, "operation", "operation", {KeyGroup::load}, values);
-  read_parameter_section(source, "fidelity", "fidelity", {KeyGroup::level, KeyGroup::contact_level}, values);
-  out.damping = values.damping;
-  out.reference_torque = values.operation.torques.front();
-  out.fidelity = values.fidelity;
-  return out;
-}
-
-void read_speeds(const Source& source, SweepParameters& out) {
-  SceneParameters values;
-  read_parameter_section(source, "operation", "operation", {KeyGroup::operation}, values);
-  out.frequency_from = values.operation.frequency_from;
-  out.frequency_to = values.operation.frequency_to;
-  out.frequency_step = values.operation.frequency_step;
-}
-
-SweepParameters read_motion(const Source& source) {
-  SweepParameters out;
-  static_cast<ImpactParameters&>(out) = impact_from(source);
-  SceneParameters values;
-  read_parameter_section(source, "discretisation", "discretisation", {KeyGroup::time}, values);
-  out.time = values.time;
-  return out;
+SweepParameters read_motion(const std::string& path, const MotionStage& stage) {
+  return motion_from(stage_parameters_source(path, stage.file, stage.name), stage);
 }
 
 }  // namespace
@@ -319,51 +231,35 @@ StaticParameters read_static_parameters(const std::string& path) {
 
 VariantParameters read_variant_parameters(const std::string& path) {
   const Source source(path, "a variant's stage parameters are written by: make study STUDY=<name>");
-  SceneParameters values;
-  read_parameter_section(source, "operation", kVariant, {KeyGroup::load}, values);
+  std::vector<double> torques;
+  read_stage(source, torque_key(torques).labelled(kVariant));
   VariantParameters out;
   out.statics = static_from(source);
-  out.torque = values.operation.torques.front();
+  out.torque = torques.front();
   const std::string words = (*source.section(kVariant))["directions"].value_or(std::string());
   const auto directions = choices_in<Direction>(words);
   if (!directions) source.reject(text("names the directions '", words, "'; there are up and down"));
   out.directions = *directions;
-  if (out.directions.empty()) return out;
-  out.motion = read_motion(source);
-  read_speeds(source, out.motion);
+  if (!out.directions.empty()) out.motion = motion_from(source, kSweep);
   return out;
 }
 
 ImpactParameters read_impact_parameters(const std::string& path) {
-  return impact_from(stage_parameters_source(path, "params/impact.toml", kImpactStage));
+  return read_motion(path, kImpact);
 }
 
 SweepParameters read_map_parameters(const std::string& path) {
-  return read_motion(stage_parameters_source(path, "params/map.toml", kMapStage));
+  return read_motion(path, kMap);
 }
 
 SweepParameters read_sweep_parameters(const std::string& path) {
-  const Source source = stage_parameters_source(path, "params/sweep.toml", kSweepStage);
-  SweepParameters out = read_motion(source);
-  read_speeds(source, out);
-  return out;
+  return read_motion(path, kSweep);
 }
 
 SweepParameters read_lumped_parameters(const std::string& path, bool speeds) {
-  const Source source = stage_parameters_source(
-      path, speeds ? "params/lumped.toml" : "params/lumped_map.toml", speeds ? kLumpedStage : kLumpedMapStage,
-      speeds ? kSweepStage : "");  // a sweep's holds all of it
-  SweepParameters out;
-  read_inertia(source, out);
-  SceneParameters values;
-  read_parameter_section(source, "operation", "operation", {KeyGroup::load}, values);
-  read_parameter_section(source, "fidelity", "fidelity", {KeyGroup::contact_level}, values);
-  read_parameter_section(source, "discretisation", "discretisation", {KeyGroup::time}, values);
-  out.reference_torque = values.operation.torques.front();
-  out.fidelity.contact = values.fidelity.contact;
-  out.time = values.time;
-  if (speeds) read_speeds(source, out);
-  return out;
+  const MotionStage& stage = speeds ? kLumped : kLumpedMap;
+  // A sweep's parameters hold all of it.
+  return motion_from(stage_parameters_source(path, stage.file, stage.name, speeds ? kSweepStage : ""), stage);
 }
 
 }  // namespace whine

@@ -14,7 +14,8 @@ std::string quoted_text(const std::string& word) {
   return out + "\"";
 }
 
-std::string value_of(const Key& key, const Slot& slot) {
+std::string value_of(const Key& key) {
+  const Slot& slot = key.slot;
   if (const auto* number = std::get_if<double*>(&slot)) return exact_text(**number);
   if (const auto* whole = std::get_if<int*>(&slot)) return std::to_string(**whole);
   if (const auto* flag = std::get_if<bool*>(&slot)) return **flag ? "true" : "false";
@@ -35,6 +36,11 @@ std::string value_of(const Key& key, const Slot& slot) {
 
 }  // namespace
 
+std::string stage_label(const Key& key) {
+  if (key.own.empty()) return key.section;
+  return key.own[0] == '_' ? key.own.substr(1) : key.own;
+}
+
 StageParametersText::StageParametersText(const std::string& stage) {
   out_ << kStageParametersStart << stage << kStageParametersEnd << "\n";
 }
@@ -44,13 +50,11 @@ void StageParametersText::begin(const std::string& label) {
   last_ = label;
 }
 
-void StageParametersText::add(const std::string& section, const std::string& label,
-                              const SceneParameters& values, const std::set<KeyGroup>& parts) {
-  SceneParameters copy = values;
-  for (const Key& key : scene_keys()) {
-    if (key.section != section || !parts.count(key.part)) continue;
-    begin(label);
-    const std::string value = value_of(key, key.slot(copy));
+void StageParametersText::add(const KeyList& keys) {
+  for (const Key& key : keys) {
+    if (!is_held(key)) continue;
+    begin(stage_label(key));
+    const std::string value = value_of(key);
     out_ << key.si_name() << " = " << value;
     if (std::string(key.unit.si) != "1" && value != "true" && value != "false") out_ << "  # " << key.unit.si;
     out_ << "\n";
@@ -61,6 +65,23 @@ void StageParametersText::add_line(const std::string& label, const std::string& 
                                    const std::string& word) {
   begin(label);
   out_ << name << " = " << quoted_text(word) << "\n";
+}
+
+void read_stage(const Source& source, const KeyList& keys) {
+  const auto has = [&](const Key& key) {
+    const toml::table* table = source.section(stage_label(key));
+    return table && table->contains(key.si_name());
+  };
+  read_held(keys, has, stage_label, [&](const std::string& label, const KeyList& own) {
+    const toml::table* table = source.section(label);
+    if (!table)
+      source.reject(whine::text(
+          "lacks the section [", label, "]: ",
+          source.is_stage_parameters()
+              ? "it holds the parameters of another stage, or old ones; give out/<scene>/params/<stage>.toml"
+              : "it holds no stage parameters; gear-scene writes them from a scene, out/<scene>/params/<stage>.toml"));
+    SectionReader(source, Dialect::settings, *table, own.begin()->section, label).read(own);
+  });
 }
 
 }  // namespace whine

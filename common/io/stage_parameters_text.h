@@ -2,11 +2,11 @@
 //
 // Private to the layer io/.
 #pragma once
-#include <set>
 #include <sstream>
 #include <string>
 
 #include "io/keys.h"
+#include "io/section_reader.h"
 
 namespace whine {
 
@@ -15,13 +15,14 @@ inline constexpr const char *kStageParametersStart = "# What ",
                             *kStageParametersEnd =
                                 " depends on, in SI units; made from a scene by gear-scene.";
 
+// Section of stage parameters that holds a key.
+std::string stage_label(const Key& key);
+
 class StageParametersText {
  public:
   explicit StageParametersText(const std::string& stage);
 
-  // The keys of one section that belong to one of `parts`, under [label].
-  void add(const std::string& section, const std::string& label, const SceneParameters& values,
-           const std::set<KeyGroup>& parts);
+  void add(const KeyList& keys);  // those that are held
   void add_line(const std::string& label, const std::string& name, const std::string& word);
   std::string text() const { return out_.str(); }
 
@@ -31,5 +32,8 @@ class StageParametersText {
   std::ostringstream out_;
   std::string last_;
 };
+
+// Reads the keys of a list; those that are no optional ones must be there.
+void read_stage(const Source& source, const KeyList& keys);
 
 }  // namespace whine

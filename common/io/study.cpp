@@ -412,8 +412,7 @@ std::string drawn_value(const StudyPlan& study, const VariedKey& key, long index
 
 VariedKey varied_key(const std::string& name) {
   const Key& key = *find_key(name).key;
-  SceneParameters any;
-  const Slot slot = key.slot(any);
+  const Slot& slot = key.slot;
   VariedKey out;
   out.name = name;
   out.whole = std::holds_alternative<int*>(slot);
@@ -558,9 +557,9 @@ StudyVariant study_variant(const Study& study, long index, const std::vector<std
       continue;
     }
     torque = std::strtod(values[k].c_str(), nullptr);
-    if (!(torque > key.least && torque <= key.most))
+    if (!(torque > key.limits.least && torque <= key.limits.most))
       fail(Failure::input, study.path, ":", study.keys[k].line, ": ", variant_name(study, index, values),
-           ": the torque must be greater than ", key.least, ", at most ", key.most, " N m");
+           ": the torque must be greater than ", key.limits.least, ", at most ", key.limits.most, " N m");
   }
   try {
     const Scene scene = read_variant_of(study.scene, scene_variant(study.scene, changes));

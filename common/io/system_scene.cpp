@@ -76,10 +76,8 @@ void take_gears(const Source& source, SystemScene& scene) {
     const toml::table* owner = table;
     if (const auto like = (*table)["like"].value<std::string>(); like && !table->get("equivalent_mass_kg"))
       owner = source.section("gear")->get(*like)->as_table();
-    SceneParameters values;
     SectionReader(source, Dialect::scene, *owner, "rigid_gear", "gear." + own.name)
-        .read(values, {KeyGroup::rigid_gear}, false);
-    gear.equivalent_mass = values.equivalent_mass;
+        .read(equivalent_mass_key(gear.equivalent_mass));
     if (gear.equivalent_mass > 0 && gear.total_inertia > 0)
       source.reject(
           *table,
@@ -98,46 +96,45 @@ void take_gears(const Source& source, SystemScene& scene) {
 
 void take_carriers(const Source& source, SystemScene& scene) {
   for (const toml::table* table : list_of(source, "carrier")) {
-    SceneParameters values;
+    SystemScene::Carrier carrier;
     const SectionReader reader(source, Dialect::scene, *table, "carrier", "carrier");
     reader.reject_unknown();
-    reader.read(values, {KeyGroup::carrier}, false);
-    if (!plain_name(values.carrier.name))
-      source.reject(*table->get("name"), text("'name' in [carrier] = '", values.carrier.name,
+    reader.read(keys(carrier));
+    if (!plain_name(carrier.name))
+      source.reject(*table->get("name"), text("'name' in [carrier] = '", carrier.name,
                                               "': a name holds letters, digits, '_' and '-' only"));
-    const bool one = values.carrier.inertia > 0, other = values.carrier.equivalent_mass > 0;
+    const bool one = carrier.inertia > 0, other = carrier.equivalent_mass > 0;
     if (one && other)
       source.reject(
           *table,
-          text("[carrier] '", values.carrier.name,
+          text("[carrier] '", carrier.name,
                "' gives 'inertia_kgm2' and 'equivalent_mass_kg', which say the same; give one of them"));
     if (scene.rigid() && !one && !other)
-      source.reject(*table, text("[carrier] '", values.carrier.name,
+      source.reject(*table, text("[carrier] '", carrier.name,
                                  "' needs its inertia, either 'inertia_kgm2' or 'equivalent_mass_kg'"));
-    scene.carriers.push_back(values.carrier);
+    scene.carriers.push_back(carrier);
   }
 }
 
 void take_meshes(const Source& source, SystemScene& scene) {
   for (const toml::table* table : list_of(source, "mesh")) {
-    SceneParameters values;
+    SystemScene::Mesh mesh;
     const SectionReader reader(source, Dialect::scene, *table, "mesh", "mesh"),
         train(source, Dialect::scene, *table, "train_mesh", "mesh");
     reader.reject_unknown({"direction_deg", "stiffness_N_um"});
-    reader.read(values, {KeyGroup::mesh, KeyGroup::contact_plane}, false);
-    train.read(values, {KeyGroup::train_mesh}, false);
+    reader.read(keys(mesh.spec).section("mesh"));
+    train.read(keys(mesh));
     if (const toml::node* node = table->get("stiffness_N_um"); node && !scene.rigid())
       source.reject(
           *node,
           "'stiffness_N_um' in [mesh] belongs to body = \"rigid\"; that of elastic gears is computed, take it out");
-    if (scene.rigid() && !(values.train_mesh.stiffness > 0))
-      source.reject(*table, text("[mesh] of '", values.mesh.gear[0], "' and '", values.mesh.gear[1],
+    if (scene.rigid() && !(mesh.stiffness > 0))
+      source.reject(*table, text("[mesh] of '", mesh.spec.gear[0], "' and '", mesh.spec.gear[1],
                                  "' lacks 'stiffness_N_um', which body = \"rigid\" needs"));
-    values.train_mesh.spec = values.mesh;
     for (size_t g = 0; g < kSides; ++g)
       for (const SystemScene::Gear& gear : scene.gears)
-        if (gear.name == values.mesh.gear[g]) values.train_mesh.spec.modification[g] = gear.modification;
-    scene.meshes.push_back(values.train_mesh);
+        if (gear.name == mesh.spec.gear[g]) mesh.spec.modification[g] = gear.modification;
+    scene.meshes.push_back(mesh);
   }
 }
 
@@ -153,38 +150,38 @@ void take_bearings(const Source& source, SystemScene& scene) {
     own.push_back(&carrier.bearing);
   }
   for (const toml::table* table : list_of(source, "bearing")) {
-    SceneParameters values;
+    std::string name;
+    Bearing read;
     const SectionReader reader(source, Dialect::scene, *table, "bearing", "bearing");
     reader.reject_unknown();
-    reader.read(values, {KeyGroup::bearing, KeyGroup::bearing_gear}, false);
-    const auto at = std::find(names.begin(), names.end(), values.bearing_gear);
+    reader.read(bearing_gear_key(name).append(keys(read)));
+    const auto at = std::find(names.begin(), names.end(), name);
     if (at == names.end())
-      source.reject(*table->get("gear"),
-                    text("'gear' in [bearing] = '", values.bearing_gear, "' names no gear and no carrier",
-                         advice_for(values.bearing_gear, names)));
+      source.reject(*table->get("gear"), text("'gear' in [bearing] = '", name,
+                                              "' names no gear and no carrier", advice_for(name, names)));
     Bearing& bearing = *own[static_cast<size_t>(at - names.begin())];
     if (bearing.elastic())
       source.reject(*table->get("gear"),
-                    text("'gear' in [bearing] = '", values.bearing_gear,
+                    text("'gear' in [bearing] = '", name,
                          "' has a bearing already; give one section with what carries it in all"));
     const bool drawn = !scene.rigid() && static_cast<size_t>(at - names.begin()) < scene.gears.size();
-    if (!drawn && !(values.bearing.mass > 0))
-      source.reject(*table, text("[bearing] of '", values.bearing_gear, "' lacks 'mass_kg', which ",
+    if (!drawn && !(read.mass > 0))
+      source.reject(*table, text("[bearing] of '", name, "' lacks 'mass_kg', which ",
                                  scene.rigid() ? "body = \"rigid\"" : "a carrier", " needs"));
-    bearing = values.bearing;
+    bearing = read;
   }
 }
 
 void take_drives(const Source& source, SystemScene& scene) {
   for (const toml::table* table : list_of(source, "drive")) {
-    SceneParameters values;
+    SystemScene::Drive drive;
     const SectionReader reader(source, Dialect::scene, *table, "drive", "drive");
     reader.reject_unknown();
-    reader.read(values, {KeyGroup::drive}, false);
+    reader.read(keys(drive));
     const auto only = [&](const char* key, System::DriveKind kind) {
-      if (const toml::node* node = table->get(key); node && values.drive.kind != kind)
+      if (const toml::node* node = table->get(key); node && drive.kind != kind)
         source.reject(*node, text("'", key, "' in [drive] belongs to kind = \"", name_of(kind),
-                                  "\", and this drive is of kind \"", name_of(values.drive.kind), "\""));
+                                  "\", and this drive is of kind \"", name_of(drive.kind), "\""));
     };
     only("torque_Nm", System::DriveKind::torque);
     only("stiffness_N_um", System::DriveKind::held);
@@ -192,7 +189,7 @@ void take_drives(const Source& source, SystemScene& scene) {
       source.reject(
           *node,
           "'stiffness_N_um' in [drive] belongs to body = \"rigid\"; elastic gears are held rigidly, take it out");
-    scene.drives.push_back(values.drive);
+    scene.drives.push_back(drive);
   }
 }
 
@@ -216,17 +213,24 @@ void reject_in_motion(const Source& source, const Fidelity& fidelity) {
 }
 
 // [fidelity], [discretisation], [damping] and [operation].
-void take_fidelity(const Source& source, SceneParameters& values, SystemScene& scene) {
+void take_fidelity(const Source& source, SystemScene& scene) {
   static const toml::table kNothing;
   if (const toml::node* node = source.root().at_path("operation.torque_Nm").node())
     source.reject(
         *node,
         "'torque_Nm' in [operation] is of pairs: the torques of a system are those of [[drive]]; take it out");
   const bool moves = source.root().get("operation") != nullptr;
+  KeyList all = keys(scene.fidelity)
+                    .append(keys(scene.body))
+                    .append(keys(scene.contact))
+                    .append(keys(scene.damping))
+                    .append(keys(scene.time));
+  Operation& speeds = scene.operation;
+  if (moves) all.append(speeds_key(speeds.frequency_from, speeds.frequency_to, speeds.frequency_step));
   for (const char* name : {"fidelity", "discretisation", "damping", "operation"}) {
     const std::string section(name);
     if (const toml::node* node = source.root().get(section);
-        node && values.fidelity.body == BodyModel::rigid && (section == "damping" || section == "operation"))
+        node && scene.fidelity.body == BodyModel::rigid && (section == "damping" || section == "operation"))
       source.reject(
           *node,
           text("[", section,
@@ -234,18 +238,9 @@ void take_fidelity(const Source& source, SceneParameters& values, SystemScene& s
     const toml::table* table = source.section(name);
     const SectionReader reader(source, Dialect::scene, table ? *table : kNothing, name, name);
     reader.reject_unknown();
-    std::set<KeyGroup> parts = {KeyGroup::level,      KeyGroup::contact_level, KeyGroup::body,
-                                KeyGroup::near_field, KeyGroup::contact,       KeyGroup::damping,
-                                KeyGroup::time};
-    if (moves) parts.insert(KeyGroup::operation);
-    reader.read(values, parts, false);
+    reader.read(all.section(section));
   }
-  if (moves && values.fidelity.body != BodyModel::rigid) reject_in_motion(source, values.fidelity);
-  scene.operation = values.operation;
-  scene.time = values.time;
-  scene.fidelity = values.fidelity;
-  scene.body = values.body;
-  scene.contact = values.contact;
+  if (moves && scene.fidelity.body != BodyModel::rigid) reject_in_motion(source, scene.fidelity);
   if (const toml::node* node = source.root().get("discretisation"); node && scene.rigid())
     source.reject(
         *node, "[discretisation] belongs to elastic gears, and those of this scene are rigid; take it out");
@@ -298,15 +293,13 @@ SystemScene read_system_scene(const std::string& path) {
                          name == std::string("gear") ? "[gear.<name>]" : "[[mesh]]",
                          "; data/scenes/lin-parker-planetary.toml is an example"));
   SystemScene scene;
-  SceneParameters values;
-  top.read(values, {KeyGroup::title}, false);
-  scene.title = values.title.empty() ? std::filesystem::path(path).stem().string() : values.title;
-  take_fidelity(source, values, scene);
+  top.read(title_key(scene.title));
+  if (scene.title.empty()) scene.title = std::filesystem::path(path).stem().string();
+  take_fidelity(source, scene);
   take_gears(source, scene);
   double largest = 0;
   for (const SystemScene::Gear& gear : scene.gears) largest = std::max(largest, gear.design.module);
-  take_module(values, {KeyGroup::damping}, largest);
-  scene.damping = values.damping;
+  take_module(keys(scene.damping), largest);
   take_carriers(source, scene);
   take_meshes(source, scene);
   take_bearings(source, scene);

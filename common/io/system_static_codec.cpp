@@ -15,12 +15,11 @@ using namespace ranges;
 // [gear.<name>.modification], of gears that have one.
 void describe_modification(Codec& c, const std::string& gear, SystemStaticParameters& s) {
   const std::string section = "modification_" + gear;
-  SceneParameters values;
-  values.modification = s.modification(gear);
-  const bool stands = values.modification != FlankModification{};
+  FlankModification modification = s.modification(gear);
+  const bool stands = modification != FlankModification{};
   if (c.lists() || !c.optional("/parameters/" + section + "/tip_relief", stands)) return;
-  c.parameters(section, values, KeyGroup::modification);
-  if (c.in()) s.modify(gear, values.modification);
+  c.parameters(section, keys(modification));
+  if (c.in()) s.modify(gear, modification);
 }
 
 // Gears by name and what bodies and meshes are of them; [[mesh]] and [gear.<name>] of the scene as parameters.
@@ -33,26 +32,17 @@ void describe_settings(Codec& c, SystemStaticResult& a) {
   c(s.gear, "/body/gear", "body_number", "name of its gear in the scene; empty of a carrier");
   c(gears, "/gear", "gear_number", "names of the gears of the scene");
   c(section, "/mesh/section", "1", {0, 10000}, "mesh_number", "number of the [[mesh]] of the scene");
-  SceneParameters values;
-  values.fidelity = s.fidelity;
-  values.contact = s.contact;
-  c.parameters("fidelity", values, KeyGroup::contact_level);
-  c.parameters("discretisation", values, KeyGroup::contact);
+  c.parameters("fidelity", keys(s.fidelity).only({"contact"}));
+  c.parameters("discretisation", keys(s.contact));
   if (c.in()) {
-    s.fidelity = values.fidelity;
-    s.contact = values.contact;
     s.section.assign(section.begin(), section.end());
     s.mesh.resize(section.size() > 0 ? static_cast<size_t>(section.maxCoeff()) + 1 : 0);
     a.drawing.resize(gears.size());
     for (const std::string& name : gears) s.body.emplace_back(name, "");
   }
-  for (size_t m = 0; m < s.mesh.size(); ++m) {
-    values.mesh = s.mesh[m];
-    // Sections of a side have no number of the mesh; what they hold is written gear by gear.
-    for (int g = 0; g < kSides; ++g) put_gear(SceneParameters(), values.mesh, g);
-    c.parameters("mesh_" + std::to_string(m), values, KeyGroup::mesh);
-    if (c.in()) s.mesh[m] = values.mesh;
-  }
+  // Modifications are written gear by gear, errors body by body.
+  for (size_t m = 0; m < s.mesh.size(); ++m)
+    c.parameters("mesh_" + std::to_string(m), keys(s.mesh[m]).section("mesh"));
   for (size_t g = 0; g < gears.size(); ++g) {
     describe_gear(c, "gear_" + gears[g], a.drawing[g]);
     describe_modification(c, gears[g], s);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 #include <utility>
 
 #include "base/error.h"
@@ -79,37 +78,32 @@ SystemStaticParameters static_parameters_of(const SystemScene& scene, const Syst
 
 namespace {
 
-using Parts = std::set<KeyGroup>;
+// moving: with what a motion needs in these sections.
+KeyList level_keys(SystemStaticParameters& p, TimeDiscretisation* moving) {
+  KeyList out = moving ? keys(p.fidelity) : keys(p.fidelity).only({"contact"});
+  out.append(keys(p.contact));
+  return moving ? out.append(keys(*moving)) : out;
+}
 
-// values: with what a motion needs, if `moving`.
-std::string parameters_text(const char* stage, const SystemStaticParameters& p, SceneParameters values,
-                            bool moving) {
+KeyList speed_keys(SystemSweepParameters& p) {
+  return keys(p.damping).append(speeds_key(p.frequency_from, p.frequency_to, p.frequency_step));
+}
+
+KeyList mesh_keys(GearMeshSpec& mesh, size_t number) {
+  return keys(mesh).section("mesh").all().labelled(mesh_label(number));
+}
+
+// moving: `p` itself, if it is of a sweep.
+std::string parameters_text(const char* stage, SystemStaticParameters& p, SystemSweepParameters* moving) {
   StageParametersText out(stage);
-  for (size_t m = 0; m < p.mesh.size(); ++m) {
-    values.mesh = p.mesh[m];
-    out.add("mesh", mesh_label(m), values, {KeyGroup::mesh, KeyGroup::contact_plane});
-  }
-  for (const auto& [gear, hash] : p.body) {
-    values.modification = p.modification(gear);
-    if (values.modification != FlankModification{})
-      out.add("modification", modification_label(gear), values, {KeyGroup::modification});
-  }
+  for (size_t m = 0; m < p.mesh.size(); ++m) out.add(mesh_keys(p.mesh[m], m));
+  for (const auto& [gear, hash] : p.body)
+    if (FlankModification own = p.modification(gear); own != FlankModification{})
+      out.add(keys(own).labelled(modification_label(gear)));
   for (size_t b = 0; b < p.errors.size(); ++b)
-    if (p.has_errors(b)) {
-      values.errors = p.errors[b];
-      const std::string label = error_label(p.layout.bodies[b].name);
-      out.add("error", label, values, {KeyGroup::error});
-    }
-  values.fidelity = p.fidelity;
-  values.contact = p.contact;
-  if (moving) {
-    out.add("damping", "damping", values, {KeyGroup::damping});
-    out.add("operation", "operation", values, {KeyGroup::operation});
-  }
-  out.add("fidelity", "fidelity", values,
-          moving ? Parts{KeyGroup::level, KeyGroup::contact_level} : Parts{KeyGroup::contact_level});
-  out.add("discretisation", "discretisation", values,
-          moving ? Parts{KeyGroup::contact, KeyGroup::time} : Parts{KeyGroup::contact});
+    if (p.has_errors(b)) out.add(keys(p.errors[b]).labelled(error_label(p.layout.bodies[b].name)));
+  if (moving) out.add(speed_keys(*moving));
+  out.add(level_keys(p, moving ? &moving->time : nullptr));
   for (const auto& [gear, hash] : p.body) out.add_line("bodies", gear, hash);
   for (size_t b = 0; b < p.gear.size(); ++b)
     if (!p.gear[b].empty()) out.add_line("gear_of", p.layout.bodies[b].name, p.gear[b]);
@@ -119,7 +113,8 @@ std::string parameters_text(const char* stage, const SystemStaticParameters& p, 
 }  // namespace
 
 std::string system_static_parameters(const SystemStaticParameters& p) {
-  return parameters_text(kSystemStaticStage, p, {}, false);
+  SystemStaticParameters copy = p;  // keys point at what may be changed
+  return parameters_text(kSystemStaticStage, copy, nullptr);
 }
 
 SystemSweepParameters sweep_parameters_of(const SystemScene& scene, const System& layout) {
@@ -134,13 +129,8 @@ SystemSweepParameters sweep_parameters_of(const SystemScene& scene, const System
 }
 
 std::string system_sweep_parameters(const SystemSweepParameters& p) {
-  SceneParameters values;
-  values.damping = p.damping;
-  values.operation.frequency_from = p.frequency_from;
-  values.operation.frequency_to = p.frequency_to;
-  values.operation.frequency_step = p.frequency_step;
-  values.time = p.time;
-  return parameters_text(kSystemSweepStage, p, values, true);
+  SystemSweepParameters copy = p;
+  return parameters_text(kSystemSweepStage, copy, &copy);
 }
 
 std::vector<std::pair<std::string, std::string>> elastic_parameters(const SystemScene& scene,
@@ -168,9 +158,8 @@ std::string system_parameters_for(const std::string& scene, const std::string& p
 
 namespace {
 
-// values: what a motion needs, if `moving`.
-SystemStaticParameters parameters_from(const Source& source, SceneParameters& values, bool moving) {
-  SystemStaticParameters out;
+// moving: `out` itself, if it is of a sweep.
+void read_into(const Source& source, SystemStaticParameters& out, SystemSweepParameters* moving) {
   out.layout = layout_from(source);
   const auto section = [&](const std::string& name) -> const toml::table& {
     const toml::table* table = source.section(name);
@@ -184,37 +173,21 @@ SystemStaticParameters parameters_from(const Source& source, SceneParameters& va
   std::stable_sort(out.body.begin(), out.body.end(), [&](const auto& a, const auto& b) {
     return bodies.get(a.first)->source().begin.line < bodies.get(b.first)->source().begin.line;
   });
-  for (size_t m = 0; m == 0 || source.section(mesh_label(m)); ++m) {
-    SectionReader(source, Dialect::settings, section(mesh_label(m)), "mesh", mesh_label(m))
-        .read(values, {KeyGroup::mesh, KeyGroup::contact_plane}, false);
-    out.mesh.push_back(values.mesh);
+  for (size_t m = 0; m == 0 || source.section(mesh_label(m)); ++m)
+    read_stage(source, mesh_keys(out.mesh.emplace_back(), m));
+  for (const auto& [gear, hash] : out.body)
+    if (const std::string label = modification_label(gear); source.section(label)) {
+      FlankModification own;
+      read_stage(source, keys(own).labelled(label));
+      out.modify(gear, own);
+    }
+  for (const System::Body& body : out.layout.bodies) {
+    ToothErrors& own = out.errors.emplace_back();
+    if (const std::string label = error_label(body.name); source.section(label))
+      read_stage(source, keys(own).labelled(label));
   }
-  for (const auto& [gear, hash] : out.body) {
-    SceneParameters own;
-    const std::string label = modification_label(gear);
-    if (!source.section(label)) continue;
-    SectionReader(source, Dialect::settings, section(label), "modification", label)
-        .read(own, {KeyGroup::modification}, false);
-    out.modify(gear, own.modification);
-  }
-  for (size_t b = 0; b < out.layout.bodies.size(); ++b) {
-    SceneParameters own;
-    const std::string label = error_label(out.layout.bodies[b].name);
-    if (const toml::table* table = source.section(label))
-      SectionReader(source, Dialect::settings, *table, "error", label).read(own, {KeyGroup::error}, false);
-    out.errors.push_back(own.errors);
-  }
-  SectionReader(source, Dialect::settings, section("fidelity"), "fidelity", "fidelity")
-      .read(values, moving ? Parts{KeyGroup::level, KeyGroup::contact_level} : Parts{KeyGroup::contact_level},
-            false);
-  SectionReader(source, Dialect::settings, section("discretisation"), "discretisation", "discretisation")
-      .read(values, moving ? Parts{KeyGroup::contact, KeyGroup::time} : Parts{KeyGroup::contact}, false);
-  if (moving)
-    for (const auto& [name, part] :
-         {std::pair{"damping", KeyGroup::damping}, std::pair{"operation", KeyGroup::operation}})
-      SectionReader(source, Dialect::settings, section(name), name, name).read(values, {part}, false);
-  out.fidelity = values.fidelity;
-  out.contact = values.contact;
+  read_stage(source, level_keys(out, moving ? &moving->time : nullptr));
+  if (moving) read_stage(source, speed_keys(*moving));
   const toml::table& gear_of = section("gear_of");
   const std::vector<std::string> gears = out.gears();
   for (const System::Body& body : out.layout.bodies) {
@@ -229,7 +202,6 @@ SystemStaticParameters parameters_from(const Source& source, SceneParameters& va
   } catch (const Error& error) {
     source.reject(error.what());
   }
-  return out;
 }
 
 }  // namespace
@@ -241,8 +213,9 @@ SystemStaticParameters read_system_static_parameters(const std::string& path) {
   if (!source.is_stage_parameters() || source.stage_of() != kSystemStaticStage)
     source.reject(
         "is not what the statics of a system depend on: give out/<scene>/params/system_static.toml");
-  SceneParameters values;
-  return parameters_from(source, values, false);
+  SystemStaticParameters out;
+  read_into(source, out, nullptr);
+  return out;
 }
 
 SystemSweepParameters read_system_sweep_parameters(const std::string& path) {
@@ -251,14 +224,8 @@ SystemSweepParameters read_system_sweep_parameters(const std::string& path) {
       "stage parameters are out/<scene>/params/system_sweep.toml, made with: make system-sweep SCENE=...");
   if (!source.is_stage_parameters() || source.stage_of() != kSystemSweepStage)
     source.reject("is not what a sweep of a system depends on: give out/<scene>/params/system_sweep.toml");
-  SceneParameters values;
   SystemSweepParameters out;
-  static_cast<SystemStaticParameters&>(out) = parameters_from(source, values, true);
-  out.damping = values.damping;
-  out.frequency_from = values.operation.frequency_from;
-  out.frequency_to = values.operation.frequency_to;
-  out.frequency_step = values.operation.frequency_step;
-  out.time = values.time;
+  read_into(source, out, &out);
   return out;
 }
 

@@ -92,24 +92,14 @@ void describe_system_motion(Codec& c, SystemSweepParameters& s, Eigen::VectorXd&
   describe_layout(c, s.layout);
   c(torque, "/body/torque", "N m", kMoment, "body_number",
     "torque of the drive in the body's sense; 0 where none gives a torque");
-  SceneParameters values;
-  values.fidelity = s.fidelity;
-  values.damping = s.damping;
-  c.parameters("fidelity", values, KeyGroup::level);
-  c.parameters("fidelity", values, KeyGroup::contact_level);
-  c.parameters("damping", values, KeyGroup::damping);
+  c.parameters("fidelity", keys(s.fidelity));
+  c.parameters("damping", keys(s.damping));
   c(axis_frequency, "/axis_frequency", "Hz", kFrequency, "",
     "highest natural frequency of the rigid train on its mean stiffnesses, to which the dampers of the axes refer");
-  if (!c.in()) return;
-  s.fidelity = values.fidelity;
-  s.damping = values.damping;
 }
 
 void describe_time_steps(Codec& c, TimeDiscretisation& time) {
-  SceneParameters values;
-  values.time = time;
-  c.parameters("discretisation", values, KeyGroup::time);
-  if (c.in()) time = values.time;
+  c.parameters("discretisation", keys(time));
 }
 
 void describe(Codec& c, SystemSweepResult& a) {
