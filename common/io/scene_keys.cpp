@@ -58,14 +58,14 @@ View view_of(const Artifact& a, int g) {
 }
 
 // A key, and whether the artifact says something of it.
-struct Row {
+struct GearRow {
   Key key;
   bool stands;
 };
 
 // In the order of scenes. Title, names of other sections, torques and speeds are no properties of what was computed.
-std::vector<Row> rows_of(View& v, bool moves) {
-  std::vector<Row> out;
+std::vector<GearRow> rows_of(View& v, bool moves) {
+  std::vector<GearRow> out;
   const auto add = [&](const KeyList& list, bool stands) {
     for (const Key& key : list) out.push_back({key, stands && is_held(key)});
   };
@@ -83,7 +83,7 @@ std::vector<Row> rows_of(View& v, bool moves) {
   add(keys(v.body).all(), true);
   add(keys(v.contact), true);
   add(keys(v.time), moves);
-  for (Row& row : out) {
+  for (GearRow& row : out) {
     if (row.key.called("total_inertia_kgm2")) row.stands = moves;
     if (row.key.section == std::string("fidelity") && row.key.called("contact")) row.stands = true;
   }
@@ -125,7 +125,7 @@ std::vector<SceneKey> scene_keys_in(const Artifact& a) {
   const bool moves = requires {
     a.damping;
   };
-  const std::vector<Row> first = rows_of(driver, moves), second = rows_of(driven, moves);
+  const std::vector<GearRow> first = rows_of(driver, moves), second = rows_of(driven, moves);
   std::vector<SceneKey> out;
   for (size_t i = 0; i < first.size(); ++i) {
     if (!first[i].stands && !second[i].stands) continue;
@@ -178,7 +178,7 @@ SystemKeys scene_keys_of(const SystemStaticResult& a, const SystemSweepResult* m
   SystemKeys out;
   out.gears = a.settings.gears();
   std::vector<View> views;
-  std::vector<std::vector<Row>> of;
+  std::vector<std::vector<GearRow>> of;
   views.reserve(out.gears.size());  // rows point at views
   for (size_t g = 0; g < out.gears.size(); ++g)
     of.push_back(rows_of(views.emplace_back(view_of(a, g, moving)), moving != nullptr));
@@ -190,7 +190,7 @@ SystemKeys scene_keys_of(const SystemStaticResult& a, const SystemSweepResult* m
     if (section == "mesh" || of_pairs(key)) continue;
     SystemKeys::Row row{section, key.name, {}, key.meaning};
     row.value.reserve(of.size());
-    for (const std::vector<Row>& gear : of) {
+    for (const std::vector<GearRow>& gear : of) {
       const bool always = (section == "modification" && modified) || key.called("total_inertia_kgm2");
       row.value.push_back(always || gear[i].stands ? in_scene_unit(gear[i].key) : "");
     }
@@ -212,7 +212,7 @@ SystemKeys scene_keys_of(const SystemStaticResult& a, const SystemSweepResult* m
 std::string changed_keys(const JumpMapResult& from, const JumpMapResult& to) {
   const auto changes = [&](int g) {
     View old = view_of(from, g), fresh = view_of(to, g);
-    const std::vector<Row> before = rows_of(old, true), after = rows_of(fresh, true);
+    const std::vector<GearRow> before = rows_of(old, true), after = rows_of(fresh, true);
     std::string out;
     for (size_t i = 0; i < before.size(); ++i) {
       const Key& key = before[i].key;
