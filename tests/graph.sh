@@ -34,10 +34,10 @@ asked "nothing is asked of ninja while programs are newer than their sources" ""
 cp -p tools/gear-mesh.cpp mesh.cpp && touch tools/gear-mesh.cpp
 asked "a changed program is asked of ninja, no other one" "bin/gear-mesh" "$B/bin/gear-mesh" "$B/bin/gear-plot"
 cp -p mesh.cpp tools/gear-mesh.cpp
-cp -p tests/test_solid.cpp solid.cpp && touch tests/test_solid.cpp
+cp -p tests/solid/test_elements.cpp solid.cpp && touch tests/solid/test_elements.cpp
 asked "a changed test asks for no program that is no test" "" build
 [[ $(asks "$B/bin/whine-tests") = *bin/whine-tests* ]] && ok "a changed test is asked for" || wrong "a changed test is asked for" "nothing is compiled"
-cp -p solid.cpp tests/test_solid.cpp
+cp -p solid.cpp tests/solid/test_elements.cpp
 printf '// Nothing.\n' > tests/test_older.cpp && touch -d 2020-01-01 tests/test_older.cpp
 [[ $(asks "$B/bin/whine-tests") = *bin/whine-tests* ]] && ok "a source that is older than its program is noticed" || wrong "a source that is older than its program is noticed" "nothing is compiled"
 rm tests/test_older.cpp
