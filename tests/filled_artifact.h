@@ -32,7 +32,7 @@ inline const std::map<std::string, AnyBlock>& given_values() {
   static const std::map<std::string, AnyBlock> given{
       {"/parameters/study/key",
        Block<std::string>{{"damping.rayleigh_stiffness_s", "fidelity.contact"}, {2}}},
-      {"/parameters/study/answer", Block<std::string>{{"te_mean", "te_peak_to_peak"}, {2}}},
+      {"/parameters/study/quantity", Block<std::string>{{"te_mean", "te_peak_to_peak"}, {2}}},
       {"/parameters/study/plan", Block<std::string>{{"sample"}, {}}},
       {"/natural_frequency", Block<double>{{1000.0 / 3, 2000.0 / 3, 1000}, {3}}},
       {"/mode_type", Block<std::string>{{"mixed train planet"}, {}}},
@@ -102,7 +102,7 @@ class Filling : public whine::ArtifactReader {
   whine::Block<int> ints(const std::string& name, const whine::Range& range,
                          const std::vector<Eigen::Index>& shape) const override {
     return filled<int>(name, shape, [&](std::size_t i) {
-      if (optional_ == Optional::usual && name == "/refused") return 0;
+      if (optional_ == Optional::usual && name == "/outside_model") return 0;
       const int trials[] = {1 + static_cast<int>(i % 2), static_cast<int>(i % 2), 1, 0, -1, 4, 17, 128};
       const int value = trials[static_cast<std::size_t>(turn(name)) % std::size(trials)];
       return static_cast<int>(std::clamp<double>(value, range.least, range.most));
@@ -111,7 +111,7 @@ class Filling : public whine::ArtifactReader {
   whine::Block<std::string> words(const std::string& name,
                                   const std::vector<Eigen::Index>& shape) const override {
     return filled<std::string>(name, shape, [&](std::size_t i) {
-      if (optional_ == Optional::usual && name == "/refusal") return std::string();
+      if (optional_ == Optional::usual && name == "/outside_model_reason") return std::string();
       const auto found = words_.find(name);
       if (found == words_.end())
         return "any_word_" + std::to_string(shape.empty() ? count_ : static_cast<int>(i));

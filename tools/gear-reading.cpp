@@ -31,7 +31,8 @@ void look_for_sets(const std::vector<std::string>& parts, const std::string& set
   const Consistency found = consistency(readings, read_claim_sets(sets));
   std::vector<FileBytes> files{{output + "_sets.tsv", claim_sets_tsv(readings, found)},
                                {output + ".tsv", readings_tsv(readings, found)}};
-  if (parts.size() == 2) files.push_back({output + "_best.tsv", confirmed_tsv(read<ReadingsResult>(parts.back()))});
+  if (parts.size() == 2)
+    files.push_back({output + "_best.tsv", confirmed_tsv(read<ReadingsResult>(parts.back()))});
   for (const std::string& path : parts) require_fresh(path);
   publish_all(files);
   log_line("gear-reading: ", found.sets.size(), " sets of claims, ", found.conflicts.size(),

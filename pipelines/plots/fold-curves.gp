@@ -26,4 +26,11 @@ do for [k = 1:int(curves)] {
 any(what) = sum [k = 1:int(curves)] rows(what, k)
 if (any("cusps") > 0) { drawn = drawn . 'keyentry with points pt 6 ps 1.8 lw 2 lc rgb "black" title "cusp", ' }
 if (any("jumps") > 0) { drawn = drawn . 'keyentry with points pt 2 ps 1.5 lw 2 lc rgb "black" title "jump of a sweep", ' }
+if (drawn eq "") {
+  set xrange [0:1]
+  set yrange [0:1]
+  unset tics
+  set label 1 "no folds in the range" at graph 0.5, 0.5 center tc rgb "#505050"
+  drawn = 'NaN notitle, '
+}
 eval("plot " . drawn[1:strlen(drawn) - 2])
