@@ -24,7 +24,7 @@ inputs_compare-motion = $(foreach s,$1,$(call both_ways,$s,$2,response))
 # With a crack there is no motion.
 compare_moves := $(if $(strip $(foreach s,$(compared_here),$(call teeth,$s,cracked))),,yes)
 compare_artifacts = $(foreach s,$(compared_here),$(foreach t,$(compared_torques),out/$s/T$t/static.h5) $(call impacts,$s,$(compared_torques)) \
-  $(if $(compare_moves),$(call both_ways,$s,$(compared_torques),sweep)))
+  $(if $(compare_moves),$(call both_ways,$s,$(compared_torques),response)))
 compare_shows = compare-rest $(if $(compare_moves),compare-motion)
 
 compare_pictures = $(compare_shows:%=$(compare_folder)/%-T$(compared_torque).png)

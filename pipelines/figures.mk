@@ -42,9 +42,8 @@ each = $(wordlist 1,6,$1)
 # inputs_<figure>: $1 scenes, $2 torques. What is drawn at one torque takes the first.
 inputs_fig01 = $(call of_gears,$1,mesh) out/$1/T$(firstword $2)/static.h5
 inputs_fig03 = $(call of_gears,$1,mesh) $(call of_gears,$1,body) out/$1/T$(firstword $2)/static.h5
-# A sweep.h5 beside its response.h5: for the speeds beyond the backlash.
-inputs_fig05 = $(foreach f,response sweep,$(call both_ways,$1,$(firstword $2),$f)) $(call impacts,$1,$(firstword $2))
-inputs_fig07 = $(foreach f,response sweep,$(call both_ways,$1,$(call each,$2),$f)) $(call impacts,$1,$(call each,$2))
+inputs_fig05 = $(call both_ways,$1,$(firstword $2),response) $(call impacts,$1,$(firstword $2))
+inputs_fig07 = $(call both_ways,$1,$(call each,$2),response) $(call impacts,$1,$(call each,$2))
 inputs_fig07-600 = $(inputs_fig07)
 # The same with the orbits that no sweep finds.
 inputs_fig05-branches = $(inputs_fig05) $(foreach s,$1,out/$s/T$(firstword $2)/branch.h5)
@@ -72,7 +71,7 @@ inputs_sidebands = out/$1/T$(firstword $2)/static.h5 out/$1/T$(firstword $2)/up/
 inputs_root-stress = out/$1/T$(firstword $2)/static.h5 $(call both_ways,$1,$(firstword $2),response)
 inputs_root-stress-branches = $(inputs_root-stress) out/$1/T$(firstword $2)/branch.h5
 inputs_flank-pressure = $(inputs_root-stress)
-inputs_efficiency = $(foreach t,$(call each,$2),out/$1/T$t/static.h5 $(call both_ways,$1,$t,response) $(call both_ways,$1,$t,sweep))
+inputs_efficiency = $(foreach t,$(call each,$2),out/$1/T$t/static.h5 $(call both_ways,$1,$t,response))
 inputs_crack = out/$1/T$(firstword $2)/static.h5
 inputs_table1 = $(foreach t,$2,out/$1/T$t/impact.h5)
 
@@ -183,7 +182,7 @@ $(if $(filter export,$(goals)),$(if $(MODEL),$(if $(wildcard $(MODEL)),,$(error 
 export_file = $(figure_folder)/$(basename $(notdir $(MODEL)))-results$(suffix $(MODEL))
 export_plan_file = $(B)/plans/$(own_scene)/$(notdir $(export_file)).export
 export_plan = --model $(MODEL) --stage $(STAGE) $(firstword $(shell sha256sum 2>/dev/null < '$(MODEL)'))
-export_inputs = $(foreach t,$2,out/$1/T$t/static.h5) $(call impacts,$1,$2) $(if $(call teeth,$1,cracked),,$(call both_ways,$1,$2,sweep))
+export_inputs = $(foreach t,$2,out/$1/T$t/static.h5) $(call impacts,$1,$2) $(if $(call teeth,$1,cracked),,$(call both_ways,$1,$2,response))
 define export_rule # artifacts
 $(export_file): $1 $(MODEL) $(export_plan_file) $(call titles,$1) $(call id,gear-export) | $(B)/bin/gear-export $(with_deps)
 	$(B)/bin/gear-export --model '$(MODEL)' $(if $(STAGE),--stage '$(STAGE)') --output $(export_file) $1
@@ -219,7 +218,7 @@ report_shows = fig01 $(if $(filter yes,$(SCENE_$1_MODIFIED)),profile-chart) \
   $(if $(call teeth,$1,alike),$(if $(filter yes,$(BRANCHES)),fig05-branches multipliers)) order-cuts waterfall tooth-loads $(if $(call teeth,$1,alike),root-stress) \
   $(if $(filter yes,$(SCENE_$1_FRICTION)),efficiency) $(if $(filter elastic,$(SCENE_$1_BEARINGS)),bearing-forces) $(if $(call teeth,$1,differ),sidebands))
 report_artifacts = $(foreach t,$2,out/$1/T$t/static.h5) $(call impacts,$1,$2) \
-  $(if $(call teeth,$1,cracked),,$(call both_ways,$1,$2,sweep)) $(if $(call teeth,$1,alike),out/$1/T$(firstword $2)/error_budget.h5)
+  $(if $(call teeth,$1,cracked),,$(call both_ways,$1,$2,response)) $(if $(call teeth,$1,alike),out/$1/T$(firstword $2)/error_budget.h5)
 report_inputs = $(call report_artifacts,$1,$(SCENE_$1_TORQUES)) $(patsubst %,out/$1/report/%.png,$(report_shows))
 
 define report_rule # scene

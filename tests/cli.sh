@@ -224,7 +224,7 @@ gear-report out/scene/T100/static.h5
 gear-export out/scene/T100/static.h5
 gear-compare out/scene/T100/static.h5
 CASES
-rejected "teeth without sweeps" 3 'teeth: no sweep.h5 up with root stress at 100 N m is given' "$bin/gear-report" --teeth out/scene/T100/static.h5 --output x.html
+rejected "teeth without sweeps" 3 'teeth: no response.h5 up with root stress at 100 N m is given' "$bin/gear-report" --teeth out/scene/T100/static.h5 --output x.html
 rejected "one design has nothing to be compared with" 3 'compare: 1 design given; two are the least' "$bin/gear-compare" out/scene/T100/static.h5 --output x.html
 rejected "a figure that is not against speed has no axis in rpm" 2 'not against the speed of one pair of gears' "$bin/gear-plot" fig12 --axis rpm:driver --plots "$plots" --output x out/scene/T100/static.h5
 rm out/scene/linked.h5

@@ -229,7 +229,7 @@ rejected_by_make "an export to a model that is not there" 'MODEL=a/none.rexs: th
 echo first > a/stage.rexsj; make_ MODEL=a/stage.rexsj STAGE='First stage' export; make_ -n MODEL=a/stage.rexsj STAGE='First stage' export
 expect "an export is up to date" ""
 make_ -n MODEL=a/stage.rexsj STAGE=12 export
-grep -q "gear-export --model 'a/stage.rexsj' --stage '12' --output out/figures/stage-results.rexsj .*out/parker2000/T300/down/sweep.h5" "$log" &&
+grep -q "gear-export --model 'a/stage.rexsj' --stage '12' --output out/figures/stage-results.rexsj .*out/parker2000/T300/down/response.h5" "$log" &&
   ok "another stage of a model: its results, at all torques" || wrong "another stage of a model" "$(tail -n 1 "$log")"
 sed 's/^bore_radius_mm = .*/bore_radius_mm = 35/' $scene > a/short.toml; cp $scene b/short.toml
 rejected_by_make "designs without scenes are told how to name them" "compare: which scenes? two to six of them: make compare SCENES='a.toml b.toml'" compare
@@ -410,7 +410,7 @@ make_ -n SCENE=elsewhere/own.toml jump-map
 expect "a map of SCENE is at its own torques" "gear-folds*1 gear-jump-map*3 gear-lumped*8 gear-plot*2"
 sed -i -E 's/^torque_Nm = .*/torque_Nm = [600, 90, 80]/' elsewhere/own.toml
 make_ -n SCENE=elsewhere/own.toml fig05 fig12
-grep -q 'gear-plot fig05 .* out/own/T600/up/response.h5 out/own/T600/down/response.h5 out/own/T600/up/sweep.h5 out/own/T600/down/sweep.h5 out/own/T600/impact.h5$' "$log" && grep -q 'gear-plot fig12 .* out/own/T600/static.h5 out/own/T90/static.h5 out/own/T80/static.h5$' "$log" &&
+grep -q 'gear-plot fig05 .* out/own/T600/up/response.h5 out/own/T600/down/response.h5 out/own/T600/impact.h5$' "$log" && grep -q 'gear-plot fig12 .* out/own/T600/static.h5 out/own/T90/static.h5 out/own/T80/static.h5$' "$log" &&
   ok "a frequency response takes the first torque of SCENE, statics take them all" || wrong "a frequency response takes the first torque of SCENE, statics take them all" "$(grep gear-plot "$log")"
 make_ SCENE=elsewhere/own.toml fig12; sed -i -E 's/^torque_Nm = .*/torque_Nm = [600, 90]/' elsewhere/own.toml
 make_ -n SCENE=elsewhere/own.toml fig12

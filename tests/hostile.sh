@@ -101,7 +101,7 @@ motion='s/^steps_per_period = [^ ]*/steps_per_period = 32/; s/^min_sample_rate_k
 scene | sed "$motion" > s.toml
 scene | sed "$motion; s/^bore_radius_mm = [^ ]*/bore_radius_mm = 35.0/" > other.toml
 make_() { make $sanitize "$@" > "$log" 2>&1; }
-if ! make_ SCENE=s.toml out/s/T100/static.h5 out/s/T200/static.h5 out/s/T100/up/sweep.h5 out/s/T100/down/sweep.h5 out/s/T100/secant/up/sweep.h5 ||
+if ! make_ SCENE=s.toml out/s/T100/static.h5 out/s/T200/static.h5 out/s/T100/{up,down,secant/up}/response.h5 ||
   ! make_ SCENE=other.toml out/other/T100/static.h5; then
   wrong "two coarse scenes are computed" "$(grep -m1 -E 'error|\*\*\*' "$log")"
   exit 1
@@ -131,13 +131,13 @@ body_of() { readlink "out/$1/pinion" | sed 's|^\.\./|out/|'; }
 swapped out/s/T100/static.h5 out/s/T200/static.h5 'is at 100 N m, but lies in T200' "$bin/gear-plot" fig12 --output x out/s/T200/static.h5
 swapped out/other/T100/static.h5 out/s/T100/static.h5 'was made from out/other/params/static.toml, but lies in out/s' "$bin/gear-plot" fig12 --output x out/s/T100/static.h5
 swapped out/s/T100/up/sweep.h5 out/s/T100/down/sweep.h5 'is of the sweep up, but lies in down' "$bin/gear-spectra" --input out/s/T100/down/sweep.h5 --output x.h5
-swapped out/s/T100/secant/up/sweep.h5 out/s/T100/up/sweep.h5 'is of the lumped model secant, but lies in T100' "$bin/gear-report" --output x.html out/s/T100/static.h5 out/s/T100/up/sweep.h5
+swapped out/s/T100/secant/up/response.h5 out/s/T100/up/response.h5 'is of the lumped model secant, but lies in T100' "$bin/gear-report" --output x.html out/s/T100/static.h5 out/s/T100/up/response.h5
 swapped "$(body_of other)/body.h5" "$(body_of s)/body.h5" 'is of the stage parameters [0-9a-f]{16}, but lies at' "$bin/gear-static" --params out/s/params/static.toml --body pinion="$(body_of s)/body.h5" --body wheel="$(body_of s)/body.h5" --torque 100 --output x.h5
 swapped "$(body_of s)/mesh.h5" out/s/T100/static.h5 "is 'whine/mesh', but (its name is that of )?'whine/static'" "$bin/gear-plot" fig12 --output x out/s/T100/static.h5
 pair=(--body pinion=out/s/pinion/body.h5 --body wheel=out/s/wheel/body.h5)
 rejected "gear-impact with the parameters of a sweep" 3 'sweep.toml: is what a sweep depends on, and this stage reads what the ring-down depends on: give out/<scene>/params/impact.toml' \
   "$bin/gear-impact" --params out/s/params/sweep.toml "${pair[@]}" --static out/s/T100/static.h5 --reference-static out/s/T100/static.h5 --output x.h5
-rejected "a report of a lumped sweep" 3 'secant/up/sweep.h5: is of the lumped model secant; a report is of the elastic pair' "$bin/gear-report" --output x.html out/s/T100/static.h5 out/s/T100/secant/up/sweep.h5
+rejected "a report of a lumped sweep" 3 'secant/up/response.h5: is of the lumped model secant; a report is of the elastic pair' "$bin/gear-report" --output x.html out/s/T100/static.h5 out/s/T100/secant/up/response.h5
 
 # --- what is printed and not written
 for program in "$bin"/gear-*; do

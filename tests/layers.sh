@@ -30,6 +30,14 @@ faults=$(for layer in "${!below[@]}"; do echo "$layer ${below[$layer]}"; done | 
     else if (!((layer, other) in below)) print FILENAME " includes " other "/, which is not below " layer "/" }' - common/**/*.h common/**/*.cpp)
 if [ -z "$faults" ]; then echo "ok: layers include only layers below them"; else echo "FAILED: $faults"; fi
 
+# The report reads what other layers have computed: their results, and of what computes the headers below alone.
+computes='dynamics/system_coordinates lumped/stiffness solid/flank_table contact/half_plane solid/loaded_gear solid/reduce studies/jump_cause
+  studies/turning_carrier system/compliance_split system/drawing_remarks system/flank_pressure system/rigid_system system/statics contact/half_plane_strip'
+found=$(grep -h -o -E '^#include "(solid|contact|system|dynamics|lumped|studies)/[^"]*' common/report/* | cut -d'"' -f2 | sort -u | grep -v -E '_result\.h$|^solid/sector_mesh\.h$')
+expected=$(printf '%s.h\n' $computes | sort -u)
+if [ "$found" = "$expected" ]; then echo "ok: the report includes results, and $(wc -w <<< "$computes") headers that compute"; else
+  echo "FAILED: headers that the report includes: $(diff <(echo "$expected") <(echo "$found") | grep '^[<>]' | tr '\n' ' ')"; fi
+
 # confined <header> <pattern of files that may include it>
 confined() {
   local found

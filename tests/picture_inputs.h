@@ -21,6 +21,7 @@
 #include "report/plot_file.h"
 #include "report/sweep_panels.h"
 #include "signal/spectrum.h"
+#include "studies/sweep.h"
 
 namespace whine::pictures {
 
@@ -216,6 +217,7 @@ inline SweepResult sweep_at(double torque, Direction direction) {
     s.tooth_load.push_back(load);
   }
   s.backlash_margin = -3e-6;
+  s.backlash_left = backlash_left(s);
   return s;
 }
 

@@ -85,7 +85,7 @@ if report still.toml && ! grep -q 'bin/gear-impact' "$log" && ! grep -q 'id="fre
   wrong "contact in lines: no ring-down; relief: a profile chart" "$(grep -m1 -E 'error|gear-impact' "$log")"; fi
 stop() { "$B/bin/gear-report" --output out/x/index.html "$@" 2>&1 > /dev/null | head -1; }
 for case in "there are no words for a figure .mine.|out/fzg/T200/static.h5 out/mine.png" 'is no whole PNG|out/fzg/T200/static.h5 out/fig12.png' \
-  'no static.h5 given|out/fzg/report/fig12.png' 'at which no static.h5 is given|out/fzg/T200/up/sweep.h5' 'is of the scene nasa|out/fzg/T200/static.h5 out/nasa/T35.9/static.h5' \
+  'no static.h5 given|out/fzg/report/fig12.png' 'at which no static.h5 is given|out/fzg/T200/up/response.h5' 'is of the scene nasa|out/fzg/T200/static.h5 out/nasa/T35.9/static.h5' \
   'a report is made of|out/fzg/T200/static.h5 out/fzg/pinion/body.h5' 'out/nasa/report/fig12.png: was drawn from .* of the scene nasa|out/fzg/T200/static.h5 out/nasa/report/fig12.png'; do
   cp out/fzg/report/fig12.png out/mine.png
   head -c 1000 out/fzg/report/fig12.png > out/fig12.png

@@ -35,7 +35,7 @@ STUDY
 # --- two variants side by side
 sed 's/^stage = .*/&\ncompare = [0, 2]/' small.toml > marked.toml
 make_ -n STUDY=marked.toml compare
-grep -q 'gear-compare --output out/compare/marked-first[+]marked-second/index.html .*out/marked-second/T100/down/sweep.h5' "$log" &&
+grep -q 'gear-compare --output out/compare/marked-first[+]marked-second/index.html .*out/marked-second/T100/down/response.h5' "$log" &&
   ok "the two variants that a study marks are compared" || wrong "the two variants that a study marks are compared" "$(tail -n 1 "$log")"
 make_ -n STUDY=small.toml compare
 grep -q 'small.toml: marks no variants to compare; add compare' "$log" && ok "a study that marks none is told how" ||

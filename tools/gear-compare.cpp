@@ -1,6 +1,6 @@
 // gear-compare: designs side by side as one HTML page, from their artifacts and the figures that show them on common axes.
 //
-// Reads      static.h5, impact.h5 and sweep.h5 of two to six scenes, each in the folder of its scene (params/title.txt tells them
+// Reads      static.h5, impact.h5 and response.h5 of two to six scenes, each in the folder of its scene (params/title.txt tells them
 //            apart); figures that gear-plot has drawn, as .png
 // Writes     --output: the page; compare.tsv beside it, what differs
 // Equations  change = value / value of the first design - 1

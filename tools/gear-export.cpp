@@ -1,6 +1,6 @@
 // gear-export: results of a pair beside the REXS model that its scene was imported from.
 //
-// Reads      a REXS model (.rexs, .rexsj, .rexsz); static.h5, impact.h5, sweep.h5 of one scene
+// Reads      a REXS model (.rexs, .rexsj, .rexsz); static.h5, impact.h5, response.h5 of one scene
 // Writes     --output: the model in the same form, its stage with the results as custom attributes (custom_whine_...); over an
 //            earlier export, never over another file
 // Equations  none; SI to units of REXS
@@ -41,7 +41,7 @@ void body(int argc, char** argv) {
   options.add("--output", output, "model with the results, of the same form").required();
   options.footer(
       "Example:\n"
-      "  gear-export --model data/examples/parker2000.rexsj --output with-results.rexsj out/parker2000/T150/static.h5 out/parker2000/T150/up/sweep.h5 out/parker2000/T150/down/sweep.h5");
+      "  gear-export --model data/examples/parker2000.rexsj --output with-results.rexsj out/parker2000/T150/static.h5 out/parker2000/T150/up/response.h5 out/parker2000/T150/down/response.h5");
   options.parse(argc, argv);
   require_replaceable(output);
 

@@ -100,7 +100,7 @@ void body(int argc, char** argv) {
                       ? "jumps at " + whine::jump_words(result.jump_frequency, result.jump_width)
                       : "no jump",
                   " -> ", output);
-  for (const whine::Remark& remark : whine::remarks(result, at_torque))
+  for (const whine::Remark& remark : result.remarks)
     whine::log_line("gear-sweep: ", remark.warning ? "warning: " : "", remark.words);
   for (const whine::NextSweep& s : next)
     if (s.missing.empty())

@@ -302,6 +302,27 @@ void describe_backlash(Codec& c, double& margin) {
     margin = std::numeric_limits<double>::infinity();
 }
 
+void describe_remarks(Codec& c, Eigen::VectorXd& backlash_left, std::vector<Remark>& remarks) {
+  if (c.optional("/backlash_left", backlash_left.size() > 0 && backlash_left.allFinite()))
+    c(backlash_left, "/backlash_left", "m", kLength, "mesh_frequency",
+      "backlash that the motion leaves along the line of action; below 0 back flanks would touch, which is not modelled");
+  else if (c.in())
+    backlash_left.setConstant(c.length("mesh_frequency"), std::numeric_limits<double>::infinity());
+  if (!c.optional("/remark", !remarks.empty())) return;
+  std::vector<std::string> words;
+  Eigen::VectorXi warning(static_cast<Eigen::Index>(remarks.size()));
+  for (const Remark& remark : remarks) {
+    warning[static_cast<Eigen::Index>(words.size())] = remark.warning ? 1 : 0;
+    words.push_back(remark.words);
+  }
+  c(words, "/remark", "remark", "what a reader has to know beside the numbers");
+  c(warning, "/remark_is_warning", "1", kFlag, "remark",
+    "1: something is wrong or left out; 0: out of the ordinary only");
+  if (!c.in()) return;
+  for (size_t i = 0; i < words.size(); ++i)
+    remarks.push_back({warning[static_cast<Eigen::Index>(i)] == 1, words[i]});
+}
+
 void describe_root_place(Codec& c, const GearMeshSpec& mesh, int g, const std::string& axis,
                          std::array<Eigen::VectorXd, 2>& angle, std::array<Eigen::VectorXd, 2>& phase) {
   const auto gear = static_cast<size_t>(g);

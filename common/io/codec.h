@@ -26,6 +26,7 @@
 #include "io/artifact.h"
 #include "io/ranges.h"
 #include "results/friction_losses.h"
+#include "results/remark.h"
 
 namespace whine {
 
@@ -182,6 +183,8 @@ void describe_speeds(Codec& codec, double& from, double& to, double& step);
 void describe_bearing_dampers(Codec& codec, double& mean_stiffness, std::array<double, kSides>& damper);
 // Left out where back flanks are ignored: the margin (m) is then infinite.
 void describe_backlash(Codec& codec, double& margin);
+// Of a sweep: (mesh_frequency) m, backlash that is left, stored and left out likewise; what its reader has to know.
+void describe_remarks(Codec& codec, Eigen::VectorXd& backlash_left, std::vector<Remark>& remarks);
 
 // How well the contact conditions hold, worst over all steps: m, N, contact solutions by the slower method.
 void describe_certificate(Codec& codec, double& least_gap, double& least_force, int& fallbacks);

@@ -83,7 +83,7 @@ ReportContent by_role(ReportContent c) {
   };
   for (StaticResult& s : c.statics) rename(s);
   for (ImpactResult& a : c.impacts) rename(a);
-  for (ReportSweep& sweep : c.sweeps) rename(sweep.response);
+  for (ResponseResult& sweep : c.sweeps) rename(sweep);
   return c;
 }
 
@@ -155,7 +155,7 @@ std::vector<Difference> scene_differences(const std::vector<Design>& designs) {
   Rows rows(designs.size());
   for (size_t d = 0; d < designs.size(); ++d) {
     const ReportContent& c = designs[d].content;
-    const auto keys = c.sweeps.empty() ? scene_keys_of(c.statics.at(0)) : scene_keys_of(c.sweeps[0].response);
+    const auto keys = c.sweeps.empty() ? scene_keys_of(c.statics.at(0)) : scene_keys_of(c.sweeps[0]);
     for (const SceneKey& key : keys) {
       const bool one = key.value[1].empty() || key.value[1] == key.value[0];
       rows.put(d, "", key.section + "." + key.name, "", key.value[0] + (one ? "" : " / " + key.value[1]));

@@ -75,8 +75,8 @@ void export_motion(const ReportContent& c, Direction direction, Collector& all) 
   const std::string way = direction == Direction::up ? "_speed_rising" : "_speed_falling";
   const auto add = [&](const std::string& name, const char* unit, const auto& value) {
     all.add(name + way, unit, [&](const StaticResult& s) {
-      const ReportSweep* sweep = sweep_of(c, s.torque, direction);
-      return sweep ? Value(value(sweep->response)) : Value();
+      const ResponseResult* sweep = sweep_of(c, s.torque, direction);
+      return sweep ? Value(value(*sweep)) : Value();
     });
   };
   using R = const ResponseResult&;
@@ -90,20 +90,20 @@ void export_motion(const ReportContent& c, Direction direction, Collector& all) 
   add("resonance_driver_rpm", kPerMinute, [&](R r) { return 60 * resonance(r) / r.gear[0].design.teeth; });
   add("dynamic_tooth_load_max", kNewton, [](R r) { return r.tooth_load_max.maxCoeff(); });
   all.add("speeds_beyond_backlash" + way, kNoUnit, [&](const StaticResult& s) {
-    const ReportSweep* sweep = sweep_of(c, s.torque, direction);
+    const ResponseResult* sweep = sweep_of(c, s.torque, direction);
     if (!sweep) return Value();
     double count = 0;
-    for (Index i = 0; i < sweep->response.mesh_frequency.size(); ++i) count += beyond_backlash(*sweep, i);
+    for (Index i = 0; i < sweep->mesh_frequency.size(); ++i) count += beyond_backlash(*sweep, i);
     return Value(count);
   });
   RexsResult jumps{"jump_mesh_frequency" + way, kHertz, {}, true},
       torques{"jump_torque" + way, "N m", {}, true};
   bool complete = true;
   for (const StaticResult& s : c.statics) {
-    const ReportSweep* sweep = sweep_of(c, s.torque, direction);
+    const ResponseResult* sweep = sweep_of(c, s.torque, direction);
     complete = complete && sweep;
     if (!sweep) continue;
-    for (const double f : sweep->response.jump_frequency) {
+    for (const double f : sweep->jump_frequency) {
       jumps.values.push_back(f);
       torques.values.push_back(s.torque);
     }
@@ -136,14 +136,13 @@ std::vector<RexsResult> exported_results(const ReportContent& c) {
   all.add("torque", "N m", [](const StaticResult& s) { return Value(s.torque); });
   export_statics(all);
   all.add("critical_mesh_frequency", kHertz, [&](const StaticResult& s) {
-    for (const ReportSweep& sweep : c.sweeps)
-      if (sweep.response.torque == s.torque) return Value(sweep.response.natural_frequency);
+    for (const ResponseResult& sweep : c.sweeps)
+      if (sweep.torque == s.torque) return Value(sweep.natural_frequency);
     return Value();
   });
   all.add("critical_driver_speed", kPerMinute, [&](const StaticResult& s) {
-    for (const ReportSweep& sweep : c.sweeps)
-      if (sweep.response.torque == s.torque)
-        return Value(60 * sweep.response.natural_frequency / s.gear[0].design.teeth);
+    for (const ResponseResult& sweep : c.sweeps)
+      if (sweep.torque == s.torque) return Value(60 * sweep.natural_frequency / s.gear[0].design.teeth);
     return Value();
   });
   export_ring_down(c, all);

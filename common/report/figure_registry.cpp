@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "base/error.h"
 #include "io/artifact_kinds.h"
@@ -33,7 +32,6 @@
 #include "report/system_picture.h"
 #include "report/system_sweep_figure.h"
 #include "signal/response.h"
-#include "studies/sweep.h"
 
 namespace whine {
 namespace {
@@ -66,51 +64,25 @@ bool is_a(const char* schema, const std::string& path) {
   return read_origin(path).schema == schema;
 }
 
-// A sweep.h5 beside the response.h5 of its motions says what they leave of the backlash; else its motions are drawn themselves.
+// Of a lumped model a sweep.h5 says its mass and damper, too.
 Captioned<ResponseResult> read_responses(const Paths& inputs) {
   Captioned<ResponseResult> captions;
-  struct OfSweep {
-    std::string path;
-    ResponseResult response;
-    LumpedParameters lumped;
-    Eigen::VectorXd left;  // (speed) m
-  };
-  std::vector<OfSweep> sweeps;
+  CaptionSources& background = captions.background;
   for (const std::string& path : inputs) {
     if (is_a("whine/impact", path)) {
-      captions.background.impacts.push_back(read<ImpactResult>(path));
+      background.impacts.push_back(read<ImpactResult>(path));
     } else if (is_a("whine/branch", path)) {
-      captions.background.branches.push_back(read<BranchResult>(path));
+      background.branches.push_back(read<BranchResult>(path));
     } else if (is_a("whine/sweep", path)) {
       const SweepResult sweep = read<SweepResult>(path);
-      constexpr double kNoFlanks = std::numeric_limits<double>::infinity();  // of one degree of freedom
-      sweeps.push_back({path, response(sweep), sweep.lumped,
-                        elastic(sweep) ? backlash_left(sweep)
-                                       : Eigen::VectorXd::Constant(sweep.mesh_frequency.size(), kNoFlanks)});
+      captions.add(path, response(sweep), sweep.lumped);
     } else {
       captions.add(path, read<ResponseResult>(path), {});
     }
   }
-  auto& backlash = captions.background.backlash;
-  backlash.resize(captions.sweeps.size());
-  const auto given = static_cast<std::ptrdiff_t>(captions.sweeps.size());
-  bool known = false;
-  for (const OfSweep& sweep : sweeps) {
-    known = known || elastic(sweep.response);
-    const auto end = captions.sweeps.begin() + given;
-    const auto same = std::find_if(captions.sweeps.begin(), end, [&](const ResponseResult& r) {
-      return elastic(r) && same_motions(r, sweep.response);
-    });
-    if (same == end) {
-      captions.add(sweep.path, sweep.response, sweep.lumped);
-      backlash.push_back(sweep.left);
-    } else if (auto& left = backlash[static_cast<size_t>(same - captions.sweeps.begin())]; left.size() > 0) {
-      fail(Failure::input, sweep.path, ": a sweep.h5 of these motions is given twice; give each once");
-    } else {
-      left = sweep.left;
-    }
-  }
-  if (!known) backlash.clear();
+  const auto& sweeps = captions.sweeps;
+  if (std::any_of(sweeps.begin(), sweeps.end(), [](const ResponseResult& r) { return elastic(r); }))
+    for (const ResponseResult& r : sweeps) background.backlash.push_back(r.backlash_left);
   return captions;
 }
 
@@ -155,11 +127,9 @@ Figure draw_efficiency(const Paths& inputs, const Frequencies&) {
   for (const std::string& path : inputs)
     if (is_a("whine/static", path)) {
       statics.push_back(read<StaticResult>(path));
-    } else if (is_a("whine/sweep", path)) {
-      const SweepResult sweep = read<SweepResult>(path);
-      backlash.push_back({sweep.torque, sweep.direction, backlash_left(sweep)});
     } else {
-      sweeps.push_back(read<ResponseResult>(path));
+      const ResponseResult& r = sweeps.emplace_back(read<ResponseResult>(path));
+      backlash.push_back({r.torque, r.direction, r.backlash_left});
     }
   return efficiency_figure(statics, sweeps, backlash);
 }
@@ -210,7 +180,7 @@ Drawings drawings_at_rest() {
         [](const Paths& in, const Frequencies&) { return crack_figure(read<StaticResult>(in[0])); }}},
       {"efficiency",
        {"losses and efficiency over speed, moments of friction over a mesh period",
-        "static.h5, then response.h5 of the sweeps up and down, of each torque, of a scene with [friction]; their sweep.h5, for the speeds beyond the backlash",
+        "static.h5, then response.h5 of the sweeps up and down, of each torque, of a scene with [friction]",
         0, 0, draw_efficiency}},
       {"root-stress",
        {"root stress over the mesh cycle and over speed, dynamic factors beside K_v",
@@ -282,7 +252,7 @@ Drawings drawings_of_motions() {
         }}},
       {"fig05",
        {"RMS of the dynamic transmission error against mesh frequency",
-        "response.h5 of sweeps up and down, any torques, or their sweep.h5 (lumped models: with mass and damping ratio), or both, for the speeds beyond the backlash; a panel for each set of choices; impact.h5 of the same torques, for damping ratios; branch.h5, for orbits, stable or not, and folds",
+        "response.h5 of sweeps up and down, any torques, or their sweep.h5 (lumped models: with mass and damping ratio); a panel for each set of choices; impact.h5 of the same torques, for damping ratios; branch.h5, for orbits, stable or not, and folds",
         0, 0, draw_responses}},
       {"fig08",
        {"dynamic transmission error over time and its spectrum, both branches at one speed",

@@ -10,7 +10,6 @@
 #include "report/response_figures.h"
 #include "signal/response.h"
 #include "signal/spectrum.h"
-#include "studies/sweep.h"
 
 namespace whine {
 namespace {
@@ -295,9 +294,9 @@ Figure dynamic_load_figure(const std::vector<SweepResult>& sweeps, CaptionSource
   const std::array<ResponseResult, 2> both{response(*curve.up), response(*curve.down)};
   for (const SweepResult* sweep : {curve.up, curve.down}) {
     const ResponseResult& r = both[sweep == curve.up ? 0 : 1];
-    const Eigen::VectorXd left = elastic(*sweep) ? backlash_left(*sweep) : Eigen::VectorXd();
+    const Eigen::VectorXd left = elastic(*sweep) ? sweep->backlash_left : Eigen::VectorXd();
     figure.blocks.push_back(response_block(name_of(sweep->direction), r, &both[sweep == curve.up ? 1 : 0],
-                                           elastic(*sweep) ? &left : nullptr));
+                                           left.size() > 0 ? &left : nullptr));
     beyond = beyond || (left.size() > 0 && left.minCoeff() <= 0);
     Eigen::Index row = 0;
     if (const double here = r.dte_rms.maxCoeff(&row); here > rms) {

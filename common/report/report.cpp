@@ -30,7 +30,7 @@ std::string introduction(const ReportContent& c) {
            fixed(pair.working_pressure_angle() * 180 / std::numbers::pi, 2),
            "°. Torque on the driver: ", listed(torques), " N m.");
   if (!c.sweeps.empty()) {
-    const Eigen::VectorXd& f = c.sweeps[0].response.mesh_frequency;
+    const Eigen::VectorXd& f = c.sweeps[0].mesh_frequency;
     const double rpm = 60.0 / s.gear[0].design.teeth;
     out += text(" Speeds: ", hertz(f.minCoeff()), " to ", hertz(f.maxCoeff()), " Hz mesh frequency, ",
                 fixed(f.minCoeff() * rpm, 0), " to ", fixed(f.maxCoeff() * rpm, 0), " rpm of the driver.");

@@ -19,9 +19,9 @@ namespace whine {
 
 using Eigen::Index;
 
-const ReportSweep* sweep_of(const ReportContent& c, double torque, Direction direction) {
-  for (const ReportSweep& s : c.sweeps)
-    if (s.response.torque == torque && s.response.direction == direction) return &s;
+const ResponseResult* sweep_of(const ReportContent& c, double torque, Direction direction) {
+  for (const ResponseResult& s : c.sweeps)
+    if (s.torque == torque && s.direction == direction) return &s;
   return nullptr;
 }
 
@@ -51,7 +51,7 @@ void require_one_pair(const ReportContent& c) {
   };
   for (const auto& s : c.statics) take(s, "a static.h5");
   for (const auto& a : c.impacts) take(a, "an impact.h5");
-  for (const auto& s : c.sweeps) take(s.response, text("a sweep.h5 ", s.response.direction));
+  for (const auto& s : c.sweeps) take(s, text("a response.h5 ", s.direction));
   if (c.budget) take(*c.budget, "the error_budget.h5");
 }
 
@@ -88,18 +88,17 @@ double hertz_pressure(const StaticResult& s, double force) {
                     (compliance(s.gear[0].material) + compliance(s.gear[1].material))));
 }
 
-bool beyond_backlash(const ReportSweep& s, Index row) {
+bool beyond_backlash(const ResponseResult& s, Index row) {
   return row < s.backlash_left.size() && s.backlash_left[row] <= 0;
 }
 
-std::string way_words(const ReportSweep& s) {
-  return s.response.direction == Direction::up ? "speed rising" : "speed falling";
+std::string way_words(const ResponseResult& s) {
+  return s.direction == Direction::up ? "speed rising" : "speed falling";
 }
 
-std::string speeds_beyond_backlash(const ReportSweep& s) {
+std::string speeds_beyond_backlash(const ResponseResult& s) {
   std::map<double, bool> beyond;
-  for (Index i = 0; i < s.response.mesh_frequency.size(); ++i)
-    beyond[s.response.mesh_frequency[i]] = beyond_backlash(s, i);
+  for (Index i = 0; i < s.mesh_frequency.size(); ++i) beyond[s.mesh_frequency[i]] = beyond_backlash(s, i);
   return speed_ranges(beyond);
 }
 

@@ -8,7 +8,7 @@
 #include "results/error_budget.h"
 #include "results/impact.h"
 #include "results/response.h"
-#include "system/statics.h"
+#include "results/static.h"
 
 namespace whine {
 
@@ -16,13 +16,6 @@ namespace whine {
 struct ReportPicture {
   std::string name;   // file name without extension: "fig12"
   std::string bytes;  // of a PNG
-};
-
-// One sweep, without its motions.
-struct ReportSweep {
-  ResponseResult response;
-  std::vector<Remark> remarks;
-  Eigen::VectorXd backlash_left = {};  // (speed) m, of backlash_left(); none: not known
 };
 
 struct ReportSource {
@@ -35,7 +28,7 @@ struct ReportContent {
   std::string scene;  // "file: title"
   std::vector<StaticResult> statics;
   std::vector<ImpactResult> impacts;
-  std::vector<ReportSweep> sweeps;
+  std::vector<ResponseResult> sweeps;
   std::optional<ErrorBudgetResult> budget;
   std::vector<ReportPicture> pictures;
   std::vector<ReportSource> sources;
@@ -44,7 +37,7 @@ struct ReportContent {
 };
 
 // Of the content; nullptr if there is none.
-const ReportSweep* sweep_of(const ReportContent& c, double torque, Direction direction);
+const ResponseResult* sweep_of(const ReportContent& c, double torque, Direction direction);
 const ImpactResult* impact_of(const ReportContent& c, double torque);
 
 // Throws Error(input) for artifacts of different gears or modifications, and for two of one kind at one torque (of sweeps: and of one
@@ -58,11 +51,11 @@ double peak_to_peak(const Eigen::VectorXd& v);
 double hertz_pressure(const StaticResult& s, double force);
 
 // Whether the motion at a row of the sweep goes beyond the backlash.
-bool beyond_backlash(const ReportSweep& s, Eigen::Index row);
+bool beyond_backlash(const ResponseResult& s, Eigen::Index row);
 // In Hz; "" if there are none.
-std::string speeds_beyond_backlash(const ReportSweep& s);
+std::string speeds_beyond_backlash(const ResponseResult& s);
 
-std::string way_words(const ReportSweep& s);                // "speed rising"
+std::string way_words(const ResponseResult& s);             // "speed rising"
 std::string hertz(double f);                                // whole Hz
 std::string jumps_of(const ResponseResult& r);              // "1819, 2645", "none"
 std::string listed(const std::vector<std::string>& words);  // "a, b and c"

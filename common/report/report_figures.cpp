@@ -47,11 +47,11 @@ std::string load_sharing_caption(const ReportContent& c) {
 // Where sweeps at a torque (0: at any) go beyond the backlash; "" if none does.
 std::string beyond_words(const ReportContent& c, double torque) {
   std::string list;
-  for (const ReportSweep& s : c.sweeps) {
+  for (const ResponseResult& s : c.sweeps) {
     const std::string speeds = speeds_beyond_backlash(s);
-    if (speeds.empty() || (torque > 0 && s.response.torque != torque)) continue;
-    list += text(list.empty() ? "" : "; ", torque > 0 ? "" : torque_words(s.response.torque) + ", ",
-                 way_words(s), ": ", speeds, " Hz");
+    if (speeds.empty() || (torque > 0 && s.torque != torque)) continue;
+    list += text(list.empty() ? "" : "; ", torque > 0 ? "" : torque_words(s.torque) + ", ", way_words(s),
+                 ": ", speeds, " Hz");
   }
   return list.empty()
              ? ""
@@ -62,10 +62,10 @@ std::string response_caption(const ReportContent& c) {
   std::string out =
       "RMS of the oscillating part of the dynamic transmission error against speed, with speed rising and falling; f_n is the natural frequency with the contact frozen under the static load, mean over the mesh period. ";
   for (const StaticResult& s : c.statics) {
-    const ReportSweep *up = sweep_of(c, s.torque, Direction::up),
-                      *down = sweep_of(c, s.torque, Direction::down);
+    const ResponseResult *up = sweep_of(c, s.torque, Direction::up),
+                         *down = sweep_of(c, s.torque, Direction::down);
     if (!up || !down) continue;
-    const ResponseResult &r = up->response, &f = down->response;
+    const ResponseResult &r = *up, &f = *down;
     std::vector<std::string> peaks;
     for (const Index i : resonances(r))
       peaks.push_back(
@@ -86,28 +86,27 @@ std::string response_caption(const ReportContent& c) {
 }
 
 std::string waterfall_caption(const ReportContent& c) {
-  const ReportSweep& s = c.sweeps[0];
+  const ResponseResult& s = c.sweeps[0];
   return text(
-      "Spectra of the dynamic transmission error at ", torque_words(s.response.torque),
-      sweep_of(c, s.response.torque, Direction::up) && sweep_of(c, s.response.torque, Direction::down)
+      "Spectra of the dynamic transmission error at ", torque_words(s.torque),
+      sweep_of(c, s.torque, Direction::up) && sweep_of(c, s.torque, Direction::down)
           ? ", speed rising (above) and falling (below)"
           : ", " + way_words(s),
       " as colours, one line for each speed (left), and the amplitudes of the first orders of the mesh frequency (right). Orders run along rays; each is strong where it crosses the natural frequency of ",
-      hertz(s.response.natural_frequency),
+      hertz(s.natural_frequency),
       " Hz (mean over the period, contact frozen under the static load). The mesh frequency is ",
-      s.response.gear[0].design.teeth, " times the speed of the driver: 1000 Hz are ",
-      fixed(60000.0 / s.response.gear[0].design.teeth, 0), " rpm.", beyond_words(c, s.response.torque));
+      s.gear[0].design.teeth, " times the speed of the driver: 1000 Hz are ",
+      fixed(60000.0 / s.gear[0].design.teeth, 0), " rpm.", beyond_words(c, s.torque));
 }
 
 std::string tooth_loads_caption(const ReportContent& c) {
   const StaticResult& s = c.statics[0];
-  const ReportSweep *up = sweep_of(c, s.torque, Direction::up),
-                    *down = sweep_of(c, s.torque, Direction::down);
+  const ResponseResult *up = sweep_of(c, s.torque, Direction::up),
+                       *down = sweep_of(c, s.torque, Direction::down);
   std::string out =
       "Largest load of a tooth pair against speed (above), and the loads over the mesh period at the speed with the largest vibration (below).";
   if (up && down) {
-    const double load =
-        std::max(up->response.tooth_load_max.maxCoeff(), down->response.tooth_load_max.maxCoeff());
+    const double load = std::max(up->tooth_load_max.maxCoeff(), down->tooth_load_max.maxCoeff());
     out += text(" At ", torque_words(s.torque), " it reaches ", fixed(load, 0), " N, ",
                 fixed(load / static_force(s), 2), " times T / r_b = ", fixed(static_force(s), 0), " N.");
   }
@@ -120,8 +119,8 @@ std::string bearings_caption(const ReportContent& c) {
                     [&](const StaticResult& s) {
                       double most = 0;
                       for (const Direction direction : {Direction::up, Direction::down})
-                        if (const ReportSweep* sweep = sweep_of(c, s.torque, direction))
-                          for (const Eigen::VectorXd& rms : sweep->response.bearing_force_rms)
+                        if (const ResponseResult* sweep = sweep_of(c, s.torque, direction))
+                          for (const Eigen::VectorXd& rms : sweep->bearing_force_rms)
                             if (rms.size() > 0) most = std::max(most, rms.maxCoeff());
                       return fixed(most, 0) + " N";
                     }) +

@@ -12,8 +12,7 @@
 #include "io/provenance.h"
 #include "io/publish.h"
 #include "io/scene_words.h"
-#include "studies/sweep.h"
-#include "studies/sweep_response.h"
+#include "report/sweep_panels.h"
 
 namespace whine {
 namespace {
@@ -28,16 +27,14 @@ ReportPicture read_picture(const std::string& path, const std::string& scene) {
   return picture;
 }
 
-// Of a sweep only what it says: the motions of teeth that differ are large.
-ReportSweep read_sweep_of(const ReportContent& content, const std::string& path) {
-  const SweepResult sweep = read<SweepResult>(path);
-  if (sweep.model != SweepResult().model)
-    fail(Failure::input, path, ": is of the lumped model ", sweep.model,
-         "; a report is of the elastic pair: give the sweep.h5 in T<torque>/up or T<torque>/down");
+ResponseResult read_response_of(const ReportContent& content, const std::string& path) {
+  ResponseResult out = read<ResponseResult>(path);
+  if (!elastic(out))
+    fail(Failure::input, path, ": is of the lumped model ", out.model,
+         "; a report is of the elastic pair: give the response.h5 in T<torque>/up or T<torque>/down");
   for (const StaticResult& statics : content.statics)
-    if (statics.torque == sweep.torque)
-      return {sweep_response(sweep), remarks(sweep, statics), backlash_left(sweep)};
-  fail(Failure::input, path, ": is at ", sweep.torque, " N m, at which no static.h5 is given; give it, too");
+    if (statics.torque == out.torque) return out;
+  fail(Failure::input, path, ": is at ", out.torque, " N m, at which no static.h5 is given; give it, too");
 }
 
 // Where an artifact comes from; all are of one scene.
@@ -115,7 +112,7 @@ SystemReport read_system_report(const std::vector<std::string>& paths) {
 }
 
 ReportContent read_report_content(const std::vector<std::string>& paths) {
-  // Sweeps last: what they warn of depends on the statics at their torque.
+  // Sweeps last: each has its statics.
   ReportContent content;
   std::vector<std::string> sweeps, pictures;
   for (const std::string& path : paths) {
@@ -131,14 +128,14 @@ ReportContent read_report_content(const std::vector<std::string>& paths) {
       content.impacts.push_back(read<ImpactResult>(path));
     } else if (schema == "whine/error_budget") {
       content.budget = read<ErrorBudgetResult>(path);
-    } else if (schema == "whine/sweep") {
+    } else if (schema == "whine/response") {
       sweeps.push_back(path);
     } else {
       fail(Failure::usage, path, ": is ", schema,
-           "; a report is made of static.h5, impact.h5, sweep.h5 and error_budget.h5");
+           "; a report is made of static.h5, impact.h5, response.h5 and error_budget.h5");
     }
   }
-  for (const std::string& path : sweeps) content.sweeps.push_back(read_sweep_of(content, path));
+  for (const std::string& path : sweeps) content.sweeps.push_back(read_response_of(content, path));
   for (const std::string& path : pictures) content.pictures.push_back(read_picture(path, content.scene));
   if (content.scene.empty()) content.scene = "gear pair";
   require_one_pair(content);

@@ -68,16 +68,15 @@ void add_ring_down(const ImpactResult& a, const Adder& add) {
   }
 }
 
-void add_motion(const StaticResult& s, const ReportSweep& sweep, const Adder& add) {
-  const ResponseResult& r = sweep.response;
+void add_motion(const StaticResult& s, const ResponseResult& r, const Adder& add) {
   const std::string way = r.direction == Direction::up ? ", speed rising" : ", speed falling";
   Index at = 0;
   const double rms = r.dte_rms.maxCoeff(&at);
-  std::string beyond = beyond_backlash(sweep, at) ? kBeyond : "";
+  std::string beyond = beyond_backlash(r, at) ? kBeyond : "";
   add("largest RMS of the dynamic transmission error" + way, "µm", significant(rms * kMicro, 3), beyond);
   add("mesh frequency of that RMS" + way, "Hz", hertz(r.mesh_frequency[at]), beyond);
   const double load = r.tooth_load_max.maxCoeff(&at);
-  beyond = beyond_backlash(sweep, at) ? kBeyond : "";
+  beyond = beyond_backlash(r, at) ? kBeyond : "";
   add("largest tooth load" + way, "N", fixed(load, 0), beyond);
   add("mesh frequency of that tooth load" + way, "Hz", hertz(r.mesh_frequency[at]), beyond);
   add("largest tooth load over T / r_b" + way, "1", fixed(load / static_force(s), 2), beyond);
@@ -86,7 +85,7 @@ void add_motion(const StaticResult& s, const ReportSweep& sweep, const Adder& ad
     if (r.root_stress_sustained[g].size() > 0) {
       const std::string of = "root stress of " + s.mesh.gear[g] + " (sustained for 1/64 of a mesh period)";
       const double stress = r.root_stress_sustained[g].maxCoeff(&at);
-      beyond = beyond_backlash(sweep, at) ? kBeyond : "";
+      beyond = beyond_backlash(r, at) ? kBeyond : "";
       add("largest " + of + way, "MPa", fixed(stress * 1e-6, 1), beyond);
       add("largest " + of + " over that at rest" + way, "1", fixed(stress / s.root_stress_max[g], 2), beyond);
     }
@@ -94,15 +93,15 @@ void add_motion(const StaticResult& s, const ReportSweep& sweep, const Adder& ad
     if (r.bearing_force_rms[g].size() > 0) {
       const std::string of = "force on the bearing of " + s.mesh.gear[g];
       const double force = r.bearing_force_rms[g].maxCoeff(&at);
-      beyond = beyond_backlash(sweep, at) ? kBeyond : "";
+      beyond = beyond_backlash(r, at) ? kBeyond : "";
       add("largest RMS of the oscillating " + of + way, "N", fixed(force, 0), beyond);
       add("mesh frequency of that RMS, " + s.mesh.gear[g] + way, "Hz", hertz(r.mesh_frequency[at]), beyond);
       add("largest " + of + way, "N", fixed(r.bearing_force_max[g].maxCoeff(&at), 0),
-          beyond_backlash(sweep, at) ? kBeyond : "");
+          beyond_backlash(r, at) ? kBeyond : "");
     }
   add("jumps" + way, "Hz", jumps_of(r));
   add("contact lost" + way, "Hz", loss_ranges(r));
-  if (const std::string speeds = speeds_beyond_backlash(sweep); !speeds.empty())
+  if (const std::string speeds = speeds_beyond_backlash(r); !speeds.empty())
     add("motion beyond the backlash" + way, "Hz", speeds);
 }
 
@@ -114,9 +113,9 @@ std::vector<ReportNumber> report_numbers(const ReportContent& c) {
     const Adder add{s.torque, out};
     add_statics(s, add);
     if (const ImpactResult* a = impact_of(c, s.torque)) add_ring_down(*a, add);
-    const ReportSweep *up = sweep_of(c, s.torque, Direction::up),
-                      *down = sweep_of(c, s.torque, Direction::down);
-    for (const ReportSweep* sweep : {up, down})
+    const ResponseResult *up = sweep_of(c, s.torque, Direction::up),
+                         *down = sweep_of(c, s.torque, Direction::down);
+    for (const ResponseResult* sweep : {up, down})
       if (sweep) add_motion(s, *sweep, add);
   }
   return out;

@@ -18,6 +18,7 @@
 #include "report/html.h"
 #include "report/report_page.h"
 #include "report/stiffness_table.h"
+#include "system/statics.h"
 
 namespace whine {
 namespace {
@@ -200,7 +201,7 @@ std::string budget_table(const ErrorBudgetResult& b) {
 
 std::string parameters_table(const ReportContent& c) {
   const std::vector<SceneKey> keys =
-      c.sweeps.empty() ? scene_keys_of(c.statics[0]) : scene_keys_of(c.sweeps[0].response);
+      c.sweeps.empty() ? scene_keys_of(c.statics[0]) : scene_keys_of(c.sweeps[0]);
   html::Rows rows;
   for (const SceneKey& key : keys)
     rows.push_back({key.section, key.name, key.value[0], key.value[1], key.meaning});
@@ -209,7 +210,7 @@ std::string parameters_table(const ReportContent& c) {
   rows.push_back(
       {"operation", "torque_Nm", torques, "", "torque on the driver; the first sets the bearing dampers"});
   if (!c.sweeps.empty()) {
-    const Eigen::VectorXd& f = c.sweeps[0].response.mesh_frequency;
+    const Eigen::VectorXd& f = c.sweeps[0].mesh_frequency;
     rows.push_back({"operation", "mesh_frequency_Hz",
                     text(shown(f.minCoeff(), 6), " to ", shown(f.maxCoeff(), 6), ", ", f.size(), " speeds"),
                     "", "speeds of a sweep"});
@@ -390,19 +391,19 @@ std::string remarks_list(const ReportContent& c) {
                    " %, outside 1 to 12 %; `make calibrate` finds the damping for a ratio"));
     ring_downs.add("ring-down", a.torque, found);
   }
-  for (const ReportSweep& s : c.sweeps) {
+  for (const ResponseResult& s : c.sweeps) {
     std::vector<Remark> found = s.remarks;
-    const std::vector<Remark> wide = wide_steps(s.response);
+    const std::vector<Remark> wide = wide_steps(s);
     found.insert(found.begin(), wide.begin(), wide.end());
     for (const StaticResult& at : c.statics) {
-      if (at.torque != s.response.torque) continue;
-      if (const double pressure = hertz_pressure(at, s.response.tooth_load_max.maxCoeff());
+      if (at.torque != s.torque) continue;
+      if (const double pressure = hertz_pressure(at, s.tooth_load_max.maxCoeff());
           pressure > kHardenedSteelPressure)
         found.push_back(
             remark(true, "the contact pressure of the largest tooth load (Hertz, at the pitch point) of ",
                    fixed(pressure * 1e-9, 2), kBeyondSteel));
     }
-    in_motion.add(way_words(s), s.response.torque, found);
+    in_motion.add(way_words(s), s.torque, found);
   }
   bool warned = false;
   std::string out = at_rest.items(warned) + ring_downs.items(warned) + in_motion.items(warned);

@@ -147,12 +147,6 @@ std::string curve_label(const ChoicePanel<Sweep>& panel, const Sweep& s) {
   return flanks + (torques ? ", " + torque_words(s.torque) : "");
 }
 
-bool same_motions(const ResponseResult& a, const ResponseResult& b) {
-  return choices_of(a, {}) == choices_of(b, {}) && a.torque == b.torque && a.direction == b.direction &&
-         a.mesh.modification == b.mesh.modification && a.mesh_frequency.size() == b.mesh_frequency.size() &&
-         a.mesh_frequency == b.mesh_frequency;
-}
-
 const BranchResult* branch_of(const ResponseResult& r, const CaptionSources& background) {
   if (!elastic(r)) return nullptr;
   const auto found =

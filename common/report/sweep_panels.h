@@ -63,9 +63,6 @@ std::string operating_words(const ChoicePanel<Sweep>& panel, const CaptionSource
 template <class Sweep>
 std::string curve_label(const ChoicePanel<Sweep>& panel, const Sweep& s);
 
-// Whether two are of one pair and its choices, torque, flanks, direction and speeds.
-bool same_motions(const ResponseResult& a, const ResponseResult& b);
-
 // The branch of a sweep's pair at its torque; none if it is not among them.
 const BranchResult* branch_of(const ResponseResult& r, const CaptionSources& background);
 

@@ -5,7 +5,6 @@
 
 #include "report/system_report.h"
 #include "report/system_report_tables.h"
-#include "system/statics.h"
 
 namespace whine {
 

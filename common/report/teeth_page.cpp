@@ -162,11 +162,11 @@ std::vector<WordTable> teeth_tables(const ReportContent& c) {
   if (const std::string why = why_no_root_stress(s); !why.empty()) fail(Failure::input, "teeth: ", why);
   std::array<const ResponseResult*, 2> sweeps{};
   for (const Direction direction : {Direction::up, Direction::down}) {
-    const ReportSweep* sweep = sweep_of(c, s.torque, direction);
-    if (!sweep || sweep->response.root_stress_sustained[0].size() == 0)
-      fail(Failure::input, "teeth: no sweep.h5 ", direction, " with root stress at ", torque_words(s.torque),
-           " is given");
-    sweeps[direction == Direction::up ? 0 : 1] = &sweep->response;
+    const ResponseResult* sweep = sweep_of(c, s.torque, direction);
+    if (!sweep || sweep->root_stress_sustained[0].size() == 0)
+      fail(Failure::input, "teeth: no response.h5 ", direction, " with root stress at ",
+           torque_words(s.torque), " is given");
+    sweeps[direction == Direction::up ? 0 : 1] = sweep;
   }
   const IsoComparison iso = iso_comparison(s, sweeps[0]->inertia);
   WordTable rest = at_rest(s, iso);

@@ -3,10 +3,12 @@
 #include <Eigen/Core>
 #include <array>
 #include <string>
+#include <vector>
 
 #include "base/matrix.h"
 #include "model/stages.h"
 #include "results/friction_losses.h"
+#include "results/remark.h"
 
 namespace whine {
 
@@ -47,6 +49,8 @@ struct ResponseResult : MotionParameters {
   Eigen::VectorXd separations_per_period;      // (speed) 1
   Eigen::VectorXd jump_frequency, jump_width;  // (jump) Hz
   Eigen::VectorXi period_multiple;             // (speed) 1; 0: not periodic within the limit
+  Eigen::VectorXd backlash_left;               // (speed) m, as in the sweep
+  std::vector<Remark> remarks;                 // as in the sweep
   // what the sweep was computed with, so that a figure needs no other file
   double natural_frequency = 0;  // Hz: as in the sweep
 };

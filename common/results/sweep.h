@@ -8,6 +8,7 @@
 #include "base/matrix.h"
 #include "model/stages.h"
 #include "results/friction_losses.h"
+#include "results/remark.h"
 
 namespace whine {
 
@@ -91,6 +92,10 @@ struct SweepResult : MotionParameters {
   double least_force = 0;      // N, of strips with force
   int fallbacks = 0;           // contact solutions that needed Lawson and Hanson's method
   double backlash_margin = 0;  // m left on the line of action; infinite backlash is not stored
+  // (speed) m: backlash that the motion leaves, below 0 where back flanks would touch, which is not modelled; infinite where
+  // the scene counts no backlash. Empty for a lumped model, infinite as its file is read.
+  Eigen::VectorXd backlash_left;
+  std::vector<Remark> remarks;  // none for a lumped model
 };
 
 }  // namespace whine

@@ -132,6 +132,8 @@ ResponseResult response(const SweepResult& s) {
   r.jump_frequency = s.jump_frequency;
   r.jump_width = s.jump_width;
   r.period_multiple = s.period_multiple;
+  r.backlash_left = s.backlash_left;
+  r.remarks = s.remarks;
   r.dte_rms.resize(speeds);
   r.dte_mean.resize(speeds);
   r.dte_harmonic.resize(speeds, count);

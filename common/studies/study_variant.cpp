@@ -105,7 +105,7 @@ VariantResponse variant_response(const ReducedBody& driver, const ReducedBody& d
       const SweepResult motion =
           sweep(driver, driven, rest, bearing_stiffness, settings.motion, direction, report);
       add_motion(quantities, response(motion));
-      add_remarks(text("speed ", direction), remarks(motion, rest));
+      add_remarks(text("speed ", direction), motion.remarks);
     }
   }
   const std::vector<ResponseQuantity> kinds = response_quantities(settings.directions);

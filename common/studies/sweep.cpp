@@ -561,6 +561,8 @@ SweepResult sweep(const ReducedBody& driver, const ReducedBody& driven, const St
     result.jump_frequency[static_cast<Eigen::Index>(i)] = jumps[i].frequency;
     result.jump_width[static_cast<Eigen::Index>(i)] = jumps[i].width;
   }
+  result.backlash_left = backlash_left(result);
+  result.remarks = remarks(result, statics);
   return result;
 }
 

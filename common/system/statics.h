@@ -1,10 +1,10 @@
 // Static equilibrium over a mesh period: transmission error, stiffness and tooth loads (Eq. 7).
 #pragma once
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "results/reduced_body.h"
+#include "results/remark.h"
 #include "results/static.h"
 #include "system/system_statics.h"
 
@@ -17,20 +17,6 @@ namespace whine {
 // Error(numerical) where no equilibrium within the flanks exists or a tip edge would leave the other's involute.
 StaticResult static_transmission(const ReducedBody& driver, const ReducedBody& driven,
                                  const StaticParameters& settings, double torque, double zone_factor = 1);
-
-// What a reader of a result has to know beside its numbers, in words without a full stop.
-struct Remark {
-  bool warning = false;  // something is wrong or left out; else out of the ordinary only
-  std::string words;
-};
-
-// Numbers with 6 digits, as log_line() writes them.
-template <class... Parts>
-Remark remark(bool warning, const Parts&... parts) {
-  std::ostringstream words;
-  (words << ... << parts);
-  return {warning, words.str()};
-}
 
 // Pa: what flanks of hardened steel carry in the long run; the strongest go to 2 GPa.
 inline constexpr double kHardenedSteelPressure = 1.5e9;

@@ -226,8 +226,8 @@ TEST_CASE("report: numbers of the artifacts, words that are no marks, figures on
   ReportContent content;
   content.scene = "pair: <Gears> & \"teeth\"";
   content.statics = {statics_of_paper(150), statics_of_paper(100)};
-  const ResponseResult up = response(some_sweep(Direction::up)), down = response(some_sweep(Direction::down));
-  content.sweeps = {{up, {remark(true, "back flanks < touch")}}, {down, {}}};
+  content.sweeps = {response(some_sweep(Direction::up)), response(some_sweep(Direction::down))};
+  content.sweeps[0].remarks = {remark(true, "back flanks < touch")};
   content.pictures = {{"fig12", "\x89PNG"}};
   const std::string page = report_html(content);
   const auto holds = [&](const std::string& words) { return page.find(words) != std::string::npos; };
@@ -267,13 +267,13 @@ TEST_CASE(
     for (const Direction direction : {Direction::up, Direction::down}) {
       ResponseResult r = response(some_sweep(direction));
       r.torque = torque;
-      std::vector<Remark> found{remark(true, "the same of all")};
+      std::vector<Remark>& found = r.remarks = {remark(true, "the same of all")};
       if (direction == Direction::up && torque < 180) found.push_back(remark(false, "of two torques"));
       if (direction == Direction::down || torque > 250) found.push_back(remark(false, "of other torques"));
       if (torque == 200) found.push_back(remark(false, "the same of all"));  // no warning
       found.push_back(remark(false, "planet1 swings ", 0.01 * torque, " µm of 5. Lower it"));
       found.push_back(remark(false, "at ", 20 * torque, " Hz"));
-      content.sweeps.push_back({r, found, {}});
+      content.sweeps.push_back(r);
     }
   const std::string items = remarks_list(content);
   const auto count = [&](const std::string& words) {
@@ -334,7 +334,7 @@ TEST_CASE("report: what the numbers mean is said of what is on the page, and of 
   CHECK(at_rest.find("Damping") == std::string::npos);
   CHECK(at_rest.find("ring-down") == std::string::npos);
   for (const std::string& name : report_figures()) content.pictures.push_back({name, "\x89PNG"});
-  content.sweeps = {{response(some_sweep(Direction::up)), {}}};
+  content.sweeps = {response(some_sweep(Direction::up))};
   const std::string all = guide();
   CHECK(all.find("As good as your guess") != std::string::npos);
   for (const std::string& name : report_figures()) {
@@ -385,7 +385,7 @@ TEST_CASE("results: one line of names, geometry without a torque, as many cells 
   ReportContent content;
   content.scene = "pair: gears";
   content.statics = {statics_of_paper(150)};
-  content.sweeps = {{response(some_sweep(Direction::up)), {}}};
+  content.sweeps = {response(some_sweep(Direction::up))};
   std::istringstream lines(report_tsv(content));
   std::vector<std::vector<std::string>> rows;
   for (std::string line; std::getline(lines, line);) {
@@ -434,8 +434,11 @@ TEST_CASE("report: numbers of motions beyond the backlash are marked, with the s
   CHECK(std::any_of(said.begin(), said.end(), [](const Remark& r) {
     return r.warning && r.words.find("at 1100 Hz the motion goes up to 0.1 µm beyond") != std::string::npos;
   }));
-  for (const SweepResult& s : {up, down})
-    content.sweeps.push_back({response(s), remarks(s, content.statics[0]), backlash_left(s)});
+  for (SweepResult* s : {&up, &down}) {
+    s->backlash_left = backlash_left(*s);
+    s->remarks = remarks(*s, content.statics[0]);
+    content.sweeps.push_back(response(*s));
+  }
   const std::string table = report_tsv(content), page = report_html(content);
   CHECK(table.find("mesh frequency of that RMS, speed rising\t1100\tHz\tbeyond the backlash\n") !=
         std::string::npos);
@@ -445,7 +448,7 @@ TEST_CASE("report: numbers of motions beyond the backlash are marked, with the s
   CHECK(page.find(">1100 *</td>") != std::string::npos);
   CHECK(page.find("not modelled: 150 N m, speed rising: 1100 Hz.") != std::string::npos);  // below fig07
   CHECK(page.find("what Figure 7 of P2000 shows") != std::string::npos);
-  for (ReportSweep& s : content.sweeps) s.backlash_left.setConstant(1e-6);
+  for (ResponseResult& s : content.sweeps) s.backlash_left.setConstant(1e-6);
   CHECK(report_html(content).find(" *</td>") == std::string::npos);
 }
 
@@ -477,7 +480,7 @@ TEST_CASE(
   SweepResult sweep = some_sweep(Direction::up);
   for (MatrixRM& loads : sweep.tooth_load) loads.setConstant(load);
   sweep.mesh_force.setConstant(load);
-  content.sweeps = {{response(sweep), {}}};
+  content.sweeps = {response(sweep)};
   const std::string
       table = report_tsv(content),
       name = "nominal contact pressure of the largest tooth load (Hertz, at the pitch point), speed rising\t";
@@ -487,7 +490,7 @@ TEST_CASE(
 
   CHECK(report_html(content).find("hardened steel") == std::string::npos);
   // A jump between speeds that stand wide apart, and between near ones.
-  ResponseResult& swept = content.sweeps[0].response;
+  ResponseResult& swept = content.sweeps[0];
   const Eigen::VectorXd speeds = swept.mesh_frequency;
   REQUIRE(speeds.size() > 1);
   const double step = std::abs(speeds[1] - speeds[0]), jump = 0.5 * (speeds[0] + speeds[1]);
@@ -500,7 +503,7 @@ TEST_CASE(
   // Of two ways it is said once, with the speeds of both.
   ReportContent two = content;
   two.sweeps.push_back(two.sweeps[0]);
-  ResponseResult& other = two.sweeps[1].response;
+  ResponseResult& other = two.sweeps[1];
   other.direction = Direction::down;
   other.mesh_frequency *= 1.1;
   other.jump_frequency *= 1.1;
@@ -518,7 +521,7 @@ TEST_CASE(
   CHECK(std::any_of(said.begin(), said.end(), [](const Remark& r) {
     return r.warning && r.words.find("of 1.6 GPa is above") != std::string::npos;
   }));
-  content.sweeps[0].response.tooth_load_max *= 20;
+  content.sweeps[0].tooth_load_max *= 20;
   CHECK(report_html(content).find("hardened steel") != std::string::npos);
 }
 
