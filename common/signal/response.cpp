@@ -108,6 +108,35 @@ std::vector<Eigen::Index> rows_before_jumps(const ResponseResult& r) {
   return rows;
 }
 
+namespace {
+
+// Root stress over speed, and with it the loads that are sustained for 1/64 of a mesh period.
+void add_root_stress(const SweepResult& s, ResponseResult& r) {
+  const Eigen::Index speeds = s.mesh_frequency.size();
+  for (size_t g = 0; g < kSides; ++g)
+    if (s.root_stress[g].size() > 0) {
+      r.root_stress_max[g] = s.root_stress[g].rowwise().maxCoeff();
+      r.root_stress_sustained[g].resize(speeds);
+      r.root_stress_angle[g] = s.root_stress_angle[g];
+      r.root_stress_phase[g] = s.root_stress_phase[g];
+    }
+  if (s.root_stress[0].size() > 0) {
+    for (Eigen::VectorXd* v : {&r.tooth_load_sustained, &r.mesh_force_sustained}) v->resize(speeds);
+    const int steps = s.time.steps_per_period;
+    for (Eigen::Index f = 0; f < speeds; ++f) {
+      r.tooth_load_sustained[f] = sustained_load(s.tooth_load[f], steps);
+      r.mesh_force_sustained[f] =
+          sustained_load(s.mesh_force.row(f).transpose(), steps, s.period_multiple[f]);
+      for (size_t g = 0; g < kSides; ++g)
+        if (s.root_stress[g].size() > 0)
+          r.root_stress_sustained[g][f] =
+              sustained_load(s.root_stress[g].row(f).transpose(), steps, s.period_multiple[f]);
+    }
+  }
+}
+
+}  // namespace
+
 ResponseResult response(const SweepResult& s) {
   require_shapes(s);
   const Eigen::Index speeds = s.mesh_frequency.size();
@@ -144,26 +173,7 @@ ResponseResult response(const SweepResult& s) {
   for (size_t g = 0; g < kSides; ++g)
     if (!s.bearing_force[g].empty())
       for (Eigen::VectorXd* v : {&r.bearing_force_max[g], &r.bearing_force_rms[g]}) v->resize(speeds);
-  for (size_t g = 0; g < kSides; ++g)
-    if (s.root_stress[g].size() > 0) {
-      r.root_stress_max[g] = s.root_stress[g].rowwise().maxCoeff();
-      r.root_stress_sustained[g].resize(speeds);
-      r.root_stress_angle[g] = s.root_stress_angle[g];
-      r.root_stress_phase[g] = s.root_stress_phase[g];
-    }
-  if (s.root_stress[0].size() > 0) {
-    for (Eigen::VectorXd* v : {&r.tooth_load_sustained, &r.mesh_force_sustained}) v->resize(speeds);
-    const int steps = s.time.steps_per_period;
-    for (Eigen::Index f = 0; f < speeds; ++f) {
-      r.tooth_load_sustained[f] = sustained_load(s.tooth_load[f], steps);
-      r.mesh_force_sustained[f] =
-          sustained_load(s.mesh_force.row(f).transpose(), steps, s.period_multiple[f]);
-      for (size_t g = 0; g < kSides; ++g)
-        if (s.root_stress[g].size() > 0)
-          r.root_stress_sustained[g][f] =
-              sustained_load(s.root_stress[g].row(f).transpose(), steps, s.period_multiple[f]);
-    }
-  }
+  add_root_stress(s, r);
   r.separation_fraction.resize(speeds);
   r.separations_per_period.resize(speeds);
   for (Eigen::Index f = 0; f < speeds; ++f) {
