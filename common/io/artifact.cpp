@@ -309,9 +309,10 @@ void ArtifactWriter::publish() {
 ArtifactReader::ArtifactReader(const std::string& path, const std::string& kind, int version)
     : file_(std::make_unique<h5::Reader>(artifact_bytes(path), path, rebuild_advice(path))) {
   const std::string schema = file_->string_attribute("/", "schema");
-  if (schema != kFamily + kind) reject(text("is '", schema, "', but '", kFamily + kind, "' is wanted here"));
+  if (schema != kFamily + kind)
+    file_->reject(text("is '", schema, "', but '", kFamily + kind, "' is wanted here"));
   const int found = file_->int_attribute("/", "schema_version");
-  if (found != version) reject(text("is schema version ", found, ", this program reads ", version));
+  if (found != version) file_->reject(text("is schema version ", found, ", this program reads ", version));
 }
 
 namespace {
