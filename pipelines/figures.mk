@@ -1,8 +1,8 @@
 # Figures and tables: the paper's in out/figures/, those of SCENE in out/<scene>/report/; a report by its path is of any scene.
 # The page of a report, index.html, is made of them and of artifacts, by gear-report.
 #
-# A new figure is a line of inputs, the paper's torques, a gnuplot template pipelines/plots/figNN.gp, a name in the list of
-# figures and a target with its line of help. Figures of one kind share a template: drawn_as_figNN names it.
+# A new figure is a line of inputs, the paper's torques, a name in the list of figures and a target with its line of help; a gnuplot
+# template pipelines/plots/figNN.gp where it is no figure of panels. Figures of one kind share a drawing: drawn_as_figNN names it.
 # options_figNN: operating points, in words of gear-plot.
 
 # The reading of P2000 that agrees best; its pair with a standard tooth, as printed and with less damping.
@@ -76,6 +76,8 @@ inputs_crack = out/$1/T$(firstword $2)/static.h5
 inputs_table1 = $(foreach t,$2,out/$1/T$t/impact.h5)
 
 drawn_as = $(or $(drawn_as_$1),$1)
+# Figures of panels have no template of their own.
+template = $(or $(wildcard pipelines/plots/$1.gp),pipelines/plots/panels.gp)
 drawn_as_fig07 := fig05
 drawn_as_fig07-600 := fig05
 drawn_as_fig05-branches := fig05
@@ -159,7 +161,7 @@ axis_plan = $(if $(axis_plan_file),$(call plan_rule,$(axis_plan_file),figure $(s
 
 define figure_rule # figure, path without extension, inputs, what else it depends on
 $(axis_plan)
-$(call together,$2.tsv $2.svg $2.png) &: $3 $4 $(axis_plan_file) $(call titles,$3) pipelines/plots/$(drawn_as).gp pipelines/plots/common.gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
+$(call together,$2.tsv $2.svg $2.png) &: $3 $4 $(axis_plan_file) $(call titles,$3) $(call template,$(drawn_as)) pipelines/plots/common.gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
 	$(B)/bin/gear-plot $(drawn_as) --output $2 $(options_$1) $(axis_options) $(if $(filter out/figures/fig%,$2),--paper-figure $1) $3
 endef
 

@@ -142,7 +142,7 @@ harris_figure := $(map_folder)/$(subst _,-,$(harris_map))
 sensitivity_artifacts := $(foreach s,$(own_scene) $(variant_scenes),out/$s/T$(TORQUE)/$(branches_plan).h5)
 
 define map_figure_rules # figure, path without extension, artifacts
-$(call together,$2.tsv $2.svg $2.png) &: $3 out/$(own_scene)/params/title.txt pipelines/plots/$1.gp pipelines/plots/common.gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
+$(call together,$2.tsv $2.svg $2.png) &: $3 out/$(own_scene)/params/title.txt $(call template,$1) pipelines/plots/common.gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
 	@mkdir -p $(map_folder)
 	$(B)/bin/gear-plot $1 --output $2 $3
 endef

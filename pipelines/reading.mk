@@ -31,7 +31,7 @@ $(call together,$(addprefix out/figures/consistency,.tsv _sets.tsv _best.tsv)) &
 	@mkdir -p out/figures
 	$(B)/bin/gear-reading --sets $(claim_sets) --output out/figures/consistency $(filter %.h5,$^)
 
-$(call together,out/figures/reading.tsv out/figures/reading.svg out/figures/reading.png) &: out/reading/readings.h5 $(claim_sets) pipelines/plots/reading.gp pipelines/plots/common.gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
+$(call together,out/figures/reading.tsv out/figures/reading.svg out/figures/reading.png) &: out/reading/readings.h5 $(claim_sets) $(call template,reading) pipelines/plots/common.gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
 	@mkdir -p out/figures
 	$(B)/bin/gear-plot reading --claim-sets $(claim_sets) --output out/figures/reading $<
 

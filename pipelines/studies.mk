@@ -50,7 +50,7 @@ $(foreach p,$(STUDY_$1_PAIRS),$(eval $(call study_pair_rules,$1,$p,$(word 1,$(su
 out/studies/$1/study.h5: out/studies/$1/plan.toml $(study_variants) $(call id,gear-study) | $(B)/bin/gear-study
 	$(B)/bin/gear-study --gather $$< --output $$@
 
-$(call together,out/studies/$1/study.tsv out/studies/$1/study.svg out/studies/$1/study.png) &: out/studies/$1/study.h5 pipelines/plots/study.gp pipelines/plots/common.gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
+$(call together,out/studies/$1/study.tsv out/studies/$1/study.svg out/studies/$1/study.png) &: out/studies/$1/study.h5 $(call template,study) pipelines/plots/common.gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
 	$(B)/bin/gear-plot study --output out/studies/$1/study $$<
 endef
 $(foreach s,$(studies),$(eval $(call study_rules,$s)))

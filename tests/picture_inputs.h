@@ -17,6 +17,7 @@
 
 #include "paper_pair.h"
 #include "picture_text.h"
+#include "report/draw_panels.h"
 #include "report/gnuplot.h"
 #include "report/plot_file.h"
 #include "report/sweep_panels.h"
@@ -40,10 +41,11 @@ inline std::vector<std::string> faults(Figure figure, const std::string& name) {
   const auto folder = std::filesystem::temp_directory_path() / text("whine-pictures-", getpid());
   std::filesystem::create_directories(folder);
   const std::string eps = folder / (name + ".eps"), wrapper = folder / (name + ".gp"),
-                    recipe = std::filesystem::absolute("pipelines/plots/" + name + ".gp");
+                    recipe = std::filesystem::absolute(template_of(figure, "pipelines/plots", name));
+  const int height = figure.panels.empty() ? figure.height : panel_picture(figure).height;
   // A pixel is a point here: the letters of this terminal have then the pixels of those of the PNG.
   std::ofstream(wrapper) << "set terminal epscairo size " << fixed(1600 / 72.0, 6) << "in,"
-                         << fixed(figure.height / 72.0, 6)
+                         << fixed(height / 72.0, 6)
                          << "in font 'DejaVu Sans,18' fontscale 1 enhanced\nset output '" << eps
                          << "'\nplots = '" << std::filesystem::absolute("pipelines/plots").string()
                          << "'\nload '" << recipe << "'\nset output\nreset\nset terminal svg\nplot 0\n";
@@ -54,8 +56,8 @@ inline std::vector<std::string> faults(Figure figure, const std::string& name) {
       svg = draw(figure, data.path(), recipe, Picture::svg);
   const std::vector<PictureText> texts = texts_of_postscript(bytes), of_svg = texts_of_svg(svg);
   CHECK(texts.size() > 5);
-  std::vector<std::string> out = faults_of(texts, 1600, figure.height);
-  for (const std::string& fault : faults_of(of_svg, 1600, figure.height)) out.push_back("SVG: " + fault);
+  std::vector<std::string> out = faults_of(texts, 1600, height);
+  for (const std::string& fault : faults_of(of_svg, 1600, height)) out.push_back("SVG: " + fault);
   // What lies wholly beyond the page is not in its PostScript; its SVG, which has the same places within 20 pixels, has it.
   if (const char* kept = std::getenv("WHINE_KEEP_PICTURES")) {
     static std::map<std::string, int> drawn;

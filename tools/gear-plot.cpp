@@ -37,7 +37,8 @@ std::string footer() {
 }
 
 void publish_figure(const whine::Figure& figure, const Paths& inputs, const Paths& sources,
-                    const std::string& output, const std::string& recipe) {
+                    const std::string& output, const std::string& plots, const std::string& name) {
+  const std::string recipe = whine::template_of(figure, plots, name);
   for (const std::string& path : inputs) whine::require_fresh(path);
   const whine::PlotFile data(figure);
   std::vector<whine::FileBytes> files = whine::table_files(figure, output, sources);
@@ -88,7 +89,7 @@ void body(int argc, char** argv) {
     const whine::ReadingsResult readings = whine::read<whine::ReadingsResult>(inputs.front());
     publish_figure(
         whine::reading_figure(readings, whine::consistency(readings, whine::read_claim_sets(claim_sets))),
-        inputs, sources, output, plots + "/" + name + ".gp");
+        inputs, sources, output, plots, name);
     return;
   }
   if (name == kTable) {
@@ -109,7 +110,7 @@ void body(int argc, char** argv) {
     figure.title += ", as " + paper + " of P2000";
   if (level.given()) axes.level_reference = reference;
   whine::apply(axes, figure);
-  publish_figure(figure, inputs, sources, output, plots + "/" + name + ".gp");
+  publish_figure(figure, inputs, sources, output, plots, name);
 }
 
 }  // namespace

@@ -103,8 +103,21 @@ void in_rpm(const Shaft& shaft, Figure& figure) {
   constexpr std::string_view against = "against mesh frequency";
   if (const size_t at = figure.title.find(against); at != std::string::npos)
     figure.title.replace(at, against.size(), "against the speed of " + shaft.gear);
+  const std::string label = "Speed of " + without_markup(whose) + " (rpm)";
+  for (Panel& panel : figure.panels) {
+    panel.heading = speeds_in_rpm(panel.heading, scale);
+    for (PanelCurve& curve : panel.curves) curve.label = speeds_in_rpm(curve.label, scale);
+    if (!panel.x.speed) continue;
+    // The axis above has the unit that the one below had.
+    if (panel.top) panel.top->label = panel.x.label, panel.top_factor = 1 / scale;
+    panel.x.label = label;
+    panel.x.from *= scale;
+    panel.x.to *= scale;
+    for (PanelRule& rule : panel.rules)
+      if (rule.axis == 'x') rule.at *= scale;
+  }
   figure.numbers.emplace_back("speed_scale", scale);
-  figure.words.emplace_back("speed_label", "Speed of " + without_markup(whose) + " (rpm)");
+  figure.words.emplace_back("speed_label", label);
 }
 
 // "dB re 1e-06 m" reads as "dB re 1 µm".
@@ -146,6 +159,11 @@ void in_levels(double reference, Figure& figure) {
         if (!row.empty()) row[c] = std::max(highest - kSilence, level(*of, row[c]));
       block.columns[c] = block.columns[c].substr(0, block.columns[c].find(" [")) + " [" + label + "]";
     }
+  for (Panel& panel : figure.panels)
+    if (panel.y.level)
+      panel.y = {.label = panel.y.label.substr(0, panel.y.label.rfind(" (")) + " (" + label + ")",
+                 .from = foot,
+                 .to = std::ceil((highest + 4) / 10) * 10};
   figure.words.emplace_back("level_label", label);
   figure.numbers.emplace_back("level_low", foot);
   figure.numbers.emplace_back("level_high", std::ceil((highest + 4) / 10) * 10);

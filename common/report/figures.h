@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/publish.h"
+#include "report/panels.h"
 #include "results/static.h"
 
 namespace whine {
@@ -56,7 +57,10 @@ struct Figure {
       {};  // gears and carriers, where the figure is against speed and all of it is of one pair or train
   std::string no_shafts = {};  // why there are none, where that is no matter of the figure
   std::vector<LevelColumn> levels = {};
-  int height = 1000;  // of the picture beside a width of 1600; also a variable
+  std::vector<Panel> panels = {};  // drawn by panels.gp; none: the figure has a template of its own
+  size_t columns = 1;              // panels beside each other
+  int height =
+      1000;  // of the picture beside a width of 1600; also a variable; of panels their layout decides
 };
 
 // %.<digits>g, %.<decimals>f: text() would show ten digits.

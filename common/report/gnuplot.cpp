@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "base/visible.h"
+#include "report/draw_panels.h"
 #include "report/figure_words.h"
 #include "report/text_width.h"
 
@@ -48,17 +49,20 @@ std::string rows_of(const std::string& name, const std::string& words) {
 std::string prelude(const Figure& figure, const std::string& tsv_path, const std::string& template_path,
                     Picture picture) {
   std::string script = "set encoding utf8; ";
+  const PanelPicture panels = figure.panels.empty() ? PanelPicture{figure.height, ""} : panel_picture(figure);
+  const int height = panels.height;
   // A point of pngcairo is 4/3 of its pixels, one of svg is one pixel: the scale makes both pictures alike.
   if (picture == Picture::gif) {
-    script += text("set terminal gif animate delay 8 loop 0 linewidth 0.8 size 800,", figure.height / 2,
+    script += text("set terminal gif animate delay 8 loop 0 linewidth 0.8 size 800,", height / 2,
                    " font 'DejaVu Sans,9'");
   } else {
     script += picture == Picture::png ? "set terminal pngcairo" : "set terminal svg fontscale 1.333";
-    script += text(" size 1600,", figure.height, " font 'DejaVu Sans,18'");
+    script += text(" size 1600,", height, " font 'DejaVu Sans,18'");
   }
   script += " enhanced background '#ffffff'; ";
   const auto plots = std::filesystem::path(plain_path(template_path)).parent_path();
-  script += text("plots = ", gnuplot_string(plots), "; height = real(", figure.height, "); ");
+  script += text("plots = ", gnuplot_string(plots), "; height = real(", height,
+                 "); notes = ", figure.notes.size(), "; ");
   script += text("tsv = ", gnuplot_string(plain_path(tsv_path)),
                  "; title = ", gnuplot_string(fitting(figure.title, 1)), "; ");
   // What engineering_axes() changes.
@@ -81,7 +85,7 @@ std::string prelude(const Figure& figure, const std::string& tsv_path, const std
     script += name + " = " + gnuplot_string(value) + "; ";
     if (name.starts_with("line")) script += rows_of(name, value);
   }
-  return script;
+  return script + panels.script;
 }
 
 struct Pipe {
@@ -143,6 +147,10 @@ std::string gnuplot_string(const std::string& words) {
     }
   }
   return out + "'";
+}
+
+std::string template_of(const Figure& figure, const std::string& folder, const std::string& name) {
+  return folder + "/" + (figure.panels.empty() ? name : "panels") + ".gp";
 }
 
 std::string draw(const Figure& figure, const std::string& tsv_path, const std::string& template_path,

@@ -12,6 +12,9 @@ enum class Picture { svg, png, gif };  // gif: of half the width, an animation i
 // macros; newlines stay, tabs become blanks, hidden characters have their names.
 std::string gnuplot_string(const std::string& words);
 
+// In a folder of templates: panels.gp for a figure of panels, else the one that has the figure's name.
+std::string template_of(const Figure& figure, const std::string& folder, const std::string& name);
+
 // Runs `gnuplot -d` (no user settings, locale C.UTF-8) on the template and returns the picture's bytes. The
 // template finds the string variables tsv, title, heading (title and scenes, a line each), note1.. and the figure's own
 // numbers and words; the terminal is set before it. Throws Error(io) if gnuplot cannot be started, Error(numerical) with its

@@ -111,10 +111,10 @@ std::vector<double> edges(const std::vector<double>& middle) {
   return edge;
 }
 
-using Panel = std::pair<std::string, std::vector<const JumpMapResult*>>;
+using MapPanel = std::pair<std::string, std::vector<const JumpMapResult*>>;
 
-std::vector<Panel> map_panels(const std::vector<JumpMapResult>& maps) {
-  std::vector<Panel> panels;
+std::vector<MapPanel> map_panels(const std::vector<JumpMapResult>& maps) {
+  std::vector<MapPanel> panels;
   for (const JumpMapResult& a : maps) {
     if (a.damping_ratio.size() != maps[0].damping_ratio.size() ||
         !((a.damping_ratio - maps[0].damping_ratio).cwiseAbs().maxCoeff() <
@@ -122,13 +122,13 @@ std::vector<Panel> map_panels(const std::vector<JumpMapResult>& maps) {
       fail(Failure::input, "the maps of ", maps[0].torque, " and ", a.torque,
            " N m have other damping ratios; make all of them again");
     const std::string name = panel_name(a);
-    auto panel = std::find_if(panels.begin(), panels.end(), [&](const Panel& p) { return p.first == name; });
+    auto panel = std::find_if(panels.begin(), panels.end(), [&](const MapPanel& p) { return p.first == name; });
     if (panel == panels.end()) panel = panels.insert(panels.end(), {name, {}});
     for (const JumpMapResult* other : panel->second)
       if (other->torque == a.torque) fail(Failure::input, "two maps of ", a.torque, " N m with ", name);
     panel->second.push_back(&a);
   }
-  for (Panel& panel : panels) {
+  for (MapPanel& panel : panels) {
     std::sort(panel.second.begin(), panel.second.end(),
               [](const JumpMapResult* a, const JumpMapResult* b) { return a->torque < b->torque; });
     const auto same = [](const JumpMapResult* a, const JumpMapResult* b) { return a->torque == b->torque; };
@@ -234,7 +234,7 @@ std::string joined_or_none(const std::vector<std::string>& words, const std::str
 }
 
 // Share of the cells, in percent, in which two maps answer alike.
-double alike(const Panel& one, const Panel& other,
+double alike(const MapPanel& one, const MapPanel& other,
              const std::function<bool(const JumpMapResult&, Index)>& verdict) {
   double same = 0, cells = 0;
   for (size_t t = 0; t < one.second.size(); ++t)
@@ -244,11 +244,11 @@ double alike(const Panel& one, const Panel& other,
 }
 
 // What the teeth carry at 150 N m in the case `at`, beside P2000's loads; and how far single samples go beyond sustained loads.
-void add_load_notes(const std::vector<JumpMapResult>& maps, const std::vector<Panel>& panels, Index at,
+void add_load_notes(const std::vector<JumpMapResult>& maps, const std::vector<MapPanel>& panels, Index at,
                     double ratio, bool paper, std::vector<std::string>& notes) {
   std::string loads = paper ? "P2000 prints 3.00 and 4.85" : "";
   bool known = false;
-  for (const Panel& panel : panels)
+  for (const MapPanel& panel : panels)
     for (const JumpMapResult* a : panel.second)
       if (a->load_frequency > 0 && a->torque == 150) {
         loads += text(loads.empty() ? "" : "; ", panel.first, " ", loads_in_words(*a, at));
@@ -259,7 +259,7 @@ void add_load_notes(const std::vector<JumpMapResult>& maps, const std::vector<Pa
                          maps[0].load_frequency, " Hz: ", loads));
   double spike = 1;
   std::string where = panels[0].first;
-  for (const Panel& panel : panels)
+  for (const MapPanel& panel : panels)
     for (const JumpMapResult* a : panel.second)
       if (const double ratio_of = (a->peak_tooth_load.array() / a->sustained_tooth_load.array()).maxCoeff();
           ratio_of > spike) {
@@ -291,7 +291,7 @@ void add_needed_note(const std::vector<JumpMapResult>& maps, std::vector<std::st
 }
 
 std::vector<std::string> jump_map_notes(const std::vector<JumpMapResult>& maps,
-                                        const std::vector<Panel>& panels, bool paper) {
+                                        const std::vector<MapPanel>& panels, bool paper) {
   std::vector<std::string> notes;
   // Which choices lose contact at every torque, and what the teeth then carry.
   const double ratio = case_of(maps[0], kPaperRatio) >= 0
@@ -299,12 +299,12 @@ std::vector<std::string> jump_map_notes(const std::vector<JumpMapResult>& maps,
                            : maps[0].damping_ratio[maps[0].damping_ratio.size() / 2];
   const Index at = case_of(maps[0], ratio);
   std::string everywhere;
-  for (const Panel& panel : panels)
+  for (const MapPanel& panel : panels)
     if (std::all_of(panel.second.begin(), panel.second.end(),
                     [&](const JumpMapResult* a) { return lost(*a, at); }))
       everywhere += text(everywhere.empty() ? "" : "; ", panel.first);
   notes.reserve(notes.size() + panels.size());
-  for (const Panel& panel : panels)
+  for (const MapPanel& panel : panels)
     notes.push_back(
         text("at ", rounded(ratio * 100, 2), " %, ", panel.first, ": two branches at ",
              torques_where(panel.second, [&](const JumpMapResult& a) { return a.two_branches[at] == 1; }),
@@ -327,7 +327,7 @@ bool two_branches(const JumpMapResult& a, Index c) {
   return a.two_branches[c] == 1;
 }
 
-const JumpMapResult* at_torque(const Panel& panel, double torque) {
+const JumpMapResult* at_torque(const MapPanel& panel, double torque) {
   for (const JumpMapResult* a : panel.second)
     if (a->torque == torque) return a;
   return nullptr;
@@ -340,7 +340,7 @@ struct SecondModel {
 };
 
 // first: the map whose damping ratios are named.
-SecondModel second_model_of(const Panel& panel, const JumpMapResult& first, Index at) {
+SecondModel second_model_of(const MapPanel& panel, const JumpMapResult& first, Index at) {
   SecondModel found;
   const JumpMapResult &a100 = *at_torque(panel, 100), &a200 = *at_torque(panel, 200),
                       &a300 = *at_torque(panel, 300);
@@ -355,14 +355,14 @@ SecondModel second_model_of(const Panel& panel, const JumpMapResult& first, Inde
 
 // A line for each panel, then what they have in common, then what (a), (b) and (c) mean. at: the case of the damping ratio.
 std::vector<std::string> lumped_notes(const std::vector<JumpMapResult>& maps,
-                                      const std::vector<Panel>& panels, Index at, double ratio,
+                                      const std::vector<MapPanel>& panels, Index at, double ratio,
                                       const JumpMapResult& reference) {
   const bool beside = is_elastic(*panels[0].second[0]), paper = pair_of_paper(maps[0]);
   const std::string percent = text(rounded(ratio * 100, 2), " %");
   const bool second_model =
       paper && at_torque(panels[0], 100) && at_torque(panels[0], 200) && at_torque(panels[0], 300);
   std::vector<std::string> notes, jumping, losing, low;
-  for (const Panel& panel : panels) {
+  for (const MapPanel& panel : panels) {
     const auto everywhere = [&](const auto& holds) {
       return std::all_of(panel.second.begin(), panel.second.end(),
                          [&](const JumpMapResult* a) { return holds(*a, at); });
@@ -430,7 +430,7 @@ FigureBlock cusps_of(const std::string& block_name, const JumpMapResult& panel,
 Figure jump_map_figure(std::vector<JumpMapResult> maps, const std::vector<FoldCurvesResult>& curves) {
   if (maps.empty()) fail(Failure::input, "a map of jumps needs one artifact at least");
   require_ascending(maps);
-  const std::vector<Panel> panels = map_panels(maps);
+  const std::vector<MapPanel> panels = map_panels(maps);
   const bool paper = pair_of_paper(maps[0]);
   Figure figure;
   figure.title = "Jumps, contact loss and tooth loads of the primary resonance";
@@ -475,7 +475,7 @@ Figure lumped_jump_map_figure(std::vector<JumpMapResult> maps) {
   std::erase_if(maps, [&](const JumpMapResult& a) { return is_elastic(a) && !same_corner(a, reference); });
   std::stable_partition(maps.begin(), maps.end(), is_elastic);
   require_ascending(maps);
-  std::vector<Panel> panels = map_panels(maps);
+  std::vector<MapPanel> panels = map_panels(maps);
   if (is_elastic(*panels[0].second[0])) panels[0].first = "elastic pair, " + panels[0].first;
 
   Figure figure;
@@ -490,7 +490,7 @@ Figure lumped_jump_map_figure(std::vector<JumpMapResult> maps) {
 
   // A column per model, below it the same with the damper in contact only.
   std::vector<std::string> columns;
-  for (const Panel& panel : panels)
+  for (const MapPanel& panel : panels)
     if (const std::string base = base_model(*panel.second[0]);
         std::find(columns.begin(), columns.end(), base) == columns.end())
       columns.push_back(base);

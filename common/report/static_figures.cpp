@@ -77,6 +77,45 @@ FigureBlock spectrum_block(const std::vector<StaticResult>& statics, const std::
   return block;
 }
 
+constexpr std::array kMarks{1, 6, 4, 2, 8, 12};  // + o square x triangle diamond
+
+// A curve for each label over a mesh period.
+Panel period_panel(const std::string& quantity, const std::string& block,
+                   const std::vector<std::string>& labels) {
+  Panel panel{.x = {.label = "Mesh phase (mesh periods, 0: pitch point)", .from = 0, .to = 1},
+              .y = {.label = quantity},
+              .key = PanelKey::none,
+              .height = 560};
+  constexpr std::array kDash{4, 3, 1, 1, 1, 1};
+  for (size_t i = 0; i < labels.size(); ++i)
+    panel.curves.push_back({.block = block,
+                            .y = static_cast<int>(i) + 2,
+                            .colour = static_cast<int>(i) + 1,
+                            .label = labels[i],
+                            .dash = kDash[i]});
+  return panel;
+}
+
+// Stems of the harmonics side by side, so that none hides another.
+Panel harmonics_panel(const std::string& quantity, const std::string& block,
+                      const std::vector<std::string>& labels) {
+  Panel panel{.x = {.label = "Harmonic of the mesh frequency", .from = 0.4, .to = kShownHarmonics + 0.6},
+              .y = {.label = quantity, .from_zero = true},
+              .height = 560};
+  for (size_t i = 0; i < labels.size(); ++i)
+    panel.curves.push_back(
+        {.block = block,
+         .y = static_cast<int>(i) + 2,
+         .style = PanelStyle::stems,
+         .colour = static_cast<int>(i) + 1,
+         .label = labels[i],
+         .width = 1.6,
+         .mark = kMarks[i],
+         .size = 2,
+         .shift = 0.15 * (static_cast<double>(i) - 0.5 * static_cast<double>(labels.size() - 1))});
+  return panel;
+}
+
 double wrapped(double phase) {
   return phase - std::floor(phase);
 }
@@ -92,10 +131,11 @@ Figure transmission_error_figure(const std::vector<StaticResult>& statics) {
       period_block(statics, "transmission_error", "µm", &StaticResult::transmission_error, kMicro));
   figure.blocks.push_back(spectrum_block(statics, "transmission_error", "µm",
                                          &StaticResult::transmission_error_harmonic, kMicro));
-  figure.numbers = {{"curves", static_cast<double>(statics.size())}};
-  std::string labels;
-  for (const auto& s : statics) labels += text("'", torque_label(s), "' ");
-  figure.words = {{"labels", labels}};
+  std::vector<std::string> labels;
+  for (const auto& s : statics) labels.push_back(torque_label(s));
+  figure.panels = {period_panel("Static transmission error (µm)", "transmission_error", labels),
+                   harmonics_panel("Amplitude (µm)", "transmission_error harmonics", labels)};
+  figure.columns = 2;
   return figure;
 }
 

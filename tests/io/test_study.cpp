@@ -418,7 +418,7 @@ TEST_CASE("a study's figure shows words of the study and runs none of them") {
   a.quantity = MatrixRM::Random(3, static_cast<Eigen::Index>(a.plan.quantities.size()));
   const Figure figure = study_figure(a);
   const Written table(plot_data(figure), "study.tsv");
-  const std::string svg = draw(figure, table.path, "pipelines/plots/study.gp", Picture::svg);
+  const std::string svg = draw(figure, table.path, template_of(figure, "pipelines/plots", "study"), Picture::svg);
   CHECK(svg.find("5 % of _it_") != std::string::npos);
   CHECK(svg.find("system(") != std::string::npos);
   CHECK(!std::filesystem::exists(mark));
@@ -438,7 +438,7 @@ TEST_CASE("a study's figure: vibration from 0 on, units as text has them") {
   const std::string data = plot_data(figure);
   CHECK(data.find("tip_relief_um [µm]\trms_max_up [µm]") != std::string::npos);
   const Written table(data, "study.tsv");
-  const std::string svg = draw(figure, table.path, "pipelines/plots/study.gp", Picture::svg);
+  const std::string svg = draw(figure, table.path, template_of(figure, "pipelines/plots", "study"), Picture::svg);
   CHECK(svg.find(">0</tspan>") != std::string::npos);
 }
 
@@ -459,7 +459,7 @@ TEST_CASE("a study's figure of many keys: numbers below an axis stand apart") {
   a.quantity = MatrixRM::Random(4, static_cast<Eigen::Index>(a.plan.quantities.size()));
   const Figure figure = study_figure(a);
   const Written table(plot_data(figure), "study.tsv");
-  const std::string svg = draw(figure, table.path, "pipelines/plots/study.gp", Picture::svg);
+  const std::string svg = draw(figure, table.path, template_of(figure, "pipelines/plots", "study"), Picture::svg);
   // Texts about a middle: numbers of axes and names.
   std::map<std::string, std::vector<double>> by_height;
   const std::string before = "<g transform=\"translate(";

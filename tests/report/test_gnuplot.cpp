@@ -204,7 +204,8 @@ TEST_CASE(
   CHECK(curve.rows.back()[1] == curve.rows.front()[1]);
   CHECK(curve.rows[0][1] == high.transmission_error[0] * 1e6);
   CHECK(curve.rows[0][2] == low.transmission_error[0] * 1e6);
-  CHECK(te.words.front().second == "'300 N m' '100 N m' ");
+  CHECK(te.panels[0].curves[0].label == "300 N m");
+  CHECK(te.panels[0].curves[1].label == "100 N m");
   CHECK(block(te, "transmission_error harmonics").rows.size() == 10);
 
   const Figure k = mesh_stiffness_figure({low, high});

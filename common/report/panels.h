@@ -1,0 +1,78 @@
+// A figure that is panels of curves, marks and bars over two axes: what it shows, free of how gnuplot says it.
+//
+// Words here are text in which gnuplot reads marks such as '_' (subscript): names of files and gears go through without_markup().
+#pragma once
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace whine {
+
+inline constexpr double kAutomatic =
+    std::numeric_limits<double>::quiet_NaN();  // an end of an axis that the data decide
+
+// Places of common.gp's `colour`: the first six tell curves apart.
+enum PanelColour { kBlue = 1, kVermilion, kGreen, kPurple, kOrange, kDark, kBlack, kGrey, kPale, kShade };
+
+enum class PanelStyle {
+  line,
+  points,
+  line_points,
+  stems,  // from 0 to y, with a mark on top
+  bars,   // upright, `width` on the x axis
+  rows,   // lying, from 0 to y; x is the row
+  spans   // shaded from column x to column y over all of the panel
+};
+
+// Of line_points the line has all rows, the marks stand at every `every`th.
+struct PanelCurve {
+  std::string block = {};  // of figure.blocks, by its name; "": of the key alone
+  int x = 1, y = 2;        // columns, the first is 1
+  PanelStyle style = PanelStyle::line;
+  int colour = kBlue;      // of PanelColour
+  std::string label = {};  // in the key; "": not there
+  double width = 2.4;      // of the line; of bars in units of x, of rows in rows
+  int dash = 1;            // 1: solid, 2 to 7: others
+  int mark = 7;            // gnuplot's pt
+  double size = 1.2;       // of a mark
+  int every = 1, first = 0;
+  double shift = 0;               // along x
+  int where = 0;                  // a column: only rows in which it is above 0; 0: all
+  std::optional<double> at = {};  // y of all rows, in place of the column
+};
+
+// A straight line across a panel: at a value of x or of y.
+struct PanelRule {
+  char axis = 'x';
+  double at = 0;
+  std::string label = {};  // beside it, at its upper end; of a line at y at the right end
+  int colour = kGrey, dash = 2;
+  bool in_key = false;  // its label stands in the key
+};
+
+struct PanelAxis {
+  std::string label = {};
+  double from = kAutomatic, to = kAutomatic;
+  bool log = false;
+  double decades = 6;                   // most that an automatic logarithmic axis shows
+  bool from_zero = false;               // an automatic one begins at 0
+  bool speed = false;                   // mesh frequency in Hz, which engineering_axes can turn into rpm
+  bool level = false;                   // amplitudes in µm that it can turn into dB
+  std::vector<std::string> names = {};  // at 1, 2, ... in place of numbers
+};
+
+enum class PanelKey { right, below, none };
+
+struct Panel {
+  std::string heading = {};  // above it, behind its letter; lines apart by '\n'
+  PanelAxis x = {}, y = {};
+  std::optional<PanelAxis> top = {};  // the x axis in another unit: label alone
+  double top_factor = 1;              // value of the axis above over that of x
+  std::vector<PanelCurve> curves = {};
+  std::vector<PanelRule> rules = {};
+  PanelKey key = PanelKey::right;
+  int height = 360;  // pixels of its frame; of panels side by side the largest counts
+};
+
+}  // namespace whine
