@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/dense.h"
 #include "base/error.h"
 #include "base/progress.h"
 #include "orbits/recurrence.h"
@@ -17,12 +16,9 @@ using State = RollingDynamics::State;
 
 namespace {
 
-constexpr int kMostPeriods = 3000;   // mesh periods per speed, before it counts as not periodic
-constexpr int kLeastTurns = 100;     // but this many hunting periods
-constexpr int kAndersonColumns = 2;  // as many multipliers go at once: the slowest two, of one resonance
-constexpr double kClose = 1e-2;      // change per period below which the motion counts as close to its orbit
-constexpr double kFarAlong = 2.5;    // of the last step along a branch: further it does not predict
-constexpr int kLongestPause = 64;    // periods of plain integration after proposals that gained nothing
+constexpr int kMostPeriods = 3000;  // mesh periods per speed, before it counts as not periodic
+constexpr int kLeastTurns = 100;    // but this many hunting periods
+constexpr double kFarAlong = 2.5;   // of the last step along a branch: further it does not predict
 
 double oscillating_rms(const std::vector<RollingDynamics::Period>& record) {
   double sum = 0, square = 0;
@@ -45,9 +41,9 @@ void begin_with_end_of(const RollingDynamics::Period& before, RollingDynamics::P
     if (period.bearing_force[g].size() > 0) period.bearing_force[g].col(0) = before.bearing_force[g].col(0);
 }
 
-// Sum of weight times state. States of another range know more or fewer teeth than the last, or have other strips, whose
-// forces are then those of the last; only an energy balance reads them.
-State combination(const std::vector<const State*>& states, const VectorXd& weight) {
+}  // namespace
+
+State RollingStates::combination(const std::vector<const State*>& states, const VectorXd& weight) {
   const State& last = *states.back();
   State sum = last;
   const Eigen::Index n = weight.size();
@@ -76,169 +72,79 @@ State combination(const std::vector<const State*>& states, const VectorXd& weigh
   return sum;
 }
 
-}  // namespace
+namespace {
 
-bool AndersonAcceleration::ready() const {
-  return last_ && static_cast<int>(known_.size()) == kAndersonColumns;
-}
-
-void AndersonAcceleration::take(const RollingDynamics& dynamics, const State& start, const State& end) {
-  const VectorXd change = dynamics.difference(end, start);
-  in_a_row_ = last_ && dynamics.distance(start, last_->end) == 0 ? in_a_row_ + 1 : 1;
-  if (last_) {
-    known_.push_back({combination({&last_->end, &end}, Eigen::Vector2d(-1, 1)),
-                      dynamics.difference(start, last_->start), change - last_->change});
-    if (static_cast<int>(known_.size()) > kAndersonColumns) known_.pop_front();
-  }
-  last_ = {start, end, change};
-}
-
-std::optional<State> AndersonAcceleration::propose() const {
-  constexpr double kAlike = 1e-3;  // columns of unit length that differ by less say nothing new
-  // Turns in a row come to show the slowest multipliers; of others, some of them of another speed, one may seem to be smaller
-  // than it is, by some hundredths.
-  constexpr double kSurelyInside = 0.9;
-  const double most = in_a_row_ > kAndersonColumns ? 1 : kSurelyInside;
-  const int n = static_cast<int>(known_.size());
-  MatrixXd start(last_->change.size(), n), change(last_->change.size(), n);
-  VectorXd length(n);
-  for (int i = 0; i < n; ++i) {
-    length[i] = known_[i].change.norm();
-    if (!(length[i] > 0)) return std::nullopt;
-    start.col(i) = known_[i].start / length[i];
-    change.col(i) = known_[i].change / length[i];
-  }
-  const MatrixXd map = MatrixXd::Identity(n, n) + least_squares(start, change, kAlike);
-  const GeneralEigenvalues multipliers = general_eigenvalues(map);
-  if (!multipliers.converged || !(multipliers.values.cwiseAbs().maxCoeff() < most)) return std::nullopt;
-  VectorXd weight(n + 1);
-  weight << -least_squares(change, last_->change, kAlike).cwiseQuotient(length), 1;
-  std::vector<const State*> states;
-  for (const AndersonColumn& column : known_) states.push_back(&column.end);
-  states.push_back(&last_->end);
-  return combination(states, weight);
-}
-
-// Orders of subharmonics are in hunting periods.
-// NOLINTNEXTLINE(readability-function-size): one loop over mesh periods, whose parts share the proposal, the recurrence and the state
-std::optional<Orbit> iterate_to_orbit(RollingDynamics& dynamics, State& state, double periodicity,
-                                      SteadyState method, const RmsRange& looked_for,
-                                      AndersonAcceleration* shared) {
+// Turns are hunting periods, which are mesh periods for teeth that are alike.
+class RollingOrbit : public RollingStates {
+ public:
+  RollingOrbit(RollingDynamics& dynamics, const RmsRange& looked_for, int most_turns)
+      : RollingStates{dynamics},
+        looked_for_(looked_for),
+        hunting_(dynamics.hunting_periods()),
+        most_(most_turns),
+        watched_(hunting_ == 1 && (looked_for.least > 0 || std::isfinite(looked_for.most))) {}
   Orbit orbit;
-  AndersonAcceleration own;
-  AndersonAcceleration& acceleration = shared ? *shared : own;
-  acceleration.interrupt();
-  // The map whose orbits are looked for: a hunting period, which is a mesh period for teeth that are alike.
-  const int hunting = dynamics.hunting_periods(), most = std::max(kMostPeriods / hunting, kLeastTurns);
-  const bool watched = hunting == 1 && (looked_for.least > 0 || std::isfinite(looked_for.most));
-  Recurrence<State> recurrence(periodicity, state);
-  RollingDynamics::Period period;
-  State start = state;  // of the last turn
-  struct Proposal {
-    State integrated;      // where integration had come to
-    double change = 0;     // in its last period
-    bool pending = false;  // the present state descends from it
-  } proposal;
-  bool proposed = false;  // the present state may descend from one, also where another one was rejected since
-  int pause = 0, patience = 0;
-  const auto integrate_on = [&] {
-    pause = patience = std::min(2 * patience + kAndersonColumns, kLongestPause);
-    acceleration.forget();
-  };
-  const auto reject = [&] {
-    integrate_on();
-    proposal.pending = false;
-    state = proposal.integrated;
-    recurrence.restart(state);
-  };
-  int turns = 0;
-  const auto turn = [&] {
-    start = state;
-    ++turns;
-    try {
-      for (int k = 0; k < hunting; ++k) {
-        report_step("mesh period", static_cast<long>(turns - 1) * hunting + k,
-                    static_cast<long>(most) * hunting);
-        if (!dynamics.integrate(state, period)) return false;
-      }
-    } catch (const Error& error) {  // a proposal may lie where no motion does
-      if (!proposal.pending || error.kind() != Failure::numerical) throw;
-      return false;
+
+  bool turn(State& state, int number) {
+    wanted_ = true;
+    for (int k = 0; k < hunting_; ++k) {
+      report_step("mesh period", static_cast<long>(number) * hunting_ + k,
+                  static_cast<long>(most_) * hunting_);
+      if (!dynamics.integrate(state, period_)) return false;
+    }
+    if (!watched_) return true;
+    const double rms = oscillating_rms({period_});
+    wanted_ = rms >= looked_for_.least && rms <= looked_for_.most;
+    if (!wanted_) {
+      orbit.rms = rms;
+      orbit.record.assign(1, period_);
     }
     return true;
-  };
-  for (int n = 1;; ++n) {
-    if (!turn()) {
-      if (!proposal.pending) return std::nullopt;
-      reject();
-      continue;
-    }
-    if (watched) {
-      const double rms = oscillating_rms({period});
-      if (!(rms >= looked_for.least && rms <= looked_for.most)) {
-        if (proposal.pending) {
-          reject();
-          continue;
-        }
-        orbit.multiple = 0;
-        orbit.periods = n;
-        orbit.rms = rms;
-        orbit.record.assign(1, period);
-        return orbit;
-      }
-    }
-    recurrence.compare(state, n, [&](const State& a, const State& b) { return dynamics.distance(a, b); });
-    const int multiple = recurrence.multiple();
-    if (multiple > 0 || n >= most) {
-      // Not periodic: reported as such, with the last periods as they are.
-      const State reached = state;
-      orbit.multiple = multiple * hunting;
-      orbit.periods = n * hunting;
-      orbit.residual = recurrence.change(std::max(multiple, 1));
-      orbit.energy_balance = {};
-      orbit.record.clear();
-      const int recorded = hunting * (multiple > 0  ? multiple
-                                      : hunting > 1 ? 1
-                                                    : Recurrence<State>::kMostMultiple);
-      RollingDynamics::Period before = period;
-      for (int k = 0; k < recorded; ++k) {
-        if (!dynamics.integrate(state, period, watched ? nullptr : &orbit.energy_balance))
-          return std::nullopt;
-        orbit.record.push_back(period);
-        // An integration ends with the first sample of the period after it.
-        if (recorded > 1) begin_with_end_of(before, orbit.record.back());
-        before = period;
-      }
-      // A proposal may have hit an unstable orbit: then the period just recorded was a step away from it.
-      const bool leaves =
-          proposed && multiple == 1 && n < most && dynamics.distance(state, reached) > orbit.residual;
-      if (!leaves) {
-        orbit.rms = oscillating_rms(orbit.record);
-        return orbit;
-      }
-      ++n;
-      integrate_on();
-    }
-    recurrence.keep(state, n);
-
-    if (method == SteadyState::integrate) continue;
-    if (proposal.pending && recurrence.change(1) > proposal.change) {
-      reject();
-      continue;
-    }
-    if (pause > 0) {
-      --pause;
-      continue;
-    }
-    acceleration.take(dynamics, start, state);
-    if (!acceleration.ready() || recurrence.change(1) >= kClose) continue;
-    if (const auto predicted = acceleration.propose()) {
-      proposal = {state, recurrence.change(1), true};
-      proposed = true;
-      state = *predicted;
-      recurrence.restart(state);
-    }
   }
+  bool wanted() const { return wanted_; }
+  // Of a motion that is not periodic the last periods as they are.
+  bool record(State& state, const Repetition& found, bool /*confirm*/) {
+    orbit.energy_balance = {};
+    orbit.record.clear();
+    const int recorded = hunting_ * (found.multiple > 0 ? found.multiple
+                                     : hunting_ > 1     ? 1
+                                                        : Recurrence<State>::kMostMultiple);
+    RollingDynamics::Period before = period_;
+    for (int k = 0; k < recorded; ++k) {
+      if (!dynamics.integrate(state, period_, watched_ ? nullptr : &orbit.energy_balance)) return false;
+      orbit.record.push_back(period_);
+      // An integration ends with the first sample of the period after it.
+      if (recorded > 1) begin_with_end_of(before, orbit.record.back());
+      before = period_;
+    }
+    orbit.rms = oscillating_rms(orbit.record);
+    return true;
+  }
+
+ private:
+  const RmsRange looked_for_;
+  const int hunting_, most_;
+  const bool watched_;
+  bool wanted_ = true;
+  RollingDynamics::Period period_;
+};
+
+}  // namespace
+
+std::optional<Orbit> iterate_to_orbit(RollingDynamics& dynamics, State& state, double periodicity,
+                                      SteadyState method, const RmsRange& looked_for,
+                                      RollingAcceleration* shared) {
+  const int hunting = dynamics.hunting_periods(), most = std::max(kMostPeriods / hunting, kLeastTurns);
+  RollingOrbit motion(dynamics, looked_for, most);
+  RollingAcceleration own;
+  const auto found =
+      iterate(motion, state, {periodicity, most, method == SteadyState::extrapolate}, shared ? *shared : own);
+  if (!found) return std::nullopt;
+  // Orders of subharmonics are in hunting periods.
+  motion.orbit.multiple = found->multiple * hunting;
+  motion.orbit.periods = found->turns * hunting;
+  motion.orbit.residual = found->residual;
+  return std::move(motion.orbit);
 }
 
 State predicted(const RollingDynamics& dynamics, const std::vector<KnownOrbit>& branch,
@@ -266,13 +172,13 @@ State predicted(const RollingDynamics& dynamics, const std::vector<KnownOrbit>& 
         VectorXd weight(3);
         weight << s * (s - s1) / (s0 * (s0 - s1)), s * (s - s0) / (s1 * (s1 - s0)),
             (s - s0) * (s - s1) / (s0 * s1);
-        return combination({&first.state, &before.state, &last.state}, weight);
+        return RollingStates::combination({&first.state, &before.state, &last.state}, weight);
       }
     }
   }
   const double s = ahead / run;
   if (!(s > 0 && s < kFarAlong)) return last.state;
-  return combination({&before.state, &last.state}, Eigen::Vector2d(-s, 1 + s));
+  return RollingStates::combination({&before.state, &last.state}, Eigen::Vector2d(-s, 1 + s));
 }
 
 }  // namespace whine

@@ -1,12 +1,12 @@
 // The periodic motion that a rolling pair settles into at one speed.
 #pragma once
-#include <deque>
 #include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "dynamics/dynamics.h"
+#include "orbits/iteration.h"
 
 namespace whine {
 
@@ -26,46 +26,29 @@ struct RmsRange {
   double least = 0, most = std::numeric_limits<double>::infinity();
 };
 
-// How the change of a state in a period depends on the state, as the last periods have shown it: of neighbouring speeds nearly
-// the same, so a speed begins with what the one before it has shown.
-class AndersonAcceleration {
- public:
-  void forget() { *this = {}; }
-  // What comes is of another speed, or does not go on from what was taken last.
-  void interrupt() { last_.reset(); }
-  void take(const RollingDynamics& dynamics, const RollingDynamics::State& start,
-            const RollingDynamics::State& end);
-  bool ready() const;  // for propose()
-  // Where the change vanishes, as far as the acceleration's columns see it (Anderson's method; Fang and Saad, Numer. Linear
-  // Algebra Appl. 16 (2009) 197, type II). Nothing if a multiplier that they show is not inside the unit circle: what lies
-  // there is no orbit that integration could find.
-  std::optional<RollingDynamics::State> propose() const;
+// The states of a rolling pair, for iterate().
+struct RollingStates {
+  using State = RollingDynamics::State;
+  static constexpr int kColumns = 2;  // as many multipliers go at once: the slowest two, of one resonance
+  RollingDynamics& dynamics;
 
- private:
-  struct Turn {
-    RollingDynamics::State start, end;
-    Eigen::VectorXd change;
-  };
-  struct AndersonColumn {  // differences of two turns
-    RollingDynamics::State end;
-    Eigen::VectorXd start, change;
-  };
-  std::optional<Turn> last_;
-  int in_a_row_ = 0;  // turns, each from where the one before it ended
-  std::deque<AndersonColumn> known_;
+  Eigen::VectorXd difference(const State& a, const State& b) const { return dynamics.difference(a, b); }
+  double distance(const State& a, const State& b) const { return dynamics.distance(a, b); }
+  // Sum of weight times state. States of another range know more or fewer teeth than the last, or have other strips, whose
+  // forces are then those of the last; only an energy balance reads them.
+  static State combination(const std::vector<const State*>& states, const Eigen::VectorXd& weight);
 };
+using RollingAcceleration = AndersonAcceleration<RollingStates>;
 
 // Integrates from `state` until it repeats to `periodicity` (relative, RollingDynamics::distance) over a hunting period, which
 // is a mesh period for teeth that are alike; `state` is then at the start of a mesh period on the orbit. method integrate:
-// plain integration, as a rig would. extrapolate: once the motion is close, Anderson acceleration of the map that a period is
-// takes its slow multipliers out. It is used only where these lie inside the unit circle, and a state that they propose counts
-// only if integrating on comes closer still: an unstable orbit is left again. Of teeth that are alike a motion whose RMS leaves
-// `looked_for` is given up, not periodic, its last period as it is; with `looked_for` no energy balance is recorded. Empty if
-// contact leaves the candidate zone; the state is then undefined. shared: columns of a speed nearby to begin
-// with, then of this one.
+// plain integration, as a rig would; extrapolate: with Anderson's method, see iterate(). Of teeth that are alike a motion whose
+// RMS leaves `looked_for` is given up, not periodic, its last period as it is; with `looked_for` no energy balance is recorded.
+// Empty if contact leaves the candidate zone; the state is then undefined. shared: columns of a speed nearby to begin with, then
+// of this one.
 std::optional<Orbit> iterate_to_orbit(RollingDynamics& dynamics, RollingDynamics::State& state,
                                       double periodicity, SteadyState method, const RmsRange& looked_for = {},
-                                      AndersonAcceleration* shared = nullptr);
+                                      RollingAcceleration* shared = nullptr);
 
 // A state on the orbit of one mesh period at a speed.
 struct KnownOrbit {

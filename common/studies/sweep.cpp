@@ -84,7 +84,7 @@ class Sweeper {
   int reach() const { return levels_.reach(); }
   double natural_frequency() { return levels_.natural_frequency(); }
   RollingDynamics::State& state() { return state_; }
-  AndersonAcceleration& acceleration() { return acceleration_; }  // to begin the next run with
+  RollingAcceleration& acceleration() { return acceleration_; }  // to begin the next run with
 
   // Runs at this speed from the present state until the state repeats, or as iterate_to_orbit() has it.
   Orbit run(double mesh_frequency, const RmsRange& looked_for = {}) {
@@ -154,7 +154,7 @@ class Sweeper {
   int finest_ = 0, level_ = 0, hunting_ = 1;
   ZoneLevels levels_;
   RollingDynamics::State state_;
-  AndersonAcceleration acceleration_;
+  RollingAcceleration acceleration_;
 };
 
 BranchPoint branch_point(double mesh_frequency, const Orbit& orbit) {
@@ -201,12 +201,12 @@ BranchContinuation follow_motion(Sweeper& sweeper, const std::vector<BranchMotio
   struct Run {
     Orbit orbit;
     KnownOrbit end;
-    AndersonAcceleration acceleration;
+    RollingAcceleration acceleration;
   };
   struct Branch {
     std::vector<Run> runs;
     std::vector<KnownOrbit> known;
-    AndersonAcceleration acceleration;
+    RollingAcceleration acceleration;
     double rms = 0;
     bool single = false;
   };

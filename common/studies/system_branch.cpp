@@ -146,7 +146,7 @@ class Follower {
       }
       if (motion.multiple != 1)
         fail(Failure::numerical, "at ", at, " Hz, where the branch begins, the motion ",
-             motion.multiple == 0 ? text("does not repeat within ", motion.periods, " mesh periods")
+             motion.multiple == 0 ? text("does not repeat within ", motion.turns, " mesh periods")
                                   : text("repeats after ", motion.multiple, " mesh periods"),
              "; give mesh_frequency_Hz another upper end");
       return resume(map_->state(motion.state), at, steps);

@@ -170,7 +170,7 @@ class SystemSweeper {
       out.least_force = std::min(out.least_force, period.least_force);
     }
     recorded.give(row, out);
-    out.periods[row] = motion.periods * hunting;
+    out.periods[row] = motion.turns * hunting;
     out.period_multiple[row] = motion.multiple * hunting;
     out.residual[row] = motion.residual;
     out.energy_imbalance[row] = imbalance / out.energy(row, kThroughputLine);

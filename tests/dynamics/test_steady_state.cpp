@@ -100,7 +100,7 @@ TEST_CASE("the columns of one speed save periods at the next, on the same orbits
   Rig rig(128);
   int alone = 0, together = 0;
   State state = rig.carried(2000, 2100, 128), shared_state = state;
-  AndersonAcceleration acceleration;
+  RollingAcceleration acceleration;
   for (double f = 2120; f <= 2400; f += 20) {
     rig.dynamics.set_speed(f, 128);
     const auto one = iterate_to_orbit(rig.dynamics, state, 1e-7, SteadyState::extrapolate),
@@ -122,13 +122,13 @@ TEST_CASE("where mesh periods alternate, extrapolation does not stay on the unst
   Rig rig(128, 2e-6, false);
   bool subharmonic = false;
   State state = rig.dynamics.rest();
-  AndersonAcceleration acceleration;  // of the speeds where mesh periods do not alternate
+  RollingAcceleration acceleration;  // of the speeds where mesh periods do not alternate
   for (double f = 5500; f <= 6200; f += 200) {
     rig.dynamics.set_speed(f, 128);
     const State start = state;
     const auto slow = iterate_to_orbit(rig.dynamics, state, 1e-6, SteadyState::integrate);
     REQUIRE(slow);
-    for (AndersonAcceleration* known : {static_cast<AndersonAcceleration*>(nullptr), &acceleration}) {
+    for (RollingAcceleration* known : {static_cast<RollingAcceleration*>(nullptr), &acceleration}) {
       State extrapolated = start;
       const auto fast =
           iterate_to_orbit(rig.dynamics, extrapolated, 1e-6, SteadyState::extrapolate, {}, known);
@@ -158,7 +158,7 @@ TEST_CASE(
     "where mesh periods begin to alternate, an orbit of one period that is found stays one when integrated on") {
   Rig rig(128, 2e-6, false);
   State state = rig.carried(5500, 5600, 128);
-  AndersonAcceleration acceleration;
+  RollingAcceleration acceleration;
   int single = 0, alternating = 0;
   for (double f = 5610; f <= 5720; f += 10) {
     rig.dynamics.set_speed(f, 128);
