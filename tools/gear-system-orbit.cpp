@@ -28,10 +28,19 @@ void body(int argc, char** argv) {
                          "gear-system-orbit"};
   std::string params, output;
   std::vector<std::string> bodies;
-  whine::SystemBranchPlan plan;
+  std::string way;
+  whine::BranchPlan plan;
   options.add("--params", params, "stage parameters of the scene: out/<scene>/params/system_sweep.toml")
       .required();
   options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
+  options
+      .add(
+          "--from-sweep", way,
+          "begin with the motion that a sweep in this direction has at the speed --at, in place of the one at rest at the highest speed")
+      .one_of({"up", "down"});
+  options.add("--at", plan.at, "mesh frequency of that motion in Hz");
+  options.add("--periods", plan.most_periods,
+              "1, 2 or 4: beyond period doublings follow orbits of up to so many mesh periods (default: 1)");
   options.add("--tolerance", plan.tolerance,
               "relative change of the state over an orbit, 1e-12 to 1e-3 (default: 1e-9)");
   options.add("--output", output, "system_branch.h5 to write").required();
@@ -39,6 +48,10 @@ void body(int argc, char** argv) {
       "Example:\n"
       "  gear-system-orbit --params out/three-in-line/params/system_sweep.toml --body pinion=out/three-in-line/pinion/body.h5 --body idler=out/three-in-line/idler/body.h5 --body wheel=out/three-in-line/wheel/body.h5 --output system_branch.h5");
   options.parse(argc, argv);
+  if (way.empty() != (plan.at == 0))
+    whine::fail(whine::Failure::usage,
+                "--from-sweep and --at go together: the sweep and the speed of its motion");
+  if (!way.empty()) plan.sweep = whine::choice_of<whine::Direction>(way);
 
   const whine::NamedFiles files("--body", bodies);
   const whine::Provenance provenance = whine::made_by(argc, argv, files.and_inputs({"params=" + params}));

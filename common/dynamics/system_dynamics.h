@@ -88,6 +88,7 @@ class SystemDynamics {
   int meshes() const { return static_cast<int>(system_.mesh.size()); }
   int slots() const { return meshes() * pairs(); }
   int pairs() const { return last_ - first_ + 1; }  // of a mesh
+  int first_pair() const { return first_; }
   int relaxed_size() const { return relaxed_first_.back(); }
   int steps() const { return steps_; }
   int hunting_periods() const { return hunting_; }  // see hunting_periods() of the system

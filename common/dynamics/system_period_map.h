@@ -27,14 +27,11 @@ class SystemPeriodMap : public PeriodMap {
   Eigen::MatrixXd tangent_times(const Eigen::MatrixXd& directions) override;
   std::vector<ContactEvent> events() const override;  // contact: the slot
   Eigen::VectorXd observable() const override;        // transmission error of the first mesh
-  // The largest that `measure` gives of the periods; empty without.
-  Eigen::VectorXd peaks(int number, int /*periods*/) override {
-    if (!measure_) return {};
-    const Eigen::VectorXd own = measure_(period_);
-    peaks_ = number == 0 ? own : Eigen::VectorXd(peaks_.cwiseMax(own));
-    return peaks_;
+  // What `measure` gives of a period and those before it, with its number and those of the orbit; empty without.
+  Eigen::VectorXd peaks(int number, int periods) override {
+    return measure_ ? measure_(period_, number, periods) : Eigen::VectorXd();
   }
-  using Measure = std::function<Eigen::VectorXd(const SystemDynamics::Period&)>;
+  using Measure = std::function<Eigen::VectorXd(const SystemDynamics::Period&, int, int)>;
   void measure(Measure of) { measure_ = std::move(of); }
 
   // Whether the period applied last left the tip edges that are looked at.
@@ -53,7 +50,6 @@ class SystemPeriodMap : public PeriodMap {
   int steps_;
   bool left_zone_ = false, left_last_ = false, applied_ = false;
   Measure measure_;
-  Eigen::VectorXd peaks_;  // of the periods so far
   Eigen::VectorXd unit_, rest_;
   SystemDynamics::Period period_;
 };

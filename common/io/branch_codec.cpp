@@ -29,16 +29,6 @@ void describe_points(Codec& c, BranchResult& a) {
   describe_stability(c, a);
 }
 
-void describe_events(Codec& c, BranchResult& a) {
-  describe_folds(c, a);
-  c(a.grazing_frequency, "/grazing_frequency", "Hz", kFrequency, "grazing",
-    "mesh frequency at which the sequence of contacts changes");
-  c(a.grazing_phase, "/grazing_phase", "1", kShare, "grazing",
-    "mesh phase of the contact that comes or goes");
-  c(a.grazing_pair, "/grazing_pair", "1", kPair, "grazing", "its tooth pair");
-  c(a.grazing_closes, "/grazing_closes", "1", kFlag, "grazing", "1: it closes, 0: it opens");
-}
-
 }  // namespace
 
 void describe(Codec& c, BranchResult& a) {
@@ -46,7 +36,7 @@ void describe(Codec& c, BranchResult& a) {
   describe_motion(c, a);
   describe_torque(c, a.torque);
   describe_points(c, a);
-  describe_events(c, a);
+  describe_folds(c, a);
   c(a.end, "/end", "", "why the branch was followed no further");
 }
 

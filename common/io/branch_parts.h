@@ -15,18 +15,16 @@ void describe_stability(Codec& c, Branch& a) {
     "multipliers over the orbit, largest modulus first: real and imaginary part");
   c(a.stable, "/stable", "1", kFlag, "point", "1: all multipliers lie inside the unit circle");
   c(a.steps, "/steps", "1", kNumber, "point", "time steps per mesh period");
-  if constexpr (requires { a.period_multiple; }) {
-    c(a.period_multiple, "/period_multiple", "1", kNumber, "point",
-      "mesh periods after which the orbit repeats");
-    c(a.part, "/branch", "1", kNumber, "point",
-      "number of the part: its points follow each other along the arc; parts begin at one orbit or beside a period doubling");
-  }
+  c(a.period_multiple, "/period_multiple", "1", kNumber, "point",
+    "mesh periods after which the orbit repeats");
+  c(a.part, "/branch", "1", kNumber, "point",
+    "number of the part: its points follow each other along the arc; parts begin at one orbit or beside a period doubling");
   c(a.residual, "/residual", "1", {0, 1e300}, "point", "relative change of the state over the orbit");
   c(a.segment_mismatch, "/segment_mismatch", "1", kPositive, "segment",
     "relative change of the orbit where the number of steps changes");
 }
 
-// Where the branch turns and orbits lose their stability. The RMS of a fold is that of pairs.
+// Where the branch turns, orbits lose their stability and contacts begin to come or go. The RMS of a fold is that of pairs.
 template <class Branch>
 void describe_folds(Codec& c, Branch& a) {
   using namespace ranges;
@@ -46,6 +44,14 @@ void describe_folds(Codec& c, Branch& a) {
   c(a.torus_frequency, "/torus_frequency", "Hz", kFrequency, "torus",
     "mesh frequency at which the modulus of a complex pair of multipliers passes 1");
   c(a.torus_width, "/torus_width", "Hz", kFrequency, "torus", "as fold_width");
+  c(a.grazing_frequency, "/grazing_frequency", "Hz", kFrequency, "grazing",
+    "mesh frequency at which the sequence of contacts changes");
+  c(a.grazing_phase, "/grazing_phase", "1", kShare, "grazing",
+    "mesh phase of the contact that comes or goes");
+  if constexpr (requires { a.grazing_mesh; })
+    c(a.grazing_mesh, "/grazing_mesh", "1", kNumber, "grazing", "its mesh, the number of its axis");
+  c(a.grazing_pair, "/grazing_pair", "1", kPair, "grazing", "its tooth pair");
+  c(a.grazing_closes, "/grazing_closes", "1", kFlag, "grazing", "1: it closes, 0: it opens");
 }
 
 }  // namespace whine

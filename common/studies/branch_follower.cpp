@@ -5,9 +5,6 @@
 #include <optional>
 
 #include "base/error.h"
-#include "base/model_range.h"
-#include "contact/lanes.h"
-#include "dynamics/steady_state.h"
 #include "studies/sweep.h"
 
 namespace whine {
@@ -45,10 +42,8 @@ void note_most_segments(OrbitBranch& branch) {
 
 namespace {
 
-BranchSettings branch_settings(const SweepParameters& stage_settings, int steps, bool at_folds,
-                               double tolerance) {
-  BranchSettings settings =
-      segment_speeds(stage_settings.time, stage_settings.frequency_from, stage_settings.frequency_to, steps);
+BranchSettings branch_settings(const BranchSpeeds& speeds, int steps, bool at_folds, double tolerance) {
+  BranchSettings settings = segment_speeds(speeds.time, speeds.from, speeds.to, steps);
   settings.first_step = 0.02;
   settings.largest_step = at_folds ? 0.25 : 0.06;
   settings.straight = at_folds ? 0.95 : 0.99;
@@ -61,56 +56,64 @@ BranchSettings branch_settings(const SweepParameters& stage_settings, int steps,
 
 }  // namespace
 
-BranchFollower::BranchFollower(RollingDynamics& dynamics, const GearMeshModel& model,
-                               const StaticResult& statics, const SweepParameters& settings, Look look,
-                               double tolerance)
-    : dynamics_(dynamics),
-      model_(model),
-      statics_(statics),
-      settings_(settings),
-      look_(look),
-      tolerance_(tolerance),
-      finest_(steps_at(settings.time, settings.frequency_from)) {}
+template <class Rig>
+BranchFollower<Rig>::BranchFollower(Rig& rig, const BranchSpeeds& speeds, Look look, double tolerance)
+    : rig_(rig), speeds_(speeds), look_(look), tolerance_(tolerance) {}
 
-std::vector<BranchSegment> BranchFollower::follow(const Report& report) {
-  const double high = settings_.frequency_to;
-  const int steps = steps_at(settings_.time, high);
-  begin(high, steps);
-  std::vector<BranchSegment> segments;
-  run(steps, -1, 0, report, segments);
-  return segments;
+template <class Rig>
+auto BranchFollower<Rig>::follow(const BranchPlan& plan, const Report& report)
+    -> const std::vector<Segment>& {
+  if (plan.most_periods != 1 && plan.most_periods != 2 && plan.most_periods != 4)
+    fail(Failure::input, "orbits of ", plan.most_periods, " mesh periods are not followed; give 1, 2 or 4");
+  if (!(plan.tolerance >= 1e-12 && plan.tolerance <= 1e-3))
+    fail(Failure::input, "an orbit's tolerance of ", plan.tolerance, "; give 1e-12 to 1e-3");
+  if (!(speeds_.from > 0) || !(speeds_.to > speeds_.from))
+    fail(Failure::input, "a branch needs speeds to go through: mesh_frequency_Hz is from ", speeds_.from,
+         " to ", speeds_.to, " Hz");
+  tolerance_ = plan.tolerance;
+  plan.sweep ? follow_from_sweep(*plan.sweep, plan.at, report) : follow(report);
+  follow_flips(plan.most_periods, report);
+  return segments_;
 }
 
-std::vector<BranchSegment> BranchFollower::follow_from_sweep(Direction direction, double at,
-                                                             const Report& report) {
-  if (!(at >= settings_.frequency_from && at <= settings_.frequency_to))
-    fail(Failure::input, "a branch cannot begin at ", at, " Hz: mesh_frequency_Hz is from ",
-         settings_.frequency_from, " to ", settings_.frequency_to, " Hz");
+template <class Rig>
+auto BranchFollower<Rig>::follow(const Report& report) -> const std::vector<Segment>& {
+  const int steps = steps_at(speeds_.time, speeds_.to);
+  begin(speeds_.to, steps);
+  run(steps, -1, 0, report);
+  return segments_;
+}
+
+template <class Rig>
+auto BranchFollower<Rig>::follow_from_sweep(Direction direction, double at, const Report& report)
+    -> const std::vector<Segment>& {
+  if (!(at >= speeds_.from && at <= speeds_.to))
+    fail(Failure::input, "a branch cannot begin at ", at, " Hz: mesh_frequency_Hz is from ", speeds_.from,
+         " to ", speeds_.to, " Hz");
   begin_swept(direction, at);
   const int steps = map_->steps();
   const VectorXd start = orbit_.start;
-  const RollingDynamics::State state = map_->state(start);
-  std::vector<BranchSegment> segments;
-  run(steps, -1, 0, report, segments);
-  if (closed_) return segments;
-  resume(state, start, at, steps, true);
-  run(steps, 1, 1, report, segments);
-  return segments;
+  kept_ = map_->state(start);
+  run(steps, -1, 0, report);
+  if (closed_) return segments_;
+  resume(*kept_, start, at, steps, true);
+  run(steps, 1, 1, report);
+  return segments_;
 }
 
 // From the orbit at hand, from segment to segment.
-void BranchFollower::run(int steps, int direction, int part, const Report& report,
-                         std::vector<BranchSegment>& segments) {
-  const double low = settings_.frequency_from, high = settings_.frequency_to, scale = 0.5 * (low + high);
-  const long total = std::max(1l, std::lround((high - low) / settings_.frequency_step));
+template <class Rig>
+void BranchFollower<Rig>::run(int steps, int direction, int part, const Report& report) {
+  const double low = speeds_.from, high = speeds_.to, scale = 0.5 * (low + high);
+  const long total = std::max(1l, std::lround((high - low) / speeds_.step));
   const VectorXd first = orbit_.start;
   const double first_at = orbit_.parameter;
-  const size_t before = segments.size();
+  const size_t before = segments_.size();
   double lowest = high;
   long gone = 0;  // steps
   closed_ = false;
   for (;;) {
-    BranchSettings settings = branch_settings(settings_, steps, look_ == Look::at_folds, tolerance_);
+    BranchSettings settings = branch_settings(speeds_, steps, look_ == Look::at_folds, tolerance_);
     settings.multiple = multiple_;
     settings.stop = [&](const BranchPosition& last, const BranchPosition& next) -> std::string {
       // In its first step a part stands on the orbit that it began with.
@@ -120,28 +123,28 @@ void BranchFollower::run(int steps, int direction, int part, const Report& repor
         return text("orbits of ", multiple_, " mesh periods become orbits of ", multiple_ / 2);
       return "";
     };
-    segments.push_back({follow_branch(*map_, orbit_, direction, settings,
-                                      [&](const BranchPosition& p) {
-                                        map_->take_left_zone();  // beside the orbit
-                                        lowest = std::min(lowest, p.parameter);
-                                        report(std::lround((high - lowest) / (high - low) * total), total,
-                                               text(p.parameter, " Hz"));
-                                      }),
-                        steps, multiple_, part});
-    const OrbitBranch& branch = segments.back().branch;
+    segments_.push_back({follow_branch(*map_, orbit_, direction, settings,
+                                       [&](const BranchPosition& p) {
+                                         map_->take_left_zone();  // beside the orbit
+                                         lowest = std::min(lowest, p.parameter);
+                                         report(std::lround((high - lowest) / (high - low) * total), total,
+                                                text(p.parameter, " Hz"));
+                                       }),
+                         steps, multiple_, part});
+    const OrbitBranch& branch = segments_.back().branch;
     for (const SpecialPoint& p : branch.special)
-      segments.back().special_state.push_back(map_->state(p.start));
+      segments_.back().special_state.push_back(map_->state(p.start));
     const BranchPosition& last = branch.points.back();
     const double at = last.parameter;
     direction = branch.reached_limit != 0 ? branch.reached_limit : last.turn > 0 ? 1 : -1;
     if (branch.stopped) return;
-    if (segments.size() - before == kMostSegments) return note_most_segments(segments.back().branch);
-    const RollingDynamics::State state = map_->state(last.start);  // while the zone is the map's own
+    if (segments_.size() - before == kMostSegments) return note_most_segments(segments_.back().branch);
+    State state = map_->state(last.start);  // while the contacts are the map's own
     if (branch.reached_limit == 0) {
       if (!map_->take_left_zone()) return;
-      widen();
+      widen(state);
     } else {
-      const auto beyond = steps_beyond(settings_.time, low, high, steps, branch);
+      const auto beyond = steps_beyond(speeds_.time, low, high, steps, branch);
       if (!beyond) return;
       steps = *beyond;
     }
@@ -149,30 +152,31 @@ void BranchFollower::run(int steps, int direction, int part, const Report& repor
       resume(state, last.start, at, steps, branch.reached_limit == 0);
     } catch (const Error& error) {
       if (error.kind() != Failure::numerical || branch.reached_limit == 0) throw;
-      note_steps_change(segments.back().branch, error.what());
+      note_steps_change(segments_.back().branch, error.what());
       return;
     }
   }
 }
 
-void BranchFollower::follow_flips(std::vector<BranchSegment>& segments, int most, const Report& report) {
+template <class Rig>
+void BranchFollower<Rig>::follow_flips(int most, const Report& report) {
   // Segments that are added have flips of their own.
-  for (size_t i = 0; i < segments.size(); ++i) {
-    if (2 * segments[i].multiple > most) continue;
-    const BranchSegment from = segments[i];
-    for (size_t k = 0; k < from.branch.special.size(); ++k)
-      if (from.branch.special[k].kind == Special::flip) follow_flip(from, k, report, segments);
+  for (size_t i = 0; i < segments_.size(); ++i) {
+    if (2 * segments_[i].multiple > most) continue;
+    for (size_t k = 0; k < segments_[i].branch.special.size(); ++k)
+      if (segments_[i].branch.special[k].kind == Special::flip) follow_flip(i, k, report);
   }
 }
 
-void BranchFollower::follow_flip(const BranchSegment& from, size_t which, const Report& report,
-                                 std::vector<BranchSegment>& segments) {
+template <class Rig>
+void BranchFollower<Rig>::follow_flip(size_t of, size_t which, const Report& report) {
+  const Segment from = segments_[of];
   const SpecialPoint& flip = from.branch.special[which];
-  const int part = segments.back().part + 1;
+  const int part = segments_.back().part + 1;
   const auto none = [&](const std::string& why) {
-    BranchSegment empty{{}, from.steps, 2 * from.multiple, part};
+    Segment empty{{}, from.steps, 2 * from.multiple, part};
     empty.branch.end = text("at the period doubling at ", flip.parameter, " Hz: ", why);
-    segments.push_back(empty);
+    segments_.push_back(empty);
   };
   multiple_ = from.multiple;
   try {
@@ -183,113 +187,110 @@ void BranchFollower::follow_flip(const BranchSegment& from, size_t which, const 
   }
   SpecialPoint here = flip;
   here.start = orbit_.start;
-  const double scale = 0.5 * (settings_.frequency_from + settings_.frequency_to);
+  const double scale = 0.5 * (speeds_.from + speeds_.to);
   const OrbitSearch beside = orbit_beyond_flip(*map_, here, multiple_, scale);
   if (!beside.found()) return none(beside.failure);
   // A branch between two flips has been followed from the other one; its last point is a step beyond its end.
-  for (const BranchSegment& known : segments)
+  for (const Segment& known : segments_)
     if (known.multiple == 2 * multiple_ && known.branch.stopped && !known.branch.points.empty() &&
         std::abs(known.branch.points.back().parameter - flip.parameter) < 2e-3 * flip.parameter)
       return none("the branch from another period doubling ends here");
   multiple_ *= 2;
   orbit_ = beside.orbit;
-  run(from.steps, orbit_.parameter < flip.parameter ? -1 : 1, part, report, segments);
+  run(from.steps, orbit_.parameter < flip.parameter ? -1 : 1, part, report);
 }
 
-void BranchFollower::widen() {
-  if (++level_ > kMostZoneLevel)
-    fail_outside_range(Failure::numerical, "contact leaves the flanks: forces above ",
-                       MotionBounds(model_, statics_, std::pow(kWidening, kMostZoneLevel)).force,
-                       " N; lower the torque");
-  dynamics_.set_zone(zone_of_level(model_, statics_, level_), finest_);
+// The next set of candidate contacts, which all states that are kept fit then.
+template <class Rig>
+void BranchFollower<Rig>::widen(State& state) {
+  std::vector<State*> all{&state};
+  if (kept_) all.push_back(&*kept_);
+  for (Segment& segment : segments_)
+    for (State& special : segment.special_state) all.push_back(&special);
+  rig_.widen(all);
 }
 
-void BranchFollower::new_map(int steps) {
-  map_ = std::make_unique<RollingPeriodMap>(dynamics_, steps);
+template <class Rig>
+void BranchFollower<Rig>::new_map(double at, int steps) {
+  map_ = rig_.map(steps);
   map_->measure(measure_);
+  map_->set_parameter(at);
 }
 
-// The orbit into which the pair settles.
-void BranchFollower::begin(double at, int steps) {
-  for (level_ = -1; !map_;) {
-    widen();
-    new_map(steps);
-    map_->set_parameter(at);
-    RollingDynamics::State state = dynamics_.rest();
-    const auto periodic =
-        iterate_to_orbit(dynamics_, state, settings_.time.periodicity, SteadyState::extrapolate);
-    if (!periodic) {
-      map_.reset();
-      continue;
+// The orbit into which the motion settles.
+template <class Rig>
+void BranchFollower<Rig>::begin(double at, int steps) {
+  rig_.begin();
+  for (;;) {
+    new_map(at, steps);
+    State state = rig_.rest();
+    const auto settled = rig_.settle(state, at, steps, SteadyState::extrapolate);
+    if (settled) {
+      if (settled->multiple != 1)
+        fail(Failure::numerical, "at ", at, " Hz, where the branch begins, the motion ",
+             settled->multiple == 0 ? text("does not repeat within ", settled->turns, " mesh periods")
+                                    : text("repeats after ", settled->multiple, " mesh periods"),
+             "; give mesh_frequency_Hz another upper end");
+      if (found(map_->flat(state), at, steps)) return;
     }
-    if (periodic->multiple != 1)
-      fail(Failure::numerical, "at ", at, " Hz, where the branch begins, the motion ",
-           periodic->multiple == 0 ? text("does not repeat within ", periodic->periods, " mesh periods")
-                                   : text("repeats after ", periodic->multiple, " mesh periods"),
-           "; give mesh_frequency_Hz another upper end");
-    if (!found(map_->flat(state), at, steps)) map_.reset();
+    widen(state);
   }
 }
 
 // The motion of a sweep, speed by speed.
-void BranchFollower::begin_swept(Direction direction, double at) {
-  widen();
-  RollingDynamics::State state = dynamics_.rest();
+template <class Rig>
+void BranchFollower<Rig>::begin_swept(Direction direction, double at) {
+  rig_.begin();
+  State state = rig_.rest();
   const double sign = direction == Direction::up ? 1 : -1;
-  double speed = direction == Direction::up ? settings_.frequency_from : settings_.frequency_to;
-  for (;; speed += sign * settings_.frequency_step) {
+  double speed = direction == Direction::up ? speeds_.from : speeds_.to;
+  for (;; speed += sign * speeds_.step) {
     if (sign * (speed - at) > 0) speed = at;
-    const RollingDynamics::State start = state;
-    std::optional<Orbit> orbit;
-    for (;;) {
-      dynamics_.set_speed(speed, steps_at(settings_.time, speed));
-      orbit = iterate_to_orbit(dynamics_, state, settings_.time.periodicity, settings_.time.steady_state);
-      if (orbit) break;
-      widen();
+    State start = state;
+    std::optional<Settled> settled;
+    while (!(settled = rig_.settle(state, speed, steps_at(speeds_.time, speed), speeds_.time.steady_state))) {
+      widen(start);
       state = start;
     }
     if (speed != at) continue;
-    if (orbit->multiple == 0)
+    if (settled->multiple == 0)
       fail(Failure::numerical, "at ", at, " Hz the motion of the sweep does not repeat within ",
-           orbit->periods, " mesh periods; begin the branch at another speed");
-    multiple_ = orbit->multiple;
+           settled->turns, " mesh periods; begin the branch at another speed");
+    multiple_ = settled->multiple;
     break;
   }
-  const int steps = steps_at(settings_.time, at);
-  new_map(steps);
-  map_->set_parameter(at);
+  const int steps = steps_at(speeds_.time, at);
+  new_map(at, steps);
   const VectorXd start = map_->flat(state);
   if (!found(start, at, steps)) {
-    widen();
+    widen(state);
     resume(state, start, at, steps, true);
   }
 }
 
-// With other steps or another zone: the orbit near that of before.
-void BranchFollower::resume(const RollingDynamics::State& state, const VectorXd& start, double at, int steps,
-                            bool wider) {
+// With other steps or other candidate contacts: the orbit near that of before.
+template <class Rig>
+void BranchFollower<Rig>::resume(State state, const VectorXd& start, double at, int steps, bool wider) {
   for (;;) {
-    new_map(steps);
-    map_->set_parameter(at);
-    RollingDynamics::State near = state;
-    RollingDynamics::Period period;
-    // An orbit puts the contact forces where this zone has its strips.
-    int passed = 0;
-    while (passed < multiple_ && dynamics_.integrate(near, period)) ++passed;
-    if (passed == multiple_ && found(map_->flat(near), at, steps)) break;
-    widen();
+    new_map(at, steps);
+    State near = state;
+    if (rig_.fit(near, multiple_) && found(map_->flat(near), at, steps)) break;
+    widen(state);
     wider = true;
   }
-  // In another zone the contact forces stand elsewhere.
-  if (!wider) mismatch_.push_back((orbit_.start - start).norm() / start.norm());
+  // With other contacts the forces stand elsewhere.
+  if (!wider && orbit_.start.size() == start.size())
+    mismatch_.push_back((orbit_.start - start).norm() / start.norm());
 }
 
-// Newton's method; false where contact leaves the zone.
-bool BranchFollower::found(const VectorXd& start, double at, int steps) {
+// Newton's method; false where contact leaves the candidates.
+template <class Rig>
+bool BranchFollower<Rig>::found(const VectorXd& start, double at, int steps) {
   OrbitSettings settings;
   settings.tolerance = tolerance_;
   const OrbitSearch search = newton_orbit(*map_, start, multiple_, settings);
   if (search.found()) {
+    map_->take_left_zone();
     orbit_ = search.orbit;
     return true;
   }
@@ -297,5 +298,8 @@ bool BranchFollower::found(const VectorXd& start, double at, int steps) {
   fail(Failure::numerical, "at ", at, " Hz no orbit of ", steps,
        " steps is found from that at hand: ", search.failure);
 }
+
+template class BranchFollower<PairRig>;
+template class BranchFollower<TrainRig>;
 
 }  // namespace whine

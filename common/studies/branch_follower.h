@@ -1,5 +1,5 @@
-// Follows the branch of a pair's periodic orbits over the mesh frequency, in segments of one number of steps per period and one
-// candidate contact zone.
+// Follows the branch of a motion's periodic orbits over the mesh frequency, in segments of one number of steps per period and one
+// set of candidate contacts.
 #pragma once
 #include <functional>
 #include <memory>
@@ -8,10 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "dynamics/period_map.h"
 #include "model/stages.h"
 #include "orbits/branch.h"
-#include "studies/zone_levels.h"
+#include "studies/branch_rigs.h"
 
 namespace whine {
 
@@ -31,69 +30,100 @@ BranchSettings segment_speeds(const TimeDiscretisation& time, double from, doubl
 std::optional<int> steps_beyond(const TimeDiscretisation& time, double from, double to, int steps,
                                 const OrbitBranch& branch);
 
+// What of a branch is followed.
+struct BranchPlan {
+  std::optional<Direction> sweep = {};  // begins with the motion of a sweep in this direction
+  double at = 0;                        // Hz, of that motion
+  double tolerance = 1e-9;              // of an orbit's residual, 1e-12 to 1e-3
+  int most_periods = 1;  // 2 or 4: branches beyond period doublings too, up to orbits of so many periods
+};
+
+// Speeds of a stage between which branches are followed.
+struct BranchSpeeds {
+  TimeDiscretisation time;
+  double from = 0, to = 0, step = 0;  // Hz
+};
+template <class Stage>
+BranchSpeeds speeds_of(const Stage& stage) {
+  return {stage.time, stage.frequency_from, stage.frequency_to, stage.frequency_step};
+}
+
+template <class State>
 struct BranchSegment {
   OrbitBranch branch;
   int steps = 0;     // per period
   int multiple = 1;  // periods after which its orbits repeat
   int part = 0;      // segments of one part follow each other along the arc
-  // (special) of branch.special: the state there, which any candidate zone can go on from
-  std::vector<RollingDynamics::State> special_state{};
+  // (special) of branch.special: the state there, which any set of candidate contacts can go on from
+  std::vector<State> special_state{};
 };
 
+// Rig: of branch_rigs.h.
+template <class Rig>
 class BranchFollower {
  public:
+  using Map = typename Rig::Map;
+  using State = typename Rig::State;
+  using Segment = BranchSegment<State>;
+  using Report = std::function<void(long, long, const std::string&)>;
   // How closely: with all that happens on the way, or for a first look at the folds, with long steps, no grazing orbits and
   // folds to 1e-5 of their speed.
   enum class Look { close, at_folds };
-  // All must live as long as this. settings: speeds, time discretisation. Nobody else may use the dynamics meanwhile.
-  BranchFollower(RollingDynamics& dynamics, const GearMeshModel& model, const StaticResult& statics,
-                 const SweepParameters& settings, Look look = Look::close,
+  // The rig must live as long as this.
+  BranchFollower(Rig& rig, const BranchSpeeds& speeds, Look look = Look::close,
                  double tolerance = kOrbitTolerance);
   static constexpr double kOrbitTolerance = 1e-9;  // of an orbit's residual
 
-  // From the orbit into which the pair settles at the highest speed, towards lower ones and round the folds, until it leaves the
-  // speeds or ends. report(done, total, note) is called after each point, in steps of the speeds. Throws Error(numerical) if the
-  // pair does not settle into an orbit of one mesh period, ModelRangeError if contact leaves the flanks.
-  std::vector<BranchSegment> follow(const std::function<void(long, long, const std::string&)>& report);
+  // What the plan says. report(done, total, note) is called after each point, in steps of the speeds. Throws Error(input) for a plan
+  // or speeds out of range, else as what follows.
+  const std::vector<Segment>& follow(const BranchPlan& plan, const Report& report);
+  // From the orbit into which the motion settles at the highest speed, towards lower ones and round the folds, until it leaves the
+  // speeds or ends. Throws Error(numerical) if it does not settle into an orbit of one mesh period, ModelRangeError if contact leaves
+  // the flanks.
+  const std::vector<Segment>& follow(const Report& report);
   // From the motion that a sweep in a direction has at a speed, which may repeat after several periods, both ways: two parts.
   // The branch may close on itself; then it is one.
-  std::vector<BranchSegment> follow_from_sweep(
-      Direction direction, double at, const std::function<void(long, long, const std::string&)>& report);
+  const std::vector<Segment>& follow_from_sweep(Direction direction, double at, const Report& report);
   // Branches that begin at the flips of these segments, and at their flips, up to orbits of `most` periods: a part each, added to
   // them. Of a flip beside which no orbit of twice the periods is found a part without points says why.
-  void follow_flips(std::vector<BranchSegment>& segments, int most,
-                    const std::function<void(long, long, const std::string&)>& report);
+  void follow_flips(int most, const Report& report);
   // (change of steps) relative change of the orbit there.
   const std::vector<double>& mismatch() const { return mismatch_; }
   // Of each orbit, its peaks; to be said before the branch is followed.
-  void measure(RollingPeriodMap::Measure of) { measure_ = std::move(of); }
-  int level() const { return level_; }  // of the zone, at last
+  void measure(typename Map::Measure of) { measure_ = std::move(of); }
 
  private:
-  using Report = std::function<void(long, long, const std::string&)>;
-  void run(int steps, int direction, int part, const Report& report, std::vector<BranchSegment>& segments);
+  void run(int steps, int direction, int part, const Report& report);
   void begin_swept(Direction direction, double at);
-  void follow_flip(const BranchSegment& from, size_t flip, const Report& report,
-                   std::vector<BranchSegment>& segments);
-  void widen();
-  void new_map(int steps);
+  void follow_flip(size_t of, size_t flip, const Report& report);
+  void widen(State& state);
+  void new_map(double at, int steps);
   void begin(double at, int steps);
-  void resume(const RollingDynamics::State& state, const Eigen::VectorXd& start, double at, int steps,
-              bool wider);
+  void resume(State state, const Eigen::VectorXd& start, double at, int steps, bool wider);
   bool found(const Eigen::VectorXd& start, double at, int steps);
 
-  RollingDynamics& dynamics_;
-  const GearMeshModel& model_;
-  const StaticResult& statics_;
-  const SweepParameters& settings_;
+  Rig& rig_;
+  const BranchSpeeds speeds_;
   Look look_;
   double tolerance_;
-  int finest_, level_ = -1, multiple_ = 1;
+  int multiple_ = 1;
   bool closed_ = false;  // the part followed last, on itself
-  std::unique_ptr<RollingPeriodMap> map_;
-  RollingPeriodMap::Measure measure_;
+  std::unique_ptr<Map> map_;
+  typename Map::Measure measure_;
   PeriodicOrbit orbit_;
   std::vector<double> mismatch_;
+  std::vector<Segment> segments_;
+  std::optional<State> kept_;  // to go on from, the other way
 };
+
+// Why each part of a branch ends, one after the other.
+template <class State>
+std::string ends_of(const std::vector<BranchSegment<State>>& segments) {
+  std::string words;
+  for (size_t k = 0; k < segments.size(); ++k)
+    if (k + 1 == segments.size() || segments[k + 1].part != segments[k].part)
+      words += (words.empty() ? "" : "; ") + segments[k].branch.end;
+  return words;
+}
 
 }  // namespace whine

@@ -138,11 +138,11 @@ class Family {
 
 // Of a branch: neighbours between which it is unstable, in the order of the arc, as states of a zone of a level. `end` names a last
 // fold without another.
-std::vector<std::pair<Fold, Fold>> pairs_of(const std::vector<BranchSegment>& segments, double value,
-                                            int level, Family& family, std::string& end) {
+std::vector<std::pair<Fold, Fold>> pairs_of(const std::vector<BranchSegment<PairRig::State>>& segments,
+                                            double value, int level, Family& family, std::string& end) {
   std::vector<std::pair<Fold, Fold>> pairs;
   std::vector<Fold> open;
-  for (const BranchSegment& segment : segments)
+  for (const auto& segment : segments)
     for (size_t k = 0; k < segment.branch.special.size(); ++k)
       if (const SpecialPoint& p = segment.branch.special[k]; p.kind == Special::fold) {
         Fold fold;
@@ -268,10 +268,10 @@ FoldCurvesResult fold_curves(const ReducedBody& driver, const ReducedBody& drive
 
   const double first = family.raw(plan.first);
   const std::unique_ptr<PairAt> pair = family.at(first);
-  BranchFollower follower(pair->dynamics, pair->model, pair->statics, settings,
-                          BranchFollower::Look::at_folds);
+  PairRig rig(pair->dynamics, pair->model, pair->statics, settings);
+  BranchFollower<PairRig> follower(rig, speeds_of(settings), BranchFollower<PairRig>::Look::at_folds);
   const auto values = static_cast<long>(plan.values.size());
-  const auto segments = follower.follow(
+  const auto& segments = follower.follow(
       [&](long done, long total, const std::string& note) { report(done, total * (1 + 2 * values), note); });
   std::vector<double> above, below;
   for (const double value : plan.values) {
@@ -287,7 +287,7 @@ FoldCurvesResult fold_curves(const ReducedBody& driver, const ReducedBody& drive
   fold_settings.tolerance = 1e-5;
   fold_settings.orbit.tolerance = 1e-8;
   fold_settings.one_map = [&](double one, double other) { return family.steps(one) == family.steps(other); };
-  const int level = std::min(follower.level() + kWiderZones, kMostZoneLevel);
+  const int level = std::min(rig.level() + kWiderZones, kMostZoneLevel);
   const MapFamily maps = [&](double raw, double speed) { return family.map(raw, speed, level); };
   Rows rows;
   int number = 0;

@@ -7,21 +7,14 @@
 // is measured. Where an orbit needs a wider candidate contact zone it is computed again with that, as in a sweep; zones only grow.
 #pragma once
 #include <functional>
-#include <optional>
 #include <string>
 
 #include "results/branch.h"
 #include "results/reduced_body.h"
 #include "results/static.h"
+#include "studies/branch_follower.h"
 
 namespace whine {
-
-struct BranchPlan {
-  std::optional<Direction> sweep = {};  // begins with the motion of a sweep in this direction
-  double at = 0;                        // Hz, of that motion
-  double tolerance = 1e-9;              // of an orbit's residual, 1e-12 to 1e-3
-  int most_periods = 1;  // 2 or 4: branches beyond period doublings too, up to orbits of so many periods
-};
 
 // statics, mean_stiffness, settings: as of sweep(). report(done, total, note) is called after each point, in
 // steps of the scene's speeds. Throws Error(input) for teeth

@@ -11,19 +11,15 @@
 
 #include "results/reduced_body.h"
 #include "results/system_branch.h"
+#include "studies/branch_follower.h"
 
 namespace whine {
 
-struct SystemBranchPlan {
-  double tolerance = 1e-9;  // of an orbit's residual, 1e-12 to 1e-3
-};
-
 // bodies: [gear] of settings.body. report(done, total, note) is called after each point, in steps of the scene's speeds. Throws
-// Error(input) for speeds that are no range and a tolerance out of range, Error(numerical) if the system does not settle into an
-// orbit of one mesh period at the highest speed; else as system_sweep().
+// as BranchFollower; else as system_sweep().
 SystemBranchResult system_branch(const SystemSweepParameters& settings,
                                  const std::vector<ReducedBody>& bodies,
                                  const std::function<void(long, long, const std::string&)>& report,
-                                 const SystemBranchPlan& plan = {});
+                                 const BranchPlan& plan = {});
 
 }  // namespace whine

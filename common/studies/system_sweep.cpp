@@ -6,13 +6,11 @@
 
 #include "base/error.h"
 #include "base/memory.h"
-#include "base/model_range.h"
 #include "dynamics/dynamics.h"
-#include "dynamics/system_period_map.h"
-#include "orbits/periodic_motion.h"
 #include "orbits/recurrence.h"
+#include "studies/branch_rigs.h"
 #include "studies/sweep.h"
-#include "studies/train_in_motion.h"
+#include "studies/train_statistics.h"
 #include "system/system_rest.h"
 
 namespace whine {
@@ -34,121 +32,44 @@ std::vector<double> system_speeds(const SystemSweepParameters& p, Direction dire
   return out;
 }
 
-// Statistics over the steps of all recorded periods.
-class Recorded {
- public:
-  Recorded(const SystemSweepResult& of, size_t meshes, size_t bodies)
-      : settings_(of.settings),
-        sum_(VectorXd::Zero(static_cast<Index>(meshes))),
-        squares_(sum_),
-        most_(sum_),
-        tooth_(sum_),
-        share_(sum_),
-        parted_(sum_),
-        force_sum_(MatrixXd::Zero(2, static_cast<Index>(bodies))),
-        force_squares_(VectorXd::Zero(static_cast<Index>(bodies))),
-        force_most_(force_squares_) {}
-
-  void take(const SystemDynamics::Period& period) {
-    const std::vector<Eigen::Matrix2Xd>& forces = period.bearing_force;
-    const Index steps = period.mesh_force.cols();
-    count_ += static_cast<double>(steps);
-    for (Index i = 0; i < steps; ++i) {
-      std::vector<double> carried(settings_.mesh.size(), 0.0);
-      for (Index m = 0; m < sum_.size(); ++m)
-        carried[static_cast<size_t>(settings_.section[static_cast<size_t>(m)])] += period.mesh_force(m, i);
-      for (Index m = 0; m < sum_.size(); ++m) {
-        const double error = period.transmission_error(m, i), force = period.mesh_force(m, i),
-                     all = carried[static_cast<size_t>(settings_.section[static_cast<size_t>(m)])];
-        sum_[m] += error;
-        squares_[m] += error * error;
-        most_[m] = std::max(most_[m], force);
-        tooth_[m] = std::max(tooth_[m], period.largest_tooth_force(m, i));
-        if (all > 0) share_[m] = std::max(share_[m], force / all);
-        parted_[m] += period.largest_tooth_force(m, i) > 0 ? 0 : 1;
-      }
-    }
-    for (size_t b = 0; b < forces.size(); ++b) {
-      const auto body = static_cast<Index>(b);
-      force_sum_.col(body) += forces[b].rowwise().sum();
-      force_squares_[body] += forces[b].squaredNorm();
-      force_most_[body] = std::max(force_most_[body], forces[b].colwise().norm().maxCoeff());
-    }
-  }
-  void give(Index row, SystemSweepResult& out) const {
-    out.dte_mean.row(row) = sum_ / count_;
-    out.dte_rms.row(row) = (squares_ / count_ - (sum_ / count_).cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
-    out.mesh_force_max.row(row) = most_;
-    out.tooth_force_max.row(row) = tooth_;
-    out.load_share_max.row(row) = share_.cwiseMin(1.0);
-    out.separation_fraction.row(row) = parted_ / count_;
-    out.bearing_force_max.row(row) = force_most_;
-    out.bearing_force_rms.row(row) =
-        (force_squares_ / count_ - (force_sum_ / count_).colwise().squaredNorm().transpose())
-            .cwiseMax(0.0)
-            .cwiseSqrt();
-  }
-
- private:
-  const SystemSweepParameters& settings_;
-  VectorXd sum_, squares_, most_, tooth_, share_, parted_;
-  MatrixXd force_sum_;
-  VectorXd force_squares_, force_most_;
-  double count_ = 0;
-};
-
 // The system from speed to speed.
 class SystemSweeper {
  public:
   SystemSweeper(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies)
-      : settings_(settings),
-        rig_(settings, bodies, steps_at(settings.time, settings.frequency_from)),
-        state_(rig_.dynamics().rest()) {}
+      : settings_(settings), rig_(settings, bodies), state_(rig_.rest()) {}
 
-  const TrainInMotion& rig() const { return rig_; }
-  int hunting_periods() { return rig_.dynamics().hunting_periods(); }
+  const TrainInMotion& rig() const { return rig_.train(); }
+  int hunting_periods() { return rig_.train().dynamics().hunting_periods(); }
 
   // The periodic motion at a speed, into row `row`.
   std::string run(double frequency, Index row, SystemSweepResult& out) {
     SystemDynamics::State start = state_;
-    const int hunting = hunting_periods(), most = std::max(kMostSystemPeriods / hunting, kLeastSystemTurns);
-    for (;;) {
-      SystemPeriodMap map(rig_.dynamics(), steps_at(settings_.time, frequency));
-      map.set_parameter(frequency);
-      try {
-        PeriodicMotion motion;
-        try {
-          motion = iterate_to_orbit(
-              map, map.flat(state_),
-              {settings_.time.periodicity, most, settings_.time.steady_state == SteadyState::extrapolate});
-        } catch (const ModelRangeError&) {
-          // Of a proposal that was rejected before nothing is thrown: this is of the period integrated last.
-          if (!map.left_last()) throw;
-          state_ = start = rig_.widen(start);
-          continue;
-        }
-        state_ = map.state(motion.state);
-        if (!record(motion, row, out)) {
-          state_ = start = rig_.widen(start);
-          continue;
-        }
-        return motion.multiple == 1   ? ""
-               : motion.multiple == 0 ? "not periodic"
-                                      : text(motion.multiple * hunting, " periods");
-      } catch (const Error& error) {
-        fail_as(error, "at a mesh frequency of ", frequency, " Hz, ", error.what());
+    const int hunting = hunting_periods(), steps = steps_at(settings_.time, frequency);
+    try {
+      for (;;) {
+        Settled settled;
+        if (const auto found = rig_.settle(state_, frequency, steps, settings_.time.steady_state))
+          settled = *found;
+        if (settled.turns > 0 && record(settled, row, out))
+          return settled.multiple == 1   ? ""
+                 : settled.multiple == 0 ? "not periodic"
+                                         : text(settled.multiple * hunting, " periods");
+        rig_.widen({&start});
+        state_ = start;
       }
+    } catch (const Error& error) {
+      fail_as(error, "at a mesh frequency of ", frequency, " Hz, ", error.what());
     }
   }
 
  private:
   // False if contact leaves the tip edges that are looked at.
-  bool record(const PeriodicMotion& motion, Index row, SystemSweepResult& out) {
+  bool record(const Settled& motion, Index row, SystemSweepResult& out) {
     const int hunting = hunting_periods();
     const int periods = hunting * (motion.multiple > 0 ? motion.multiple
                                    : hunting > 1       ? 1
                                                        : Recurrence<VectorXd>::kMostMultiple);
-    Recorded recorded(out, rig_.system().mesh.size(), settings_.layout.bodies.size());
+    TrainStatistics recorded(out.settings, rig_.train().system().mesh.size(), settings_.layout.bodies.size());
     SystemEnergyBalance energy;
     double imbalance = 0;
     SystemDynamics::Period period;
@@ -159,7 +80,7 @@ class SystemSweeper {
     out.holding_torque.row(row).setZero();
     begin_samples(hunting, row, out);
     for (int n = 0; n < periods; ++n) {
-      if (!rig_.dynamics().integrate(state_, period, &energy)) return false;
+      if (!rig_.train().dynamics().integrate(state_, period, &energy)) return false;
       recorded.take(period);
       take_samples(period, n % hunting, row, out);
       take(energy, row, out);
@@ -169,7 +90,14 @@ class SystemSweeper {
       out.least_gap = std::min(out.least_gap, period.least_gap);
       out.least_force = std::min(out.least_force, period.least_force);
     }
-    recorded.give(row, out);
+    out.dte_mean.row(row) = recorded.dte_mean();
+    out.dte_rms.row(row) = recorded.dte_rms();
+    out.mesh_force_max.row(row) = recorded.mesh_force_max();
+    out.tooth_force_max.row(row) = recorded.tooth_force_max();
+    out.load_share_max.row(row) = recorded.load_share_max();
+    out.separation_fraction.row(row) = recorded.separation_fraction();
+    out.bearing_force_max.row(row) = recorded.bearing_force_max();
+    out.bearing_force_rms.row(row) = recorded.bearing_force_rms();
     out.periods[row] = motion.turns * hunting;
     out.period_multiple[row] = motion.multiple * hunting;
     out.residual[row] = motion.residual;
@@ -229,7 +157,7 @@ class SystemSweeper {
   }
 
   const SystemSweepParameters& settings_;
-  TrainInMotion rig_;
+  TrainRig rig_;
   SystemDynamics::State state_;
 };
 

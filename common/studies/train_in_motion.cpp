@@ -68,7 +68,7 @@ std::unique_ptr<SystemDynamics> TrainInMotion::placed() const {
   return dynamics;
 }
 
-SystemDynamics::State TrainInMotion::widen(const SystemDynamics::State& state) {
+void TrainInMotion::widen(const std::vector<SystemDynamics::State*>& states) {
   if (widenings_ == kMostWidenings) {
     const auto worst =
         static_cast<size_t>(std::max_element(deflection_.begin(), deflection_.end()) - deflection_.begin());
@@ -79,9 +79,8 @@ SystemDynamics::State TrainInMotion::widen(const SystemDynamics::State& state) {
   }
   ++widenings_;
   std::unique_ptr<SystemDynamics> wider = placed();
-  SystemDynamics::State there = wider->fitted(state, *dynamics_);
+  for (SystemDynamics::State* state : states) *state = wider->fitted(*state, *dynamics_);
   dynamics_ = std::move(wider);
-  return there;
 }
 
 SystemSweepParameters TrainInMotion::used() const {

@@ -29,9 +29,9 @@ class TrainInMotion {
   const Eigen::MatrixXd& mean_stiffness() const { return stiffness_; }  // (mesh, mesh) N m-1, at rest
   // The settings with the masses, inertias and the contact level that are used.
   SystemSweepParameters used() const;
-  // Looks for tip edges that are 1.6 times as far off as before, for which dynamics() is made anew. Returns `state` in the new
+  // Looks for tip edges that are 1.6 times as far off as before, for which dynamics() is made anew. The states then fit the new
   // positions. What is looked for and does not touch changes no force. Throws ModelRangeError after 5 times.
-  SystemDynamics::State widen(const SystemDynamics::State& state);
+  void widen(const std::vector<SystemDynamics::State*>& states);
 
  private:
   std::unique_ptr<SystemDynamics> placed() const;  // with the tip edges that `widenings_` asks for

@@ -9,15 +9,19 @@
 #include <numbers>
 #include <sstream>
 
+#include "failure_of.h"
 #include "gear/system_layout.h"
 #include "io/artifacts.h"
 #include "io/system_scene.h"
+#include "orbits/periodic_orbit.h"
 #include "planetary_train.h"
 #include "relative.h"
 #include "results/system_sweep.h"
 #include "scene_file.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
+#include "studies/branch_rigs.h"
+#include "studies/sweep.h"
 #include "studies/system_branch.h"
 #include "studies/system_impact.h"
 #include "studies/system_sweep.h"
@@ -157,6 +161,64 @@ TEST_CASE(
   }
   for (Index b = 0; b < 6; ++b)
     CHECK(branch.bearing_force_rms(last, b) == relative(sweep.bearing_force_rms(2, b), 1e-3));
+}
+
+TEST_CASE(
+    "branch of a planetary train from a sweep's motion: both ways, on the branch from the highest speed") {
+  SystemSweepParameters settings = train().settings;
+  settings.frequency_from = 2550;
+  settings.frequency_to = 2600;
+  settings.frequency_step = 25;
+  const auto follow = [&](const BranchPlan& plan) {
+    return system_branch(
+        settings, train().bodies, [](auto&&...) {}, plan);
+  };
+  const SystemBranchResult branch = follow({.sweep = Direction::up, .at = 2575});
+  INFO(branch.end);
+  CHECK(branch.mesh_frequency[0] == relative(2575, 1e-12));
+  REQUIRE(branch.part.maxCoeff() == 1);
+  CHECK(branch.period_multiple.maxCoeff() == 1);
+  const SystemSweepResult sweep = swept(Direction::up, settings);
+  for (Index m = 0; m < 6; ++m) CHECK(branch.dte_rms(0, m) == relative(sweep.dte_rms(1, m), 1e-4));
+  for (Index part = 0; part < 2; ++part) {
+    Index last = branch.part.size() - 1;
+    while (branch.part[last] != part) --last;
+    const Index row = part == 0 ? 0 : 2;
+    CHECK(branch.mesh_frequency[last] == relative(settings.frequency_from + 25.0 * row, 1e-9));
+    CHECK(branch.dte_rms(last, 0) == relative(sweep.dte_rms(row, 0), 1e-4));
+  }
+  CHECK(failure_of([&] { follow({.sweep = Direction::up, .at = 1000}); }) == Failure::input);
+  CHECK(failure_of([&] { follow({.most_periods = 3}); }) == Failure::input);
+  CHECK(failure_of([&] { follow({.tolerance = 1}); }) == Failure::input);
+}
+
+TEST_CASE("branch of a planetary train: where a contact begins to come or go its events are others") {
+  SystemSweepParameters settings = train().settings;
+  settings.frequency_from = 2400;
+  settings.frequency_to = 2700;
+  settings.frequency_step = 25;
+  const SystemBranchResult branch = system_branch(settings, train().bodies, [](auto&&...) {});
+  MESSAGE(branch.grazing_frequency.size() << " grazing orbits; " << branch.end);
+  REQUIRE(branch.grazing_frequency.size() > 0);
+  TrainRig rig(settings, train().bodies);
+  const int steps = steps_at(settings.time, settings.frequency_to);
+  // Orbits a little below and above it, by Newton's method from the motion that integration settles into.
+  const auto events_at = [&](double frequency, int mesh) {
+    SystemDynamics::State state = rig.rest();
+    REQUIRE(rig.settle(state, frequency, steps, SteadyState::extrapolate));
+    SystemPeriodMap map(rig.train().dynamics(), steps);
+    map.set_parameter(frequency);
+    const OrbitSearch orbit = newton_orbit(map, map.flat(state), 1, {});
+    REQUIRE(orbit.found());
+    map.apply(orbit.orbit.start);
+    int count = 0;
+    for (const ContactEvent& event : map.events())
+      count += event.contact / rig.train().dynamics().pairs() == mesh - 1;
+    return count;
+  };
+  const double at = branch.grazing_frequency[0];
+  const int mesh = branch.grazing_mesh[0];
+  CHECK(std::abs(events_at(at - 1, mesh) - events_at(at + 1, mesh)) == 2);
 }
 
 // A linear system with constant stiffness has the multipliers exp(s / f) of its roots s; the stiffness varies by some percent, and

@@ -1,0 +1,62 @@
+#include "studies/train_statistics.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace whine {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+TrainStatistics::TrainStatistics(const SystemStaticParameters& settings, size_t meshes, size_t bodies)
+    : settings_(settings), force_sum_(2, static_cast<Index>(bodies)) {
+  sum_.resize(static_cast<Index>(meshes));
+  clear();
+}
+
+void TrainStatistics::clear() {
+  sum_.setZero();
+  squares_ = most_ = tooth_ = share_ = parted_ = sum_;
+  force_sum_.setZero();
+  force_squares_ = force_most_ = VectorXd::Zero(force_sum_.cols());
+  count_ = 0;
+}
+
+void TrainStatistics::take(const SystemDynamics::Period& period) {
+  const std::vector<Eigen::Matrix2Xd>& forces = period.bearing_force;
+  const Index steps = period.mesh_force.cols();
+  count_ += static_cast<double>(steps);
+  for (Index i = 0; i < steps; ++i) {
+    std::vector<double> carried(settings_.mesh.size(), 0.0);
+    for (Index m = 0; m < sum_.size(); ++m)
+      carried[static_cast<size_t>(settings_.section[static_cast<size_t>(m)])] += period.mesh_force(m, i);
+    for (Index m = 0; m < sum_.size(); ++m) {
+      const double error = period.transmission_error(m, i), force = period.mesh_force(m, i),
+                   all = carried[static_cast<size_t>(settings_.section[static_cast<size_t>(m)])];
+      sum_[m] += error;
+      squares_[m] += error * error;
+      most_[m] = std::max(most_[m], force);
+      tooth_[m] = std::max(tooth_[m], period.largest_tooth_force(m, i));
+      if (all > 0) share_[m] = std::max(share_[m], force / all);
+      parted_[m] += period.largest_tooth_force(m, i) > 0 ? 0 : 1;
+    }
+  }
+  for (size_t b = 0; b < forces.size(); ++b) {
+    const auto body = static_cast<Index>(b);
+    force_sum_.col(body) += forces[b].rowwise().sum();
+    force_squares_[body] += forces[b].squaredNorm();
+    force_most_[body] = std::max(force_most_[body], forces[b].colwise().norm().maxCoeff());
+  }
+}
+
+VectorXd TrainStatistics::dte_rms() const {
+  return (squares_ / count_ - (sum_ / count_).cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
+}
+
+VectorXd TrainStatistics::bearing_force_rms() const {
+  return (force_squares_ / count_ - (force_sum_ / count_).colwise().squaredNorm().transpose())
+      .cwiseMax(0.0)
+      .cwiseSqrt();
+}
+
+}  // namespace whine
