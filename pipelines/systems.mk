@@ -41,13 +41,14 @@ endef
 
 # $1 scene: figures of its report, and what each is drawn from
 has_planets = $(and $(filter elastic,$(SCENE_$1_SYSTEM)),$(filter yes,$(SCENE_$1_PLANETS)))
-system_shows = system $(if $(filter elastic,$(SCENE_$1_SYSTEM)),system-static) $(if $(call has_planets,$1),load-sharing) modes campbell $(if $(SCENE_$1_SYSTEM_MOVES),system-sweep)
+system_shows = system $(if $(filter elastic,$(SCENE_$1_SYSTEM)),system-static) $(if $(call has_planets,$1),load-sharing) modes campbell $(if $(SCENE_$1_SYSTEM_MOVES),system-sweep order-cuts)
 inputs_of_system = $(if $(filter elastic,$(SCENE_$1_SYSTEM)),$(inputs_of_system-static),$(inputs_of_modes))
 inputs_of_system-static = out/$1/system_static.h5
 inputs_of_load-sharing = out/$1/system_static.h5
 inputs_of_modes = out/$1/modes.h5
 inputs_of_campbell = out/$1/modes.h5
 inputs_of_system-sweep = $(foreach w,up down,out/$1/$w/system_sweep.h5)
+inputs_of_order-cuts = $(inputs_of_system-sweep)
 system_artifacts = $(if $(filter elastic,$(SCENE_$1_SYSTEM)),out/$1/system_static.h5) out/$1/modes.h5 $(if $(SCENE_$1_SYSTEM_MOVES),$(inputs_of_system-sweep))
 # Load sharing of a pair, among its teeth, has a template of its own.
 drawn_of_system = $(if $(filter load-sharing,$1),system-load-sharing,$1)

@@ -69,6 +69,7 @@ inline whine::SystemSweepResult small_sweep(const whine::SystemStaticResult& res
     *x = MatrixRM::Constant(2, meshes, value *= 0.9);
   for (MatrixRM* x : {&a.bearing_force_max, &a.bearing_force_rms, &a.bearing_damping, &a.holding_torque})
     *x = MatrixRM::Constant(2, bodies, value *= 0.9);
+  a.dte_harmonic.assign(2, MatrixRM::Constant(5, meshes, 1e-7 / 3));
   a.transmission_error.assign(2, MatrixRM::Constant(4, meshes, 1e-6 / 3));
   a.mesh_deflection.assign(2, MatrixRM::Constant(4, meshes, 1e-6 / 7));
   a.mesh_force.assign(2, MatrixRM::Constant(4, meshes, 1e3 / 3));

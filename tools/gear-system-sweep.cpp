@@ -17,6 +17,7 @@
 #include "io/provenance.h"
 #include "io/system_scene.h"
 #include "results/system_sweep.h"
+#include "signal/jump_words.h"
 #include "studies/system_sweep.h"
 #include "studies/turning_carrier.h"
 
@@ -27,11 +28,14 @@ void body(int argc, char** argv) {
                          "gear-system-sweep"};
   std::string params, way, output;
   std::vector<std::string> bodies;
+  double jump_width = 0;
   options.add("--params", params, "stage parameters of the scene: out/<scene>/params/system_sweep.toml")
       .required();
   options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
   options.add("--direction", way, "up or down").required().one_of({"up", "down"});
   options.add("--output", output, "system_sweep.h5 to write").required();
+  options.add("--jump-width", jump_width,
+              "enclose jumps to this width in Hz or less (default: 1/64 of the step of the speeds)");
   options.footer(
       "Example:\n"
       "  gear-system-sweep --params out/three-in-line/params/system_sweep.toml --body pinion=out/three-in-line/pinion/body.h5 --body idler=out/three-in-line/idler/body.h5 --body wheel=out/three-in-line/wheel/body.h5 --direction up --output system_sweep.h5");
@@ -43,11 +47,13 @@ void body(int argc, char** argv) {
   const whine::SystemSweepParameters settings = whine::read_system_sweep_parameters(params);
   const std::vector<whine::ReducedBody> gears = whine::read_bodies(files, settings);
   std::optional<whine::Progress> progress;
-  const whine::SystemSweepResult result =
-      whine::system_sweep(settings, gears, direction, [&](long done, long total, const std::string& note) {
+  const whine::SystemSweepResult result = whine::system_sweep(
+      settings, gears, direction,
+      [&](long done, long total, const std::string& note) {
         if (!progress) progress.emplace(whine::text("gear-system-sweep ", direction), total);
         progress->update(done, note);
-      });
+      },
+      jump_width);
   progress.reset();
 
   whine::write(output, result, provenance);
@@ -55,7 +61,8 @@ void body(int argc, char** argv) {
                   result.periods.sum(), " mesh periods, RMS of the transmission error up to ",
                   result.dte_rms.maxCoeff() * 1e6, " µm, contact lost at ",
                   (result.separation_fraction.rowwise().maxCoeff().array() > 0).count(),
-                  " speeds, bearing forces up to ", result.bearing_force_max.maxCoeff(), " N -> ", output);
+                  " speeds, jumps: ", whine::jump_words(result.jump_frequency, result.jump_width),
+                  ", bearing forces up to ", result.bearing_force_max.maxCoeff(), " N -> ", output);
   std::string speeds;
   for (Eigen::Index i = 0; i < result.mesh_frequency.size(); ++i)
     if (result.period_multiple[i] == 0)

@@ -18,7 +18,6 @@ namespace {
 
 constexpr int kMostPeriods = 3000;  // mesh periods per speed, before it counts as not periodic
 constexpr int kLeastTurns = 100;    // but this many hunting periods
-constexpr double kFarAlong = 2.5;   // of the last step along a branch: further it does not predict
 
 double oscillating_rms(const std::vector<RollingDynamics::Period>& record) {
   double sum = 0, square = 0;
@@ -145,40 +144,6 @@ std::optional<Orbit> iterate_to_orbit(RollingDynamics& dynamics, State& state, d
   motion.orbit.periods = found->turns * hunting;
   motion.orbit.residual = found->residual;
   return std::move(motion.orbit);
-}
-
-State predicted(const RollingDynamics& dynamics, const std::vector<KnownOrbit>& branch,
-                double mesh_frequency) {
-  const size_t n = branch.size();
-  const KnownOrbit& last = branch[n - 1];
-  if (n < 2) return last.state;
-  const KnownOrbit& before = branch[n - 2];
-  const VectorXd step = dynamics.difference(last.state, before.state);
-  const double length = step.norm(), ahead = mesh_frequency - last.mesh_frequency,
-               run = last.mesh_frequency - before.mesh_frequency;
-  if (!(length > 0)) return last.state;
-  if (n > 2) {
-    // Way along the branch, from the last orbit on, as its last step sees it.
-    const KnownOrbit& first = branch[n - 3];
-    const double s1 = -length, s0 = s1 - dynamics.difference(before.state, first.state).dot(step) / length,
-                 rate = run / length, earlier = (before.mesh_frequency - first.mesh_frequency) / (s1 - s0),
-                 bend = (rate - earlier) / -s0, slope = rate - bend * s1;
-    if (s0 < s1 && slope * ahead > 0) {
-      const double inside = slope * slope + 4 * bend * ahead;
-      // At the fold where the speed lies beyond it.
-      const double s =
-          inside > 0 ? 2 * ahead / (slope + std::copysign(std::sqrt(inside), slope)) : -slope / (2 * bend);
-      if (s > 0 && s < kFarAlong * length) {
-        VectorXd weight(3);
-        weight << s * (s - s1) / (s0 * (s0 - s1)), s * (s - s0) / (s1 * (s1 - s0)),
-            (s - s0) * (s - s1) / (s0 * s1);
-        return RollingStates::combination({&first.state, &before.state, &last.state}, weight);
-      }
-    }
-  }
-  const double s = ahead / run;
-  if (!(s > 0 && s < kFarAlong)) return last.state;
-  return RollingStates::combination({&before.state, &last.state}, Eigen::Vector2d(-s, 1 + s));
 }
 
 }  // namespace whine

@@ -50,16 +50,4 @@ std::optional<Orbit> iterate_to_orbit(RollingDynamics& dynamics, RollingDynamics
                                       double periodicity, SteadyState method, const RmsRange& looked_for = {},
                                       RollingAcceleration* shared = nullptr);
 
-// A state on the orbit of one mesh period at a speed.
-struct KnownOrbit {
-  double mesh_frequency = 0;  // Hz
-  RollingDynamics::State state;
-};
-
-// The state to start from at a mesh frequency (Hz) so as to stay on the branch of up to three orbits, the last one nearest:
-// state and speed as quadratics of the way along the branch, which a fold does not stop. The last orbit's own state where
-// they do not reach that far.
-RollingDynamics::State predicted(const RollingDynamics& dynamics, const std::vector<KnownOrbit>& branch,
-                                 double mesh_frequency);
-
 }  // namespace whine

@@ -57,7 +57,7 @@ inline constexpr std::tuple kArtifactKinds{
     ArtifactKind<StudyResult>{"study", 3, "study.h5", ""},
     ArtifactKind<ModesResult>{"modes", 1, "modes.h5", "modes"},
     ArtifactKind<SystemStaticResult>{"system_static", 1, "system_static.h5", "system_static"},
-    ArtifactKind<SystemSweepResult>{"system_sweep", 2, "system_sweep.h5", "system_sweep"},
+    ArtifactKind<SystemSweepResult>{"system_sweep", 3, "system_sweep.h5", "system_sweep"},
     ArtifactKind<SystemImpactResult>{"system_impact", 1, "system_impact.h5", "system_impact"},
     ArtifactKind<SystemBranchResult>{"system_branch", 3, "system_branch.h5", "system_branch"},
     ArtifactKind<ReadingsResult>{"readings", 1, "readings.h5", ""}};

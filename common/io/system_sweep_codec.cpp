@@ -20,6 +20,9 @@ void describe_meshes(Codec& c, SystemSweepResult& a) {
   c(a.dte_rms, "/dte_rms", "m", kSize, axes,
     "RMS of the oscillating part of the dynamic transmission error of each mesh");
   c(a.dte_mean, "/dte_mean", "m", kLength, axes, "mean of the dynamic transmission error of each mesh");
+  c(a.dte_harmonic, "/dte_harmonic", "m", kSize, std::string(kAxis) + " harmonic mesh_number",
+    "amplitude of the harmonics 1, 2, ... of the mesh frequency, over the recorded periods");
+  c.numbers("harmonic", 1, "number of the harmonic of the mesh frequency");
   c(a.mesh_force_max, "/mesh_force_max", "N", kLoad, axes,
     "largest torque on the driving body over its base radius");
   c(a.tooth_force_max, "/tooth_force_max", "N", kLoad, axes, "largest normal force of one pair of teeth");
@@ -61,6 +64,10 @@ void describe_solution(Codec& c, SystemSweepResult& a) {
   c(a.periods, "/periods", "1", kNumber, kAxis, "mesh periods run to steady state");
   c(a.period_multiple, "/period_multiple", "1", kMultiple, kAxis,
     "mesh periods after which the motion repeats; 0: not within the limit");
+  c(a.jump_frequency, "/jump_frequency", "Hz", kFrequency, "jump",
+    "middle of the interval in which the response jumps, of teeth that are alike");
+  c(a.jump_width, "/jump_width", "Hz", kFrequency, "jump",
+    "width of the interval in which the response jumps");
   c(a.residual, "/residual", "1", kImbalance, kAxis, "relative change of the state over them");
   c(a.energy_imbalance, "/energy_imbalance", "1", kImbalance, kAxis,
     "energy not accounted for, relative to the throughput");

@@ -13,6 +13,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <optional>
 #include <utility>
@@ -181,6 +182,55 @@ std::optional<Repetition> iterate(Motion& motion, typename States::State& state,
       recurrence.restart(state);
     }
   }
+}
+
+// A state on a periodic orbit at a speed.
+template <class State>
+struct KnownOrbit {
+  double mesh_frequency = 0;  // Hz
+  State state;
+};
+
+// The state to start from at a mesh frequency (Hz) so as to stay on the branch of up to three orbits, the last one nearest:
+// state and speed as quadratics of the way along the branch, which a fold does not stop. The last orbit's own state where
+// they do not reach that far.
+template <class States>
+typename States::State predicted(const States& space,
+                                 const std::vector<KnownOrbit<typename States::State>>& branch,
+                                 double mesh_frequency) {
+  using Eigen::VectorXd;
+  using Known = KnownOrbit<typename States::State>;
+  constexpr double kFarAlong = 2.5;  // of the last step along a branch: further it does not predict
+  const size_t n = branch.size();
+  const Known& last = branch[n - 1];
+  if (n < 2) return last.state;
+  const Known& before = branch[n - 2];
+  const VectorXd step = space.difference(last.state, before.state);
+  const double length = step.norm(), ahead = mesh_frequency - last.mesh_frequency,
+               run = last.mesh_frequency - before.mesh_frequency;
+  if (!(length > 0)) return last.state;
+  if (n > 2) {
+    // Way along the branch, from the last orbit on, as its last step sees it.
+    const Known& first = branch[n - 3];
+    const double s1 = -length, s0 = s1 - space.difference(before.state, first.state).dot(step) / length,
+                 rate = run / length, earlier = (before.mesh_frequency - first.mesh_frequency) / (s1 - s0),
+                 bend = (rate - earlier) / -s0, slope = rate - bend * s1;
+    if (s0 < s1 && slope * ahead > 0) {
+      const double inside = slope * slope + 4 * bend * ahead;
+      // At the fold where the speed lies beyond it.
+      const double s =
+          inside > 0 ? 2 * ahead / (slope + std::copysign(std::sqrt(inside), slope)) : -slope / (2 * bend);
+      if (s > 0 && s < kFarAlong * length) {
+        VectorXd weight(3);
+        weight << s * (s - s1) / (s0 * (s0 - s1)), s * (s - s0) / (s1 * (s1 - s0)),
+            (s - s0) * (s - s1) / (s0 * s1);
+        return space.combination({&first.state, &before.state, &last.state}, weight);
+      }
+    }
+  }
+  const double s = ahead / run;
+  if (!(s > 0 && s < kFarAlong)) return last.state;
+  return space.combination({&before.state, &last.state}, Eigen::Vector2d(-s, 1 + s));
 }
 
 }  // namespace whine

@@ -7,6 +7,16 @@
 
 namespace whine {
 
+// A period map's states, which are rows of numbers in the units of their distance, for iterate() and predicted().
+struct FlatStates {
+  using State = Eigen::VectorXd;
+  static constexpr int kColumns = 4;  // differences, as many multipliers go at once
+  Eigen::VectorXd difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const { return a - b; }
+  double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b) const { return (a - b).norm(); }
+  static Eigen::VectorXd combination(const std::vector<const Eigen::VectorXd*>& states,
+                                     const Eigen::VectorXd& weight);
+};
+
 struct PeriodicMotion : Repetition {
   Eigen::VectorXd state;  // at the end of the last period
 };

@@ -246,8 +246,10 @@ Drawings drawings_of_motions() {
         "runup.h5; response.h5 of sweeps at the same torque, to compare", 0, 0, draw_runup}},
       {"order-cuts",
        {"order cuts: the first orders of the dynamic transmission error against speed, both ways",
-        "response.h5 of sweeps up and down of one torque", 0, 0,
+        "response.h5 of sweeps up and down of one torque, or system_sweep.h5 of a system", 0, 0,
         [](const Paths& in, const Frequencies&) {
+          if (!in.empty() && is_a("whine/system_sweep", in[0]))
+            return order_figure(read_all(in, read<SystemSweepResult>));
           return order_figure(read_all(in, read<ResponseResult>));
         }}},
       {"fig05",

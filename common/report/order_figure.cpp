@@ -4,8 +4,12 @@
 #include <array>
 
 #include "base/error.h"
+#include "report/figure_words.h"
+#include "report/one_system.h"
 #include "report/response_figures.h"
 #include "report/sweep_panels.h"
+#include "report/system_picture.h"
+#include "system/rigid_system.h"
 
 namespace whine {
 namespace {
@@ -58,6 +62,78 @@ Figure order_figure(const std::vector<ResponseResult>& sweeps) {
     panel.rules = {{'x', f_n, "f_n"}};
     figure.panels.push_back(panel);
   }
+  return figure;
+}
+
+Figure order_figure(const std::vector<SystemSweepResult>& sweeps) {
+  if (sweeps.empty() || sweeps[0].mesh_frequency.size() == 0)
+    fail(Failure::input, "figure: a sweep of no speeds was given");
+  const SystemSweepResult& a = sweeps.front();
+  const System& s = a.settings.layout;
+  require_one_system("another sweep", a.settings, a.torque, sweeps);
+  Figure figure;
+  figure.title = "Order cuts of the dynamic transmission error (DTE) of a system";
+  figure.notes = in_lines(bodies_words(s, a.torque));
+  figure.notes.emplace_back("orders of the mesh frequency; solid: rising speed, dashed: falling speed");
+  constexpr size_t kMostPanels = 4;
+  // Planets of a carrier are alike: of their meshes with one gear the first.
+  const auto body = [&](size_t m, size_t side) {
+    return s.bodies[static_cast<size_t>(s.meshes[m].side[side].body)];
+  };
+  const auto alike = [&](size_t m, size_t n) {
+    bool planets = false, same = true;
+    for (const size_t side : {0, 1}) {
+      const System::Body one = body(m, side), other = body(n, side);
+      planets = planets || one.on != System::kGround;
+      same = same && one.radius == other.radius && one.on == other.on;
+    }
+    return planets && same;
+  };
+  std::vector<size_t> meshes;
+  for (size_t m = 0; m < s.meshes.size(); ++m)
+    if (std::none_of(meshes.begin(), meshes.end(), [&](size_t n) { return alike(m, n); }))
+      meshes.push_back(m);
+  if (meshes.size() < s.meshes.size())
+    figure.notes.emplace_back("of planets that are alike the meshes of the first");
+  if (meshes.size() > kMostPanels) {
+    figure.notes.push_back(text("the first ", kMostPanels, " of ", meshes.size(), " meshes"));
+    meshes.resize(kMostPanels);
+  }
+  const Eigen::Index orders = std::min(kOrderCuts, a.dte_harmonic[0].rows());
+  for (const size_t mesh : meshes) {
+    const std::string name = mesh_name(s, mesh);
+    Panel panel{.heading = "mesh of " + without_markup(name)};
+    panel.x = {.label = "Mesh frequency (Hz)", .speed = true};
+    panel.y = {.label = "Amplitude of DTE (µm)", .log = true, .decades = 4, .level = true};
+    for (const SystemSweepResult& sweep : sweeps) {
+      const bool up = sweep.direction == Direction::up;
+      FigureBlock block{text("orders ", name, " ", sweep.direction),
+                        {"mesh_frequency [Hz]"},
+                        {},
+                        "orders",
+                        text(name, " ", name_of(sweep.direction))};
+      for (Eigen::Index k = 1; k <= orders; ++k) {
+        block.columns.push_back(text("order_", k, " [µm]"));
+        panel.curves.push_back({.block = block.name,
+                                .y = static_cast<int>(k) + 1,
+                                .colour = static_cast<int>(k),
+                                .label = &sweep == &a ? text("order ", k) : "",
+                                .width = k == 1 ? 2.8 : 2.0,
+                                .dash = up ? 1 : 3});
+      }
+      for (Eigen::Index i = 0; i < sweep.mesh_frequency.size(); ++i) {
+        std::vector<double> row{sweep.mesh_frequency[i]};
+        for (Eigen::Index k = 0; k < orders; ++k)
+          row.push_back(sweep.dte_harmonic[static_cast<size_t>(i)](k, static_cast<Eigen::Index>(mesh)) *
+                        kMicro);
+        block.rows.push_back(std::move(row));
+      }
+      figure.blocks.push_back(std::move(block));
+    }
+    figure.panels.push_back(std::move(panel));
+  }
+  for (Eigen::Index k = 1; k <= orders; ++k) figure.levels.push_back({text("order_", k, " [µm]"), true});
+  add_shafts(s, figure);
   return figure;
 }
 

@@ -82,6 +82,11 @@ std::string of_sweep(const SystemReport& r) {
       motion_words(r));
 }
 
+std::string of_orders(const SystemReport&) {
+  return "Amplitudes of the first orders of the mesh frequency in the transmission error of each mesh, on a logarithmic axis: "
+         "where an order peaks, that multiple of the mesh frequency meets a natural frequency.";
+}
+
 struct ExplainedSystemFigure {
   const char *name, *section, *title;
   std::function<std::string(const SystemReport&)> words;
@@ -96,6 +101,7 @@ const std::vector<ExplainedSystemFigure>& explained_system_figures() {
       {"modes", "modes", "Natural modes", of_modes},
       {"campbell", "modes", "Campbell diagram", of_campbell},
       {"system-sweep", "motion", "The system over its speeds", of_sweep},
+      {"order-cuts", "motion", "Order cuts", of_orders},
   };
   return all;
 }

@@ -39,6 +39,7 @@ struct SystemSweepResult {
   Eigen::VectorXd mesh_frequency;  // (speed) Hz
   // Over the recorded mesh periods: (speed, mesh)
   MatrixRM dte_rms, dte_mean;                // m: of the dynamic transmission error
+  std::vector<MatrixRM> dte_harmonic;        // [speed] (harmonic 1.., mesh) m: amplitudes
   MatrixRM mesh_force_max, tooth_force_max;  // N
   MatrixRM load_share_max;                   // 1: largest share of the meshes of one [[mesh]]
   MatrixRM separation_fraction;              // 1: of the steps, without force
@@ -52,6 +53,8 @@ struct SystemSweepResult {
   Eigen::VectorXi periods;                           // (speed) mesh periods run
   Eigen::VectorXi
       period_multiple;  // (speed) mesh periods after which the motion repeats; 0: it does not within the limit
+  // (jump) Hz: where the RMS of the meshes steps along the sweep, of teeth that are alike; of the interval in which it does
+  Eigen::VectorXd jump_frequency, jump_width;
   Eigen::VectorXd residual;               // (speed) relative change of the state over them
   Eigen::VectorXd energy_imbalance;       // (speed) relative to the throughput
   MatrixRM energy;                        // (speed, line of kSystemEnergyLines) J over the recorded periods

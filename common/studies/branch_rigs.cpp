@@ -66,4 +66,12 @@ std::optional<Settled> TrainRig::settle(State& state, double mesh_frequency, int
   }
 }
 
+TrainRig::State TrainRig::predicted(const std::vector<KnownOrbit<State>>& branch, double mesh_frequency,
+                                    int steps) {
+  const SystemPeriodMap map(train_.dynamics(), steps);
+  std::vector<KnownOrbit<Eigen::VectorXd>> flat;
+  for (const KnownOrbit<State>& orbit : branch) flat.push_back({orbit.mesh_frequency, map.flat(orbit.state)});
+  return map.state(whine::predicted(FlatStates{}, flat, mesh_frequency));
+}
+
 }  // namespace whine

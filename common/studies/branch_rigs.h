@@ -9,6 +9,7 @@
 #include "dynamics/period_map.h"
 #include "dynamics/system_period_map.h"
 #include "model/stages.h"
+#include "orbits/periodic_motion.h"
 #include "studies/train_in_motion.h"
 #include "studies/zone_levels.h"
 
@@ -62,6 +63,8 @@ class TrainRig {
   State rest() { return train_.dynamics().rest(); }
   std::unique_ptr<Map> map(int steps) { return std::make_unique<Map>(train_.dynamics(), steps); }
   std::optional<Settled> settle(State& state, double mesh_frequency, int steps, SteadyState method);
+  // The state to start from so as to stay on the branch of these orbits, see predicted().
+  State predicted(const std::vector<KnownOrbit<State>>& branch, double mesh_frequency, int steps);
   void widen(const std::vector<State*>& states) { train_.widen(states); }
   bool fit(State& /*state*/, int /*periods*/) { return true; }
 

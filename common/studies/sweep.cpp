@@ -79,7 +79,7 @@ class Sweeper {
     hunting_ = dynamics().hunting_periods();
   }
 
-  const RollingDynamics& dynamics() { return levels_.at(level_); }
+  RollingDynamics& dynamics() { return levels_.at(level_); }
   int hunting_periods() const { return hunting_; }
   int reach() const { return levels_.reach(); }
   double natural_frequency() { return levels_.natural_frequency(); }
@@ -173,6 +173,8 @@ BranchMotion branch_motion(double mesh_frequency, const Orbit& orbit) {
   return {mesh_frequency, orbit.rms, orbit.multiple};
 }
 
+using RollingOrbitAt = KnownOrbit<RollingDynamics::State>;
+
 // Runs from where the motions of the last speeds lead, which is nearer to the motion at the next speed than where the last
 // one ended, and on the branch up to where it ends; from where that one ended where the RMS does not go on evenly (by more than
 // some 8 % a step, or as across a jump).
@@ -190,9 +192,10 @@ Orbit run_on(Sweeper& sweeper, const std::vector<BranchMotion>& motions,
     sweeper.acceleration().forget();
     return sweeper.run(mesh_frequency);
   }
-  std::vector<KnownOrbit> known;
+  std::vector<RollingOrbitAt> known;
   for (size_t i = first - 1; i < n; ++i) known.push_back({motions[i].mesh_frequency, reached[i]});
-  return sweeper.run_from(predicted(sweeper.dynamics(), known, mesh_frequency), mesh_frequency);
+  return sweeper.run_from(predicted(RollingStates{sweeper.dynamics()}, known, mesh_frequency),
+                          mesh_frequency);
 }
 
 // How the branch of the motion i - 1 of a sweep is followed; reached: the states at the end of speeds.
@@ -200,12 +203,12 @@ BranchContinuation follow_motion(Sweeper& sweeper, const std::vector<BranchMotio
                                  const std::vector<RollingDynamics::State>& reached, bool integrate) {
   struct Run {
     Orbit orbit;
-    KnownOrbit end;
+    RollingOrbitAt end;
     RollingAcceleration acceleration;
   };
   struct Branch {
     std::vector<Run> runs;
-    std::vector<KnownOrbit> known;
+    std::vector<RollingOrbitAt> known;
     RollingAcceleration acceleration;
     double rms = 0;
     bool single = false;
@@ -221,8 +224,8 @@ BranchContinuation follow_motion(Sweeper& sweeper, const std::vector<BranchMotio
   for (size_t k = first; k < i; ++k) branch->known.push_back({motions[k].mesh_frequency, reached[k]});
   BranchContinuation follower;
   follower.run = [&sweeper, branch, integrate](double mesh_frequency, double most) {
-    sweeper.state() =
-        integrate ? branch->known.back().state : predicted(sweeper.dynamics(), branch->known, mesh_frequency);
+    sweeper.state() = integrate ? branch->known.back().state
+                                : predicted(RollingStates{sweeper.dynamics()}, branch->known, mesh_frequency);
     sweeper.acceleration() = branch->acceleration;
     const Orbit orbit = sweeper.run(
         mesh_frequency, branch->single ? RmsRange{branch->rms / most, branch->rms * most} : RmsRange{});
@@ -471,33 +474,41 @@ void store_root_stress(const GearMeshModel& model, SweepResult& a) {
   }
 }
 
-// Hz: the speeds in their order.
-std::vector<double> speeds_of(const SweepParameters& settings, Direction direction) {
-  const int count = static_cast<int>(std::floor(
-                        (settings.frequency_to - settings.frequency_from) / settings.frequency_step + 1e-9)) +
-                    1;
-  if (count < 1 || !(settings.frequency_from > 0))
-    fail(Failure::input, "the speed range from ", settings.frequency_from, " to ", settings.frequency_to,
-         " Hz in steps of ", settings.frequency_step, " Hz is empty");
+}  // namespace
+
+std::vector<double> swept_speeds(double from, double to, double step, Direction direction) {
+  const int count = static_cast<int>(std::floor((to - from) / step + 1e-9)) + 1;
+  if (count < 1 || !(from > 0))
+    fail(Failure::input, "the speed range from ", from, " to ", to, " Hz in steps of ", step, " Hz is empty");
   std::vector<double> speeds(static_cast<size_t>(count));
-  for (int i = 0; i < count; ++i) {
-    const int step = direction == Direction::up ? i : count - 1 - i;
-    speeds[static_cast<size_t>(i)] = settings.frequency_from + step * settings.frequency_step;
-  }
+  for (int i = 0; i < count; ++i)
+    speeds[static_cast<size_t>(i)] = from + (direction == Direction::up ? i : count - 1 - i) * step;
   return speeds;
 }
 
-}  // namespace
+void require_jump_width(double jump_width) {
+  constexpr double kFinest = 1e-5;  // Hz: below, runs beside the end of a branch take thousands of periods
+  if (jump_width != 0 && !(jump_width >= kFinest && std::isfinite(jump_width)))
+    fail(Failure::input, "jumps cannot be located to ", jump_width, " Hz; give ", kFinest, " Hz or more");
+}
+
+void store_jumps(const std::vector<BranchJump>& jumps, VectorXd& frequency, VectorXd& width) {
+  frequency.resize(static_cast<Eigen::Index>(jumps.size()));
+  width.resize(frequency.size());
+  for (size_t i = 0; i < jumps.size(); ++i) {
+    frequency[static_cast<Eigen::Index>(i)] = jumps[i].frequency;
+    width[static_cast<Eigen::Index>(i)] = jumps[i].width;
+  }
+}
 
 SweepResult sweep(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
                   double mean_stiffness, const SweepParameters& settings, Direction direction,
                   const std::function<void(long, long, const std::string&)>& report,
                   std::vector<BranchPoint>* left_early, double jump_width) {
-  const std::vector<double> speed = speeds_of(settings, direction);
+  const std::vector<double> speed =
+      swept_speeds(settings.frequency_from, settings.frequency_to, settings.frequency_step, direction);
   const auto speeds = static_cast<int>(speed.size());
-  constexpr double kFinest = 1e-5;  // Hz: below, runs beside the end of a branch take thousands of periods
-  if (jump_width != 0 && !(jump_width >= kFinest && std::isfinite(jump_width)))
-    fail(Failure::input, "jumps cannot be located to ", jump_width, " Hz; give ", kFinest, " Hz or more");
+  require_jump_width(jump_width);
   require_inertia(statics.mesh, {driver.inertia, driven.inertia}, settings.inertia);
   const GearMeshModel model(driver, driven, statics.mesh);
   report(0, speeds, "candidate contact zone");
@@ -555,12 +566,7 @@ SweepResult sweep(const ReducedBody& driver, const ReducedBody& driven, const St
   if (model.on_bearings()) least_error = least_closing(result).minCoeff();
   result.backlash_margin = result.tooth_thinning() > 0 ? model.kinematics.backlash() + least_error
                                                        : std::numeric_limits<double>::infinity();
-  result.jump_frequency.resize(static_cast<Eigen::Index>(jumps.size()));
-  result.jump_width.resize(result.jump_frequency.size());
-  for (size_t i = 0; i < jumps.size(); ++i) {
-    result.jump_frequency[static_cast<Eigen::Index>(i)] = jumps[i].frequency;
-    result.jump_width[static_cast<Eigen::Index>(i)] = jumps[i].width;
-  }
+  store_jumps(jumps, result.jump_frequency, result.jump_width);
   result.backlash_left = backlash_left(result);
   result.remarks = remarks(result, statics);
   return result;

@@ -9,6 +9,7 @@
 #include "results/static.h"
 #include "results/sweep.h"
 #include "signal/branches.h"
+#include "signal/jumps.h"
 #include "system/statics.h"
 
 namespace whine {
@@ -24,6 +25,12 @@ SweepResult sweep(const ReducedBody& driver, const ReducedBody& driven, const St
                   double mean_stiffness, const SweepParameters& settings, Direction direction,
                   const std::function<void(long, long, const std::string&)>& report,
                   std::vector<BranchPoint>* left_early = nullptr, double jump_width = 0);
+
+// Hz: the speeds of a range in the order of the direction. Throws Error(input) if it is empty.
+std::vector<double> swept_speeds(double from, double to, double step, Direction direction);
+// Throws Error(input) for a width of jumps (Hz) that is neither 0, which stands for 1/64 of the step, nor 1e-5 or more.
+void require_jump_width(double jump_width);
+void store_jumps(const std::vector<BranchJump>& jumps, Eigen::VectorXd& frequency, Eigen::VectorXd& width);
 
 // Time steps per mesh period at a mesh frequency (Hz): steps_per_period, doubled until the sampling rate is the least that is
 // asked for. Throws Error(input) if that is more than 65536.

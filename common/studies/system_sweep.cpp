@@ -8,6 +8,8 @@
 #include "base/memory.h"
 #include "dynamics/dynamics.h"
 #include "orbits/recurrence.h"
+#include "signal/response.h"
+#include "signal/spectrum.h"
 #include "studies/branch_rigs.h"
 #include "studies/sweep.h"
 #include "studies/train_statistics.h"
@@ -20,17 +22,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 namespace {
-
-std::vector<double> system_speeds(const SystemSweepParameters& p, Direction direction) {
-  const long count =
-      std::lround(std::floor((p.frequency_to - p.frequency_from) / p.frequency_step + 1e-9)) + 1;
-  std::vector<double> out;
-  out.reserve(static_cast<size_t>(count));
-  for (long i = 0; i < count; ++i)
-    out.push_back(p.frequency_from + static_cast<double>(i) * p.frequency_step);
-  if (direction == Direction::down) std::reverse(out.begin(), out.end());
-  return out;
-}
 
 // The system from speed to speed.
 class SystemSweeper {
@@ -50,11 +41,14 @@ class SystemSweeper {
         Settled settled;
         if (const auto found = rig_.settle(state_, frequency, steps, settings_.time.steady_state))
           settled = *found;
-        if (settled.turns > 0 && record(settled, row, out))
+        if (settled.turns > 0 && record(settled, row, out)) {
+          motions_.push_back({frequency, out.dte_rms.row(row).norm(), settled.multiple * hunting});
+          reached_.push_back(state_);
           return settled.multiple == 1   ? ""
                  : settled.multiple == 0 ? "not periodic"
                                          : text(settled.multiple * hunting, " periods");
-        rig_.widen({&start});
+        }
+        widen({&start});
         state_ = start;
       }
     } catch (const Error& error) {
@@ -62,7 +56,73 @@ class SystemSweeper {
     }
   }
 
+  // Where the RMS steps along the sweep, of teeth that are alike: the branch is followed there with smaller steps.
+  std::vector<BranchJump> jumps(double width) {
+    std::vector<BranchJump> out;
+    for (size_t i = 1; hunting_periods() == 1 && i < motions_.size(); ++i)
+      if (may_break(motions_, i)) {
+        const auto follower = [&] {
+          BranchContinuation follow = continuation(i);
+          follow.finest = width;
+          return follow;
+        };
+        if (const auto jump = find_jump(motions_, i, follower, nullptr)) out.push_back(*jump);
+      }
+    return out;
+  }
+
  private:
+  using State = TrainRig::State;
+  using Known = KnownOrbit<State>;
+
+  void widen(std::vector<State*> states) {
+    for (State& state : reached_) states.push_back(&state);
+    for (auto* orbits : {&known_, &runs_})
+      for (Known& orbit : *orbits) states.push_back(&orbit.state);
+    rig_.widen(states);
+  }
+
+  // How the branch of the motion i - 1 is followed.
+  BranchContinuation continuation(size_t i) {
+    const int multiple = motions_[i - 1].multiple;
+    size_t first = i - 1;
+    while (multiple == 1 && first > 0 && i - first < kKnownOrbits && motions_[first - 1].multiple == 1)
+      --first;
+    known_.clear();
+    runs_.clear();
+    for (size_t k = first; k < i; ++k) known_.push_back({motions_[k].mesh_frequency, reached_[k]});
+    BranchContinuation follower;
+    follower.run = [this](double frequency, double) {
+      const BranchMotion motion = run_on(frequency);
+      runs_.push_back({frequency, state_});
+      return motion;
+    };
+    follower.keep = [this, multiple](int n) {
+      known_.push_back(runs_[static_cast<size_t>(n)]);
+      if (multiple != 1 || known_.size() > kKnownOrbits) known_.erase(known_.begin());
+      return BranchPoint{};
+    };
+    return follower;
+  }
+
+  // From where the orbits that are known lead; their RMS as that of the rows.
+  BranchMotion run_on(double frequency) {
+    const int steps = steps_at(settings_.time, frequency);
+    for (;;) {
+      state_ = rig_.predicted(known_, frequency, steps);
+      if (const auto settled = rig_.settle(state_, frequency, steps, settings_.time.steady_state)) {
+        TrainStatistics statistics(settings_, rig_.train().system().mesh.size(),
+                                   settings_.layout.bodies.size());
+        SystemDynamics::Period period;
+        int n = 0;
+        const int periods = settled->multiple > 0 ? settled->multiple : Recurrence<VectorXd>::kMostMultiple;
+        for (; n < periods && rig_.train().dynamics().integrate(state_, period); ++n) statistics.take(period);
+        if (n == periods) return {frequency, statistics.dte_rms().norm(), settled->multiple};
+      }
+      widen({});
+    }
+  }
+
   // False if contact leaves the tip edges that are looked at.
   bool record(const Settled& motion, Index row, SystemSweepResult& out) {
     const int hunting = hunting_periods();
@@ -92,6 +152,8 @@ class SystemSweeper {
     }
     out.dte_mean.row(row) = recorded.dte_mean();
     out.dte_rms.row(row) = recorded.dte_rms();
+    out.dte_harmonic[static_cast<size_t>(row)] = recorded.dte_harmonic().topRows(
+        resolved_harmonics(settings_.time.steps_per_period, kResponseHarmonics));
     out.mesh_force_max.row(row) = recorded.mesh_force_max();
     out.tooth_force_max.row(row) = recorded.tooth_force_max();
     out.load_share_max.row(row) = recorded.load_share_max();
@@ -158,7 +220,11 @@ class SystemSweeper {
 
   const SystemSweepParameters& settings_;
   TrainRig rig_;
-  SystemDynamics::State state_;
+  State state_;
+  std::vector<BranchMotion> motions_;
+  std::vector<State> reached_;       // [motion]
+  std::vector<Known> known_, runs_;  // of a branch that is followed: the last ones on it; all that were tried
+  static constexpr size_t kKnownOrbits = 3;
 };
 
 }  // namespace
@@ -184,8 +250,11 @@ void require_memory_for(const SystemSweepParameters& settings, int hunting, size
 
 SystemSweepResult system_sweep(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
                                Direction direction,
-                               const std::function<void(long, long, const std::string&)>& report) {
-  const std::vector<double> speeds = system_speeds(settings, direction);
+                               const std::function<void(long, long, const std::string&)>& report,
+                               double jump_width) {
+  const std::vector<double> speeds =
+      swept_speeds(settings.frequency_from, settings.frequency_to, settings.frequency_step, direction);
+  require_jump_width(jump_width);
   require_relaxation_range(settings.damping, settings.fidelity.body, settings.frequency_to);
   require_memory_for(settings, whine::hunting_periods(settings), speeds.size());
   report(0, static_cast<long>(speeds.size()), "at rest");
@@ -211,6 +280,7 @@ SystemSweepResult system_sweep(const SystemSweepParameters& settings, const std:
   for (VectorXd* x : {&out.residual, &out.energy_imbalance, &out.drift_force}) x->setZero(n);
   out.periods.setZero(n);
   out.period_multiple.setZero(n);
+  out.dte_harmonic.resize(speeds.size());
   out.transmission_error.resize(speeds.size());
   out.mesh_deflection.resize(speeds.size());
   out.mesh_force.resize(speeds.size());
@@ -220,6 +290,7 @@ SystemSweepResult system_sweep(const SystemSweepParameters& settings, const std:
     const std::string note = sweeper.run(speeds[static_cast<size_t>(i)], i, out);
     report(i + 1, n, text(speeds[static_cast<size_t>(i)], " Hz", note.empty() ? "" : ", ", note));
   }
+  store_jumps(sweeper.jumps(jump_width), out.jump_frequency, out.jump_width);
   return out;
 }
 

@@ -11,9 +11,10 @@ namespace whine {
 
 // bodies: [gear] of settings.body. Statics of lines come first: they give the mean stiffnesses, to which the dampers of the axes
 // refer, and how far tip edges are looked for. report(done, total, note) is called after each speed. A speed at which the motion
-// does not become periodic is kept with period_multiple 0. Throws as system_at_rest() and SystemDynamics, with the speed.
+// does not become periodic is kept with period_multiple 0. jump_width: Hz, as of sweep(), where the RMS over the meshes steps. Throws as system_at_rest() and SystemDynamics, with the speed.
 SystemSweepResult system_sweep(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
                                Direction direction,
-                               const std::function<void(long, long, const std::string&)>& report);
+                               const std::function<void(long, long, const std::string&)>& report,
+                               double jump_width = 0);
 
 }  // namespace whine

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <vector>
 
+#include "signal/response.h"
+#include "signal/spectrum.h"
+
 namespace whine {
 
 using Eigen::Index;
@@ -19,13 +22,19 @@ void TrainStatistics::clear() {
   squares_ = most_ = tooth_ = share_ = parted_ = sum_;
   force_sum_.setZero();
   force_squares_ = force_most_ = VectorXd::Zero(force_sum_.cols());
-  count_ = 0;
+  fourier_.resize(0, sum_.size());
+  count_ = periods_ = 0;
 }
 
 void TrainStatistics::take(const SystemDynamics::Period& period) {
   const std::vector<Eigen::Matrix2Xd>& forces = period.bearing_force;
   const Index steps = period.mesh_force.cols();
   count_ += static_cast<double>(steps);
+  if (periods_++ == 0) fourier_.setZero(resolved_harmonics(steps, kResponseHarmonics), sum_.size());
+  for (Index m = 0; m < sum_.size(); ++m)
+    fourier_.col(m) +=
+        fourier_coefficients(period.transmission_error.row(m).transpose(), static_cast<int>(fourier_.rows()))
+            .tail(fourier_.rows());
   for (Index i = 0; i < steps; ++i) {
     std::vector<double> carried(settings_.mesh.size(), 0.0);
     for (Index m = 0; m < sum_.size(); ++m)

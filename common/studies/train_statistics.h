@@ -16,6 +16,8 @@ class TrainStatistics {
   // Over all steps of the periods taken. (mesh)
   Eigen::VectorXd dte_mean() const { return sum_ / count_; }  // m
   Eigen::VectorXd dte_rms() const;                            // m, of the oscillating part
+  // (harmonic 1.., mesh) m: amplitudes of the mesh frequency's harmonics, those that the samples of a period resolve, ten at most.
+  Eigen::MatrixXd dte_harmonic() const { return 2 / periods_ * fourier_.cwiseAbs(); }
   const Eigen::VectorXd& mesh_force_max() const { return most_; }
   const Eigen::VectorXd& tooth_force_max() const { return tooth_; }        // N, of one pair of teeth
   Eigen::VectorXd load_share_max() const { return share_.cwiseMin(1.0); }  // of the meshes of its section
@@ -29,7 +31,8 @@ class TrainStatistics {
   Eigen::VectorXd sum_, squares_, most_, tooth_, share_, parted_;
   Eigen::MatrixXd force_sum_;
   Eigen::VectorXd force_squares_, force_most_;
-  double count_ = 0;
+  Eigen::MatrixXcd fourier_;  // (harmonic 1.., mesh) sum over the periods
+  double count_ = 0, periods_ = 0;
 };
 
 }  // namespace whine

@@ -21,7 +21,8 @@ namespace {
 bool drawn(const Figure& figure, const std::string& recipe) {
   const auto table = std::filesystem::temp_directory_path() / text("whine-flat-", getpid(), ".tsv");
   std::ofstream(table) << plot_data(figure);
-  const std::string picture = draw(figure, table, template_of(figure, "pipelines/plots", recipe), Picture::svg);
+  const std::string picture =
+      draw(figure, table, template_of(figure, "pipelines/plots", recipe), Picture::svg);
   std::filesystem::remove(table);
   return picture.find("</svg>") != std::string::npos;
 }

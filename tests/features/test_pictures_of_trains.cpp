@@ -6,6 +6,7 @@
 #include "report/campbell_figure.h"
 #include "report/engineering_axes.h"
 #include "report/modes_figure.h"
+#include "report/order_figure.h"
 #include "report/system_branch_figure.h"
 #include "report/system_figures.h"
 #include "report/system_impact_figure.h"
@@ -45,6 +46,10 @@ TEST_CASE("pictures of trains: no text is cut or lies on other text, eight meshe
   Figure turned = system_sweep_figure(sweeps);
   apply({"rpm:" + scene.gears[0].name, 1e-6}, turned);
   check(turned, "system-sweep");
+  Figure orders = order_figure(sweeps);
+  check(orders, "order-cuts");
+  apply({"rpm:" + scene.gears[0].name, 1e-6}, orders);
+  check(orders, "order-cuts");
   const ModesResult modes = natural_modes(rest.settings.layout);
   check(modes_figure(modes), "modes");
   check(campbell_figure(modes), "campbell");

@@ -1,0 +1,111 @@
+// The pair of P2000 told as a train of two gears, contact on lines in both: its sweeps jump, its branches fold and its orbits double
+// their period at the same speeds. Only the fields of the residual flexibility differ, 12 in place of 8 a tooth.
+#include <doctest/doctest.h>
+
+#include "gear/system_layout.h"
+#include "io/system_scene.h"
+#include "paper_pair.h"
+#include "relative.h"
+#include "studies/pair_branch.h"
+#include "studies/sweep.h"
+#include "studies/system_branch.h"
+#include "studies/system_sweep.h"
+#include "system/statics.h"
+
+using namespace whine;
+
+namespace {
+
+constexpr double kAlike = 2e-3;  // of a speed; seen: 6e-4
+
+const ReducedBody& body() {
+  return paper_body(40e-3, 1.2e-3, 12);
+}
+
+// Both of one speed range and damping (s).
+struct Both {
+  Both(double from, double to, double rayleigh_stiffness) : pair(paper_sweep(from, to, 50)) {
+    pair.damping.rayleigh_stiffness = rayleigh_stiffness;
+    pair.fidelity = {BodyModel::modal, ContactModel::line, Integrator::exact};
+    pair.time.steps_per_period = 64;
+    pair.time.min_sample_rate = 0;
+    pair.reference_torque = 150;
+    SystemScene scene;
+    for (const char* name : {"pinion", "wheel"}) {
+      SystemScene::Gear gear;
+      gear.name = name;
+      gear.design = paper_gear();
+      gear.material = paper_steel();
+      gear.total_inertia = 0.0148;
+      scene.gears.push_back(gear);
+    }
+    scene.meshes.resize(1);
+    scene.meshes[0].spec = paper_statics(64).mesh;
+    scene.drives = {{"pinion", System::DriveKind::torque, 150, 0},
+                    {"wheel", System::DriveKind::torque, -150, 0}};
+    scene.operation.frequency_from = from;
+    scene.operation.frequency_to = to;
+    scene.operation.frequency_step = 50;
+    scene.fidelity = pair.fidelity;
+    scene.contact = {17, 64};
+    scene.damping = pair.damping;
+    scene.time = pair.time;
+    train = sweep_parameters_of(scene, layout_of(scene));
+  }
+  SweepParameters pair;
+  SystemSweepParameters train;
+
+  static const StaticResult& statics() {
+    static const StaticResult out = [] {
+      StaticParameters settings = paper_statics(64);
+      settings.fidelity.contact = ContactModel::line;
+      return static_transmission(body(), body(), settings, 150);
+    }();
+    return out;
+  }
+  SweepResult pair_sweep(Direction direction) const {
+    return sweep(body(), body(), statics(), statics().mean_stiffness, pair, direction, no_report);
+  }
+  SystemSweepResult train_sweep(Direction direction) const {
+    return system_sweep(train, {body(), body()}, direction, no_report);
+  }
+  BranchResult pair_along(const BranchPlan& plan) const {
+    return pair_branch(body(), body(), statics(), statics().mean_stiffness, pair, no_report, plan);
+  }
+  SystemBranchResult train_along(const BranchPlan& plan) const {
+    return system_branch(train, {body(), body()}, no_report, plan);
+  }
+};
+
+void check_alike(const Eigen::VectorXd& train, const Eigen::VectorXd& pair) {
+  REQUIRE(train.size() == pair.size());
+  for (Eigen::Index i = 0; i < pair.size(); ++i) CHECK(train[i] == relative(pair[i], kAlike));
+}
+
+}  // namespace
+
+TEST_CASE("a pair as a train: the sweep jumps where that of the pair does, and where its branch folds") {
+  const Both both(2300, 3000, 5.5e-6);
+  const SweepResult pair = both.pair_sweep(Direction::up);
+  const SystemSweepResult train = both.train_sweep(Direction::up);
+  REQUIRE(pair.jump_frequency.size() == 1);
+  check_alike(train.jump_frequency, pair.jump_frequency);
+  CHECK(train.jump_width[0] == relative(pair.jump_width[0], 1e-9));
+  const BranchPlan from_sweep{.sweep = Direction::up, .at = 2500};
+  const SystemBranchResult branch = both.train_along(from_sweep);
+  check_alike(branch.fold_frequency, both.pair_along(from_sweep).fold_frequency);
+  // A sweep in steps ends at the fold, or at a kink a little before.
+  CHECK(std::abs(train.jump_frequency[0] - branch.fold_frequency[0]) <
+        branch.fold_width[0] + train.jump_width[0]);
+}
+
+TEST_CASE("a pair as a train: orbits of two mesh periods begin at the same speeds") {
+  const Both both(5300, 6300, 2e-6);
+  const BranchPlan plan{.most_periods = 2};
+  const BranchResult pair = both.pair_along(plan);
+  const SystemBranchResult train = both.train_along(plan);
+  REQUIRE(pair.flip_frequency.size() >= 1);
+  check_alike(train.flip_frequency, pair.flip_frequency);
+  CHECK(train.period_multiple.maxCoeff() == 2);
+  CHECK(train.residual.maxCoeff() < 1e-6);
+}
