@@ -84,23 +84,6 @@ Eigen::Index as_index(std::size_t value) {
   return static_cast<Eigen::Index>(value);
 }
 
-class SectionSource : public ParameterSource {
- public:
-  SectionSource(const ArtifactReader& reader, const std::string& section)
-      : reader_(reader), prefix_("/parameters/" + section + "/") {}
-  bool has(const std::string& name) const override { return reader_.has(prefix_ + name); }
-  double number(const std::string& name) const override { return reader_.number(prefix_ + name); }
-  int whole(const std::string& name) const override { return reader_.whole(prefix_ + name); }
-  std::string word(const std::string& name) const override { return reader_.word(prefix_ + name); }
-  [[noreturn]] void reject(const std::string& name, const std::string& what) const override {
-    reader_.reject("dataset " + prefix_ + name + " " + what);
-  }
-
- private:
-  const ArtifactReader& reader_;
-  std::string prefix_;
-};
-
 }  // namespace
 
 void put_seal(h5::Writer& file) {
@@ -267,29 +250,6 @@ void ArtifactWriter::put(const std::string& name, const MatrixRMi& values, const
              {static_cast<std::size_t>(values.rows()), static_cast<std::size_t>(values.cols())}, label);
 }
 
-namespace {
-
-// Section of /parameters that holds a key of a list in `section`.
-std::string held_in(const Key& key, const std::string& section) {
-  if (key.own.empty()) return section;
-  return key.own[0] == '_' ? section + key.own : key.own;
-}
-
-}  // namespace
-
-void ArtifactWriter::parameters(const std::string& section, const KeyList& keys) {
-  for (const Key& key : keys) {
-    if (!is_held(key)) continue;
-    for (const Parameter& parameter : parameters_of(key))
-      std::visit(
-          [&](const auto& value) {
-            put("/parameters/" + held_in(key, section) + "/" + parameter.name, value,
-                {parameter.units, parameter.meaning, "", ""});
-          },
-          parameter.value);
-  }
-}
-
 void ArtifactWriter::publish() {
   std::map<std::string, std::string> now;
   for (std::size_t i = 0; i < sha256_.size(); ++i) {
@@ -414,14 +374,6 @@ MatrixRMi ArtifactReader::whole_matrix(const std::string& name, const Range& ran
                                        Eigen::Index columns) const {
   const auto [values, shape] = ints(name, range, {rows, columns});
   return Eigen::Map<const MatrixRMi>(values.data(), as_index(shape[0]), as_index(shape[1]));
-}
-
-void ArtifactReader::parameters(const std::string& section, const KeyList& keys) const {
-  const auto section_of = [&](const Key& key) { return held_in(key, section); };
-  const auto has = [&](const Key& key) { return SectionSource(*this, section_of(key)).has(key.si_name()); };
-  read_held(keys, has, section_of, [&](const std::string& own, const KeyList& held) {
-    for (const Key& key : held) set_parameter(key, SectionSource(*this, own));
-  });
 }
 
 }  // namespace whine

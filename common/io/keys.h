@@ -26,8 +26,15 @@ KeyPlace find_key(const std::string& name);
 
 // Shortest text that reads back as the same double; always a TOML float.
 std::string exact_text(double value);
-std::string exact_text(const Points& points);
-std::string exact_text(const std::vector<double>& values);  // [1.0, 2.0]
+
+// What a key holds as a scene has it, its numbers as `number` writes them; quote: around words.
+using NumberText = std::function<std::string(double si, const Unit&)>;
+std::string value_text(const Key& key, const NumberText& number, const char* quote);
+// The same in SI with all digits.
+std::string exact_value(const Key& key, const char* quote);
+
+// Where a scene has the key: "[gear.<name>.crack]", "[[mesh]]"; "(top)".
+std::string heading_of(const Key& key);
 
 // Whether a key is one of systems, which pairs do not have, or one of pairs, which scenes of systems reject; the table of keys says
 // so.
@@ -42,19 +49,6 @@ struct Parameter {
 
 // What a key holds, and back. A limit that is infinite is left out and read back as infinite.
 std::vector<Parameter> parameters_of(const Key& key);
-
-class ParameterSource {
- public:
-  virtual ~ParameterSource() = default;
-  virtual bool has(const std::string& name) const = 0;
-  virtual double number(const std::string& name) const = 0;
-  virtual int whole(const std::string& name) const = 0;
-  virtual std::string word(const std::string& name) const = 0;
-  // Throws Error(input) that names the source, the parameter and what is wrong with it.
-  [[noreturn]] virtual void reject(const std::string& name, const std::string& what) const = 0;
-};
-// Values outside of the range of their key are rejected.
-void set_parameter(const Key& key, const ParameterSource& source);
 
 // Whether stage parameters and artifacts hold the key.
 inline bool is_held(const Key& key) {

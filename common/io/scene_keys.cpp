@@ -92,31 +92,15 @@ std::vector<GearRow> rows_of(View& v, bool moves) {
 
 // As a scene would have it; "" for a list that is empty.
 std::string in_scene_unit(const Key& key) {
-  const auto number = [](double si, const Unit& unit) {
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%.6g", si * unit.divide / unit.multiply);
-    return std::string(buffer);
-  };
-  std::string list;
-  const Slot& slot = key.slot;
-  if (const auto* one = std::get_if<double*>(&slot)) return number(**one, key.unit);
-  if (const auto* whole = std::get_if<int*>(&slot)) return text(**whole);
-  if (const auto* word = std::get_if<std::string*>(&slot)) return **word;
-  if (const auto* choice = std::get_if<ChoiceSlot>(&slot)) return key.word_in(*choice);
-  if (const auto* flag = std::get_if<bool*>(&slot)) return **flag ? "true" : "false";
-  if (const auto* plane = std::get_if<PlaneSlot>(&slot)) return *plane->stress ? "stress" : "strain";
-  if (const auto* corner = std::get_if<CornerRule*>(&slot)) {
-    if (!(*corner)->enabled) return "false";
-    return std::isinf((*corner)->largest_angle) ? "true"
-                                                : text((*corner)->largest_angle * 180 / std::numbers::pi);
-  }
-  if (const auto* points = std::get_if<Points*>(&slot))
-    for (const auto& [roll, removed] : **points)
-      list += text(list.empty() ? "" : ", ", "[", number(roll, kPointUnits[0]), ", ",
-                   number(removed, kPointUnits[1]), "]");
-  if (const auto* teeth = std::get_if<ToothList>(&slot))
-    for (const double value : *teeth->values) list += (list.empty() ? "" : ", ") + number(value, key.unit);
-  return list.empty() ? "" : "[" + list + "]";
+  const std::string word = value_text(
+      key,
+      [](double si, const Unit& unit) {
+        char buffer[32];
+        std::snprintf(buffer, sizeof buffer, "%.6g", si * unit.divide / unit.multiply);
+        return std::string(buffer);
+      },
+      "");
+  return word == "[]" ? "" : word;
 }
 
 template <class Artifact>

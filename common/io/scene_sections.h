@@ -2,7 +2,9 @@
 //
 // Private to the layer io/.
 #pragma once
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/section_reader.h"
@@ -12,6 +14,16 @@ namespace whine {
 
 // [gear.<name>] with all below it, and [material.<name>]. rigid: gears of a rigid system, which need no material and no blank.
 void read_gears(const Source& source, Scene& scene, bool rigid);
+
+// [[bearing]] of these hubs, by their names; `unknown` names what others are not; check: what else one of them must be.
+void read_bearings(
+    const Source& source, const std::vector<std::pair<std::string, Bearing*>>& of, const std::string& unknown,
+    const std::function<void(const SectionReader&, const Bearing&, size_t)>& check = [](auto&&...) {});
+
+// [fidelity], [discretisation], [damping], [operation], each of which may be left out; check: before what it says is read.
+void read_levels(
+    const Source& source, const KeyList& keys,
+    const std::function<void(const SectionReader&)>& check = [](auto&&...) {});
 
 // "; did you mean 'pinion'?" or what there is.
 std::string advice_for(const std::string& word, const std::vector<std::string>& known);

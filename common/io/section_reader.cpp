@@ -8,7 +8,6 @@
 #include <limits>
 #include <sstream>
 
-#include "base/key_error.h"
 #include "io/stage_parameters_text.h"
 #include "io/suggestion.h"
 
@@ -60,7 +59,7 @@ Source::Source(std::string path, const std::string& bytes, bool lines)
   try {
     root_ = parse_toml(bytes);
   } catch (const toml::parse_error& error) {
-    reject_line(error.source().begin.line, text("is not valid TOML: ", error.description()));
+    reject_line(error.source().begin.line, "is not valid TOML: ", error.description());
   }
 }
 
@@ -90,16 +89,14 @@ Source Source::table_of_teeth(const std::string& path) {
       continue;
     }
     if (fields.size() != names.size())
-      source.reject_line(number,
-                         text("holds ", fields.size(), " numbers, ", names.size(), " columns are named"));
+      source.reject_line(number, "holds ", fields.size(), " numbers, ", names.size(), " columns are named");
     for (size_t i = 0; i < fields.size(); ++i) {
       char* end = nullptr;
       const double value = std::strtod(fields[i].c_str(), &end);
-      if (end == fields[i].c_str() || *end)
-        source.reject_line(number, text("'", fields[i], "' is no number"));
+      if (end == fields[i].c_str() || *end) source.reject_line(number, "'", fields[i], "' is no number");
       if (i == 0 && value != tooth)
-        source.reject_line(number, text("tooth ", fields[i], " stands where tooth ", tooth,
-                                        " is due; teeth are in order from 0"));
+        source.reject_line(number, "tooth ", fields[i], " stands where tooth ", tooth,
+                           " is due; teeth are in order from 0");
       if (i > 0) columns[i].push_back(value);
     }
     source.row_line_.push_back(number);
@@ -118,23 +115,22 @@ std::string Source::place(const toml::node& at) const {
   return place(at.source().begin ? at.source().begin.line : line_in_column(at));
 }
 
-void Source::reject_line(toml::source_index line, const std::string& what) const {
-  fail(Failure::input, place(line), ": ", what);
-}
-
-void Source::reject(const toml::node& at, const std::string& what) const {
-  fail(Failure::input, place(at), ": ", what);
-}
-
-void Source::reject_value(const std::string& key, const toml::node& at, const std::string& what) const {
-  throw KeyError(Failure::input, key, text(place(at), ": ", what));
-}
-
 const toml::table* Source::section(const std::string& name) const {
   const toml::node* node = root_.get(name);
   if (!node) return nullptr;
   if (const auto* table = node->as_table()) return table;
-  reject(*node, text("'", name, "' must be a section: write [", name, "]"));
+  reject(*node, "'", name, "' must be a section: write [", name, "]");
+}
+
+std::vector<const toml::table*> Source::list(const std::string& name) const {
+  std::vector<const toml::table*> out;
+  const toml::node* node = root_.get(name);
+  if (!node) return out;
+  const toml::array* list = node->as_array();
+  if (!list || !list->is_array_of_tables())
+    reject(*node, "'", name, "' must be a list of sections: write [[", name, "]]");
+  for (const toml::node& item : *list) out.push_back(item.as_table());
+  return out;
 }
 
 toml::source_index Source::line_in_column(const toml::node& at) const {
@@ -143,6 +139,15 @@ toml::source_index Source::line_in_column(const toml::node& at) const {
       for (std::size_t i = 0; i < numbers->size() && i < row_line_.size(); ++i)
         if (numbers->get(i) == &at) return row_line_[i];
   return 0;
+}
+
+std::optional<SectionReader> SectionReader::below(const std::string& section) const {
+  const toml::node* at = node(section);
+  if (!at) return std::nullopt;
+  if (!at->is_table())
+    source_.reject(*at, "'", section, "' in [", label_, "] must be a section: write [", label_, ".", section,
+                   "]");
+  return SectionReader(source_, *at->as_table(), section, label_ + "." + section);
 }
 
 void SectionReader::reject_unknown(const std::vector<std::string>& others) const {
@@ -160,9 +165,8 @@ void SectionReader::reject_unknown(const std::vector<std::string>& others) const
     if (const toml::table* section = node.as_table();
         top && section && (section->contains("teeth") || section->contains("like")))
       advice = text("; a gear is [gear.", word, "]");
-    source_.reject_line(name.source().begin.line,
-                        text("unknown ", top && is_section ? "section" : "key", " '", word, "'",
-                             top ? "" : text(" in [", label_, "]"), advice));
+    source_.reject_line(name.source().begin.line, "unknown ", top && is_section ? "section" : "key", " '",
+                        word, "'", top ? "" : text(" in [", label_, "]"), advice);
   }
 }
 
@@ -172,11 +176,11 @@ void SectionReader::read(const KeyList& keys, bool inherit, const std::set<std::
     const std::string name = name_in(key, dialect_);
     const toml::node* node = table_.get(name);
     if (node) {
-      assign(key, *node, key.slot);
+      assign(key, *node);
     } else if ((inherit && key.name != std::string("like")) || optional.count(name)) {
       continue;
     } else if (key.fallback && dialect_ == Dialect::scene) {
-      assign_fallback(key, key.slot);
+      key.take_fallback();
     } else {
       missing.push_back("'" + name + "'");
     }
@@ -188,20 +192,18 @@ void SectionReader::read(const KeyList& keys, bool inherit, const std::set<std::
   }
 }
 
-void SectionReader::reject(const Key& key, const toml::node& node, const std::string& what) const {
-  source_.reject_value(
-      key.name, node,
-      text("'", name_in(key, dialect_), "'", label_.empty() ? "" : text(" in [", label_, "]"), " = ",
-           as_written(node), ": ", what));
+std::string SectionReader::words_on(const Key& key, const toml::node& node) const {
+  return text("'", name_in(key, dialect_), "'", label_.empty() ? "" : text(" in [", label_, "]"), " = ",
+              as_written(node), ": ");
 }
 
 double SectionReader::finite_number(const Key& key, const toml::node& node, const std::string& item) const {
   if (!node.is_number())
-    reject(key, node,
-           item + "must be a number" + (unit_of(key).empty() ? "" : " (in" + unit_of(key) + ")") +
-               number_advice(node.value<std::string>().value_or("")));
+    reject_value(key, node,
+                 item + "must be a number" + (unit_of(key).empty() ? "" : " (in" + unit_of(key) + ")") +
+                     number_advice(node.value<std::string>().value_or("")));
   const double value = node.value<double>().value_or(0.0);
-  if (!std::isfinite(value)) reject(key, node, item + "must be a finite number");
+  if (!std::isfinite(value)) reject_value(key, node, item + "must be a finite number");
   return value;
 }
 
@@ -211,17 +213,16 @@ double SectionReader::checked_number(const Key& key, const toml::node& node, con
   if (key.limits.or_zero && value == 0) return value;
   const std::string why = *key.limits.reason ? text(": ", key.limits.reason) : "";
   if (value < key.limits.least || (key.limits.open && value == key.limits.least)) {
-    reject(key, node,
-           text(item, "must be ", key.limits.open ? "greater than " : "at least ", key.limits.least,
-                unit_of(key), why));
+    reject_value(key, node, item, "must be ", key.limits.open ? "greater than " : "at least ",
+                 key.limits.least, unit_of(key), why);
   }
   if (value > key.limits.most)
-    reject(key, node, text(item, "must be at most ", key.limits.most, unit_of(key)));
+    reject_value(key, node, item, "must be at most ", key.limits.most, unit_of(key));
   return key.to_si(value);
 }
 
 std::string SectionReader::checked_word(const Key& key, const toml::node& node) const {
-  if (!node.is_string()) reject(key, node, "must be text in quotes");
+  if (!node.is_string()) reject_value(key, node, "must be text in quotes");
   std::string word = node.value<std::string>().value_or("");
   if (*key.choices) {
     std::istringstream list(key.choices);
@@ -230,55 +231,48 @@ std::string SectionReader::checked_word(const Key& key, const toml::node& node) 
     if (std::find(choices.begin(), choices.end(), word) == choices.end()) {
       const std::string now = renamed(word);
       const bool known = std::find(choices.begin(), choices.end(), now) != choices.end();
-      reject(key, node,
-             "must be one of: " + joined(choices) + (known ? "; '" + word + "' is now '" + now + "'" : ""));
+      reject_value(
+          key, node,
+          "must be one of: " + joined(choices) + (known ? "; '" + word + "' is now '" + now + "'" : ""));
     }
   } else if (std::any_of(word.begin(), word.end(), [](unsigned char c) { return c < 32 || c == 127; })) {
-    reject(key, node, "must be one line of text");
+    reject_value(key, node, "must be one line of text");
   }
   if (word.size() > kLongestWord)
-    reject(key, node, text("has ", word.size(), " bytes; must be at most ", kLongestWord));
+    reject_value(key, node, "has ", word.size(), " bytes; must be at most ", kLongestWord);
   return word;
 }
 
-void SectionReader::assign(const Key& key, const toml::node& node, const Slot& slot) const {
-  if (const auto* number = std::get_if<double*>(&slot)) {
-    **number = checked_number(key, node);
-  } else if (const auto* whole = std::get_if<int*>(&slot)) {
-    const double value = checked_number(key, node);
-    if (value != std::floor(value) || std::abs(value) > std::numeric_limits<int>::max())
-      reject(key, node, "must be a whole number");
-    **whole = static_cast<int>(value);
-  } else if (const auto* flag = std::get_if<bool*>(&slot)) {
-    if (!node.is_boolean()) reject(key, node, "must be true or false");
-    **flag = node.value<bool>().value_or(false);
-  } else if (const auto* word = std::get_if<std::string*>(&slot)) {
-    **word = checked_word(key, node);
-  } else if (const auto* choice = std::get_if<ChoiceSlot>(&slot)) {
-    key.assign(*choice, checked_word(key, node));
-  } else if (const auto* plane = std::get_if<PlaneSlot>(&slot)) {
-    *plane->stress = checked_word(key, node) == "stress";
-  } else if (const auto* corner = std::get_if<CornerRule*>(&slot)) {
-    **corner = CornerRule{};
-    if (node.is_boolean()) {
-      (*corner)->enabled = node.value<bool>().value_or(true);
-    } else if (node.is_number()) {
-      (*corner)->largest_angle = checked_number(key, node);
-    } else {
-      reject(key, node, "must be true, false or a number of degrees");
-    }
-  } else if (const auto* list = std::get_if<std::vector<double>*>(&slot)) {
-    assign_list(key, node, **list);
-  } else if (const auto* points = std::get_if<Points*>(&slot)) {
-    assign_points(key, node, **points);
-  } else if (const auto* teeth = std::get_if<ToothList>(&slot)) {
-    const toml::array* array = node.as_array();
-    if (!array) reject(key, node, text("must be a list with a number for each ", teeth->of));
-    teeth->values->clear();
-    for (const toml::node& item : *array) teeth->values->push_back(checked_number(key, item));
-  } else {
-    assign_range(key, node, std::get<RangeSlot>(slot));
-  }
+int SectionReader::whole_number(const Key& key, const toml::node& node) const {
+  const double value = checked_number(key, node);
+  if (value != std::floor(value) || std::abs(value) > std::numeric_limits<int>::max())
+    reject_value(key, node, "must be a whole number");
+  return static_cast<int>(value);
+}
+
+void SectionReader::assign(const Key& key, const toml::node& node) const {
+  std::visit(Overloaded{[&](double* held) { *held = checked_number(key, node); },
+                        [&](int* held) { *held = whole_number(key, node); },
+                        [&](bool* held) {
+                          if (!node.is_boolean()) reject_value(key, node, "must be true or false");
+                          *held = node.value_or(false);
+                        },
+                        [&](std::string* held) { *held = checked_word(key, node); },
+                        [&](const ChoiceSlot& choice) {
+                          *key.choices ? key.assign(choice, checked_word(key, node))
+                                       : choice.assign(choice.value, whole_number(key, node));
+                        },
+                        [&](CornerRule* rule) {
+                          *rule = CornerRule{node.value_or(true)};
+                          if (node.is_number())
+                            *rule = {true, checked_number(key, node)};
+                          else if (!node.is_boolean())
+                            reject_value(key, node, "must be true, false or a number of degrees");
+                        },
+                        [&](std::vector<double>* list) { assign_list(key, node, *list); },
+                        [&](Points* points) { assign_points(key, node, *points); },
+                        [&](const RangeSlot& range) { assign_range(key, node, range); }},
+             key.slot);
 }
 
 namespace {
@@ -307,13 +301,18 @@ std::string decimal_comma_in(const toml::array& list) {
 void SectionReader::assign_list(const Key& key, const toml::node& node, std::vector<double>& list) const {
   list.clear();
   const toml::array* array = node.as_array();
+  if (*key.each) {
+    if (!array) reject_value(key, node, "must be a list with a number for each ", key.each);
+    for (const toml::node& item : *array) list.push_back(checked_number(key, item));
+    return;
+  }
   if (!array) {
     list.push_back(checked_number(key, node));
   } else {
-    if (array->empty()) reject(key, node, "must hold at least one number");
+    if (array->empty()) reject_value(key, node, "must hold at least one number");
     for (const toml::node& item : *array) list.push_back(checked_number(key, item));
     if (const std::string words = decimal_comma_in(*array); dialect_ == Dialect::scene && !words.empty())
-      reject(key, node, words);
+      reject_value(key, node, words);
   }
   if (dialect_ == Dialect::settings) return;
   // Folders are called by the value with six digits; two values must not meet there, nor a name mean
@@ -323,21 +322,21 @@ void SectionReader::assign_list(const Key& key, const toml::node& node, std::vec
     char name[32];
     std::snprintf(name, sizeof name, "%g", value);
     if (std::strtod(name, nullptr) != value) {
-      reject(key, node, text("has more than 6 significant digits; its folder would be called T", name));
+      reject_value(key, node, "has more than 6 significant digits; its folder would be called T", name);
     }
-    if (!seen.insert(value).second) reject(key, node, text("holds ", value, " twice"));
+    if (!seen.insert(value).second) reject_value(key, node, "holds ", value, " twice");
   }
 }
 
 void SectionReader::assign_points(const Key& key, const toml::node& node, Points& points) const {
   points.clear();
   const toml::array* array = node.as_array();
-  if (!array) reject(key, node, "must be a list of points: [[22.0, 0.0], [27.0, 10.0]]");
+  if (!array) reject_value(key, node, "must be a list of points: [[22.0, 0.0], [27.0, 10.0]]");
   const char* const kCoordinate[2] = {"roll angle ", "deviation "};
   for (const toml::node& item : *array) {
     const toml::array* pair = item.as_array();
     if (!pair || pair->size() != 2)
-      reject(key, item, "a point is [roll angle in degrees, micrometres taken off]");
+      reject_value(key, item, "a point is [roll angle in degrees, micrometres taken off]");
     std::array<double, 2> point;
     for (int i = 0; i < 2; ++i) {
       const double value = finite_number(key, *pair->get(i), kCoordinate[i]);
@@ -345,65 +344,42 @@ void SectionReader::assign_points(const Key& key, const toml::node& node, Points
       if (dialect_ == Dialect::settings) continue;
       const double least = i == 0 ? 0 : key.limits.least, most = i == 0 ? 90 : key.limits.most;
       if (value < least || value > most)
-        reject(key, item,
-               text(kCoordinate[i], "must be from ", least, " to ", most, i == 0 ? " deg" : " um"));
+        reject_value(key, item, kCoordinate[i], "must be from ", least, " to ", most,
+                     i == 0 ? " deg" : " um");
       point[i] = value * kPointUnits[i].multiply / kPointUnits[i].divide;
     }
     if (!points.empty() && !(point[0] > points.back()[0]))
-      reject(key, item, "points must ascend in the roll angle; sort them and give each angle once");
+      reject_value(key, item, "points must ascend in the roll angle; sort them and give each angle once");
     points.push_back(point);
   }
-  if (points.size() == 1) reject(key, node, "must hold two points at least, or none");
+  if (points.size() == 1) reject_value(key, node, "must hold two points at least, or none");
 }
 
 void SectionReader::assign_range(const Key& key, const toml::node& node, const RangeSlot& slot) const {
   const toml::table* table = node.as_table();
-  if (!table) reject(key, node, "must be a table: { from = 600, to = 4000, step = 20 }");
+  if (!table) reject_value(key, node, "must be a table: { from = 600, to = 4000, step = 20 }");
   const std::vector<std::pair<std::string, double*>> names = {
       {"from", slot.from}, {"to", slot.to}, {"step", slot.step}};
   for (const auto& [name, value] : *table) {
     const std::string word(name.str());
     if (std::none_of(names.begin(), names.end(), [&](const auto& known) { return known.first == word; })) {
-      reject(key, value, text("unknown key '", word, "'; known are: from, to, step"));
+      reject_value(key, value, "unknown key '", word, "'; known are: from, to, step");
     }
   }
   for (const auto& [name, target] : names) {
     const toml::node* item = table->get(name);
-    if (!item) reject(key, node, text("lacks '", name, "'"));
+    if (!item) reject_value(key, node, "lacks '", name, "'");
     // The range of the key is that of the speeds; a step may be smaller.
     const std::string label = "'" + name + "' ";
     *target =
         target == slot.step ? key.to_si(finite_number(key, *item, label)) : checked_number(key, *item, label);
     if (target == slot.step && !(*slot.step > 0)) {
-      reject(key, *item, text(label, "must be greater than 0", unit_of(key)));
+      reject_value(key, *item, label, "must be greater than 0", unit_of(key));
     }
   }
-  if (*slot.to < *slot.from) reject(key, node, text("'to' must be at least 'from', which is ", *slot.from));
+  if (*slot.to < *slot.from) reject_value(key, node, "'to' must be at least 'from', which is ", *slot.from);
   if ((*slot.to - *slot.from) / *slot.step > 1e5)
-    reject(key, node, "is more than 100000 speeds; a larger 'step' makes fewer");
-}
-
-void SectionReader::assign_fallback(const Key& key, const Slot& slot) const {
-  const std::string word(key.fallback);
-  if (const auto* number = std::get_if<double*>(&slot)) {
-    **number = key.to_si(std::strtod(key.fallback, nullptr));  // 0 of one that goes with the module
-  } else if (const auto* whole = std::get_if<int*>(&slot)) {
-    **whole = static_cast<int>(std::strtol(key.fallback, nullptr, 10));
-  } else if (const auto* flag = std::get_if<bool*>(&slot)) {
-    **flag = word == "true";
-  } else if (const auto* target = std::get_if<std::string*>(&slot)) {
-    **target = word;
-  } else if (const auto* choice = std::get_if<ChoiceSlot>(&slot)) {
-    key.assign(*choice, word);
-  } else if (const auto* corner = std::get_if<CornerRule*>(&slot)) {
-    **corner = CornerRule{word == "true", std::numeric_limits<double>::infinity()};
-  } else if (const auto* points = std::get_if<Points*>(&slot)) {
-    (*points)->clear();
-  } else if (const auto* teeth = std::get_if<ToothList>(&slot)) {
-    teeth->values->clear();
-  } else {
-    fail(Failure::numerical, "the key table gives '", key.name, "' a default that its type cannot take");
-  }
+    reject_value(key, node, "is more than 100000 speeds; a larger 'step' makes fewer");
 }
 
 }  // namespace whine

@@ -3,12 +3,15 @@
 //
 // Private to the layer io/.
 #pragma once
+#include <optional>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
+#include "base/key_error.h"
 #include "io/keys.h"
 #include "io/publish.h"
 #include "io/toml.h"
@@ -37,15 +40,31 @@ class Source {
   bool is_stage_parameters() const { return is_stage_parameters_; }
   const std::string& stage_of() const { return stage_of_; }  // the stage that its first line names
 
-  [[noreturn]] void reject(const std::string& what) const { fail(Failure::input, path_, ": ", what); }
+  // What is wrong in words and values, as text() joins them.
+  template <class First, class... What>
+  requires(!std::is_base_of_v<toml::node, First>)
+      [[noreturn]] void reject(const First& first, const What&... what) const {
+    fail(Failure::input, path_, ": ", first, what...);
+  }
+  template <class... What>
+  [[noreturn]] void reject(const toml::node& at, const What&... what) const {
+    fail(Failure::input, place(at), ": ", what...);
+  }
   // KeyError, about a key's value at this place.
-  [[noreturn]] void reject_value(const std::string& key, const toml::node& at, const std::string& what) const;
+  template <class... What>
+  [[noreturn]] void reject_value(const std::string& key, const toml::node& at, const What&... what) const {
+    throw KeyError(Failure::input, key, text(place(at), ": ", what...));
+  }
   // Line 0 is of what has no place of its own: the name of a column.
-  [[noreturn]] void reject_line(toml::source_index line, const std::string& what) const;
-  [[noreturn]] void reject(const toml::node& at, const std::string& what) const;
+  template <class... What>
+  [[noreturn]] void reject_line(toml::source_index line, const What&... what) const {
+    fail(Failure::input, place(line), ": ", what...);
+  }
 
   // A section [name] as a table, nullptr if it is not there.
   const toml::table* section(const std::string& name) const;
+  // The tables of [[name]]; none if there is no such section.
+  std::vector<const toml::table*> list(const std::string& name) const;
 
  private:
   Source(std::string path, toml::table root) : path_(std::move(path)), root_(std::move(root)) {}
@@ -65,16 +84,25 @@ class Source {
 // In a scene keys carry unit suffixes and ranges hold; stage parameters are in SI, written by this program.
 enum class Dialect { scene, settings };
 
-// Reads the keys of one section, e.g. label "gear.pinion" for the keys of section "gear".
+// One section of a file: label "gear.pinion.crack", its keys those of the section "crack"; name: "pinion".
 class SectionReader {
  public:
-  SectionReader(const Source& source, Dialect dialect, const toml::table& table, std::string section,
-                std::string label)
+  SectionReader(const Source& source, const toml::table& table, std::string section, std::string label,
+                std::string name = "", Dialect dialect = Dialect::scene)
       : source_(source),
-        dialect_(dialect),
         table_(table),
         section_(std::move(section)),
-        label_(std::move(label)) {}
+        label_(std::move(label)),
+        name_(std::move(name)),
+        dialect_(dialect) {}
+
+  const Source& source() const { return source_; }
+  const toml::table& table() const { return table_; }
+  const std::string& label() const { return label_; }
+  const std::string& name() const { return name_; }
+  const toml::node* node(const std::string& key) const { return table_.get(key); }  // nullptr: not given
+  // The section [<label>.<section>]; nothing if it is not there.
+  std::optional<SectionReader> below(const std::string& section) const;
 
   // Rejects keys that no key of this section is called; `others` are section names allowed besides.
   void reject_unknown(const std::vector<std::string>& others = {}) const;
@@ -82,31 +110,55 @@ class SectionReader {
   // Fills these keys. Those left out keep what they hold if `inherit`, else take their default; required ones are rejected together,
   // but for `optional` ones, which then keep what they hold, too.
   void read(const KeyList& keys, bool inherit = false, const std::set<std::string>& optional = {}) const;
+  void read_all(const KeyList& keys) const {
+    reject_unknown();
+    read(keys);
+  }
+
+  // "[gear.pinion] <what>", at a place in it; at the section.
+  template <class... What>
+  [[noreturn]] void reject_at(const toml::node& at, const What&... what) const {
+    source_.reject(at, "[", label_, "]", what...);
+  }
+  template <class... What>
+  [[noreturn]] void reject(const What&... what) const {
+    reject_at(table_, what...);
+  }
+  // "[gear.pinion] gives 'key'<what>", if it does.
+  template <class... What>
+  void reject_given(const std::string& key, const What&... what) const {
+    if (const toml::node* at = node(key)) reject_at(*at, " gives '", key, "'", what...);
+  }
+  // "'key' in [gear.pinion]<what>", at the key or, if it is not given, at the section.
+  template <class... What>
+  [[noreturn]] void reject_key(const std::string& key, const What&... what) const {
+    const toml::node* at = node(key);
+    source_.reject(at ? *at : table_, "'", key, "' in [", label_, "]", what...);
+  }
 
  private:
-  [[noreturn]] void reject(const Key& key, const toml::node& node, const std::string& what) const;
+  // At a key's value: what it is, and what it must be.
+  template <class... What>
+  [[noreturn]] void reject_value(const Key& key, const toml::node& node, const What&... what) const {
+    source_.reject_value(key.name, node, words_on(key, node), what...);
+  }
+  std::string words_on(const Key& key, const toml::node& node) const;
 
   double finite_number(const Key& key, const toml::node& node, const std::string& item = "") const;
-
   // item: part of a value that the message is to name, with a blank after it.
   double checked_number(const Key& key, const toml::node& node, const std::string& item = "") const;
-
+  int whole_number(const Key& key, const toml::node& node) const;
   std::string checked_word(const Key& key, const toml::node& node) const;
 
-  void assign(const Key& key, const toml::node& node, const Slot& slot) const;
-
+  void assign(const Key& key, const toml::node& node) const;
   void assign_list(const Key& key, const toml::node& node, std::vector<double>& list) const;
-
   void assign_points(const Key& key, const toml::node& node, Points& points) const;
-
   void assign_range(const Key& key, const toml::node& node, const RangeSlot& slot) const;
 
-  void assign_fallback(const Key& key, const Slot& slot) const;
-
   const Source& source_;
-  Dialect dialect_;
   const toml::table& table_;
-  std::string section_, label_;
+  std::string section_, label_, name_;
+  Dialect dialect_;
 };
 
 }  // namespace whine

@@ -17,32 +17,12 @@
 namespace whine {
 namespace {
 
-constexpr const char *kBodyStage = "the body of a gear", *kStaticStage = "the static stage",
-                     *kImpactStage = "the ring-down", *kSweepStage = "a sweep", *kMapStage = "a map of jumps",
-                     *kLumpedStage = "a sweep of a lumped model",
-                     *kLumpedMapStage = "a map of a lumped model", *kVariantStage = "a variant of a study";
+constexpr StageFile kBody{"<gear>/body.toml", "the body of a gear"},
+    kStatic{"params/static.toml", "the static stage"},
+    kVariantFile{"variants/<n>.toml", "a variant of a study"};
 
 // Section of stage parameters with what is a variant's own: its torque, the directions of its sweeps.
 constexpr const char* kVariant = "variant";
-
-// The parameters of a stage, whose file gear-scene calls `name`; rejects a whole scene and the parameters of another stage
-// than these, which may hold the same keys with other values.
-Source stage_parameters_source(const std::string& path, const std::string& name, const std::string& stage,
-                               const std::string& other = "") {
-  Source source(path, "stage parameters are out/<scene>/" + name + ", made with: make out/<scene>/" + name);
-  if (!source.is_stage_parameters() && source.root().contains("gear") &&
-      source.root().contains("operation")) {
-    const std::string stem = std::filesystem::path(path).stem().string(),
-                      settings = "out/" + stem + "/" + name;
-    source.reject(
-        text("is a whole scene; this stage reads the stage parameters that gear-scene writes from it: give ",
-             settings, " (make SCENE=", path, " ", settings, ")"));
-  }
-  if (source.is_stage_parameters() && source.stage_of() != stage && source.stage_of() != other)
-    source.reject(text("is what ", source.stage_of(), " depends on, and this stage reads what ", stage,
-                       " depends on: give out/<scene>/", name));
-  return source;
-}
 
 }  // namespace
 
@@ -53,8 +33,8 @@ std::string body_parameters(const Scene& scene, const std::string& gear) {
 
 namespace {
 
-KeyList body_keys(BodyParameters& p) {
-  return keys(p.design).append(keys(p.material)).append(keys(p.discretisation));
+void walk(StageParameters& s, BodyParameters& p) {
+  s(keys(p.design).append(keys(p.material)).append(keys(p.discretisation)));
 }
 
 }  // namespace
@@ -62,8 +42,8 @@ KeyList body_keys(BodyParameters& p) {
 std::string body_parameters(const BodyParameters& chosen) {
   BodyParameters p = chosen;  // keys point at what may be changed
   take_module(keys(p.discretisation), p.design.module);
-  StageParametersText out(kBodyStage);
-  out.add(body_keys(p));
+  StageParameters out(kBody);
+  walk(out, p);
   return out.text();
 }
 
@@ -71,40 +51,31 @@ namespace {
 
 StaticParameters static_of(const Scene& scene) {
   StaticParameters out{scene.mesh, scene.fidelity, scene.contact};
-  if (out.contact.positions == 0) {
-    out.contact.positions = std::max(128, scene.time.steps_per_period);
-    int periods = 1;  // after which the same teeth meet
-    for (const std::string& name : scene.mesh.gear)
-      if (!scene.gear(name).errors.none()) periods = std::lcm(periods, scene.gear(name).design.teeth);
-    constexpr int kMostInAll = 16384, kLeast = 16;
-    if (periods > 1) out.contact.positions = std::clamp(kMostInAll / periods, kLeast, out.contact.positions);
-  }
+  int periods = 1;  // after which the same teeth meet
+  for (const std::string& name : scene.mesh.gear)
+    if (!scene.gear(name).errors.none()) periods = std::lcm(periods, scene.gear(name).design.teeth);
+  take_positions(out.contact, periods, std::max(kPositions, scene.time.steps_per_period));
   // make redoes static.h5 by these hashes when a scene goes back to an earlier design, whose body.h5 is older than it.
   for (int g = 0; g < kSides; ++g) out.body[g] = body_hash(body_parameters(scene, scene.mesh.gear[g]));
   return out;
 }
 
 // moving: what a motion needs in the same sections; nullptr: without.
-KeyList static_keys(StaticParameters& p, TimeDiscretisation* moving) {
-  KeyList out = keys(p.mesh);
-  out.append(moving ? keys(p.fidelity) : keys(p.fidelity).only({"contact"})).append(keys(p.contact));
-  return moving ? out.append(keys(*moving)) : out;
-}
-
-void add_bodies(StageParametersText& out, const StaticParameters& p) {
-  for (int g = 0; g < kSides; ++g) out.add_line("body", kRole[g], p.body[g]);
+void walk(StageParameters& s, StaticParameters& p, TimeDiscretisation* moving = nullptr) {
+  s(keys(p.mesh).append(level_keys(p.fidelity, p.contact, moving)));
+  for (int g = 0; g < kSides; ++g) s.word("body", kRole[g], p.body[g]);
 }
 
 // What a stage of a pair in motion depends on, beside inertia and torque.
 struct MotionStage {
-  const char *name, *file;
+  StageFile file;
   bool damping, speeds, body_model, time;
 };
-constexpr MotionStage kImpact{kImpactStage, "params/impact.toml", true, false, true, false},
-    kSweep{kSweepStage, "params/sweep.toml", true, true, true, true},
-    kMap{kMapStage, "params/map.toml", true, false, true, true},
-    kLumped{kLumpedStage, "params/lumped.toml", false, true, false, true},
-    kLumpedMap{kLumpedMapStage, "params/lumped_map.toml", false, false, false, true};
+constexpr MotionStage kImpact{{"params/impact.toml", "the ring-down"}, true, false, true, false},
+    kSweep{{"params/sweep.toml", "a sweep"}, true, true, true, true},
+    kMap{{"params/map.toml", "a map of jumps"}, true, false, true, true},
+    kLumped{{"params/lumped.toml", "a sweep of a lumped model"}, false, true, false, true},
+    kLumpedMap{{"params/lumped_map.toml", "a map of a lumped model"}, false, false, false, true};
 
 struct Motion {
   SweepParameters p;
@@ -142,8 +113,8 @@ KeyList motion_keys(Motion& m, const MotionStage& stage) {
 }
 
 std::string motion_text(Motion motion, const MotionStage& stage) {
-  StageParametersText out(stage.name);
-  out.add(motion_keys(motion, stage));
+  StageParameters out(stage.file);
+  out(motion_keys(motion, stage));
   return out.text();
 }
 
@@ -151,9 +122,8 @@ std::string motion_text(Motion motion, const MotionStage& stage) {
 
 std::string static_parameters(const Scene& scene) {
   StaticParameters p = static_of(scene);
-  StageParametersText out(kStaticStage);
-  out.add(static_keys(p, nullptr));
-  add_bodies(out, p);
+  StageParameters out(kStatic);
+  walk(out, p);
   return out.text();
 }
 
@@ -179,13 +149,13 @@ std::string variant_stage_parameters(const Scene& scene, double torque,
                                      const std::vector<Direction>& directions) {
   StaticParameters p = static_of(scene);
   Motion motion = motion_of(scene);
-  StageParametersText out(kVariantStage);
-  out.add(static_keys(p, directions.empty() ? nullptr : &motion.p.time));
-  add_bodies(out, p);
-  if (!directions.empty()) out.add(running_keys(motion, kSweep));
+  StageParameters out(kVariantFile);
+  walk(out, p, directions.empty() ? nullptr : &motion.p.time);
+  if (!directions.empty()) out(running_keys(motion, kSweep));
   std::vector<double> torques{torque};
-  out.add(torque_key(torques).labelled(kVariant));
-  out.add_line(kVariant, "directions", names_of(directions));
+  out(torque_key(torques).labelled(kVariant));
+  std::string words = names_of(directions);
+  out.word(kVariant, "directions", words);
   return out.text();
 }
 
@@ -197,7 +167,9 @@ BodyParameters read_body_parameters(const std::string& path) {
   BodyParameters out;
   out.discretisation.matching_depth =
       0;  // if it is not said: of the other near field that the error budget tries
-  read_stage(stage_parameters_source(path, "<gear>/body.toml", kBodyStage), body_keys(out));
+  const Source source = stage_source(path, kBody);
+  StageParameters in(source);
+  walk(in, out);
   take_module(keys(out.discretisation).only({"matching_depth_mm"}), out.design.module);
   return out;
 }
@@ -205,40 +177,42 @@ BodyParameters read_body_parameters(const std::string& path) {
 namespace {
 
 StaticParameters static_from(const Source& source) {
+  StageParameters in(source);
   StaticParameters out;
-  read_stage(source, static_keys(out, nullptr));
-  if (const toml::table* bodies = source.section("body"))
-    for (int g = 0; g < kSides; ++g) out.body[g] = (*bodies)[kRole[g]].value_or(std::string());
+  walk(in, out);
   return out;
 }
 
 SweepParameters motion_from(const Source& source, const MotionStage& stage) {
   Motion out;
-  read_stage(source, motion_keys(out, stage));
+  StageParameters in(source);
+  in(motion_keys(out, stage));
   out.p.reference_torque = out.torques.front();
   return out.p;
 }
 
 SweepParameters read_motion(const std::string& path, const MotionStage& stage) {
-  return motion_from(stage_parameters_source(path, stage.file, stage.name), stage);
+  return motion_from(stage_source(path, stage.file), stage);
 }
 
 }  // namespace
 
 StaticParameters read_static_parameters(const std::string& path) {
-  return static_from(stage_parameters_source(path, "params/static.toml", kStaticStage));
+  return static_from(stage_source(path, kStatic));
 }
 
 VariantParameters read_variant_parameters(const std::string& path) {
   const Source source(path, "a variant's stage parameters are written by: make study STUDY=<name>");
+  StageParameters in(source);
   std::vector<double> torques;
-  read_stage(source, torque_key(torques).labelled(kVariant));
+  in(torque_key(torques).labelled(kVariant));
   VariantParameters out;
   out.statics = static_from(source);
   out.torque = torques.front();
-  const std::string words = (*source.section(kVariant))["directions"].value_or(std::string());
+  std::string words;
+  in.word(kVariant, "directions", words);
   const auto directions = choices_in<Direction>(words);
-  if (!directions) source.reject(text("names the directions '", words, "'; there are up and down"));
+  if (!directions) source.reject("names the directions '", words, "'; there are up and down");
   out.directions = *directions;
   if (!out.directions.empty()) out.motion = motion_from(source, kSweep);
   return out;
@@ -259,7 +233,7 @@ SweepParameters read_sweep_parameters(const std::string& path) {
 SweepParameters read_lumped_parameters(const std::string& path, bool speeds) {
   const MotionStage& stage = speeds ? kLumped : kLumpedMap;
   // A sweep's parameters hold all of it.
-  return motion_from(stage_parameters_source(path, stage.file, stage.name, speeds ? kSweepStage : ""), stage);
+  return motion_from(stage_source(path, stage.file, speeds ? kSweep.file : stage.file), stage);
 }
 
 }  // namespace whine

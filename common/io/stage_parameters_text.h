@@ -1,9 +1,16 @@
-// The text of stage parameters: TOML in SI, keys in the order of the table, one section after the other.
+// Stage parameters: what a stage depends on of a scene, as TOML in SI. One walk over what they hold writes and reads them:
+//
+//   void walk(StageParameters& s, StaticParameters& p) {
+//     s(keys(p.mesh).append(keys(p.contact)));
+//     s.word("body", "driver", p.body[0]);
+//   }
 //
 // Private to the layer io/.
 #pragma once
 #include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "io/keys.h"
 #include "io/section_reader.h"
@@ -15,25 +22,58 @@ inline constexpr const char *kStageParametersStart = "# What ",
                             *kStageParametersEnd =
                                 " depends on, in SI units; made from a scene by gear-scene.";
 
-// Section of stage parameters that holds a key.
-std::string stage_label(const Key& key);
+// A file of stage parameters below out/<scene>/, and the stage that it is for.
+struct StageFile {
+  const char *path, *stage;
+};
 
-class StageParametersText {
+// The file at `path`; rejects a whole scene and the parameters of another stage than these, which may hold the same keys with other
+// values.
+Source stage_source(const std::string& path, const StageFile& file, const StageFile& other = {"", ""});
+
+class StageParameters {
  public:
-  explicit StageParametersText(const std::string& stage);
+  explicit StageParameters(const StageFile& file);                      // writes
+  explicit StageParameters(const Source& source) : source_(&source) {}  // reads
+  explicit StageParameters(Source&&) = delete;
 
-  void add(const KeyList& keys);  // those that are held
-  void add_line(const std::string& label, const std::string& name, const std::string& word);
+  const Source* source() const { return source_; }  // nullptr of a writer
+  // Whether a section is there: what `there` says to a writer.
+  bool has(const std::string& section, bool there) const;
+
+  // Keys that are held, section by section. A reader rejects what lacks, but for optional groups.
+  void operator()(const KeyList& keys);
+  // A word; "" to a reader if it is not there.
+  void word(const std::string& section, const std::string& name, std::string& word);
+  // Names and words of a section that must be there, in the order of the file.
+  using Words = std::vector<std::pair<std::string, std::string>>;
+  void words(const std::string& section, Words& words);
+  // A section [[name]] of each item, all keys of it.
+  template <class Item>
+  void list(const char* name, std::vector<Item>& items) {
+    for (const toml::table* row : rows(name)) read_row(*row, name, keys(items.emplace_back()));
+    for (std::size_t i = 0; !source_ && i < items.size(); ++i) put_row(name, keys(items[i]));
+  }
+
   std::string text() const { return out_.str(); }
 
  private:
-  void begin(const std::string& label);
+  void begin(const std::string& section);
+  void read(const KeyList& keys) const;
+  std::vector<const toml::table*> rows(const char* name) const;  // none to a writer
+  void read_row(const toml::table& row, const char* name, const KeyList& keys) const;
+  void put_row(const char* name, const KeyList& keys);
 
+  const Source* source_ = nullptr;
   std::ostringstream out_;
   std::string last_;
 };
 
-// Reads the keys of a list; those that are no optional ones must be there.
-void read_stage(const Source& source, const KeyList& keys);
+// Model level of the contact and its discretisation; moving: with what a motion needs in these sections, nullptr: without.
+KeyList level_keys(Fidelity& fidelity, ContactDiscretisation& contact, TimeDiscretisation* moving);
+
+// Positions of a mesh period where the scene leaves them open: `most`, and fewer where teeth that differ make a period of `periods`.
+inline constexpr int kPositions = 128;
+void take_positions(ContactDiscretisation& contact, int periods, int most);
 
 }  // namespace whine

@@ -76,28 +76,18 @@ std::string rounded_text(double value, int digits, bool whole) {
 constexpr double kMostWhole = 2147483647;
 constexpr int kMostKeys = 32;
 
-class StudyFile {
+class StudyFile : public Source {
  public:
-  explicit StudyFile(const std::string& path) : path_(path), root_(read_toml(path, "the study")) {}
-
-  const toml::table& root() const { return root_; }
-  [[noreturn]] void reject(const std::string& what) const { fail(Failure::input, path_, ": ", what); }
-  [[noreturn]] void reject_line(toml::source_index line, const std::string& what) const {
-    fail(Failure::input, path_, ":", line, ": ", what);
-  }
-  [[noreturn]] void reject(const toml::node& at, const std::string& what) const {
-    reject_line(at.source().begin.line, what);
-  }
+  explicit StudyFile(const std::string& path) : Source(path, "check the path of the study") {}
 
   void require_known(const toml::table& table, const std::string& section, const Words& known) const {
     for (const auto& [name, node] : table) {
       const std::string word(name.str());
       if (among(word, known)) continue;
       const std::string now = renamed(word), near = among(now, known) ? now : nearest(word, known);
-      reject_line(
-          name.source().begin.line,
-          text("unknown key '", word, "'", section.empty() ? "" : " in " + section,
-               near.empty() ? text("; known are: ", joined(known)) : text("; did you mean '", near, "'?")));
+      reject_line(name.source().begin.line, "unknown key '", word, "'",
+                  section.empty() ? "" : " in " + section,
+                  near.empty() ? text("; known are: ", joined(known)) : text("; did you mean '", near, "'?"));
     }
   }
 
@@ -107,9 +97,9 @@ class StudyFile {
     if (!node) return fallback;
     const auto* value = node->as_string();
     if (!value || value->get().empty())
-      reject(*node, text("'", key, "' = ", toml_text(*node), ": must be text in quotes"));
+      reject(*node, "'", key, "' = ", toml_text(*node), ": must be text in quotes");
     for (const unsigned char c : value->get())
-      if (c < 32 || c == 127) reject(*node, text("'", key, "' must be one line of text"));
+      if (c < 32 || c == 127) reject(*node, "'", key, "' must be one line of text");
     return value->get();
   }
 
@@ -117,7 +107,7 @@ class StudyFile {
                      const Words& choices) const {
     const std::string chosen = word(table, key, fallback);
     if (!among(chosen, choices))
-      reject(*table.get(key), text("'", key, "' = ", chosen, ": must be one of: ", joined(choices)));
+      reject(*table.get(key), "'", key, "' = ", chosen, ": must be one of: ", joined(choices));
     return chosen;
   }
 
@@ -128,18 +118,16 @@ class StudyFile {
     if (!node) return fallback;
     const toml::array* list = node->as_array();
     if (!list || list->empty())
-      reject(*node,
-             text("'", key, "' must be a list of ", what, "s, one at least: [\"", known.front(), "\"]"));
+      reject(*node, "'", key, "' must be a list of ", what, "s, one at least: [\"", known.front(), "\"]");
     Words out;
     for (const toml::node& item : *list) {
       const std::string word = item.value<std::string>().value_or("");
       if (!among(word, known)) {
         const std::string near = nearest(word, known);
-        reject(item, text("'", key, "': there is no ", what, " ", toml_text(item),
-                          near.empty() ? text("; there are: ", joined(known))
-                                       : text("; did you mean '", near, "'?")));
+        reject(item, "'", key, "': there is no ", what, " ", toml_text(item),
+               near.empty() ? text("; there are: ", joined(known)) : text("; did you mean '", near, "'?"));
       }
-      if (among(word, out)) reject(item, text("'", key, "' names '", word, "' twice"));
+      if (among(word, out)) reject(item, "'", key, "' names '", word, "' twice");
       out.push_back(word);
     }
     return out;
@@ -148,8 +136,7 @@ class StudyFile {
   double number(const toml::table& table, const char* key) const {
     const toml::node& node = *table.get(key);
     const double value = node.is_number() ? node.value<double>().value_or(NAN) : NAN;
-    if (!std::isfinite(value))
-      reject(node, text("'", key, "' = ", toml_text(node), ": must be a finite number"));
+    if (!std::isfinite(value)) reject(node, "'", key, "' = ", toml_text(node), ": must be a finite number");
     return value;
   }
 
@@ -157,14 +144,9 @@ class StudyFile {
     const toml::node& node = *table.get(key);
     const auto* value = node.as_integer();
     if (!value || value->get() < least || value->get() > most)
-      reject(node,
-             text("'", key, "' = ", toml_text(node), ": must be a whole number from ", least, " to ", most));
+      reject(node, "'", key, "' = ", toml_text(node), ": must be a whole number from ", least, " to ", most);
     return static_cast<long>(value->get());
   }
-
- private:
-  std::string path_;
-  toml::table root_;
 };
 
 void read_values(const StudyFile& file, const toml::table& table, VariedKey& varied) {
@@ -174,42 +156,42 @@ void read_values(const StudyFile& file, const toml::table& table, VariedKey& var
   std::set<std::string> seen;
   for (const toml::node& item : *list) {
     if (varied.number && (!item.is_number() || (varied.whole && !item.is_integer())))
-      file.reject(item, text("'values' of ", varied.name, " holds ", toml_text(item), ": must be a ",
-                             varied.whole ? "whole number" : "number"));
+      file.reject(item, "'values' of ", varied.name, " holds ", toml_text(item), ": must be a ",
+                  varied.whole ? "whole number" : "number");
     // 150 and 150.0 are one torque.
     const std::string value =
         varied.number && !varied.whole ? number_text(item.value<double>().value_or(0)) : toml_text(item);
     if (!seen.insert(value).second)
-      file.reject(item, text("'values' of ", varied.name, " holds ", toml_text(item), " twice"));
+      file.reject(item, "'values' of ", varied.name, " holds ", toml_text(item), " twice");
     varied.values.push_back(value);
   }
 }
 
 void require_size(const StudyFile& file, const toml::table& table, const VariedKey& varied) {
   if (varied.whole && !(std::abs(varied.first) <= kMostWhole && std::abs(varied.second) <= kMostWhole))
-    file.reject(table, text(varied.name, " is a whole number: it cannot be beyond ", kMostWhole));
+    file.reject(table, varied.name, " is a whole number: it cannot be beyond ", kMostWhole);
 }
 
 void read_range(const StudyFile& file, const toml::table& table, bool random, VariedKey& varied) {
   const char* const known = "values = [..], from and to with step or count";
-  if (!varied.number) file.reject(table, text(varied.name, " is no number: give values = [..]"));
+  if (!varied.number) file.reject(table, varied.name, " is no number: give values = [..]");
   for (const char* end : {"from", "to"})
-    if (!table.get(end)) file.reject(table, text(varied.name, " lacks '", end, "'; give ", known));
+    if (!table.get(end)) file.reject(table, varied.name, " lacks '", end, "'; give ", known);
   varied.first = file.number(table, "from");
   varied.second = file.number(table, "to");
   require_size(file, table, varied);
   if (varied.second < varied.first)
-    file.reject(*table.get("to"), text("the range of ", varied.name, " is empty: 'to' = ", varied.second,
-                                       " is below 'from' = ", varied.first));
+    file.reject(*table.get("to"), "the range of ", varied.name, " is empty: 'to' = ", varied.second,
+                " is below 'from' = ", varied.first);
   const bool step = table.contains("step"), count = table.contains("count");
   if (step && count)
-    file.reject(*table.get("count"), text(varied.name, " has 'step' and 'count'; give one of them"));
+    file.reject(*table.get("count"), varied.name, " has 'step' and 'count'; give one of them");
   if (!step && !count) {
     if (!random)
-      file.reject(table, text(varied.name, " lacks 'step' or 'count': in a grid a range needs one of them"));
+      file.reject(table, varied.name, " lacks 'step' or 'count': in a grid a range needs one of them");
     if (varied.whole &&
         (varied.first != std::floor(varied.first) || varied.second != std::floor(varied.second)))
-      file.reject(table, text(varied.name, " is a whole number: so must be 'from' and 'to'"));
+      file.reject(table, varied.name, " is a whole number: so must be 'from' and 'to'");
     varied.least = varied.first;
     varied.most = varied.second;
     return;
@@ -219,45 +201,42 @@ void read_range(const StudyFile& file, const toml::table& table, bool random, Va
   if (count) {
     steps = static_cast<double>(file.whole(table, "count", 1, kMostVariants)) - 1;
     if (steps == 0 && span > 0)
-      file.reject(*table.get("count"), text("'count' of ", varied.name, " = 1, but the range has two ends"));
+      file.reject(*table.get("count"), "'count' of ", varied.name, " = 1, but the range has two ends");
     if (steps > 0 && span == 0)
-      file.reject(*table.get("count"),
-                  text("the range of ", varied.name, " holds one value only, ", varied.first));
+      file.reject(*table.get("count"), "the range of ", varied.name, " holds one value only, ", varied.first);
     each = steps > 0 ? span / steps : 0;
   } else {
     each = file.number(table, "step");
     if (!(each > 0))
-      file.reject(*table.get("step"),
-                  text("'step' of ", varied.name, " = ", each, ": must be greater than 0"));
+      file.reject(*table.get("step"), "'step' of ", varied.name, " = ", each, ": must be greater than 0");
     steps = std::floor(span / each * (1 + 1e-12) + 1e-9);
     if (!(steps < static_cast<double>(kMostVariants)))
-      file.reject(*table.get("step"), text("'step' of ", varied.name, " = ", each, " makes more than ",
-                                           kMostVariants, " values; a larger one makes fewer"));
+      file.reject(*table.get("step"), "'step' of ", varied.name, " = ", each, " makes more than ",
+                  kMostVariants, " values; a larger one makes fewer");
   }
   constexpr int kDigits = 12;
   for (double i = 0; i <= steps; ++i) {
     const double value = varied.first + i * each;
     if (varied.whole && std::abs(value - std::round(value)) > 1e-9)
-      file.reject(table, text(varied.name, " is a whole number, the range holds ", value));
+      file.reject(table, varied.name, " is a whole number, the range holds ", value);
     varied.values.push_back(rounded_text(value, kDigits, varied.whole));
   }
 }
 
 void read_normal(const StudyFile& file, const toml::table& table, bool random, VariedKey& varied) {
   if (!random)
-    file.reject(*table.get("mean"),
-                text(varied.name, " is drawn at random, which a grid is not; say plan = \"sample\""));
-  if (!varied.number) file.reject(table, text(varied.name, " is no number: give values = [..]"));
+    file.reject(*table.get("mean"), varied.name,
+                " is drawn at random, which a grid is not; say plan = \"sample\"");
+  if (!varied.number) file.reject(table, varied.name, " is no number: give values = [..]");
   if (!table.get("deviation"))
-    file.reject(table,
-                text(varied.name, " lacks 'deviation'; give mean and deviation, least and most if need be"));
+    file.reject(table, varied.name, " lacks 'deviation'; give mean and deviation, least and most if need be");
   varied.normal = true;
   varied.first = file.number(table, "mean");
   varied.second = file.number(table, "deviation");
   require_size(file, table, varied);
   if (!(varied.second > 0))
-    file.reject(*table.get("deviation"),
-                text("'deviation' of ", varied.name, " = ", varied.second, ": must be greater than 0"));
+    file.reject(*table.get("deviation"), "'deviation' of ", varied.name, " = ", varied.second,
+                ": must be greater than 0");
   varied.least = table.contains("least") ? file.number(table, "least") : -HUGE_VAL;
   varied.most = table.contains("most") ? file.number(table, "most") : HUGE_VAL;
   // Of a narrower window draws would be rejected for ever.
@@ -266,10 +245,8 @@ void read_normal(const StudyFile& file, const toml::table& table, bool random, V
       varied.most < varied.first - kWidest * varied.second ||
       varied.most - varied.least < 0.1 * varied.second)
     file.reject(
-        table,
-        text(
-            "'least' and 'most' of ", varied.name,
-            " leave hardly a draw: they must be a tenth of the deviation apart and reach to within 3 deviations of the mean"));
+        table, "'least' and 'most' of ", varied.name,
+        " leave hardly a draw: they must be a tenth of the deviation apart and reach to within 3 deviations of the mean");
 }
 
 VariedKey read_varied(const StudyFile& file, const toml::table& table, bool random) {
@@ -292,9 +269,8 @@ VariedKey read_varied(const StudyFile& file, const toml::table& table, bool rand
   };
   const int ways = int(table.contains("values")) + int(given(range)) + int(given(normal));
   if (ways != 1)
-    file.reject(table,
-                text(varied.name, ways == 0 ? " lacks its values" : " says its values in two ways",
-                     ": give one of values = [..], from and to (with step or count), mean and deviation"));
+    file.reject(table, varied.name, ways == 0 ? " lacks its values" : " says its values in two ways",
+                ": give one of values = [..], from and to (with step or count), mean and deviation");
   if (table.contains("values"))
     read_values(file, table, varied);
   else if (given(range))
@@ -302,7 +278,7 @@ VariedKey read_varied(const StudyFile& file, const toml::table& table, bool rand
   else if (table.contains("mean"))
     read_normal(file, table, random, varied);
   else
-    file.reject(table, text(varied.name, " lacks 'mean'"));
+    file.reject(table, varied.name, " lacks 'mean'");
   return varied;
 }
 
@@ -332,8 +308,8 @@ void read_compared(const StudyFile& file, const toml::node& node, Study& study) 
           item.is_integer() && *number >= 0 && *number < study.variants)
         study.compared.push_back(static_cast<long>(*number));
   if (study.compared.size() != 2 || node.as_array()->size() != 2 || study.compared[0] == study.compared[1])
-    file.reject(node, text("'compare' must be the numbers of two different variants, 0 to ",
-                           study.variants - 1, ": compare = [0, ", study.variants - 1, "]"));
+    file.reject(node, "'compare' must be the numbers of two different variants, 0 to ", study.variants - 1,
+                ": compare = [0, ", study.variants - 1, "]");
 }
 
 // Whether two places may hold one number of a scene: "bore_radius_mm" is that of every gear.
@@ -364,12 +340,12 @@ void read_figure(const StudyFile& file, Study& study) {
   for (const auto& [what, list] :
        {std::pair{"quantities", &study.figure_quantities}, std::pair{"keys", &study.figure_keys}})
     if (list->size() > kMostPanels)
-      file.reject(*table->get(what), text("'", what, "' in [figure] names ", list->size(),
-                                          "; a figure has room for ", kMostPanels));
+      file.reject(*table->get(what), "'", what, "' in [figure] names ", list->size(),
+                  "; a figure has room for ", kMostPanels);
   study.figure_colour = file.word(*table, "colour", names.size() > 1 && !study.random ? names[1] : "");
   if (!study.figure_colour.empty() && !among(study.figure_colour, names))
-    file.reject(*table->get("colour"), text("'colour' = ", study.figure_colour,
-                                            ": no [[vary]] has this key; there are: ", joined(names)));
+    file.reject(*table->get("colour"), "'colour' = ", study.figure_colour,
+                ": no [[vary]] has this key; there are: ", joined(names));
 }
 
 // Uniform in (0, 1), of seed, variant, key and attempt alone. Not std::uniform_real_distribution, which is the library's.
@@ -459,7 +435,7 @@ Study read_study(const std::string& path) {
   study.random = file.choice(root, "plan", "grid", {"grid", "sample"}) == "sample";
   for (const char* key : {"samples", "seed"})
     if (!study.random && root.contains(key))
-      file.reject(*root.get(key), text("'", key, "' is of a sample: say plan = \"sample\" or leave it out"));
+      file.reject(*root.get(key), "'", key, "' is of a sample: say plan = \"sample\" or leave it out");
   if (root.contains("seed")) study.seed = static_cast<int>(file.whole(root, "seed", 0, 2147483647));
   study.marks_outside = file.choice(root, "outside_model", "stop", {"stop", "mark"}) == "mark";
 
@@ -472,8 +448,7 @@ Study read_study(const std::string& path) {
   const toml::array* list = vary->as_array();
   if (!list || !list->is_array_of_tables() || list->empty())
     file.reject(*vary, "'vary' must be a list of sections: write [[vary]] before each key");
-  if (list->size() > kMostKeys)
-    file.reject(*vary, text(list->size(), " keys vary; ", kMostKeys, " is the most"));
+  if (list->size() > kMostKeys) file.reject(*vary, list->size(), " keys vary; ", kMostKeys, " is the most");
   std::vector<KeyPlace> varied, fixed;
   for (const auto& [name, value] : study.fixed) fixed.push_back(find_key(name));
   for (const toml::node& item : *list) {
@@ -481,12 +456,12 @@ Study read_study(const std::string& path) {
     const KeyPlace place = find_key(key.name);
     for (size_t k = 0; k < varied.size(); ++k)
       if (overlap(place, varied[k]))
-        file.reject_line(key.line, text("'", key.name, "' varies twice, as '", study.keys[k].name,
-                                        "' in line ", study.keys[k].line));
+        file.reject_line(key.line, "'", key.name, "' varies twice, as '", study.keys[k].name, "' in line ",
+                         study.keys[k].line);
     // A torque of [set] is the one that sets the bearing dampers.
     for (const KeyPlace& other : fixed)
       if (overlap(place, other) && place.key->name != std::string(kTorque))
-        file.reject_line(key.line, text("'", key.name, "' varies and is in [set]; leave one of them out"));
+        file.reject_line(key.line, "'", key.name, "' varies and is in [set]; leave one of them out");
     varied.push_back(place);
     study.keys.push_back(key);
   }
@@ -498,8 +473,8 @@ Study read_study(const std::string& path) {
     double variants = 1;
     for (const VariedKey& key : study.keys) variants *= static_cast<double>(key.values.size());
     if (variants > static_cast<double>(kMostVariants))
-      file.reject(*vary, text("the grid has ", variants, " variants; ", kMostVariants,
-                              " is the most: give fewer values, or draw from them with plan = \"sample\""));
+      file.reject(*vary, "the grid has ", variants, " variants; ", kMostVariants,
+                  " is the most: give fewer values, or draw from them with plan = \"sample\"");
     study.variants = std::lround(variants);
   }
   if (study.variants == 1 && !study.random)

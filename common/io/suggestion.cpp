@@ -153,18 +153,11 @@ const Key* key_called(const std::string& name) {
   return nullptr;
 }
 
-bool of_gear(const std::string& section) {
-  return section == "modification" || section == "error" || section == "crack";
-}
-
 std::string section_words(const Key& key) {
   const std::string section(key.section);
-  for (const char* list : {"mesh", "bearing", "carrier", "drive"})
-    if (section == list) return text("[[", section, "]]");
-  if (section == "train_mesh") return "[[mesh]] of a system";
-  if (section == "rigid_gear") return "[gear.<name>] of a system with body = \"rigid\"";
-  if (section == "gear" || section == "material") return text("[", section, ".<name>]");
-  return text("[", of_gear(key.section) ? "gear.<name>." : "", key.section, "]");
+  return heading_of(key) + (section == "train_mesh"   ? " of a system"
+                            : section == "rigid_gear" ? " of a system with body = \"rigid\""
+                                                      : "");
 }
 
 // "2,5": "2.5"; "" if the word is not a number with a decimal comma.

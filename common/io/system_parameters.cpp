@@ -1,213 +1,251 @@
-#include "io/system_scene.h"
-
-#include <array>
-#include <cmath>
-#include <functional>
-#include <sstream>
+#include <algorithm>
+#include <filesystem>
+#include <utility>
 
 #include "base/error.h"
-#include "io/section_reader.h"
+#include "gear/system_layout.h"
+#include "io/layout_fault.h"
+#include "io/scene.h"
 #include "io/stage_parameters_text.h"
-#include "io/system_layout_text.h"
+#include "io/system_scene.h"
 #include "io/variant.h"
 #include "system/rigid_system.h"
+#include "system/system_rest.h"
 
 namespace whine {
 namespace {
 
-constexpr const char* kModesStage = "the modes of a system";
+constexpr StageFile kSystemModes{"params/system.toml", "the modes of a system"},
+    kSystemStatic{"params/system_static.toml", "the statics of a system"},
+    kSystemSweep{"params/system_sweep.toml", "a sweep of a system"};
 
-// One key of a table of stage parameters: what is written is what is read.
-class Table {
- public:
-  explicit Table(std::ostringstream& out) : out_(&out) {}
-  Table(const Source& source, const toml::table& table, const std::string& label)
-      : source_(&source), table_(&table), label_(label) {}
+}  // namespace
 
-  void number(const char* name, double& value, double least, double most) {
-    if (out_) {
-      *out_ << name << " = " << exact_text(value) << "\n";
-      return;
-    }
-    const toml::node& node = found(name);
-    value = node.value<double>().value_or(std::nan(""));
-    if (!(value >= least && value <= most))
-      source_->reject(node, text("'", name, "' in [", label_, "] = ", as_written(node),
-                                 ": must be a number from ", least, " to ", most));
+std::optional<LayoutFault> layout_fault(const System& s) {
+  const auto bodies = static_cast<int>(s.bodies.size());
+  const auto gear = [&](int body) {
+    return body >= 0 && body < bodies && s.bodies[static_cast<size_t>(body)].kind == System::BodyKind::gear;
+  };
+  for (size_t b = 0; b < s.bodies.size(); ++b) {
+    const System::Body& body = s.bodies[b];
+    const auto fault = [&](const char* key, const auto& value, const char* allowed) {
+      return LayoutFault{"body", b, key, text(value), allowed};
+    };
+    if (!plain_name(body.name))
+      return fault("name", "'" + body.name + "'", "; a name holds letters, digits, '_' and '-' only");
+    if (body.sense == 0) return fault("sense", 0, "; allowed are -1 and 1");
+    if (body.kind == System::BodyKind::gear && body.teeth == 0) return fault("teeth", 0, ", which is a gear");
+    if (!has_place(s, body))
+      return fault("stands_on", body.on,
+                   "; allowed are -1, the ground, and the number of a carrier on the ground");
   }
-  void whole(const char* name, int& value, int least, int most) {
-    if (out_) {
-      *out_ << name << " = " << value << "\n";
-      return;
-    }
-    double number = value;
-    this->number(name, number, least, most);
-    value = static_cast<int>(number);
-    if (value != number) source_->reject(found(name), text("'", name, "' must be a whole number"));
+  for (size_t m = 0; m < s.meshes.size(); ++m) {
+    const int first = s.meshes[m].side[0].body, second = s.meshes[m].side[1].body;
+    if (!gear(first) || !gear(second) || first == second)
+      return LayoutFault{"mesh", m, "body_number", text(first, ", ", second),
+                         "; allowed are two gears that differ"};
   }
-  void word(const char* name, std::string& value) {
-    if (out_) {
-      *out_ << name << " = \"" << value << "\"\n";
-      return;
-    }
-    const toml::node& node = found(name);
-    const auto word = node.value<std::string>();
-    if (!node.is_string() || !plain_name(*word))
-      source_->reject(node, text("'", name, "' in [", label_, "] must be a name in quotes"));
-    value = *word;
-  }
-  template <WordedChoice Choice>
-  void choice(const char* name, Choice& value) {
-    std::string chosen = name_of(value);
-    word(name, chosen);
-    if (out_) return;
-    const std::optional<Choice> known = choice_of<Choice>(chosen);
-    if (!known)
-      source_->reject(found(name), text("'", name, "' in [", label_, "] = \"", chosen,
-                                        "\": must be one of: ", kWordsOf<Choice>));
-    value = *known;
-  }
-  void flag(const char* name, bool& value) {
-    int number = value;
-    whole(name, number, 0, 1);
-    value = number != 0;
-  }
-
- private:
-  const toml::node& found(const char* name) const {
-    const toml::node* node = table_->get(name);
-    if (!node) source_->reject(*table_, text("[", label_, "] lacks '", name, "'"));
-    return *node;
-  }
-  std::ostringstream* out_ = nullptr;
-  const Source* source_ = nullptr;
-  const toml::table* table_ = nullptr;
-  std::string label_;
-};
-
-constexpr double kAnyNumber = 1e30, kFarthest = 1e3, kStiffest = 1e15, kMostTurn = 1e6;
-constexpr int kMostTeeth = 2000, kMost = 1000;
-
-void describe_table(Table& t, System::Body& body) {
-  t.word("name", body.name);
-  bool carrier = body.kind == System::BodyKind::carrier;
-  t.flag("is_carrier", carrier);
-  body.kind = carrier ? System::BodyKind::carrier : System::BodyKind::gear;
-  t.whole("teeth", body.teeth, 0, kMostTeeth);
-  t.whole("sense", body.sense, -1, 1);
-  t.number("angle", body.angle, -kMostTurn, kMostTurn);
-  t.number("x", body.centre[0], -kFarthest, kFarthest);
-  t.number("y", body.centre[1], -kFarthest, kFarthest);
-  t.number("radius", body.radius, 0, kFarthest);
-  t.number("inertia", body.inertia, 0, kAnyNumber);
-  t.whole("stands_on", body.on, System::kGround, kMost);
-  t.number("bearing_stiffness", body.bearing.stiffness, 0, kStiffest);
-  t.number("bearing_damping", body.bearing.damping, 0, kAnyNumber);
-  t.number("bearing_mass", body.bearing.mass, 0, kAnyNumber);
+  for (size_t d = 0; d < s.drives.size(); ++d)
+    if (const int body = s.drives[d].body; body < 0 || body >= bodies)
+      return LayoutFault{"drive", d, "body", text(body), text("; allowed are 0 to ", bodies - 1)};
+  return std::nullopt;
 }
 
-void describe_table(Table& t, System::Mesh& mesh) {
-  for (size_t s = 0; s < 2; ++s) {
-    const std::string side = s == 0 ? "driver" : "driven";
-    System::Side& own = mesh.side[s];
-    t.whole((side + "_body").c_str(), own.body, 0, kMost);
-    t.whole((side + "_sense").c_str(), own.sense, -1, 1);
-    t.whole((side + "_tooth").c_str(), own.first_tooth, -(1 << 20), 1 << 20);
-    bool trailing = own.flank == FlankSide::trailing;
-    t.flag((side + "_trailing").c_str(), trailing);
-    own.flank = trailing ? FlankSide::trailing : FlankSide::leading;
-  }
-  t.number("centre_distance", mesh.centre_distance, 0, kFarthest);
-  t.number("direction", mesh.direction, -kMostTurn, kMostTurn);
-  t.number("phase", mesh.phase, 0, 1);
-  t.number("pressure_angle", mesh.pressure_angle, 0, 1.5);
-  t.flag("ring_drives", mesh.ring_drives);
-  t.number("stiffness", mesh.stiffness, 0, kStiffest);
-}
+namespace {
 
-void describe_table(Table& t, System::Drive& drive) {
-  t.whole("body", drive.body, 0, kMost);
-  t.choice("kind", drive.kind);
-  t.number("torque", drive.torque, -kAnyNumber, kAnyNumber);
-  t.number("stiffness", drive.stiffness, 0, kStiffest);
-}
-
-template <class Item>
-void write_list(std::ostringstream& out, const char* name, const std::vector<Item>& list) {
-  for (Item item : list) {
-    out << "\n[[" << name << "]]\n";
-    Table table(out);
-    describe_table(table, item);
-  }
-}
-
-template <class Item>
-void read_list(const Source& source, const char* name, std::vector<Item>& list) {
-  const toml::node* node = source.root().get(name);
-  if (!node) return;
-  const toml::array* tables = node->as_array();
-  if (!tables || !tables->is_array_of_tables() || tables->size() > kMost)
-    source.reject(*node, text("'", name, "' must be a list of at most ", kMost, " sections"));
-  for (const toml::node& item : *tables) {
-    Table table(source, *item.as_table(), name);
-    describe_table(table, list.emplace_back());
+void walk(StageParameters& s, System& layout) {
+  s.list("body", layout.bodies);
+  s.list("mesh", layout.meshes);
+  s.list("drive", layout.drives);
+  const Source* const source = s.source();
+  if (!source) return;
+  if (layout.bodies.empty()) source->reject("lists no [[body]]");
+  if (const auto fault = layout_fault(layout)) {
+    const toml::table& at = *source->list(fault->list)[fault->number];
+    const std::string name = at["name"].value_or(std::string());
+    source->reject(at, "[[", fault->list, "]]", name.empty() ? "" : " '" + name + "'", ": ", fault->key,
+                   " = ", fault->value, fault->allowed);
   }
 }
 
 }  // namespace
 
-std::string layout_text(const System& layout) {
-  std::ostringstream out;
-  write_list(out, "body", layout.bodies);
-  write_list(out, "mesh", layout.meshes);
-  write_list(out, "drive", layout.drives);
-  return out.str();
-}
-
 std::string system_parameters(const System& layout) {
-  return std::string(kStageParametersStart) + kModesStage + kStageParametersEnd + "\n" + layout_text(layout);
-}
-
-System layout_from(const Source& source) {
-  System out;
-  read_list(source, "body", out.bodies);
-  read_list(source, "mesh", out.meshes);
-  read_list(source, "drive", out.drives);
-  const int bodies = static_cast<int>(out.bodies.size());
-  if (bodies == 0) source.reject("lists no [[body]]");
-  const auto there = [&](int body) { return body >= 0 && body < bodies; };
-  for (const System::Body& body : out.bodies)
-    if (body.sense == 0) source.reject(text("[[body]] '", body.name, "' has sense = 0; it must be -1 or 1"));
-  for (const System::Body& body : out.bodies)
-    if (!has_place(out, body))
-      source.reject(text(
-          "[[body]] '", body.name, "' stands on number ", body.on,
-          ", which is no carrier on the ground; stands_on is -1, the ground, or the number of a carrier with stands_on = -1"));
-  for (const System::Mesh& mesh : out.meshes)
-    if (!there(mesh.side[0].body) || !there(mesh.side[1].body))
-      source.reject(text("a [[mesh]] names a body that is not there; there are ", bodies));
-  for (const System::Body& body : out.bodies)
-    if (body.kind == System::BodyKind::gear && body.teeth == 0)
-      source.reject(text("[[body]] '", body.name, "' is a gear with teeth = 0; it must have 1 at least"));
-  for (const System::Mesh& mesh : out.meshes)
-    for (const System::Side& side : mesh.side)
-      if (mesh.side[0].body == mesh.side[1].body ||
-          out.bodies[static_cast<size_t>(side.body)].kind == System::BodyKind::carrier)
-        source.reject(text("a [[mesh]] of '", out.bodies[static_cast<size_t>(mesh.side[0].body)].name,
-                           "' and '", out.bodies[static_cast<size_t>(mesh.side[1].body)].name,
-                           "' is not of two gears that differ"));
-  for (const System::Drive& drive : out.drives)
-    if (!there(drive.body))
-      source.reject(text("a [[drive]] names a body that is not there; there are ", bodies));
-  return out;
+  System copy = layout;  // keys point at what may be changed
+  StageParameters out(kSystemModes);
+  walk(out, copy);
+  return out.text();
 }
 
 System read_system_parameters(const std::string& path) {
-  const Source source(path,
-                      "stage parameters are out/<scene>/params/system.toml, made with: make modes SCENE=...");
-  if (!source.is_stage_parameters() || source.stage_of() != kModesStage)
-    source.reject("is not what the modes of a system depend on: give out/<scene>/params/system.toml");
-  return layout_from(source);
+  const Source source = stage_source(path, kSystemModes);
+  StageParameters in(source);
+  System out;
+  walk(in, out);
+  return out;
+}
+
+namespace {
+
+// [body] Planets have the errors of their gear; what is drawn within a class differs from planet to planet by the seed.
+std::vector<ToothErrors> errors_of(const SystemScene& scene, const std::vector<std::string>& gear_of) {
+  std::vector<ToothErrors> out(gear_of.size());
+  for (size_t b = 0; b < gear_of.size(); ++b)
+    for (const SystemScene::Gear& gear : scene.gears)
+      if (gear.name == gear_of[b]) {
+        const auto before =
+            std::count(gear_of.begin(), gear_of.begin() + static_cast<std::ptrdiff_t>(b), gear.name);
+        out[b] = gear.errors;
+        out[b].seed = static_cast<int>((gear.errors.seed + static_cast<long>(before)) % (1L << 31));
+      }
+  return out;
+}
+
+}  // namespace
+
+BodySettings body_parameters_of(const SystemScene& scene) {
+  BodySettings out;
+  if (scene.rigid()) return out;
+  for (const SystemScene::Gear& gear : scene.gears)
+    out.emplace_back(gear.name, body_parameters({gear.design, gear.material, scene.body}));
+  return out;
+}
+
+SystemStaticParameters static_parameters_of(const SystemScene& scene, const System& layout) {
+  SystemStaticParameters out;
+  out.layout = layout;
+  out.gear = gears_of(scene, layout);
+  for (const SystemScene::Mesh& mesh : scene.meshes) out.mesh.push_back(mesh.spec);
+  out.section = sections_of(out.mesh, out.gear, layout);
+  out.fidelity = scene.fidelity;
+  out.contact = scene.contact;
+  out.errors = errors_of(scene, out.gear);
+  if (out.contact.positions == 0) take_positions(out.contact, hunting_periods(out), kPositions);
+  for (const auto& [gear, settings] : body_parameters_of(scene))
+    out.body.emplace_back(gear, body_hash(settings));
+  return out;
+}
+
+SystemSweepParameters sweep_parameters_of(const SystemScene& scene, const System& layout) {
+  SystemSweepParameters out;
+  static_cast<SystemStaticParameters&>(out) = static_parameters_of(scene, layout);
+  out.damping = scene.damping;
+  out.frequency_from = scene.operation.frequency_from;
+  out.frequency_to = scene.operation.frequency_to;
+  out.frequency_step = scene.operation.frequency_step;
+  out.time = scene.time;
+  return out;
+}
+
+namespace {
+
+// The gear of each body that is one, by its name.
+void walk_gears(StageParameters& s, SystemStaticParameters& p) {
+  StageParameters::Words words;
+  for (size_t b = 0; b < p.gear.size(); ++b)
+    if (!p.gear[b].empty()) words.emplace_back(p.layout.bodies[b].name, p.gear[b]);
+  s.words("gear_of", words);
+  const Source* const source = s.source();
+  if (!source) return;
+  const std::vector<std::string> gears = p.gears();
+  for (const System::Body& body : p.layout.bodies) {
+    std::string& own = p.gear.emplace_back();
+    if (body.kind == System::BodyKind::carrier) continue;
+    for (const auto& [name, gear] : words)
+      if (name == body.name) own = gear;
+    if (std::find(gears.begin(), gears.end(), own) == gears.end())
+      source->reject("[gear_of] names no gear for the body '", body.name, "'");
+  }
+  try {
+    p.section = sections_of(p.mesh, p.gear, p.layout);
+  } catch (const Error& error) {
+    source->reject(error.what());
+  }
+}
+
+// moving: `p` itself, if it is of a sweep.
+void walk(StageParameters& s, SystemStaticParameters& p, SystemSweepParameters* moving) {
+  const bool reads = s.source();
+  if (reads) {  // by their names sections are called
+    walk(s, p.layout);
+    s.words("bodies", p.body);
+    p.errors.resize(p.layout.bodies.size());
+  }
+  for (size_t m = 0; (reads && m == 0) || s.has(text("mesh_", m), m < p.mesh.size()); ++m) {
+    if (reads) p.mesh.emplace_back();
+    s(keys(p.mesh[m]).section("mesh").all().labelled(text("mesh_", m)));
+  }
+  for (const auto& [gear, hash] : p.body) {
+    FlankModification own = p.modification(gear);
+    if (!s.has("modification_" + gear, own != FlankModification{})) continue;
+    s(keys(own).labelled("modification_" + gear));
+    p.modify(gear, own);
+  }
+  for (size_t b = 0; b < p.errors.size(); ++b)
+    if (const std::string label = "error_" + p.layout.bodies[b].name; s.has(label, p.has_errors(b)))
+      s(keys(p.errors[b]).labelled(label));
+  if (moving)
+    s(keys(moving->damping)
+          .append(speeds_key(moving->frequency_from, moving->frequency_to, moving->frequency_step)));
+  s(level_keys(p.fidelity, p.contact, moving ? &moving->time : nullptr));
+  if (!reads) s.words("bodies", p.body);
+  walk_gears(s, p);
+  if (!reads) walk(s, p.layout);
+}
+
+}  // namespace
+
+std::string system_static_parameters(const SystemStaticParameters& p) {
+  SystemStaticParameters copy = p;
+  StageParameters out(kSystemStatic);
+  walk(out, copy, nullptr);
+  return out.text();
+}
+
+std::string system_sweep_parameters(const SystemSweepParameters& p) {
+  SystemSweepParameters copy = p;
+  StageParameters out(kSystemSweep);
+  walk(out, copy, &copy);
+  return out.text();
+}
+
+SystemStaticParameters read_system_static_parameters(const std::string& path) {
+  const Source source = stage_source(path, kSystemStatic);
+  StageParameters in(source);
+  SystemStaticParameters out;
+  walk(in, out, nullptr);
+  return out;
+}
+
+SystemSweepParameters read_system_sweep_parameters(const std::string& path) {
+  const Source source = stage_source(path, kSystemSweep);
+  StageParameters in(source);
+  SystemSweepParameters out;
+  walk(in, out, &out);
+  return out;
+}
+
+std::vector<std::pair<std::string, std::string>> elastic_parameters(const SystemScene& scene,
+                                                                    const System& layout) {
+  std::vector<std::pair<std::string, std::string>> out{
+      {"system_static.toml", system_static_parameters(static_parameters_of(scene, layout))}};
+  if (scene.operation.frequency_to > 0)
+    out.emplace_back("system_sweep.toml", system_sweep_parameters(sweep_parameters_of(scene, layout)));
+  return out;
+}
+
+std::string system_parameters_for(const std::string& scene, const std::string& path) {
+  const SystemScene read = read_system_scene(scene);
+  const std::filesystem::path place(path);
+  const std::string name = place.filename().string();
+  if (name == "system.toml" && read.rigid()) return system_parameters(layout_in(read, scene));
+  if (!read.rigid())
+    for (const auto& [own, words] : elastic_parameters(read, layout_in(read, scene)))
+      if (name == own) return words;
+  const std::string folder = place.parent_path().filename().string();
+  for (const auto& [gear, settings] : body_parameters_of(read))
+    if (name == "body.toml" && (folder == body_hash(settings) || folder == gear)) return settings;
+  return "";
 }
 
 }  // namespace whine

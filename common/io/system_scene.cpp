@@ -15,32 +15,18 @@
 namespace whine {
 namespace {
 
-// The tables of [[name]]; none if there is no such section.
-std::vector<const toml::table*> list_of(const Source& source, const std::string& name) {
-  std::vector<const toml::table*> out;
-  const toml::node* node = source.root().get(name);
-  if (!node) return out;
-  const toml::array* list = node->as_array();
-  if (!list || !list->is_array_of_tables())
-    source.reject(*node, text("'", name, "' must be a list of sections: write [[", name, "]]"));
-  for (const toml::node& item : *list) out.push_back(item.as_table());
-  return out;
-}
-
 // What a gear of a system cannot have.
-void reject_sections(const Source& source, const toml::table& table, const SceneGear& gear, bool rigid) {
+void reject_sections(const SectionReader& gear, bool rigid) {
   for (const char* key : {"modification", "error", "crack"}) {
-    const toml::node* node = table.get(key);
+    const toml::node* node = gear.node(key);
     if (node && rigid)
-      source.reject(
-          *node, text("[gear.", gear.name, ".", key, "]: a gear of a system with body = \"rigid\" has no '",
-                      key, "', its mesh is one spring of stiffness_N_um; take the section out"));
+      gear.source().reject(*node, "[", gear.label(), ".", key,
+                           "]: a gear of a system with body = \"rigid\" has no '", key,
+                           "', its mesh is one spring of stiffness_N_um; take the section out");
     if (node && key == std::string("crack"))
-      source.reject(
-          *node,
-          text(
-              "[gear.", gear.name,
-              ".crack]: a gear of a system (several meshes, carriers or drives) has no 'crack': the body of a cracked gear knows what forces on its leading flanks do to the crack, and gears of a system may work with the other ones; take the section out, or compute two of the gears as a pair"));
+      gear.source().reject(
+          *node, "[", gear.label(),
+          ".crack]: a gear of a system (several meshes, carriers or drives) has no 'crack': the body of a cracked gear knows what forces on its leading flanks do to the crack, and gears of a system may work with the other ones; take the section out, or compute two of the gears as a pair");
   }
 }
 
@@ -54,7 +40,7 @@ void check_hunting(const Source& source, const Scene& gears) {
       hunting_periods_of(teeth);
     } catch (const Error& error) {
       const toml::table& table = *source.section("gear")->get(own.name)->as_table();
-      source.reject(*table.get("error"), text("[gear.", own.name, ".error]: ", error.what()));
+      source.reject(*table.get("error"), "[gear.", own.name, ".error]: ", error.what());
     }
   }
 }
@@ -64,141 +50,100 @@ void take_gears(const Source& source, SystemScene& scene) {
   const bool rigid = scene.rigid();
   read_gears(source, gears, rigid);
   check_hunting(source, gears);
+  const toml::table& tables = *source.section("gear");
+  const auto reader_of = [&](const std::string& name) {
+    return SectionReader(source, *tables.get(name)->as_table(), "rigid_gear", "gear." + name);
+  };
   for (const SceneGear& own : gears.gears) {
-    SystemScene::Gear gear;
+    SystemScene::Gear& gear = scene.gears.emplace_back();
     static_cast<SceneGear&>(gear) = own;
-    const toml::table* table = source.section("gear")->get(own.name)->as_table();
-    reject_sections(source, *table, own, rigid);
-    if (!rigid) {
-      scene.gears.push_back(gear);
-      continue;
-    }
-    const toml::table* owner = table;
-    if (const auto like = (*table)["like"].value<std::string>(); like && !table->get("equivalent_mass_kg"))
-      owner = source.section("gear")->get(*like)->as_table();
-    SectionReader(source, Dialect::scene, *owner, "rigid_gear", "gear." + own.name)
+    const SectionReader reader = reader_of(own.name);
+    reject_sections(reader, rigid);
+    if (!rigid) continue;
+    const auto like = reader.table()["like"].value<std::string>();
+    const bool inherits = like && !reader.node("equivalent_mass_kg");
+    SectionReader(source, inherits ? reader_of(*like).table() : reader.table(), "rigid_gear", reader.label())
         .read(equivalent_mass_key(gear.equivalent_mass));
     if (gear.equivalent_mass > 0 && gear.total_inertia > 0)
-      source.reject(
-          *table,
-          text(
-              "[gear.", own.name,
-              "] gives 'total_inertia_kgm2' and 'equivalent_mass_kg', which say the same; give one of them"));
+      reader.reject(
+          " gives 'total_inertia_kgm2' and 'equivalent_mass_kg', which say the same; give one of them");
     if (!(gear.equivalent_mass > 0 || gear.total_inertia > 0))
-      source.reject(
-          *table,
-          text(
-              "[gear.", own.name,
-              "] of a system with body = \"rigid\" lacks its inertia: give 'total_inertia_kgm2' or 'equivalent_mass_kg'"));
-    scene.gears.push_back(gear);
+      reader.reject(
+          " of a system with body = \"rigid\" lacks its inertia: give 'total_inertia_kgm2' or 'equivalent_mass_kg'");
   }
 }
 
 void take_carriers(const Source& source, SystemScene& scene) {
-  for (const toml::table* table : list_of(source, "carrier")) {
-    SystemScene::Carrier carrier;
-    const SectionReader reader(source, Dialect::scene, *table, "carrier", "carrier");
-    reader.reject_unknown();
-    reader.read(keys(carrier));
+  for (const toml::table* table : source.list("carrier")) {
+    SystemScene::Carrier& carrier = scene.carriers.emplace_back();
+    const SectionReader reader(source, *table, "carrier", "carrier");
+    reader.read_all(keys(carrier));
     if (!plain_name(carrier.name))
-      source.reject(*table->get("name"), text("'name' in [carrier] = '", carrier.name,
-                                              "': a name holds letters, digits, '_' and '-' only"));
+      reader.reject_key("name", " = '", carrier.name, "': a name holds letters, digits, '_' and '-' only");
     const bool one = carrier.inertia > 0, other = carrier.equivalent_mass > 0;
     if (one && other)
-      source.reject(
-          *table,
-          text("[carrier] '", carrier.name,
-               "' gives 'inertia_kgm2' and 'equivalent_mass_kg', which say the same; give one of them"));
+      reader.reject(" '", carrier.name,
+                    "' gives 'inertia_kgm2' and 'equivalent_mass_kg', which say the same; give one of them");
     if (scene.rigid() && !one && !other)
-      source.reject(*table, text("[carrier] '", carrier.name,
-                                 "' needs its inertia, either 'inertia_kgm2' or 'equivalent_mass_kg'"));
-    scene.carriers.push_back(carrier);
+      reader.reject(" '", carrier.name, "' needs its inertia, either 'inertia_kgm2' or 'equivalent_mass_kg'");
   }
 }
 
+// What body = "rigid" needs and elastic gears cannot have: `computed` of them.
+void reject_stiffness(const SectionReader& section, bool rigid, const char* computed) {
+  if (const toml::node* node = section.node("stiffness_N_um"); node && !rigid)
+    section.reject_key("stiffness_N_um", " belongs to body = \"rigid\"; ", computed, ", take it out");
+}
+
 void take_meshes(const Source& source, SystemScene& scene) {
-  for (const toml::table* table : list_of(source, "mesh")) {
-    SystemScene::Mesh mesh;
-    const SectionReader reader(source, Dialect::scene, *table, "mesh", "mesh"),
-        train(source, Dialect::scene, *table, "train_mesh", "mesh");
+  for (const toml::table* table : source.list("mesh")) {
+    SystemScene::Mesh& mesh = scene.meshes.emplace_back();
+    const SectionReader reader(source, *table, "mesh", "mesh");
     reader.reject_unknown({"direction_deg", "stiffness_N_um"});
     reader.read(keys(mesh.spec).section("mesh"));
-    train.read(keys(mesh));
-    if (const toml::node* node = table->get("stiffness_N_um"); node && !scene.rigid())
-      source.reject(
-          *node,
-          "'stiffness_N_um' in [mesh] belongs to body = \"rigid\"; that of elastic gears is computed, take it out");
+    reader.read(keys(mesh));
+    reject_stiffness(reader, scene.rigid(), "that of elastic gears is computed");
     if (scene.rigid() && !(mesh.stiffness > 0))
-      source.reject(*table, text("[mesh] of '", mesh.spec.gear[0], "' and '", mesh.spec.gear[1],
-                                 "' lacks 'stiffness_N_um', which body = \"rigid\" needs"));
+      reader.reject(" of '", mesh.spec.gear[0], "' and '", mesh.spec.gear[1],
+                    "' lacks 'stiffness_N_um', which body = \"rigid\" needs");
     for (size_t g = 0; g < kSides; ++g)
       for (const SystemScene::Gear& gear : scene.gears)
         if (gear.name == mesh.spec.gear[g]) mesh.spec.modification[g] = gear.modification;
-    scene.meshes.push_back(mesh);
   }
 }
 
 void take_bearings(const Source& source, SystemScene& scene) {
-  std::vector<std::string> names;
-  std::vector<Bearing*> own;
-  for (SystemScene::Gear& gear : scene.gears) {
-    names.push_back(gear.name);
-    own.push_back(&gear.bearing);
-  }
-  for (SystemScene::Carrier& carrier : scene.carriers) {
-    names.push_back(carrier.name);
-    own.push_back(&carrier.bearing);
-  }
-  for (const toml::table* table : list_of(source, "bearing")) {
-    std::string name;
-    Bearing read;
-    const SectionReader reader(source, Dialect::scene, *table, "bearing", "bearing");
-    reader.reject_unknown();
-    reader.read(bearing_gear_key(name).append(keys(read)));
-    const auto at = std::find(names.begin(), names.end(), name);
-    if (at == names.end())
-      source.reject(*table->get("gear"), text("'gear' in [bearing] = '", name,
-                                              "' names no gear and no carrier", advice_for(name, names)));
-    Bearing& bearing = *own[static_cast<size_t>(at - names.begin())];
-    if (bearing.elastic())
-      source.reject(*table->get("gear"),
-                    text("'gear' in [bearing] = '", name,
-                         "' has a bearing already; give one section with what carries it in all"));
-    const bool drawn = !scene.rigid() && static_cast<size_t>(at - names.begin()) < scene.gears.size();
-    if (!drawn && !(read.mass > 0))
-      source.reject(*table, text("[bearing] of '", name, "' lacks 'mass_kg', which ",
-                                 scene.rigid() ? "body = \"rigid\"" : "a carrier", " needs"));
-    bearing = read;
-  }
+  std::vector<std::pair<std::string, Bearing*>> hubs;
+  for (SystemScene::Gear& gear : scene.gears) hubs.emplace_back(gear.name, &gear.bearing);
+  for (SystemScene::Carrier& carrier : scene.carriers) hubs.emplace_back(carrier.name, &carrier.bearing);
+  read_bearings(source, hubs, "gear and no carrier",
+                [&](const SectionReader& reader, const Bearing& bearing, size_t hub) {
+                  const bool drawn = !scene.rigid() && hub < scene.gears.size();
+                  if (!drawn && !(bearing.mass > 0))
+                    reader.reject(" of '", hubs[hub].first, "' lacks 'mass_kg', which ",
+                                  scene.rigid() ? "body = \"rigid\"" : "a carrier", " needs");
+                });
 }
 
 void take_drives(const Source& source, SystemScene& scene) {
-  for (const toml::table* table : list_of(source, "drive")) {
-    SystemScene::Drive drive;
-    const SectionReader reader(source, Dialect::scene, *table, "drive", "drive");
-    reader.reject_unknown();
-    reader.read(keys(drive));
-    const auto only = [&](const char* key, System::DriveKind kind) {
-      if (const toml::node* node = table->get(key); node && drive.kind != kind)
-        source.reject(*node, text("'", key, "' in [drive] belongs to kind = \"", name_of(kind),
-                                  "\", and this drive is of kind \"", name_of(drive.kind), "\""));
-    };
-    only("torque_Nm", System::DriveKind::torque);
-    only("stiffness_N_um", System::DriveKind::held);
-    if (const toml::node* node = table->get("stiffness_N_um"); node && !scene.rigid())
-      source.reject(
-          *node,
-          "'stiffness_N_um' in [drive] belongs to body = \"rigid\"; elastic gears are held rigidly, take it out");
-    scene.drives.push_back(drive);
+  for (const toml::table* table : source.list("drive")) {
+    SystemScene::Drive& drive = scene.drives.emplace_back();
+    const SectionReader reader(source, *table, "drive", "drive");
+    reader.read_all(keys(drive));
+    for (const auto& [key, kind] : {std::pair{"torque_Nm", System::DriveKind::torque},
+                                    std::pair{"stiffness_N_um", System::DriveKind::held}})
+      if (reader.node(key) && drive.kind != kind)
+        reader.reject_key(key, " belongs to kind = \"", kind, "\", and this drive is of kind \"", drive.kind,
+                          "\"");
+    reject_stiffness(reader, scene.rigid(), "elastic gears are held rigidly");
   }
 }
 
 // What systems in motion cannot do, before anything is computed for them.
 void reject_in_motion(const Source& source, const Fidelity& fidelity) {
-  const auto reject = [&](const char* key, const std::string& words) {
+  const auto reject = [&](const char* key, const auto&... words) {
     const toml::node* node = source.root().at_path(std::string("fidelity.") + key).node();
-    if (node) source.reject(*node, words);
-    source.reject(words);
+    source.reject(node ? *node : source.root(), words...);
   };
   if (fidelity.body == BodyModel::full)
     reject(
@@ -206,15 +151,12 @@ void reject_in_motion(const Source& source, const Fidelity& fidelity) {
         "body = \"full\" in [fidelity]: systems in motion have \"quasi-static\", \"relaxed\" or \"modal\"; write one of these, or take [operation] out");
   if (fidelity.integrator != Integrator::exact)
     reject(
-        "integrator",
-        text(
-            "integrator = \"", fidelity.integrator,
-            "\" in [fidelity] is for pairs: systems in motion have \"exact\"; write that, or take [operation] out"));
+        "integrator", "integrator = \"", fidelity.integrator,
+        "\" in [fidelity] is for pairs: systems in motion have \"exact\"; write that, or take [operation] out");
 }
 
 // [fidelity], [discretisation], [damping] and [operation].
 void take_fidelity(const Source& source, SystemScene& scene) {
-  static const toml::table kNothing;
   if (const toml::node* node = source.root().at_path("operation.torque_Nm").node())
     source.reject(
         *node,
@@ -227,20 +169,12 @@ void take_fidelity(const Source& source, SystemScene& scene) {
                     .append(keys(scene.time));
   Operation& speeds = scene.operation;
   if (moves) all.append(speeds_key(speeds.frequency_from, speeds.frequency_to, speeds.frequency_step));
-  for (const char* name : {"fidelity", "discretisation", "damping", "operation"}) {
-    const std::string section(name);
-    if (const toml::node* node = source.root().get(section);
-        node && scene.fidelity.body == BodyModel::rigid && (section == "damping" || section == "operation"))
-      source.reject(
-          *node,
-          text("[", section,
-               "] belongs to elastic gears in motion, and those of this scene are rigid; take it out"));
-    const toml::table* table = source.section(name);
-    const SectionReader reader(source, Dialect::scene, table ? *table : kNothing, name, name);
-    reader.reject_unknown();
-    reader.read(all.section(section));
-  }
-  if (moves && scene.fidelity.body != BodyModel::rigid) reject_in_motion(source, scene.fidelity);
+  read_levels(source, all, [&](const SectionReader& section) {
+    if (source.root().get(section.label()) && scene.rigid() &&
+        (section.label() == "damping" || section.label() == "operation"))
+      section.reject(" belongs to elastic gears in motion, and those of this scene are rigid; take it out");
+  });
+  if (moves && !scene.rigid()) reject_in_motion(source, scene.fidelity);
   if (const toml::node* node = source.root().get("discretisation"); node && scene.rigid())
     source.reject(
         *node, "[discretisation] belongs to elastic gears, and those of this scene are rigid; take it out");
@@ -249,7 +183,7 @@ void take_fidelity(const Source& source, SystemScene& scene) {
 
 // Names of gears that share a shaft come first: what else a scene of them lacks leads nowhere.
 void require_one_train(const Source& source) {
-  const std::vector<const toml::table*> tables = list_of(source, "mesh");
+  const std::vector<const toml::table*> tables = source.list("mesh");
   const toml::table* gears = source.root()["gear"].as_table();
   std::vector<std::array<std::string, 2>> meshes;
   for (const toml::table* table : tables) {
@@ -280,7 +214,7 @@ SystemScene read_system_scene(const std::string& path) {
   if (source.is_stage_parameters())
     source.reject("holds stage parameters, which gear-scene wrote from a scene; give the scene itself");
   require_one_train(source);
-  const SectionReader top(source, Dialect::scene, source.root(), "", "");
+  const SectionReader top(source, source.root(), "", "");
   if (const toml::node* node = source.root().get("friction"))
     source.reject(
         *node,
@@ -289,9 +223,9 @@ SystemScene read_system_scene(const std::string& path) {
                       "fidelity", "discretisation"});
   for (const char* name : {"gear", "mesh"})
     if (!source.root().get(name))
-      source.reject(text("the scene of a system lacks ",
-                         name == std::string("gear") ? "[gear.<name>]" : "[[mesh]]",
-                         "; data/scenes/lin-parker-planetary.toml is an example"));
+      source.reject("the scene of a system lacks ",
+                    name == std::string("gear") ? "[gear.<name>]" : "[[mesh]]",
+                    "; data/scenes/lin-parker-planetary.toml is an example");
   SystemScene scene;
   top.read(title_key(scene.title));
   if (scene.title.empty()) scene.title = std::filesystem::path(path).stem().string();
@@ -316,7 +250,7 @@ auto placed_in(const std::string& path, const Make& make) {
     return make();
   } catch (const SystemSceneError& error) {
     const Source source(path);
-    const auto tables = list_of(source, error.section());
+    const auto tables = source.list(error.section());
     if (error.number() < tables.size()) source.reject(*tables[error.number()], error.what());
     source.reject(error.what());
   }

@@ -5,6 +5,15 @@ namespace whine {
 
 using namespace units;
 
+namespace {
+
+ChoiceSlot plane_slot(bool& stress) {
+  return {&stress, [](const void* at) { return *static_cast<const bool*>(at) ? 0 : 1; },
+          [](void* at, int place) { *static_cast<bool*>(at) = place == 0; }};
+}
+
+}  // namespace
+
 // clang-format off
 KeyList keys(GearDesign& d, GearWords* words) {
   KeyList k("gear");
@@ -72,12 +81,12 @@ KeyList keys(FlankModification& m) {
 
 KeyList keys(ToothErrors& e) {
   KeyList k("error");
-  k.add(ToothList{&e.single_pitch}, "single_pitch_um", kMicrometre, "", {-1000, 1000}, "a number for each tooth: deviation of the pitch from the flank before (of tooth 0 the last) to this one, along the reference circle; they sum up to 0. Teeth count counter-clockwise on all gears, the driver turns so; tooth 0 of both gears of a pair is in mesh at phase 0. Positive, here and below: material stands, contact begins early; in a system, whose gears may work with either flank, a positive pitch is counter-clockwise on both, and every planet has the list of its gear");
-  k.add(ToothList{&e.cumulative_pitch}, "cumulative_pitch_um", kMicrometre, "", {-1000, 1000}, "the same as place of each flank, along the reference circle; adds to single_pitch_um");
+  k.add(&e.single_pitch, "single_pitch_um", kMicrometre, "", {-1000, 1000}, "a number for each tooth: deviation of the pitch from the flank before (of tooth 0 the last) to this one, along the reference circle; they sum up to 0. Teeth count counter-clockwise on all gears, the driver turns so; tooth 0 of both gears of a pair is in mesh at phase 0. Positive, here and below: material stands, contact begins early; in a system, whose gears may work with either flank, a positive pitch is counter-clockwise on both, and every planet has the list of its gear").each = "tooth";
+  k.add(&e.cumulative_pitch, "cumulative_pitch_um", kMicrometre, "", {-1000, 1000}, "the same as place of each flank, along the reference circle; adds to single_pitch_um").each = "tooth";
   k.add(&e.eccentricity, "eccentricity_um", kMicrometre, "0.0", {0, 1000}, "distance of the toothing's axis from that of rotation; the run-out is about twice it");
   k.add(&e.eccentric_tooth, "eccentricity_tooth", kNone, "0.0", {-2000, 2000}, "number of the tooth towards which; between two teeth a fraction");
-  k.add(ToothList{&e.profile_slope}, "profile_slope_um", kMicrometre, "", {-1000, 1000}, "a number for each tooth: rise of its profile from the foot of the involute to the tip edge; 0 at the reference circle");
-  k.add(ToothList{&e.profile_form}, "profile_form_um", kMicrometre, "", {-1000, 1000}, "a number for each tooth: sine waves along its profile, from peak to valley; 0 at the reference circle, where positive ones rise to the tip");
+  k.add(&e.profile_slope, "profile_slope_um", kMicrometre, "", {-1000, 1000}, "a number for each tooth: rise of its profile from the foot of the involute to the tip edge; 0 at the reference circle").each = "tooth";
+  k.add(&e.profile_form, "profile_form_um", kMicrometre, "", {-1000, 1000}, "a number for each tooth: sine waves along its profile, from peak to valley; 0 at the reference circle, where positive ones rise to the tip").each = "tooth";
   k.add(&e.profile_form_waves, "profile_form_waves", kNone, "3.0", {0.5, 100}, "number of these waves from the foot of the involute to the tip edge");
   k.add(&e.iso_class, "iso_class", kNone, "0", {0, 11}, "deviations of pitch, profile slope and form drawn at random within this class of ISO 1328-1:2013; 0: none; adds to the lists");
   k.add(&e.iso_share, "iso_share", kNone, "1.0", {0, 1, true}, "share of the class's limits that the draw takes up: of pitch, and of profile, the limit that is used most just has it");
@@ -96,7 +105,7 @@ KeyList keys(Material& m) {
   k.add(&m.youngs_modulus, "youngs_modulus_GPa", kGigapascal, nullptr, {0, 2000, true}, "Young's modulus");
   k.add(&m.poisson_ratio, "poisson_ratio", kNone, nullptr, {0, 0.495}, "Poisson's ratio");
   k.add(&m.density, "density_kgm3", kDensity, nullptr, {100, 30000, false, "steel has 7850; 7.85 would be its g/cm3"}, "density");
-  k.add(PlaneSlot{&m.plane_stress}, "plane", kNone, nullptr, {}, "plane state of the whole body: stress for face widths up to about 5 tooth thicknesses (8 modules), strain for wider ones, 10 % stiffer (Cornell 1981); that of the contact is contact_plane in [[mesh]]").choices = "stress strain";
+  k.add(plane_slot(m.plane_stress), "plane", kNone, nullptr, {}, "plane state of the whole body: stress for face widths up to about 5 tooth thicknesses (8 modules), strain for wider ones, 10 % stiffer (Cornell 1981); that of the contact is contact_plane in [[mesh]]").choices = "stress strain";
   return k;
 }
 

@@ -1,8 +1,40 @@
 #include "model/keys.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
 
 namespace whine {
+
+Value Key::value() const {
+  return std::visit(Overloaded{[](const auto* held) -> Value { return *held; },
+                               [](const CornerRule* rule) -> Value {
+                                 if (!rule->enabled || std::isinf(rule->largest_angle)) return rule->enabled;
+                                 return rule->largest_angle;
+                               },
+                               [](const RangeSlot& range) -> Value {
+                                 return std::vector<double>{*range.from, *range.to, *range.step};
+                               },
+                               [&](const ChoiceSlot& choice) -> Value {
+                                 const int place = choice.place(choice.value);
+                                 if (!*choices) return place;
+                                 return word_at(choices, place);
+                               }},
+                    slot);
+}
+
+// A length that goes with the module is 0 until the module is known.
+void Key::take_fallback() const {
+  const std::string word(fallback);
+  std::visit(Overloaded{[&](double* held) { *held = to_si(std::strtod(fallback, nullptr)); },
+                        [&](int* held) { *held = static_cast<int>(std::strtol(fallback, nullptr, 10)); },
+                        [&](bool* held) { *held = word == "true"; }, [&](std::string* held) { *held = word; },
+                        [&](const ChoiceSlot& choice) { assign(choice, word); },
+                        [&](CornerRule* rule) { *rule = {word == "true"}; }, [](const RangeSlot&) {},
+                        [](auto* list) { list->clear(); }},
+             slot);
+}
 
 std::string Key::si_name() const {
   const std::string whole(name), suffix(unit.suffix);

@@ -12,30 +12,31 @@
 
 namespace whine {
 
-struct PlaneSlot {
-  bool* stress;
-};
 struct RangeSlot {
   double *from, *to, *step;
 };
 using Points = std::vector<std::array<double, 2>>;  // rad, m: in a scene degrees and micrometres
-struct ToothList {                                  // a number for each tooth, or none
-  std::vector<double>* values;
-  const char* of = "tooth";  // or of what else there is one for each
-};
-struct ChoiceSlot {  // of an enumeration; a place counts from 0 in the key's choices
+struct ChoiceSlot {  // of an enumeration or a switch; a place counts from 0 in the key's choices
   void* value;
   int (*place)(const void*);
   void (*assign)(void*, int);
 };
-template <WordedChoice Choice>
+template <class Choice>
 ChoiceSlot choice_slot(Choice& choice) {
   return {&choice, [](const void* at) { return static_cast<int>(*static_cast<const Choice*>(at)); },
           [](void* at, int place) { *static_cast<Choice*>(at) = static_cast<Choice>(place); }};
 }
 // Where a key's value is, and thereby its type.
-using Slot = std::variant<double*, int*, bool*, std::string*, ChoiceSlot, CornerRule*, PlaneSlot,
-                          std::vector<double>*, RangeSlot, Points*, ToothList>;
+using Slot = std::variant<double*, int*, bool*, std::string*, ChoiceSlot, CornerRule*, std::vector<double>*,
+                          RangeSlot, Points*>;
+// What is there, in SI: of a choice its word, or its place if the key has no words; of a corner rule a switch or its largest
+// angle; of a range its three numbers.
+using Value = std::variant<bool, int, double, std::string, std::vector<double>, Points>;
+
+template <class... Case>
+struct Overloaded : Case... {
+  using Case::operator()...;
+};
 
 // SI = value * multiply / divide; two factors because 3.0 / 1000 is the double nearest to 0.003 and 3.0 *
 // 0.001 is not always.
@@ -63,6 +64,7 @@ struct Key {
   const char* meaning;  // one line
   Slot slot;
   const char* choices = "";  // of a word, blank between; "" for numbers
+  const char* each = "";     // what a list has a number for each of; "": it is one number or several
   // Section of stage parameters and artifacts, if it is not the one that is read or written: "friction"; "_rim" follows that one's
   // name in artifacts and is [rim] in stage parameters.
   std::string own = "";
@@ -71,9 +73,9 @@ struct Key {
   bool stands = true;            // a group is written
   const bool* unless = nullptr;  // if this is true the key has no meaning, and is neither written nor read
 
-  // The word of a choice, and a choice by its word, which is one of `choices`.
-  std::string word_in(const ChoiceSlot& choice) const { return word_at(choices, choice.place(choice.value)); }
-  void assign(const ChoiceSlot& choice, const std::string& word) const {
+  Value value() const;
+  void take_fallback() const;                                             // of a key that has one
+  void assign(const ChoiceSlot& choice, const std::string& word) const {  // which is one of `choices`
     choice.assign(choice.value, place_of(choices, word).value());
   }
   std::string si_name() const;  // name without the unit's suffix
@@ -111,6 +113,8 @@ class KeyList {
   KeyList all() const;
   KeyList labelled(const std::string& own) const;
 
+  const Key& operator[](std::size_t i) const { return keys_[i]; }
+  std::size_t size() const { return keys_.size(); }
   auto begin() const { return keys_.begin(); }
   auto end() const { return keys_.end(); }
 
@@ -149,6 +153,9 @@ KeyList keys(TimeDiscretisation& time);
 KeyList keys(SystemScene::Mesh& mesh);  // what a mesh of a system has beside `spec`
 KeyList keys(SystemScene::Carrier& carrier);
 KeyList keys(SystemScene::Drive& drive);
+KeyList keys(System::Body& body);
+KeyList keys(System::Mesh& mesh);
+KeyList keys(System::Drive& drive);
 
 // Keys whose value is no member of one of these.
 KeyList title_key(std::string& title);

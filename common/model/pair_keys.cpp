@@ -103,41 +103,6 @@ KeyList keys(TimeDiscretisation& t) {
   k.choice(t.steady_state, "steady_state", "extrapolate", "start where the last speeds lead and, once close, skip the rest of a transient, or integrate all of it, as a rig would run it; the same orbits but for a speed or two at the end of a branch");
   return k;
 }
-
-// --- of systems
-
-KeyList equivalent_mass_key(double& equivalent_mass) {
-  KeyList k("rigid_gear");
-  k.add(&equivalent_mass, "equivalent_mass_kg", kKilogram, "0.0", {0, 1e9}, "of a system with body = \"rigid\": inertia over the square of the base radius, in place of total_inertia_kgm2; 0: not given");
-  return k;
-}
-
-KeyList keys(SystemScene::Mesh& m) {
-  KeyList k("train_mesh");
-  k.add(&m.direction, "direction_deg", kDegree, "90", {-360, 360}, "of a system: from the driver's axis to the pitch point, counter-clockwise from +x; without meaning where a planet takes part, whose positions say it");
-  k.add(&m.stiffness, "stiffness_N_um", kNewtonPerMicrometre, "0.0", {0, 1e6}, "of a system with body = \"rigid\", which needs it: mean stiffness along the line of action");
-  return k;
-}
-
-KeyList keys(SystemScene::Carrier& c) {
-  KeyList k("carrier");
-  k.add(&c.name, "name", kNone, nullptr, {}, "name of the carrier, for [[bearing]] and [[drive]]");
-  k.add(&c.planet, "planet", kNone, nullptr, {}, "name of the gear that it carries at each position; a [[mesh]] or [[bearing]] of this gear is one of each planet, its bearing a pin of the carrier");
-  k.add(&c.planets, "planets", kNone, "0", {0, 100}, "number of planets at equal spacing; it must divide the sum of the teeth of sun and ring");
-  k.add(ToothList{&c.positions, "planet"}, "positions_deg", kDegree, "", {-360, 360}, "in place of planets: a list of angles, counter-clockwise from +x, that are apart by multiples of 360 over the teeth of sun and ring, to a twentieth of that step");
-  k.add(&c.inertia, "inertia_kgm2", kInertia, "0.0", {0, 1e9}, "inertia of the carrier about its axis; with planets on rigid pins their masses included");
-  k.add(&c.equivalent_mass, "equivalent_mass_kg", kKilogram, "0.0", {0, 1e9}, "inertia over the square of the radius of the pins, in place of inertia_kgm2, of the same masses; 0: not given");
-  return k;
-}
-
-KeyList keys(SystemScene::Drive& d) {
-  KeyList k("drive");
-  k.add(&d.gear, "gear", kNone, nullptr, {}, "name of the gear or carrier that it acts on; one without a drive is free of torque");
-  k.choice(d.kind, "kind", nullptr, "a torque, a rotation that is held, or nothing");
-  k.add(&d.torque, "torque_Nm", kNewtonMetre, "0.0", {-1e7, 1e7}, "of kind torque, positive in the sense in which the body turns");
-  k.add(&d.stiffness, "stiffness_N_um", kNewtonPerMicrometre, "0.0", {0, 1e6}, "of kind held: stiffness of what holds the rotation, at the base radius, of a carrier at that of its pins; 0: rigid");
-  return k;
-}
 // clang-format on
 
 }  // namespace whine

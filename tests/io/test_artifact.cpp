@@ -341,7 +341,8 @@ TEST_CASE("modes.h5 whose bodies stand on nothing, or whose meshes join none, is
             "allowed are -1, the ground, and the number of a carrier on the ground");
   rejects([](System& s) { s.bodies[1].on = 0; }, text("dataset /body/stands_on holds 0 of body 1"));
   rejects([](System& s) { s.bodies[1].sense = 0; }, "dataset /body/sense holds 0 of body 1");
-  rejects([](System& s) { s.meshes[0].side[1].body = 99; }, "dataset /mesh/body_number holds the number 99");
+  rejects([](System& s) { s.meshes[0].side[1].body = 99; },
+          "dataset /mesh/body_number holds 0, 99 of mesh 0");
   // What figures divide by and look up.
   rejects([](System& s) { s.bodies[2].teeth = 0; }, "dataset /body/teeth holds 0 of body 2, which is a gear");
   rejects([](System& s) { s.bodies[2].radius = 0; }, "dataset /body/radius holds 0, allowed is 1e-06 to 10");

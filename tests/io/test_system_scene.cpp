@@ -129,15 +129,18 @@ TEST_CASE("stage parameters of a system: read as written, the same modes to the 
     }
     return std::string();
   };
-  CHECK(said("stands_on = 6", "stands_on = 1").find("which is no carrier") != std::string::npos);
+  CHECK(said("stands_on = 6", "stands_on = 1").find("stands_on = 1; allowed are -1, the ground") !=
+        std::string::npos);
   // The carrier is body 6 and comes last: on itself, then the planets on a carrier that does not stand on the ground.
   const std::string last = text.substr(text.find("name = \"carrier\""));
   const std::string carrier = last.substr(0, last.find("stands_on = -1")) + "stands_on = ";
-  CHECK(said(carrier + "-1", carrier + "6").find("which is no carrier on the ground") != std::string::npos);
+  CHECK(said(carrier + "-1", carrier + "6").find("stands_on = 6; allowed are -1, the ground") !=
+        std::string::npos);
   CHECK(said("kind = \"held\"", "kind = \"hold\"")
-            .find("'kind' in [drive] = \"hold\": must be one of: torque held free") != std::string::npos);
-  CHECK(said("driven_body = 1", "driven_body = 9").find("a body that is not there") != std::string::npos);
-  CHECK(said("radius = ", "radius = nan # ").find("must be a number") != std::string::npos);
+            .find("'kind' in [drive] = 'hold': must be one of: torque, held, free") != std::string::npos);
+  CHECK(said("driven_body = 1", "driven_body = 9").find("9; allowed are two gears that differ") !=
+        std::string::npos);
+  CHECK(said("radius = ", "radius = nan # ").find("must be a finite number") != std::string::npos);
   CHECK(said("sense = 1", "sense = 0.5").find("must be a whole number") != std::string::npos);
   CHECK_THROWS_AS(read_system_parameters(kShipped), Error);
 }
