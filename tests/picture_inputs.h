@@ -138,7 +138,6 @@ inline ResponseResult response_at(double torque, Direction direction, double eta
   r.damping.rayleigh_stiffness = eta;
   r.torque = torque;
   r.direction = direction;
-  r.model = "finite elements";
   r.natural_frequency = 5432.1;
   r.mesh_frequency = VectorXd::LinSpaced(n, 1000, 9000);
   if (direction == Direction::down) r.mesh_frequency.reverseInPlace();
@@ -149,6 +148,7 @@ inline ResponseResult response_at(double torque, Direction direction, double eta
       rms += f * 1e-8 * torque / (0.02 + std::pow((r.mesh_frequency[i] - f * r.natural_frequency) / 1e3, 2));
     r.dte_rms[i] = rms;
   }
+  r.backlash_left = 30e-6 - r.dte_rms.array();  // rings where motions go beyond the backlash
   r.dte_mean = r.dte_rms * 2;
   r.dte_harmonic.resize(n, 10);
   for (int h = 0; h < 10; ++h) r.dte_harmonic.col(h) = r.dte_rms * std::pow(0.4, h);
@@ -227,14 +227,12 @@ inline std::vector<ResponseResult> both_ways(double torque, double eta = 7.65432
   return {response_at(torque, Direction::up, eta), response_at(torque, Direction::down, eta)};
 }
 
-// Of the pictures of one torque and of all: rings where motions go beyond the backlash.
 inline CaptionSources background_of(const std::vector<ResponseResult>& sweeps) {
   CaptionSources b;
   b.scenes.assign(sweeps.size(), kScene);
   std::set<double> seen;
   for (const ResponseResult& r : sweeps) {
     if (seen.insert(r.torque).second) b.impacts.push_back(ring_down_at(r.torque));
-    b.backlash.emplace_back(30e-6 - r.dte_rms.array());
   }
   return b;
 }

@@ -35,7 +35,7 @@ int count_option(const std::string& name, const std::string& word) {
 
 struct Given {
   whine::LumpedOptions o;
-  std::string integrator = name_of(o.integrator), damper = name_of(o.damper_acts), direction;
+  std::string model, integrator = name_of(o.integrator), damper = name_of(o.damper_acts), direction;
   std::string statics, reference, params, output, levels, duty, torque, cells, steps, from, to, step;
   std::string mass, at;
   std::vector<std::string> ratios{"0.08"};
@@ -47,7 +47,7 @@ struct Given {
 void declare(whine::Options& options, Given& given) {
   options
       .add(
-          "--model", given.o.model,
+          "--model", given.model,
           "k(t): rectangular (two levels), secant or tangent (curve of the statics), pairs (a spring per pair)")
       .required()
       .one_of({"rectangular", "secant", "tangent", "pairs"});
@@ -110,16 +110,16 @@ void check(const Given& given) {
   if (!given.map && !speeds && given.params.empty())
     usage("--params or --from, --to and --step are needed, for the speeds");
   if (stated != !given.duty.empty()) usage("--levels and --duty go together");
-  if (stated && given.o.model != "rectangular")
-    usage("--levels and --duty are of the rectangular model, not of ", given.o.model);
+  if (stated && given.model != "rectangular")
+    usage("--levels and --duty are of the rectangular model, not of ", given.model);
   if (stated && !given.reference.empty())
     usage("--reference-static gives levels, --levels states them; give one of both");
-  if (!given.reference.empty() && given.o.model != "rectangular")
-    usage("--reference-static is of the rectangular model; ", given.o.model,
+  if (!given.reference.empty() && given.model != "rectangular")
+    usage("--reference-static is of the rectangular model; ", given.model,
           " takes the stiffness at its own torque");
-  if (!given.cells.empty() && given.o.model == "rectangular")
+  if (!given.cells.empty() && given.model == "rectangular")
     usage("--cells: the rectangular model has two levels and no cells");
-  if (given.hertz && given.o.model != "pairs") usage("--hertz is of the model pairs, not of ", given.o.model);
+  if (given.hertz && given.model != "pairs") usage("--hertz is of the model pairs, not of ", given.model);
   if (given.mass.empty() && given.params.empty())
     usage("--mass is needed without --params, which has the inertias");
 }
@@ -140,7 +140,6 @@ whine::MapSpeeds map_speeds_of(const Given& given) {
 whine::SpringChoice springs_chosen(const Given& given) {
   whine::SpringChoice choice;
   choice.model = given.o.model;
-  choice.hertz = given.hertz;
   if (!given.cells.empty()) choice.cells = count_option("--cells", given.cells);
   choice.stated = !given.levels.empty();
   if (!choice.stated) return choice;
@@ -155,9 +154,10 @@ whine::SpringChoice springs_chosen(const Given& given) {
 }
 
 void tell_map(const whine::JumpMapResult& result, const std::string& output) {
-  whine::log_line("gear-lumped: ", result.model, ", ", result.torque, " N m, ", result.two_branches.sum(),
-                  " of ", result.two_branches.size(), " dampings with two branches, ",
-                  (result.loss_to.array() > 0).count(), " with contact loss -> ", output);
+  whine::log_line("gear-lumped: ", name_of(result.model, result.damper_acts), ", ", result.torque, " N m, ",
+                  result.two_branches.sum(), " of ", result.two_branches.size(),
+                  " dampings with two branches, ", (result.loss_to.array() > 0).count(),
+                  " with contact loss -> ", output);
   if (result.unsteady.sum() > 0)
     whine::log_line("gear-lumped: warning: no steady motion at ", result.unsteady.sum(), " speeds of ",
                     2 * result.two_branches.size() * result.mesh_frequency.size(),
@@ -191,6 +191,7 @@ void body(int argc, char** argv) {
   Given given;
   declare(options, given);
   options.parse(argc, argv);
+  given.o.model = whine::motion_model_of(given.model + (given.hertz ? "-hertz" : "")).value();
   given.o.integrator = whine::choice_of<whine::Integrator>(given.integrator).value();
   given.o.damper_acts = whine::choice_of<whine::DamperActs>(given.damper).value();
   if (!given.direction.empty())
@@ -222,12 +223,12 @@ void body(int argc, char** argv) {
   if (!given.steps.empty()) o.time.steps_per_period = count_option("--steps", given.steps);
   Eigen::VectorXi numbers;
   const whine::LumpedParameters springs = whine::springs_of(inputs, springs_chosen(given), numbers);
-  if (given.hertz) o.model += "-hertz";
 
   std::optional<whine::Progress> progress;
   const auto report = [&](long done, long total, const std::string& note) {
     if (!progress)
-      progress.emplace("gear-lumped " + o.model + " " + (given.map ? "map" : given.direction), total);
+      progress.emplace("gear-lumped " + name_of(o.model) + " " + (given.map ? "map" : given.direction),
+                       total);
     progress->update(done, note);
   };
   if (given.map) {

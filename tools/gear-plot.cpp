@@ -12,6 +12,7 @@
 #include "io/provenance.h"
 #include "io/publish.h"
 #include "io/readings_result.h"
+#include "paper/beside.h"
 #include "paper/reading_figure.h"
 #include "paper/table1.h"
 #include "report/engineering_axes.h"
@@ -105,7 +106,7 @@ void body(int argc, char** argv) {
     whine::log_line("gear-plot: ", table.title, " -> ", output, ".{tsv,txt}");
     return;
   }
-  whine::Figure figure = whine::figure_of(name, inputs, mesh_frequencies, others);
+  whine::Figure figure = whine::figure_of(name, inputs, mesh_frequencies, others, whine::jumps_of_paper());
   if (const std::string paper = whine::paper_figure(beside); !paper.empty())
     figure.title += ", as " + paper + " of P2000";
   if (level.given()) axes.level_reference = reference;

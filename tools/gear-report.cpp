@@ -14,6 +14,7 @@
 
 #include "base/tool.h"
 #include "io/publish.h"
+#include "paper/beside.h"
 #include "report/report.h"
 #include "report/report_inputs.h"
 #include "report/teeth_page.h"
@@ -52,6 +53,7 @@ void body(int argc, char** argv) {
     return;
   }
   ReportContent content = read_report_content(inputs);
+  name_figures_of_paper(content);
   if (teeth) {
     content.figure_folder = "../report/";
     publish(output, teeth_html(content));

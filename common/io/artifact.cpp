@@ -11,6 +11,7 @@
 #include "io/compatibility.h"
 #include "io/provenance.h"
 #include "io/publish.h"
+#include "results/motion_model.h"
 
 namespace whine {
 namespace {
@@ -76,7 +77,7 @@ Origin origin_of(const h5::Reader& file) {
   if (out.has_torque) out.torque = file.doubles(operation + "torque").at(0);
   if (file.has(operation + "direction")) out.direction = file.strings(operation + "direction").at(0);
   if (file.has(model)) out.model = file.strings(model).at(0);
-  if (out.model == "finite elements") out.model.clear();
+  if (motion_model_of(out.model) == MotionModel::finite_elements) out.model.clear();
   return out;
 }
 

@@ -286,6 +286,23 @@ void describe_bearing_dampers(Codec& c, double& mean_stiffness, std::array<doubl
       text("torque damper at the axis of the ", kGearName[g]), "c = 2 ratio I w");
 }
 
+void describe_model(Codec& c, MotionModel& model, const std::string& meaning, DamperActs* damper_acts) {
+  const std::string dataset = "/parameters/fidelity/model";
+  std::string name = damper_acts ? name_of(model, *damper_acts) : name_of(model), known;
+  c(name, dataset, "", meaning);
+  if (!c.in()) return;
+  for (const DamperActs acts : {DamperActs::always, DamperActs::contact})
+    for (int i = 0; i <= static_cast<int>(MotionModel::pairs_hertz); ++i) {
+      const auto own = static_cast<MotionModel>(i);
+      if (acts == DamperActs::contact && (!damper_acts || own == MotionModel::finite_elements)) continue;
+      if (known += (known.empty() ? "" : ", ") + name_of(own, acts); name != name_of(own, acts)) continue;
+      model = own;
+      if (damper_acts) *damper_acts = acts;
+      return;
+    }
+  c.in()->reject(text("dataset ", dataset, " is '", name, "', which is none of: ", known));
+}
+
 void describe_certificate(Codec& c, double& least_gap, double& least_force, int& fallbacks) {
   c(least_gap, "/certificate/least_gap", "m", kLength, "",
     "least gap of a strip without force, over all steps", "d >= 0 where p = 0 (with Eq. 18, 20)");

@@ -181,6 +181,9 @@ void describe_torque(Codec& codec, double& torque);
 void describe_speeds(Codec& codec, double& from, double& to, double& step);
 // N m-1, N m s: bearing dampers and the mean stiffness that sets them.
 void describe_bearing_dampers(Codec& codec, double& mean_stiffness, std::array<double, kSides>& damper);
+// What a motion was computed with, by its name; of maps together with the rule of a lumped model's damper.
+void describe_model(Codec& codec, MotionModel& model, const std::string& meaning,
+                    DamperActs* damper_acts = nullptr);
 // Left out where back flanks are ignored: the margin (m) is then infinite.
 void describe_backlash(Codec& codec, double& margin);
 // Of a sweep: (mesh_frequency) m, backlash that is left, stored and left out likewise; what its reader has to know.

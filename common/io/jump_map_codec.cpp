@@ -92,7 +92,7 @@ void describe(Codec& c, JumpMapResult& a) {
   c(a.bearing_stiffness, "/parameters/damping/mean_stiffness", "N m-1", kStiff, "",
     "mean secant stiffness that sets the bearing dampers");
   describe_torque(c, a.torque);
-  c(a.model, "/parameters/fidelity/model", "", "finite elements, or the name of a lumped model");
+  describe_model(c, a.model, "finite elements, or the name of a lumped model", &a.damper_acts);
   describe_pair_at_rest(c, a);
   describe_cases(c, a);
   describe_loads(c, a);

@@ -42,7 +42,7 @@ void describe(Codec& c, ResponseResult& a) {
   describe_motion(c, a);
   describe_torque(c, a.torque);
   c(a.direction, "/parameters/operation/direction", "", "direction in which the speeds are run through");
-  c(a.model, "/parameters/fidelity/model", "", "finite elements, or the name of a lumped model");
+  describe_model(c, a.model, "finite elements, or the name of a lumped model");
   describe_natural_frequency(c, a.natural_frequency);
   c(a.mesh_frequency, "/mesh_frequency", "Hz", kSpeed, axis,
     "mesh frequency, in the order in which they were computed");

@@ -366,7 +366,7 @@ void show(SummaryLines& lines, const ResponseResult& a) {
 
 void show(SummaryLines& lines, const JumpMapResult& a) {
   add(lines, "operating point", a.torque, " N m, ", range_of(a.mesh_frequency));
-  add(lines, "model", a.model);
+  add(lines, "model", name_of(a.model, a.damper_acts));
   add(lines, "stiffness", "mean ", a.mean_stiffness * 1e-6, " N/µm, first harmonic ",
       a.first_harmonic / a.mean_stiffness * 100, " % of it");
   for (Eigen::Index i = 0; i < a.damping_ratio.size(); ++i) {

@@ -9,9 +9,11 @@ namespace {
 using namespace ranges;
 
 // Left out of finite element sweeps, which have no such part.
-void describe_lumped(Codec& c, std::string& model, LumpedParameters& a) {
+void describe_lumped(Codec& c, MotionModel& model, LumpedParameters& a) {
   const std::string at = "/parameters/lumped/";
-  c(model, "/parameters/fidelity/model", "", "name of the lumped model");
+  describe_model(c, model, "name of the lumped model");
+  if (c.in() && model == MotionModel::finite_elements)
+    c.in()->reject("dataset /parameters/fidelity/model names no lumped model");
   c(a.mass, at + "mass", "kg", kMass, "", "mass of the one degree of freedom", "m of Eq. 23");
   c(a.damping_ratio, at + "damping_ratio", "1", kPositive, "", "damping ratio about the mean stiffness",
     "c / (2 sqrt(mean_stiffness m))");
@@ -99,7 +101,7 @@ void describe(Codec& c, SweepResult& a) {
 
 std::string title(const SweepResult& a) {
   const bool lumped = a.lumped.cell_end.size() > 0;
-  return text("Sweep ", a.direction, lumped ? ", lumped model " + a.model : "", ": ",
+  return text("Sweep ", a.direction, lumped ? ", lumped model " + name_of(a.model) : "", ": ",
               pair_title(a.mesh, a.torque));
 }
 

@@ -372,7 +372,8 @@ JumpMapResult lumped_jump_map(const StaticResult& statics, LumpedParameters spri
   options.frequency_step = speeds.step;
 
   JumpMapResult map;
-  map.model = options.model + (options.damper_acts == DamperActs::contact ? "-contact" : "");
+  map.model = options.model;
+  map.damper_acts = options.damper_acts;
   static_cast<GearPairParameters&>(map) = statics;
   map.torque = statics.torque;
   map.mean_stiffness = at_rest.mean_stiffness();

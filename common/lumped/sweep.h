@@ -61,7 +61,7 @@ LumpedSpeeds integrate_speeds(LumpedOscillator& oscillator, const std::vector<do
 double reduced_mass(const StaticResult& statics, const std::array<double, kSides>& inertia);
 
 struct LumpedOptions {
-  std::string model;            // its name
+  MotionModel model = MotionModel::rectangular;
   double mass = 0;              // kg
   double damping_ratio = 0.08;  // 1: c = 2 ratio sqrt(k_avg m), k_avg the mean of k(t)
   DamperActs damper_acts = DamperActs::always;
@@ -81,8 +81,7 @@ SweepResult lumped_sweep(const StaticResult& statics, LumpedParameters springs,
                          std::vector<BranchPoint>* left_early = nullptr);
 
 // A map of jumps of the same model at the torque of the statics: a case per damping ratio, which is options' own, about the
-// mean stiffness; its speeds and direction are not read. The map's model is that of options, with "-contact" if the damper
-// acts in contact only; mean, first harmonic and frequencies are those of the springs that touch at rest. Loads are those
+// mean stiffness; its speeds and direction are not read. The map's model and damper are those of options; mean, first harmonic and frequencies are those of the springs that touch at rest. Loads are those
 // of the whole mesh where it is one spring. Throws Error(input) for no case or a ratio outside (0, 1), and as
 // map_speeds and lumped_sweep.
 JumpMapResult lumped_jump_map(const StaticResult& statics, LumpedParameters springs,

@@ -55,7 +55,7 @@ ClaimValue nothing() {
 // Of the model with the rectangular wave, whose parameters gear-lumped takes from P2000.
 ClaimValue of_lumped(const std::function<double(const SweepResult&)>& number) {
   return plain([=](const SceneResults& s) {
-    return Finding{number(s.sweep(kFigureTorque, Direction::up, "rectangular")), ""};
+    return Finding{number(s.sweep(kFigureTorque, Direction::up, MotionModel::rectangular)), ""};
   });
 }
 
@@ -157,7 +157,7 @@ Named of_impact_tests() {
 // ---- sweeps and motions of the elastic pair
 
 // Largest RMS of all speeds at each torque of a model.
-ClaimValue amplitudes(const std::string& model) {
+ClaimValue amplitudes(MotionModel model) {
   return plain([=](const SceneResults& s) {
     std::string note;
     for (int torque : kTorques)
@@ -220,7 +220,7 @@ Named of_sweeps() {
           {"jump-frequencies", at_torque([](const SceneResults& s, int torque) {
              return Finding{kNone, jumps_text(s.branches(torque))};
            })},
-          {"amplitudes", amplitudes("")},
+          {"amplitudes", amplitudes(MotionModel::finite_elements)},
           {"jumps", at_torque(jumps_at)},
           {"amplitude-grows", plain(grows_with_torque)},
           {"loses-contact", at_torque(loses_contact)},
@@ -250,7 +250,7 @@ Named of_branches_at_a_speed() {
 // ---- statics and models with one degree of freedom
 
 Finding lumped_natural_frequency(const SceneResults& s) {
-  const SweepResult& a = s.sweep(kFigureTorque, Direction::up, "rectangular");
+  const SweepResult& a = s.sweep(kFigureTorque, Direction::up, MotionModel::rectangular);
   return {std::sqrt(s.at_rest(100).mean_stiffness / a.lumped.mass) / (2 * std::numbers::pi),
           "secant stiffness at 100 N m"};
 }
@@ -276,14 +276,14 @@ Finding mean_stiffness_torque(const SceneResults& s) {
 }
 
 Finding lumped_kink(const SceneResults& s) {
-  const std::vector<double> lost = speeds_with_loss(s.branches(kFigureTorque, "rectangular"));
+  const std::vector<double> lost = speeds_with_loss(s.branches(kFigureTorque, MotionModel::rectangular));
   if (lost.empty()) return {kNone, "contact never lost"};
-  const double f_n = s.branches(kFigureTorque, "rectangular").up.natural_frequency;
+  const double f_n = s.branches(kFigureTorque, MotionModel::rectangular).up.natural_frequency;
   return {lost.back(), text(digits(lost.back() / f_n, 3), " f_n")};
 }
 
 Finding secant_loses_contact(const SceneResults& s, int torque) {
-  const Branches b = s.branches(torque, "secant");
+  const Branches b = s.branches(torque, MotionModel::secant);
   return yes_or_no(!speeds_with_loss(b).empty(),
                    text(loss_text(b), "; first harmonic of k ",
                         digits(100 * first_harmonic_share(s.at_rest(torque)), 3), " % of its mean"));
@@ -303,10 +303,11 @@ Named of_lumped_models() {
   return {{"sdof-damping", of_lumped([](const SweepResult& a) { return 100 * a.lumped.damping_ratio; })},
           {"sdof-mass", of_lumped([](const SweepResult& a) { return a.lumped.mass; })},
           {"sdof-natural-frequency", plain(lumped_natural_frequency)},
-          {"sdof-amplitudes", amplitudes("rectangular")},
+          {"sdof-amplitudes", amplitudes(MotionModel::rectangular)},
           {"sdof-jumps", at_torque(lumped_jumps)},
-          {"sdof-resonance",
-           of_order([](const SceneResults& s, int order) { return resonance(s, order, "rectangular"); })},
+          {"sdof-resonance", of_order([](const SceneResults& s, int order) {
+             return resonance(s, order, MotionModel::rectangular);
+           })},
           {"sdof-torque-independent", plain(torque_independent)},
           {"sdof-mean-opposite", plain([](const SceneResults& s) { return mean_jumps(s, false); })},
           {"sdof-mean-less", plain([](const SceneResults& s) { return mean_jumps(s, true); })},
@@ -317,12 +318,13 @@ Named of_lumped_models() {
           {"sdof-lower-keeps-contact",
            at_speed([](const SceneResults& s, double f) { return lumped_loss(s, f, false); })},
           {"sdof-force-step", at_speed([](const SceneResults& s, double f) {
-             return force_step(s.sweep(kFigureTorque, Direction::up, "rectangular"), f, false, false);
+             return force_step(s.sweep(kFigureTorque, Direction::up, MotionModel::rectangular), f, false,
+                               false);
            })},
           {"secant-reduced", plain(secant_reduced)},
           {"secant-loses-contact", at_torque(secant_loses_contact)},
           {"secant-linear", at_torque(secant_linear)},
-          {"secant-amplitudes", amplitudes("secant")}};
+          {"secant-amplitudes", amplitudes(MotionModel::secant)}};
 }
 
 }  // namespace

@@ -122,7 +122,7 @@ Finding damping(const SceneResults& s) {
                               ", ring-down at ", kFigureTorque, " N m"));
 }
 
-Finding resonance(const SceneResults& s, int order, const std::string& model) {
+Finding resonance(const SceneResults& s, int order, MotionModel model) {
   const Summit top = summit(s.branches(kFigureTorque, model).up, order);
   if (top.row < 0)
     return {kNone, text("no summit within 15 % of ", digits(top.natural_frequency / order), " Hz")};

@@ -17,7 +17,7 @@ Finding no_second_branch(const SceneResults& s, int torque, const Pair& at, doub
 double largest_load(const SceneResults& s, const Motion& m, LoadOf what);
 Finding table_frequency(const SceneResults& s, int torque, ContactState state);
 Finding damping(const SceneResults& s);
-Finding resonance(const SceneResults& s, int order, const std::string& model = "");
+Finding resonance(const SceneResults& s, int order, MotionModel model = MotionModel::finite_elements);
 // Eq. 22, mesh force as harmonics of the mesh frequency: whether harmonic `order` is the largest of the motion at f_n / order.
 Finding driven_by_harmonic(const SceneResults& s, int order);
 Finding jumps_at(const SceneResults& s, int torque);

@@ -25,7 +25,7 @@ Eigen::VectorXd load_of_a_pair(const SweepResult& sweep, Index row) {
 }  // namespace
 
 Finding lumped_jumps(const SceneResults& s, int torque) {
-  const Branches b = s.branches(torque, "rectangular");
+  const Branches b = s.branches(torque, MotionModel::rectangular);
   if (jumps(b)) return {1, jumps_text(b)};
   const RectangularWave wave = rectangular_wave(s.at_rest(kTorques[0]));
   return {0, text("one branch; ", loss_text(b), "; levels ", digits(wave.low * kMega), " and ",
@@ -35,7 +35,7 @@ Finding lumped_jumps(const SceneResults& s, int torque) {
 
 Finding torque_independent(const SceneResults& s) {
   const auto marks = [&](int torque) {
-    const Branches b = s.branches(torque, "rectangular");
+    const Branches b = s.branches(torque, MotionModel::rectangular);
     std::vector<double> at;
     for (const ResponseResult* r : {&b.up, &b.down})
       at.insert(at.end(), r->jump_frequency.data(), r->jump_frequency.data() + r->jump_frequency.size());
@@ -49,7 +49,8 @@ Finding torque_independent(const SceneResults& s) {
     for (size_t j = 0; j < first.size(); ++j) largest = std::max(largest, std::abs(other[j] - first[j]));
   }
   if (first.empty()) {
-    const Branches low = s.branches(100, "rectangular"), high = s.branches(300, "rectangular");
+    const Branches low = s.branches(100, MotionModel::rectangular),
+                   high = s.branches(300, MotionModel::rectangular);
     const double off =
         ((high.up.dte_rms / 3 - low.up.dte_rms).array() / low.up.dte_rms.array()).abs().maxCoeff();
     return {kNone, text("no jumps; RMS over torque is the same at 100 and 300 N m ",
@@ -60,7 +61,7 @@ Finding torque_independent(const SceneResults& s) {
 }
 
 Finding mean_jumps(const SceneResults& s, bool less) {
-  const Branches b = s.branches(kFigureTorque, "rectangular");
+  const Branches b = s.branches(kFigureTorque, MotionModel::rectangular);
   bool holds = true;
   std::string note;
   for (const ResponseResult* r : {&b.up, &b.down})
@@ -76,7 +77,7 @@ Finding mean_jumps(const SceneResults& s, bool less) {
 }
 
 Finding lumped_two(const SceneResults& s, double f) {
-  const Branches b = s.branches(kFigureTorque, "rectangular");
+  const Branches b = s.branches(kFigureTorque, MotionModel::rectangular);
   const Pair at = motions(b, f);
   if (!at.two()) return {0, text("one branch; ", jumps_text(b))};
   return {1, text("RMS ", digits(at.upper.rms() * kMicro, 3), " and ", digits(at.lower.rms() * kMicro, 3),
@@ -84,7 +85,7 @@ Finding lumped_two(const SceneResults& s, double f) {
 }
 
 Finding lumped_loss(const SceneResults& s, double f, bool upper) {
-  const Pair at = motions(s.branches(kFigureTorque, "rectangular"), f);
+  const Pair at = motions(s.branches(kFigureTorque, MotionModel::rectangular), f);
   if (!at.there() || (upper && !at.two())) return {kNone, text("one branch at ", digits(f), " Hz")};
   const Motion& m = upper ? at.upper : at.lower;
   return {m.loses_contact() == upper ? 1.0 : 0.0,
@@ -109,8 +110,8 @@ Finding secant_reduced(const SceneResults& s) {
   bool reduced = true;
   std::string note;
   for (int torque : kTorques) {
-    const double ratio =
-        largest_rms(s.branches(torque, "secant")) / largest_rms(s.branches(torque, "rectangular"));
+    const double ratio = largest_rms(s.branches(torque, MotionModel::secant)) /
+                         largest_rms(s.branches(torque, MotionModel::rectangular));
     reduced = reduced && ratio <= 0.5;
     note += text(note.empty() ? "" : ", ", digits(ratio, 3));
   }
@@ -118,7 +119,7 @@ Finding secant_reduced(const SceneResults& s) {
 }
 
 Finding secant_linear(const SceneResults& s, int torque) {
-  const Branches b = s.branches(torque, "secant");
+  const Branches b = s.branches(torque, MotionModel::secant);
   const double difference =
       ((b.up.dte_rms - b.down.dte_rms.reverse()).array() / b.up.dte_rms.array()).abs().maxCoeff();
   const bool linear = speeds_with_loss(b).empty() && !jumps(b);

@@ -177,21 +177,22 @@ void PaperPair::add_lumped(const Scene& scene) {
   o.frequency_step = level_.step;
   o.time = scene.time;
   const Eigen::VectorXi numbers = Eigen::VectorXi::Zero(1);
-  const auto run = [&](const std::string& model, int torque, const LumpedParameters& springs) {
+  const auto run = [&](MotionModel model, int torque, const LumpedParameters& springs) {
     for (const Direction direction : {Direction::up, Direction::down}) {
       o.model = model;
       o.direction = direction;
       const SweepResult sweep = lumped_sweep(pair_.at_rest(torque), springs, numbers, o, kNoReport);
       const std::string place = path_at(torque, text(model, "/", direction, "/"));
       pair_.responses[place + "response.h5"] = response(sweep);
-      if (torque == kFigureTorque && model == "rectangular") pair_.sweeps[place + "sweep.h5"] = sweep;
+      if (torque == kFigureTorque && model == MotionModel::rectangular)
+        pair_.sweeps[place + "sweep.h5"] = sweep;
     }
   };
   const LumpedParameters wave = cells_of(rectangular_wave(pair_.at_rest(kTorques[0])));
-  for (int torque : {100, 150, 200, 300}) run("rectangular", torque, wave);
+  for (int torque : {100, 150, 200, 300}) run(MotionModel::rectangular, torque, wave);
   for (int torque : kTorques) {
     const StaticResult& rest = pair_.at_rest(torque);
-    run("secant", torque, cells_of(rest.stiffness_secant, 8 * kPositions, rest.unloaded_error));
+    run(MotionModel::secant, torque, cells_of(rest.stiffness_secant, 8 * kPositions, rest.unloaded_error));
   }
 }
 

@@ -29,8 +29,9 @@ const Artifact& look_up(const std::map<std::string, Artifact>& from, const Scene
   return found->second;
 }
 
-std::string motion_folder(int torque, const std::string& model, Direction direction) {
-  return text("T", torque, "/", model.empty() ? "" : model + "/", direction, "/");
+std::string motion_folder(int torque, MotionModel model, Direction direction) {
+  const std::string lumped = model == MotionModel::finite_elements ? "" : name_of(model) + "/";
+  return text("T", torque, "/", lumped, direction, "/");
 }
 
 }  // namespace
@@ -43,11 +44,11 @@ const ImpactResult& SceneResults::ring_down(int torque) const {
   return look_up(impacts, *this, text("T", torque, "/impact.h5"));
 }
 
-const SweepResult& SceneResults::sweep(int torque, Direction direction, const std::string& model) const {
+const SweepResult& SceneResults::sweep(int torque, Direction direction, MotionModel model) const {
   return look_up(sweeps, *this, motion_folder(torque, model, direction) + "sweep.h5");
 }
 
-Branches SceneResults::branches(int torque, const std::string& model) const {
+Branches SceneResults::branches(int torque, MotionModel model) const {
   return {look_up(responses, *this, motion_folder(torque, model, Direction::up) + "response.h5"),
           look_up(responses, *this, motion_folder(torque, model, Direction::down) + "response.h5")};
 }
@@ -57,16 +58,17 @@ std::vector<std::string> scorecard_files() {
   for (int torque : kSweptTorques) {
     files.push_back(text("T", torque, "/static.h5"));
     for (const Direction direction : {Direction::up, Direction::down})
-      files.push_back(motion_folder(torque, "", direction) + "response.h5");
+      files.push_back(motion_folder(torque, MotionModel::finite_elements, direction) + "response.h5");
   }
   for (int torque : {100, 150, 200, 300}) files.push_back(text("T", torque, "/impact.h5"));
   for (const Direction direction : {Direction::up, Direction::down}) {
-    files.push_back(motion_folder(kFigureTorque, "", direction) + "sweep.h5");
+    files.push_back(motion_folder(kFigureTorque, MotionModel::finite_elements, direction) + "sweep.h5");
     for (int torque : {100, 150, 200, 300})
-      files.push_back(motion_folder(torque, "rectangular", direction) + "response.h5");
-    for (int torque : kTorques) files.push_back(motion_folder(torque, "secant", direction) + "response.h5");
+      files.push_back(motion_folder(torque, MotionModel::rectangular, direction) + "response.h5");
+    for (int torque : kTorques)
+      files.push_back(motion_folder(torque, MotionModel::secant, direction) + "response.h5");
   }
-  files.push_back(motion_folder(kFigureTorque, "rectangular", Direction::up) + "sweep.h5");
+  files.push_back(motion_folder(kFigureTorque, MotionModel::rectangular, Direction::up) + "sweep.h5");
   std::sort(files.begin(), files.end());
   return files;
 }
@@ -102,8 +104,7 @@ struct SceneReader {
   void require_sweep(const std::string& file, const Artifact& a) const {
     require_operation(file, a);
     const std::string& path = paths.at(file);
-    const bool lumped = a.model != "finite elements";
-    const std::string found = motion_folder(static_cast<int>(a.torque), lumped ? a.model : "", a.direction);
+    const std::string found = motion_folder(static_cast<int>(a.torque), a.model, a.direction);
     if (file.rfind(found, 0) != 0)
       fail(Failure::input, path, ": is the sweep ", a.direction, " of ", a.model, ", not that of its path; ",
            rebuild_advice(path));
@@ -143,7 +144,7 @@ struct SceneReader {
       for (const auto& entry : artifacts) {
         const auto& artifact = entry.second;
         if constexpr (requires { artifact.model; })
-          if (artifact.model != "finite elements") continue;
+          if (!elastic(artifact)) continue;
         if (damping_of(artifact) != damping_of(results.ring_down(kTorques[0])))
           fail(Failure::input, paths.at(entry.first), ": has another damping than ",
                paths.at(text("T", kTorques[0], "/impact.h5")), "; give results of one scene");

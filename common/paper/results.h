@@ -25,7 +25,7 @@ struct Branches {
 };
 
 // Artifacts by their paths below the scene's folder: "T150/up/response.h5", "T150/rectangular/up/sweep.h5". What is asked
-// for and is not there: Error(input) that names it. model "": elastic gears; otherwise a lumped model.
+// for and is not there: Error(input) that names it.
 struct SceneResults {
   std::string name;
   std::map<std::string, StaticResult> statics;
@@ -35,8 +35,9 @@ struct SceneResults {
 
   const StaticResult& at_rest(int torque) const;
   const ImpactResult& ring_down(int torque) const;
-  const SweepResult& sweep(int torque, Direction direction, const std::string& model = "") const;
-  Branches branches(int torque, const std::string& model = "") const;
+  const SweepResult& sweep(int torque, Direction direction,
+                           MotionModel model = MotionModel::finite_elements) const;
+  Branches branches(int torque, MotionModel model = MotionModel::finite_elements) const;
 
   mutable std::set<std::string> asked = {};  // paths that these four were asked for
 };

@@ -122,7 +122,7 @@ double half_window_of(const SweepResult& s) {
 void check_inputs(const SectorGrid& driver, const SectorGrid& driven, const SweepResult& s, int frames) {
   if (frames < 2 || frames > 1000)
     fail(Failure::input, "an animation of ", frames, " frames; from 2 to 1000 are possible");
-  if (s.model != "finite elements")
+  if (!elastic(s))
     fail(Failure::input, "the sweep is of the lumped model ", s.model, ": it has no teeth to show");
   if (s.hunting_periods > 1)
     fail(Failure::input, "the teeth of this pair differ: its motion repeats after ", s.hunting_periods,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <numbers>
 #include <optional>
 
@@ -33,44 +32,22 @@ const ResponseResult& sweep_at(const std::vector<ResponseResult>& sweeps, double
   return *found;
 }
 
-// null where nothing is known of any sweep.
-const SweepBacklash* backlash_of(const std::vector<SweepBacklash>& backlash, const ResponseResult& r) {
-  if (backlash.empty()) return nullptr;
-  for (const SweepBacklash& b : backlash)
-    if (b.torque == r.torque && b.direction == r.direction && b.left.size() == r.mesh_frequency.size())
-      return &b;
-  fail(Failure::input, "efficiency: no sweep.h5 ", r.direction, " at ", r.torque,
-       " N m of the speeds of its response.h5; give those of all sweeps or none");
-}
-
-// "2400 to 2600, 3100" (Hz) of a torque, "" for none.
-std::string speeds_beyond(const std::vector<SweepBacklash>& backlash, const ResponseResult& up,
-                          const ResponseResult& down) {
-  std::map<double, bool> beyond;
-  for (const ResponseResult* r : {&up, &down})
-    if (const SweepBacklash* known = backlash_of(backlash, *r))
-      for (Eigen::Index i = 0; i < known->left.size(); ++i)
-        beyond[r->mesh_frequency[i]] |= known->left[i] <= 0;
-  return speed_ranges(beyond);
-}
-
 // rest: of the same torque. Its loss goes with the coefficient at each speed: what a motion without vibration would lose.
 FigureBlock efficiency_block(const std::string& name, const ResponseResult& r, const ResponseResult& other,
-                             const StaticResult& rest, const SweepBacklash* backlash) {
-  FigureBlock block{name,
-                    {"mesh_frequency [Hz]", "efficiency [%]", "friction_power [W]",
-                     "friction_coefficient [1]", "loss_factor [1]", "efficiency_without_vibration [%]"},
-                    {},
-                    text("speed-T", shown(r.torque, 6)),
-                    name_of(r.direction)};
+                             const StaticResult& rest) {
+  FigureBlock block{
+      name,
+      {"mesh_frequency [Hz]", "efficiency [%]", "friction_power [W]", "friction_coefficient [1]",
+       "loss_factor [1]", "efficiency_without_vibration [%]", "beyond_backlash [1]"},
+      {},
+      text("speed-T", shown(r.torque, 6)),
+      name_of(r.direction)};
   const std::vector<bool> broken = broken_after(r, &other);
-  if (backlash) block.columns.emplace_back("beyond_backlash [1]");
   const double loss = (1 - rest.efficiency) / rest.friction_coefficient;
   for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i) {
     block.rows.push_back({r.mesh_frequency[i], r.friction.efficiency[i] * 100, r.friction.power[i],
                           r.friction.coefficient[i], r.loss_factor.size() > 0 ? r.loss_factor[i] : 0,
-                          (1 - loss * r.friction.coefficient[i]) * 100});
-    if (backlash) block.rows.back().push_back(backlash->left[i] <= 0 ? 1 : 0);
+                          (1 - loss * r.friction.coefficient[i]) * 100, beyond_backlash(r, i) ? 1.0 : 0.0});
     if (broken[static_cast<size_t>(i)]) block.rows.emplace_back();
   }
   return block;
@@ -137,8 +114,8 @@ FigureBlock friction_cycle(const StaticResult& first) {
 
 }  // namespace
 
-Figure efficiency_figure(const std::vector<StaticResult>& statics, const std::vector<ResponseResult>& sweeps,
-                         const std::vector<SweepBacklash>& backlash) {
+Figure efficiency_figure(const std::vector<StaticResult>& statics,
+                         const std::vector<ResponseResult>& sweeps) {
   constexpr size_t kMostTorques = 6;
   if (statics.empty() || statics.size() > kMostTorques || sweeps.size() != 2 * statics.size())
     fail(Failure::input, "efficiency: it needs static.h5 and two response.h5, up and down, at each of 1 to ",
@@ -164,12 +141,11 @@ Figure efficiency_figure(const std::vector<StaticResult>& statics, const std::ve
     labels += text(t ? " '" : "'", torque_words(s.torque), "'");
     const std::array<const ResponseResult*, 2> both{&sweep_at(sweeps, s.torque, Direction::up),
                                                     &sweep_at(sweeps, s.torque, Direction::down)};
-    if (const std::string speeds = speeds_beyond(backlash, *both[0], *both[1]); !speeds.empty())
+    if (const std::string speeds = speeds_beyond_backlash({both[0], both[1]}); !speeds.empty())
       beyond += text(beyond.empty() ? "" : "; ", "at ", torque_words(s.torque), ": ", speeds, " Hz");
     for (const size_t way : {0, 1}) {
       const ResponseResult& r = *both[way];
-      figure.blocks.push_back(
-          efficiency_block(text(t + 1, " ", r.direction), r, *both[1 - way], s, backlash_of(backlash, r)));
+      figure.blocks.push_back(efficiency_block(text(t + 1, " ", r.direction), r, *both[1 - way], s));
       for (const std::vector<double>& row : figure.blocks.back().rows) {
         if (row.empty()) continue;
         least = std::min({least, row[1], row[5]});
@@ -194,8 +170,6 @@ Figure efficiency_figure(const std::vector<StaticResult>& statics, const std::ve
                        "): ", at_rest),
                   text("loss factor H_V at rest, without the coefficient: ", factors,
                        rigid ? text("; of rigid teeth ", fixed(*rigid, 4)) : "")};
-  if (backlash.empty())
-    figure.notes.emplace_back("without sweep.h5 it is not known where motions go beyond the backlash");
   if (!beyond.empty())
     for (std::string& line : in_lines(
              "rings: the motion goes beyond the backlash, friction of back flanks is left out; " + beyond))

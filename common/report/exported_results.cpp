@@ -6,6 +6,7 @@
 #include "base/tool.h"
 #include "gear/pair.h"
 #include "report/figures.h"
+#include "report/sweep_panels.h"
 
 namespace whine {
 namespace {

@@ -80,9 +80,6 @@ Captioned<ResponseResult> read_responses(const Paths& inputs) {
       captions.add(path, read<ResponseResult>(path), {});
     }
   }
-  const auto& sweeps = captions.sweeps;
-  if (std::any_of(sweeps.begin(), sweeps.end(), [](const ResponseResult& r) { return elastic(r); }))
-    for (const ResponseResult& r : sweeps) background.backlash.push_back(r.backlash_left);
   return captions;
 }
 
@@ -123,15 +120,12 @@ Figure draw_root_stress(const Paths& inputs, const Frequencies&) {
 Figure draw_efficiency(const Paths& inputs, const Frequencies&) {
   std::vector<StaticResult> statics;
   std::vector<ResponseResult> sweeps;
-  std::vector<SweepBacklash> backlash;
   for (const std::string& path : inputs)
-    if (is_a("whine/static", path)) {
+    if (is_a("whine/static", path))
       statics.push_back(read<StaticResult>(path));
-    } else {
-      const ResponseResult& r = sweeps.emplace_back(read<ResponseResult>(path));
-      backlash.push_back({r.torque, r.direction, r.backlash_left});
-    }
-  return efficiency_figure(statics, sweeps, backlash);
+    else
+      sweeps.push_back(read<ResponseResult>(path));
+  return efficiency_figure(statics, sweeps);
 }
 
 Drawings drawings_at_rest() {
@@ -319,9 +313,10 @@ Drawings drawings_of_maps() {
       {"jump-map",
        {"two branches, contact loss and tooth loads against torque, damping and corner rule",
         "jump_map.h5, one per torque and corner rule; fold_curves.h5 over damping, for the cusps", 0, 0,
-        [](const Paths& in, const Frequencies&) {
+        nullptr,
+        [](const Paths& in, const PrintedJumps& printed) {
           const auto [curves, maps] = folds_and_maps(in);
-          return jump_map_figure(maps, curves);
+          return jump_map_figure(maps, curves, printed);
         }}},
       {"multipliers",
        {"Floquet multipliers of a branch in the complex plane, and their largest modulus", "branch.h5", 1, 0,
@@ -337,8 +332,9 @@ Drawings drawings_of_maps() {
       {"jump-map-lumped",
        {"the same of lumped models, and in how much they agree with the elastic pair",
         "jump_map.h5 of lumped models and of the elastic pair, one per torque and model or corner rule", 0, 0,
-        [](const Paths& in, const Frequencies&) {
-          return lumped_jump_map_figure(read_all(in, read<JumpMapResult>));
+        nullptr,
+        [](const Paths& in, const PrintedJumps& printed) {
+          return lumped_jump_map_figure(read_all(in, read<JumpMapResult>), printed);
         }}},
       {"sensitivity",
        {"what each variant of a scene changes", "jump_map.h5 of the scene, then of each variant", 0, 0,
@@ -439,7 +435,7 @@ std::string figure_names() {
 }
 
 Figure figure_of(const std::string& name, const Paths& inputs, const Frequencies& mesh_frequencies,
-                 const std::string& others) {
+                 const std::string& others, const PrintedJumps& printed) {
   const auto found = drawings().find(name);
   if (found == drawings().end())
     fail(Failure::usage, "unknown figure '", name, "'; known are ", figure_names() + others);
@@ -456,7 +452,8 @@ Figure figure_of(const std::string& name, const Paths& inputs, const Frequencies
   for (double f : mesh_frequencies)
     if (!(f > 0) || !std::isfinite(f))
       fail(Failure::usage, name, ": --mesh-frequency ", f, "; it is in Hz, above 0");
-  Figure figure = drawing.draw(inputs, mesh_frequencies);
+  Figure figure =
+      drawing.draw ? drawing.draw(inputs, mesh_frequencies) : drawing.draw_beside(inputs, printed);
   figure.scenes = scenes_of(name, inputs, figure);
   return figure;
 }

@@ -52,16 +52,6 @@ std::string pair_words(const StaticResult& s) {
               ", ", corner_words(s.mesh.corner));
 }
 
-std::string paper_figure(const std::string& name) {
-  if (name == "fig14-elastic") return "Figures 14 and 16";
-  if (!name.starts_with("fig") || name.size() < 5) return "";
-  const std::string number = name.substr(3, 2);
-  if (number.find_first_not_of("0123456789") != std::string::npos || (name.size() > 5 && name[5] != '-'))
-    return "";
-  constexpr int kLast = 16;  // of P2000
-  return std::stoi(number) <= kLast ? text("Figure ", std::stoi(number)) : "";
-}
-
 std::string without_markup(const std::string& words) {
   std::string out;
   for (char c : words) {

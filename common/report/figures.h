@@ -100,9 +100,6 @@ std::string torque_words(double torque);
 std::string corner_words(const CornerRule& corner);
 std::string pair_words(const StaticResult& s);
 
-// What P2000 shows as figures of the same: "Figure 7" of a figure named fig07 or fig07-600, "" of one that is not the paper's.
-std::string paper_figure(const std::string& name);
-
 // Words as they stand, in a text in which gnuplot reads marks such as '_' (subscript).
 std::string without_markup(const std::string& words);
 

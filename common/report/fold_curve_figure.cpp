@@ -31,8 +31,7 @@ std::string unit(const FoldCurvesResult& a) {
 }
 
 bool same_pair(const FoldCurvesResult& a, const JumpMapResult& m) {
-  return m.model == "finite elements" && m.torque == a.torque &&
-         m.mesh.corner.enabled == a.mesh.corner.enabled &&
+  return elastic(m) && m.torque == a.torque && m.mesh.corner.enabled == a.mesh.corner.enabled &&
          m.mesh.corner.largest_angle == a.mesh.corner.largest_angle &&
          m.mesh.modification == a.mesh.modification && m.fidelity.body == a.fidelity.body &&
          m.fidelity.contact == a.fidelity.contact;

@@ -13,17 +13,9 @@ namespace {
 
 using Eigen::Index;
 
-bool is_elastic(const JumpMapResult& a) {
-  return a.model == "finite elements";
-}
-
-// "secant" of "secant-contact", whose damper acts in contact only.
-std::string base_model(const JumpMapResult& a) {
-  return a.model.substr(0, a.model.find('-'));
-}
-
 std::string panel_name(const JumpMapResult& a) {
-  if (!is_elastic(a)) return base_model(a) + (a.model == base_model(a) ? "" : ", damper in contact");
+  if (!elastic(a))
+    return name_of(a.model) + (a.damper_acts == DamperActs::contact ? ", damper in contact" : "");
   const CornerRule& corner = a.mesh.corner;
   const std::string rule =
       !corner.enabled ? "no corner contact"
@@ -33,16 +25,6 @@ std::string panel_name(const JumpMapResult& a) {
   return a.damping.rayleigh_mass > 0 ? text(rule, ", mu ", rounded(a.damping.rayleigh_mass, 0), " 1/s")
                                      : rule;
 }
-
-// P2000, section 2.1; the gears it leaves open are the scene's.
-bool pair_of_paper(const JumpMapResult& a) {
-  const auto close = [](double x, double y) { return std::abs(x - y) < 1e-9; };
-  return a.gear[0].design.teeth == 50 && a.gear[1].design.teeth == 50 &&
-         close(a.gear[0].design.module, 3e-3) && close(a.gear[0].design.face_width, 25.4e-3) &&
-         close(a.mesh.centre_distance, 0.15) && close(a.gear[0].material.youngs_modulus, 207e9);
-}
-constexpr double kPaperRatio = 0.07, kPaperLumpedRatio = 0.08;
-const double kPaperTorques[] = {100, 150, 200, 300, 600};  // at which P2000 prints or draws jumps, N m
 
 bool lost(const JumpMapResult& a, Index c) {
   return a.loss_to[c] > 0;
@@ -243,19 +225,32 @@ double alike(const MapPanel& one, const MapPanel& other,
   return 100 * same / cells;
 }
 
-// What the teeth carry at 150 N m in the case `at`, beside P2000's loads; and how far single samples go beyond sustained loads.
+// Nothing if the gears of the maps are not those of the publication.
+void keep_if_of(const std::vector<JumpMapResult>& maps, PrintedJumps& printed) {
+  if (!printed.of_pair || !printed.of_pair(maps[0])) printed = {};
+}
+
+// The printed damping ratio if the map has it, else that in its middle.
+double shown_ratio(const JumpMapResult& a, double printed) {
+  return case_of(a, printed) >= 0 ? printed : a.damping_ratio[a.damping_ratio.size() / 2];
+}
+
+// What the teeth carry at one torque in the case `at`, beside printed loads; and how far single samples go beyond sustained loads.
 void add_load_notes(const std::vector<JumpMapResult>& maps, const std::vector<MapPanel>& panels, Index at,
-                    double ratio, bool paper, std::vector<std::string>& notes) {
-  std::string loads = paper ? "P2000 prints 3.00 and 4.85" : "";
+                    double ratio, const PrintedJumps& printed, std::vector<std::string>& notes) {
+  std::string loads = printed.loads.empty() ? "" : printed.source + " prints " + printed.loads;
+  double torque = printed.load_torque;
   bool known = false;
   for (const MapPanel& panel : panels)
-    for (const JumpMapResult* a : panel.second)
-      if (a->load_frequency > 0 && a->torque == 150) {
-        loads += text(loads.empty() ? "" : "; ", panel.first, " ", loads_in_words(*a, at));
-        known = true;
-      }
+    for (const JumpMapResult* a : panel.second) {
+      if (!(a->load_frequency > 0)) continue;
+      if (torque == 0) torque = a->torque;
+      if (a->torque != torque) continue;
+      loads += text(loads.empty() ? "" : "; ", panel.first, " ", loads_in_words(*a, at));
+      known = true;
+    }
   if (known)
-    notes.push_back(text("tooth loads in kN at 150 N m, ", rounded(ratio * 100, 2), " %, ",
+    notes.push_back(text("tooth loads in kN at ", torque_words(torque), ", ", rounded(ratio * 100, 2), " %, ",
                          maps[0].load_frequency, " Hz: ", loads));
   double spike = 1;
   std::string where = panels[0].first;
@@ -291,12 +286,10 @@ void add_needed_note(const std::vector<JumpMapResult>& maps, std::vector<std::st
 }
 
 std::vector<std::string> jump_map_notes(const std::vector<JumpMapResult>& maps,
-                                        const std::vector<MapPanel>& panels, bool paper) {
+                                        const std::vector<MapPanel>& panels, const PrintedJumps& printed) {
   std::vector<std::string> notes;
   // Which choices lose contact at every torque, and what the teeth then carry.
-  const double ratio = case_of(maps[0], kPaperRatio) >= 0
-                           ? kPaperRatio
-                           : maps[0].damping_ratio[maps[0].damping_ratio.size() / 2];
+  const double ratio = shown_ratio(maps[0], printed.damping_ratio);
   const Index at = case_of(maps[0], ratio);
   std::string everywhere;
   for (const MapPanel& panel : panels)
@@ -312,8 +305,10 @@ std::vector<std::string> jump_map_notes(const std::vector<JumpMapResult>& maps,
              torques_where(panel.second, [&](const JumpMapResult& a) { return lost(a, at); })));
   notes.push_back(
       text("contact is lost at every torque with: ", everywhere.empty() ? "none of these" : everywhere,
-           paper ? "; P2000 prints jumps at 100 to 300 and 600 N m (diamonds)" : ""));
-  add_load_notes(maps, panels, at, ratio, paper, notes);
+           printed.torques.empty()
+               ? ""
+               : "; " + printed.source + " prints jumps at " + printed.torque_words + " (diamonds)"));
+  add_load_notes(maps, panels, at, ratio, printed, notes);
   add_needed_note(maps, notes);
   const JumpMapResult& first = maps[0];
   notes.push_back(text(first.mesh_frequency.size(), " speeds from ", rounded(first.mesh_frequency[0], 0),
@@ -333,34 +328,46 @@ const JumpMapResult* at_torque(const MapPanel& panel, double torque) {
   return nullptr;
 }
 
-// P2000's Figure 16, of its second lumped model: contact is lost at 100 N m, kept at 200 and 300 N m.
-struct SecondModel {
+// Where contact is lost at the printed low torque and kept at the others.
+struct LostAtLowTorque {
   std::vector<std::string> ratios;  // damping ratios (%) at which a panel does so
-  bool low = false;                 // at the case `at`: lost at a low torque only
+  bool low = false;                 // at the case `at`: lost at some torque below those others only
 };
 
 // first: the map whose damping ratios are named.
-SecondModel second_model_of(const MapPanel& panel, const JumpMapResult& first, Index at) {
-  SecondModel found;
-  const JumpMapResult &a100 = *at_torque(panel, 100), &a200 = *at_torque(panel, 200),
-                      &a300 = *at_torque(panel, 300);
+LostAtLowTorque lost_at_low_torque(const MapPanel& panel, const JumpMapResult& first, Index at,
+                                   const PrintedJumps& printed) {
+  const auto kept = [&](Index c) {
+    return std::none_of(printed.kept_torques.begin(), printed.kept_torques.end(),
+                        [&](double torque) { return lost(*at_torque(panel, torque), c); });
+  };
+  LostAtLowTorque found;
   for (Index c = 0; c < first.damping_ratio.size(); ++c)
-    if (lost(a100, c) && !lost(a200, c) && !lost(a300, c))
+    if (lost(*at_torque(panel, printed.lost_torque), c) && kept(c))
       found.ratios.push_back(rounded(100 * first.damping_ratio[c], 2));
-  found.low = !lost(a200, at) && !lost(a300, at) &&
-              std::any_of(panel.second.begin(), panel.second.end(),
-                          [&](const JumpMapResult* a) { return a->torque < 200 && lost(*a, at); });
+  found.low = kept(at) && std::any_of(panel.second.begin(), panel.second.end(), [&](const JumpMapResult* a) {
+                return a->torque < printed.kept_torques.front() && lost(*a, at);
+              });
   return found;
+}
+
+// "kept at 200 and 300 N m"; "" where none is printed.
+std::string kept_words(const PrintedJumps& printed) {
+  std::string words;
+  for (const double torque : printed.kept_torques)
+    words += text(words.empty() ? "kept at " : " and ", torque);
+  return words.empty() ? "" : words + " N m";
 }
 
 // A line for each panel, then what they have in common, then what (a), (b) and (c) mean. at: the case of the damping ratio.
 std::vector<std::string> lumped_notes(const std::vector<JumpMapResult>& maps,
                                       const std::vector<MapPanel>& panels, Index at, double ratio,
-                                      const JumpMapResult& reference) {
-  const bool beside = is_elastic(*panels[0].second[0]), paper = pair_of_paper(maps[0]);
-  const std::string percent = text(rounded(ratio * 100, 2), " %");
-  const bool second_model =
-      paper && at_torque(panels[0], 100) && at_torque(panels[0], 200) && at_torque(panels[0], 300);
+                                      const JumpMapResult& reference, const PrintedJumps& printed) {
+  const bool beside = elastic(*panels[0].second[0]);
+  const std::string percent = text(rounded(ratio * 100, 2), " %"), kept = kept_words(printed);
+  const bool low_torque = !kept.empty() && at_torque(panels[0], printed.lost_torque) &&
+                          std::all_of(printed.kept_torques.begin(), printed.kept_torques.end(),
+                                      [&](double torque) { return at_torque(panels[0], torque); });
   std::vector<std::string> notes, jumping, losing, low;
   for (const MapPanel& panel : panels) {
     const auto everywhere = [&](const auto& holds) {
@@ -379,8 +386,8 @@ std::vector<std::string> lumped_notes(const std::vector<JumpMapResult>& maps,
     if (beside && &panel != &panels[0])
       said += text("; (b) ", rounded(alike(panels[0], panel, lost), 0), "/",
                    rounded(alike(panels[0], panel, two_branches), 0), " %");
-    if (second_model) {
-      const SecondModel found = second_model_of(panel, maps[0], at);
+    if (low_torque) {
+      const LostAtLowTorque found = lost_at_low_torque(panel, maps[0], at, printed);
       said += text("; (c) ", joined_or_none(found.ratios, ", "), found.ratios.empty() ? "" : " %");
       if (found.low) low.push_back(panel.first);
     }
@@ -388,19 +395,22 @@ std::vector<std::string> lumped_notes(const std::vector<JumpMapResult>& maps,
   }
   notes.push_back(text("at ", percent, " two branches at every torque: ", joined_or_none(jumping, "; "),
                        "; contact lost at every torque: ", joined_or_none(losing, "; ")));
-  if (second_model)
-    notes.push_back(text("at ", percent,
-                         " lost at low torque only, kept at 200 and 300 N m: ", joined_or_none(low, "; ")));
+  if (low_torque)
+    notes.push_back(
+        text("at ", percent, " lost at low torque only, ", kept, ": ", joined_or_none(low, "; ")));
   notes.push_back(
       "(a) (first harmonic / mean of the stiffness) / damping ratio: lowest that loses contact / highest that keeps it");
   if (beside)
     notes.push_back(
         "(b) cells in which the model does as the elastic pair at that damping ratio: contact lost or kept / two branches or not");
-  if (second_model)
-    notes.push_back(
-        "(c) damping ratios at which contact is lost at 100 N m, kept at 200 and 300 N m, as of P2000's second lumped model (Figure 16)");
+  if (low_torque)
+    notes.push_back(text("(c) damping ratios at which contact is lost at ", torque_words(printed.lost_torque),
+                         ", ", kept, ", as of ", printed.lost_words));
   notes.push_back(text(
-      "damping ratios: lumped models c / 2 sqrt(mean stiffness x mass), as P2000's 8 %",
+      "damping ratios: lumped models c / 2 sqrt(mean stiffness x mass)",
+      printed.source.empty()
+          ? ""
+          : text(", as ", printed.source, "'s ", rounded(printed.lumped_damping_ratio * 100, 2), " %"),
       beside ? "; elastic pair: with two pairs in contact" : "", "; ", reference.mesh_frequency.size(),
       " speeds, steps of ",
       rounded(
@@ -427,15 +437,16 @@ FigureBlock cusps_of(const std::string& block_name, const JumpMapResult& panel,
 
 }  // namespace
 
-Figure jump_map_figure(std::vector<JumpMapResult> maps, const std::vector<FoldCurvesResult>& curves) {
+Figure jump_map_figure(std::vector<JumpMapResult> maps, const std::vector<FoldCurvesResult>& curves,
+                       PrintedJumps printed) {
   if (maps.empty()) fail(Failure::input, "a map of jumps needs one artifact at least");
   require_ascending(maps);
   const std::vector<MapPanel> panels = map_panels(maps);
-  const bool paper = pair_of_paper(maps[0]);
+  keep_if_of(maps, printed);
   Figure figure;
   figure.title = "Jumps, contact loss and tooth loads of the primary resonance";
 
-  figure.notes = jump_map_notes(maps, panels, paper);
+  figure.notes = jump_map_notes(maps, panels, printed);
 
   double largest = 0;
   for (size_t p = 0; p < panels.size(); ++p) {
@@ -448,17 +459,20 @@ Figure jump_map_figure(std::vector<JumpMapResult> maps, const std::vector<FoldCu
     for (const JumpMapResult* a : panels[p].second)
       largest = std::max(largest, a->sustained_tooth_load.maxCoeff() * 1e-3);
   }
-  if (paper) {
-    FigureBlock printed{"printed", {"damping_ratio [%]", "torque [N m]"}, {}, "", "", true};
-    for (double torque : kPaperTorques) printed.rows.push_back({kPaperRatio * 100, torque});
-    figure.blocks.push_back(printed);
+  if (!printed.torques.empty()) {
+    FigureBlock marks{"printed", {"damping_ratio [%]", "torque [N m]"}, {}, "", "", true};
+    for (double torque : printed.torques) marks.rows.push_back({printed.damping_ratio * 100, torque});
+    figure.blocks.push_back(marks);
+    figure.words.emplace_back("printed_label", text(printed.source, ": jump printed at ",
+                                                    rounded(printed.damping_ratio * 100, 2), " %"));
   }
   const auto& extent = figure.blocks[0].rows;
   for (const auto& [name, value] :
-       {std::pair{"panels", static_cast<double>(panels.size())}, std::pair{"printed", paper ? 1.0 : 0.0},
-        std::pair{"ratio_from", extent.front()[2]}, std::pair{"ratio_to", extent.back()[3]},
-        std::pair{"torque_from", extent.front()[4]}, std::pair{"torque_to", extent.back()[5]},
-        std::pair{"first_ratio", extent.front()[0]}, std::pair{"last_ratio", extent.back()[0]},
+       {std::pair{"panels", static_cast<double>(panels.size())},
+        std::pair{"printed", printed.torques.empty() ? 0.0 : 1.0}, std::pair{"ratio_from", extent.front()[2]},
+        std::pair{"ratio_to", extent.back()[3]}, std::pair{"torque_from", extent.front()[4]},
+        std::pair{"torque_to", extent.back()[5]}, std::pair{"first_ratio", extent.front()[0]},
+        std::pair{"last_ratio", extent.back()[0]},
         std::pair{"notes", static_cast<double>(figure.notes.size())},
         std::pair{"lines", panels[0].second.size() > 1 && maps[0].damping_ratio.size() > 1 ? 1.0 : 0.0},
         std::pair{"largest", largest}})
@@ -466,34 +480,32 @@ Figure jump_map_figure(std::vector<JumpMapResult> maps, const std::vector<FoldCu
   return figure;
 }
 
-Figure lumped_jump_map_figure(std::vector<JumpMapResult> maps) {
-  const auto lumped = std::find_if(maps.begin(), maps.end(), [](const auto& a) { return !is_elastic(a); });
+Figure lumped_jump_map_figure(std::vector<JumpMapResult> maps, PrintedJumps printed) {
+  const auto lumped = std::find_if(maps.begin(), maps.end(), [](const auto& a) { return !elastic(a); });
   if (lumped == maps.end())
     fail(Failure::input, "a map of lumped models needs one of their artifacts at least");
   // The elastic pair beside them has the corner rule of the statics that they are made from.
   const JumpMapResult reference = *lumped;
-  std::erase_if(maps, [&](const JumpMapResult& a) { return is_elastic(a) && !same_corner(a, reference); });
-  std::stable_partition(maps.begin(), maps.end(), is_elastic);
+  std::erase_if(maps, [&](const JumpMapResult& a) { return elastic(a) && !same_corner(a, reference); });
+  std::stable_partition(maps.begin(), maps.end(), elastic<JumpMapResult>);
   require_ascending(maps);
   std::vector<MapPanel> panels = map_panels(maps);
-  if (is_elastic(*panels[0].second[0])) panels[0].first = "elastic pair, " + panels[0].first;
+  if (elastic(*panels[0].second[0])) panels[0].first = "elastic pair, " + panels[0].first;
 
   Figure figure;
   figure.title = "Jumps and contact loss of lumped models";
   figure.height = 1250;
-  const double ratio = case_of(maps[0], kPaperLumpedRatio) >= 0
-                           ? kPaperLumpedRatio
-                           : maps[0].damping_ratio[maps[0].damping_ratio.size() / 2];
+  keep_if_of(maps, printed);
+  const double ratio = shown_ratio(maps[0], printed.lumped_damping_ratio);
   const Index at = case_of(maps[0], ratio);
-
-  figure.notes = lumped_notes(maps, panels, at, ratio, reference);
+  figure.notes = lumped_notes(maps, panels, at, ratio, reference, printed);
 
   // A column per model, below it the same with the damper in contact only.
-  std::vector<std::string> columns;
+  std::vector<MotionModel> columns;
   for (const MapPanel& panel : panels)
-    if (const std::string base = base_model(*panel.second[0]);
-        std::find(columns.begin(), columns.end(), base) == columns.end())
-      columns.push_back(base);
+    if (const MotionModel model = panel.second[0]->model;
+        std::find(columns.begin(), columns.end(), model) == columns.end())
+      columns.push_back(model);
   for (size_t p = 0; p < panels.size(); ++p) {
     const JumpMapResult& a = *panels[p].second[0];
     const std::string name = text("panel", p + 1);
@@ -502,8 +514,8 @@ Figure lumped_jump_map_figure(std::vector<JumpMapResult> maps) {
     figure.words.emplace_back(name, panels[p].first);
     figure.numbers.emplace_back(
         text("column", p + 1),
-        static_cast<double>(std::find(columns.begin(), columns.end(), base_model(a)) - columns.begin()));
-    figure.numbers.emplace_back(text("row", p + 1), a.model == base_model(a) ? 0 : 1);
+        static_cast<double>(std::find(columns.begin(), columns.end(), a.model) - columns.begin()));
+    figure.numbers.emplace_back(text("row", p + 1), a.damper_acts == DamperActs::contact ? 1 : 0);
   }
   const auto& extent = figure.blocks[0].rows;
   for (const auto& [name, value] :

@@ -68,7 +68,7 @@ std::vector<Motion> motions_at(const std::vector<SweepResult>& sweeps, double fr
       const std::string damping =
           elastic(*curve.up)
               ? "η = " + shown(curve.up->damping.rayleigh_stiffness * kMicro, 6) + " µs"
-              : curve.up->model + " at " + shown(panel.lumped.damping_ratio * kPercent, 4) + " %";
+              : name_of(curve.up->model) + " at " + shown(panel.lumped.damping_ratio * kPercent, 4) + " %";
       const auto rms = [](const Motion& m) { return harmonics(m.orbit(m.sweep->transmission_error), 0).rms; };
       const double of_up = rms(up), of_down = rms(down);
       if (std::abs(of_up - of_down) <= kSameBranch * std::max(of_up, of_down)) {
@@ -290,14 +290,12 @@ Figure dynamic_load_figure(const std::vector<SweepResult>& sweeps, CaptionSource
   figure.height = 1240;
   Motion worst;
   double rms = -1, from = std::numeric_limits<double>::infinity(), to = 0, most = 0;
-  bool lost = false, beyond = false;
+  bool lost = false;
   const std::array<ResponseResult, 2> both{response(*curve.up), response(*curve.down)};
   for (const SweepResult* sweep : {curve.up, curve.down}) {
     const ResponseResult& r = both[sweep == curve.up ? 0 : 1];
-    const Eigen::VectorXd left = elastic(*sweep) ? sweep->backlash_left : Eigen::VectorXd();
-    figure.blocks.push_back(response_block(name_of(sweep->direction), r, &both[sweep == curve.up ? 1 : 0],
-                                           left.size() > 0 ? &left : nullptr));
-    beyond = beyond || (left.size() > 0 && left.minCoeff() <= 0);
+    figure.blocks.push_back(
+        response_block(name_of(sweep->direction), r, &both[sweep == curve.up ? 1 : 0], elastic(*sweep)));
     Eigen::Index row = 0;
     if (const double here = r.dte_rms.maxCoeff(&row); here > rms) {
       rms = here;
@@ -330,7 +328,7 @@ Figure dynamic_load_figure(const std::vector<SweepResult>& sweeps, CaptionSource
                          {"load_max", most},
                          {"worst_speed", speed},
                          {"contact_lost", lost},
-                         {"beyond_backlash", beyond}});
+                         {"beyond_backlash", !speeds_beyond_backlash({&both[0], &both[1]}).empty()}});
   return figure;
 }
 

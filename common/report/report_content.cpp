@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <map>
 #include <numbers>
 #include <numeric>
 #include <set>
@@ -88,18 +87,8 @@ double hertz_pressure(const StaticResult& s, double force) {
                     (compliance(s.gear[0].material) + compliance(s.gear[1].material))));
 }
 
-bool beyond_backlash(const ResponseResult& s, Index row) {
-  return row < s.backlash_left.size() && s.backlash_left[row] <= 0;
-}
-
 std::string way_words(const ResponseResult& s) {
   return s.direction == Direction::up ? "speed rising" : "speed falling";
-}
-
-std::string speeds_beyond_backlash(const ResponseResult& s) {
-  std::map<double, bool> beyond;
-  for (Index i = 0; i < s.mesh_frequency.size(); ++i) beyond[s.mesh_frequency[i]] = beyond_backlash(s, i);
-  return speed_ranges(beyond);
 }
 
 std::string listed(const std::vector<std::string>& words) {

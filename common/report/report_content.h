@@ -16,6 +16,8 @@ namespace whine {
 struct ReportPicture {
   std::string name;   // file name without extension: "fig12"
   std::string bytes;  // of a PNG
+  std::string printed =
+      {};  // what a publication shows of the same gears, "Figure 7 of P2000 shows"; "": nothing
 };
 
 struct ReportSource {
@@ -49,11 +51,6 @@ double peak_to_peak(const Eigen::VectorXd& v);
 
 // Hertz's pressure (Pa) of a force (N) on one tooth pair at the pitch point.
 double hertz_pressure(const StaticResult& s, double force);
-
-// Whether the motion at a row of the sweep goes beyond the backlash.
-bool beyond_backlash(const ResponseResult& s, Eigen::Index row);
-// In Hz; "" if there are none.
-std::string speeds_beyond_backlash(const ResponseResult& s);
 
 std::string way_words(const ResponseResult& s);             // "speed rising"
 std::string hertz(double f);                                // whole Hz

@@ -48,7 +48,7 @@ std::string load_sharing_caption(const ReportContent& c) {
 std::string beyond_words(const ReportContent& c, double torque) {
   std::string list;
   for (const ResponseResult& s : c.sweeps) {
-    const std::string speeds = speeds_beyond_backlash(s);
+    const std::string speeds = speeds_beyond_backlash({&s});
     if (speeds.empty() || (torque > 0 && s.torque != torque)) continue;
     list += text(list.empty() ? "" : "; ", torque > 0 ? "" : torque_words(s.torque) + ", ", way_words(s),
                  ": ", speeds, " Hz");
@@ -208,18 +208,11 @@ const std::vector<ExplainedFigure>& explained_figures() {
   return all;
 }
 
-bool of_paper(const GearDesign& g) {
-  return g.teeth == 50 && std::abs(g.module - 3e-3) < 1e-9;
-}
-
-// By its name, which is that of its files: numbers of the page would be taken for those of P2000's figures. Of P2000's own gears the
-// caption says which figure of it shows the same.
+// By its name, which is that of its files: numbers of the page would be taken for those of a publication's figures.
 std::string figure(const ReportContent& c, const ReportPicture& picture, const ExplainedFigure& kind) {
   std::string words = html::escaped(kind.words(c));
-  if (const std::string paper = paper_figure(picture.name);
-      !paper.empty() && of_paper(c.statics[0].gear[0].design) && of_paper(c.statics[0].gear[1].design))
-    words += text(" ", picture.name, " shows of this pair what ", paper, " of P2000 ",
-                  paper.starts_with("Figures") ? "show" : "shows", " of its own.");
+  if (!picture.printed.empty())
+    words += text(" ", picture.name, " shows of this pair what ", picture.printed, " of its own.");
   return picture_html(picture, kind.title, words, c.figure_folder);
 }
 

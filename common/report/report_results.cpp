@@ -101,7 +101,7 @@ void add_motion(const StaticResult& s, const ResponseResult& r, const Adder& add
     }
   add("jumps" + way, "Hz", jumps_of(r));
   add("contact lost" + way, "Hz", loss_ranges(r));
-  if (const std::string speeds = speeds_beyond_backlash(r); !speeds.empty())
+  if (const std::string speeds = speeds_beyond_backlash({&r}); !speeds.empty())
     add("motion beyond the backlash" + way, "Hz", speeds);
 }
 

@@ -94,18 +94,6 @@ std::string way_word(const ResponseResult& r) {
   return r.direction == Direction::up ? "rising" : "falling";
 }
 
-// What is left of the backlash of each sweep of a figure.
-struct Backlash {
-  const std::vector<ResponseResult>& sweeps;
-  const std::vector<Eigen::VectorXd>& left;
-
-  // (speed) m; nullptr: not known
-  const Eigen::VectorXd* of(const ResponseResult& r) const {
-    const auto i = static_cast<size_t>(&r - sweeps.data());
-    return i < left.size() && left[i].size() == r.mesh_frequency.size() ? &left[i] : nullptr;
-  }
-};
-
 // Of a panel: "contact lost at 150 N m: rising 2820 to 2980, falling 2600 to 2980 Hz".
 std::string loss_words(const ChoicePanel<ResponseResult>& panel) {
   const auto& curves = panel.curves;
@@ -123,32 +111,24 @@ std::string loss_words(const ChoicePanel<ResponseResult>& panel) {
   return alike && curves.size() > 1 ? "contact lost at every torque: " + first : "contact lost" + each;
 }
 
-// "beyond the backlash at 150 N m: rising 2880 to 2900 Hz", "" where no motion goes there; where it is not known, that.
-std::string beyond_words(const ChoicePanel<ResponseResult>& panel, const Backlash& backlash) {
+// "beyond the backlash at 150 N m: rising 2880 to 2900 Hz", "" where no motion goes there.
+std::string beyond_words(const ChoicePanel<ResponseResult>& panel) {
   std::string each;
-  bool unknown = false;
   for (const auto& c : panel.curves) {
     std::string ways;
-    for (const ResponseResult* r : {c.up, c.down}) {
-      const Eigen::VectorXd* left = backlash.of(*r);
-      unknown = unknown || (!left && elastic(*r) && r->separation_fraction.maxCoeff() > 0);
-      if (!left) continue;
-      std::map<double, bool> beyond;
-      for (Eigen::Index i = 0; i < left->size(); ++i) beyond[r->mesh_frequency[i]] = (*left)[i] <= 0;
-      if (const std::string ranges = speed_ranges(beyond); !ranges.empty())
+    for (const ResponseResult* r : {c.up, c.down})
+      if (const std::string ranges = speeds_beyond_backlash({r}); !ranges.empty())
         ways += (ways.empty() ? "" : ", ") + way_word(*r) + " " + ranges;
-    }
     if (!ways.empty())
       each += (each.empty() ? "" : "; ") + text("at ", curve_label(panel, *c.up), ": ", ways, " Hz");
   }
-  if (unknown) return "speeds beyond the backlash: known with sweep.h5 alone";
   return each.empty() ? "" : "beyond the backlash, where back flanks would touch, " + each;
 }
 
 // What the axes of a panel have to hold.
 struct Extent {
   double rms = 0, mean_high = -std::numeric_limits<double>::infinity(), mean_low = -mean_high;  // m
-  bool lost = false, beyond = false;  // contact; the backlash
+  bool lost = false;                                                                            // contact
 
   void add(const ResponseResult& r) {
     rms = std::max(rms, r.dte_rms.maxCoeff());
@@ -176,7 +156,7 @@ std::string cause_words(const ChoicePanel<ResponseResult>::Curve& curve, const B
 // jumps rising 2645, falling 1819 Hz"
 std::string add_curve(Figure& figure, const std::string& letter, size_t c, const std::string& label,
                       const ChoicePanel<ResponseResult>::Curve& curve, const CaptionSources& background,
-                      const Backlash& backlash, Extent& extent) {
+                      bool backlash, Extent& extent) {
   const auto number = [&](const std::string& name, double value) {
     figure.numbers.emplace_back(text(name, "_", letter, "_", c), value);
   };
@@ -184,13 +164,12 @@ std::string add_curve(Figure& figure, const std::string& letter, size_t c, const
   std::string found;
   for (const ResponseResult* r : {curve.up, curve.down}) {
     figure.blocks.push_back(
-        response_block(text(name, r->direction), *r, r == curve.up ? curve.down : curve.up, backlash.of(*r)));
+        response_block(text(name, r->direction), *r, r == curve.up ? curve.down : curve.up, backlash));
     figure.blocks.push_back(jump_block(text(name, "jumps ", r->direction), *r));
     const std::string at = listed_jumps(figure.blocks.back());
     if (!at.empty()) found += (found.empty() ? " " : ", ") + way_word(*r) + at;
     number(text("jumps_", r->direction), static_cast<double>(r->jump_frequency.size()));
     extent.add(*r);
-    if (const Eigen::VectorXd* left = backlash.of(*r)) extent.beyond |= left->minCoeff() <= 0;
   }
   if (const BranchResult* branch = branch_of(*curve.up, background)) {
     for (const bool stable : {true, false}) {
@@ -225,7 +204,7 @@ void add_caption(Figure& figure, const std::string& kind, const std::string& let
 }
 
 void add_panel(Figure& figure, const std::string& letter, const ChoicePanel<ResponseResult>& panel,
-               const CaptionSources& background, const Backlash& backlash, bool alone) {
+               const CaptionSources& background, bool backlash, bool alone) {
   const auto& curves = panel.curves;
   if (curves.size() > kMostCurves)
     fail(Failure::input, "figure: ", curves.size(), " torques of the same choices given; ", kMostCurves,
@@ -240,7 +219,7 @@ void add_panel(Figure& figure, const std::string& letter, const ChoicePanel<Resp
     jumps += "'" + words + "' ";
     found_jumps += (c ? "; " : "") + words;
   }
-  const std::string beyond = beyond_words(panel, backlash), operating = operating_words(panel, background),
+  const std::string beyond = beyond_words(panel), operating = operating_words(panel, background),
                     loss = loss_words(panel) + (beyond.empty() ? "" : "; " + beyond);
   figure.notes.push_back("(" + letter + ") " + (panel.scene.empty() ? "" : panel.scene + "; ") + operating +
                          "; " + panel.choices);
@@ -260,19 +239,8 @@ void add_panel(Figure& figure, const std::string& letter, const ChoicePanel<Resp
                                     {"mean_max_", extent.mean_high * kMicro},
                                     {"mean_min_", extent.mean_low * kMicro},
                                     {"contact_lost_", extent.lost ? 1.0 : 0.0},
-                                    {"beyond_backlash_", extent.beyond ? 1.0 : 0.0}})
+                                    {"beyond_backlash_", beyond.empty() ? 0.0 : 1.0}})
     figure.numbers.emplace_back(name + letter, value);
-}
-
-// The tables of a figure have one set of columns.
-void require_backlash_of_all(const std::vector<ResponseResult>& sweeps, const Backlash& backlash) {
-  const auto known = [&](const ResponseResult& r) { return backlash.of(r) != nullptr; };
-  if (std::none_of(sweeps.begin(), sweeps.end(), known)) return;
-  for (const ResponseResult& r : sweeps)
-    if (!known(r))
-      fail(
-          Failure::input, "figure: no sweep.h5 ", r.direction, " at ", torque_words(r.torque),
-          " of the speeds of its response.h5, for the speeds beyond the backlash; give those of all sweeps or none");
 }
 
 // Whether the other sweep has the motion of a row.
@@ -307,7 +275,7 @@ std::vector<bool> broken_after(const ResponseResult& r, const ResponseResult* ot
 }
 
 FigureBlock response_block(const std::string& name, const ResponseResult& r, const ResponseResult* other,
-                           const Eigen::VectorXd* backlash) {
+                           bool backlash) {
   FigureBlock block{name,
                     {"mesh_frequency [Hz]", "dte_rms [µm]", "dte_mean [µm]", "separation_fraction [1]",
                      "mesh_force_max [N]", "tooth_load_max [N]", "period_multiple [1]"},
@@ -320,7 +288,7 @@ FigureBlock response_block(const std::string& name, const ResponseResult& r, con
     block.rows.push_back({r.mesh_frequency[i], r.dte_rms[i] * kMicro, r.dte_mean[i] * kMicro,
                           r.separation_fraction[i], r.mesh_force_max[i], r.tooth_load_max[i],
                           static_cast<double>(r.period_multiple[i])});
-    if (backlash) block.rows.back().push_back((*backlash)[i] <= 0 ? 1 : 0);
+    if (backlash) block.rows.back().push_back(beyond_backlash(r, i) ? 1 : 0);
     // A line across would pretend that there are states between.
     if (broken[i]) block.rows.emplace_back();
   }
@@ -364,10 +332,8 @@ Figure response_figure(const std::vector<ResponseResult>& sweeps, const CaptionS
       (any_lumped ? "natural frequency of the mass on the mean stiffness" : ""));
   figure.shafts = shafts_of_all(sweeps);
   figure.height = panels.size() == 1 ? 1010 : 240 + 610 * static_cast<int>(panels.size());
-  const Backlash backlash{sweeps, background.backlash};
-  require_backlash_of_all(sweeps, backlash);
   for (size_t p = 0; p < panels.size(); ++p)
-    add_panel(figure, letter_of(p), panels[p], background, backlash, panels.size() == 1);
+    add_panel(figure, letter_of(p), panels[p], background, any_elastic, panels.size() == 1);
   double from = std::numeric_limits<double>::infinity(), to = 0;
   Eigen::Index speeds = 0;
   for (const auto& r : sweeps) {

@@ -27,8 +27,8 @@ std::string loss_both_ways(const ResponseResult& up, const ResponseResult& down)
 std::vector<bool> broken_after(const ResponseResult& r, const ResponseResult* other = nullptr);
 
 // The response of one direction of a sweep as a curve that lifts the pen where it breaks.
-// backlash: (speed) m, as backlash_left() has it, for a column that marks the speeds beyond it; nullptr: not known.
+// backlash: with a column that marks the speeds beyond the backlash.
 FigureBlock response_block(const std::string& name, const ResponseResult& r, const ResponseResult* other,
-                           const Eigen::VectorXd* backlash = nullptr);
+                           bool backlash);
 
 }  // namespace whine

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <tuple>
 
 #include "base/error.h"
 #include "gear/pair.h"
 #include "io/summary.h"
+#include "signal/response.h"
 
 namespace whine {
 namespace {
@@ -31,6 +33,18 @@ auto choices_of(const Sweep& s, const LumpedParameters& lumped) {
 }
 
 }  // namespace
+
+bool beyond_backlash(const ResponseResult& r, Eigen::Index row) {
+  return row < r.backlash_left.size() && r.backlash_left[row] <= 0;
+}
+
+std::string speeds_beyond_backlash(std::initializer_list<const ResponseResult*> sweeps) {
+  std::map<double, bool> beyond;
+  for (const ResponseResult* r : sweeps)
+    for (Eigen::Index i = 0; i < r->mesh_frequency.size(); ++i)
+      beyond[r->mesh_frequency[i]] |= beyond_backlash(*r, i);
+  return speed_ranges(beyond);
+}
 
 std::string lumped_words(const LumpedParameters& lumped) {
   if (!(lumped.mass > 0)) return "mass and damping ratio: see its sweep.h5";

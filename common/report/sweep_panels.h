@@ -14,15 +14,8 @@ struct CaptionSources {
   std::vector<LumpedParameters> lumped = {};  // of each sweep, empty for elastic gears; or none
   std::vector<ImpactResult> impacts =
       {};  // for damping ratios, of any gears and torques; found by what they were made from
-  // Of each sweep (speed) m, as backlash_left() has it: 0 or less where back flanks would touch; empty: not known; or none
-  std::vector<Eigen::VectorXd> backlash = {};
   std::vector<BranchResult> branches = {};  // for unstable orbits and folds; found likewise
 };
-
-template <class Sweep>
-bool elastic(const Sweep& s) {
-  return s.model == "finite elements";
-}
 
 // Sweeps of the same choices, both directions of each curve. Curves, of other torques or flanks, stand in the order in which they
 // come: that of the scene, so that a torque has one colour in all figures.
@@ -35,6 +28,11 @@ struct ChoicePanel {
   LumpedParameters lumped;
   std::vector<Curve> curves;
 };
+
+// Whether the motion at a row of the sweep goes beyond the backlash, so that back flanks would touch.
+bool beyond_backlash(const ResponseResult& r, Eigen::Index row);
+// All such speeds of these sweeps, "2400 to 2600, 3100" (Hz); "" if there are none.
+std::string speeds_beyond_backlash(std::initializer_list<const ResponseResult*> sweeps);
 
 // Functions on Sweep are there for ResponseResult and SweepResult.
 

@@ -2,22 +2,23 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
-#include <string>
 
 #include "base/matrix.h"
 #include "model/stages.h"
+#include "results/motion_model.h"
 
 namespace whine {
 
 // jump_map.h5: where the primary resonance of a pair has two branches, and what its teeth then carry, at one torque for
 // several dampings ("cases"). Speeds ascend; direction 0 is up, 1 down.
 struct JumpMapResult : MotionParameters {
-  std::string model = "finite elements";
-  double torque = 0;              // N m on the driver
-  double bearing_stiffness = 0;   // N m-1 that sets the bearing dampers
-  double mean_stiffness = 0;      // N m-1: secant, at rest
-  double first_harmonic = 0;      // N m-1: amplitude, of the secant stiffness at rest
-  double two_pair_frequency = 0;  // Hz, contact frozen, undamped, amid the state of two pairs
+  MotionModel model = MotionModel::finite_elements;
+  DamperActs damper_acts = DamperActs::always;  // of lumped models
+  double torque = 0;                            // N m on the driver
+  double bearing_stiffness = 0;                 // N m-1 that sets the bearing dampers
+  double mean_stiffness = 0;                    // N m-1: secant, at rest
+  double first_harmonic = 0;                    // N m-1: amplitude, of the secant stiffness at rest
+  double two_pair_frequency = 0;                // Hz, contact frozen, undamped, amid the state of two pairs
   double one_pair_frequency = 0;  // Hz: the same for one pair; 0 if one pair alone never carries the load
   Eigen::VectorXd rayleigh_stiffness, damping_ratio;  // (case) s, 1: of two pairs, contact frozen
   Eigen::VectorXi two_branches;                       // (case) 1 if speeds with two motions were found

@@ -2,12 +2,12 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
-#include <string>
 #include <vector>
 
 #include "base/matrix.h"
 #include "model/stages.h"
 #include "results/friction_losses.h"
+#include "results/motion_model.h"
 #include "results/remark.h"
 
 namespace whine {
@@ -16,7 +16,7 @@ namespace whine {
 struct ResponseResult : MotionParameters {
   double torque = 0;
   Direction direction = Direction::up;
-  std::string model;                  // "finite elements" or a lumped model's name
+  MotionModel model = MotionModel::finite_elements;
   Eigen::VectorXd mesh_frequency;     // (speed) Hz
   Eigen::VectorXd dte_rms, dte_mean;  // (speed) m
   MatrixRM dte_harmonic;              // (speed, harmonic 1..) m, amplitude

@@ -8,6 +8,7 @@
 #include "base/matrix.h"
 #include "model/stages.h"
 #include "results/friction_losses.h"
+#include "results/motion_model.h"
 #include "results/remark.h"
 
 namespace whine {
@@ -31,11 +32,6 @@ inline constexpr std::array<EnergyLine, 12> kEnergyLines{
      {"averaging", "mean load times change of the relaxed load, less the exact work: of the scheme itself"},
      {"dropped", "taken out with the relaxed loads of teeth that are no longer followed"}}};
 
-// When the damper of a lumped model acts: always as in Eq. 23, or while the teeth touch.
-enum class DamperActs { always, contact };
-template <>
-inline constexpr const char* kWordsOf<DamperActs> = "always contact";
-
 // What a lumped model (Eq. 23) is made of, in place of elastic bodies: m x'' + c x' + sum_i k_i max(x - g_i, 0) = T / r,
 // k_i and g_i constant in each cell of the mesh period.
 struct LumpedParameters {
@@ -49,9 +45,8 @@ struct LumpedParameters {
 
 // sweep.h5: rows in the order in which they were computed
 struct SweepResult : MotionParameters {
-  std::string model =
-      "finite elements";  // or a lumped model's name; then the fields of the bodies say where its
-                          // stiffness comes from, and its damping is that of `lumped` alone
+  // Of a lumped model the fields of the bodies say where its stiffness comes from, and its damping is that of `lumped` alone.
+  MotionModel model = MotionModel::finite_elements;
   LumpedParameters lumped;
   double torque = 0;                               // N m on the driver
   double mean_stiffness = 0;                       // N m-1 that sets the bearing dampers

@@ -328,7 +328,7 @@ std::vector<Remark> remarks(const SweepResult& s, const StaticResult& statics) {
   std::vector<Remark> out;
   const auto add = [&](bool warning, const auto&... parts) { out.push_back(remark(warning, parts...)); };
   // Said once of a pair of sweeps, by the one of rising speed.
-  if (s.direction == Direction::up && s.model == "finite elements") {
+  if (s.direction == Direction::up && elastic(s)) {
     out = setup_remarks(statics, s.inertia, s.damping, s.fidelity);
     if (s.mesh_frequency.size() > 0) {
       const std::vector<Remark> more =

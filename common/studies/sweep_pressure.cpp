@@ -137,7 +137,7 @@ void add_sustained(const SweepResult& s, const Hertz& hertz, ResponseResult& r) 
 }  // namespace
 
 void add_flank_pressure(const SweepResult& s, ResponseResult& r) {
-  if (s.root_stress[0].size() == 0 && s.model != "finite elements") return;
+  if (s.root_stress[0].size() == 0 && !elastic(s)) return;
   const GearPair gears(s);
   const Hertz hertz = hertz_of(s, gears);
   const std::vector<Place> places = places_of(s, gears);

@@ -86,7 +86,7 @@ if (lines > 0) {
 if (value("cusps_1") > 0) { set label 17 "" at 0.075, 0.325 point pt 6 ps 1.6 lw 3 lc rgb "#7a1f10"; set label 18 "cusp of the folds: two branches to the left" at 0.097, 0.325 left font ",16" }
 if (printed > 0) {
   set label 15 "" at 0.785, 0.301 point pt 13 ps 2.2 lc rgb "#000000"
-  set label 16 "P2000: jump printed at 7 %" at 0.797, 0.301 left font ",16"
+  set label 16 printed_label at 0.797, 0.301 left font ",16"
 }
 do for [n = 1:int(notes)] { set label 20 + n value(sprintf("note%d", n)) at 0.02, 0.258 - 0.0285 * (n - 1) left noenhanced font ",12" }
 plot NaN notitle

@@ -218,7 +218,7 @@ TEST_CASE("pictures of maps, branches and studies: no text is cut or lies on oth
 
 TEST_CASE("pictures of lumped models and of variants: no text is cut or lies on other text") {
   std::vector<SweepResult> sweeps;
-  for (const char* model : {"rectangular", "pairs-hertz", "secant"})
+  for (const auto model : {MotionModel::rectangular, MotionModel::pairs_hertz, MotionModel::secant})
     for (const Direction direction : {Direction::up, Direction::down}) {
       SweepResult s = sweep_at(9999, direction);
       s.model = model;
@@ -237,10 +237,12 @@ TEST_CASE("pictures of lumped models and of variants: no text is cut or lies on 
   for (const double torque : {1250.0, 2500.0, 5000.0, 9999.0}) {
     JumpMapResult a = map_at(torque, true);
     lumped.push_back(a);
-    for (const char* model : {"secant", "pairs-hertz", "rectangular", "rectangular-contact"}) {
+    for (const auto model : {MotionModel::secant, MotionModel::pairs_hertz, MotionModel::rectangular}) {
       a.model = model;
       lumped.push_back(a);
     }
+    a.damper_acts = DamperActs::contact;
+    lumped.push_back(a);
   }
   check(lumped_jump_map_figure(lumped), "jump-map-lumped");
   const JumpMapResult base = map_at(9999, true);

@@ -415,21 +415,23 @@ TEST_CASE("lumped: models from a static result") {
   o.frequency_from = 2000;
   o.frequency_to = 2200;
   o.frequency_step = 100;
-  for (const std::string model : {"secant", "tangent", "pairs", "rectangular"}) {
+  for (const auto model :
+       {MotionModel::secant, MotionModel::tangent, MotionModel::pairs, MotionModel::rectangular}) {
     o.model = model;
     const LumpedParameters springs =
-        model == "pairs" ? pairs
-        : model == "rectangular"
+        model == MotionModel::pairs ? pairs
+        : model == MotionModel::rectangular
             ? cells_of(rectangular_wave(s))
-            : cells_of(model == "secant" ? s.stiffness_secant : s.stiffness_tangent, 128);
-    const SweepResult a =
-        lumped_sweep(s, springs, model == "pairs" ? numbers : Eigen::VectorXi::Zero(1).eval(), o, no_report);
+            : cells_of(model == MotionModel::secant ? s.stiffness_secant : s.stiffness_tangent, 128);
+    const SweepResult a = lumped_sweep(
+        s, springs, model == MotionModel::pairs ? numbers : Eigen::VectorXi::Zero(1).eval(), o, no_report);
     CHECK(a.mesh_frequency[0] == 2200);
     CHECK(a.period_multiple.minCoeff() == 1);
     CHECK(a.residual.maxCoeff() < 1e-12);
     CHECK(a.energy_imbalance.cwiseAbs().maxCoeff() < 1e-12);
     CHECK(a.mesh_force.minCoeff() >= 0);
-    if (model == "secant" || model == "pairs") CHECK(a.mean_stiffness == relative(s.mean_stiffness, 1e-4));
+    if (model == MotionModel::secant || model == MotionModel::pairs)
+      CHECK(a.mean_stiffness == relative(s.mean_stiffness, 1e-4));
     // The mean force over an orbit is the static one: the mass gains nothing and the damper's mean is 0.
     CHECK(a.mesh_force.row(0).mean() == relative(force, 2e-3));
     const ResponseResult r = response(a);
@@ -541,7 +543,7 @@ TEST_CASE(
 
   // Springs of one pair are one pair in the sweep.
   LumpedOptions o;
-  o.model = "pairs-hertz";
+  o.model = MotionModel::pairs_hertz;
   o.mass = kMass;
   o.direction = Direction::up;
   o.frequency_from = o.frequency_to = 2000;
@@ -558,7 +560,7 @@ TEST_CASE("lumped: figures hold the numbers of their sweeps") {
   const RectangularWave wave = stated_wave(s, 2.93973e8, 5.16658e8, 0.755);
   LumpedOptions o;
   o.mass = 1.4;
-  o.model = "rectangular";
+  o.model = MotionModel::rectangular;
   o.frequency_from = 2100;
   o.frequency_to = 2600;
   o.frequency_step = 50;
@@ -663,7 +665,7 @@ TEST_CASE("lumped: a cell of a map of jumps is what sweeps up and down of that m
   statics.mesh_phase = Eigen::VectorXd::LinSpaced(8, 0, 0.875);
   statics.stiffness_secant = Eigen::VectorXd::Constant(8, kMean);
   LumpedOptions o;
-  o.model = "rectangular";
+  o.model = MotionModel::rectangular;
   o.mass = kMass;
   o.time.steps_per_period = 128;
   MapSpeeds range;
@@ -680,7 +682,7 @@ TEST_CASE("lumped: a cell of a map of jumps is what sweeps up and down of that m
                                               CHECK(total == 4);
                                             });
   CHECK(reports == 4);
-  CHECK(map.model == "rectangular");
+  CHECK(map.model == MotionModel::rectangular);
   // Folds at 7 % from another program, see above; at 20 % contact is kept.
   CHECK(map.branches_from[0] == relative(2464.654182, 1e-8));
   CHECK(map.branches_to[0] == relative(2638.199272, 1e-8));
@@ -708,8 +710,8 @@ TEST_CASE("lumped: a cell of a map of jumps is what sweeps up and down of that m
     }
   }
   o.damper_acts = DamperActs::contact;
-  CHECK(lumped_jump_map(statics, springs, numbers, o, range, {0.07}, no_report).model ==
-        "rectangular-contact");
+  CHECK(lumped_jump_map(statics, springs, numbers, o, range, {0.07}, no_report).damper_acts ==
+        DamperActs::contact);
   const auto rejected = [&](const MapSpeeds& speeds, const std::vector<double>& ratios, const char* words) {
     std::string said;
     try {

@@ -55,7 +55,6 @@ ResponseResult flat_response(double torque, Direction direction) {
   ResponseResult r;
   r.torque = torque;
   r.direction = direction;
-  r.model = "finite elements";
   r.natural_frequency = 2900;
   const Eigen::Index n = 171;
   r.mesh_frequency = Eigen::VectorXd::LinSpaced(n, 600, 4000);

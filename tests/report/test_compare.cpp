@@ -39,7 +39,6 @@ ResponseResult some_response(Direction direction, int driven_teeth = 40) {
   r.mesh.centre_distance = 0.15;
   r.torque = 150;
   r.direction = direction;
-  r.model = "finite elements";
   r.natural_frequency = 2300;
   const int n = 5;
   r.mesh_frequency = VectorXd::LinSpaced(n, 2000, 2400);

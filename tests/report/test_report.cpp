@@ -15,6 +15,7 @@
 #include "gear/body_inertia.h"
 #include "io/publish.h"
 #include "io/scene_keys.h"
+#include "paper/beside.h"
 #include "paper_pair.h"
 #include "relative.h"
 #include "report/motion_figures.h"
@@ -439,6 +440,7 @@ TEST_CASE("report: numbers of motions beyond the backlash are marked, with the s
     s->remarks = remarks(*s, content.statics[0]);
     content.sweeps.push_back(response(*s));
   }
+  name_figures_of_paper(content);
   const std::string table = report_tsv(content), page = report_html(content);
   CHECK(table.find("mesh frequency of that RMS, speed rising\t1100\tHz\tbeyond the backlash\n") !=
         std::string::npos);

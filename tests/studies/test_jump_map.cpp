@@ -13,6 +13,7 @@
 #include "io/scene.h"
 #include "io/scene_keys.h"
 #include "io/variant.h"
+#include "paper/beside.h"
 #include "paper_pair.h"
 #include "relative.h"
 #include "report/jump_map_figures.h"
@@ -266,7 +267,7 @@ TEST_CASE("the map's figure says what its data say") {
     maps.push_back(small_map(torque, true, {0.05, 0.07, 0.09}, torque < 150 ? 0.08 : 0.06));
     maps.push_back(small_map(torque, false, {0.05, 0.07, 0.09}, 0.15));
   }
-  Figure figure = jump_map_figure(maps);
+  Figure figure = jump_map_figure(maps, {}, jumps_of_paper());
   CHECK(says(figure, "at 7 %, corner contact: two branches at no torque, contact lost at 100 N m"));
   CHECK(says(
       figure,
@@ -280,19 +281,24 @@ TEST_CASE("the map's figure says what its data say") {
   CHECK(figure.blocks[1].rows[0][6] == 2);
   for (JumpMapResult& a : maps)
     if (!a.mesh.corner.enabled && a.torque == 600) a.loss_to.setZero();
-  figure = jump_map_figure(maps);
+  figure = jump_map_figure(maps, {}, jumps_of_paper());
   CHECK(says(figure, "contact is lost at every torque with: none of these"));
   std::vector<JumpMapResult> split = maps;
   for (JumpMapResult& a : split) a.damping.rayleigh_mass = 1337;
   CHECK(says(jump_map_figure(split), "no corner contact, mu 1337 1/s: two branches"));
   for (JumpMapResult& a : maps) a.gear[0].design.teeth = 40;
-  CHECK(!says(jump_map_figure(maps), "P2000"));
+  figure = jump_map_figure(maps, {}, jumps_of_paper());
+  CHECK(!says(figure, "P2000"));
+  CHECK(says(figure, "tooth loads in kN at 100 N m, 7 %"));
   maps.push_back(maps[0]);
-  CHECK(thrown([&] { jump_map_figure(maps); }).second.find("two maps of 100 N m") != std::string::npos);
+  CHECK(thrown([&] { jump_map_figure(maps, {}, jumps_of_paper()); }).second.find("two maps of 100 N m") !=
+        std::string::npos);
   maps.back() = small_map(300, true, {0.05, 0.07, 0.09}, 0.1);
-  CHECK(thrown([&] { jump_map_figure(maps); }).second.find("have other torques") != std::string::npos);
+  CHECK(thrown([&] { jump_map_figure(maps, {}, jumps_of_paper()); }).second.find("have other torques") !=
+        std::string::npos);
   maps.back() = small_map(300, true, {0.05, 0.07, 0.08}, 0.1);
-  CHECK(thrown([&] { jump_map_figure(maps); }).second.find("other damping ratios") != std::string::npos);
+  CHECK(thrown([&] { jump_map_figure(maps, {}, jumps_of_paper()); }).second.find("other damping ratios") !=
+        std::string::npos);
 }
 
 TEST_CASE("the figure of lumped models tells which keep contact, and how they agree with the elastic pair") {
@@ -302,15 +308,16 @@ TEST_CASE("the figure of lumped models tells which keep contact, and how they ag
     maps.push_back(elastic);
     maps.push_back(small_map(torque, false, {0.06, 0.08, 0.10}, 0.15));  // another corner rule: left out
     JumpMapResult secant = elastic;
-    secant.model = "secant";
+    secant.model = MotionModel::secant;
     if (torque == 300) secant.loss_to.setZero();  // one cell of nine differs
     maps.push_back(secant);
-    secant.model = "rectangular-contact";
+    secant.model = MotionModel::rectangular;
+    secant.damper_acts = DamperActs::contact;
     secant.loss_to.setConstant(3000);
     secant.two_branches.setOnes();
     maps.push_back(secant);
   }
-  Figure figure = lumped_jump_map_figure(maps);
+  Figure figure = lumped_jump_map_figure(maps, jumps_of_paper());
   for (const std::string& note : figure.notes) INFO(note);
   CHECK(figure.blocks.size() == 3);
   CHECK(says(
@@ -327,13 +334,13 @@ TEST_CASE("the figure of lumped models tells which keep contact, and how they ag
       "secant: at 8 % two branches at no torque, contact lost at 100 N m; (a) 1.25/1.67; (b) 89/100 %; (c) 8 %"));
   CHECK(says(figure, "at every torque from 100 to 300 N m; (a) 1/-; (b) 44/0 %; (c) none"));
   for (JumpMapResult& a : maps) a.gear[0].design.teeth = 40;
-  CHECK(!says(lumped_jump_map_figure(maps), "P2000's second"));
-  std::erase_if(maps, [](const JumpMapResult& a) { return a.model == "finite elements"; });
-  figure = lumped_jump_map_figure(maps);
+  CHECK(!says(lumped_jump_map_figure(maps, jumps_of_paper()), "P2000's second"));
+  std::erase_if(maps, elastic<JumpMapResult>);
+  figure = lumped_jump_map_figure(maps, jumps_of_paper());
   CHECK(figure.blocks.size() == 2);
   CHECK(!says(figure, "as the elastic pair"));
   maps.push_back(maps[0]);
-  CHECK(thrown([&] { lumped_jump_map_figure(maps); }).second.find("two maps of 100 N m") !=
+  CHECK(thrown([&] { lumped_jump_map_figure(maps, jumps_of_paper()); }).second.find("two maps of 100 N m") !=
         std::string::npos);
   CHECK(thrown([&] {
           lumped_jump_map_figure({small_map(100, true, {0.05}, 0.1)});
