@@ -42,24 +42,13 @@ double SystemDynamics::moved(const Position& position, int k, const VectorXd& z)
   return out;
 }
 
-double SystemDynamics::read(const Position& position, int k, const VectorXd& relaxed) const {
-  const Contact& contact = position.contact[static_cast<size_t>(k)];
-  double out = 0;
-  for (size_t s = 0; s < 2; ++s) {
-    const auto b = static_cast<size_t>(contact.body[s]);
-    const int first = relaxed_first_[b], size = relaxed_first_[b + 1] - first;
-    out += position.reading[s].col(k).head(size).dot(relaxed.segment(first, size));
-  }
-  return out;
-}
-
 // Throws if Hertz's law does not hold for a force, or its width leaves the flanks.
 void SystemDynamics::require_range(const Position& position, const Eigen::Ref<const VectorXd>& force) const {
   for (int k = 0; k < position.size(); ++k) {
     const auto at = static_cast<size_t>(k);
+    if (force[k] <= position.most[at]) continue;
     const HertzLine& law = position.law[at];
     const double width = law.width(force[k]);
-    if (force[k] <= law.largest_force() && width <= position.facing[at]) continue;
     fail_outside_range(Failure::numerical, "a pair of teeth of ",
                        mesh_name(system_.layout, static_cast<size_t>(position.contact[at].mesh)), " carries ",
                        force[k], " N on a width of ", width * 1e3, " mm; its flanks face each other over ",
@@ -68,34 +57,41 @@ void SystemDynamics::require_range(const Position& position, const Eigen::Ref<co
   }
 }
 
-// y -= weight h force, by coordinate.
-void SystemDynamics::push(const Position& position, int k, double force, const VectorXd& weight,
-                          VectorXd& y) const {
-  each_part(position, k, [&](Index first, const auto& h) {
-    y.segment(first, h.size()) -= force * weight.segment(first, h.size()).cwiseProduct(h);
-  });
+// y -= h force
+void SystemDynamics::push(const Position& position, int k, double force, VectorXd& y) const {
+  each_part(position, k, [&](Index first, const auto& h) { y.segment(first, h.size()) -= force * h; });
 }
 
-// fields += factor V S p
-void SystemDynamics::load(const Position& position, const VectorXd& p, double factor,
-                          VectorXd& fields) const {
-  for (int k = 0; k < position.size(); ++k)
+// fields += V S p
+void SystemDynamics::load(const Position& position, const VectorXd& p, VectorXd& fields) const {
+  for (int k = 0; k < position.size(); ++k) {
+    const Contact& contact = position.contact[static_cast<size_t>(k)];
     for (size_t s = 0; s < 2; ++s)
-      fields.segment<kFields>(position.contact[static_cast<size_t>(k)].load_at[s]) +=
-          (factor * p[k]) * position.field[s].col(k);
+      fields.segment<kFields>(contact.load_at[s]) += p[k] * field(position, contact, s);
+  }
 }
 
 VectorXd SystemDynamics::participation(const Position& position, int k) const {
   VectorXd out = VectorXd::Zero(coordinates_.size());
-  push(position, k, -1, VectorXd::Ones(out.size()), out);
+  push(position, k, -1, out);
   return out;
 }
 
 // (contact, contact) h diag(weight) h^T
 MatrixXd SystemDynamics::modal_compliance(const Position& position, const VectorXd& weight) const {
-  MatrixXd h(coordinates_.size(), position.size());
-  for (int k = 0; k < position.size(); ++k) h.col(k) = participation(position, k);
-  return h.transpose() * weight.asDiagonal() * h;
+  MatrixXd out = MatrixXd::Zero(position.size(), position.size());
+  for (size_t p = 0; p < part_.size(); ++p) {
+    const Rows& rows = position.rows[p];
+    const Part& part = part_[p];
+    const Eigen::Map<const MatrixXd, 0, Eigen::OuterStride<>> h(&stream_[rows.row], part.count, rows.contacts(),
+                                                               Eigen::OuterStride<>(part.length()));
+    const MatrixXd own = h.transpose() * weight.segment(part.first, part.count).asDiagonal() * h;
+    for (int k = 0; k < rows.contacts(); ++k)
+      for (int l = 0; l < rows.contacts(); ++l)
+        out(position.order[static_cast<size_t>(rows.begin + k)],
+            position.order[static_cast<size_t>(rows.begin + l)]) += own(k, l);
+  }
+  return out;
 }
 
 void SystemDynamics::set_speed(double mesh_frequency, int steps) {
@@ -109,27 +105,6 @@ void SystemDynamics::set_speed(double mesh_frequency, int steps) {
   propagate_by(1 / (mesh_frequency * steps));
   for (int i = 0; i <= steps_; ++i) close(positions_[static_cast<size_t>(i) * static_cast<size_t>(stride_)]);
   forces_.setZero(steps_ + 1, slots());
-}
-
-// Propagators of steps of `seconds`, and room for a state.
-void SystemDynamics::propagate_by(double seconds) {
-  step_ = seconds;
-  const Index n = coordinates_.size();
-  for (VectorXd* x : {&a11_, &a12_, &a21_, &a22_, &bq_, &bv_}) x->resize(n);
-  for (Index i = 0; i < n; ++i) {
-    const Propagator a = exact_propagator(coordinates_.frequency[i], coordinates_.damping[i], step_);
-    a11_[i] = a.a11, a12_[i] = a.a12, a21_[i] = a.a21, a22_[i] = a.a22, bq_[i] = a.bq, bv_[i] = a.bv;
-  }
-  relaxed_step_ = relaxation_step(relaxation_, step_);
-  for (VectorXd* x : {&z_, &v_, &force_, &mean_, &before_}) x->setZero(n);
-  for (VectorXd* x : {&relaxed_, &load_}) x->setZero(relaxed_size());
-  p_of_slot_.setZero(slots());
-}
-
-// Compliance of the contacts at the end of a step.
-void SystemDynamics::close(Position& position) const {
-  position.compliance = position.instantaneous_compliance + relaxed_step_.from_new * position.relaxed +
-                        modal_compliance(position, 0.5 * bq_);
 }
 
 // Elastic coordinates follow their force, z = (torque - h p) / w^2, so that they are compliances; rotations carry the load.
@@ -148,7 +123,7 @@ SystemEquilibrium SystemDynamics::equilibrium_at(int i, VectorXd* z) {
   require_range(position, out.p);
   if (!z) return out;
   *z = coordinates_.torque;
-  for (int k = 0; k < position.size(); ++k) push(position, k, out.p[k], VectorXd::Ones(z->size()), *z);
+  for (int k = 0; k < position.size(); ++k) push(position, k, out.p[k], *z);
   *z = z->cwiseProduct(flexibility);
   // x_b = r_b theta_b; unit modal mass, so the shares of a rotation are its own shape times the inertias.
   for (int c = 0; c < coordinates_.rigid; ++c)
@@ -174,62 +149,8 @@ SystemDynamics::State SystemDynamics::rest(int i) {
   state.p = VectorXd::Zero(slots());
   state.relaxed = VectorXd::Zero(relaxed_size());
   for (int k = 0; k < position.size(); ++k) state.p[position.contact[static_cast<size_t>(k)].slot] = at.p[k];
-  load(position, at.p, 1, state.relaxed);
+  load(position, at.p, state.relaxed);
   return state;
-}
-
-void SystemDynamics::take(const State& state, const Position& position) {
-  if (state.z.size() != coordinates_.size() || state.relaxed.size() != relaxed_size() ||
-      state.p.size() != slots())
-    fail(Failure::input, "the start state, of ", state.z.size(), " coordinates and ", state.p.size(),
-         " slots, is of another system or of other positions: here there are ", coordinates_.size(), " and ",
-         slots());
-  z_ = state.z;
-  v_ = state.v;
-  relaxed_ = state.relaxed;
-  p_of_slot_ = state.p;
-  force_ = coordinates_.torque;
-  before_.setOnes();
-  load_.setZero();
-  for (int k = 0; k < position.size(); ++k) {
-    p_[k] = state.p[position.contact[static_cast<size_t>(k)].slot];
-    if (p_[k] != 0) push(position, k, p_[k], before_, force_);
-  }
-  load(position, p_, 1, load_);
-}
-
-// Contact forces, from what the coordinates and relaxed loads are without them.
-void SystemDynamics::solve(const Position& position) {
-  const int n = position.size();
-  for (int k = 0; k < n; ++k) {
-    e_[k] = position.gap[k] - moved(position, k, z_) + read(position, k, relaxed_);
-    p_[k] = p_of_slot_[position.contact[static_cast<size_t>(k)].slot];
-  }
-  certificate_ = solve_line_contact(position.compliance, position.law, e_.head(n), p_.head(n), d_.head(n));
-  p_of_slot_.setZero();
-  for (int k = 0; k < n; ++k) p_of_slot_[position.contact[static_cast<size_t>(k)].slot] = p_[k];
-}
-
-void SystemDynamics::step(const Position& position) {
-  mean_ = 0.5 * (force_ + coordinates_.torque);
-  before_ = z_;
-  z_ = a11_.cwiseProduct(before_) + a12_.cwiseProduct(v_) + bq_.cwiseProduct(mean_);
-  v_ = a21_.cwiseProduct(before_) + a22_.cwiseProduct(v_) + bv_.cwiseProduct(mean_);
-  relaxed_ = relaxed_step_.decay * relaxed_ + relaxed_step_.from_old * load_;
-  solve(position);
-  force_.setZero();
-  before_.setOnes();
-  load_.setZero();
-  for (int k = 0; k < position.size(); ++k)
-    if (p_[k] > 0) push(position, k, p_[k], before_, force_);
-  z_ += 0.5 * bq_.cwiseProduct(force_);
-  v_ += 0.5 * bv_.cwiseProduct(force_);
-  force_ += coordinates_.torque;
-  load(position, p_, 1, load_);
-  relaxed_ += relaxed_step_.from_new * load_;
-  if (coordinates_.rigid_pins)
-    rate_ = force_.array() - coordinates_.frequency.array().square() * z_.array() -
-            (coordinates_.damping.array() - motion_.damping.rayleigh_mass) * v_.array();
 }
 
 // Forces on bearings and pins, from the sums of the contact forces that stand in their places.
@@ -298,27 +219,6 @@ bool SystemDynamics::record(const Position& position, int sample, Period& period
   return inside;
 }
 
-// Teeth get the names that they have in the next mesh period: pair i becomes i + 1.
-void SystemDynamics::rename() {
-  for (VectorXd* y : {&z_, &v_})
-    for (const StepSystem::Turn& turn : coordinates_.turns) {
-      if (turn.sine < 0) {
-        (*y)[turn.cosine] *= -1;
-        continue;
-      }
-      const double cosine = (*y)[turn.cosine], sine = (*y)[turn.sine];
-      (*y)[turn.cosine] = turn.c * cosine + turn.s * sine;
-      (*y)[turn.sine] = turn.c * sine - turn.s * cosine;
-    }
-  const auto shift = [&](double* of, int size) {  // blocks of `size` numbers, the slots of one mesh
-    std::copy_backward(of, of + (pairs() - 1) * size, of + pairs() * size);
-    std::fill(of, of + size, 0.0);
-  };
-  for (int m = 0; m < meshes(); ++m) shift(&p_of_slot_[m * pairs()], 1);
-  for (int block = 0; block * pairs() * kFields < relaxed_size(); ++block)
-    shift(&relaxed_[block * pairs() * kFields], kFields);
-}
-
 void SystemDynamics::resize(Period& period, int steps) const {
   for (MatrixXd* x :
        {&period.transmission_error, &period.mesh_deflection, &period.mesh_force, &period.largest_tooth_force})
@@ -353,8 +253,8 @@ bool SystemDynamics::integrate(State& state, Period& period, SystemEnergyBalance
   }
   rename();
   if (balance) record_of.finish();
-  state.z = z_;
-  state.v = v_;
+  state.z = z_.head(coordinates_.size());
+  state.v = v_.head(coordinates_.size());
   state.relaxed = relaxed_;
   state.p = p_of_slot_;
   state.period = (state.period + 1) % hunting_;
@@ -375,13 +275,13 @@ bool SystemDynamics::integrate_fixed(int i, State& state, double seconds, int st
       step(position);
       require_range(position, p_.head(position.size()));
       if (!record(position, 0, period)) return false;
-      watch(z_, p_of_slot_);
+      watch(z_.head(coordinates_.size()), p_of_slot_);
     }
   } catch (const Error& error) {
     fail_as(error, "in free motion at mesh phase ",
             static_cast<double>(i) / static_cast<double>(positions_.size() - 1), " ", error.what());
   }
-  state = {z_, v_, relaxed_, p_of_slot_, state.period};
+  state = {z_.head(coordinates_.size()), v_.head(coordinates_.size()), relaxed_, p_of_slot_, state.period};
   return true;
 }
 

@@ -16,13 +16,18 @@
 // 64 pairs are in reach and no energy balance is kept.
 #pragma once
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <functional>
-#include <utility>
+#include <memory_resource>
 #include <vector>
 
+#include "base/huge_pages.h"
+#include "base/matrix.h"
+#include "contact/lanes.h"
 #include "dynamics/fixed_phase_motion.h"
 #include "dynamics/newmark.h"
+#include "dynamics/system_contact.h"
 #include "dynamics/system_coordinates.h"
 #include "dynamics/system_energy.h"
 #include "system/rigid_system.h"
@@ -96,7 +101,7 @@ class SystemDynamics {
   int most_contacts() const { return most_contacts_; }
   const Eigen::VectorXd& mean_load() const { return load_of_mesh_; }  // (mesh) N
   // (step + 1, slot) N: forces at the ends of the steps of the period integrated last, in its names; row 0: at its start.
-  const Eigen::MatrixXd& forces() const { return forces_; }
+  const MatrixRM& forces() const { return forces_; }
   // J: what the coordinates of a state store, kinetic energy included, rigid rotations as at the axis frequency; of a difference
   // of states a squared distance. Relaxed loads are not in it.
   double energy(const State& difference) const;
@@ -114,6 +119,11 @@ class SystemDynamics {
  private:
   friend class SystemPeriodMap;
   friend class SystemEnergyRecord;
+  // Coordinates side by side of which a contact moves all or none: the rotations, a body's own, a group's.
+  struct Part {
+    int first = 0, count = 0;
+    int length() const { return padded(count); }  // of a row
+  };
   struct Contact {
     int mesh = 0, slot = 0;         // slot of all
     std::array<int, 2> body{};      // [side]
@@ -121,22 +131,39 @@ class SystemDynamics {
     std::array<double, 2> lever{};  // [side] closing per r theta of its body
     Vec2 normal = Vec2::Zero();     // from the first side's flank to the second's
     double carrier_lever = 0;       // closing per r theta of the carrier that carries one of the bodies
-    int group = -1;                 // of coordinates, in which a side's body moves; -1: none
+    std::array<int, 4> part{};      // rotations, those of both sides' bodies, a group or -1
+    std::array<int, 4> in_part{};   // number among the contacts of the part
+  };
+  // Pairs of a mesh outside which neither side has a relaxed load: first to last - 1, in slots of the mesh.
+  struct Live {
+    int first = 0, last = 0;
+    Live hull(const Live& other) const {
+      if (last <= first) return other;
+      if (other.last <= other.first) return *this;
+      return {std::min(first, other.first), std::max(last, other.last)};
+    }
+  };
+  // What a step reads of a part, one after the other in stream_: places, and the contacts from `begin` to `end` in Position::order.
+  struct Rows {
+    int begin = 0, end = 0;
+    size_t row = 0;      // (contact, coordinate in whole lanes): h
+    size_t field = 0;    // of a body: (contact, field): V^T S^T
+    size_t reading = 0;  // of a body: (slot of the body, contact, field) m N-1: W^T
+    int contacts() const { return end - begin; }
   };
   struct Position {
     std::vector<Contact> contact;
-    std::vector<HertzLine> law;              // (contact)
-    std::vector<double> facing;              // (contact) m: width over which its flanks face each other
-    Eigen::VectorXd gap;                     // (contact) m
-    Eigen::MatrixXd rigid;                   // (rigid rotation, contact): h
-    std::array<Eigen::MatrixXd, 2> elastic;  // [side] (coordinate of its body, contact): h
-    Eigen::MatrixXd grouped;                 // (coordinate of its group, contact): h
-    std::array<Eigen::MatrixXd, 2> field;    // [side] (field, contact): V^T S^T
-    std::array<Eigen::MatrixXd, 2> reading;  // [side] (relaxed load of its body, contact) m N-1: W^T
+    std::vector<HertzLine> law;  // (contact)
+    std::vector<double> facing;  // (contact) m: width over which its flanks face each other
+    std::vector<double> most;    // (contact) N: neither Hertz's law nor the flanks hold beyond it
+    Eigen::VectorXd gap;         // (contact) m
+    std::vector<Rows> rows;      // [part]
+    std::vector<int> order;      // contacts of all parts, one part after the other
     Eigen::MatrixXd instantaneous_compliance, relaxed;  // (contact, contact) m N-1: A, and W V S
-    Eigen::MatrixXd compliance;                         // (contact, contact) m N-1: of a step at the speed
-    Eigen::MatrixXd drift;                              // (null vector, contact): of forces
-    std::vector<double> next_gap, lost_gap;             // (mesh) m, see PairsInReach
+    Eigen::MatrixXd compliance;              // (contact in whole lanes, contact) m N-1: of a step at the speed
+    Eigen::MatrixXd drift;                   // (null vector, contact): of forces
+    std::vector<double> next_gap, lost_gap;  // (mesh) m, see PairsInReach
+    FollowedContact followed;
     int size() const { return static_cast<int>(contact.size()); }
   };
   SystemPosition positioned(int i) const;
@@ -144,46 +171,83 @@ class SystemDynamics {
   void set_hunting_gaps(const std::vector<SystemPosition>& placed);
   void put_gap(int position, int period);  // of its mesh period
   void find_slots(const std::vector<SystemPosition>& placed);
-  std::pair<int, int> largest_body() const;
-  int largest_group() const;
+  void list_parts();
+  double numbers(const std::vector<SystemPosition>& placed) const;
   void couple();
   Position filled(const SystemPosition& at, int shift);
+  void put_contacts(const SystemPosition& at, int shift, Position& position) const;
+  void put_rows(Position& position);
+  size_t place(int numbers);
   void relate(Position& position, const SystemPosition& at) const;
   Eigen::MatrixXd residual(int b, const ElasticGear& gear, const ToothFlank& read,
                            const ToothFlank& loaded) const;
   Eigen::MatrixXd modal_compliance(const Position& position, const Eigen::VectorXd& weight) const;
   Eigen::VectorXd participation(const Position& position,
                                 int k) const;  // (coordinate) h of contact k, in full
+  using Row = Eigen::Map<const Eigen::VectorXd>;
+  using FieldRow = Eigen::Map<const Eigen::Matrix<double, kFields, 1>>;
+  size_t row_place(const Position& position, const Contact& contact, size_t which) const {
+    const auto p = static_cast<size_t>(contact.part[which]);
+    return position.rows[p].row + static_cast<size_t>(contact.in_part[which] * part_[p].length());
+  }
   // visit(first, h): h of contact k by what coordinates it moves, from number `first` on.
   template <class Visit>
   void each_part(const Position& position, int k, const Visit& visit) const {
     const Contact& contact = position.contact[static_cast<size_t>(k)];
-    visit(Eigen::Index{0}, position.rigid.col(k).head(coordinates_.rigid));
-    for (size_t s = 0; s < 2; ++s) {
-      const SystemCoordinates::Share& own = coordinates_.body[static_cast<size_t>(contact.body[s])];
-      visit(static_cast<Eigen::Index>(own.first), position.elastic[s].col(k).head(own.count));
+    for (size_t which = 0; which < 4; ++which) {
+      if (contact.part[which] < 0) continue;
+      const Part& part = part_[static_cast<size_t>(contact.part[which])];
+      visit(static_cast<Eigen::Index>(part.first), Row(&stream_[row_place(position, contact, which)], part.count));
     }
-    if (contact.group < 0) return;
-    const SystemCoordinates::Group& group = coordinates_.group[static_cast<size_t>(contact.group)];
-    visit(static_cast<Eigen::Index>(group.first), position.grouped.col(k).head(group.count));
+  }
+  const Rows& rows_of(const Position& position, const Contact& contact, size_t side) const {
+    return position.rows[static_cast<size_t>(contact.part[1 + side])];
+  }
+  // V^T S^T of a side.
+  FieldRow field(const Position& position, const Contact& contact, size_t side) const {
+    return FieldRow(
+        &stream_[rows_of(position, contact, side).field + static_cast<size_t>(contact.in_part[1 + side] * kFields)]);
+  }
+  // W^T of a side, of the relaxed loads of slot `slot` of its body.
+  FieldRow reading(const Position& position, const Contact& contact, size_t side, int slot) const {
+    const Rows& rows = rows_of(position, contact, side);
+    return FieldRow(
+        &stream_[rows.reading +
+                 static_cast<size_t>((slot * rows.contacts() + contact.in_part[1 + side]) * kFields)]);
   }
   double moved(const Position& position, int k, const Eigen::VectorXd& z) const;
-  double read(const Position& position, int k, const Eigen::VectorXd& relaxed) const;
-  void push(const Position& position, int k, double force, const Eigen::VectorXd& weight,
-            Eigen::VectorXd& y) const;
-  void load(const Position& position, const Eigen::VectorXd& p, double factor, Eigen::VectorXd& fields) const;
+  void push(const Position& position, int k, double force, Eigen::VectorXd& y) const;
+  void load(const Position& position, const Eigen::VectorXd& p, Eigen::VectorXd& fields) const;
   void propagate_by(double seconds);
   void close(Position& position) const;
   void resize(Period& period, int steps) const;
   void take(const State& state, const Position& position);
-  void step(const Position& position);
-  void solve(const Position& position);
+  void step(Position& position);
+  void propagate();
+  void read_gaps(const Position& position);
+  void solve(Position& position);
+  void push_all(const Position& position);
+  void load_all(const Position& position);
+  void find_live();
+  void keep_live();
+  void drop(int m, const Live& before, const Live& now);
+  // visit(relaxed, load, count): fields of the live slots of a mesh and a side.
+  template <class Visit>
+  void each_live(const Visit& visit) {
+    for (size_t b = 0; b < meshes_of_.size(); ++b)
+      for (size_t place = 0; place < meshes_of_[b].size(); ++place) {
+        const Live& live = live_[static_cast<size_t>(meshes_of_[b][place])];
+        const int at = relaxed_first_[b] + (static_cast<int>(place) * pairs() + live.first) * kFields;
+        if (live.last > live.first) visit(&relaxed_[at], &load_[at], (live.last - live.first) * kFields);
+      }
+  }
   bool record(const Position& position, int sample, Period& period) const;
   void record_bearings(int sample, Period& period) const;
   void rename();
   const Position& at(int step) const {  // of the speed's steps
     return positions_[static_cast<size_t>(step) * static_cast<size_t>(stride_)];
   }
+  Position& at(int step) { return positions_[static_cast<size_t>(step) * static_cast<size_t>(stride_)]; }
   SystemEquilibrium equilibrium_at(int i, Eigen::VectorXd* z);
 
   const SystemModel& system_;
@@ -209,17 +273,25 @@ class SystemDynamics {
   std::vector<Eigen::MatrixXd> coupling_;  // [body] (relaxed load, relaxed load) m N-1: C
   int most_contacts_ = 0;
 
+  std::vector<Part> part_;  // rotations, of each body, of each group
+  std::pmr::vector<double> stream_{&huge_pages()};
+
   double mesh_frequency_ = 0, step_ = 0;
   int steps_ = 0, stride_ = 1;
-  Eigen::VectorXd a11_, a12_, a21_, a22_, bq_, bv_;  // (coordinate)
+  // (coordinate, and zeros up to whole lanes of the last part); half_bq_, half_bv_: half of bq_, bv_.
+  Eigen::VectorXd a11_, a12_, a21_, a22_, bq_, bv_, half_bq_, half_bv_, torque_;
   Relaxation relaxed_step_{};
 
-  // The state of a step.
-  Eigen::VectorXd z_, v_, force_, relaxed_, load_, mean_, before_;
+  // The state of a step; coordinates as those of the propagators.
+  Eigen::VectorXd z_, v_, force_, relaxed_, load_;
+  // [mesh]; (slot) N: as large as relaxed loads can be there, below a share of the load of the meshes they are dropped.
+  std::vector<Live> live_;
+  Eigen::VectorXd remembered_;
+  std::vector<double> sums_;  // (contact, lane)
   Eigen::VectorXd rate_;  // (coordinate) z" + mu z', mu the damping by mass; of trains with rigid pins
   Eigen::VectorXd e_, p_, d_, p_of_slot_;  // e_, p_, d_: (contact)
   Certificate certificate_;
-  Eigen::MatrixXd forces_;
+  MatrixRM forces_;
 };
 
 }  // namespace whine

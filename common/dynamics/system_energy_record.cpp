@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/lanes.h"
 #include "dynamics/step_work.h"
 
 namespace whine {
@@ -53,25 +54,29 @@ double SystemEnergyRecord::field_at(const SystemDynamics::Position& position, in
   const SystemDynamics::Contact& contact = position.contact[static_cast<size_t>(k)];
   double out = 0;
   for (size_t s = 0; s < 2; ++s)
-    out += position.field[s].col(k).dot(field.segment<SystemDynamics::kFields>(contact.load_at[s]));
+    out += of_.field(position, contact, s).dot(field.segment<SystemDynamics::kFields>(contact.load_at[s]));
   return out;
 }
 
 void SystemEnergyRecord::fill(Instant& now, const SystemDynamics::Position& position) const {
   const int n = position.size();
   now.position = &position;
-  now.z = of_.z_;
-  now.v = of_.v_;
-  now.force = of_.force_;
+  now.z = of_.z_.head(of_.coordinates_.size());
+  now.v = of_.v_.head(of_.coordinates_.size());
+  now.force = of_.force_.head(of_.coordinates_.size());
   now.relaxed = of_.relaxed_;
   now.load = of_.load_;
-  now.field.resize(of_.relaxed_size());
-  now.moved.resize(of_.relaxed_size());
-  for (size_t b = 0; b < of_.coupling_.size(); ++b) {
-    const int first = of_.relaxed_first_[b], size = of_.relaxed_first_[b + 1] - first;
-    now.field.segment(first, size) = of_.coupling_[b] * now.relaxed.segment(first, size);
-    now.moved.segment(first, size) = of_.coupling_[b] * now.load.segment(first, size);
+  now.live = of_.live_;
+  now.rows.assign(now.live.size(), {});
+  now.field.setZero(of_.relaxed_size());
+  now.moved.setZero(of_.relaxed_size());
+  std::vector<SystemDynamics::Live> wanted = now.live;
+  for (const SystemDynamics::Contact& contact : position.contact) {
+    const int pair = contact.slot - contact.mesh * of_.pairs();
+    SystemDynamics::Live& in = wanted[static_cast<size_t>(contact.mesh)];
+    in = in.hull({pair, pair + 1});
   }
+  displace(now, wanted);
   now.p = of_.p_.head(n);
   now.local = position.instantaneous_compliance * now.p;
   now.stored = 0.5 * now.p.dot(now.local);
@@ -82,6 +87,35 @@ void SystemEnergyRecord::fill(Instant& now, const SystemDynamics::Position& posi
     now.d[k] = position.gap[k] - of_.moved(position, k, now.z) + field_at(position, k, now.field) +
                now.local[k] + step_work::at(law, now.p[k]).indentation;
   }
+}
+
+// What relaxed and present loads move, in further slots.
+void SystemEnergyRecord::displace(Instant& at, const std::vector<SystemDynamics::Live>& wanted) const {
+  constexpr int kFields = SystemDynamics::kFields;
+  for (size_t b = 0; b < of_.coupling_.size(); ++b) {
+    const Eigen::MatrixXd& c = of_.coupling_[b];
+    const auto first_of = [&](size_t place, int pair) {
+      return (static_cast<Index>(place) * of_.pairs() + pair) * kFields;
+    };
+    for (size_t place = 0; place < of_.meshes_of_[b].size(); ++place) {
+      const auto m = static_cast<size_t>(of_.meshes_of_[b][place]);
+      const SystemDynamics::Live known = at.rows[m], all = known.hull(wanted[m]);
+      for (int pair = all.first; pair < all.last; ++pair) {
+        if (pair >= known.first && pair < known.last) continue;
+        const Index row = first_of(place, pair), in_all = of_.relaxed_first_[b] + row;
+        for (size_t from = 0; from < of_.meshes_of_[b].size(); ++from) {
+          const SystemDynamics::Live& live = at.live[static_cast<size_t>(of_.meshes_of_[b][from])];
+          const Index column = first_of(from, live.first), loads = of_.relaxed_first_[b] + column;
+          const int count = (live.last - live.first) * kFields;
+          if (count == 0) continue;
+          const auto stride = static_cast<int>(c.rows());
+          add_columns_of_12(&at.field[in_all], &c(row, column), stride, &at.relaxed[loads], count);
+          add_columns_of_12(&at.moved[in_all], &c(row, column), stride, &at.load[loads], count);
+        }
+      }
+    }
+  }
+  for (size_t m = 0; m < wanted.size(); ++m) at.rows[m] = at.rows[m].hull(wanted[m]);
 }
 
 void SystemEnergyRecord::start(const SystemDynamics::Position& position) {
@@ -204,6 +238,8 @@ double SystemEnergyRecord::contact(const Instant& a, const Instant& b) {
 void SystemEnergyRecord::step(const SystemDynamics::Position& position) {
   std::swap(before_, now_);
   fill(now_, position);
+  displace(now_, before_.rows);
+  displace(before_, now_.rows);
   sum_ += modes(before_, now_) + relaxation(before_, now_) - contact(before_, now_);
   const double local = now_.stored - before_.stored;
   balance_->local += local;

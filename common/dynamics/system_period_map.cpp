@@ -100,15 +100,17 @@ MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
       });
       for (size_t s = 0; s < 2; ++s)
         load.middleRows<SystemDynamics::kFields>(contact.load_at[s]) +=
-            position.field[s].col(k) * p.row(contact.slot);
+            of.field(position, contact, s) * p.row(contact.slot);
     }
   };
+  const auto a11 = of.a11_.head(n), a12 = of.a12_.head(n), a21 = of.a21_.head(n), a22 = of.a22_.head(n),
+             bq = of.half_bq_.head(n), bv = of.half_bv_.head(n);
   spread(of.at(0));
   for (int i = 1; i <= steps_; ++i) {
     const SystemDynamics::Position& position = of.at(i);
     const MatrixXd old = z;
-    z = of.a11_.asDiagonal() * old + of.a12_.asDiagonal() * v + (0.5 * of.bq_).asDiagonal() * force;
-    v = (of.a21_.asDiagonal() * old + of.a22_.asDiagonal() * v + (0.5 * of.bv_).asDiagonal() * force).eval();
+    z = a11.asDiagonal() * old + a12.asDiagonal() * v + bq.asDiagonal() * force;
+    v = (a21.asDiagonal() * old + a22.asDiagonal() * v + bv.asDiagonal() * force).eval();
     relaxed = of.relaxed_step_.decay * relaxed + of.relaxed_step_.from_old * load;
     std::vector<Index> active;
     for (int k = 0; k < position.size(); ++k)
@@ -125,8 +127,10 @@ MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
       });
       for (size_t s = 0; s < 2; ++s) {
         const auto b = static_cast<size_t>(contact.body[s]);
-        const Index first = of.relaxed_first_[b], count = of.relaxed_first_[b + 1] - first;
-        e.row(row) += position.reading[s].col(k).head(count).transpose() * relaxed.middleRows(first, count);
+        for (int at = of.relaxed_first_[b], slot = 0; at < of.relaxed_first_[b + 1];
+             at += SystemDynamics::kFields, ++slot)
+          e.row(row) += of.reading(position, contact, s, slot).transpose() *
+                        relaxed.middleRows<SystemDynamics::kFields>(at);
       }
     }
     p.setZero();
@@ -136,25 +140,25 @@ MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
         p.row(position.contact[static_cast<size_t>(active[a])].slot) = forces.row(static_cast<Index>(a));
     }
     spread(position);
-    z += (0.5 * of.bq_).asDiagonal() * force;
-    v += (0.5 * of.bv_).asDiagonal() * force;
+    z += bq.asDiagonal() * force;
+    v += bv.asDiagonal() * force;
     relaxed += of.relaxed_step_.from_new * load;
   }
   MatrixXd out(directions.rows(), many);
   for (Index c = 0; c < many; ++c) {
-    of.z_ = z.col(c);
-    of.v_ = v.col(c);
+    of.z_.head(n) = z.col(c);
+    of.v_.head(n) = v.col(c);
     of.relaxed_ = relaxed.col(c);
     of.p_of_slot_ = p.col(c);
     of.rename();
-    out.col(c) = flat({of.z_, of.v_, of.relaxed_, of.p_of_slot_});
+    out.col(c) = flat({of.z_.head(n), of.v_.head(n), of.relaxed_, of.p_of_slot_});
   }
   return out;
 }
 
 std::vector<ContactEvent> SystemPeriodMap::events() const {
   std::vector<ContactEvent> out;  // in the names of this period, its end included
-  const MatrixXd& force = dynamics_.forces();
+  const MatrixRM& force = dynamics_.forces();
   for (int i = 1; i <= steps_; ++i)
     for (Index slot = 0; slot < force.cols(); ++slot) {
       const double before = force(i - 1, slot), now = force(i, slot);

@@ -146,20 +146,86 @@ void SystemDynamics::couple() {
   }
 }
 
-// Most coordinates and most relaxed loads of a body.
-std::pair<int, int> SystemDynamics::largest_body() const {
-  int most = 0, most_loads = 0;
-  for (size_t b = 0; b < system_.body.size(); ++b) {
-    most = std::max(most, coordinates_.body[b].count);
-    most_loads = std::max(most_loads, relaxed_first_[b + 1] - relaxed_first_[b]);
-  }
-  return {most, most_loads};
+void SystemDynamics::list_parts() {
+  part_ = {{0, coordinates_.rigid}};
+  for (size_t b = 0; b < system_.body.size(); ++b)
+    part_.push_back({coordinates_.body[b].first, coordinates_.body[b].count});
+  for (const SystemCoordinates::Group& group : coordinates_.group) part_.push_back({group.first, group.count});
 }
 
-int SystemDynamics::largest_group() const {
-  int most = 0;
-  for (const SystemCoordinates::Group& group : coordinates_.group) most = std::max(most, group.count);
-  return most;
+// Of stream_, at most: one row in each part of a contact and what relaxed loads of its bodies move it by.
+double SystemDynamics::numbers(const std::vector<SystemPosition>& placed) const {
+  double most_group = 0, out = 0;
+  for (size_t p = 1 + system_.body.size(); p < part_.size(); ++p)
+    most_group = std::max<double>(most_group, part_[p].length());
+  const auto count = [&](const SystemPosition& at) {
+    for (const ContactSegment& segment : at.segment)
+      for (const System::Side& side : system_.layout.meshes[static_cast<size_t>(segment.mesh)].side) {
+        const auto b = static_cast<size_t>(side.body);
+        out += part_[1 + b].length() + kFields + relaxed_first_[b + 1] - relaxed_first_[b];
+      }
+    out += static_cast<double>(at.segment.size()) * (part_[0].length() + most_group);
+  };
+  for (const SystemPosition& at : placed) count(at);
+  count(placed[0]);
+  return out;
+}
+
+size_t SystemDynamics::place(int numbers) {
+  const size_t out = stream_.size();
+  stream_.resize(out + static_cast<size_t>(padded(numbers)));
+  return out;
+}
+
+// Contacts in the order of the segments, and their order in the parts. shift: as filled().
+void SystemDynamics::put_contacts(const SystemPosition& at, int shift, Position& position) const {
+  for (const ContactSegment& segment : at.segment) {
+    const auto m = static_cast<size_t>(segment.mesh);
+    const auto k = static_cast<Index>(position.contact.size());
+    Contact& contact = position.contact.emplace_back();
+    contact.mesh = segment.mesh;
+    contact.normal = segment.normal;
+    const int pair = segment.pair - mesh_instant(system_, segment.mesh, at.phase, 0).period - shift;
+    contact.slot = segment.mesh * pairs() + pair - first_;
+    contact.part = {0, 0, 0, -1};
+    for (size_t s = 0; s < 2; ++s) {
+      const int b = system_.layout.meshes[m].side[s].body;
+      const auto own = static_cast<size_t>(b);
+      const auto& list = meshes_of_[own];
+      const auto place = static_cast<int>(std::find(list.begin(), list.end(), segment.mesh) - list.begin());
+      contact.body[s] = b;
+      contact.lever[s] = at.displacement.rotation(k, b);
+      contact.load_at[s] = relaxed_first_[own] + (place * pairs() + pair - first_) * kFields;
+      contact.part[1 + s] = 1 + b;
+      if (const int group = coordinates_.body[own].group; group >= 0)
+        contact.part[3] = 1 + static_cast<int>(system_.body.size()) + group;
+    }
+    if (const CarriedMesh& on = carried_[m]; on.carrier >= 0)
+      contact.carrier_lever = at.displacement.rotation(k, on.carrier);
+  }
+  position.rows.resize(part_.size());
+  for (size_t p = 0; p < part_.size(); ++p) {
+    Rows& rows = position.rows[p];
+    rows.begin = static_cast<int>(position.order.size());
+    for (size_t k = 0; k < position.contact.size(); ++k)
+      for (size_t which = 0; which < 4; ++which) {
+        Contact& contact = position.contact[k];
+        if (contact.part[which] != static_cast<int>(p)) continue;
+        contact.in_part[which] = static_cast<int>(position.order.size()) - rows.begin;
+        position.order.push_back(static_cast<int>(k));
+      }
+    rows.end = static_cast<int>(position.order.size());
+  }
+}
+
+void SystemDynamics::put_rows(Position& position) {
+  for (size_t p = 0; p < part_.size(); ++p)
+    position.rows[p].row = place(position.rows[p].contacts() * part_[p].length());
+  for (size_t b = 0; b < system_.body.size(); ++b) {
+    Rows& rows = position.rows[1 + b];
+    rows.field = place(rows.contacts() * kFields);
+    rows.reading = place(rows.contacts() * (relaxed_first_[b + 1] - relaxed_first_[b]));
+  }
 }
 
 // shift: 1 at the end of the mesh period, whose teeth are then one further than where `at` has them.
@@ -167,74 +233,70 @@ SystemDynamics::Position SystemDynamics::filled(const SystemPosition& at, int sh
   Position out;
   const auto n = static_cast<Index>(at.segment.size());
   const double phase = at.phase + shift;
-  const auto [most, most_loads] = largest_body();
   out.gap = at.gap;
-  out.rigid = MatrixXd::Zero(coordinates_.rigid, n);
   out.drift = MatrixXd::Zero(coordinates_.rolling.cols(), n);
-  out.grouped = MatrixXd::Zero(largest_group(), n);
-  for (size_t s = 0; s < 2; ++s) {
-    out.elastic[s] = MatrixXd::Zero(most, n);
-    out.field[s] = MatrixXd::Zero(kFields, n);
-    out.reading[s] = MatrixXd::Zero(most_loads, n);
-  }
   for (const MeshPosition& mesh : at.mesh) {
     out.law.insert(out.law.end(), mesh.law.begin(), mesh.law.end());
     for (const PairStrips& pair : mesh.pairs) out.facing.push_back(pair.contact.x_max - pair.contact.x_min);
     out.next_gap.push_back(mesh.next_corner_gap);
     out.lost_gap.push_back(mesh.lost_corner_gap);
   }
+  for (size_t k = 0; k < out.law.size(); ++k)
+    out.most.push_back(std::min(out.law[k].largest_force(), out.law[k].force(out.facing[k])));
+  put_contacts(at, shift, out);
+  put_rows(out);
   for (Index k = 0; k < n; ++k) {
     const ContactSegment& segment = at.segment[static_cast<size_t>(k)];
     const auto m = static_cast<size_t>(segment.mesh);
-    Contact contact;
-    contact.mesh = segment.mesh;
-    contact.normal = segment.normal;
-    const int pair = segment.pair - mesh_instant(system_, segment.mesh, at.phase, 0).period - shift;
-    contact.slot = segment.mesh * pairs() + pair - first_;
+    const Contact& contact = out.contact[static_cast<size_t>(k)];
     const Index node = k - at.first_strip[m];
+    const auto row = [&](size_t which) {
+      return Eigen::Map<VectorXd>(&stream_[row_place(out, contact, which)],
+                                  part_[static_cast<size_t>(contact.part[which])].count);
+    };
+    auto rigid = row(0);
     for (size_t s = 0; s < 2; ++s) {
-      const int b = system_.layout.meshes[m].side[s].body;
+      const int b = contact.body[s];
       const auto own = static_cast<size_t>(b);
       const SystemCoordinates::Share& share = coordinates_.body[own];
-      contact.body[s] = b;
-      contact.lever[s] = at.displacement.rotation(k, b);
       const double arm = contact.lever[s] * system_.base_radius(b);
-      out.rigid.col(k) += arm * coordinates_.rotation.row(b).transpose();
+      rigid += arm * coordinates_.rotation.row(b).transpose();
       out.drift.col(k) += contact.lever[s] * coordinates_.rolling.row(b).transpose();
       const RowVectorXd weights = at.displacement.flank[m][s].row(node);
       const auto part =
           coordinates_.participation(system_, b, flank_of(system_, segment, s, -shift), phase, weights,
                                      closing_sign(static_cast<int>(s)) * segment.normal);
-      out.elastic[s].col(k).head(share.count) = part.own;
-      if (share.group >= 0) {
-        contact.group = share.group;
-        out.grouped.col(k).head(part.group.size()) = part.group;
-      }
-      out.elastic[s].col(k).head(share.torsional) += arm * share.hub;
-      const auto& list = meshes_of_[own];
-      const auto place = static_cast<int>(std::find(list.begin(), list.end(), segment.mesh) - list.begin());
-      const int local = (place * pairs() + pair - first_) * kFields;
-      contact.load_at[s] = relaxed_first_[own] + local;
-      out.field[s].col(k) = fields_[own].transpose() * weights.transpose();
+      auto elastic = row(1 + s);
+      elastic = part.own;
+      elastic.head(share.torsional) += arm * share.hub;
+      if (share.group >= 0) row(3) = part.group;
+      const VectorXd field = fields_[own].transpose() * weights.transpose();
       const MatrixXd& c = coupling_[own];
-      out.reading[s].col(k).head(c.rows()) = c.middleCols(local, kFields) * out.field[s].col(k);
+      const VectorXd reading =
+          c.middleCols(contact.load_at[s] - relaxed_first_[own], field.size()) * field;
+      const auto put = [&](const FieldRow& to, const double* from) {
+        std::copy_n(from, kFields, &stream_[static_cast<size_t>(to.data() - stream_.data())]);
+      };
+      put(this->field(out, contact, s), field.data());
+      for (int slot = 0; slot * kFields < c.rows(); ++slot)
+        put(this->reading(out, contact, s, slot), reading.data() + slot * kFields);
     }
     if (const CarriedMesh& on = carried_[m]; on.carrier >= 0) {
-      contact.carrier_lever = at.displacement.rotation(k, on.carrier);
-      out.rigid.col(k) += contact.carrier_lever * radius_[static_cast<size_t>(on.carrier)] *
-                          coordinates_.rotation.row(on.carrier).transpose();
+      rigid += contact.carrier_lever * radius_[static_cast<size_t>(on.carrier)] *
+               coordinates_.rotation.row(on.carrier).transpose();
       out.drift.col(k) += contact.carrier_lever * coordinates_.rolling.row(on.carrier).transpose();
     }
-    out.contact.push_back(contact);
   }
   relate(out, at);
+  out.compliance = MatrixXd::Zero(padded(static_cast<int>(n)), n);
+  out.followed.reserve(static_cast<int>(n));
   return out;
 }
 
 // What contacts move at each other by way of the bodies that they share.
 void SystemDynamics::relate(Position& position, const SystemPosition& at) const {
   const Index n = position.size();
-  position.instantaneous_compliance = position.relaxed = position.compliance = MatrixXd::Zero(n, n);
+  position.instantaneous_compliance = position.relaxed = MatrixXd::Zero(n, n);
   for (Index k = 0; k < n; ++k)
     for (Index l = 0; l < n; ++l)
       for (size_t s = 0; s < 2; ++s)
@@ -243,10 +305,8 @@ void SystemDynamics::relate(Position& position, const SystemPosition& at) const 
                         &loaded = position.contact[static_cast<size_t>(l)];
           if (read.body[s] != loaded.body[t]) continue;
           const int b = read.body[s], base = relaxed_first_[static_cast<size_t>(b)];
-          const double soft = position.reading[s]
-                                  .col(k)
-                                  .segment<kFields>(loaded.load_at[t] - base)
-                                  .dot(position.field[t].col(l));
+          const double soft =
+              reading(position, read, s, (loaded.load_at[t] - base) / kFields).dot(field(position, loaded, t));
           const auto weights = [&](const Contact& contact, size_t side, Index row) -> RowVectorXd {
             const auto m = static_cast<size_t>(contact.mesh);
             return at.displacement.flank[m][side].row(row - at.first_strip[m]);
@@ -312,16 +372,17 @@ void SystemDynamics::set_positions(const std::vector<double>& corner_gap, int st
   placed.reserve(static_cast<size_t>(steps));
   for (int i = 0; i < steps; ++i) placed.push_back(positioned(i));
   find_slots(placed);
+  list_parts();
   constexpr double kMostMemory = 12e9;  // bytes
-  const auto [most, most_loads] = largest_body();
-  const double numbers =
-      steps * static_cast<double>(most_contacts_) *
-      (2.0 * (most + most_loads + kFields) + largest_group() + coordinates_.rigid + 3.0 * most_contacts_);
+  const double in_stream = numbers(placed),
+               numbers = in_stream + 4.0 * steps * most_contacts_ * padded(most_contacts_);
   if (8 * numbers > kMostMemory)
     fail(Failure::input, "the positions of ", steps, " steps of a mesh period need ", 8e-9 * numbers,
          " GB, at most ", 1e-9 * kMostMemory,
          " are allowed; lower min_sample_rate_kHz or modes, or raise the lowest speed");
   log_memory(text("the positions of ", steps, " steps of a mesh period"), 8 * numbers);
+  stream_.clear();
+  stream_.reserve(static_cast<size_t>(in_stream) + 8 * part_.size() * static_cast<size_t>(steps + 1));
   couple();
   for (int i = 0; i < steps; ++i) {
     report_step("mesh positions", i, steps);
@@ -329,7 +390,8 @@ void SystemDynamics::set_positions(const std::vector<double>& corner_gap, int st
   }
   positions_.back() = filled(placed[0], 1);
   set_hunting_gaps(placed);
-  for (VectorXd* x : {&e_, &p_, &d_}) x->setZero(most_contacts_);
+  for (VectorXd* x : {&e_, &p_, &d_}) x->setZero(padded(most_contacts_));
+  sums_.assign(static_cast<size_t>(kLanes * padded(most_contacts_)), 0);
   steps_ = 0;
 }
 

@@ -1,0 +1,232 @@
+#include "dynamics/system_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "contact/line_contact.h"
+
+namespace whine {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kRoundOff = 16 * std::numeric_limits<double>::epsilon();
+constexpr int kMostLaws = 6;      // visits of the laws before a set is given up
+constexpr int kLawsToRenew = 3;   // from so many on the next visit starts from the solution of this one
+constexpr int kMostSets = 5;
+
+// y[0..rows) = start + sum over j of f[j] * column number[j] of c, and likewise of the sizes of the terms.
+template <class Columns>
+void add_forces(double* y, const double* start, const MatrixXd& c, const Columns& number, const double* f,
+                int count) {
+  const auto rows = static_cast<int>(c.rows());
+  for (int i = 0; i < rows; i += kLanes) {
+    Lanes even = lanes(start + i), odd{};
+    int j = 0;
+    for (; j + 2 <= count; j += 2) {
+      even += f[j] * lanes(c.data() + number[j] * c.rows() + i);
+      odd += f[j + 1] * lanes(c.data() + number[j + 1] * c.rows() + i);
+    }
+    if (j < count) even += f[j] * lanes(c.data() + number[j] * c.rows() + i);
+    lanes(y + i) = even + odd;
+  }
+}
+
+}  // namespace
+
+// All that is of one solution.
+struct FollowedContact::Work {
+  double f[kMost] = {};                       // N
+  double left[kMost] = {};                    // m: bound of what d of these forces differs from 0 by
+  double gap[kMostContacts] = {};             // m: d without the laws
+  int laws = 0;
+};
+
+void FollowedContact::reserve(int pairs) {
+  const int most = std::min(pairs, kMost);
+  inverse_.assign(static_cast<size_t>(padded(most)) * static_cast<size_t>(most), 0);
+}
+
+void FollowedContact::take(const Eigen::Ref<const VectorXd>& force) {
+  count_ = 0;
+  linear_ = false;
+  for (int i = 0; i < force.size(); ++i) {
+    if (!(force[i] > 0)) continue;
+    if (count_ == kMost || !std::isfinite(force[i])) {
+      count_ = -1;
+      return;
+    }
+    at_[count_] = force[i];
+    carrying_[count_++] = i;
+  }
+}
+
+// At at_: all that a Newton step from there needs but e. False where the tangent is not positive definite.
+bool FollowedContact::linearise(const MatrixXd& c, std::span<const HertzLine> law) {
+  const int apart = stride();
+  std::fill_n(inverse_.begin(), apart * count_, 0.0);
+  for (int j = 0; j < count_; ++j) {
+    const double* column = c.data() + carrying_[j] * c.rows();
+    for (int i = 0; i < count_; ++i) inverse_[static_cast<size_t>(j * apart + i)] = column[carrying_[i]];
+  }
+  for (int i = 0; i < count_; ++i) {
+    const HertzLine::Point own = law[static_cast<size_t>(carrying_[i])].at(at_[i]);
+    d_[i] = own.indentation;
+    size_[i] = std::abs(own.indentation);
+    slope_[i] = own.slope;
+    for (int j = 0; j < count_; ++j) {
+      const double shared = inverse_[static_cast<size_t>(j * apart + i)] * at_[j];
+      d_[i] += shared;
+      size_[i] += std::abs(shared);
+    }
+    inverse_[static_cast<size_t>(i * apart + i)] += own.slope;
+  }
+  return linear_ = invert();
+}
+
+// Gauss and Jordan in place, without a choice of pivots, which positive definite matrices do not need.
+bool FollowedContact::invert() {
+  const int apart = stride();
+  double* m = inverse_.data();
+  for (int k = 0; k < count_; ++k) {
+    double* pivot = m + k * apart;
+    if (!(pivot[k] > 0)) return false;
+    const double unit = 1 / pivot[k];
+    pivot[k] = 1;
+    for (int i = 0; i < apart; i += kLanes) lanes(pivot + i) *= unit;
+    for (int j = 0; j < count_; ++j) {
+      if (j == k) continue;
+      double* column = m + j * apart;
+      const double factor = column[k];
+      column[k] = 0;
+      for (int i = 0; i < apart; i += kLanes) lanes(column + i) -= factor * lanes(pivot + i);
+    }
+  }
+  return true;
+}
+
+// Forces of the present set in work.f, and the bounds of their gaps. False where no force is left or they do not settle.
+bool FollowedContact::approach(const MatrixXd& c, std::span<const HertzLine> law, const VectorXd& e,
+                               Work& work) {
+  const int apart = stride();
+  double right[kMost] = {}, change[kMost] = {}, bent[kMost] = {}, stiffer[kMost] = {}, before[kMost];
+  std::copy_n(at_, count_, before);
+  for (int i = 0; i < count_; ++i) right[i] = d_[i] + e[carrying_[i]];
+  for (;; ++work.laws) {
+    std::fill_n(change, apart, 0.0);
+    std::fill_n(bent, apart, 0.0);
+    add_columns(change, inverse_.data(), apart, right, count_, 0, apart);
+    if (work.laws > 0) {
+      for (int i = 0; i < count_; ++i) right[i] = stiffer[i] * change[i];
+      add_columns(bent, inverse_.data(), apart, right, count_, 0, apart);
+    }
+    bool met = true, inside = true;
+    for (int i = 0; i < count_; ++i) {
+      const double moved = change[i] - bent[i], least = std::min(before[i], before[i] - moved);
+      work.f[i] = before[i] - moved;
+      inside = inside && work.f[i] > 0;
+      const double curved = 0.5 * law[static_cast<size_t>(carrying_[i])].coefficient() * moved * moved;
+      work.left[i] = std::abs(stiffer[i] * bent[i]) + curved / least;
+      met = met && work.left[i] <= kRoundOff * (size_[i] + std::abs(e[carrying_[i]]));
+    }
+    if (!inside) return false;
+    if (met) return true;
+    if (work.laws == kMostLaws) return false;
+    add_forces(work.gap, e.data(), c, carrying_, work.f, count_);
+    for (int i = 0; i < count_; ++i) {
+      const HertzLine::Point own = law[static_cast<size_t>(carrying_[i])].at(work.f[i]);
+      right[i] = work.gap[carrying_[i]] + own.indentation;
+      stiffer[i] = own.slope - slope_[i];
+      before[i] = work.f[i];
+    }
+  }
+}
+
+// True if no other pair comes in; otherwise the one that penetrates most joins the set.
+bool FollowedContact::look_at_others(const MatrixXd& c, std::span<const HertzLine> law, const VectorXd& e,
+                                     Work& work, Certificate& certificate) {
+  add_forces(work.gap, e.data(), c, carrying_, work.f, count_);
+  const auto n = static_cast<int>(law.size());
+  int incoming = -1, place = 0;
+  double least = 0, scale = 0, sum = 0;
+  certificate.least_gap = count_ < n ? std::numeric_limits<double>::infinity() : 0;
+  for (int i = 0, k = 0; i < n; ++i) {
+    scale = std::max(scale, std::abs(e[i]));
+    sum += work.gap[i];
+    if (k < count_ && carrying_[k] == i) {
+      ++k;
+      continue;
+    }
+    // Compliances between teeth are below those of their own, so the sizes of the terms are not summed where they do not matter.
+    double size = std::abs(e[i]);
+    if (!(work.gap[i] > kRoundOff * size))
+      for (int j = 0; j < count_; ++j) size += std::abs(c(i, carrying_[j])) * work.f[j];
+    certificate.degenerate += std::abs(work.gap[i]) <= kRoundOff * size;
+    certificate.least_gap = std::min(certificate.least_gap, work.gap[i]);
+    certificate.residual = std::max(certificate.residual, -work.gap[i]);
+    if (work.gap[i] < std::min(least, -kRoundOff * size)) least = work.gap[i], incoming = i, place = k;
+  }
+  if (!std::isfinite(sum) || (incoming >= 0 && count_ == kMost)) {
+    restart();
+    return false;
+  }
+  if (incoming < 0) {
+    certificate.least_force = count_ > 0 ? *std::min_element(work.f, work.f + count_) : 0;
+    for (int i = 0; i < count_; ++i) certificate.residual = std::max(certificate.residual, work.left[i]);
+    if (scale > 0) certificate.residual /= scale;
+    return true;
+  }
+  std::copy_backward(carrying_ + place, carrying_ + count_, carrying_ + count_ + 1);
+  std::copy(work.f, work.f + count_, at_);
+  std::copy_backward(at_ + place, at_ + count_, at_ + count_ + 1);
+  carrying_[place] = incoming;
+  constexpr double kSlope = 12;  // of a law, in its coefficient, under forces that teeth carry
+  at_[place] =
+      -least / (c(incoming, incoming) + kSlope * law[static_cast<size_t>(incoming)].coefficient());
+  ++count_;
+  return linear_ = false;
+}
+
+Certificate FollowedContact::solve(const MatrixXd& c, std::span<const HertzLine> law, const VectorXd& e,
+                                   Eigen::Ref<VectorXd> force, VectorXd& d) {
+  const auto n = static_cast<Eigen::Index>(law.size());
+  if (count_ < 0 && n <= kMostContacts) take(force);
+  Work work;
+  for (int set = 0; set < kMostSets && count_ >= 0; ++set) {
+    Certificate certificate;
+    certificate.factorisations = set;
+    if (!linear_ && !linearise(c, law)) break;
+    work.laws = 0;
+    if (!approach(c, law, e, work)) {
+      // Pairs whose force falls below zero leave; if they should not have, they come in again.
+      int kept = 0;
+      for (int i = 0; i < count_; ++i)
+        if (work.f[i] > 0) carrying_[kept] = carrying_[i], at_[kept++] = work.f[i];
+      linear_ = false;
+      if (kept == count_) break;
+      count_ = kept;
+      continue;
+    }
+    if (!look_at_others(c, law, e, work, certificate)) continue;
+    certificate.iterations = work.laws + 1;
+    force.setZero();
+    d = Eigen::Map<const VectorXd>(work.gap, d.size());
+    for (int i = 0; i < count_; ++i) {
+      force[carrying_[i]] = work.f[i];
+      d[carrying_[i]] = 0;
+    }
+    if (set > 0 || work.laws >= kLawsToRenew) {
+      std::copy(work.f, work.f + count_, at_);
+      linear_ = false;
+    }
+    return certificate;
+  }
+  const Certificate certificate = solve_line_contact(c.topRows(n), law, e.head(n), force, d.head(n));
+  if (n <= kMostContacts) take(force);
+  return certificate;
+}
+
+}  // namespace whine

@@ -1,0 +1,57 @@
+// Contact of many pairs of teeth at one position, followed from the forces that they carried there last.
+//
+// The problem of contact/line_contact.h: F >= 0, d = C F + law(F) + e >= 0, F . d = 0. Newton's step from `at` holds for every e, so a
+// visit whose forces are near those of the last one needs neither a law nor a factorisation. Further steps keep the inverse
+// T^-1 of `at` and take the change D of the laws' slopes in to the first order, T^-1 - T^-1 D T^-1; what this leaves of d is
+// D T^-1 D T^-1 r, the laws' curvature leaves at most C change^2 / (2 F) (hertz_line.h). A solution is accepted where both are below
+// the round-off of each pair's terms. Pairs that come or go change the set, at most four times; what is not solved then is left to
+// solve_line_contact(). The solution is unique, so the start decides on round-off alone.
+#pragma once
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "contact/complementarity.h"
+#include "contact/hertz_line.h"
+#include "contact/lanes.h"
+
+namespace whine {
+
+class FollowedContact {
+ public:
+  static constexpr int kMost = 32;  // pairs that carry; more are left to solve_line_contact()
+
+  // Memory for so many pairs in reach, of which any may carry.
+  void reserve(int pairs);
+  // The compliance has changed; the forces stay as a guess.
+  void forget() { linear_ = false; }
+  // Nothing is known, not even forces.
+  void restart() { count_ = -1; }
+
+  // c: (pair in whole lanes, pair) m N-1, zero below the pairs; e, d: (pair in whole lanes) m; force: (pair) N, a guess where nothing
+  // is known, and the result. Throws as solve_line_contact().
+  Certificate solve(const Eigen::MatrixXd& c, std::span<const HertzLine> law, const Eigen::VectorXd& e,
+                    Eigen::Ref<Eigen::VectorXd> force, Eigen::VectorXd& d);
+
+ private:
+  struct Work;
+  void take(const Eigen::Ref<const Eigen::VectorXd>& force);
+  bool linearise(const Eigen::MatrixXd& c, std::span<const HertzLine> law);
+  bool invert();
+  bool approach(const Eigen::MatrixXd& c, std::span<const HertzLine> law, const Eigen::VectorXd& e,
+                Work& work);
+  bool look_at_others(const Eigen::MatrixXd& c, std::span<const HertzLine> law, const Eigen::VectorXd& e,
+                      Work& work, Certificate& certificate);
+  int stride() const { return padded(count_); }
+
+  int count_ = -1;             // pairs that carry; -1: not known
+  bool linear_ = false;        // what follows is of at_
+  int carrying_[kMost] = {};   // which of all, ascending
+  double at_[kMost] = {};      // N
+  double d_[kMost] = {};       // m, without e
+  double size_[kMost] = {};    // m: sum of the sizes of its terms
+  double slope_[kMost] = {};   // m N-1: of the laws
+  std::vector<double> inverse_;  // (carrying in whole lanes, carrying) N m-1: of C + slopes
+};
+
+}  // namespace whine

@@ -1,0 +1,301 @@
+// One time step of a system: all that knows how the rows of a position lie in memory.
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "contact/lanes.h"
+#include "dynamics/system_dynamics.h"
+
+namespace whine {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kLeastRelaxed = 1e-20;  // of the mean load of the meshes
+
+// sum[i] -= row[i] . z lane by lane, rows one after the other.
+template <int kRows>
+void subtract_rows(const double* rows, int length, const double* z, double* sums, const int* contact) {
+  Lanes total[kRows];
+#pragma GCC unroll 4
+  for (int r = 0; r < kRows; ++r) total[r] = lanes(sums + contact[r] * kLanes);
+  for (int i = 0; i < length; i += kLanes)
+#pragma GCC unroll 4
+    for (int r = 0; r < kRows; ++r) total[r] -= lanes(rows + r * length + i) * lanes(z + i);
+#pragma GCC unroll 4
+  for (int r = 0; r < kRows; ++r) lanes(sums + contact[r] * kLanes) = total[r];
+}
+
+void subtract_all_rows(const double* rows, int length, const double* z, double* sums, const int* contact,
+                       int count) {
+  for (; count >= 4; count -= 4, contact += 4, rows += 4 * length)
+    subtract_rows<4>(rows, length, z, sums, contact);
+  switch (count) {
+    case 3:
+      return subtract_rows<3>(rows, length, z, sums, contact);
+    case 2:
+      return subtract_rows<2>(rows, length, z, sums, contact);
+    case 1:
+      return subtract_rows<1>(rows, length, z, sums, contact);
+    default:
+      return;
+  }
+}
+
+}  // namespace
+
+// Propagators of steps of `seconds`, and room for a state.
+void SystemDynamics::propagate_by(double seconds) {
+  step_ = seconds;
+  const Index n = coordinates_.size(), whole = n + 2 * kLanes;
+  for (VectorXd* x : {&a11_, &a12_, &a21_, &a22_, &bq_, &bv_, &torque_, &z_, &v_, &force_}) x->setZero(whole);
+  for (Index i = 0; i < n; ++i) {
+    const Propagator a = exact_propagator(coordinates_.frequency[i], coordinates_.damping[i], step_);
+    a11_[i] = a.a11, a12_[i] = a.a12, a21_[i] = a.a21, a22_[i] = a.a22, bq_[i] = a.bq, bv_[i] = a.bv;
+  }
+  half_bq_ = 0.5 * bq_;
+  half_bv_ = 0.5 * bv_;
+  torque_.head(n) = coordinates_.torque;
+  relaxed_step_ = relaxation_step(relaxation_, step_);
+  for (VectorXd* x : {&relaxed_, &load_}) x->setZero(relaxed_size());
+  for (VectorXd* x : {&p_of_slot_, &remembered_}) x->setZero(slots());
+  live_.assign(static_cast<size_t>(meshes()), {});
+}
+
+// Compliance of the contacts at the end of a step.
+void SystemDynamics::close(Position& position) const {
+  position.compliance.topRows(position.size()) =
+      position.instantaneous_compliance + relaxed_step_.from_new * position.relaxed +
+      modal_compliance(position, half_bq_);
+  position.followed.forget();
+}
+
+void SystemDynamics::take(const State& state, const Position& position) {
+  const Index n = coordinates_.size();
+  if (state.z.size() != n || state.relaxed.size() != relaxed_size() || state.p.size() != slots())
+    fail(Failure::input, "the start state, of ", state.z.size(), " coordinates and ", state.p.size(),
+         " slots, is of another system or of other positions: here there are ", n, " and ", slots());
+  z_.head(n) = state.z;
+  v_.head(n) = state.v;
+  relaxed_ = state.relaxed;
+  p_of_slot_ = state.p;
+  for (int k = 0; k < position.size(); ++k)
+    p_[k] = state.p[position.contact[static_cast<size_t>(k)].slot];
+  force_ = torque_;
+  for (int k = 0; k < position.size(); ++k)
+    if (p_[k] != 0) push(position, k, p_[k], force_);
+  load_.setZero();
+  load(position, p_, load_);
+  find_live();
+}
+
+// Of a state from outside: what it has of relaxed and present loads.
+void SystemDynamics::find_live() {
+  remembered_.setZero();
+  for (size_t b = 0; b < system_.body.size(); ++b)
+    for (size_t place = 0; place < meshes_of_[b].size(); ++place)
+      for (int pair = 0; pair < pairs(); ++pair) {
+        const Index at = relaxed_first_[b] + (static_cast<Index>(place) * pairs() + pair) * kFields;
+        double& most = remembered_[meshes_of_[b][place] * pairs() + pair];
+        most = std::max({most, relaxed_.segment<kFields>(at).cwiseAbs().maxCoeff(),
+                         load_.segment<kFields>(at).cwiseAbs().maxCoeff()});
+      }
+  for (int m = 0; m < meshes(); ++m) {
+    Live& live = live_[static_cast<size_t>(m)];
+    live = {pairs(), 0};
+    for (int pair = 0; pair < pairs(); ++pair)
+      if (remembered_[m * pairs() + pair] != 0) {
+        live.first = std::min(live.first, pair);
+        live.last = pair + 1;
+      }
+    if (live.last == 0) live.first = 0;
+  }
+}
+
+// Coordinates and relaxed loads at the end of a step, without new contact forces.
+void SystemDynamics::propagate() {
+  const auto whole = static_cast<int>(z_.size()) / kLanes * kLanes;
+  double *z = z_.data(), *v = v_.data();
+  const double *force = force_.data(), *torque = torque_.data(), *a11 = a11_.data(), *a12 = a12_.data(),
+               *a21 = a21_.data(), *a22 = a22_.data(), *bq = half_bq_.data(), *bv = half_bv_.data();
+  for (int i = 0; i < whole; i += kLanes) {
+    const Lanes both = lanes(force + i) + lanes(torque + i), before = lanes(z + i), speed = lanes(v + i);
+    lanes(z + i) = lanes(a11 + i) * before + lanes(a12 + i) * speed + lanes(bq + i) * both;
+    lanes(v + i) = lanes(a21 + i) * before + lanes(a22 + i) * speed + lanes(bv + i) * both;
+  }
+  remembered_ = relaxed_step_.decay * remembered_ + relaxed_step_.from_old * p_of_slot_;
+  each_live([&](double* f, const double* l, int count) {
+    for (const double* end = f + count; f < end; f += kLanes, l += kLanes)
+      lanes(f) = relaxed_step_.decay * lanes(f) + relaxed_step_.from_old * lanes(l);
+  });
+}
+
+// Gaps without new contact forces.
+void SystemDynamics::read_gaps(const Position& position) {
+  const int n = position.size(), whole = padded(n);
+  double* sums = sums_.data();
+  for (int k = 0; k < n; ++k) lanes(sums + k * kLanes) = Lanes{position.gap[k], 0, 0, 0};
+  for (size_t p = 0; p < part_.size(); ++p) {
+    const Rows& rows = position.rows[p];
+    const int* contact = position.order.data() + rows.begin;
+    subtract_all_rows(&stream_[rows.row], part_[p].length(), &z_[part_[p].first], sums, contact,
+                      rows.contacts());
+  }
+  for (size_t b = 0; b < system_.body.size(); ++b) {
+    const Rows& rows = position.rows[1 + b];
+    const int count = rows.contacts();
+    const int* contact = position.order.data() + rows.begin;
+    for (size_t place = 0; place < meshes_of_[b].size(); ++place) {
+      const Live& live = live_[static_cast<size_t>(meshes_of_[b][place])];
+      const int from = static_cast<int>(place) * pairs() + live.first;
+      const double* w = stream_.data() + rows.reading + static_cast<size_t>(from * count * kFields);
+      const double* f = relaxed_.data() + relaxed_first_[b] + from * kFields;
+      for (int pair = live.first; pair < live.last; ++pair, f += kFields) {
+        const Lanes f0 = lanes(f), f1 = lanes(f + 4), f2 = lanes(f + 8);
+        for (int c = 0; c < count; ++c, w += kFields)
+          lanes(sums + contact[c] * kLanes) += lanes(w) * f0 + lanes(w + 4) * f1 + lanes(w + 8) * f2;
+      }
+    }
+  }
+  for (int k = 0; k < whole; k += kLanes) {
+    const double* four = sums + k * kLanes;
+    lanes(&e_[k]) = whine::sums(lanes(four), lanes(four + 4), lanes(four + 8), lanes(four + 12));
+  }
+  for (int k = n; k < whole; ++k) e_[k] = 0;
+}
+
+// Contact forces, from what the coordinates and relaxed loads are without them.
+void SystemDynamics::solve(Position& position) {
+  const int n = position.size();
+  for (int k = 0; k < n; ++k) p_[k] = p_of_slot_[position.contact[static_cast<size_t>(k)].slot];
+  certificate_ = position.followed.solve(position.compliance, position.law, e_, p_.head(n), d_);
+  p_of_slot_.setZero();
+  for (int k = 0; k < n; ++k) p_of_slot_[position.contact[static_cast<size_t>(k)].slot] = p_[k];
+}
+
+// What contact forces move of the coordinates at the end of a step; parts follow one another, so what a row's whole lanes
+// reach of the next part is written anew with it.
+void SystemDynamics::push_all(const Position& position) {
+  double *z = z_.data(), *v = v_.data(), *force = force_.data();
+  const double *torque = torque_.data(), *bq = half_bq_.data(), *bv = half_bv_.data();
+  for (size_t p = 0; p < part_.size(); ++p) {
+    const Rows& rows = position.rows[p];
+    const int length = part_[p].length(), first = part_[p].first;
+    const double* row[kMostContacts];
+    double pushed[kMostContacts];
+    int carrying = 0;
+    const auto add = [&](int i, Lanes sum) {
+      lanes(force + i) = lanes(torque + i) - sum;
+      lanes(z + i) -= lanes(bq + i) * sum;
+      lanes(v + i) -= lanes(bv + i) * sum;
+    };
+    for (int c = 0; c < rows.contacts(); ++c)
+      if (const double own = p_[position.order[static_cast<size_t>(rows.begin + c)]]; own > 0) {
+        row[carrying] = &stream_[rows.row + static_cast<size_t>(c * length)];
+        pushed[carrying++] = own;
+      }
+    int i = 0;
+    for (; i + 2 * kLanes <= length; i += 2 * kLanes) {
+      Lanes sum{}, next{};
+      for (int c = 0; c < carrying; ++c) {
+        sum += pushed[c] * lanes(row[c] + i);
+        next += pushed[c] * lanes(row[c] + i + kLanes);
+      }
+      add(first + i, sum);
+      add(first + i + kLanes, next);
+    }
+    if (i < length) {
+      Lanes sum{};
+      for (int c = 0; c < carrying; ++c) sum += pushed[c] * lanes(row[c] + i);
+      add(first + i, sum);
+    }
+  }
+}
+
+// Present loads, and relaxed loads at the end of a step.
+void SystemDynamics::load_all(const Position& position) {
+  each_live([&](double*, double* l, int count) { std::fill_n(l, count, 0.0); });
+  for (int k = 0; k < position.size(); ++k) {
+    if (!(p_[k] > 0)) continue;
+    const Contact& contact = position.contact[static_cast<size_t>(k)];
+    for (size_t s = 0; s < 2; ++s) {
+      double* to = &load_[contact.load_at[s]];
+      const double* from = field(position, contact, s).data();
+      for (int i = 0; i < kFields; i += kLanes) lanes(to + i) += p_[k] * lanes(from + i);
+    }
+  }
+  keep_live();
+  each_live([&](double* f, const double* l, int count) {
+    for (const double* end = f + count; f < end; f += kLanes, l += kLanes)
+      lanes(f) += relaxed_step_.from_new * lanes(l);
+  });
+}
+
+// Slots with new force are live; those at the ends of which nothing is left no longer.
+void SystemDynamics::keep_live() {
+  const double least = kLeastRelaxed * load_of_mesh_.mean();
+  remembered_ += relaxed_step_.from_new * p_of_slot_;
+  for (int m = 0; m < meshes(); ++m) {
+    const double* most = &remembered_[m * pairs()];
+    const double* p = &p_of_slot_[m * pairs()];
+    const auto left = [&](int pair) { return most[pair] > least || p[pair] > 0; };
+    Live &live = live_[static_cast<size_t>(m)], before = live;
+    live = {0, pairs()};
+    while (live.last > 0 && !left(live.last - 1)) --live.last;
+    while (live.first < live.last && !left(live.first)) ++live.first;
+    if (live.first > before.first || live.last < before.last) drop(m, before, live);
+  }
+}
+
+void SystemDynamics::drop(int m, const Live& before, const Live& now) {
+  for (int pair = before.first; pair < before.last; ++pair) {
+    if (pair >= now.first && pair < now.last) continue;
+    remembered_[m * pairs() + pair] = 0;
+    for (size_t b = 0; b < system_.body.size(); ++b)
+      for (size_t place = 0; place < meshes_of_[b].size(); ++place) {
+        if (meshes_of_[b][place] != m) continue;
+        const Index at = relaxed_first_[b] + (static_cast<Index>(place) * pairs() + pair) * kFields;
+        relaxed_.segment<kFields>(at).setZero();
+        load_.segment<kFields>(at).setZero();
+      }
+  }
+}
+
+void SystemDynamics::step(Position& position) {
+  propagate();
+  read_gaps(position);
+  solve(position);
+  push_all(position);
+  load_all(position);
+  if (coordinates_.rigid_pins) {
+    const Index n = coordinates_.size();
+    rate_ = force_.head(n).array() - coordinates_.frequency.array().square() * z_.head(n).array() -
+            (coordinates_.damping.array() - motion_.damping.rayleigh_mass) * v_.head(n).array();
+  }
+}
+
+// Teeth get the names that they have in the next mesh period: pair i becomes i + 1.
+void SystemDynamics::rename() {
+  for (VectorXd* y : {&z_, &v_})
+    for (const StepSystem::Turn& turn : coordinates_.turns) {
+      if (turn.sine < 0) {
+        (*y)[turn.cosine] *= -1;
+        continue;
+      }
+      const double cosine = (*y)[turn.cosine], sine = (*y)[turn.sine];
+      (*y)[turn.cosine] = turn.c * cosine + turn.s * sine;
+      (*y)[turn.sine] = turn.c * sine - turn.s * cosine;
+    }
+  const auto shift = [&](double* of, int size) {  // blocks of `size` numbers, the slots of one mesh
+    std::copy_backward(of, of + (pairs() - 1) * size, of + pairs() * size);
+    std::fill(of, of + size, 0.0);
+  };
+  for (int m = 0; m < meshes(); ++m) shift(&p_of_slot_[m * pairs()], 1);
+  for (int block = 0; block * pairs() * kFields < relaxed_size(); ++block)
+    shift(&relaxed_[block * pairs() * kFields], kFields);
+}
+
+}  // namespace whine
