@@ -1,8 +1,7 @@
 # Whine: one graph from a scene to the figures. `make` prints the targets; pipelines/*.mk hold the stages.
 #
 #   programs   tools/gear-x.cpp and what it includes of common/ -> build/bin/gear-x   (tools/CMakeLists.txt, called by this file)
-#   names      what a user's paths may hold                                  (pipelines/names.mk)
-#   scenes     which scene files the goals need, and what they say to make       (pipelines/scenes.mk)
+#   scenes     which scene files the goals need, and what they tell make         (pipelines/scenes.mk)
 #   studies    variants of a scene -> a table of their response quantities       (pipelines/studies.mk)
 #   compare    scenes side by side -> out/compare                         (pipelines/compare.mk)
 #   stages     scene -> mesh -> body -> static -> sweep -> response              (pipelines/stages.mk)
@@ -10,8 +9,18 @@
 #
 # Results depend on the contents of the programs and of the scenes, never on their time stamps alone.
 
-# Before any shell runs: what the user has named is looked at there.
-include pipelines/names.mk
+goals := $(or $(MAKECMDGOALS),help)
+B := build$(if $(or $(value SANITIZE),$(filter test-sanitize,$(goals))),/sanitize)
+
+# Goals and variables of a user: make reads `$` and `%` in them, and a shell all that it does not take for a letter. So gear-scene judges them
+# first (common/io/make_request.cpp); it is given their text by $(value), which does not expand, in quotes, which no shell looks into.
+quoted = '$(subst ','\'',$1)'
+given := $(foreach v,$(.VARIABLES),$(if $(findstring command line,$(origin $v)), --given $(call quoted,$v=$(value $v))))
+judge := $(firstword $(wildcard $(B)/bin/gear-scene build/bin/gear-scene))
+wrong := $(if $(judge),$(shell $(judge) --goals $(call quoted,$(goals)) $(given) 2> /dev/null))
+judged := $(if $(judge),$(if $(wrong),,$(filter 0,$(.SHELLSTATUS))))
+# One that is older than its sources may not know a new target: then it is compiled first, as where there is none.
+$(if $(wrong),$(if $(shell find common tools/gear-scene.cpp -name '*.[hc]*' -newer $(judge) -print -quit),,$(error $(wrong))))
 
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
@@ -31,31 +40,16 @@ FORCE:
 export OPENBLAS_NUM_THREADS := 1
 export OMP_NUM_THREADS := 1
 
-goals := $(or $(MAKECMDGOALS),help)
 # a literal comma for $(if)
 , := ,
 $(if $(filter clean%,$(goals)),$(if $(filter-out clean%,$(goals)),\
   $(error $(filter clean%,$(goals)) goes alone: first `make $(filter clean%,$(goals))`, then `make $(filter-out clean%,$(goals))`)))
 
-# A goal that is neither a path nor a target: the targets that are spelt alike.
-documented := $(shell sed -n 's/^\([a-z0-9-]*\):.*\#\# .*/\1/p' Makefile pipelines/*.mk)
-near = $(firstword $(shell printf '%s\n' $2 | awk -v word='$(subst ','\'',$1)' -f pipelines/nearest.awk))
-meant = $(foreach n,$(call near,$1,$2), did you mean $n?)
-no_such_target = $(error $1: $(if $(filter %.toml,$1),a scene is given by SCENE in front of a target: make SCENE=$1 report,$(strip \
-  there is no such target;$(call meant,$1,$(documented)) `make help` lists them)))
-$(foreach g,$(filter-out $(documented) FORCE fig%,$(goals)),$(if $(or $(findstring /,$g),$(filter-out %.toml,$(wildcard $g))),,$(call no_such_target,$g)))
-
-# A variable that nothing reads is a slip of the pen, which would otherwise be ignored without a word.
-variables_read := $(names_given) LAUNCH B CXX ARCH CXXFLAGS LDFLAGS
-$(foreach v,$(filter-out $(variables_read) LAUNCH_% SHELL MAKE%,$(.VARIABLES)),$(if $(findstring command line,$(origin $v)),\
-  $(error $v: there is no such variable;$(call meant,$v,$(variables_read)) pipelines/README.md lists them)))
-
 # --- programs -------------------------------------------------------------------------------------------------
 
 # tools/CMakeLists.txt says how they are compiled. Make asks for a program that is older than a source; ninja knows what of it is.
 # Sanitized objects do not fit others.
-SANITIZE := $(or $(SANITIZE),$(filter test-sanitize,$(goals)))
-B := build$(if $(SANITIZE),/sanitize)
+sanitized := $(filter %/sanitize,$(B))
 CXX := g++
 CXXFLAGS :=
 LDFLAGS :=
@@ -100,7 +94,7 @@ configure = cmake -S tools -B $1 -G Ninja -DCMAKE_CXX_COMPILER='$(CXX)' -DCMAKE_
 ninja = ninja -C $1 $(filter-out -j,$(filter -j%,$(MAKEFLAGS))) $(patsubst $1/%,%,$2)
 define compile
 	@exec 9> $(B)/lock; flock 9; \
-	[ $(B)/build.ninja -nt $(B)/settings ] $(if $(filter deps-bench,$(goals)),&& false) || $(call configure,$(B),-DSANITIZE=$(if $(SANITIZE),ON,OFF)); \
+	[ $(B)/build.ninja -nt $(B)/settings ] $(if $(filter deps-bench,$(goals)),&& false) || $(call configure,$(B),-DSANITIZE=$(if $(sanitized),ON,OFF)); \
 	$(call ninja,$(B),$1); touch $1
 endef
 # Who wants many of them asks once.
@@ -109,10 +103,10 @@ ifneq ($(strip $(every)),)
 $(call together,$(every)) &:
 	$(call compile,$(every))
 endif
-$(filter-out $(every),$(programs) $(test_programs) $(bench_programs)) $(if $(SANITIZE),,$(test_cases)):
+$(filter-out $(every),$(programs) $(test_programs) $(bench_programs)) $(if $(sanitized),,$(test_cases)):
 	$(call compile,$@)
 # The cases under sanitizers are the objects of the other build.
-ifneq ($(SANITIZE),)
+ifneq ($(sanitized),)
 $(B)/bin/whine-tests: $(test_cases)
 $(test_cases): FORCE
 	+@$(MAKE) --no-print-directory SANITIZE= B=build $@
@@ -135,13 +129,20 @@ new = $1.new.$$HOSTNAME.$$$$
 $(tools:%=$(B)/id/%): $(B)/id/%: $(B)/bin/% | $(B)/id/
 	+@[ ! -e $< ] || { said=$$(sha256sum < $<); [ -e $@ ] && [ "$$said" = "$$(< $@)" ] || { [ -d $(@D) ] || mkdir -p $(@D); echo "$$said" > $(call new,$@); mv $(call new,$@) $@; }; }
 
-include pipelines/figures.mk pipelines/scenes.mk pipelines/studies.mk pipelines/bifurcations.mk pipelines/stages.mk pipelines/systems.mk pipelines/compare.mk pipelines/maps.mk pipelines/bench.mk pipelines/robust.mk pipelines/reading.mk
-
-# Figures of P2000 that are none of ours, and what is of its scenes only.
-$(foreach f,$(filter-out figures $(figures),$(filter fig%,$(goals))),\
-  $(error $f: there is no such figure; there are $(figures) and table1 (Figures 2, 4 and 6 of P2000 are a sketch and measurements)))
-$(if $(SCENE),$(if $(filter scorecard out/figures/scorecard%,$(goals)),\
-  $(error scorecard: it is what P2000 prints beside its own scenes, $(paper_scenes); leave SCENE out)))
+# What reads no scene needs no gear-scene either. For the rest it is compiled if it is not there, or does not know these options; then make
+# starts again.
+include tests/checks.mk
+reads_scenes := $(filter-out help build test test-slow test-all test-sanitize test-report test-slurm hard-cases format check-format lint replay deps deps-% clean clean-% FORCE $(B)/%,$(goals))
+ifneq ($(and $(reads_scenes),$(judged)),)
+include $(addprefix pipelines/,figures.mk scenes.mk studies.mk bifurcations.mk stages.mk systems.mk compare.mk maps.mk bench.mk reading.mk)
+else ifneq ($(reads_scenes),)
+targets := $(shell awk -f pipelines/help.awk pipelines/help.txt Makefile pipelines/*.mk tests/*.mk | sed -n 's/^  \([a-z0-9-]*\) .*/\1/p')
+$(foreach g,$(filter-out $(targets),$(reads_scenes)),$(if $(findstring /,$g),,$(error $g: there is no such target; `make help` lists them)))
+$(if $(MAKE_RESTARTS),$(error $(or $(wrong),$(judge) --goals cannot judge what make is given; make clean$(,) then start again)))
+include $(B)/judged.mk
+$(B)/judged.mk: $(B)/bin/gear-scene FORCE
+	@touch $@
+endif
 
 # --- packages -------------------------------------------------------------------------------------------------
 
@@ -200,7 +201,7 @@ check-format: ## fail if clang-format would change a source
 .PHONY: help clean clean-figures clean-studies clean-motion clean-out
 help: ## print this list (its order: pipelines/help.txt)
 	@echo 'Whine: gear whine from elastic teeth that touch, part and touch again. Targets by task:'
-	@awk -f pipelines/help.awk pipelines/help.txt Makefile pipelines/*.mk
+	@awk -f pipelines/help.awk pipelines/help.txt Makefile pipelines/*.mk tests/*.mk
 	@echo 'Any artifact is a target, at any torque in N m; the scene stands in its path:'
 	@echo '  make out/parker2000/T600/up/response.h5'
 	@echo '  make SCENE=path/to/scene.toml sweep'

@@ -5,7 +5,7 @@ bifurcation_branches := $(foreach s,$(own_scene) $(bifurcation_scenes),$(bifurca
 
 .PHONY: bifurcations
 bifurcations: $(bifurcation_branches) $(B)/bin/gear-inspect ## renew data/published/bifurcations.tsv: folds at 100 to 600 N m, with what finer steps, strips and modes change
-	@pipelines/bifurcations.sh $(B)/bin out $(own_scene) $(bifurcation_torques) > $(call new,$@) && mv $(call new,$@) data/published/bifurcations.tsv
+	@pipelines/folds.sh bifurcations $(B)/bin out $(own_scene) $(bifurcation_torques) > $(call new,$@) && mv $(call new,$@) data/published/bifurcations.tsv
 
 # Each jump of the sweeps beside the fold of the same map, data/published/jumps.tsv. 8 sweeps and 4 branches, 80 s of CPU.
 jump_torques := 100 150 200 300
@@ -13,4 +13,4 @@ jump_artifacts := $(foreach t,$(jump_torques),$(foreach f,branch up/jumps down/j
 
 .PHONY: jump-folds
 jump-folds: $(jump_artifacts) $(B)/bin/gear-inspect ## renew data/published/jumps.tsv: every jump of the sweeps at 100 to 300 N m, located to 0.05 Hz, beside the fold
-	@pipelines/jumps.sh $(B)/bin out $(own_scene) $(jump_torques) > $(call new,$@) && mv $(call new,$@) data/published/jumps.tsv
+	@pipelines/folds.sh jumps $(B)/bin out $(own_scene) $(jump_torques) > $(call new,$@) && mv $(call new,$@) data/published/jumps.tsv

@@ -5,40 +5,33 @@
 #
 # The first design is what the others are compared with. Artifacts are those of the scenes, in out/<scene>/.
 
-compared_here := $(if $(filter compare,$(goals)),$(compared))
-# $(call common,torques of the first,scenes): those that all have
-common = $(foreach t,$1,$(if $(filter-out $(foreach s,$2,$(if $(filter $t,$(SCENE_$s_TORQUES)),$s)),$2),,$t))
-compared_torques := $(strip $(if $(compared_here),$(call common,$(SCENE_$(firstword $(compared_here))_TORQUES),$(compared_here))))
-$(foreach s,$(compared_here),$(if $(SCENE_$s_SYSTEM),$(error SCENES: $s is a system of several meshes$(,) and compare sets pairs side by side; `make SCENE=... report` of each makes their own pages)))
 # While fragments are made, which are empty at first, nothing is known of their torques.
-compared_known := $(if $(compared_here),$(if $(strip $(foreach s,$(compared_here),$(if $(SCENE_$s_TORQUES),,$s))),,yes))
+compared_known := $(if $(compared),$(if $(strip $(foreach s,$(compared),$(if $(SCENE_$s_TORQUES),,$s))),,yes))
+compared_torques := $(strip $(foreach t,$(SCENE_$(firstword $(compared))_TORQUES),$(if $(filter-out $(foreach s,$(compared),$(if $(filter $t,$(SCENE_$s_TORQUES)),$s)),$(compared)),,$t)))
 $(if $(compared_known),$(if $(compared_torques),,\
-  $(error SCENES: the scenes have no torque in common: $(foreach s,$(compared_here),$s at $(SCENE_$s_TORQUES) N m;) give one of the torques to each)))
+  $(error SCENES: the scenes have no torque in common: $(foreach s,$(compared),$s at $(SCENE_$s_TORQUES) N m;) give one of the torques to each)))
 compared_torque := $(if $(compared_known),$(if $(filter command,$(firstword $(origin TORQUE))),$(or $(filter $(TORQUE),$(compared_torques)),\
   $(error TORQUE=$(TORQUE): the scenes have in common $(compared_torques) N m)),$(firstword $(compared_torques))))
 # `+` joins their names, in which it is forbidden: `--` could stand in one.
-compare_words := $(subst $(compare_empty) $(compare_empty),+,$(strip $(compared_here)))
+compare_words := $(subst $() $(),+,$(strip $(compared)))
 compare_folder := out/compare/$(compare_words)
 inputs_compare-rest = $(foreach s,$1,out/$s/T$2/static.h5)
 inputs_compare-motion = $(foreach s,$1,$(call both_ways,$s,$2,response))
 # With a crack there is no motion.
-compare_moves := $(if $(strip $(foreach s,$(compared_here),$(call teeth,$s,cracked))),,yes)
-compare_artifacts = $(foreach s,$(compared_here),$(foreach t,$(compared_torques),out/$s/T$t/static.h5) $(call impacts,$s,$(compared_torques)) \
+compare_moves := $(if $(strip $(foreach s,$(compared),$(call teeth,$s,cracked))),,yes)
+compare_artifacts := $(foreach s,$(compared),$(foreach t,$(compared_torques),out/$s/T$t/static.h5) $(call impacts,$s,$(compared_torques)) \
   $(if $(compare_moves),$(call both_ways,$s,$(compared_torques),response)))
-compare_shows = compare-rest $(if $(compare_moves),compare-motion)
+compare_pictures := $(patsubst %,$(compare_folder)/%-T$(compared_torque).png,compare-rest $(if $(compare_moves),compare-motion))
 
-compare_pictures = $(compare_shows:%=$(compare_folder)/%-T$(compared_torque).png)
+ifneq ($(compared_torque),)
 # Another torque shows other pictures on the page.
-compare_plan_file := $(B)/plans/compare/$(compare_words)
-
-define compare_rule
-$(foreach f,$(compare_shows),$(eval $(call figure_rule,$f,$(compare_folder)/$f-T$(compared_torque),$(call inputs_$f,$(compared_here),$(compared_torque)),$(compared_here:%=$(B)/scenes/%.mk))))
-$(call together,$(compare_folder)/index.html $(compare_folder)/compare.tsv) &: $(compare_artifacts) $(compare_pictures) $(compare_plan_file) \
-    $(call titles,$(compare_artifacts)) $(compared_here:%=$(B)/scenes/%.mk) $(call id,gear-compare) | $(B)/bin/gear-compare $(with_deps)
+plan_$(compare_words) = $(compare_pictures)
+plans += $(B)/plans/compare/$(compare_words)
+$(call together,$(compare_folder)/index.html $(compare_folder)/compare.tsv) &: $(compare_artifacts) $(compare_pictures) $(B)/plans/compare/$(compare_words) \
+    $(call titles,$(compare_artifacts)) $(compared:%=$(B)/scenes/%.mk) $(call id,gear-compare) | $(B)/bin/gear-compare $(with_deps)
 	$(B)/bin/gear-compare --output $(compare_folder)/index.html $(compare_artifacts) $(compare_pictures)
-endef
-$(if $(compared_torque),$(eval $(call compare_rule))$(eval $(call plan_rule,$(compare_plan_file),$(compare_pictures))))
+endif
 
 .PHONY: compare
-compare: $(if $(compared_here),$(compare_folder)/index.html) ## designs side by side on common axes, their differences first: SCENES='a.toml b.toml ...' (the first is compared with), or STUDY=, the two variants that it marks; out/compare/a+b/index.html
+compare: $(if $(compared),$(compare_folder)/index.html) ## designs side by side on common axes, their differences first: SCENES='a.toml b.toml ...' (the first is compared with), or STUDY=, the two variants that it marks; out/compare/a+b/index.html
 	$(call stands,compare: open $< in a browser; compare.tsv beside it holds the differences)

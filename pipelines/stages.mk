@@ -2,7 +2,8 @@
 # static.h5 -> sweep.h5 of a lumped model -> response.h5.
 #
 # A stage depends on the stage parameters that it reads, on the artifacts that it reads, and on the id of its
-# program. Bodies are per distinct gear (out/bodies/<hash>), operating points are targets: the torque stands in the path.
+# program. Bodies are per distinct gear (out/bodies/<hash>), operating points are targets: the torque stands in the path. A rule is of all
+# scenes and torques: it takes them from the path of its target, prerequisites in the second expansion ($$).
 
 # $(call run,stage): how a stage starts; LAUNCH may carry the heavy ones to other machines.
 launch = $(or $(LAUNCH_$1),$(LAUNCH))
@@ -15,95 +16,48 @@ landed = $(if $(call launch,$1),&& { for second in $$(seq 0 $(LAUNCH_WAIT)); do 
   fresh=yes; for input in $^; do [ -e $@ ] && [ ! $$input -nt $@ ] || fresh=; done; [ -z "$$fresh" ] || exit 0; [ $$second = $(LAUNCH_WAIT) ] || sleep 1; done; \
   echo "$@: the launcher '$(call launch,$1)' has ended$(,) but its result is not there after $(LAUNCH_WAIT) s" >&2; exit 1; })
 
-define body_rules # hash
-out/bodies/$1/mesh.h5: out/bodies/$1/body.toml $(call id,gear-mesh) | $(B)/bin/gear-mesh
-	$$(call run,mesh) --params $$< --output $$@ $$(call landed,mesh)
+# Of the target out/<scene>/T<torque>/...: its words, and what its stage reads.
+part = $(word $1,$(subst /, ,$@))
+scene = $(call part,2)
+torque = $(patsubst T%,%,$(call part,3))
+at = out/$(scene)/T$(torque)
+params = out/$(scene)/params/$1.toml
+bodies = $(call pair_bodies,$(scene))
+by_gear = $(call pair_options,$(scene))
+first_static = $(call reference_static,$(scene))
+by_static = $(by_gear) --static $(at)/static.h5 --reference-static $(first_static)
 
-out/bodies/$1/body.h5: out/bodies/$1/body.toml out/bodies/$1/mesh.h5 $(call id,gear-reduce) | $(B)/bin/gear-reduce
-	$$(call run,reduce) --params $$< --mesh out/bodies/$1/mesh.h5 --output $$@ $$(call landed,reduce)
-endef
-
-define gear_rules # scene, gear: the same files, seen through the link out/<scene>/<gear>
-out/$1/$2/mesh.h5: out/bodies/$(SCENE_$1_BODY_$2)/mesh.h5 ;
-out/$1/$2/body.h5: out/bodies/$(SCENE_$1_BODY_$2)/body.h5 ;
-endef
-
-pair_bodies = $(sort $(foreach g,$(SCENE_$1_DRIVER) $(SCENE_$1_DRIVEN),out/bodies/$(SCENE_$1_BODY_$g)/body.h5))
 # $(call named,option,scene,artifact): once for each gear
 named = $(foreach g,$(SCENE_$2_DRIVER) $(SCENE_$2_DRIVEN),$1 $g=out/$2/$g/$3.h5)
 pair_options = $(call named,--body,$1,body)
+pair_bodies = $(sort $(foreach g,$(SCENE_$1_DRIVER) $(SCENE_$1_DRIVEN),out/bodies/$(SCENE_$1_BODY_$g)/body.h5))
 reference_static = out/$1/T$(SCENE_$1_REFERENCE_TORQUE)/static.h5
 
-define static_rules # scene, torque
-out/$1/T$2/static.h5: out/$1/params/static.toml $(pair_bodies) $(call id,gear-static) | $(B)/bin/gear-static
-	$$(call run,static) --params $$< $(pair_options) --torque $2 --output $$@ $$(call landed,static)
-endef
-
-define budget_rules # scene, torque
-out/$1/T$2/error_budget.h5: out/$1/params/static.toml $(pair_bodies) $(call id,gear-static) | $(B)/bin/gear-static
-	$$(call run,static) --error-budget --params $$< $(pair_options) --torque $2 --output $$@ $$(call landed,static)
-endef
-
-impact_inputs = out/$1/params/impact.toml $(pair_bodies) out/$1/T$2/static.h5 $(reference_static)
-impact_options = --params out/$1/params/impact.toml $(pair_options) --static out/$1/T$2/static.h5 --reference-static $(reference_static)
-
-define impact_rules # scene, torque
-out/$1/T$2/impact.h5: $(impact_inputs) $(call id,gear-impact) | $(B)/bin/gear-impact
-	$$(call run,impact) $(impact_options) --output $$@ $$(call landed,impact)
-endef
-
-define sweep_rules # scene, torque, direction
-out/$1/T$2/$3/sweep.h5: out/$1/params/sweep.toml $(pair_bodies) \
-    out/$1/T$2/static.h5 $(reference_static) $(call id,gear-sweep) | $(B)/bin/gear-sweep
-	$$(call run,sweep) --params $$< $(pair_options) --static out/$1/T$2/static.h5 \
-	  --reference-static $(reference_static) --direction $3 --output $$@ $$(call landed,sweep)
-
-out/$1/T$2/$3/response.h5: out/$1/T$2/$3/sweep.h5 $(call id,gear-spectra) | $(B)/bin/gear-spectra
-	$(B)/bin/gear-spectra --input $$< --output $$@
-endef
-
-# The sweep with its jumps enclosed to 0.05 Hz, for `jump-folds`: a quarter more CPU.
-jump_width := 0.05
-define jumps_rules # scene, torque, direction
-out/$1/T$2/$3/jumps.h5: out/$1/params/sweep.toml $(pair_bodies) \
-    out/$1/T$2/static.h5 $(reference_static) $(call id,gear-sweep) | $(B)/bin/gear-sweep
-	$$(call run,sweep) --params $$< $(pair_options) --static out/$1/T$2/static.h5 \
-	  --reference-static $(reference_static) --direction $3 --jump-width $(jump_width) --output $$@ $$(call landed,sweep)
-endef
-
-define branch_rules # scene, torque
-out/$1/T$2/branch.h5: out/$1/params/sweep.toml $(pair_bodies) \
-    out/$1/T$2/static.h5 $(reference_static) $(call id,gear-orbit) | $(B)/bin/gear-orbit
-	$$(call run,orbit) --params $$< $(pair_options) --static out/$1/T$2/static.h5 \
-	  --reference-static $(reference_static) --output $$@ $$(call landed,orbit)
-endef
-
+# What TORQUE is of, with the damping ratio DAMPING in the contact state STATE (one, two, mean), the phase PHASE, the ramp RATE, WAY.
+DAMPING ?= 0.07
+STATE ?= two
+TORQUE ?= $(if $(SCENE),$(SCENE_$(own_scene)_REFERENCE_TORQUE),150)
+PHASE ?= 0.25
+# Without AT and with RATE: the sound of a run-up, then of a run-down.
+sound_of_runup := $(if $(AT),,$(if $(RATE),$(filter sound,$(goals))))
+RATE ?= 100
+WAY ?= up
 # The rate (rpm/s) stands in the path, and the ends of the ramp (Hz) where they are not the scene's: runup_100.h5,
 # runup_100_2400_2800.h5.
-runup_word = $(word $2,$(subst _, ,$1))
-define runup_rules # scene, torque, direction
-out/$1/T$2/$3/runup_%.h5: out/$1/params/sweep.toml $(pair_bodies) \
-    out/$1/T$2/static.h5 $(reference_static) $(call id,gear-runup) | $(B)/bin/gear-runup
-	$$(call run,runup) --params $$< $(pair_options) --static out/$1/T$2/static.h5 \
-	  --reference-static $(reference_static) --direction $3 --rate '$$(call runup_word,$$*,1)' \
-	  $$(if $$(call runup_word,$$*,2),--from '$$(call runup_word,$$*,2)' --to '$$(call runup_word,$$*,3)') --output $$@ $$(call landed,runup)
-endef
+runup_stem = $(RATE)$(if $(FROM),_$(FROM)_$(TO))
 
-# The phase stands in the path, as the torque does: loaded_0.25.h5.
-pair_meshes = $(patsubst %/body.h5,%/mesh.h5,$(pair_bodies))
-define loaded_rules # scene, torque
-out/$1/T$2/loaded_%.h5: out/$1/T$2/static.h5 $(pair_bodies) $(pair_meshes) $(call id,gear-loaded) | $(B)/bin/gear-loaded
-	$$(call run,loaded) --static out/$1/T$2/static.h5 $(pair_options) $(call named,--mesh,$1,mesh) \
-	  --mesh-phase $$* --output $$@ $$(call landed,loaded)
-endef
+# Of maps of jumps (maps.mk).
+JUMP_MAP_TORQUES ?= $(if $(SCENE),$(SCENE_$(own_scene)_TORQUES),20 50 100 150 200 300 450 600)
+fineness = $(if $(filter fine,$($1)),_fine)
+map_torques := $(if $(SCENE),$(JUMP_MAP_TORQUES),$(if $(call fineness,JUMP_MAP),20 35 50 75 100 125 150 175 200 250 300 350 400 450 500 600,$(JUMP_MAP_TORQUES)))
 
-# Options that stand in the makefiles, in files of their own that are made again if they say otherwise: so that other options
-# redo what they made. $(call plan_rule,file,options). $(strip): make 4.3 leaves the newline of $(file <...) where its buffer has moved.
-define plan_rule
-$1: $(if $(filter xx,x$(call differs,$(strip $(file <$1)),$(strip $2))x),,FORCE)
-	@mkdir -p $$(@D); echo '$(strip $2)' > $$@.new.$$$$$$$$; mv $$@.new.$$$$$$$$ $$@
-endef
-differs = $(if $(and $(findstring x$1x,x$2x),$(findstring x$2x,x$1x)),,differs)
+# Scenes of pairs, torques of a scene that have rules: those that it lists and those in the paths of goals and figures.
+pairs := $(foreach s,$(scenes),$(if $(SCENE_$s_GEARS),$s))
+figure_torques := $(goals) $(figure_inputs)
+torques = $(sort $(SCENE_$1_TORQUES) $(SCENE_$1_REFERENCE_TORQUE) $(patsubst T%,%,$(foreach f,$(filter out/$1/T%,$(figure_torques)),$(word 3,$(subst /, ,$f)))) \
+  $(if $(filter $1,$(own_scene)),$(if $(filter calibrate loaded histories sound runup sensitivity fold-curves,$(goals)),$(TORQUE)) $(if $(findstring jump-map,$(goals)),$(map_torques))))
+places := $(foreach s,$(pairs),$(foreach t,$(call torques,$s),out/$s/T$t))
+ways := $(foreach p,$(places),$p/up $p/down)
 
 # Lumped models, out/<scene>/T<torque>/<model>/; what stands after a dash is a variant. The rectangular wave is P2000's: the
 # same at all torques.
@@ -114,79 +68,71 @@ lumped_options_rectangular = --reference-static $(reference_static)
 # of its Table 1, whose ratio is 1.5, the upper branch ends above 2600 Hz; this ratio of 1.757 at its mean stiffness of
 # 462.1 N/µm ends it at 2172 Hz.
 lumped_options_rectangular-fig15 = --levels 2.93973e8,5.16658e8 --duty 0.755 --from 2000 --to 3400 --step 10 --steps 512
-
 # P2000's mass goes with the secant stiffness of its pair, the inertia of its scenes with the elastic body.
 lumped_mass = $(if $(filter $(paper_scenes),$1),--mass 1.4)
+# $(call lumped_options,scene,model)
+lumped_options = --model $(firstword $(subst -, ,$2)) $(lumped_mass) $(lumped_options_$2)
+lumped := $(foreach p,$(places),$(foreach m,$(lumped_models),$p/$m/up $p/$m/down))
 
-lumped_plan = --model $(firstword $(subst -, ,$3)) $(lumped_mass) $(lumped_options_$3)
-lumped_plan_file = $(B)/plans/$1/lumped_$3
+# Options that stand in the makefiles, in files of their own that are made again if they say otherwise: so that other options
+# redo what they made. build/plans/<scene>/<name> holds $(plan_<name>), or what is of its kind.
+plan_scene = $(notdir $(patsubst %/,%,$(@D)))
+plan_text = $(strip $(or $(plan_$(@F)),$(if $(filter lumped_%,$(@F)),$(call lumped_options,$(plan_scene),$(@F:lumped_%=%))),$(plan_of_figure),$(plan_of_map)))
+plans := $(foreach s,$(pairs),$(lumped_models:%=$(B)/plans/$s/lumped_%))
+write_plan = @mkdir -p $(@D); echo '$1' > $(call new,$@); mv $(call new,$@) $@
 
-define lumped_rules # scene, torque, model, direction
-out/$1/T$2/$3/$4/sweep.h5: out/$1/params/lumped.toml out/$1/T$2/static.h5 $(if $(filter rectangular,$3),$(reference_static)) \
-    $(lumped_plan_file) $(call id,gear-lumped) | $(B)/bin/gear-lumped
-	$$(call run,lumped) $(lumped_plan) --static out/$1/T$2/static.h5 --params $$< --direction $4 --output $$@ $$(call landed,lumped)
+out_bodies := $(addprefix out/bodies/,$(sort $(BODIES)))
+$(out_bodies:%=%/mesh.h5): %/mesh.h5: %/body.toml $(call id,gear-mesh) | $(B)/bin/gear-mesh
+	$(call run,mesh) --params $< --output $@ $(call landed,mesh)
+$(out_bodies:%=%/body.h5): %/body.h5: %/body.toml %/mesh.h5 $(call id,gear-reduce) | $(B)/bin/gear-reduce
+	$(call run,reduce) --params $< --mesh $(@D)/mesh.h5 --output $@ $(call landed,reduce)
 
-out/$1/T$2/$3/$4/response.h5: out/$1/T$2/$3/$4/sweep.h5 $(call id,gear-spectra) | $(B)/bin/gear-spectra
-	$(B)/bin/gear-spectra --input $$< --output $$@
-endef
+# The same files, seen through the links out/<scene>/<gear>.
+gears := $(foreach s,$(scenes),$(foreach g,$(SCENE_$s_GEARS) $(SCENE_$s_SYSTEM_GEARS),out/$s/$g))
+$(gears:%=%/mesh.h5) $(gears:%=%/body.h5): out/bodies/$$(SCENE_$$(scene)_BODY_$$(call part,3))/$$(@F) ;
 
-# What eta gives the damping ratio DAMPING in the contact state STATE (one, two, mean) at TORQUE.
-DAMPING ?= 0.07
-STATE ?= two
-TORQUE ?= $(if $(SCENE),$(SCENE_$(own_scene)_REFERENCE_TORQUE),150)
-PHASE ?= 0.25
-# $(call outside,number,least,limit): a word if it is no number of [least, limit)
-outside = $(shell awk -v x='$(subst ','\'',$1)' 'BEGIN { if (x !~ /^[0-9]*[.]?[0-9]+([eE][-+]?[0-9]+)?$$/ || x + 0 < $2 || x + 0 >= $3) print "outside" }')
-$(if $(filter calibrate,$(goals)),$(if $(call outside,$(DAMPING),1e-12,1),\
-  $(error DAMPING=$(DAMPING): it is a share of critical damping, above 0 and below 1: 0.05 for 5 %)))
-$(if $(filter histories,$(goals)),$(if $(call outside,$(AT),1e-9,1e9),\
-  $(error histories: AT=$(AT): say the mesh frequency in Hz$(,) one of the sweep: make histories AT=1250)))
-$(if $(filter sound,$(goals)),$(if $(filter runup,$(goals)),,$(if $(AT),$(if $(RATE),\
-  $(error sound: AT=$(AT) and RATE=$(RATE): a sound is of one speed (AT) or of a run-up (RATE); leave one of them out)))))
-# Without AT and with RATE: the sound of a run-up, then of a run-down.
-sound_of_runup := $(if $(AT),,$(if $(RATE),$(filter sound,$(goals))))
-$(if $(filter sound,$(goals)),$(if $(sound_of_runup),,$(if $(call outside,$(AT),1e-9,1e9),\
-  $(error sound: AT=$(AT): say the mesh frequency in Hz$(,) one of the sweep: make sound AT=2400$(,) or the rate of a run-up in rpm/s: make sound RATE=100))))
-ramp_goals := $(filter runup,$(goals)) $(sound_of_runup)
-RATE ?= 100
-WAY ?= up
-$(if $(strip $(ramp_goals)),$(if $(call outside,$(RATE),1e-9,1e9),\
-  $(error RATE=$(RATE): it is the change of the driver's speed in rpm/s$(,) above 0; WAY=down is a run-down)))
-$(if $(filter runup,$(goals)),$(if $(filter up down,$(WAY)),,$(error WAY=$(WAY): it is up or down)))
-$(if $(strip $(ramp_goals)),$(if $(FROM)$(TO),$(if $(call outside,$(FROM),1e-9,1e9)$(call outside,$(TO),1e-9,1e9),\
-  $(error FROM=$(FROM) TO=$(TO): give both or none: mesh frequencies in Hz at the start and the end of the ramp))))
-runup_stem = $(RATE)$(if $(FROM),_$(FROM)_$(TO))
-$(if $(filter loaded,$(goals)),$(if $(filter alike,$(SCENE_$(own_scene)_TEETH)),$(if $(call outside,$(PHASE),0,1),\
-  $(error PHASE=$(PHASE): it is a share of the mesh period, 0 up to, not including, 1))))
-calibrated_torque = $(if $(filter calibrate loaded histories sound runup,$(goals)),$(if $(filter $1,$(own_scene)),$(TORQUE)))
+$(places:%=%/static.h5) $(places:%=%/error_budget.h5): $$(call params,static) $$(bodies) $(call id,gear-static) | $(B)/bin/gear-static
+	$(call run,static)$(if $(filter %/error_budget.h5,$@), --error-budget) --params $< $(by_gear) --torque $(torque) --output $@ $(call landed,static)
 
-# Torques of a scene that have rules: those that it lists and those in the paths of goals and figures.
-path_torques = $(patsubst T%,%,$(foreach f,$(filter out/$1/T%,$(goals) $(figure_inputs)),$(word 3,$(subst /, ,$f))))
-torques = $(sort $(SCENE_$1_TORQUES) $(SCENE_$1_REFERENCE_TORQUE) $(path_torques) $(calibrated_torque))
-check_torque = $(if $(filter-out $2,$(shell LC_ALL=C printf %g '$2' 2>/dev/null || echo no number)),\
-  $(error out/$1/T$2: the torque in a path is a number in N m as printed by %g, such as T150 or T62.5))
+$(places:%=%/impact.h5): $$(call params,impact) $$(bodies) $$(at)/static.h5 $$(first_static) $(call id,gear-impact) | $(B)/bin/gear-impact
+	$(call run,impact) --params $< $(by_static) --output $@ $(call landed,impact)
 
-define scene_rules # scene
-$(foreach g,$(SCENE_$1_GEARS),$(eval $(call gear_rules,$1,$g)))
-$(foreach t,$(filter-out $(SCENE_$1_TORQUES),$(sort $(path_torques) $(calibrated_torque))),$(call check_torque,$1,$t))
-$(foreach m,$(lumped_models),$(eval $(call plan_rule,$(call lumped_plan_file,$1,,$m),$(call lumped_plan,$1,,$m))))
-$(foreach t,$(torques),$(eval $(call static_rules,$1,$t))$(eval $(call budget_rules,$1,$t))$(eval $(call impact_rules,$1,$t))$(eval $(call loaded_rules,$1,$t))$(eval $(call branch_rules,$1,$t))\
-  $(foreach d,up down,$(eval $(call sweep_rules,$1,$t,$d))$(eval $(call jumps_rules,$1,$t,$d))$(eval $(call runup_rules,$1,$t,$d))\
-    $(foreach m,$(lumped_models),$(eval $(call lumped_rules,$1,$t,$m,$d)))))
-$(call figure_rules,$1)
-endef
+sweep_inputs = $(call params,sweep) $(bodies) $(at)/static.h5 $(first_static)
+# jumps.h5: the sweep with its jumps enclosed to 0.05 Hz, for `jump-folds`: a quarter more CPU.
+$(ways:%=%/sweep.h5) $(ways:%=%/jumps.h5): $$(sweep_inputs) $(call id,gear-sweep) | $(B)/bin/gear-sweep
+	$(call run,sweep) --params $< $(by_static) --direction $(notdir $(@D))$(if $(filter %/jumps.h5,$@), --jump-width 0.05) --output $@ $(call landed,sweep)
 
-$(foreach h,$(sort $(BODIES)),$(eval $(call body_rules,$h)))
-$(foreach s,$(scenes),$(if $(SCENE_$s_GEARS),$(eval $(call scene_rules,$s))))
+$(places:%=%/branch.h5): $$(sweep_inputs) $(call id,gear-orbit) | $(B)/bin/gear-orbit
+	$(call run,orbit) --params $< $(by_static) --output $@ $(call landed,orbit)
+
+runups := $(foreach w,up down,$(if $(filter runup sound,$(goals)),$(foreach r,$(runup_stem) $(if $(FROM),$(RATE)_$(TO)_$(FROM)),out/$(own_scene)/T$(TORQUE)/$w/runup_$r.h5)))
+ramp = $(subst _, ,$(patsubst runup_%,%,$(basename $(@F))))
+$(sort $(runups) $(foreach g,$(path_goals),$(if $(findstring /runup_,$g),$g))): $$(sweep_inputs) $(call id,gear-runup) | $(B)/bin/gear-runup
+	$(call run,runup) --params $< $(by_static) --direction $(notdir $(@D)) --rate '$(word 1,$(ramp))' $(if $(word 2,$(ramp)),--from '$(word 2,$(ramp))' --to '$(word 3,$(ramp))') --output $@ $(call landed,runup)
+
+# The phase stands in the path, as the torque does: loaded_0.25.h5.
+loaded_file := $(if $(filter loaded,$(goals)),out/$(own_scene)/T$(TORQUE)/loaded_$(PHASE).h5)
+$(sort $(loaded_file) $(foreach g,$(path_goals),$(if $(findstring /loaded_,$g),$g))): $$(at)/static.h5 $$(bodies) $$(patsubst %/body.h5,%/mesh.h5,$$(bodies)) $(call id,gear-loaded) | $(B)/bin/gear-loaded
+	$(call run,loaded) --static $< $(by_gear) $(call named,--mesh,$(scene),mesh) --mesh-phase $(patsubst loaded_%.h5,%,$(@F)) --output $@ $(call landed,loaded)
+
+$(lumped:%=%/sweep.h5): $$(call params,lumped) $$(at)/static.h5 $$(if $$(filter rectangular,$$(call part,4)),$$(first_static)) \
+    $(B)/plans/$$(scene)/lumped_$$(call part,4) $(call id,gear-lumped) | $(B)/bin/gear-lumped
+	$(call run,lumped) $(call lumped_options,$(scene),$(call part,4)) --static $(at)/static.h5 --params $< --direction $(call part,5) --output $@ $(call landed,lumped)
+
+$(addsuffix /response.h5,$(ways) $(lumped)): %/response.h5: %/sweep.h5 $(call id,gear-spectra) | $(B)/bin/gear-spectra
+	$(B)/bin/gear-spectra --input $< --output $@
 
 .PHONY: mesh reduce static loaded impact calibrate sweep branches lumped
+# $(call at_torques,files): at all torques of SCENE
+at_torques = $(foreach f,$1,$(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/$f.h5))
 mesh: $(foreach g,$(SCENE_$(own_scene)_GEARS),out/$(own_scene)/$g/mesh.h5) ## mesh every gear of SCENE (default: the paper's)
 reduce: $(foreach g,$(SCENE_$(own_scene)_GEARS),out/$(own_scene)/$g/body.h5) ## modes and flexibility of every gear of SCENE
-static: $(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/static.h5) ## transmission error and stiffness, all torques of SCENE
-loaded: $(if $(filter loaded,$(goals)),out/$(own_scene)/T$(TORQUE)/loaded_$(PHASE).h5) ## both gears loaded and deformed, with contact pressure and stresses, for ParaView: PHASE=0.25 (0 up to 1) TORQUE=150
-impact: $(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/impact.h5) ## natural frequency and damping by ring-down, all torques of SCENE
-calibrate: $(if $(filter calibrate,$(goals)),$(call impact_inputs,$(own_scene),$(TORQUE))) | $(B)/bin/gear-impact ## print the rayleigh_stiffness_s that gives a damping ratio by ring-down: DAMPING=0.07 TORQUE=150 STATE=two
-	@$| $(call impact_options,$(own_scene),$(TORQUE)) --calibrate $(DAMPING) --contact-state $(STATE)
-sweep: $(foreach d,up down,$(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/$d/response.h5)) ## speed sweeps, all torques of SCENE
-branches: $(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/branch.h5) ## branches of periodic orbits, stable or not, with their folds, all torques of SCENE
-lumped: $(foreach m,$(filter-out %-fig15,$(lumped_models)),$(foreach d,up down,$(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/$m/$d/response.h5))) ## speed sweeps of the lumped models, one degree of freedom, all torques of SCENE
+static: $(call at_torques,static) ## transmission error and stiffness, all torques of SCENE
+loaded: $(loaded_file) ## both gears loaded and deformed, with contact pressure and stresses, for ParaView: PHASE=0.25 (0 up to 1) TORQUE=150
+impact: $(call at_torques,impact) ## natural frequency and damping by ring-down, all torques of SCENE
+calibrated := $(if $(filter calibrate,$(goals)),$(patsubst %,out/$(own_scene)/T%/static.h5,$(TORQUE)))
+calibrate: $(if $(calibrated),out/$(own_scene)/params/impact.toml $(call pair_bodies,$(own_scene)) $(calibrated) $(call reference_static,$(own_scene))) | $(B)/bin/gear-impact ## print the rayleigh_stiffness_s that gives a damping ratio by ring-down: DAMPING=0.07 TORQUE=150 STATE=two
+	@$| --params $< $(call pair_options,$(own_scene)) --static $(calibrated) --reference-static $(call reference_static,$(own_scene)) --calibrate $(DAMPING) --contact-state $(STATE)
+sweep: $(call at_torques,up/response down/response) ## speed sweeps, all torques of SCENE
+branches: $(call at_torques,branch) ## branches of periodic orbits, stable or not, with their folds, all torques of SCENE
+lumped: $(call at_torques,$(foreach m,$(filter-out %-fig15,$(lumped_models)),$m/up/response $m/down/response)) ## speed sweeps of the lumped models, one degree of freedom, all torques of SCENE

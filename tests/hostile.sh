@@ -61,7 +61,7 @@ for given in 'TORQUE=1;touch mark' 'PHASE=$(shell touch mark)' 'SHARE=1/2"$(touc
   else wrong "$given is rejected" "$(tail -n 1 "$log")"; fi
 done
 # Every variable that the makefiles let a user set, and those that they only ask for.
-variables=$(sed -n 's/^\([A-Z][A-Z_]*\) *?=.*/\1/p' Makefile pipelines/*.mk)
+variables=$(sed -n 's/^\([A-Z][A-Z_]*\) *?=.*/\1/p' Makefile pipelines/*.mk tests/*.mk)
 for variable in $variables JUMP_MAP SENSITIVITY HARRIS_DYNAMIC FREEZE SANITIZE; do
   claim="$variable is data"
   for value in '0.07; touch mark' '0.07 $(shell touch mark)' '0.07 `touch mark`' $'0.07\ntouch mark' '0.07>mark' '0.07 | touch mark' '*' "'; touch mark; '"; do

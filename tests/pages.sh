@@ -66,8 +66,8 @@ anchors_of() {
 }
 declare -A anchor is_target is_variable is_key help_of excepted
 for page in "${pages[@]}"; do while read -r a; do anchor[$page#$a]=1; done < <(anchors_of "$page"); done
-makefiles=$(cat Makefile pipelines/names.mk; set +f; cat pipelines/*.mk)
-while read -r name; do is_target[$name]=1; done < <(sed -n 's/^\([a-z0-9-]*\):.*## .*/\1/p' <<< "$makefiles")
+makefiles=$(cat Makefile; set +f; cat pipelines/*.mk tests/*.mk)
+while read -r name; do is_target[$name]=1; done < <(make help | sed -n 's/^  \([a-z0-9-]*\) .*/\1/p')
 while read -r name; do is_variable[$name]=1; done < <(grep -o -w '[A-Z][A-Z_]\+' <<< "$makefiles" | sort -u)
 while read -r name; do is_key[$name]=1; done < <("$bin/gear-scene" --keys | cut -d'|' -f3 | tr -d '` ')
 programs=$(set +f; cd tools && echo gear-*.cpp)

@@ -34,7 +34,7 @@ if [ -z "$found" ]; then echo "ok: each function that may be longer says why"; e
 if ! command -v clang-tidy > /dev/null; then echo "skipped: clang-tidy reads sources together (it is not installed)"; else
   scratch=$(mktemp -d)
   trap 'rm -rf "$scratch"' EXIT
-  folder=$scratch/$(sed -n 's|^lint_folder := $(B)/||p' pipelines/robust.mk)
+  folder=$scratch/$(sed -n 's|^lint_folder := $(B)/||p' tests/checks.mk)
   mkdir -p "$folder" "$scratch/common/x"
   echo 'int unset(bool a) { int x; if (a) x = 1; return x; }' > "$scratch/common/x/a.cpp"
   echo "#include \"$scratch/common/x/a.cpp\"" > "$folder/unit.cxx"

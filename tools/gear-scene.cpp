@@ -8,7 +8,8 @@
 //            <out>/bodies/<hash>/body.toml               one per distinct gear
 //            <out>/<scene>/<gear> -> ../bodies/<hash>    relative links
 //            --output                                    make fragment: gears, bodies, torques of the scene
-//            --variant: a scene with the changes of --set, and nothing else; --keys: prints the table of scene keys, units to SI
+//            --variant: a scene with the changes of --set, and nothing else; --keys: prints the table of scene keys, units to SI;
+//            --goals: prints what is wrong with goals and variables of make, nothing if all is right
 #include <filesystem>
 #include <iostream>
 #include <vector>
@@ -17,9 +18,11 @@
 #include "base/format.h"
 #include "base/tool.h"
 #include "io/compatibility.h"
+#include "io/make_request.h"
 #include "io/publish.h"
 #include "io/scene.h"
 #include "io/scene_fragment.h"
+#include "io/scene_goals.h"
 #include "io/scene_remarks.h"
 #include "io/system_scene.h"
 #include "io/variant.h"
@@ -34,9 +37,10 @@ void tell_lines(const std::vector<std::string>& lines) {
 
 // A system (several meshes, carriers or drives): its stage parameters and its fragment.
 void cut_system(const std::string& path, const std::string& stem, const std::string& folder,
-                const std::string& output) {
+                const SceneGoals& goals, const std::string& output) {
   const SystemScene scene = read_system_scene(path);
   const System layout = layout_in(scene, path);
+  check_goals(goals, abilities(scene, layout), path);
   const std::string home = folder + "/" + stem;
   if (scene.rigid()) {
     rigid_system(layout);
@@ -57,9 +61,10 @@ void cut_system(const std::string& path, const std::string& stem, const std::str
 }
 
 void cut_pair(const std::string& path, const std::string& stem, const std::string& folder,
-              const std::string& ids, const std::string& output) {
+              const SceneGoals& goals, const std::string& ids, const std::string& output) {
   const Scene scene = read_scene(path);  // 1. The whole scene is checked before anything is written.
   check_scene(scene, path);
+  check_goals(goals, abilities(scene), path);
   const std::string home = folder + "/" + stem;
   record_scene(home, path);
   // Together: program ids, results and stage parameters keep their order.
@@ -89,8 +94,9 @@ void cut_pair(const std::string& path, const std::string& stem, const std::strin
 }
 
 void body(int argc, char** argv) {
-  std::string path, output, variant, ids, folder = "out";
-  std::vector<std::string> changes;
+  std::string path, output, variant, ids, goals, folder = "out";
+  std::vector<std::string> changes, given;
+  SceneGoals of_scene;
   bool keys = false;
   whine::Options options{"Checks a scene and writes what each stage needs of it", "gear-scene"};
   Option scene_option = options.add("--scene", path, "scene file (TOML)");
@@ -103,7 +109,14 @@ void body(int argc, char** argv) {
   Option keys_option = options.flag("--keys", keys, "print the table of scene keys and end");
   Option variant_option = options.add("--variant", variant, "scene to write with the changes of --set");
   Option set_option = options.add("--set", changes, "key=value, any number of times");
-  scene_option.excludes(keys_option);
+  Option goals_option =
+      options.add("--goals", goals,
+                  "goals of make, with a blank between: prints what is wrong with them and with --given");
+  options.add("--given", given, "NAME=value, a variable of make, any number of times").needs(goals_option);
+  options.add("--of-pairs", of_scene.of_pairs,
+              "a goal that needs a pair, any number of times: rejected if the scene has not what it needs");
+  options.add("--of-systems", of_scene.of_systems, "the same, a goal that needs a system");
+  scene_option.excludes(keys_option).excludes(goals_option);
   output_option.needs(scene_option).excludes(variant_option);
   variant_option.needs(scene_option).needs(set_option);
   set_option.needs(variant_option);
@@ -114,8 +127,8 @@ void body(int argc, char** argv) {
       "  gear-scene --scene data/scenes/lin-parker-planetary.toml --output build/scenes/lin-parker-planetary.mk --out out\n"
       "  gear-scene --keys");
   options.parse(argc, argv);
-  if (keys) {
-    std::cout << scene_key_table();
+  if (keys || !goals.empty()) {
+    std::cout << (keys ? scene_key_table() : wrong_with(goals, given));
     return;
   }
   if (!variant.empty()) {
@@ -125,8 +138,8 @@ void body(int argc, char** argv) {
   if (path.empty() || output.empty())
     fail(Failure::usage, "--scene and --output are needed, or --keys; see --help");
   const std::string stem = checked_scene_stem(path);
-  if (is_system_scene(path)) return cut_system(path, stem, folder, output);
-  cut_pair(path, stem, folder, ids, output);
+  if (is_system_scene(path)) return cut_system(path, stem, folder, of_scene, output);
+  cut_pair(path, stem, folder, of_scene, ids, output);
 }
 
 }  // namespace

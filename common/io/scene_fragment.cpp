@@ -9,6 +9,7 @@
 #include "base/tool.h"
 #include "io/compatibility.h"
 #include "io/publish.h"
+#include "io/scene_goals.h"
 #include "io/variant.h"
 
 namespace whine {
@@ -81,13 +82,11 @@ std::string scene_fragment(const Scene& scene, const std::string& path, const st
   out << name("TORQUES") << " :=";
   for (double torque : scene.operation.torques) out << " " << torque;
   out << "\n" << name("REFERENCE_TORQUE") << " := " << scene.operation.torques.front() << "\n";
-  bool differ = false, cracked = false, modified = false;
-  for (const std::string& gear : scene.mesh.gear) {
-    const SceneGear& own = scene.gear(gear);
-    differ |= !own.errors.none();
-    cracked |= own.design.crack.depth > 0;
-    modified |= own.modification != FlankModification{};
-  }
+  const SceneAbilities able = abilities(scene);
+  const bool differ = able.teeth_differ, cracked = able.cracked;
+  bool modified = false;
+  for (const std::string& gear : scene.mesh.gear)
+    modified |= scene.gear(gear).modification != FlankModification{};
   const bool rings_down = scene.fidelity.contact == ContactModel::strips &&
                           scene.fidelity.body != BodyModel::full && !differ && !cracked;
   out << name("RINGS_DOWN") << " := " << (rings_down ? "yes" : "no") << "\n";

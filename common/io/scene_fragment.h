@@ -1,4 +1,18 @@
-// What make has to know of a scene, as a fragment of a makefile.
+// What make has to know of a scene S, as a fragment of a makefile:
+//
+//   SCENE_S_GEARS, SCENE_S_DRIVER, SCENE_S_DRIVEN, SCENE_S_BODY_<gear> (hash), BODIES
+//   SCENE_S_TORQUES, SCENE_S_REFERENCE_TORQUE
+//   SCENE_S_RINGS_DOWN   no: with its [fidelity], or its teeth, there is no gear-impact
+//   SCENE_S_TEETH        alike, or differ and cracked
+//   SCENE_S_MODIFIED     yes: flanks are not as designed
+//   SCENE_S_BEARINGS     rigid or elastic
+//   SCENE_S_FRICTION     yes or no
+//
+// and of one of several meshes:
+//
+//   SCENE_S_SYSTEM       rigid: out/S/params/system.toml; elastic: out/S/params/system_static.toml, SCENE_S_SYSTEM_GEARS, SCENE_S_BODY_<gear>
+//   SCENE_S_PLANETS      yes: a [[mesh]] stands for those of several
+//   SCENE_S_SYSTEM_MOVES yes: it has speeds
 #pragma once
 #include <string>
 #include <utility>

@@ -96,6 +96,13 @@ std::string study_fragment(const ExpandedStudy& plan, const std::string& path, c
       << prefix << "OPTIONS :=" << (plan.study.marks_outside ? "--mark-outside-model" : "") << "\nBODIES +=";
   for (const auto& [hash, text] : plan.bodies) out << " " << hash;
   out << "\n";
+  for (const auto& [pair, names] : plan.of_pair) {
+    const std::string driver = pair.substr(0, pair.find('_')), driven = pair.substr(pair.find('_') + 1);
+    out << "$(" << prefix << pair << ":%=out/studies/" << stem << "/%.h5): %.h5: %.toml $(sort out/bodies/"
+        << driver << "/body.h5 out/bodies/" << driven
+        << "/body.h5) $(call id,gear-variant) | $(B)/bin/gear-variant\n\t$(call of_variant," << stem << ","
+        << driver << "," << driven << ")\n";
+  }
   return out.str();
 }
 

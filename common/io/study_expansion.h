@@ -22,7 +22,8 @@ struct ExpandedStudy {
 // which gear drives.
 ExpandedStudy expand_study(const std::string& path, const std::string& home);
 
-// The make fragment of a study: variants by their pair of bodies. stem: name of the study's file without folder and extension.
+// The make fragment of a study S: STUDY_S_PAIRS (driver_driven, hashes of bodies), STUDY_S_<pair> (variants), STUDY_S_GEARS (names of driver
+// and driven gear), STUDY_S_OPTIONS, BODIES, a rule for the variants of each pair. stem: name of the study's file without folder and extension.
 std::string study_fragment(const ExpandedStudy& plan, const std::string& path, const std::string& stem);
 
 // Keys that change nothing that the study computes, as far as its variants, and for a sample some more, show.

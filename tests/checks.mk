@@ -7,7 +7,16 @@
 #   make test-report          reports of whole scenes, their pages in a headless browser
 #   make lint                 clang-tidy of common/ and tools/, include direction of the layers, sizes of files and functions, shellcheck
 
-.PHONY: deps-lint deps-fuzz
+.PHONY: deps-lint deps-fuzz deps-bench deps-slurm deps-browser
+deps-bench: wanted := libsiconos-numerics-dev calculix-ccx
+deps-bench: | $(with_deps) ## install the packages that only `bench` and the tests beside Siconos use
+	$(install_wanted)
+deps-slurm: wanted := munge slurmctld slurmd slurm-client
+deps-slurm: | $(with_deps) ## install the packages that only `test-slurm` uses
+	$(install_wanted)
+deps-browser: wanted := chromium
+deps-browser: | $(with_deps) ## install the browser that only `test-report` uses
+	$(install_wanted)
 deps-lint: wanted := clang clang-tidy clang-format shellcheck
 deps-lint: | $(with_deps) ## install the packages that only `lint` uses
 	$(install_wanted)
@@ -30,12 +39,15 @@ test-faults: build $(tools:%=$(B)/id/%) | $(with_deps) ## kills, full disks, dam
 
 # --- reports
 
-.PHONY: deps-browser test-report
-deps-browser: wanted := chromium
-deps-browser: | $(with_deps) ## install the browser that only `test-report` uses
-	$(install_wanted)
+.PHONY: test-report
 test-report: build $(tools:%=$(B)/id/%) | $(with_deps) $(filter deps-browser,$(goals)) ## reports of FZG and NASA gears at coarse settings: known numbers, figures, pages in a headless browser
 	@B=$(B) MAKEFLAGS= MAKELEVEL= bash tests/report.sh | tee $(B)/report.log; ! grep -q '^FAILED' $(B)/report.log
+
+# --- clusters
+
+.PHONY: test-slurm
+test-slurm: build $(tools:%=$(B)/id/%) | $(with_deps) $(filter deps-slurm,$(goals)) ## a study on a Slurm cluster of one node, made on the loopback device: the same bytes as here
+	@B=$(B) SLURM=run MAKEFLAGS= MAKELEVEL= bash tests/slurm.sh | tee $(B)/slurm.log; ! grep -q -E '^(FAILED|skipped)' $(B)/slurm.log
 
 # --- numbers under stress
 
