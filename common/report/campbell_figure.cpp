@@ -9,6 +9,46 @@ namespace whine {
 
 using Eigen::Index;
 
+namespace {
+
+Panel campbell_panel(const ModesResult& a, const FigureBlock& modes, double top) {
+  Panel panel{.x = {.label = "Mesh frequency (Hz)", .from = 0, .to = top, .speed = true},
+              .y = {.label = "Frequency (Hz)", .from = 0, .to = top},
+              .height = 720};
+  for (const ModeType type :
+       {ModeType::rotational, ModeType::translational, ModeType::planet, ModeType::mixed, ModeType::train}) {
+    if (std::count(a.type.begin(), a.type.end(), type) == 0) continue;
+    const int colour = type == ModeType::mixed   ? kDark
+                       : type == ModeType::train ? kBlue
+                                                 : static_cast<int>(type) + 1;
+    panel.curves.push_back({.colour = colour, .label = type == ModeType::train ? "modes" : name_of(type)});
+    if (a.frozen_frequency.size() > 0)
+      panel.curves.push_back({.block = modes.name,
+                              .style = PanelStyle::boxes,
+                              .colour = colour,
+                              .where = 5,
+                              .is = static_cast<double>(static_cast<int>(type)),
+                              .box = {0, 0, 3, 4},
+                              .fill = 0.22});
+    for (const auto& row : modes.rows)
+      if (row[4] == static_cast<double>(static_cast<int>(type)))
+        panel.rules.push_back({'y', row[1], "", colour, 1});
+  }
+  panel.curves.push_back(
+      {.block = "harmonics", .colour = kGrey, .label = "harmonics", .width = 1.2, .dash = 2});
+  panel.curves.push_back({.block = "crossings",
+                          .x = 3,
+                          .y = 4,
+                          .style = PanelStyle::points,
+                          .colour = kBlack,
+                          .label = "crossings",
+                          .size = 0.8});
+  for (int l = 1; l <= kCampbellHarmonics; ++l) panel.words.push_back({text(l, " f_m"), top / l});
+  return panel;
+}
+
+}  // namespace
+
 Figure campbell_figure(const ModesResult& a) {
   Figure figure;
   figure.title = "Campbell diagram: natural frequencies and harmonics of the mesh frequency";
@@ -39,19 +79,12 @@ Figure campbell_figure(const ModesResult& a) {
   }
   if (modes.rows.empty())
     fail(Failure::input, "figure: all motions of the system are free; there is no natural frequency");
-  figure.blocks = {modes, crossings};
-  const auto count = [&](ModeType type) {
-    return static_cast<double>(std::count(a.type.begin(), a.type.end(), type));
-  };
-  figure.numbers = {{"highest", highest},
-                    {"harmonics", static_cast<double>(kCampbellHarmonics)},
-                    {"bands", bands ? 1.0 : 0.0},
-                    {"notes", outside ? 3.0 : 2.0},
-                    {"rotational", count(ModeType::rotational)},
-                    {"translational", count(ModeType::translational)},
-                    {"planet", count(ModeType::planet)},
-                    {"mixed", count(ModeType::mixed)},
-                    {"train", count(ModeType::train)}};
+  FigureBlock rays{"harmonics", {"mesh_frequency [Hz]", "frequency [Hz]"}, {}, "", "", true};
+  const double top = 1.06 * highest;
+  for (int l = 1; l <= kCampbellHarmonics; ++l)
+    rays.rows.insert(rays.rows.end(), {{0, 0}, {top / l, top}, {}});
+  figure.blocks = {modes, crossings, rays};
+  figure.panels = {campbell_panel(a, modes, top)};
   figure.notes.push_back(
       text(a.layout.bodies.size(), " bodies, ", a.layout.meshes.size(), " meshes; ",
            bands ? "lines: mean stiffness of the meshes, bands: frozen contact at all mesh phases"

@@ -1,7 +1,7 @@
 #include "report/compare_figures.h"
 
 #include <algorithm>
-#include <limits>
+#include <array>
 
 #include "base/error.h"
 #include "gear/pair.h"
@@ -39,8 +39,16 @@ Figure compared_rest_figure(const std::vector<OfDesign<StaticResult>>& designs) 
   Figure figure;
   figure.title = "Designs at rest, " + torque_words(designs.at(0).artifact.torque);
   std::vector<std::string> names;
-  double error_low = std::numeric_limits<double>::infinity(), error_high = -error_low, stiffness_high = 0,
-         largest = 0;
+  Panel error{.x = {.from = 0, .to = 1}, .y = {.label = "Static TE (µm)"}, .height = 300},
+      stiffness{.x = {.label = "Mesh phase", .from = 0, .to = 1},
+                .y = {.label = "Mesh stiffness (N/µm)", .from_zero = true},
+                .key = PanelKey::none,
+                .height = 260},
+      amplitudes{.x = {.label = "Harmonic of the mesh frequency", .from = 0.4, .to = kShownHarmonics + 0.6},
+                 .y = {.label = "Amplitude of TE (µm)", .from_zero = true},
+                 .key = PanelKey::none,
+                 .height = 240};
+  const double wide = 0.8 / static_cast<double>(designs.size());
   for (size_t i = 0; i < designs.size(); ++i) {
     const auto& [name, s] = designs[i];
     if (std::find(names.begin(), names.end(), name) != names.end())
@@ -57,30 +65,31 @@ Figure compared_rest_figure(const std::vector<OfDesign<StaticResult>>& designs) 
     // The mesh period closes.
     if (s.hunting_periods == 1 && !period.rows.empty())
       period.rows.push_back({period.rows.front()[0] + 1, period.rows.front()[1], period.rows.front()[2]});
-    error_low = std::min(error_low, s.transmission_error.minCoeff() * kMicro);
-    error_high = std::max(error_high, s.transmission_error.maxCoeff() * kMicro);
-    stiffness_high = std::max(stiffness_high, s.stiffness_secant.maxCoeff() * kMega);
     FigureBlock harmonics{
         text("harmonics ", i + 1), {"harmonic [1]", "transmission_error [µm]"}, {}, "harmonics", name};
     const Index last = std::min<Index>(kShownHarmonics, s.transmission_error_harmonic.size() - 1);
-    for (Index n = 1; n <= last; ++n) {
+    for (Index n = 1; n <= last; ++n)
       harmonics.rows.push_back({static_cast<double>(n), s.transmission_error_harmonic[n] * kMicro});
-      largest = std::max(largest, harmonics.rows.back()[1]);
-    }
+    constexpr std::array kDash{1, 3, 5, 7, 4, 6};
+    PanelCurve line{.block = period.name,
+                    .colour = static_cast<int>(i) + 1,
+                    .label = without_markup(name),
+                    .width = 2.6,
+                    .dash = kDash.at(i)};
+    error.curves.push_back(line);
+    line.y = 3;
+    stiffness.curves.push_back(line);
+    amplitudes.curves.push_back({.block = harmonics.name,
+                                 .style = PanelStyle::bars,
+                                 .colour = static_cast<int>(i) + 1,
+                                 .width = 0.92 * wide,
+                                 .shift = wide * (static_cast<double>(i) + 0.5) - 0.4});
     figure.blocks.push_back(std::move(period));
     figure.blocks.push_back(std::move(harmonics));
     figure.notes.push_back(name + ": " + pair_words(s));
   }
-  figure.words.emplace_back("labels", quoted_labels(names));
-  add_lines(names.size(), figure);
-  figure.numbers = {{"designs", static_cast<double>(designs.size())},
-                    {"error_low", error_low},
-                    {"error_high", error_high},
-                    {"stiffness_high", stiffness_high},
-                    {"largest", largest},
-                    {"harmonics", kShownHarmonics},
-                    {"notes", static_cast<double>(figure.notes.size())}};
-  figure.height = 1300;
+  plain_captions(names.size(), figure);
+  figure.panels = {error, stiffness, amplitudes};
   return figure;
 }
 
@@ -91,7 +100,13 @@ Figure compared_motion_figure(const std::vector<OfDesign<ResponseResult>>& sweep
   require_all_designs(sweeps, names.size());
   Figure figure;
   figure.title = "Designs in motion, " + torque_words(sweeps.at(0).artifact.torque);
-  double from = std::numeric_limits<double>::infinity(), to = 0, rms = 0, order = 0, load = 0;
+  const PanelAxis speed{.label = "Mesh frequency (Hz)", .speed = true};
+  figure.panels = {
+      {.x = speed, .y = {.label = "RMS of DTE (µm)", .from_zero = true, .level = true}},
+      {.x = speed,
+       .y = {.label = "Order 1 of DTE (µm)", .from_zero = true, .level = true},
+       .key = PanelKey::none},
+      {.x = speed, .y = {.label = "Tooth load / (T / r_b)", .from_zero = true}, .key = PanelKey::none}};
   for (size_t i = 0; i < names.size(); ++i) {
     std::string jumps;
     for (const Direction direction : {Direction::up, Direction::down}) {
@@ -117,39 +132,40 @@ Figure compared_motion_figure(const std::vector<OfDesign<ResponseResult>>& sweep
         block.rows.push_back({r.mesh_frequency[k], r.dte_rms[k] * kMicro,
                               r.dte_harmonic.cols() > 0 ? r.dte_harmonic(k, 0) * kMicro : 0,
                               r.tooth_load_max[k] / force});
-        rms = std::max(rms, block.rows.back()[1]);
-        order = std::max(order, block.rows.back()[2]);
-        load = std::max(load, block.rows.back()[3]);
         if (broken[static_cast<size_t>(k)]) block.rows.emplace_back();
       }
-      from = std::min(from, r.mesh_frequency.minCoeff());
-      to = std::max(to, r.mesh_frequency.maxCoeff());
+      for (size_t p = 0; p < figure.panels.size(); ++p) {
+        // The second stands on the first, and lets it show where both are alike.
+        figure.panels[p].curves.push_back(
+            {.block = block.name,
+             .y = static_cast<int>(p) + 2,
+             .colour = static_cast<int>(i) + 1,
+             .label = direction == Direction::up ? without_markup(names[i]) : "",
+             .width = i == 0 ? 4.4 : 2.6,
+             .dash = direction == Direction::up ? 1 : 3});
+        if (direction == Direction::up)
+          figure.panels[p].rules.push_back(
+              {'x', r.natural_frequency, p ? "" : "f_n", static_cast<int>(i) + 1});
+      }
       jumps += text(jumps.empty() ? "" : ", ", direction == Direction::up ? "rising" : "falling");
       std::vector<double> at(r.jump_frequency.begin(), r.jump_frequency.end());
       std::sort(at.begin(), at.end());
       for (const double f : at) jumps += " " + fixed(f, 0);
       if (at.empty()) jumps += " none";
       figure.blocks.push_back(std::move(block));
-      if (direction == Direction::up)
-        figure.numbers.emplace_back(text("natural_frequency_", i + 1), r.natural_frequency);
     }
     figure.notes.push_back(names[i] + ": jumps in Hz, " + jumps);
   }
   figure.notes.push_back(
       "f_n: mean natural frequency over the mesh period, contact frozen under the static load");
-  figure.words.emplace_back("labels", quoted_labels(names));
-  add_lines(names.size(), figure);
-  for (const auto& [name, value] :
-       {std::pair{"designs", static_cast<double>(names.size())}, std::pair{"rms_max", rms},
-        std::pair{"order_max", order}, std::pair{"load_max", load}, std::pair{"frequency_from", from},
-        std::pair{"frequency_to", to}, std::pair{"notes", static_cast<double>(figure.notes.size())}})
-    figure.numbers.emplace_back(name, value);
+  plain_captions(names.size(), figure);
+  for (size_t p = 0; p + 1 < figure.panels.size(); ++p) figure.panels[p].x.label.clear();
+  figure.panels[0].curves.push_back({.colour = kDark, .label = "dashed: speed falling", .dash = 3});
   std::vector<ResponseResult> all;
   all.reserve(sweeps.size());
   for (const auto& one : sweeps) all.push_back(one.artifact);
   figure.shafts = shafts_of_all(all);
   figure.levels = {{"dte_rms [µm]", false}, {"dte_harmonic_1 [µm]", true}};
-  figure.height = 1600;
   return figure;
 }
 

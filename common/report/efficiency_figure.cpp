@@ -112,6 +112,60 @@ FigureBlock friction_cycle(const StaticResult& first) {
   return cycle;
 }
 
+// The efficiency or the power lost over speed at each torque.
+Panel loss_panel(const std::vector<StaticResult>& statics, double natural_frequency, bool efficiency,
+                 bool beyond) {
+  Panel panel{.heading = efficiency ? "efficiency of the mesh, friction alone; dotted: without vibration"
+                                    : "mean power that friction takes",
+              .x = {.label = "Mesh frequency (Hz)", .speed = true},
+              .y = {.label = efficiency ? "Efficiency (%)" : "Power lost (W)", .from_zero = !efficiency},
+              .rules = {{'x', natural_frequency, "f_n"}},
+              .height = 270};
+  for (size_t t = 0; t < statics.size(); ++t) {
+    const auto name = [&](const char* what) { return text(t + 1, " ", what); };
+    const int colour = curve_colour(t), y = efficiency ? 2 : 3;
+    panel.curves.push_back({.block = name("up"),
+                            .y = y,
+                            .colour = colour,
+                            .label = torque_words(statics[t].torque),
+                            .width = 2});
+    panel.curves.push_back({.block = name("down"), .y = y, .colour = colour, .width = 2, .dash = 3});
+    if (efficiency)
+      panel.curves.push_back({.block = name("rest"), .colour = colour, .width = 2.2, .dash = 4});
+    for (const char* way : {"up", "down"})
+      if (beyond)
+        panel.curves.push_back({.block = name(way),
+                                .y = y,
+                                .style = PanelStyle::points,
+                                .colour = kBlack,
+                                .mark = 6,
+                                .where = 7});
+  }
+  panel.curves.push_back({.colour = kDark, .label = "dashed: falling", .dash = 3});
+  if (beyond)
+    panel.curves.push_back(
+        {.style = PanelStyle::points, .colour = kBlack, .label = "beyond backlash", .mark = 6});
+  return panel;
+}
+
+Panel friction_panel(const StaticResult& first) {
+  Panel panel{.heading = text(
+                  "at rest, ", torque_words(first.torque),
+                  ": moments of friction about the axes, positive where they act as the normal force does"),
+              .x = {.label = "Mesh phase (mesh periods)", .from = 0, .to = 1},
+              .y = {.label = "Moment (N m)"},
+              .rules = {{.axis = 'y', .dash = 1}},
+              .height = 230};
+  for (int g = 0; g < kSides; ++g)
+    panel.curves.push_back({.block = "cycle",
+                            .y = g + 2,
+                            .colour = curve_colour(g),
+                            .label = without_markup(short_name(first.mesh.gear[g]))});
+  panel.curves.push_back(
+      {.block = "cycle", .y = 4, .colour = kDark, .label = "work lost per angle", .dash = 4});
+  return panel;
+}
+
 }  // namespace
 
 Figure efficiency_figure(const std::vector<StaticResult>& statics,
@@ -127,18 +181,15 @@ Figure efficiency_figure(const std::vector<StaticResult>& statics,
   const std::optional<double> rigid = rigid_loss_factor(pair);
   Figure figure;
   figure.title = "Losses by friction";
-  figure.height = 1300;
   FigureBlock rest{"rest",
                    {"torque [N m]", "friction_coefficient [1]", "efficiency [%]", "loss_factor [1]"},
                    {},
                    "rest",
                    ""};
   if (rigid) rest.columns.emplace_back("loss_factor_rigid [1]");
-  double power = 0, least = 100, most = 0;
-  std::string labels, at_rest, factors, beyond;
+  std::string at_rest, factors, beyond;
   for (size_t t = 0; t < statics.size(); ++t) {
     const StaticResult& s = statics[t];
-    labels += text(t ? " '" : "'", torque_words(s.torque), "'");
     const std::array<const ResponseResult*, 2> both{&sweep_at(sweeps, s.torque, Direction::up),
                                                     &sweep_at(sweeps, s.torque, Direction::down)};
     if (const std::string speeds = speeds_beyond_backlash({both[0], both[1]}); !speeds.empty())
@@ -146,12 +197,6 @@ Figure efficiency_figure(const std::vector<StaticResult>& statics,
     for (const size_t way : {0, 1}) {
       const ResponseResult& r = *both[way];
       figure.blocks.push_back(efficiency_block(text(t + 1, " ", r.direction), r, *both[1 - way], s));
-      for (const std::vector<double>& row : figure.blocks.back().rows) {
-        if (row.empty()) continue;
-        least = std::min({least, row[1], row[5]});
-        most = std::max({most, row[1], row[5]});
-        power = std::max(power, row[2]);
-      }
     }
     figure.blocks.push_back(unbroken_rest(text(t + 1, " rest"), figure.blocks.back()));
     rest.rows.push_back({s.torque, s.friction_coefficient, s.efficiency * 100, s.loss_factor});
@@ -180,17 +225,8 @@ Figure efficiency_figure(const std::vector<StaticResult>& statics,
     figure.notes.insert(figure.notes.end(), untested.begin(), untested.end());
   }
   figure.shafts = shafts_of(first);
-  figure.words = {{"labels", labels},
-                  {"gears", text("'", first.mesh.gear[0], "' '", first.mesh.gear[1], "'")}};
-  figure.numbers = {{"curves", static_cast<double>(statics.size())},
-                    {"power_max", power},
-                    {"efficiency_min", least},
-                    {"efficiency_max", most},
-                    {"frequency_from", up.mesh_frequency.minCoeff()},
-                    {"frequency_to", up.mesh_frequency.maxCoeff()},
-                    {"beyond_backlash", beyond.empty() ? 0.0 : 1.0},
-                    {"notes", static_cast<double>(figure.notes.size())},
-                    {"natural_frequency", up.natural_frequency}};
+  figure.panels = {loss_panel(statics, up.natural_frequency, true, !beyond.empty()),
+                   loss_panel(statics, up.natural_frequency, false, !beyond.empty()), friction_panel(first)};
   return figure;
 }
 

@@ -107,14 +107,16 @@ void in_rpm(const Shaft& shaft, Figure& figure) {
   for (Panel& panel : figure.panels) {
     panel.heading = speeds_in_rpm(panel.heading, scale);
     for (PanelCurve& curve : panel.curves) curve.label = speeds_in_rpm(curve.label, scale);
+    for (PanelRule& rule : panel.rules) rule.label = speeds_in_rpm(rule.label, scale);
     if (!panel.x.speed) continue;
     // The axis above has the unit that the one below had.
     if (panel.top) panel.top->label = panel.x.label, panel.top_factor = 1 / scale;
-    panel.x.label = label;
+    if (!panel.x.label.empty()) panel.x.label = label;
     panel.x.from *= scale;
     panel.x.to *= scale;
     for (PanelRule& rule : panel.rules)
       if (rule.axis == 'x') rule.at *= scale;
+    for (PanelWords& words : panel.words) words.x *= scale;
   }
   figure.numbers.emplace_back("speed_scale", scale);
   figure.words.emplace_back("speed_label", label);

@@ -11,6 +11,7 @@
 #include "report/campbell_figure.h"
 #include "report/compare_figures.h"
 #include "report/efficiency_figure.h"
+#include "report/error_budget_figure.h"
 #include "report/flank_pressure_figure.h"
 #include "report/fold_curve_figure.h"
 #include "report/gear_figures.h"

@@ -51,6 +51,20 @@ std::vector<std::string> in_lines(const std::string& words) {
   return broken_lines(words, kNoteWidth, name_width);
 }
 
+PanelRule rest_rule(double force) {
+  return {'y', force, text("T / r_b = ", fixed(force, 0), " N"), kGreen, 2, true};
+}
+
+void plain_captions(size_t plain, Figure& figure) {
+  for (size_t i = 0; i < figure.notes.size(); ++i)
+    figure.captions.push_back(i < plain ? without_markup(figure.notes[i]) : figure.notes[i]);
+}
+
+int mark_stride(Eigen::Index points) {
+  const int stride = static_cast<int>((points + 59) / 60);
+  return stride < 2 && points > 30 ? 2 : stride;
+}
+
 void add_lines(size_t plain, Figure& figure) {
   for (size_t i = 0; i < figure.notes.size(); ++i)
     figure.words.emplace_back(text("line", i + 1),

@@ -20,6 +20,15 @@ inline constexpr double kNoteWidth = 98;
 // Words in lines of a picture's width, broken at blanks; '_' and '^' are letters of them.
 std::vector<std::string> in_lines(const std::string& words);
 
+// The force at which the torque is carried at rest: "T / r_b = 2128 N" in the key.
+PanelRule rest_rule(double force);
+
+// Captions of notes: the first `plain` as they stand, behind them notes with the marks of gnuplot.
+void plain_captions(size_t plain, Figure& figure);
+
+// Of curves of this many points each how many marks are left out between two of them, so that neighbours do not run into each other.
+int mark_stride(Eigen::Index points);
+
 // Notes as a template with foot_name = "line%d" has them: the first `plain` as they stand, behind them notes with the marks of gnuplot.
 void add_lines(size_t plain, Figure& figure);
 

@@ -50,6 +50,7 @@ struct Figure {
   std::string title;
   std::vector<std::string> scenes;  // "file: title" of those that all of it shows; filled by the caller
   std::vector<std::string> notes;   // one line each: operating point, choices, model level
+  std::vector<std::string> captions = {};  // below the picture in place of the notes, if there are any
   std::vector<FigureBlock> blocks;
   std::vector<std::pair<std::string, double>> numbers;     // variables of the template
   std::vector<std::pair<std::string, std::string>> words;  // string variables of the template

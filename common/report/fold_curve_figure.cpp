@@ -134,6 +134,9 @@ Figure fold_curve_figure(const std::vector<FoldCurvesResult>& curves,
                              : curves[0].quantity == FoldQuantity::torque ? "torque [N m]"
                                                                           : "tip_relief [um]";
   figure.title = "Folds of the branches: between a pair of curves there are two stable motions";
+  Panel panel{.x = {.label = "Mesh frequency (Hz)"}, .y = {.label = axis}, .height = 760};
+  PanelCurve cusp_marks{.style = PanelStyle::points, .width = 2.4, .mark = 6, .size = 2.2},
+      jump_marks{.style = PanelStyle::points, .width = 2, .mark = 2, .size = 1.6};
   Comparison comparison;
   for (size_t k = 0; k < curves.size(); ++k) {
     const FoldCurvesResult& a = curves[k];
@@ -159,10 +162,19 @@ Figure fold_curve_figure(const std::vector<FoldCurvesResult>& curves,
       for (Index c = 0; c < m.damping_ratio.size(); ++c)
         comparison.cell(a, m.damping_ratio[c], m.two_branches[c] != 0);
     }
-    figure.numbers.emplace_back("cusps_" + number, static_cast<double>(cusps.rows.size()));
-    figure.numbers.emplace_back("jumps_" + number, static_cast<double>(jumps.rows.size()));
-    figure.numbers.emplace_back("folds_" + number, static_cast<double>(folds.rows.size()));
-    figure.words.emplace_back("label" + number, label);
+    const int colour = static_cast<int>(k) + 1;
+    if (!folds.rows.empty())
+      panel.curves.push_back({.block = folds.name,
+                              .style = PanelStyle::line_points,
+                              .colour = colour,
+                              .label = label,
+                              .size = 0.6});
+    for (const auto& [block, marks] : {std::pair{&jumps, &jump_marks}, {&cusps, &cusp_marks}}) {
+      if (block->rows.empty()) continue;
+      marks->colour = colour;
+      marks->block = block->name;
+      panel.curves.push_back(*marks);
+    }
     for (FigureBlock* block : {&folds, &cusps, &jumps}) figure.blocks.push_back(std::move(*block));
     std::string words;
     for (Index i = 0; i < a.cusp_value.size(); ++i)
@@ -172,11 +184,20 @@ Figure fold_curve_figure(const std::vector<FoldCurvesResult>& curves,
                            (words.empty() ? "no cusp, " + a.end : "cusp at " + words));
   }
   for (const std::string& note : comparison.notes()) figure.notes.push_back(note);
-  figure.words.emplace_back("axis", axis);
-  figure.numbers.emplace_back("curves", static_cast<double>(curves.size()));
-  figure.numbers.emplace_back("notes", static_cast<double>(figure.notes.size()));
-  add_lines(figure.notes.size(), figure);
-  figure.height = 1000 + 24 * static_cast<int>(figure.notes.size());
+  // What the marks are, once for all curves.
+  for (auto& [marks, name] : {std::pair{cusp_marks, "cusp"}, {jump_marks, "jump of a sweep"}})
+    if (!marks.block.empty()) {
+      PanelCurve& key = panel.curves.emplace_back(marks);
+      key.block.clear();
+      key.colour = kBlack;
+      key.label = name;
+    }
+  if (panel.curves.empty()) {
+    panel.heading = "no folds in the range";
+    panel.curves.push_back({.block = figure.blocks[0].name});
+  }
+  figure.panels = {panel};
+  plain_captions(figure.notes.size(), figure);
   return figure;
 }
 

@@ -264,13 +264,15 @@ Figure profile_figure(const StaticResult& s) {
   const double degree = std::numbers::pi / 180, pitch = pair.base_pitch();
   Figure figure;
   figure.title = "Profile charts of the driving flanks";
+  figure.captions = {
+      "thin line: the involute without modification; form: where the involute begins; SAP: start of the active profile",
+      "LPSTC, HPSTC: lowest and highest point of single tooth contact (B, D of the driver; D, B of the driven gear)"};
   double low = 0, high = 0;
   for (int g = 0; g < kSides; ++g) {
     const std::string name = kRole[g];
     const ToothGeometry& gear = pair.gear(g);
     const FlankDeviation deviation(gear, s.mesh.modification[g]);
     figure.notes.push_back(s.mesh.gear[g] + ", " + name + ": " + in_words(s.mesh.modification[g]));
-    figure.words.emplace_back("title_" + name, figure.notes.back());
     FigureBlock trace{name, {"roll angle [deg]", "length of roll [mm]", "material [µm]"}, {}, "flanks", name};
     const double form = gear.form_roll_angle(), tip = gear.tip_roll_angle();
     constexpr int kPlaces = 400;
@@ -282,18 +284,27 @@ Figure profile_figure(const StaticResult& s) {
       high = std::max(high, material);
     }
     figure.blocks.push_back(trace);
+    Panel panel{.heading = without_markup(figure.notes.back()),
+                .x = {.label = "Roll angle (deg)"},
+                .y = {.label = "Material (µm)"},
+                .curves = {{.block = name, .y = 3, .width = 3}},
+                .rules = {{'y', 0, "", kGreen, 1}, {'x', form / degree, "form"}, {'x', tip / degree, "tip"}},
+                .key = PanelKey::none,
+                .height = 260};
     // Start of the active profile, lowest and highest point of single-pair contact: where along the path of contact.
-    const double first = pair.path_start(), last = pair.path_end();
-    const std::pair<const char*, double>
-        driver_marks[] = {{"sap", first}, {"lpstc", last - pitch}, {"pitch", 0}, {"hpstc", first + pitch}},
-        driven_marks[] = {{"sap", last}, {"lpstc", first + pitch}, {"pitch", 0}, {"hpstc", last - pitch}};
-    for (const auto& [mark, path] : g == 0 ? driver_marks : driven_marks)
-      figure.numbers.emplace_back(std::string(mark) + "_" + name, pair.nominal_roll(g, path) / degree);
-    figure.numbers.emplace_back("form_" + name, form / degree);
-    figure.numbers.emplace_back("tip_" + name, tip / degree);
+    const double first = g == 0 ? pair.path_start() : pair.path_end(),
+                 last = g == 0 ? pair.path_end() : pair.path_start(), step = g == 0 ? pitch : -pitch;
+    for (const auto& [mark, path] :
+         {std::pair{"SAP", first}, {"LPSTC", last - step}, {"pitch", 0.0}, {"HPSTC", first + step}})
+      panel.rules.push_back({'x', pair.nominal_roll(g, path) / degree, mark});
+    figure.panels.push_back(panel);
   }
-  figure.numbers.emplace_back("lowest", low);
-  figure.numbers.emplace_back("highest", high);
+  // Room for the names of the marks above the traces.
+  const double span = high > low ? high - low : 1;
+  for (Panel& panel : figure.panels) {
+    panel.y.from = low - 0.12 * span;
+    panel.y.to = high + 0.42 * span;
+  }
   return figure;
 }
 

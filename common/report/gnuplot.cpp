@@ -51,6 +51,7 @@ std::string prelude(const Figure& figure, const std::string& tsv_path, const std
   std::string script = "set encoding utf8; ";
   const PanelPicture panels = figure.panels.empty() ? PanelPicture{figure.height, ""} : panel_picture(figure);
   const int height = panels.height;
+  const std::vector<std::string>& captions = figure.captions.empty() ? figure.notes : figure.captions;
   // A point of pngcairo is 4/3 of its pixels, one of svg is one pixel: the scale makes both pictures alike.
   if (picture == Picture::gif) {
     script += text("set terminal gif animate delay 8 loop 0 linewidth 0.8 size 800,", height / 2,
@@ -62,7 +63,7 @@ std::string prelude(const Figure& figure, const std::string& tsv_path, const std
   script += " enhanced background '#ffffff'; ";
   const auto plots = std::filesystem::path(plain_path(template_path)).parent_path();
   script += text("plots = ", gnuplot_string(plots), "; height = real(", height,
-                 "); notes = ", figure.notes.size(), "; ");
+                 "); notes = ", captions.size(), "; ");
   script += text("tsv = ", gnuplot_string(plain_path(tsv_path)),
                  "; title = ", gnuplot_string(fitting(figure.title, 1)), "; ");
   // What engineering_axes() changes.
@@ -72,9 +73,9 @@ std::string prelude(const Figure& figure, const std::string& tsv_path, const std
     scenes += (scenes.empty() ? "" : "; ") + without_markup(scene);
   if (!scenes.empty()) heading += "\n" + fitting(scenes, 0.68);
   script += text("heading = ", gnuplot_string(heading), "; ");
-  for (size_t i = 0; i < figure.notes.size(); ++i)
-    script += text("note", i + 1, " = ", gnuplot_string(figure.notes[i]), "; ") +
-              rows_of(text("note", i + 1), figure.notes[i]);
+  for (size_t i = 0; i < captions.size(); ++i)
+    script += text("note", i + 1, " = ", gnuplot_string(captions[i]), "; ") +
+              rows_of(text("note", i + 1), captions[i]);
   for (const auto& [name, value] : figure.numbers) {
     char number[40];
     std::snprintf(number, sizeof number, "%.17g", value);

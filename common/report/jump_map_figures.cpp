@@ -104,7 +104,8 @@ std::vector<MapPanel> map_panels(const std::vector<JumpMapResult>& maps) {
       fail(Failure::input, "the maps of ", maps[0].torque, " and ", a.torque,
            " N m have other damping ratios; make all of them again");
     const std::string name = panel_name(a);
-    auto panel = std::find_if(panels.begin(), panels.end(), [&](const MapPanel& p) { return p.first == name; });
+    auto panel =
+        std::find_if(panels.begin(), panels.end(), [&](const MapPanel& p) { return p.first == name; });
     if (panel == panels.end()) panel = panels.insert(panels.end(), {name, {}});
     for (const JumpMapResult* other : panel->second)
       if (other->torque == a.torque) fail(Failure::input, "two maps of ", a.torque, " N m with ", name);
@@ -480,6 +481,41 @@ Figure jump_map_figure(std::vector<JumpMapResult> maps, const std::vector<FoldCu
   return figure;
 }
 
+namespace {
+
+struct CellClass {
+  const char* words;
+  int colour;
+  double fill;
+};
+constexpr std::array<CellClass, 3> kCellClasses{
+    {{"contact kept", kBlue, 0.15}, {"lost, one branch", kOrange, 0.4}, {"two branches", kVermilion, 0.6}}};
+
+// Cells of a map by their class, over damping and torque.
+Panel cells_panel(const FigureBlock& cells, double marked_ratio, bool first) {
+  Panel panel{.heading = cells.curve,
+              .x = {.label = "Damping ratio (%)", .from = cells.rows.front()[2], .to = cells.rows.back()[3]},
+              .y = {.label = first ? "Torque (N m)" : "",
+                    .from = cells.rows.front()[4],
+                    .to = cells.rows.back()[5],
+                    .log = true},
+              .rules = {{.at = marked_ratio}},
+              .key = PanelKey::none,
+              .height = 250,
+              .letter = false};
+  for (size_t n = 0; n < kCellClasses.size(); ++n)
+    panel.curves.push_back({.block = cells.name,
+                            .style = PanelStyle::boxes,
+                            .colour = kCellClasses[n].colour,
+                            .where = 7,
+                            .is = static_cast<double>(n),
+                            .box = {3, 4, 5, 6},
+                            .fill = kCellClasses[n].fill});
+  return panel;
+}
+
+}  // namespace
+
 Figure lumped_jump_map_figure(std::vector<JumpMapResult> maps, PrintedJumps printed) {
   const auto lumped = std::find_if(maps.begin(), maps.end(), [](const auto& a) { return !elastic(a); });
   if (lumped == maps.end())
@@ -494,7 +530,6 @@ Figure lumped_jump_map_figure(std::vector<JumpMapResult> maps, PrintedJumps prin
 
   Figure figure;
   figure.title = "Jumps and contact loss of lumped models";
-  figure.height = 1250;
   keep_if_of(maps, printed);
   const double ratio = shown_ratio(maps[0], printed.lumped_damping_ratio);
   const Index at = case_of(maps[0], ratio);
@@ -506,25 +541,23 @@ Figure lumped_jump_map_figure(std::vector<JumpMapResult> maps, PrintedJumps prin
     if (const MotionModel model = panel.second[0]->model;
         std::find(columns.begin(), columns.end(), model) == columns.end())
       columns.push_back(model);
+  figure.columns = columns.size();
+  figure.panels.resize(2 * columns.size(), {.height = 250});
   for (size_t p = 0; p < panels.size(); ++p) {
     const JumpMapResult& a = *panels[p].second[0];
-    const std::string name = text("panel", p + 1);
-    figure.blocks.push_back(cells(name, panels[p].second));
+    figure.blocks.push_back(cells(text("panel", p + 1), panels[p].second));
     figure.blocks.back().curve = panels[p].first;
-    figure.words.emplace_back(name, panels[p].first);
-    figure.numbers.emplace_back(
-        text("column", p + 1),
-        static_cast<double>(std::find(columns.begin(), columns.end(), a.model) - columns.begin()));
-    figure.numbers.emplace_back(text("row", p + 1), a.damper_acts == DamperActs::contact ? 1 : 0);
+    const auto column =
+        static_cast<size_t>(std::find(columns.begin(), columns.end(), a.model) - columns.begin());
+    const bool in_contact = a.damper_acts == DamperActs::contact;
+    figure.panels[column + (in_contact ? columns.size() : 0)] =
+        cells_panel(figure.blocks.back(), 100 * ratio, column == 0 || in_contact);
   }
-  const auto& extent = figure.blocks[0].rows;
-  for (const auto& [name, value] :
-       {std::pair{"panels", static_cast<double>(panels.size())},
-        std::pair{"columns", static_cast<double>(columns.size())}, std::pair{"ratio_from", extent.front()[2]},
-        std::pair{"ratio_to", extent.back()[3]}, std::pair{"torque_from", extent.front()[4]},
-        std::pair{"torque_to", extent.back()[5]}, std::pair{"marked", 100 * ratio},
-        std::pair{"notes", static_cast<double>(figure.notes.size())}})
-    figure.numbers.emplace_back(name, value);
+  // In the free place below the elastic pair, what the cells mean.
+  Panel& key = figure.panels[columns.size()];
+  key.bare = true;
+  for (const CellClass& c : kCellClasses)
+    key.curves.push_back({.style = PanelStyle::boxes, .colour = c.colour, .label = c.words, .fill = c.fill});
   return figure;
 }
 

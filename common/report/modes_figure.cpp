@@ -13,9 +13,9 @@ using Eigen::Index;
 
 namespace {
 
-constexpr int kOutlinePoints = 72, kColumns = 5;
+constexpr int kOutlinePoints = 72;
 
-// Colours of the template: 0 central gears, 1 planets, 2 carriers.
+// 0 central gears, 1 planets, 2 carriers.
 double colour_of(const System::Body& body) {
   return body.kind == System::BodyKind::carrier ? 2 : body.on == System::kGround ? 0 : 1;
 }
@@ -82,6 +82,47 @@ FigureBlock frequency_block(const ModesResult& a) {
   return block;
 }
 
+// A row for each type.
+Panel frequency_panel(const ModesResult& a) {
+  Panel panel{
+      .x = {.label = "Natural frequency (Hz)", .from = 0, .to = 1.04 * a.natural_frequency.maxCoeff()},
+      .key = PanelKey::none,
+      .height = 160,
+      .wide = true};
+  for (const ModeType type :
+       {ModeType::rotational, ModeType::translational, ModeType::planet, ModeType::mixed, ModeType::train}) {
+    if (std::count(a.type.begin(), a.type.end(), type) == 0) continue;
+    panel.y.names.push_back(type == ModeType::train ? "modes" : name_of(type));
+    panel.curves.push_back({.block = "frequencies",
+                            .x = 2,
+                            .style = PanelStyle::points,
+                            .colour = type == ModeType::mixed   ? kDark
+                                      : type == ModeType::train ? kBlue
+                                                                : static_cast<int>(type) + 1,
+                            .where = 3,
+                            .is = static_cast<double>(static_cast<int>(type)),
+                            .at = static_cast<double>(panel.y.names.size())});
+  }
+  return panel;
+}
+
+// The bodies of a mode over those at rest, in which room is for the largest motion.
+Panel shape_panel(const std::string& block, const std::string& heading, const SystemExtent& e) {
+  const double middle_x = 0.5 * (e.left + e.right), middle_y = 0.5 * (e.low + e.high),
+               reach = (0.5 + 0.5 * kDrawn + 0.03) * std::max(e.right - e.left, e.high - e.low);
+  Panel panel{.heading = heading,
+              .x = {.from = middle_x - reach, .to = middle_x + reach},
+              .y = {.from = middle_y - reach, .to = middle_y + reach},
+              .curves = {{.block = "rest", .colour = kGrey, .width = 1}},
+              .key = PanelKey::none,
+              .height = 290,
+              .bare = true};
+  for (int colour = 0; colour < 3; ++colour)
+    panel.curves.push_back(
+        {.block = block, .colour = colour + 1, .width = 2, .where = 3, .is = static_cast<double>(colour)});
+  return panel;
+}
+
 }  // namespace
 
 Figure modes_figure(const ModesResult& a) {
@@ -91,6 +132,8 @@ Figure modes_figure(const ModesResult& a) {
   figure.title = elastic ? "Natural modes of a system with the mean stiffness of its elastic gears"
                          : "Natural modes of a system of rigid bodies";
   figure.blocks = {frequency_block(a)};
+  figure.panels = {frequency_panel(a)};
+  figure.columns = 5;
   const SystemExtent e = system_extent(s);
   const double size = 0.5 * std::max(e.right - e.left, e.high - e.low) / kMilli;
   FigureBlock rest{"rest", {"x [mm]", "y [mm]", "colour"}, {}};
@@ -121,9 +164,11 @@ Figure modes_figure(const ModesResult& a) {
     for (int b = 0; b < static_cast<int>(s.bodies.size()); ++b)
       draw_body(s, b, shape.row(b), scale, block.rows);
     figure.blocks.push_back(block);
-    figure.words.emplace_back(text("panel", panels),
-                              text(shown(a.natural_frequency[i], 5), " Hz, ",
-                                   name_of(a.type[static_cast<size_t>(i)]), equal(i + 1) ? " (double)" : ""));
+    figure.panels.push_back(
+        shape_panel(block.name,
+                    text(shown(a.natural_frequency[i], 5), " Hz, ", name_of(a.type[static_cast<size_t>(i)]),
+                         equal(i + 1) ? " (double)" : ""),
+                    e));
   }
   figure.notes.push_back(
       text(s.bodies.size(), elastic ? " bodies, " : " rigid bodies, ", s.meshes.size(),
@@ -137,25 +182,6 @@ Figure modes_figure(const ModesResult& a) {
       ": at rest; a radius of each gear, of a ring a mark outside, shows its rotation; of a double mode one shape"));
   figure.notes.push_back(text("shapes are magnified, the largest motion of each to the same size",
                               planets ? "; in the frame of the carrier, without Coriolis terms" : ""));
-  const int lines = (panels + kColumns - 1) / kColumns;
-  double most = 0;
-  for (Index i = 0; i < a.natural_frequency.size(); ++i) most = std::max(most, a.natural_frequency[i]);
-  const auto has = [&](ModeType type) {
-    return std::count(a.type.begin(), a.type.end(), type) > 0 ? 1.0 : 0.0;
-  };
-  const double middle_x = 0.5 * (e.left + e.right), middle_y = 0.5 * (e.low + e.high),
-               reach = (1 + kDrawn + 0.06) * size * kMilli;
-  figure.numbers = {{"panels", static_cast<double>(panels)},
-                    {"columns", static_cast<double>(kColumns)},
-                    {"lines", static_cast<double>(lines)},
-                    {"highest", most},
-                    {"left", middle_x - reach},
-                    {"right", middle_x + reach},
-                    {"low", middle_y - reach},
-                    {"high", middle_y + reach},
-                    {"train", has(ModeType::train)},
-                    {"mixed", has(ModeType::mixed)}};
-  figure.height = 455 + 340 * lines;
   return figure;
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "gear/pair.h"
+#include "report/figure_words.h"
 #include "report/response_figures.h"
 #include "signal/response.h"
 #include "signal/spectrum.h"
@@ -94,10 +95,7 @@ void set_motion_title(Figure& figure, const std::string& what, const std::vector
                       double frequency) {
   figure.title = what + " at a mesh frequency of " + shown(frequency, 6) + " Hz, " +
                  torque_words(motions[0].sweep->torque);
-  for (size_t i = 0; i < figure.notes.size(); ++i)
-    figure.words.emplace_back(text("line", i + 1), without_markup(figure.notes[i]));
-  figure.numbers.emplace_back("lines", static_cast<double>(figure.notes.size()));
-  figure.numbers.emplace_back("motions", static_cast<double>(motions.size()));
+  plain_captions(figure.notes.size(), figure);
 }
 
 // Shown of tooth loads: mesh periods about the middle one, teeth from two before tooth i to three after it.
@@ -107,9 +105,9 @@ double force_at_rest(const SweepResult& s) {
   return s.torque / ToothGeometry(s.gear[0].design).base_radius();
 }
 
-// Panel `letter`: loads of successive teeth and of all of them, phases at which contact is lost, and the result in words. The
-// largest force of it, N.
-double add_tooth_loads(Figure& figure, const std::string& letter, const Motion& m) {
+// A panel with the loads of successive teeth and of all of them; shaded: contact lost. Blocks begin with `letter`, the heading with
+// `title`, behind which stands the result in words.
+void add_tooth_loads(Figure& figure, const std::string& letter, const Motion& m, const std::string& title) {
   const Eigen::Index n = m.per_period();
   const Eigen::VectorXd force = m.orbit(m.sweep->mesh_force);
   const MatrixRM& loads = m.sweep->tooth_load[m.row];
@@ -130,11 +128,20 @@ double add_tooth_loads(Figure& figure, const std::string& letter, const Motion& 
     else
       lost.rows.push_back({phase_of(k), phase_of(k)});
   }
-  figure.numbers.emplace_back("lost_" + letter, static_cast<double>(lost.rows.size()));
+  Panel panel{.x = {.label = "Phase of tooth i (mesh periods, 0: it touches at the pitch point)",
+                    .from = kFirstPeriod,
+                    .to = kFirstPeriod + kPeriods},
+              .y = {.label = "Force (N)", .from_zero = true},
+              .rules = {rest_rule(force_at_rest(*m.sweep))}};
+  if (!lost.rows.empty())
+    panel.curves.push_back(
+        {.block = lost.name, .style = PanelStyle::spans, .colour = kShade, .label = "contact lost"});
+  panel.curves.push_back({.block = net.name, .colour = kDark, .label = "all teeth", .width = 1.6, .dash = 4});
   figure.blocks.push_back(net);
   figure.blocks.push_back(lost);
   // Pair j is j places ahead of the reference pair, which touches at the pitch point at the start of a period: the tooth
   // that does so t periods after tooth i is pair (period - t). Drawn while it carries load, with a sample on either side.
+  bool others = false;
   for (int t = kFirstTooth; t <= kLastTooth; ++t) {
     FigureBlock tooth{
         text(letter, " tooth i", t < 0 ? "" : "+", t), {"phase of tooth i [1]", "force [N]"}, {}, "loads"};
@@ -148,29 +155,75 @@ double add_tooth_loads(Figure& figure, const std::string& letter, const Motion& 
         tooth.rows.push_back({phase_of(k), load_at(k)});
       else if (!tooth.rows.empty() && !tooth.rows.back().empty())
         tooth.rows.emplace_back();
-    figure.numbers.emplace_back(text("shown_", letter, "_", t - kFirstTooth), !tooth.rows.empty());
+    if (!tooth.rows.empty()) {
+      const bool own = t == 0 || t == 1;
+      panel.curves.push_back({.block = tooth.name,
+                              .colour = t == 0 ? kBlue
+                                        : own  ? kVermilion
+                                               : kPale,
+                              .label = t == 0   ? "tooth i"
+                                       : own    ? "tooth i + 1"
+                                       : others ? ""
+                                                : "other teeth",
+                              .width = own ? 3.0 : 1.8});
+      others = others || !own;
+    }
     figure.blocks.push_back(tooth);
   }
   const Separations apart = separations(force);
-  const double most = loads.topRows(force.size()).maxCoeff();
-  std::string result = text("largest tooth load ", fixed(most, 0),
-                            " N = ", fixed(most / force_at_rest(*m.sweep), 2), " T / r_b; ");
-  result += apart.intervals == 0
-                ? "contact is never lost"
-                : text("contact lost ", shown(static_cast<double>(apart.intervals) / m.periods, 3),
-                       apart.intervals == m.periods ? " time" : " times", " a mesh period, for ",
-                       fixed(100 * apart.fraction, 1), " % of it");
-  figure.words.emplace_back("result_" + letter, result);
-  return std::max(most, force.maxCoeff());
+  const double most = loads.topRows(force.size()).maxCoeff(), largest = std::max(most, force.maxCoeff());
+  panel.y.to = 1.08 * (largest > 0 ? largest : 1);
+  panel.heading = title + text("largest tooth load ", fixed(most, 0),
+                               " N = ", fixed(most / force_at_rest(*m.sweep), 2), " T / r_b; ");
+  panel.heading += apart.intervals == 0
+                       ? "contact is never lost"
+                       : text("contact lost ", shown(static_cast<double>(apart.intervals) / m.periods, 3),
+                              apart.intervals == m.periods ? " time" : " times", " a mesh period, for ",
+                              fixed(100 * apart.fraction, 1), " % of it");
+  figure.panels.push_back(panel);
 }
 
-void add_load_axes(Figure& figure, const SweepResult& sweep, double largest) {
-  figure.numbers.emplace_back("largest", largest);
-  figure.numbers.emplace_back("static_force", force_at_rest(sweep));
-  figure.numbers.emplace_back("phase_from", kFirstPeriod);
-  figure.numbers.emplace_back("phase_to", kFirstPeriod + kPeriods);
-  figure.numbers.emplace_back("first_tooth", kFirstTooth);
-  figure.numbers.emplace_back("last_tooth", kLastTooth);
+// The largest load of a tooth pair against speed, of the blocks "up" and "down"; marks of lost contact at its foot.
+Panel load_over_speed(double most, Eigen::Index speeds, bool lost, bool beyond) {
+  constexpr int kLost = 4, kLoad = 6, kBeyond = 8;  // columns
+  Panel panel{.heading = "largest load of a tooth pair",
+              .x = {.label = "Mesh frequency (Hz)", .speed = true},
+              .y = {.label = "Force (N)", .from_zero = true}};
+  for (const bool falling : {true, false})
+    panel.curves.push_back({.block = falling ? "down" : "up",
+                            .y = kLoad,
+                            .style = PanelStyle::line_points,
+                            .colour = falling ? kVermilion : kBlue,
+                            .label = falling ? "speed falling" : "speed rising",
+                            .width = falling ? 2.6 : 1.4,
+                            .mark = falling ? 10 : 9,
+                            .size = falling ? 1.6 : 1.3,
+                            .every = 2 * mark_stride(speeds),
+                            .first = falling ? mark_stride(speeds) : 0});
+  if (lost) {
+    for (const bool falling : {true, false})
+      panel.curves.push_back({.block = falling ? "down" : "up",
+                              .style = PanelStyle::points,
+                              .colour = falling ? kVermilion : kBlue,
+                              .mark = 5,
+                              .size = 0.6,
+                              .where = kLost,
+                              .at = (falling ? 0.035 : 0.015) * most});
+    panel.curves.push_back(
+        {.style = PanelStyle::points, .colour = kDark, .label = "contact lost", .mark = 5});
+  }
+  if (beyond)
+    for (const bool falling : {true, false})
+      panel.curves.push_back({.block = falling ? "down" : "up",
+                              .y = kLoad,
+                              .style = PanelStyle::points,
+                              .colour = kBlack,
+                              .label = falling ? "" : "beyond backlash",
+                              .width = 1.4,
+                              .mark = 6,
+                              .size = 1.1,
+                              .where = kBeyond});
+  return panel;
 }
 
 constexpr Eigen::Index kWaterfallOrders = 5;  // that a waterfall shows
@@ -220,8 +273,8 @@ Figure vibration_figure(const std::vector<SweepResult>& sweeps, double mesh_freq
   Figure figure;
   const std::vector<Motion> motions = motions_at(sweeps, mesh_frequency, background, figure);
   set_motion_title(figure, "Oscillating dynamic transmission error (DTE)", motions, mesh_frequency);
-  figure.height = 960 + 29 * static_cast<int>(figure.notes.size());
-  double time_end = 0, largest = 0, largest_amplitude = 0;
+  figure.columns = 2;
+  double largest = 0, largest_amplitude = 0;
   for (size_t i = 0; i < motions.size(); ++i) {
     const Motion& m = motions[i];
     const Eigen::VectorXd x = m.orbit(m.sweep->transmission_error);
@@ -239,7 +292,6 @@ Figure vibration_figure(const std::vector<SweepResult>& sweeps, double mesh_freq
       history.rows.push_back({1e3 * n / (m.per_period() * mesh_frequency), value});
       largest = std::max(largest, std::abs(value));
     }
-    time_end = std::max(time_end, history.rows.back()[0]);
     FigureBlock spectrum{
         letter_of(i) + " spectrum", {"frequency [Hz]", "amplitude [µm]"}, {}, "spectra", curve};
     for (int k = 1; k <= count; ++k)
@@ -247,20 +299,29 @@ Figure vibration_figure(const std::vector<SweepResult>& sweeps, double mesh_freq
     Eigen::Index strongest = 0;
     const double amplitude = h.amplitude.maxCoeff(&strongest);
     largest_amplitude = std::max(largest_amplitude, amplitude * kMicro);
-    figure.words.emplace_back("title_" + letter_of(i), m.title);
-    figure.words.emplace_back(
-        "result_" + letter_of(i),
-        text("RMS ", shown(h.rms * kMicro, 3), " µm, ", shown(50 * std::pow(amplitude / h.rms, 2), 3),
-             " % of its square at ", shown((strongest + 1.0) / m.periods, 3), " × mesh frequency; mean ",
-             shown(h.mean * kMicro, 3), " µm"));
+    figure.panels.push_back({.heading = m.title,
+                             .x = {.label = "Time (ms)", .from = 0, .to = history.rows.back()[0]},
+                             .y = {.label = "Oscillating DTE (µm)"},
+                             .curves = {{.block = history.name}},
+                             .height = 270});
+    figure.panels.push_back(
+        {.heading =
+             text("RMS ", shown(h.rms * kMicro, 3), " µm, ", shown(50 * std::pow(amplitude / h.rms, 2), 3),
+                  " % of its square at ", shown((strongest + 1.0) / m.periods, 3), " × mesh frequency; mean ",
+                  shown(h.mean * kMicro, 3), " µm"),
+         .x = {.label = "Frequency (Hz)", .from = 0, .to = 1.03 * kShownHarmonics * mesh_frequency},
+         .y = {.label = "Amplitude (µm)", .from = 0},
+         .curves = {{.block = spectrum.name, .style = PanelStyle::stems, .width = 3, .size = 0.9}},
+         .height = 270});
     figure.blocks.push_back(history);
     figure.blocks.push_back(spectrum);
   }
-  for (const auto& [name, value] : {std::pair{"time_end", time_end},
-                                    {"largest", largest},
-                                    {"largest_amplitude", largest_amplitude},
-                                    {"frequency_end", kShownHarmonics * mesh_frequency}})
-    figure.numbers.emplace_back(name, value);
+  // All motions on the same scales.
+  for (size_t p = 0; p < figure.panels.size(); ++p) {
+    PanelAxis& y = figure.panels[p].y;
+    y.to = p % 2 ? 1.1 * largest_amplitude : 1.06 * largest;
+    if (p % 2 == 0) y.from = -y.to;
+  }
   return figure;
 }
 
@@ -269,13 +330,16 @@ Figure tooth_load_figure(const std::vector<SweepResult>& sweeps, double mesh_fre
   Figure figure;
   const std::vector<Motion> motions = motions_at(sweeps, mesh_frequency, background, figure);
   set_motion_title(figure, "Tooth loads", motions, mesh_frequency);
-  figure.height = 150 + 29 * static_cast<int>(figure.notes.size()) + 330 * static_cast<int>(motions.size());
-  double largest = 0;
+  double to = 0;
   for (size_t i = 0; i < motions.size(); ++i) {
-    largest = std::max(largest, add_tooth_loads(figure, letter_of(i), motions[i]));
-    figure.words.emplace_back("title_" + letter_of(i), motions[i].title);
+    add_tooth_loads(figure, letter_of(i), motions[i], motions[i].title + "; ");
+    to = std::max(to, figure.panels.back().y.to);
   }
-  add_load_axes(figure, *motions[0].sweep, largest);
+  for (Panel& panel : figure.panels) {
+    panel.y.to = to;
+    panel.height = 240;
+    if (&panel != &figure.panels.back()) panel.x.label.clear();
+  }
   return figure;
 }
 
@@ -287,9 +351,8 @@ Figure dynamic_load_figure(const std::vector<SweepResult>& sweeps, CaptionSource
   figure.title = "Tooth loads against mesh frequency, " + torque_words(curve.up->torque);
   figure.notes = {operating_words(panels[0], background), panels[0].choices};
   figure.shafts = shafts_of_all(sweeps);
-  figure.height = 1240;
   Motion worst;
-  double rms = -1, from = std::numeric_limits<double>::infinity(), to = 0, most = 0;
+  double rms = -1;
   bool lost = false;
   const std::array<ResponseResult, 2> both{response(*curve.up), response(*curve.down)};
   for (const SweepResult* sweep : {curve.up, curve.down}) {
@@ -301,9 +364,6 @@ Figure dynamic_load_figure(const std::vector<SweepResult>& sweeps, CaptionSource
       rms = here;
       worst = motion_at(*sweep, r.mesh_frequency[row]);
     }
-    from = std::min(from, r.mesh_frequency.minCoeff());
-    to = std::max(to, r.mesh_frequency.maxCoeff());
-    most = std::max(most, r.tooth_load_max.maxCoeff());
     lost |= r.separation_fraction.maxCoeff() > 0;
   }
   // Of several periods that differ the one with the largest load in the middle.
@@ -315,20 +375,16 @@ Figure dynamic_load_figure(const std::vector<SweepResult>& sweeps, CaptionSource
       .maxCoeff(&sample);
   worst.first = static_cast<int>(sample / worst.per_period());
   const double speed = worst.sweep->mesh_frequency[worst.row];
-  const double largest = add_tooth_loads(figure, "b", worst);
-  add_load_axes(figure, *curve.up, largest);
-  figure.words.emplace_back("title_b", text("at ", shown(speed, 6), " Hz, speed ",
-                                            worst.sweep->direction == Direction::up ? "rising" : "falling",
-                                            ", where the RMS of the transmission error is largest (",
-                                            shown(rms * kMicro, 3), " µm)"));
-  figure.numbers.insert(figure.numbers.end(),
-                        {{"frequency_from", from},
-                         {"frequency_to", to},
-                         {"speeds", static_cast<double>(curve.up->mesh_frequency.size())},
-                         {"load_max", most},
-                         {"worst_speed", speed},
-                         {"contact_lost", lost},
-                         {"beyond_backlash", !speeds_beyond_backlash({&both[0], &both[1]}).empty()}});
+  figure.panels.push_back(
+      load_over_speed(std::max(both[0].tooth_load_max.maxCoeff(), both[1].tooth_load_max.maxCoeff()),
+                      curve.up->mesh_frequency.size(), lost,
+                      !speeds_beyond_backlash({&both[0], &both[1]}).empty()));
+  figure.panels[0].rules = {rest_rule(force_at_rest(*curve.up)), {'x', speed, "(b)"}};
+  add_tooth_loads(
+      figure, "b", worst,
+      text("at ", shown(speed, 6), " Hz, speed ",
+           worst.sweep->direction == Direction::up ? "rising" : "falling",
+           ", where the RMS of the transmission error is largest (", shown(rms * kMicro, 3), " µm)\n"));
   return figure;
 }
 
@@ -413,10 +469,18 @@ Figure mesh_force_figure(const std::vector<SweepResult>& sweeps,
   Figure figure;
   const double torque = sweeps[0].torque;
   figure.title = text("Net mesh force of one degree of freedom (Eq. 23), ", torque_words(torque));
+  const double at_rest = force_at_rest(sweeps[0]);
+  for (size_t k = 0; k < mesh_frequencies.size(); ++k)
+    figure.panels.push_back({.x = {.label = "Time (mesh periods, 0: pitch point)", .from = 0, .to = 2},
+                             .y = {.label = k ? "" : "Net mesh force (N)"},
+                             .rules = {rest_rule(at_rest)},
+                             .key = PanelKey::below,
+                             .height = 380});
+  figure.columns = figure.panels.size();
   double largest = 0;
-  std::vector<std::string> labels(mesh_frequencies.size());
-  const std::vector<std::string> dashes{"solid",       "dashed",      "dotted",
-                                        "dash-dotted", "long dashes", "fine dots"};
+  // How each sweep is drawn: Curve::dash and its name.
+  constexpr std::array<std::pair<int, const char*>, kMostCurves> kDashes{
+      {{1, "solid"}, {3, "dashed"}, {4, "dotted"}, {5, "dash-dotted"}, {7, "long dashes"}, {6, "fine dots"}}};
   for (size_t s = 0; s < sweeps.size(); ++s) {
     const SweepResult& sweep = sweeps[s];
     if (sweep.lumped.cell_end.size() == 0)
@@ -428,10 +492,10 @@ Figure mesh_force_figure(const std::vector<SweepResult>& sweeps,
     const bool rising = sweep.direction == Direction::up;
     std::string jumps;
     for (double f : sweep.jump_frequency) jumps += (jumps.empty() ? ", jump at " : ", ") + fixed(f, 1);
-    figure.notes.push_back(text(dashes[s], ": ", sweep.model, " stiffness, ", fixed(low * kMega, 1), " to ",
-                                fixed(high * kMega, 1), " N/µm (ratio ", fixed(high / low, 3), "), mean ",
-                                fixed(sweep.mean_stiffness * kMega, 1), "; ", lumped_words(sweep.lumped),
-                                "; speed ", rising ? "rising" : "falling",
+    figure.notes.push_back(text(kDashes[s].second, ": ", sweep.model, " stiffness, ", fixed(low * kMega, 1),
+                                " to ", fixed(high * kMega, 1), " N/µm (ratio ", fixed(high / low, 3),
+                                "), mean ", fixed(sweep.mean_stiffness * kMega, 1), "; ",
+                                lumped_words(sweep.lumped), "; speed ", rising ? "rising" : "falling",
                                 jumps.empty() ? ", no jump" : jumps + " Hz"));
     for (size_t k = 0; k < mesh_frequencies.size(); ++k) {
       Eigen::Index row = 0;
@@ -455,17 +519,20 @@ Figure mesh_force_figure(const std::vector<SweepResult>& sweeps,
         double& side = (jump > f) == rising ? next : behind;
         if (side == 0 || std::abs(jump - f) < std::abs(side - f)) side = jump;
       }
-      labels[k] += text("'", shown(f, 6), " Hz, ratio ", fixed(high / low, 3),
-                        next > 0     ? ", before its jump at " + fixed(next, 0) + " Hz' "
-                        : behind > 0 ? ", after its jump at " + fixed(behind, 0) + " Hz' "
-                                     : ", no jump' ");
+      figure.panels[k].curves.push_back(
+          {.block = block.name,
+           .colour = static_cast<int>(s) + 1,
+           .label = text(shown(f, 6), " Hz, ratio ", fixed(high / low, 3),
+                         next > 0     ? ", before its jump at " + fixed(next, 0) + " Hz"
+                         : behind > 0 ? ", after its jump at " + fixed(behind, 0) + " Hz"
+                                      : ", no jump"),
+           .dash = kDashes[s].first});
     }
   }
-  figure.numbers = {{"curves", static_cast<double>(sweeps.size())},
-                    {"panels", static_cast<double>(mesh_frequencies.size())},
-                    {"force_max", largest},
-                    {"static_force", torque / ToothGeometry(sweeps[0].gear[0].design).base_radius()}};
-  for (size_t k = 0; k < labels.size(); ++k) figure.words.emplace_back("labels_" + letter_of(k), labels[k]);
+  for (Panel& panel : figure.panels) {
+    panel.y.from = -0.03 * largest;
+    panel.y.to = 1.1 * largest;
+  }
   return figure;
 }
 

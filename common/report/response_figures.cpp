@@ -366,14 +366,19 @@ Figure bearing_force_figure(const std::vector<ResponseResult>& sweeps, const Cap
   figure.title = "Forces on the bearings against mesh frequency, " + torque_words(curve.up->torque);
   figure.notes = {operating_words(panels[0], background), panels[0].choices};
   figure.shafts = shafts_of_all(sweeps);
-  std::string labels;
-  double rms = 0, most = 0;
+  Panel oscillating{.heading = "RMS of the oscillating part",
+                    .x = {.label = "Mesh frequency (Hz)", .speed = true},
+                    .y = {.label = "Force (N)", .from_zero = true},
+                    .rules = {{'x', curve.up->natural_frequency, "f_n"}}},
+      largest = oscillating;
+  largest.heading = "largest force";
   int curves = 0;
   for (int g = 0; g < kSides; ++g) {
     const Bearing& bearing = mesh.bearing[g];
     if (!bearing.elastic()) continue;
     ++curves;
-    labels += text("'", short_name(mesh.gear[g]), ", ", shown(bearing.stiffness * 1e-6, 4), " N/µm' ");
+    // The second stands on the first, and lets it show where both are alike.
+    PanelCurve line{.colour = curves, .width = curves == 1 ? 4.4 : 1.6};
     for (const ResponseResult* r : {curve.up, curve.down}) {
       const std::string name = text(curves, " ", r->direction);
       FigureBlock block{name,
@@ -386,20 +391,24 @@ Figure bearing_force_figure(const std::vector<ResponseResult>& sweeps, const Cap
         block.rows.push_back({r->mesh_frequency[i], r->bearing_force_rms[g][i], r->bearing_force_max[g][i]});
         if (broken[i]) block.rows.emplace_back();
       }
-      rms = std::max(rms, r->bearing_force_rms[g].maxCoeff());
-      most = std::max(most, r->bearing_force_max[g].maxCoeff());
       figure.blocks.push_back(block);
+      line.block = name;
+      line.dash = r == curve.up ? 1 : 3;
+      line.label = r == curve.down ? ""
+                                   : text(without_markup(short_name(mesh.gear[g])), ", ",
+                                          shown(bearing.stiffness * 1e-6, 4), " N/µm");
+      for (Panel* panel : {&oscillating, &largest}) {
+        line.y = panel == &oscillating ? 2 : 3;
+        panel->curves.push_back(line);
+      }
     }
   }
-  figure.words.emplace_back("labels", labels);
-  const GearPair gears(*curve.up);
-  figure.numbers = {{"curves", curves},
-                    {"rms_max", rms},
-                    {"force_max", most},
-                    {"static_force", curve.up->torque / gears.gear(0).base_radius()},
-                    {"frequency_from", curve.up->mesh_frequency.minCoeff()},
-                    {"frequency_to", curve.up->mesh_frequency.maxCoeff()},
-                    {"natural_frequency", curve.up->natural_frequency}};
+  const double at_rest = curve.up->torque / GearPair(*curve.up).gear(0).base_radius();
+  largest.rules.push_back({'y', at_rest, text("T / r_b = ", fixed(at_rest, 0), " N"), kGreen, 2, true});
+  for (Panel* panel : {&oscillating, &largest}) {
+    panel->curves.push_back({.colour = kDark, .label = "dashed: falling", .dash = 3});
+    figure.panels.push_back(*panel);
+  }
   return figure;
 }
 

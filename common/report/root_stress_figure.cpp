@@ -192,6 +192,98 @@ std::vector<std::string> notes_of(const StaticResult& s, const IsoComparison& is
   return lines;
 }
 
+// Of the gears: the second stands on the first, and lets it show where both are alike.
+constexpr std::array kGearWidths{4.4, 1.6};
+
+std::string gear_label(const StaticResult& s, int g) {
+  return without_markup(short_name(s.mesh.gear[g]));
+}
+
+Panel root_cycle_panel(const StaticResult& s, const GearPair& pair, const IsoComparison& iso) {
+  const double start = pair.path_start() / pair.base_pitch(), end = pair.path_end() / pair.base_pitch();
+  Panel panel{.heading = "while a tooth passes through the mesh, at rest",
+              .x = {.label = "Phase of the pair (mesh periods, 0: pitch point)",
+                    .from = start - 0.35,
+                    .to = end + 0.35},
+              .y = {.label = "Root stress (MPa)", .from_zero = true},
+              .height = 230};
+  for (const double at : {start, end - 1, start + 1, end}) panel.rules.push_back({.at = at, .dash = 4});
+  for (int g = 0; g < kSides; ++g) {
+    panel.curves.push_back({.block = text("cycle ", g + 1),
+                            .colour = curve_colour(g),
+                            .label = gear_label(s, g),
+                            .width = kGearWidths[g]});
+    if (const auto& level = iso.root_stress[static_cast<size_t>(g)])
+      panel.rules.push_back({'y', *level * kInMegapascals,
+                             text("ISO 6336-3: ", fixed(*level * kInMegapascals, 0), " MPa"), curve_colour(g),
+                             2, true});
+  }
+  return panel;
+}
+
+// A column of the sweeps, and of the branch: its stable orbits, which a sweep may pass by, and unstable ones.
+void add_motion_curves(PanelCurve curve, bool branch, Panel& panel) {
+  const std::string label = curve.label;
+  const double width = curve.width;
+  const auto add = [&](const char* block, const std::string& words, double wide, int dash) {
+    curve.block = block;
+    curve.label = words;
+    curve.width = wide;
+    curve.dash = dash;
+    panel.curves.push_back(curve);
+  };
+  add("speed down", "", width, 3);
+  add("speed up", label, width, 1);
+  if (!branch) return;
+  curve.where = 8;
+  add("branch", "", 0.8, 1);
+  curve.is = 0;
+  add("branch", "", width, 6);
+}
+
+Panel speed_panel(const std::string& heading, const std::string& axis, double natural_frequency) {
+  return {.heading = heading,
+          .x = {.label = "Mesh frequency (Hz)", .speed = true},
+          .y = {.label = axis, .from_zero = true},
+          .rules = {{'x', natural_frequency, "f_n"}},
+          .height = 230};
+}
+
+Panel stress_panel(const StaticResult& s, const ResponseResult& r, bool branch) {
+  Panel panel = speed_panel("largest over the mesh cycle, sustained for 1/64 of it", "Root stress (MPa)",
+                            r.natural_frequency);
+  for (int g = 0; g < kSides; ++g)
+    add_motion_curves(
+        {.y = g + 2, .colour = curve_colour(g), .label = gear_label(s, g), .width = kGearWidths[g]}, branch,
+        panel);
+  if (branch) panel.curves.push_back({.colour = kDark, .label = "dots: unstable orbits", .dash = 6});
+  panel.curves.push_back({.colour = kDark, .label = "dashed: falling", .dash = 3});
+  return panel;
+}
+
+Panel factor_panel(const StaticResult& s, const ResponseResult& r, const IsoComparison& iso, bool branch) {
+  Panel panel =
+      speed_panel("the same over the largest at rest; root stress is quasi-static in the tooth loads",
+                  "Dynamic factor (1)", r.natural_frequency);
+  add_motion_curves({.y = 4, .colour = kDark, .label = "mesh force (over T / r_b)", .width = 2.2}, branch,
+                    panel);
+  add_motion_curves({.y = 5, .colour = kGreen, .label = "tooth load", .width = 2.2}, branch, panel);
+  for (int g = 0; g < kSides; ++g)
+    add_motion_curves({.y = g + 6,
+                       .colour = curve_colour(g),
+                       .label = "root stress, " + gear_label(s, g),
+                       .width = kGearWidths[g]},
+                      branch, panel);
+  if (!iso.resonance) return panel;
+  panel.curves.push_back(
+      {.block = "iso", .colour = kPurple, .label = "K_v, ISO 6336-1 method B", .width = 2.2, .dash = 4});
+  if (*iso.resonance > r.mesh_frequency.minCoeff() && *iso.resonance < r.mesh_frequency.maxCoeff())
+    panel.rules.push_back({'x', *iso.resonance,
+                           text("upright: N = 1 (ISO), ", fixed(*iso.resonance, 0), " Hz"), kPurple, 1,
+                           true});
+  return panel;
+}
+
 }  // namespace
 
 Figure root_stress_figure(const StaticResult& s, const std::vector<ResponseResult>& sweeps,
@@ -205,39 +297,17 @@ Figure root_stress_figure(const StaticResult& s, const std::vector<ResponseResul
   const IsoComparison iso = iso_comparison(s, sweeps[0].inertia);
   Figure figure;
   figure.title = "Root stress (MPa) and dynamic factors, " + torque_words(s.torque);
-  figure.height = 1300;
   figure.shafts = shafts_of(s);
-  double high = 0, factor = 1;
   for (int g = 0; g < kSides; ++g) figure.blocks.push_back(cycle_block(s, g));
-  const auto add_motions = [&](FigureBlock block) {
-    for (const auto& row : block.rows)
-      if (!row.empty()) {
-        high = std::max({high, row[1], row[2]});
-        factor = std::max({factor, row[3], row[4], row[5], row[6]});
-      }
-    figure.blocks.push_back(std::move(block));
-  };
-  for (const ResponseResult& r : sweeps) add_motions(stress_block(r, sweeps[&r == &sweeps[0] ? 1 : 0], rest));
-  for (const BranchResult& b : branches) add_motions(branch_block(b, s, rest));
+  for (const ResponseResult& r : sweeps)
+    figure.blocks.push_back(stress_block(r, sweeps[&r == &sweeps[0] ? 1 : 0], rest));
+  for (const BranchResult& b : branches) figure.blocks.push_back(branch_block(b, s, rest));
   if (iso.resonance) figure.blocks.push_back(dynamic_factor_block(iso, sweeps[0]));
   figure.blocks.push_back(rest_block(s, iso));
   figure.notes = notes_of(s, iso, !branches.empty());
-  add_lines(figure.notes.size(), figure);
-  figure.words.emplace_back("labels",
-                            quoted_labels({short_name(s.mesh.gear[0]), short_name(s.mesh.gear[1])}));
-  figure.numbers = {{"iso", iso.resonance ? 1.0 : 0.0},
-                    {"iso_driver", iso.root_stress[0].value_or(0) * kInMegapascals},
-                    {"iso_driven", iso.root_stress[1].value_or(0) * kInMegapascals},
-                    {"path_start", pair.path_start() / pair.base_pitch()},
-                    {"path_end", pair.path_end() / pair.base_pitch()},
-                    {"stress_max", high},
-                    {"factor_max", factor},
-                    {"branches", static_cast<double>(branches.size())},
-                    {"frequency_from", sweeps[0].mesh_frequency.minCoeff()},
-                    {"frequency_to", sweeps[0].mesh_frequency.maxCoeff()},
-                    {"resonance", iso.resonance.value_or(0)},
-                    {"notes", static_cast<double>(figure.notes.size())},
-                    {"natural_frequency", sweeps[0].natural_frequency}};
+  plain_captions(figure.notes.size(), figure);
+  figure.panels = {root_cycle_panel(s, pair, iso), stress_panel(s, sweeps[0], !branches.empty()),
+                   factor_panel(s, sweeps[0], iso, !branches.empty())};
   return figure;
 }
 

@@ -17,6 +17,13 @@ constexpr int kRunupOrders = 4;
 constexpr Index kSlices = 400, kBands = 300, kMostPoints = 1200;
 constexpr double kHighest = 5.0 / 12;  // of the sample rate: what the record holds undamped
 
+PanelAxis speed_axis(const RunupResult& a) {
+  return {.label = "Mesh frequency (Hz)",
+          .from = std::min(a.ramp.from, a.ramp.to),
+          .to = std::max(a.ramp.from, a.ramp.to),
+          .speed = true};
+}
+
 // Spectrogram in dB re 1 N, RMS: of the bins of a band the one of largest amplitude, so that no line falls between two bands.
 FigureBlock spectrogram_block(const RunupResult& a, Figure& figure) {
   const double top = std::max(a.ramp.from, a.ramp.to);
@@ -45,8 +52,19 @@ FigureBlock spectrogram_block(const RunupResult& a, Figure& figure) {
     }
     block.rows.emplace_back();
   }
-  figure.numbers.emplace_back("loudest", loudest);
-  figure.numbers.emplace_back("frequency_end", most);
+  Panel panel{
+      .heading = "spectrogram of the mesh force",
+      .x = speed_axis(a),
+      .y = {.label = "Frequency (Hz)", .from = 0, .to = most},
+      .top = PanelAxis{.label = "Speed of " + without_markup(a.mesh.gear[0]) + " (rpm)"},
+      .top_factor = 60.0 / a.gear[0].design.teeth,
+      .curves = {{.block = "spectrogram", .style = PanelStyle::image}},
+      .rules = {{.axis = 'y', .at = a.natural_frequency, .colour = kBlack}},
+      .height = 400,
+      .colours = PanelAxis{.label = "Mesh force (dB re 1 N RMS)", .from = loudest - 60, .to = loudest}};
+  panel.words.push_back({"f_n", 0.5 * (panel.x.from + panel.x.to), a.natural_frequency});
+  for (int k = 1; k <= kRunupOrders && k * top < most; ++k) panel.words.push_back({text(k), top, k * top});
+  figure.panels.push_back(panel);
   figure.notes.push_back(text(
       "(a) Hann windows of ", shown(static_cast<double>(length) / a.sample_rate * kMilli, 3),
       " ms, RMS of lines in dB re 1 N; orders of the mesh frequency are rays, f_n natural frequency of the mesh"));
@@ -61,18 +79,22 @@ FigureBlock order_block(const RunupResult& a, Figure& figure) {
   const OrderCuts cuts = order_cuts(a.samples.transmission_error, phase, orders, width);
   FigureBlock block{"orders", {"time [s]", "mesh_frequency [Hz]"}, {}};
   for (int n = 1; n <= orders; ++n) block.columns.push_back(text("order_", n, " [µm]"));
-  double largest = 0;
   const Index stride = std::max<Index>(1, cuts.phase.size() / (4 * kMostPoints));
   for (Index c = 0; c < cuts.phase.size(); c += stride) {
     const double squared = a.ramp.from * a.ramp.from + 2 * a.mesh_acceleration * cuts.phase[c];
     const double f = std::sqrt(squared);
     std::vector<double> row{(f - a.ramp.from) / a.mesh_acceleration, f};
     for (int n = 0; n < orders; ++n) row.push_back(cuts.amplitude(c, n) * kMicro);
-    largest = std::max(largest, row[2]);
     block.rows.push_back(std::move(row));
   }
-  figure.numbers.emplace_back("orders", orders);
-  figure.numbers.emplace_back("largest", largest);
+  Panel panel{.heading = "orders of the transmission error",
+              .x = speed_axis(a),
+              .y = {.label = "Amplitude (µm)", .from_zero = true, .level = true},
+              .height = 260};
+  for (int n = 1; n <= orders; ++n)
+    panel.curves.push_back(
+        {.block = "orders", .x = 2, .y = n + 2, .colour = n, .label = text("order ", n), .width = 2.2});
+  figure.panels.push_back(panel);
   figure.notes.push_back(text("(b) orders in Hann windows of ", width,
                               " mesh periods over the angle (transform over the phase of the ramp)"));
   return block;
@@ -80,7 +102,6 @@ FigureBlock order_block(const RunupResult& a, Figure& figure) {
 
 // Extremes of groups of mesh periods, so that what is short remains.
 FigureBlock runup_period_block(const RunupResult& a, double mean_force, Figure& figure) {
-  figure.numbers.emplace_back("largest_load", a.periods.tooth_load_max.maxCoeff() / mean_force);
   FigureBlock block{
       "periods", {"mesh_frequency [Hz]", "tooth_load_max [mean mesh force]", "separation_fraction [%]"}, {}};
   const Index periods = a.periods.size(), stride = std::max<Index>(1, periods / kMostPoints);
@@ -90,6 +111,16 @@ FigureBlock runup_period_block(const RunupResult& a, double mean_force, Figure& 
                           a.periods.tooth_load_max.segment(k, n).maxCoeff() / mean_force,
                           a.periods.separation_fraction.segment(k, n).maxCoeff() * kPercent});
   }
+  figure.panels.push_back({.heading = "largest load of a tooth, over the mean mesh force",
+                           .x = speed_axis(a),
+                           .y = {.label = "Load (1)", .from_zero = true},
+                           .curves = {{.block = "periods", .width = 1.8}},
+                           .height = 140});
+  figure.panels.push_back({.heading = "share of the period without contact",
+                           .x = speed_axis(a),
+                           .y = {.label = "Time (%)", .from_zero = true},
+                           .curves = {{.block = "periods", .y = 3, .colour = kVermilion, .width = 1.8}},
+                           .height = 140});
   return block;
 }
 
@@ -103,8 +134,7 @@ Figure runup_figure(const RunupResult& a, const std::vector<ResponseResult>& swe
   figure.blocks.push_back(order_block(a, figure));
   figure.blocks.push_back(runup_period_block(a, a.samples.mesh_force.mean(), figure));
   const double low = std::min(a.ramp.from, a.ramp.to), high = std::max(a.ramp.from, a.ramp.to);
-  double largest = 0;
-  int drawn = 0;
+  bool compared = false;
   for (const ResponseResult& r : sweeps) {
     if (r.torque != a.torque)
       fail(Failure::input, "the run-", a.direction, " is at ", a.torque, " N m, a sweep at ", r.torque,
@@ -113,30 +143,25 @@ Figure runup_figure(const RunupResult& a, const std::vector<ResponseResult>& swe
     block.table = "sweeps";
     block.curve = text(r.direction);
     for (Index i = 0; i < r.mesh_frequency.size(); ++i)
-      if (r.mesh_frequency[i] >= low && r.mesh_frequency[i] <= high && r.dte_harmonic.cols() > 0) {
+      if (r.mesh_frequency[i] >= low && r.mesh_frequency[i] <= high && r.dte_harmonic.cols() > 0)
         block.rows.push_back({r.mesh_frequency[i], r.dte_harmonic(i, 0) * kMicro});
-        largest = std::max(largest, block.rows.back()[1]);
-      }
     if (block.rows.empty()) continue;
-    figure.words.emplace_back(text("sweep", ++drawn), text(r.direction));
+    figure.panels[1].curves.push_back({.block = block.name,
+                                       .style = PanelStyle::points,
+                                       .colour = kGrey,
+                                       .label = text("order 1, sweep ", r.direction),
+                                       .mark = r.direction == Direction::up ? 7 : 6,
+                                       .size = 0.7});
     figure.blocks.push_back(std::move(block));
+    compared = true;
   }
-  figure.numbers.emplace_back("largest_sweep", largest);
-  if (drawn > 0) figure.notes.push_back("(b) dots: first order of the periodic motions of the speed sweeps");
+  if (compared) figure.notes.push_back("(b) dots: first order of the periodic motions of the speed sweeps");
   figure.notes.push_back(text(
-      "(c) of each mesh period, at its time steps; load: what a pair sustains for 1/64 of it; the mesh frequency changes by ",
+      "(c, d) of each mesh period, at its time steps; load: what a pair sustains for 1/64 of it; the mesh frequency changes by ",
       shown(std::abs(a.mesh_acceleration), 4), " Hz/s, ", up ? "rising" : "falling", " for ",
       shown((a.ramp.to - a.ramp.from) / a.mesh_acceleration, 3), " s"));
-  figure.words.emplace_back("driver", without_markup(a.mesh.gear[0]));
-  for (const auto& [name, value] :
-       {std::pair{"sweeps", static_cast<double>(drawn)}, std::pair{"frequency_from", low},
-        std::pair{"frequency_to", high}, std::pair{"natural_frequency", a.natural_frequency},
-        std::pair{"rpm_per_hertz", 60.0 / a.gear[0].design.teeth},
-        std::pair{"notes", static_cast<double>(figure.notes.size())}})
-    figure.numbers.emplace_back(name, value);
   figure.shafts = shafts_of(a);
   for (int n = 1; n <= kRunupOrders; ++n) figure.levels.push_back({text("order_", n, " [µm]"), true});
-  figure.height = 1500;
   return figure;
 }
 

@@ -1,6 +1,7 @@
 #include "report/sensitivity_figure.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -116,16 +117,54 @@ Figure sensitivity_figure(const JumpMapResult& base, const std::vector<JumpMapRe
     figure.blocks.push_back(block);
   }
   figure.blocks.insert(figure.blocks.end(), named.begin(), named.end());
+  figure.captions = figure.notes;
+  std::vector<std::string> names;
   for (size_t i = 0; i < rows.size(); ++i) {
     figure.notes.push_back(text("variant ", i, ": ", rows[i].label));
-    figure.words.emplace_back(text("label", i + 1), rows[i].label);
+    // The keys of a variant that two gears have in turn, a line each.
+    std::string label = without_markup(rows[i].label);
+    if (const size_t both = label.find("; "); both != std::string::npos) label.replace(both, 2, ";\n");
+    names.push_back(label);
   }
-  figure.numbers = {{"variants", static_cast<double>(rows.size())}};
-  for (size_t column = 1; column <= 6; ++column) {
+  constexpr std::array kChanged{"mean stiffness (%)", "f, one pair (Hz)", "f, two pairs (Hz)",
+                                "branches from (Hz)", "branches to (Hz)", "tooth load (%)"};
+  FigureBlock gone{"one branch", {"change", "variant"}, {}, "", "", true},
+      open{"goes on below", {"change", "variant"}, {}, "", "", true};
+  for (const auto& row : figure.blocks[0].rows) {
+    if (row[7] == 0)
+      gone.rows.push_back({0, row[0] + 1});
+    else if (row[8] > 0)
+      open.rows.push_back({row[4], row[0] + 1});
+  }
+  for (size_t k = 0; k < kChanged.size(); ++k) {
     double reach = 0;
-    for (const auto& row : figure.blocks[0].rows) reach = std::max(reach, std::abs(row[column]));
-    figure.numbers.emplace_back(text("reach", column), reach > 0 ? reach : 1);
+    for (const auto& row : figure.blocks[0].rows) reach = std::max(reach, std::abs(row[k + 1]));
+    if (reach == 0) reach = 1;
+    Panel panel{.x = {.label = kChanged[k], .from = -1.12 * reach, .to = 1.12 * reach},
+                .y = {.names = k ? std::vector<std::string>(names.size()) : names},
+                .curves = {{.block = "changes",
+                            .y = static_cast<int>(k) + 2,
+                            .style = PanelStyle::rows,
+                            .width = 0.72,
+                            .shift = 1}},
+                .rules = {{'x', 0, "", kDark, 1}},
+                .key = PanelKey::none,
+                .height = std::max(300, 60 * static_cast<int>(names.size()))};
+    if (k == 3 || k == 4)
+      panel.curves.push_back({.block = gone.name,
+                              .style = PanelStyle::points,
+                              .colour = kVermilion,
+                              .width = 2.4,
+                              .mark = 2,
+                              .size = 1.6});
+    if (k == 3)
+      panel.curves.push_back(
+          {.block = open.name, .style = PanelStyle::points, .colour = kBlack, .mark = 8, .size = 1.8});
+    figure.panels.push_back(panel);
   }
+  figure.columns = kChanged.size();
+  figure.blocks.push_back(gone);
+  figure.blocks.push_back(open);
   return figure;
 }
 

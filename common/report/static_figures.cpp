@@ -12,7 +12,6 @@
 #include "gear/pair.h"
 #include "lumped/stiffness.h"
 #include "report/figure_words.h"
-#include "results/error_budget.h"
 #include "results/impact.h"
 #include "results/response.h"
 #include "signal/spectrum.h"
@@ -96,23 +95,27 @@ Panel period_panel(const std::string& quantity, const std::string& block,
   return panel;
 }
 
-// Stems of the harmonics side by side, so that none hides another.
+// Stems of the harmonics side by side, so that none hides another; first: black ones of a block of its own, if it has a name.
 Panel harmonics_panel(const std::string& quantity, const std::string& block,
-                      const std::vector<std::string>& labels) {
-  Panel panel{.x = {.label = "Harmonic of the mesh frequency", .from = 0.4, .to = kShownHarmonics + 0.6},
+                      const std::vector<std::string>& labels, const PanelCurve& first = {}) {
+  Panel panel{.x = {.label = "Harmonic of the mesh frequency"},
               .y = {.label = quantity, .from_zero = true},
+              .key = PanelKey::below,
               .height = 560};
+  for (int k = 1; k <= kShownHarmonics; ++k) panel.x.names.push_back(std::to_string(k));
+  if (!first.block.empty()) panel.curves.push_back(first);
   for (size_t i = 0; i < labels.size(); ++i)
-    panel.curves.push_back(
-        {.block = block,
-         .y = static_cast<int>(i) + 2,
-         .style = PanelStyle::stems,
-         .colour = static_cast<int>(i) + 1,
-         .label = labels[i],
-         .width = 1.6,
-         .mark = kMarks[i],
-         .size = 2,
-         .shift = 0.15 * (static_cast<double>(i) - 0.5 * static_cast<double>(labels.size() - 1))});
+    panel.curves.push_back({.block = block,
+                            .y = static_cast<int>(i) + 2,
+                            .style = PanelStyle::stems,
+                            .colour = static_cast<int>(i) + 1,
+                            .label = labels[i],
+                            .width = 1.6,
+                            .mark = kMarks[i],
+                            .size = 2});
+  const auto stems = static_cast<double>(panel.curves.size());
+  for (size_t i = 0; i < panel.curves.size(); ++i)
+    panel.curves[i].shift = std::min(0.15, 0.84 / stems) * (static_cast<double>(i) - 0.5 * (stems - 1));
   return panel;
 }
 
@@ -171,12 +174,21 @@ Figure mesh_stiffness_figure(const std::vector<StaticResult>& statics) {
 
   figure.blocks = {period_block(statics, "mesh_stiffness", unit, &StaticResult::stiffness_secant, kMega),
                    rectangle, spectrum, rectangle_spectrum};
-  figure.numbers = {{"curves", static_cast<double>(statics.size())}};
-  std::string labels;
+  std::vector<std::string> labels;
   for (const auto& s : statics)
-    labels += text("'", torque_label(s), ", mean ", fixed(s.mean_stiffness * kMega, 1), "' ");
-  figure.words = {{"labels", labels},
-                  {"rectangle_label", "rectangular wave, mean " + fixed(wave.mean() * kMega, 1)}};
+    labels.push_back(text(torque_label(s), ", mean ", fixed(s.mean_stiffness * kMega, 1)));
+  const PanelCurve black{.block = "rectangular wave harmonics",
+                         .style = PanelStyle::stems,
+                         .colour = kBlack,
+                         .label = "rectangular wave, mean " + fixed(wave.mean() * kMega, 1),
+                         .width = 1.6,
+                         .mark = 3,
+                         .size = 2};
+  figure.panels = {period_panel("Mesh stiffness (N/µm)", "mesh_stiffness", labels),
+                   harmonics_panel("Amplitude (N/µm)", "mesh_stiffness harmonics", labels, black)};
+  auto& curves = figure.panels[0].curves;
+  curves.insert(curves.begin(), {.block = rectangle.name, .colour = kBlack, .width = 3});
+  figure.columns = 2;
   return figure;
 }
 
@@ -228,41 +240,51 @@ Figure load_sharing_figure(const std::vector<StaticResult>& statics) {
     for (int j = from; j <= to; ++j) row.push_back(i < n ? load(first, i, j) : load(first, 0, j + 1));
     loads.rows.push_back(row);
   }
-  std::string labels, alone;
-  for (const auto& s : statics) {
-    const auto one = ((s.tooth_load.array() > 0).cast<int>().rowwise().sum() == 1).count();
+  const double pitch = pair.base_pitch(), path_start = pair.path_start() / pitch,
+               path_end = pair.path_end() / pitch;
+  Panel shares{.x = {.label = "Phase of the pair (mesh periods, 0: pitch point)",
+                     .from = path_start - 0.35,
+                     .to = path_end + 0.35},
+               .y = {.label = "Share of the load (%)", .from = 0, .to = 104},
+               .key = PanelKey::below,
+               .height = 540};
+  std::string alone;
+  for (size_t i = 0; i < statics.size(); ++i) {
+    const auto one = ((statics[i].tooth_load.array() > 0).cast<int>().rowwise().sum() == 1).count();
     const std::string percent = fixed(kPercent * static_cast<double>(one) / static_cast<double>(n), 0);
-    labels += text("'", torque_label(s), ": one pair alone ", percent, " %' ");
-    alone += text(alone.empty() ? "" : ", ", percent, " % at ", torque_label(s));
+    // Curves lie on each other over much of the path: what is drawn first shows on either side of what is drawn on it.
+    shares.curves.push_back({.block = "share",
+                             .y = static_cast<int>(i) + 2,
+                             .colour = static_cast<int>(i) + 1,
+                             .label = text(torque_label(statics[i]), ": one pair alone ", percent, " %"),
+                             .width = 1.8 + 1.1 * static_cast<double>(statics.size() - 1 - i)});
+    alone += text(alone.empty() ? "" : ", ", percent, " % at ", torque_label(statics[i]));
   }
+  // On the line of action: first and last contact, and between them the part with one pair alone.
+  for (const double end : {path_start, path_end}) shares.rules.push_back({'x', end, "", kDark});
+  for (const double end : {path_end - 1, path_start + 1}) shares.rules.push_back({'x', end, "", kGrey});
   figure.notes.push_back(text("one pair alone carries the load for ", alone,
                               " of the mesh period; on the line of action alone it would for ",
                               fixed(kPercent * std::max(0.0, 2 - first.contact_ratio), 0), " %"));
+  Panel each{.heading = torque_label(first),
+             .x = {.label = "Mesh phase (mesh periods, 0: pitch point)", .from = 0, .to = 1},
+             .y = {.label = "Load (N)", .from_zero = true},
+             .key = PanelKey::below};
+  each.curves.push_back({.block = "loads", .colour = kDark, .label = "all pairs", .width = 1.8, .dash = 4});
+  for (int j = from; j <= to; ++j)
+    each.curves.push_back({.block = "loads",
+                           .y = 3 + j - from,
+                           .colour = (3 + j - from) % 6 + 1,
+                           .label = j == 0 ? "reference pair"
+                                           : text(j > 0 ? "preceding pair" : "following pair",
+                                                  std::abs(j) > 1 ? text(" ", std::abs(j)) : ""),
+                           .width = 2.6});
+  each.rules = {rest_rule(first.torque / pair.gear(0).base_radius())};
   figure.blocks = {share, loads};
-  const double pitch = pair.base_pitch();
-  figure.numbers = {{"curves", static_cast<double>(statics.size())},
-                    {"pairs", static_cast<double>(to - from + 1)},
-                    {"first_pair", from},
-                    {"path_start", pair.path_start() / pitch},
-                    {"path_end", pair.path_end() / pitch},
-                    {"static_force", first.torque / pair.gear(0).base_radius()}};
-  figure.words = {{"labels", labels}, {"torque", torque_label(first)}};
+  figure.panels = {shares, each};
+  figure.columns = 2;
   return figure;
 }
-
-namespace {
-
-// The end of a logarithmic axis above all amplitudes, of a block, too: a power of ten; 1 if there are none.
-double decade_above(double largest) {
-  return largest > 0 ? std::pow(10, std::floor(std::log10(largest)) + 1) : 1;
-}
-double decade_above(const FigureBlock& block) {
-  double largest = 0;
-  for (const auto& row : block.rows) largest = std::max(largest, row[1]);
-  return decade_above(largest);
-}
-
-}  // namespace
 
 Figure sidebands_figure(const StaticResult& s, const ResponseResult& r) {
   const int periods = s.hunting_periods;
@@ -296,12 +318,22 @@ Figure sidebands_figure(const StaticResult& s, const ResponseResult& r) {
       orders("at rest", s.transmission_error_order.size() - 1,
              [&](Eigen::Index k) { return s.transmission_error_order[k]; }),
       orders("in motion", r.dte_order.cols(), [&](Eigen::Index k) { return r.dte_order(peak, k - 1); })};
-  figure.numbers = {{"periods", static_cast<double>(periods)},
-                    {"last_order", kLastOrder},
-                    {"top_at_rest", decade_above(figure.blocks[1])},
-                    {"top_in_motion", decade_above(figure.blocks[2])}};
-  figure.words = {{"speed", fixed(r.mesh_frequency[peak], 0) + " Hz"}};
-  figure.height = 1300;
+  figure.panels = {{.x = {.label = "Mesh periods", .from = 0, .to = static_cast<double>(periods)},
+                    .y = {.label = "Static transmission error (µm)"},
+                    .curves = {{.block = "transmission_error", .width = 1.4}},
+                    .height = 230}};
+  for (const auto& [name, heading] :
+       {std::pair{"orders at rest", std::string("at rest")},
+        std::pair{"orders in motion", "in motion at " + fixed(r.mesh_frequency[peak], 0) + " Hz"}})
+    figure.panels.push_back({.heading = heading,
+                             .x = {.label = "Order of the mesh frequency", .from = 0, .to = kLastOrder},
+                             .y = {.label = "Amplitude (µm)", .log = true},
+                             .curves = {{.block = name,
+                                         .style = PanelStyle::stems,
+                                         .colour = heading == "at rest" ? kBlue : kVermilion,
+                                         .width = 1.8,
+                                         .size = 0}},
+                             .height = 230});
   return figure;
 }
 
@@ -342,6 +374,56 @@ void add_root_stress_of_teeth(const StaticResult& s, int g, int around, Figure& 
       " MPa, ", shown(100 * (largest.maxCoeff() / intact - 1), 2),
       " % above that of an intact tooth; beside the slit ", shown(of(0) * kInMegapascals, 4),
       " MPa, not counting its tip, where stress is singular"));
+}
+
+// The fourth block and those behind it are root stresses of the teeth of a gear.
+std::vector<Panel> crack_panels(const std::vector<FigureBlock>& blocks, double around, double last_order) {
+  const PanelCurve with{.colour = kVermilion, .label = "with the crack", .width = 1.8, .size = 0},
+      without{.colour = kDark, .label = "without", .width = 1.6, .dash = 3, .mark = 6};
+  const PanelAxis periods{
+      .label = "Mesh periods from the one with the largest mark", .from = -around, .to = around + 1};
+  const auto of = [](PanelCurve curve, const char* block, int y, PanelStyle style = PanelStyle::line) {
+    curve.block = block;
+    curve.y = y;
+    curve.style = style;
+    return curve;
+  };
+  std::vector<Panel> panels{
+      {.heading = "static transmission error",
+       .x = periods,
+       .y = {.label = "Error (µm)"},
+       .curves = {of(without, "transmission_error", 3), of(with, "transmission_error", 2)}},
+      {.heading = "what the crack adds",
+       .x = periods,
+       .y = {.label = "Added (µm)"},
+       .curves = {of(with, "transmission_error", 4)},
+       .key = PanelKey::none},
+      {.heading = "orders of the mesh frequency",
+       .x = {.label = "Order", .from = 0, .to = last_order},
+       .y = {.label = "Amplitude (µm)", .log = true},
+       .curves = {of(with, "orders", 2, PanelStyle::stems),
+                  of(without, "orders without", 2, PanelStyle::points)}}};
+  Panel stress{.heading = "largest root stress of each tooth about the cracked one",
+               .x = {.label = "Tooth, counter-clockwise from the cracked one",
+                     .from = -around - 0.5,
+                     .to = around + 0.5},
+               .y = {.label = "Stress (MPa)", .from_zero = true}};
+  for (size_t k = 3; k < blocks.size(); ++k) {
+    stress.curves.push_back({.block = blocks[k].name,
+                             .y = 3,
+                             .colour = kDark,
+                             .label = k > 3 ? "" : "intact tooth",
+                             .width = 1.6,
+                             .dash = 3});
+    stress.curves.push_back({.block = blocks[k].name,
+                             .style = PanelStyle::points,
+                             .colour = curve_colour(k - 3),
+                             .label = without_markup(short_name(blocks[k].curve)),
+                             .size = 1.6});
+  }
+  if (!stress.curves.empty()) panels.push_back(stress);
+  for (Panel& panel : panels) panel.height = 180;
+  return panels;
 }
 
 }  // namespace
@@ -400,110 +482,7 @@ Figure crack_figure(const StaticResult& s) {
     without.rows.push_back({static_cast<double>(k + 1), of_intact.amplitude[k] * kMicro});
   figure.blocks = {error, orders, without};
   for (int g = 0; g < kSides; ++g) add_root_stress_of_teeth(s, g, kAround, figure);
-  std::vector<std::string> cracked;
-  double stress_max = 0;  // MPa
-  for (size_t k = 3; k < figure.blocks.size(); ++k) {
-    cracked.push_back(figure.blocks[k].curve);
-    for (const auto& row : figure.blocks[k].rows) stress_max = std::max(stress_max, row[1]);
-  }
-  figure.words = {{"labels", quoted_labels(cracked)}};
-  figure.numbers = {{"around", kAround},
-                    {"last_order", kLastOrder},
-                    {"top", decade_above(orders)},
-                    {"cracked_gears", static_cast<double>(cracked.size())},
-                    {"stress_max", stress_max > 0 ? stress_max : 1},
-                    {"notes", static_cast<double>(figure.notes.size())}};
-  figure.height = 1300;
-  return figure;
-}
-
-namespace {
-
-// Root stress with elements of several sizes on the roots, and a note of what they change in all; no rows without it.
-FigureBlock root_levels(const ErrorBudgetResult& budget, std::vector<std::string>& notes) {
-  FigureBlock roots{"roots", {"element [mm]"}, {}, "roots", "largest root stress"};
-  if (const RootConvergence root = convergence(budget.root); root.order.rows() > 0) {
-    std::string words = "root stress with smaller elements on the roots:";
-    for (int g = 0; g < kSides; ++g) {
-      const Eigen::Index last = root.change.rows() - 1;
-      const double order = resolved_order(root, last - 1, g);
-      // What the finest still changes the result by, and the last order.
-      words += text(g ? "; " : " ", budget.mesh.gear[g], " ",
-                    shown((budget.root.stress(last + 1, g) / budget.root.stress(0, g) - 1) * kPercent, 2),
-                    " % from ", shown(budget.root.element_size[0] * 1e3, 3), " to ",
-                    shown(budget.root.element_size[last + 1] * 1e3, 3), " mm",
-                    std::isfinite(order) ? ", order " + fixed(order, 1) : "");
-      roots.columns.push_back(text("stress of ", budget.mesh.gear[g], " [MPa]"));
-    }
-    for (Eigen::Index k = 0; k < budget.root.stress.rows(); ++k)
-      roots.rows.push_back({budget.root.element_size[k] * 1e3, budget.root.stress(k, 0) * 1e-6,
-                            budget.root.stress(k, 1) * 1e-6});
-    notes.push_back(words);
-  }
-  return roots;
-}
-
-}  // namespace
-
-Figure error_budget_figure(const ErrorBudgetResult& budget) {
-  Figure figure;
-  figure.title = text("Error budget of the static transmission error, ", shown(budget.torque, 6), " N m");
-  figure.notes.push_back(
-      text("each discretisation alone twice as fine; sum of the changes of the mean stiffness ",
-           shown(budget.refinement.mean_stiffness_change.cwiseAbs().sum() * kPercent, 3), " %"));
-  figure.notes.push_back(text(
-      "contact = ", budget.fidelity.contact, ", near field by ", budget.gear[0].discretisation.near_field,
-      "; beyond the line what another choice changes, which is no error of this one"));
-  const FigureBlock roots = root_levels(budget, figure.notes);
-  double largest = 1;  // %
-  for (const auto& [name, labels, count, changes] :
-       {std::tuple{"changes", "labels", "entries", &budget.refinement},
-        std::tuple{"choices", "choice_labels", "choices", &budget.choice}}) {
-    FigureBlock block{name, {"entry [1]", "mean_stiffness [%]", "peak_to_peak [%]"}, {}, "", "", true};
-    for (Eigen::Index n = 1; n <= changes->harmonic_change.cols(); ++n)
-      block.columns.push_back(text("harmonic_", n, " [% of the first]"));
-    const bool pressure = changes->pressure_change.size() > 0;
-    if (pressure) block.columns.emplace_back("flank_pressure [%]");
-    const bool stress = changes->root_stress_change.size() > 0;
-    if (stress) block.columns.emplace_back("root_stress [%]");
-    std::string words, rest = changes->entry;
-    for (Eigen::Index i = 0; i < changes->mean_stiffness_change.size(); ++i) {
-      std::vector<double> row{static_cast<double>(i), std::abs(changes->mean_stiffness_change[i]) * kPercent,
-                              std::abs(changes->peak_to_peak_change[i]) * kPercent};
-      for (Eigen::Index n = 0; n < changes->harmonic_change.cols(); ++n)
-        row.push_back(std::abs(changes->harmonic_change(i, n)) * kPercent);
-      if (pressure) row.push_back(std::abs(changes->pressure_change[i]) * kPercent);
-      if (stress) row.push_back(std::abs(changes->root_stress_change[i]) * kPercent);
-      block.rows.push_back(row);
-      largest = std::max(largest, *std::max_element(row.begin() + 1, row.end()));
-      const size_t comma = rest.find(", ");
-      std::string label = rest.substr(0, comma);
-      // The same numbers under the name of what is changed, and with their signs.
-      FigureBlock named{text(name, " ", i), block.columns, {row}, "changes", label};
-      named.columns[0] = "error [1 yes, 0 another choice]";
-      named.rows[0][0] = changes == &budget.refinement ? 1 : 0;
-      named.rows[0][1] = changes->mean_stiffness_change[i] * kPercent;
-      named.rows[0][2] = changes->peak_to_peak_change[i] * kPercent;
-      for (Eigen::Index n = 0; n < changes->harmonic_change.cols(); ++n)
-        named.rows[0][static_cast<size_t>(3 + n)] = changes->harmonic_change(i, n) * kPercent;
-      figure.blocks.push_back(named);
-      // The values on a line of their own: '|' to the template.
-      const size_t value = std::min(label.find(" at "), label.find_first_of("0123456789") - 1);
-      if (value < label.size()) label[value] = '|';
-      words += "'" + label + "' ";
-      rest = comma == std::string::npos ? "" : rest.substr(comma + 2);
-    }
-    figure.blocks.push_back(block);
-    figure.words.emplace_back(labels, words);
-    figure.numbers.emplace_back(count, static_cast<double>(block.rows.size()));
-    if (changes == &budget.refinement)
-      figure.numbers.insert(figure.numbers.end(), {{"bars_each", 7 + (pressure ? 1 : 0) + (stress ? 1 : 0)},
-                                                   {"pressure", pressure}});
-  }
-  if (!roots.rows.empty()) figure.blocks.push_back(roots);
-  add_lines(figure.notes.size(), figure);
-  figure.numbers.emplace_back("notes", static_cast<double>(figure.notes.size()));
-  figure.numbers.emplace_back("top", decade_above(largest));
+  figure.panels = crack_panels(figure.blocks, kAround, kLastOrder);
   return figure;
 }
 

@@ -1,7 +1,6 @@
-// Figures and tables of gears at rest: transmission error, stiffness, loads, errors.
+// Figures and tables of gears at rest: transmission error, stiffness, loads.
 #pragma once
 #include "report/figures.h"
-#include "results/error_budget.h"
 #include "results/impact.h"
 #include "results/response.h"
 
@@ -31,9 +30,5 @@ Figure sidebands_figure(const StaticResult& statics, const ResponseResult& motio
 // tooth is on the far side of its gear. Throws Error(input) for a pair without a crack or with errors tooth by tooth, which
 // nothing tells from its mark.
 Figure crack_figure(const StaticResult& statics);
-
-// Changes of the static answer by each refinement, as bars, in per cent; apart from them those by another
-// choice of near field or contact.
-Figure error_budget_figure(const ErrorBudgetResult& budget);
 
 }  // namespace whine

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "report/figure_words.h"
 
 namespace whine {
 namespace {
@@ -62,13 +63,6 @@ std::string axis_name(const VariedKey& key) {
 
 std::string with_unit(const std::string& name, const std::string& units) {
   return units.empty() || units == "1" ? name : name + " (" + units + ")";
-}
-
-// gnuplot reads '%' in the label of a tick as the start of a format.
-std::string tick_label(const std::string& words) {
-  std::string out;
-  for (const char c : without_markup(words)) out += c == '%' ? "%%" : std::string(1, c);
-  return out;
 }
 
 // "largest RMS, up" of rms_max_up.
@@ -295,6 +289,7 @@ struct Colours {
   bool coloured = false;
   size_t by = 0;                   // the key
   std::vector<double> rgb, marks;  // of each variant
+  Panel legend = {};               // below all others
 };
 
 // The colour of a value between 0 and 1: by place among few levels, by value where there are many.
@@ -318,15 +313,11 @@ class ColourScale {
   double least_, most_;
 };
 
-// Adds the legend of the colours.
-Colours colours_of(const StudyResult& a, const std::vector<Axis>& axes, Figure& figure) {
+Colours colours_of(const StudyResult& a, const std::vector<Axis>& axes) {
   const size_t variants = a.variants.size();
   Colours found{!a.plan.figure_colour.empty(), 0, std::vector<double>(variants, colour(0.2)),
                 std::vector<double>(variants, mark(0))};
-  if (!found.coloured) {
-    figure.numbers.emplace_back("colours", 0);
-    return found;
-  }
+  if (!found.coloured) return found;
   found.by = key_of(a, a.plan.figure_colour);
   const Axis& axis = axes[found.by];
   const ColourScale scale(axis);
@@ -339,7 +330,13 @@ Colours colours_of(const StudyResult& a, const std::vector<Axis>& axes, Figure& 
   }
   const VariedKey& key = a.plan.keys[found.by];
   const AxisUnits units = axis_units(key, scale.most());
-  figure.words.emplace_back("colour_label", with_unit(axis_name(key), units.words));
+  found.legend = {.curves = {{.style = PanelStyle::points,
+                              .label = with_unit(axis_name(key), units.words) + ":",
+                              .size = 0}},
+                  .key = PanelKey::below,
+                  .height = 4,
+                  .bare = true,
+                  .wide = true};
   const size_t entries = std::min(levels, kFewLevels);
   for (size_t e = 0; e < entries; ++e) {
     const size_t place = entries > 1 ? e * (levels - 1) / (entries - 1) : 0;
@@ -347,27 +344,22 @@ Colours colours_of(const StudyResult& a, const std::vector<Axis>& axes, Figure& 
     const double value = key.number ? std::strtod(level.c_str(), nullptr) : static_cast<double>(place) + 1;
     char short_number[32];
     std::snprintf(short_number, sizeof short_number, "%.5g", value * units.scale);
-    figure.words.emplace_back(text("colour_name", e + 1), key.number ? short_number : without_markup(level));
-    figure.numbers.emplace_back(text("colour_rgb", e + 1), scale.rgb(value, place));
-    figure.numbers.emplace_back(text("colour_mark", e + 1), scale.shape(place));
+    found.legend.curves.push_back({.style = PanelStyle::points,
+                                   .colour = static_cast<int>(scale.rgb(value, place)),
+                                   .label = key.number ? short_number : without_markup(level),
+                                   .mark = static_cast<int>(scale.shape(place)),
+                                   .size = 1.4});
   }
-  figure.numbers.emplace_back("colours", static_cast<double>(entries));
   return found;
 }
 
-// Column c from 1, of key k.
-void add_column(const StudyResult& a, const std::vector<Axis>& axes, const Colours& colours, size_t k,
-                size_t c, Figure& figure) {
+PanelAxis axis_of_key(const StudyResult& a, const Axis& axis, size_t k) {
   const VariedKey& key = a.plan.keys[k];
-  // Along the key that colours, a line between points of two colours would have the colour of neither.
-  figure.numbers.emplace_back(text("own_colour", c), colours.coloured && k == colours.by);
-  const AxisUnits units = axis_units(key, *std::max_element(axes[k].at.begin(), axes[k].at.end()));
-  figure.words.emplace_back(text("x", c), with_unit(axis_name(key), units.words));
-  figure.numbers.emplace_back(text("scale", c), units.scale);
-  const size_t ticks = key.number ? 0 : axes[k].levels.size();
-  for (size_t l = 0; l < ticks; ++l)
-    figure.words.emplace_back(text("tick", c, "_", l + 1), tick_label(axes[k].levels[l]));
-  figure.numbers.emplace_back(text("ticks", c), static_cast<double>(ticks));
+  const AxisUnits units = axis_units(key, *std::max_element(axis.at.begin(), axis.at.end()));
+  PanelAxis out{.label = with_unit(axis_name(key), units.words)};
+  for (const std::string& level : axis.levels)
+    if (!key.number) out.names.push_back(without_markup(level));
+  return out;
 }
 
 // What one answer is in each variant, in the unit of the figure, and which variants have it.
@@ -377,9 +369,10 @@ struct DrawnAnswer {
   std::vector<size_t> drawn;
 };
 
-// Row r and column c from 1: the answer against key k.
+// Row r and column c from 1: the answer against key k. y: its axis.
 void add_quantity_panel(const StudyResult& a, const Axis& axis, const Colours& colours,
-                        const DrawnAnswer& quantity, size_t k, size_t r, size_t c, Figure& figure) {
+                        const DrawnAnswer& quantity, const PanelAxis& y_axis, size_t k, size_t r, size_t c,
+                        Figure& figure) {
   // What the pair does at rest does not depend on how its motion ends.
   const bool of_motion = quantity.name.ends_with("_up") || quantity.name.ends_with("_down");
   FigureBlock panel{
@@ -401,30 +394,54 @@ void add_quantity_panel(const StudyResult& a, const Axis& axis, const Colours& c
       const auto x = others(i), y = others(j);
       return x != y ? x < y : axis.at[i] < axis.at[j];
     });
-  double crossed = 0;
+  const double scale = axis_units(a.plan.keys[k], *std::max_element(axis.at.begin(), axis.at.end())).scale;
+  bool crossed = false;
   for (size_t i = 0; i < order.size(); ++i) {
     if (i > 0 && !a.plan.random && others(order[i]) != others(order[i - 1])) panel.rows.emplace_back();
     const int own_unsteady = a.unsteady[static_cast<Index>(order[i])];
-    crossed += of_motion && own_unsteady > 0;
-    panel.rows.push_back({axis.at[order[i]], quantity.value[order[i]], colours.rgb[order[i]],
+    crossed = crossed || (of_motion && own_unsteady > 0);
+    panel.rows.push_back({axis.at[order[i]] * scale, quantity.value[order[i]], colours.rgb[order[i]],
                           of_motion ? static_cast<double>(own_unsteady) : 0.0, colours.marks[order[i]]});
   }
-  figure.numbers.emplace_back(text("drawn", r, "_", c), static_cast<double>(order.size()));
-  figure.numbers.emplace_back(text("crossed", r, "_", c), crossed);
+  Panel drawn{
+      .x = axis_of_key(a, axis, k), .y = y_axis, .key = PanelKey::none, .height = 190, .letter = false};
+  // Along the key that colours, a line between points of two colours would have the colour of neither.
+  PanelCurve curve{.block = panel.name, .width = 1.8, .rgb = 3};
+  if (colours.coloured && k == colours.by) curve.colour = kGrey, curve.width = 1.2, curve.rgb = 0;
+  if (!a.plan.random) drawn.curves.push_back(curve);
+  drawn.curves.push_back({.block = panel.name,
+                          .style = PanelStyle::points,
+                          .size = !a.plan.random || a.variants.size() < 100 ? 1.0 : 0.6,
+                          .rgb = 3,
+                          .marks = 5});
+  // Where the motion did not settle at one of the speeds.
+  if (crossed)
+    drawn.curves.push_back({.block = panel.name,
+                            .style = PanelStyle::points,
+                            .colour = kVermilion,
+                            .width = 1.8,
+                            .mark = 2,
+                            .size = 1.8,
+                            .where = 4});
+  // Names of quantities are too long to stand beside an axis.
+  std::swap(drawn.heading, drawn.y.label);
+  const auto add_words = [&](const std::string& words) {
+    drawn.heading += (drawn.heading.empty() ? "" : "; ") + words;
+  };
+  if (order.empty()) add_words("none");
   figure.blocks.push_back(panel);
   std::vector<double> x, y;
   for (const size_t v : quantity.drawn) {
     x.push_back(axis.at[v]);
     y.push_back(quantity.value[v]);
   }
-  char correlation[32];
-  std::snprintf(correlation, sizeof correlation, "ρ = %.2f", rank_correlation(x, y));
-  figure.words.emplace_back(text("correlation", r, "_", c),
-                            a.plan.random && a.plan.keys[k].number ? correlation : "");
+  if (a.plan.random && a.plan.keys[k].number && !order.empty())
+    add_words("ρ = " + fixed(rank_correlation(x, y), 2));
+  figure.panels.push_back(drawn);
 }
 
 // The distribution of an answer in a sample, and three of its percentiles.
-void add_spread(const DrawnAnswer& quantity, size_t r, Figure& figure) {
+void add_spread(const DrawnAnswer& quantity, const PanelAxis& y_axis, size_t r, Figure& figure) {
   std::vector<double> sorted;
   sorted.reserve(quantity.drawn.size());
   for (const size_t v : quantity.drawn) sorted.push_back(quantity.value[v]);
@@ -433,11 +450,24 @@ void add_spread(const DrawnAnswer& quantity, size_t r, Figure& figure) {
   for (size_t i = 0; i < sorted.size(); ++i)
     spread.rows.push_back(
         {100 * (static_cast<double>(i) + 0.5) / static_cast<double>(sorted.size()), sorted[i]});
+  Panel drawn{.x = {.label = "share of the variants (%)", .from = 0, .to = 100},
+              .y = y_axis,
+              .curves = {{.block = spread.name, .width = 2}},
+              .height = 190,
+              .letter = false};
   figure.blocks.push_back(spread);
-  const double shares[] = {0.05, 0.5, 0.95};
-  for (int p = 0; p < 3; ++p)
-    figure.numbers.emplace_back(text("percentile", r, "_", p + 1),
-                                sorted.empty() ? 0 : percentile(sorted, shares[p]));
+  for (const int share : {5, 50, 95}) {
+    if (sorted.empty()) break;
+    const double value = percentile(sorted, 0.01 * share);
+    figure.blocks.push_back(
+        {text("percentile", r, "_", share), spread.columns, {{1.0 * share, value}}, "", "", true});
+    drawn.curves.push_back({.block = figure.blocks.back().name,
+                            .style = PanelStyle::points,
+                            .colour = kVermilion,
+                            .label = text(share, " %: ", shown(value, 4)),
+                            .size = 1});
+  }
+  figure.panels.push_back(drawn);
 }
 
 }  // namespace
@@ -478,7 +508,6 @@ Figure study_figure(const StudyResult& a) {
   if (unsteady > 0)
     figure.notes[0] += text("; ", unsteady, unsteady == 1 ? " has" : " have",
                             " speeds that did not settle (column 'unsteady speeds'; crossed)");
-  figure.words.emplace_back("subtitle", without_markup(figure.notes[0]));
   const ShownQuantities quantities = shown_quantities(a);
   std::string second_line = constant_words(a, quantities);
   // A column of a key that does nothing would only repeat all lines as level ones.
@@ -489,33 +518,32 @@ Figure study_figure(const StudyResult& a) {
     if (columns_of.size() > 1) std::erase(columns_of, name);
   }
   if (!second_line.empty()) figure.notes.push_back(second_line);
-  figure.words.emplace_back("second_line", without_markup(second_line));
+  plain_captions(figure.notes.size(), figure);
   add_notes_of_table(a, axes, figure);
   figure.blocks.push_back(table_of(a, axes));
 
-  const Colours colours = colours_of(a, axes, figure);
+  const Colours colours = colours_of(a, axes);
   std::vector<size_t> columns;  // their keys
   columns.reserve(columns_of.size());
   for (const std::string& name : columns_of) columns.push_back(key_of(a, name));
-  for (size_t c = 0; c < columns.size(); ++c) add_column(a, axes, colours, columns[c], c + 1, figure);
+  figure.columns = columns.size() + (a.plan.random ? 1 : 0);
   for (size_t r = 0; r < quantities.rows.size(); ++r) {
     DrawnAnswer quantity{quantities.rows[r], std::vector<double>(variants), {}};
     const Shown unit = shown_units(kind_of(a, quantity.name).units);
-    figure.words.emplace_back(text("y", r + 1),
-                              label_of(quantity.name) + (*unit.units ? text("\n(", unit.units, ")") : ""));
+    // Vibration is seen from 0 on.
+    PanelAxis y{.label = label_of(quantity.name) + (*unit.units ? text(" (", unit.units, ")") : "")};
+    y.from_zero = y.label.find("RMS") != std::string::npos;
     for (size_t v = 0; v < variants; ++v) {
       quantity.value[v] = a.quantity(static_cast<Index>(v), quantity_of(a, quantity.name)) * unit.scale;
       if (a.rejection[v].empty() && !absent(quantity.name, quantity.value[v])) quantity.drawn.push_back(v);
     }
-    for (size_t c = 0; c < columns.size(); ++c)
-      add_quantity_panel(a, axes[columns[c]], colours, quantity, columns[c], r + 1, c + 1, figure);
-    if (a.plan.random) add_spread(quantity, r + 1, figure);
+    for (size_t c = 0; c < columns.size(); ++c) {
+      add_quantity_panel(a, axes[columns[c]], colours, quantity, y, columns[c], r + 1, c + 1, figure);
+      y.label = "";  // beside the first alone
+    }
+    if (a.plan.random) add_spread(quantity, y, r + 1, figure);
   }
-  figure.numbers.emplace_back("rows", static_cast<double>(quantities.rows.size()));
-  figure.numbers.emplace_back("columns", static_cast<double>(columns.size()));
-  figure.numbers.emplace_back("random", a.plan.random ? 1 : 0);
-  figure.numbers.emplace_back("variants", static_cast<double>(a.variants.size()));
-  figure.height = 340 + 270 * static_cast<int>(quantities.rows.size());
+  if (colours.coloured) figure.panels.push_back(colours.legend);
   return figure;
 }
 

@@ -14,7 +14,7 @@ using Eigen::Index;
 
 namespace {
 
-constexpr size_t kMostMeshes = 8;  // colours and dashes of the template
+constexpr size_t kMostMeshes = 8;  // curves that can be told apart beside their sweeps
 
 std::string rms_column(const System& s, size_t mesh) {
   return text("dte_rms ", mesh_name(s, mesh), " [µm]");
@@ -52,6 +52,64 @@ FigureBlock sweep_block(const SystemSweepResult& s, size_t meshes) {
   return block;
 }
 
+// How the points of a block are drawn, in the figure's blocks of stable and unstable orbits and of sweeps.
+PanelCurve look_of(const std::string& block) {
+  if (block == "stable") return {.block = block, .label = "stable orbits"};
+  if (block == "unstable") return {.block = block, .label = "unstable orbits", .width = 2, .dash = 4};
+  const bool up = block == "sweep up";
+  return {.block = block,
+          .style = PanelStyle::points,
+          .label = up ? "sweep, rising" : "sweep, falling",
+          .width = 1.5,
+          .mark = up ? 2 : 6,
+          .size = up ? 0.9 : 1.1};
+}
+
+// Meshes that are alike lie on each other: the wider line below shows.
+Panel vibration_panel(const System& s, const std::vector<FigureBlock>& blocks, size_t meshes) {
+  Panel panel{.heading = "RMS of the transmission error",
+              .x = {.label = "Mesh frequency (Hz)", .speed = true},
+              .y = {.label = "RMS (µm)", .from_zero = true, .level = true},
+              .height = 560};
+  for (size_t m = 0; m < meshes; ++m)
+    panel.curves.push_back({.colour = curve_colour(m),
+                            .label = without_markup(short_name(mesh_name(s, m))),
+                            .width = 3,
+                            .dash = m < 6 ? 1 : 2});
+  for (const FigureBlock& block : blocks) {
+    const PanelCurve look = look_of(block.name);
+    for (size_t m = 0; m < meshes; ++m) {
+      PanelCurve curve = look;
+      curve.y = static_cast<int>(m) + (look.style == PanelStyle::line ? 3 : 2);
+      curve.colour = curve_colour(m);
+      curve.label = "";
+      if (block.name == "stable") {
+        curve.width = 2 + 1.2 * static_cast<double>(meshes - 1 - m);
+        curve.dash = panel.curves[m].dash;
+      }
+      panel.curves.push_back(curve);
+    }
+    panel.curves.push_back(look);
+    panel.curves.back().block = "";
+    panel.curves.back().colour = kBlack;
+  }
+  return panel;
+}
+
+Panel multiplier_panel(const std::vector<FigureBlock>& blocks) {
+  Panel panel{.heading = "largest Floquet multiplier",
+              .x = {.label = "Mesh frequency (Hz)", .speed = true},
+              .y = {.label = "Modulus (1)", .from_zero = true},
+              .rules = {{'y', 1, "", kDark, 1}},
+              .height = 240};
+  for (const FigureBlock& block : blocks)
+    if (PanelCurve curve = look_of(block.name); curve.style == PanelStyle::line) {
+      curve.colour = block.name == "stable" ? kBlue : kVermilion;
+      panel.curves.push_back(curve);
+    }
+  return panel;
+}
+
 }  // namespace
 
 Figure system_branch_figure(const SystemBranchResult& b, const std::vector<SystemSweepResult>& sweeps) {
@@ -61,25 +119,11 @@ Figure system_branch_figure(const SystemBranchResult& b, const std::vector<Syste
   const size_t meshes = std::min(s.meshes.size(), kMostMeshes);
   Figure figure;
   figure.title = "Branch of periodic motions of a system";
-  double most = b.dte_rms.leftCols(static_cast<Index>(meshes)).maxCoeff(), up = 0, down = 0;
-  double from = b.mesh_frequency.minCoeff(), to = b.mesh_frequency.maxCoeff();
   const bool unstable = b.stable.minCoeff() == 0, stable = b.stable.maxCoeff() == 1;
   if (stable) figure.blocks.push_back(system_branch_block(b, meshes, true));
   if (unstable) figure.blocks.push_back(system_branch_block(b, meshes, false));
-  for (const SystemSweepResult& sweep : sweeps) {
-    figure.blocks.push_back(sweep_block(sweep, meshes));
-    (sweep.direction == Direction::up ? up : down) = 1;
-    most = std::max(most, sweep.dte_rms.leftCols(static_cast<Index>(meshes)).maxCoeff());
-    from = std::min(from, sweep.mesh_frequency.minCoeff());
-    to = std::max(to, sweep.mesh_frequency.maxCoeff());
-  }
-  double largest = 1;
-  for (const MatrixRM& all : b.floquet_multiplier) largest = std::max(largest, all.row(0).norm());
-  std::string labels;
-  for (size_t m = 0; m < meshes; ++m) {
-    labels += "'" + short_name(mesh_name(s, m)) + "' ";
-    figure.levels.push_back({rms_column(s, m), false});
-  }
+  for (const SystemSweepResult& sweep : sweeps) figure.blocks.push_back(sweep_block(sweep, meshes));
+  for (size_t m = 0; m < meshes; ++m) figure.levels.push_back({rms_column(s, m), false});
   figure.notes.push_back(text(b.mesh_frequency.size(), " orbits, ", b.mesh_frequency.size() - b.stable.sum(),
                               " unstable, ", b.fold_frequency.size(), " folds, ", b.flip_frequency.size(),
                               " period doublings, ", b.torus_frequency.size(), " tori; body \"",
@@ -90,19 +134,8 @@ Figure system_branch_figure(const SystemBranchResult& b, const std::vector<Syste
                                 b.fold_smooth[i] ? "smooth" : "at a kink"));
   if (s.meshes.size() > meshes)
     figure.notes.push_back(text("the first ", meshes, " of ", s.meshes.size(), " meshes"));
-  figure.numbers = {{"meshes", static_cast<double>(meshes)},
-                    {"stable", stable ? 1.0 : 0.0},
-                    {"unstable", unstable ? 1.0 : 0.0},
-                    {"up", up},
-                    {"down", down},
-                    {"most", most > 0 ? 1.06 * most * kMicro : 1.0},
-                    {"largest", 1.1 * largest},
-                    {"frequency_from", from},
-                    {"frequency_to", to},
-                    {"notes", static_cast<double>(figure.notes.size())}};
-  figure.words = {{"labels", labels}};
+  figure.panels = {vibration_panel(s, figure.blocks, meshes), multiplier_panel(figure.blocks)};
   add_shafts(s, figure);
-  figure.height = 1300;
   return figure;
 }
 

@@ -20,19 +20,32 @@ struct DrawnCurve {
   Eigen::VectorXd values;  // (phase)
 };
 
+// Over the mesh period, or over the hunting period of teeth that differ.
+PanelAxis phase_axis(const SystemStaticResult& a) {
+  return {.label = "Mesh phase (mesh periods)", .from = 0, .to = static_cast<double>(a.hunting_periods)};
+}
+
+// Curves lie on each other where meshes are alike: what is drawn first shows on either side of what is drawn on it.
+PanelCurve alike_curve(const std::string& block, size_t i, size_t curves, bool dense) {
+  return {.block = block,
+          .y = static_cast<int>(i) + 2,
+          .colour = curve_colour(i),
+          .width = dense ? 1.2 : 2 + 0.8 * static_cast<double>(curves - 1 - i),
+          .dash = i < 6 ? 1 : 3};
+}
+
 // One row of the figure: curves over the mesh period, or over the hunting period of teeth that differ, and their harmonics of the mesh
 // frequency.
 void add_row(const SystemStaticResult& a, const std::string& quantity, const std::string& axis,
-             const std::string& unit, std::vector<DrawnCurve> curves, Figure& figure) {
+             const std::string& short_axis, const std::string& unit, std::vector<DrawnCurve> curves,
+             Figure& figure) {
   if (curves.size() > kMostLines) {
     figure.notes.push_back(text(axis, ": the first ", kMostLines, " of ", curves.size(), " curves"));
     curves.resize(kMostLines);
   }
   FigureBlock period{quantity, {"mesh_phase [1]"}, {}, "period " + quantity},
       spectrum{quantity + " harmonics", {"harmonic [1]"}, {}, "harmonics " + quantity};
-  std::vector<std::string> labels;
   std::vector<Harmonics> of;
-  labels.reserve(curves.size());
   of.reserve(curves.size());
   const Index n = a.mesh_phase.size();
   const int count = resolved_harmonics(n, kShownHarmonics, a.hunting_periods);
@@ -40,7 +53,6 @@ void add_row(const SystemStaticResult& a, const std::string& quantity, const std
   for (const DrawnCurve& curve : curves) {
     period.columns.push_back(text(quantity, " ", curve.name, " [", unit, "]"));
     spectrum.columns.push_back(text("amplitude ", curve.name, " [", unit, "]"));
-    labels.push_back(short_name(curve.name));
     of.push_back(harmonics(curve.values, count, a.hunting_periods));
     low = std::min(low, curve.values.minCoeff());
     high = std::max(high, curve.values.maxCoeff());
@@ -57,19 +69,37 @@ void add_row(const SystemStaticResult& a, const std::string& quantity, const std
     for (const Harmonics& h : of) row.push_back(h.amplitude[k - 1]);
     spectrum.rows.push_back(row);
   }
+  figure.blocks.push_back(period);
+  figure.blocks.push_back(spectrum);
   // Curves that are constant but for round-off are drawn as a line, not as their noise.
   const double size = std::max({std::abs(low), std::abs(high), 1e-12}),
                room = std::max(0.06 * (high - low), 1e-3 * size);
-  figure.blocks.push_back(period);
-  figure.blocks.push_back(spectrum);
-  const std::string row = std::to_string(figure.blocks.size() / 2);
-  for (const auto& [name, value] :
-       {std::pair{"curves", static_cast<double>(curves.size())}, std::pair{"low", low - room},
-        std::pair{"high", high + room}, std::pair{"most", std::max(1.08 * most, 1e-4 * size)}})
-    figure.numbers.emplace_back(name + row, value);
-  for (const auto& [name, word] : {std::pair{"quantity", quantity}, std::pair{"axis", axis},
-                                   std::pair{"unit", unit}, std::pair{"labels", quoted_labels(labels)}})
-    figure.words.emplace_back(name + row, word);
+  Panel over_period{.heading = axis,
+                    .x = phase_axis(a),
+                    .y = {.label = text(short_axis, " (", unit, ")"), .from = low - room, .to = high + room},
+                    .key = PanelKey::none},
+      harmonic{
+          .heading = "its harmonics",
+          .x = {.label = "Harmonic of the mesh frequency", .from = 0.4, .to = kShownHarmonics + 0.6},
+          .y = {
+              .label = text("Amplitude (", unit, ")"), .from = 0, .to = std::max(1.08 * most, 1e-4 * size)}};
+  const double drawn = static_cast<double>(curves.size()), step = 0.8 / drawn;
+  for (size_t i = 0; i < curves.size(); ++i) {
+    PanelCurve curve = alike_curve(period.name, i, curves.size(), a.hunting_periods > 1);
+    over_period.curves.push_back(curve);
+    curve.label = without_markup(short_name(curves[i].name));
+    curve.block = "";
+    curve.width = 3;
+    harmonic.curves.push_back(curve);
+    curve.label = "";
+    curve.block = spectrum.name;
+    curve.style = PanelStyle::bars;
+    curve.width = 0.7 * step;
+    curve.shift = (static_cast<double>(i) - 0.5 * (drawn - 1)) * step;
+    harmonic.curves.push_back(curve);
+  }
+  figure.panels.push_back(over_period);
+  figure.panels.push_back(harmonic);
 }
 
 // How far the meshes of one [[mesh]] are from sharing the load equally; "" where none has several.
@@ -81,19 +111,11 @@ std::string sharing_words(const SystemStaticResult& a) {
   return out;
 }
 
-// The length of the axis of mesh phases, and why it is not 1. more: of the same note.
 void add_hunting(const SystemStaticResult& a, const char* more, Figure& figure) {
-  figure.numbers.emplace_back("periods", a.hunting_periods);
   if (a.hunting_periods > 1)
     figure.notes.push_back(
         text("teeth differ: the same ones meet again after ", a.hunting_periods, " mesh periods, ", more));
-}
-
-// The height of a picture grows with its notes, 24 pixels each.
-void finish_notes(int height, Figure& figure) {
-  figure.numbers.emplace_back("notes", static_cast<double>(figure.notes.size()));
-  figure.height = height + 24 * static_cast<int>(figure.notes.size());
-  add_lines(figure.notes.size(), figure);
+  plain_captions(figure.notes.size(), figure);
 }
 
 }  // namespace
@@ -142,13 +164,11 @@ Figure system_static_figure(const SystemStaticResult& a) {
       size[i] = a.bearing_force[static_cast<size_t>(i)].row(static_cast<Index>(b)).norm();
     bearings.push_back({s.bodies[b].name + (s.bodies[b].on != System::kGround ? " (pin)" : ""), size});
   }
-  add_row(a, "transmission_error", "Transmission error", "µm", std::move(errors), figure);
-  add_row(a, "mesh_force", "Mesh force", "N", std::move(forces), figure);
-  add_row(a, "bearing_force", "Bearing force", "N", std::move(bearings), figure);
-  figure.numbers.emplace_back("harmonics", static_cast<double>(resolved_harmonics(
-                                               a.mesh_phase.size(), kShownHarmonics, a.hunting_periods)));
+  add_row(a, "transmission_error", "Transmission error", "Error", "µm", std::move(errors), figure);
+  add_row(a, "mesh_force", "Mesh force", "Force", "N", std::move(forces), figure);
+  add_row(a, "bearing_force", "Bearing force", "Force", "N", std::move(bearings), figure);
+  figure.columns = 2;
   add_hunting(a, "over which all is drawn; harmonics are those of the mesh frequency", figure);
-  finish_notes(1520, figure);
   return figure;
 }
 
@@ -230,6 +250,33 @@ FigureBlock shares_block(const SystemStaticResult& a, const LoadSharing& of, siz
   return shares;
 }
 
+// Shares of all meshes, and the loads of the tooth pairs of the first.
+void add_sharing_panels(const SystemStaticResult& a, const LoadSharing& of, const std::string& shares,
+                        const FigureBlock& loads, Figure& figure) {
+  const System& s = a.settings.layout;
+  const size_t shown = std::min(of.meshes.size(), kMostLines);
+  Panel share{.heading = "shares of the load",
+              .x = phase_axis(a),
+              .y = {.label = "Share (%)"},
+              .rules = {{'y', kPercent / static_cast<double>(of.meshes.size()), "equal", kDark, 2, true}}};
+  for (size_t i = 0; i < shown; ++i) {
+    share.curves.push_back(alike_curve(shares, i, shown, a.hunting_periods > 1));
+    share.curves.back().label = without_markup(short_name(mesh_name(s, of.meshes[i])));
+  }
+  const std::string first = without_markup(short_name(mesh_name(s, of.meshes[0])));
+  Panel load{.heading = "loads of the tooth pairs of " + first,
+             .x = {.label = "Its mesh phase (mesh periods)", .from = 0, .to = 1},
+             .y = {.label = "Load (N)", .from_zero = true}};
+  // "load of pair 0 [N]" is pair 0.
+  for (size_t j = 1; j < loads.columns.size(); ++j)
+    load.curves.push_back({.block = loads.name,
+                           .y = static_cast<int>(j) + 1,
+                           .colour = curve_colour(j - 1),
+                           .label = loads.columns[j].substr(8, loads.columns[j].size() - 8 - 4)});
+  figure.panels.push_back(share);
+  figure.panels.push_back(load);
+}
+
 }  // namespace
 
 Figure system_load_sharing_figure(const SystemStaticResult& a) {
@@ -252,10 +299,6 @@ Figure system_load_sharing_figure(const SystemStaticResult& a) {
     if (shown < of.meshes.size())
       figure.notes.push_back(
           text(of.name, ": the shares of the first ", shown, " of ", of.meshes.size(), " meshes"));
-    std::vector<std::string> labels;
-    labels.reserve(shown);
-    for (size_t i = 0; i < shown; ++i)
-      labels.push_back(short_name(mesh_name(a.settings.layout, of.meshes[i])));
     for (const size_t m : of.meshes) {
       const auto column = a.load_share.col(static_cast<Index>(m));
       low = std::min(low, column.minCoeff() * kPercent);
@@ -264,25 +307,14 @@ Figure system_load_sharing_figure(const SystemStaticResult& a) {
     // By number: names may be long, and tables become files.
     figure.blocks.push_back(shares_block(a, of, shown, "share " + row));
     const FigureBlock loads = pair_loads(a, of.meshes[0], "loads " + row);
-    std::string pairs;
-    for (size_t j = 1; j < loads.columns.size(); ++j)
-      pairs += loads.columns[j].substr(8, loads.columns[j].size() - 8 - 4) + "|";
-    figure.words.insert(figure.words.end(),
-                        {{"labels" + row, quoted_labels(labels)},
-                         {"pairs" + row, pairs},
-                         {"first" + row, short_name(mesh_name(a.settings.layout, of.meshes[0]))}});
-    figure.numbers.insert(figure.numbers.end(),
-                          {{"curves" + row, static_cast<double>(shown)},
-                           {"equal" + row, kPercent / static_cast<double>(of.meshes.size())},
-                           {"loads" + row, static_cast<double>(loads.columns.size() - 1)}});
+    add_sharing_panels(a, of, figure.blocks.back().name, loads, figure);
     figure.blocks.push_back(loads);
   }
   const double room = std::max(0.12 * (high - low), 0.5);
-  figure.numbers.insert(
-      figure.numbers.end(),
-      {{"rows", static_cast<double>(sharing.size())}, {"low", low - room}, {"high", high + room}});
+  for (size_t k = 0; k < figure.panels.size(); k += 2)
+    figure.panels[k].y.from = low - room, figure.panels[k].y.to = high + room;
+  figure.columns = 2;
   add_hunting(a, "over which shares are drawn; tooth loads are those of one of them", figure);
-  finish_notes(118 + 470 * static_cast<int>(sharing.size()), figure);
   return figure;
 }
 

@@ -17,17 +17,17 @@ using Eigen::Index;
 namespace {
 
 struct Quantity {
-  const char *name, *axis, *unit;
+  const char *name, *heading, *axis, *unit;
   double scale;
   MatrixRM SystemSweepResult::*values;  // (speed, mesh or body)
   bool of_bodies;
 };
 constexpr Quantity kQuantities[] = {
-    {"dte_rms", "RMS of the transmission error", "µm", kMicro, &SystemSweepResult::dte_rms, false},
-    {"separation_fraction", "Time without contact", "%", kPercent, &SystemSweepResult::separation_fraction,
-     false},
-    {"bearing_force_rms", "Bearing force, oscillating (RMS)", "N", 1, &SystemSweepResult::bearing_force_rms,
-     true}};
+    {"dte_rms", "RMS of the transmission error", "RMS", "µm", kMicro, &SystemSweepResult::dte_rms, false},
+    {"separation_fraction", "Time without contact", "Time", "%", kPercent,
+     &SystemSweepResult::separation_fraction, false},
+    {"bearing_force_rms", "Bearing force, oscillating (RMS)", "Force", "N", 1,
+     &SystemSweepResult::bearing_force_rms, true}};
 
 std::vector<std::string> curve_names(const System& s, bool bodies) {
   std::vector<std::string> out;
@@ -60,6 +60,30 @@ FigureBlock block_of(const Quantity& q, const SystemSweepResult& a, size_t curve
   return block;
 }
 
+// Meshes that are alike lie on each other: dashes and the wider line below let both show.
+void add_curves(const Quantity& q, const std::vector<SystemSweepResult>& sweeps, size_t i, size_t curves,
+                const std::string& name, Panel& panel) {
+  PanelCurve curve{.y = static_cast<int>(i) + 2,
+                   .colour = curve_colour(i),
+                   .width = 1.6 + 0.7 * static_cast<double>(curves - 1 - i),
+                   .dash = i < 2   ? 1
+                           : i < 4 ? 2
+                           : i < 6 ? 4
+                                   : 3,
+                   .mark = i < 6 ? 6 : 4,
+                   .size = 0.9};
+  for (const SystemSweepResult& sweep : sweeps) {
+    curve.block = text(q.name, " ", name_of(sweep.direction));
+    curve.style = sweep.direction == Direction::up ? PanelStyle::line : PanelStyle::points;
+    panel.curves.push_back(curve);
+  }
+  curve.block = "";
+  curve.style = PanelStyle::line_points;
+  curve.label = without_markup(name);
+  curve.width = 1.8;
+  panel.curves.push_back(curve);
+}
+
 }  // namespace
 
 Figure system_sweep_figure(const std::vector<SystemSweepResult>& sweeps) {
@@ -81,46 +105,24 @@ Figure system_sweep_figure(const std::vector<SystemSweepResult>& sweeps) {
   figure.notes.push_back(
       text("lines: rising speed; open marks: falling speed; force on a rigid axis: sum of the contact forces",
            pins ? ", on a rigid pin less the inertia force of the planet" : ""));
-  int row_number = 0;
-  double from = a.mesh_frequency.minCoeff(), to = a.mesh_frequency.maxCoeff();
   for (const Quantity& q : kQuantities) {
-    std::vector<std::string> names = curve_names(s, q.of_bodies);
+    const std::vector<std::string> names = curve_names(s, q.of_bodies);
     if (names.size() > kMostLines)
-      figure.notes.push_back(text(q.axis, ": the first ", kMostLines, " of ", names.size(), " curves"));
+      figure.notes.push_back(text(q.heading, ": the first ", kMostLines, " of ", names.size(), " curves"));
     const size_t curves = std::min(names.size(), kMostLines);
-    double most = 0;
-    for (const SystemSweepResult& sweep : sweeps) {
-      figure.blocks.push_back(block_of(q, sweep, curves));
-      most = std::max(most, (sweep.*q.values).leftCols(static_cast<Index>(curves)).maxCoeff() * q.scale);
-      from = std::min(from, sweep.mesh_frequency.minCoeff());
-      to = std::max(to, sweep.mesh_frequency.maxCoeff());
-    }
-    std::vector<std::string> labels;
-    labels.reserve(curves);
+    const bool vibration = q.values == &SystemSweepResult::dte_rms;
+    for (const SystemSweepResult& sweep : sweeps) figure.blocks.push_back(block_of(q, sweep, curves));
+    Panel panel{.heading = q.heading,
+                .x = {.label = "Mesh frequency (Hz)", .speed = true},
+                .y = {.label = text(q.axis, " (", q.unit, ")"), .from_zero = true, .level = vibration}};
     for (size_t i = 0; i < curves; ++i) {
-      labels.push_back(short_name(names[i]));
-      if (q.values == &SystemSweepResult::dte_rms) figure.levels.push_back({column_of(q, names[i]), false});
+      if (vibration) figure.levels.push_back({column_of(q, names[i]), false});
+      add_curves(q, sweeps, i, curves, short_name(names[i]), panel);
     }
-    const std::string row = std::to_string(++row_number);
-    for (const auto& [name, value] :
-         {std::pair{"curves", static_cast<double>(curves)}, std::pair{"most", most > 0 ? 1.06 * most : 1.0}})
-      figure.numbers.emplace_back(name + row, value);
-    for (const auto& [name, word] :
-         {std::pair{"quantity", std::string(q.name)}, std::pair{"axis", std::string(q.axis)},
-          std::pair{"unit", std::string(q.unit)}, std::pair{"labels", quoted_labels(labels)}})
-      figure.words.emplace_back(name + row, word);
+    figure.panels.push_back(panel);
   }
-  for (const Direction way : {Direction::up, Direction::down}) {
-    double there = 0;
-    for (const SystemSweepResult& sweep : sweeps) there += sweep.direction == way;
-    figure.numbers.emplace_back(text("sweeps_", name_of(way)), there);
-  }
-  figure.numbers.emplace_back("frequency_from", from);
-  figure.numbers.emplace_back("frequency_to", to);
-  figure.numbers.emplace_back("notes", static_cast<double>(figure.notes.size()));
   add_shafts(s, figure);
-  figure.height = 1550 + 24 * static_cast<int>(figure.notes.size());
-  add_lines(figure.notes.size(), figure);
+  plain_captions(figure.notes.size(), figure);
   return figure;
 }
 

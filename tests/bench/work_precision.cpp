@@ -27,6 +27,7 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "bench/work_precision_panels.h"
 #include "dynamics/dynamics.h"
 #include "dynamics/steady_state.h"
 #include "io/artifacts.h"
@@ -448,7 +449,6 @@ void body(int argc, char** argv) {
   figure.notes = {
       "one choice varied at a time about the scene's settings (ring), against its finest; tooth loads and transmission error: worst of five steady motions",
       "3300 and 1350 Hz, 2400 Hz on both branches, 2000 Hz on the upper one; jumps: ends of the branches; CPU of the integration, for modes, flank table and elements with mesh and reduction"};
-  std::string labels;
   FigureBlock circles{"scene", columns("axis"), {}};
   std::vector<Axis> choices = axes(usual);
   for (size_t i = 0; i < choices.size(); ++i) {
@@ -464,7 +464,6 @@ void body(int argc, char** argv) {
           row(static_cast<double>(i), axis.of_bodies, present, errors(present, reference)));
     print(block, axis.against);
     figure.blocks.push_back(block);
-    labels += "'" + axis.name + "' ";
   }
   print(circles, "the finest of each of the above by number: the scene's settings");
 
@@ -486,8 +485,7 @@ void body(int argc, char** argv) {
         "all finer at once, by Newmark; 0: the scene's settings, 1: the reference one level coarser");
   figure.blocks.push_back(circles);
   figure.blocks.push_back(together);
-  figure.numbers = {{"axes", static_cast<double>(choices.size())}, {"fold_width", kFollowStep / kFineness}};
-  figure.words = {{"labels", labels}};
+  add_work_precision_panels(choices.size(), kFollowStep / kFineness, figure);
 
   const std::string recipe = plots + "/work-precision.gp";
   const PlotFile data(figure);

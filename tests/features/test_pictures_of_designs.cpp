@@ -1,12 +1,14 @@
 // No text in the pictures of designs, maps and studies is cut at an edge or lies on other text.
 #include <doctest/doctest.h>
 
+#include "bench/work_precision_panels.h"
 #include "io/artifacts.h"
 #include "paper/reading_figure.h"
 #include "picture_inputs.h"
 #include "report/animation.h"
 #include "report/compare_figures.h"
 #include "report/engineering_axes.h"
+#include "report/error_budget_figure.h"
 #include "report/fold_curve_figure.h"
 #include "report/gear_figures.h"
 #include "report/harris_figure.h"
@@ -309,7 +311,6 @@ TEST_CASE("pictures of readings and of work and precision: no text is cut or lie
   work.title = "Error against CPU time, 9999 N m, η = 5.5e-6 s";
   work.notes = {"one choice varied at a time about the scene's settings (ring), against its finest",
                 "3300 and 1350 Hz, 2400 Hz on both branches, 2000 Hz on the upper one"};
-  std::string labels;
   for (const char* axis : {"steps, exact", "steps, Newmark", "strips", "modes", "flank table", "elements",
                            "periodicity", "body", "contact", "scene"}) {
     FigureBlock block{axis, {"steps", "s", "s", "s", "1", "1", "1", "Hz", "Hz"}, {}};
@@ -317,10 +318,8 @@ TEST_CASE("pictures of readings and of work and precision: no text is cut or lie
       block.rows.push_back({1.0 * k, std::pow(10, k - 1), 1, 1, std::pow(10, -k), std::pow(10, -k),
                             std::pow(10, -k), std::pow(10, -k), std::pow(10, -k)});
     work.blocks.push_back(block);
-    labels += text("'", axis, "' ");
   }
-  work.numbers = {{"axes", 9}, {"fold_width", 0.01}};
-  work.words = {{"labels", labels}};
+  add_work_precision_panels(9, 0.01, work);
   check(work, "work-precision");
 }
 

@@ -385,13 +385,10 @@ TEST_CASE("a study's figure has no panel for what never varies and no column for
   a.quantity = MatrixRM::Constant(4, static_cast<Eigen::Index>(a.plan.quantities.size()), 1.7);
   a.quantity.rightCols(a.quantity.cols() - 1) = MatrixRM::Random(4, a.quantity.cols() - 1);
   const Figure figure = study_figure(a);
-  const auto number = [&](const std::string& name) {
-    for (const auto& [key, value] : figure.numbers)
-      if (key == name) return value;
-    return -1.0;
-  };
-  CHECK(number("rows") == a.plan.figure_quantities.size());  // another answer has taken the place
-  CHECK(number("columns") == 1);
+  // Another answer has taken the place. The last panel is the legend.
+  CHECK(figure.panels.size() == a.plan.figure_quantities.size() + 1);
+  CHECK(figure.panels.back().bare);
+  CHECK(figure.columns == 1);
   REQUIRE(figure.notes.size() >= 2);
   CHECK(figure.notes[1].find("contact ratio 1.7") != std::string::npos);
   CHECK(figure.notes[1].find(a.plan.keys[0].name + " changes nothing") != std::string::npos);
@@ -418,7 +415,8 @@ TEST_CASE("a study's figure shows words of the study and runs none of them") {
   a.quantity = MatrixRM::Random(3, static_cast<Eigen::Index>(a.plan.quantities.size()));
   const Figure figure = study_figure(a);
   const Written table(plot_data(figure), "study.tsv");
-  const std::string svg = draw(figure, table.path, template_of(figure, "pipelines/plots", "study"), Picture::svg);
+  const std::string svg =
+      draw(figure, table.path, template_of(figure, "pipelines/plots", "study"), Picture::svg);
   CHECK(svg.find("5 % of _it_") != std::string::npos);
   CHECK(svg.find("system(") != std::string::npos);
   CHECK(!std::filesystem::exists(mark));
@@ -438,7 +436,8 @@ TEST_CASE("a study's figure: vibration from 0 on, units as text has them") {
   const std::string data = plot_data(figure);
   CHECK(data.find("tip_relief_um [µm]\trms_max_up [µm]") != std::string::npos);
   const Written table(data, "study.tsv");
-  const std::string svg = draw(figure, table.path, template_of(figure, "pipelines/plots", "study"), Picture::svg);
+  const std::string svg =
+      draw(figure, table.path, template_of(figure, "pipelines/plots", "study"), Picture::svg);
   CHECK(svg.find(">0</tspan>") != std::string::npos);
 }
 
@@ -459,14 +458,15 @@ TEST_CASE("a study's figure of many keys: numbers below an axis stand apart") {
   a.quantity = MatrixRM::Random(4, static_cast<Eigen::Index>(a.plan.quantities.size()));
   const Figure figure = study_figure(a);
   const Written table(plot_data(figure), "study.tsv");
-  const std::string svg = draw(figure, table.path, template_of(figure, "pipelines/plots", "study"), Picture::svg);
+  const std::string svg =
+      draw(figure, table.path, template_of(figure, "pipelines/plots", "study"), Picture::svg);
   // Texts about a middle: numbers of axes and names.
   std::map<std::string, std::vector<double>> by_height;
   const std::string before = "<g transform=\"translate(";
   for (size_t at = svg.find(before); at != std::string::npos; at = svg.find(before, at + 1)) {
     const std::string head = svg.substr(at + before.size(), svg.find('>', at) - at - before.size());
     if (head.find("middle") == std::string::npos || head.find("rotate") != std::string::npos) continue;
-    if (head.find("font-size=\"16.00\"") == std::string::npos) continue;  // those of numbers
+    if (head.find("font-size=\"24.00\"") == std::string::npos) continue;  // those of numbers
     const size_t comma = head.find(',');
     by_height[head.substr(comma, head.find(')') - comma)].push_back(std::stod(head));
   }

@@ -146,7 +146,7 @@ TEST_CASE(
       system_sweep_figure({small_sweep(rest, Direction::up), small_sweep(rest, Direction::down)});
   Figure rpm = hertz;
   apply({"rpm:sun", 1e-6}, rpm);
-  CHECK(word(rpm, "speed_label") == "Speed of sun, ring at rest (rpm)");
+  CHECK(rpm.panels[0].x.label == "Speed of sun, ring at rest (rpm)");
   const FigureBlock &a = block(hertz, "dte_rms up"), &b = block(rpm, "dte_rms up");
   CHECK(b.columns[0] == "mesh_frequency [rpm of sun, ring at rest]");
   CHECK(b.columns[1].ends_with("[dB re 1 µm RMS]"));
@@ -154,7 +154,7 @@ TEST_CASE(
     CHECK(b.rows[i][0] == relative(a.rows[i][0] * 60 * (1 / 27.0 + 1 / 99.0), 1e-14));
     CHECK(b.rows[i][1] == relative(20 * std::log10(a.rows[i][1]), 1e-12));
   }
-  CHECK(number(rpm, "frequency_to") == relative(2000 * 60 * (1 / 27.0 + 1 / 99.0), 1e-14));
+  CHECK(rpm.panels[0].y.label == "RMS (dB re 1 µm RMS)");
   const auto refused = [&](const std::string& axis) {
     Figure figure = hertz;
     try {
@@ -174,6 +174,8 @@ TEST_CASE(
   CHECK(block(turned, "crossings").rows[3][2] ==
         relative(block(campbell, "crossings").rows[3][2] * 60 / 99.0, 1e-14));
   CHECK(block(turned, "crossings").rows[3][3] == block(campbell, "crossings").rows[3][3]);
+  CHECK(turned.panels[0].x.to == relative(campbell.panels[0].x.to * 60 / 99.0, 1e-14));
+  CHECK(turned.panels[0].words[1].x == relative(campbell.panels[0].words[1].x * 60 / 99.0, 1e-14));
 }
 
 TEST_CASE(
@@ -261,8 +263,8 @@ TEST_CASE("axes that a figure does not have are rejected by what it has") {
 TEST_CASE("names of designs stand in tables as they are, in pictures without marks") {
   const Figure rest = compared_rest_figure({{"deep_root", at_rest(150)}, {"b", at_rest(150)}});
   CHECK(rest.notes[0].starts_with("deep_root: "));
-  CHECK(word(rest, "line1").starts_with("deep\\_root: "));
-  CHECK(word(rest, "labels") == "'deep_root' 'b' ");  // of a key that reads no marks
+  CHECK(rest.captions[0].starts_with("deep\\_root: "));
+  CHECK(rest.panels[0].curves[0].label == "deep\\_root");
 }
 
 TEST_CASE("templates of order cuts and of designs in motion draw both axes and levels") {

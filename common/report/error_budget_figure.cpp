@@ -1,0 +1,118 @@
+#include "report/error_budget_figure.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "base/error.h"
+#include "report/figure_words.h"
+
+namespace whine {
+namespace {
+
+// Root stress with elements of several sizes on the roots, and a note of what they change in all; no rows without it.
+FigureBlock root_levels(const ErrorBudgetResult& budget, std::vector<std::string>& notes) {
+  FigureBlock roots{"roots", {"element [mm]"}, {}, "roots", "largest root stress"};
+  if (const RootConvergence root = convergence(budget.root); root.order.rows() > 0) {
+    std::string words = "root stress with smaller elements on the roots:";
+    for (int g = 0; g < kSides; ++g) {
+      const Eigen::Index last = root.change.rows() - 1;
+      const double order = resolved_order(root, last - 1, g);
+      // What the finest still changes the result by, and the last order.
+      words += text(g ? "; " : " ", budget.mesh.gear[g], " ",
+                    shown((budget.root.stress(last + 1, g) / budget.root.stress(0, g) - 1) * kPercent, 2),
+                    " % from ", shown(budget.root.element_size[0] * 1e3, 3), " to ",
+                    shown(budget.root.element_size[last + 1] * 1e3, 3), " mm",
+                    std::isfinite(order) ? ", order " + fixed(order, 1) : "");
+      roots.columns.push_back(text("stress of ", budget.mesh.gear[g], " [MPa]"));
+    }
+    for (Eigen::Index k = 0; k < budget.root.stress.rows(); ++k)
+      roots.rows.push_back({budget.root.element_size[k] * 1e3, budget.root.stress(k, 0) * 1e-6,
+                            budget.root.stress(k, 1) * 1e-6});
+    notes.push_back(words);
+  }
+  return roots;
+}
+
+}  // namespace
+
+Figure error_budget_figure(const ErrorBudgetResult& budget) {
+  Figure figure;
+  figure.title = text("Error budget of the static transmission error, ", shown(budget.torque, 6), " N m");
+  figure.notes.push_back(
+      text("each discretisation alone twice as fine; sum of the changes of the mean stiffness ",
+           shown(budget.refinement.mean_stiffness_change.cwiseAbs().sum() * kPercent, 3), " %"));
+  figure.notes.push_back(text(
+      "contact = ", budget.fidelity.contact, ", near field by ", budget.gear[0].discretisation.near_field,
+      "; beyond the line what another choice changes, which is no error of this one"));
+  const FigureBlock roots = root_levels(budget, figure.notes);
+  double largest = 1;  // %
+  Panel panel{.y = {.label = "Change (%)", .from = 1e-5, .log = true}, .key = PanelKey::below, .height = 560};
+  for (const auto& [name, changes] :
+       {std::pair{"changes", &budget.refinement}, {"choices", &budget.choice}}) {
+    const bool errors = changes == &budget.refinement;
+    FigureBlock block{name, {"entry [1]", "mean_stiffness [%]", "peak_to_peak [%]"}, {}, "", "", true};
+    for (Eigen::Index n = 1; n <= changes->harmonic_change.cols(); ++n)
+      block.columns.push_back(text("harmonic_", n, " [% of the first]"));
+    const bool pressure = changes->pressure_change.size() > 0;
+    if (pressure) block.columns.emplace_back("flank_pressure [%]");
+    const bool stress = changes->root_stress_change.size() > 0;
+    if (stress) block.columns.emplace_back("root_stress [%]");
+    std::vector<std::pair<std::string, int>> shown{{"mean stiffness", kBlue}, {"peak to peak", kVermilion}};
+    constexpr std::array kGreys{kBlack, kDark, kMedium, kGrey, kLight};
+    for (Eigen::Index n = 1; n <= changes->harmonic_change.cols(); ++n)
+      shown.emplace_back(text("harmonic ", n), kGreys.at(static_cast<size_t>(n - 1)));
+    if (pressure) shown.emplace_back("flank pressure", kGreen);
+    if (stress) shown.emplace_back("root stress", kPurple);
+    for (size_t k = 0; k < shown.size(); ++k)
+      panel.curves.push_back(
+          {.block = name,
+           .y = static_cast<int>(k) + 2,
+           .style = PanelStyle::bars,
+           .colour = shown[k].second,
+           .label = errors ? shown[k].first : "",
+           .width = 0.095,
+           .shift = 0.1 * (static_cast<double>(k) - 4) + 1 + static_cast<double>(panel.x.names.size())});
+    std::string rest = changes->entry;
+    for (Eigen::Index i = 0; i < changes->mean_stiffness_change.size(); ++i) {
+      std::vector<double> row{static_cast<double>(i), std::abs(changes->mean_stiffness_change[i]) * kPercent,
+                              std::abs(changes->peak_to_peak_change[i]) * kPercent};
+      for (Eigen::Index n = 0; n < changes->harmonic_change.cols(); ++n)
+        row.push_back(std::abs(changes->harmonic_change(i, n)) * kPercent);
+      if (pressure) row.push_back(std::abs(changes->pressure_change[i]) * kPercent);
+      if (stress) row.push_back(std::abs(changes->root_stress_change[i]) * kPercent);
+      block.rows.push_back(row);
+      largest = std::max(largest, *std::max_element(row.begin() + 1, row.end()));
+      const size_t comma = rest.find(", ");
+      std::string label = rest.substr(0, comma);
+      // The same numbers under the name of what is changed, and with their signs.
+      FigureBlock named{text(name, " ", i), block.columns, {row}, "changes", label};
+      named.columns[0] = "error [1 yes, 0 another choice]";
+      named.rows[0][0] = errors ? 1 : 0;
+      named.rows[0][1] = changes->mean_stiffness_change[i] * kPercent;
+      named.rows[0][2] = changes->peak_to_peak_change[i] * kPercent;
+      for (Eigen::Index n = 0; n < changes->harmonic_change.cols(); ++n)
+        named.rows[0][static_cast<size_t>(3 + n)] = changes->harmonic_change(i, n) * kPercent;
+      figure.blocks.push_back(named);
+      // The values on a line of their own.
+      const size_t value = std::min(label.find(" at "), label.find_first_of("0123456789") - 1);
+      panel.x.names.push_back(value < label.size() ? label.substr(0, value) + "\n" + label.substr(value + 1)
+                                                   : label);
+      rest = comma == std::string::npos ? "" : rest.substr(comma + 2);
+    }
+    figure.blocks.push_back(block);
+  }
+  if (!roots.rows.empty()) figure.blocks.push_back(roots);
+  const auto errors = static_cast<double>(budget.refinement.mean_stiffness_change.size()),
+             choices = static_cast<double>(budget.choice.mean_stiffness_change.size());
+  if (choices > 0) {
+    panel.rules = {{'x', errors + 0.5, "", kDark, 1}};
+    panel.words = {{"errors", 0.5 * (errors + 1)}, {"other choices", errors + 0.5 * (choices + 1)}};
+  }
+  panel.y.to = std::pow(10, std::floor(std::log10(largest)) + 1);
+  figure.panels = {panel};
+  plain_captions(figure.notes.size(), figure);
+  return figure;
+}
+
+}  // namespace whine
