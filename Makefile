@@ -14,13 +14,22 @@ B := build$(if $(or $(value SANITIZE),$(filter test-sanitize,$(goals))),/sanitiz
 
 # Goals and variables of a user: make reads `$` and `%` in them, and a shell all that it does not take for a letter. So gear-scene judges them
 # first (common/io/make_request.cpp); it is given their text by $(value), which does not expand, in quotes, which no shell looks into.
-quoted = '$(subst ','\'',$1)'
-given := $(foreach v,$(.VARIABLES),$(if $(findstring command line,$(origin $v)), --given $(call quoted,$v=$(value $v))))
+# A line break, which make would drop, is given as \n.
+define line_break
+
+
+endef
+quoted = '$(subst $(line_break),\n,$(subst ','\'',$1))'
+command_line := $(foreach v,$(.VARIABLES),$(if $(findstring command line,$(origin $v)),$v))
+given := $(foreach v,$(command_line), --given $(call quoted,$v=$(value $v)))
 judge := $(firstword $(wildcard $(B)/bin/gear-scene build/bin/gear-scene))
 wrong := $(if $(judge),$(shell $(judge) --goals $(call quoted,$(goals)) $(given) 2> /dev/null))
 judged := $(if $(judge),$(if $(wrong),,$(filter 0,$(.SHELLSTATUS))))
 # One that is older than its sources may not know a new target: then it is compiled first, as where there is none.
 $(if $(wrong),$(if $(shell find common tools/gear-scene.cpp -name '*.[hc]*' -newer $(judge) -print -quit),,$(error $(wrong))))
+
+# Make expands variables of the command line for the environment of every command.
+$(if $(judged),,$(foreach v,$(filter-out LAUNCH% CXX% LDFLAGS ARCH,$(command_line)),$(if $(findstring $$,$(value $v)),$(error $v: it holds $$, which make would expand; rename what it names))))
 
 SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c

@@ -74,6 +74,15 @@ for variable in $variables JUMP_MAP SENSITIVITY HARRIS_DYNAMIC FREEZE SANITIZE; 
   done
   [ -z "$claim" ] || ok "$claim"
 done
+# Where no gear-scene is there to judge: before anything is compiled.
+mv "$B/bin/gear-scene" judge
+for goal in fig05 build help "$B/bin/gear-scene"; do
+  make $sanitize 'SCENE=$(shell touch mark).toml' "$goal" > "$log" 2>&1 && wrong "make $goal without gear-scene rejects what it would expand" "status 0"
+  if [ -e mark ]; then wrong "make $goal without gear-scene rejects what it would expand" "runs a command"; rm -f mark
+  elif grep -q '\*\*\* SCENE: it holds \$' "$log"; then ok "make $goal without gear-scene rejects what it would expand"
+  else wrong "make $goal without gear-scene rejects what it would expand" "$(tail -n 1 "$log")"; fi
+done
+mv judge "$B/bin/gear-scene"
 mkdir -p h
 for given in SCENE STUDY; do
   cp $([ $given = SCENE ] && echo s.toml || echo study.toml) h/.toml

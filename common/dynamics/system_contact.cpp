@@ -14,8 +14,8 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kRoundOff = 16 * std::numeric_limits<double>::epsilon();
-constexpr int kMostLaws = 6;      // visits of the laws before a set is given up
-constexpr int kLawsToRenew = 3;   // from so many on the next visit starts from the solution of this one
+constexpr int kMostLaws = 6;     // visits of the laws before a set is given up
+constexpr int kLawsToRenew = 3;  // from so many on the next visit starts from the solution of this one
 constexpr int kMostSets = 5;
 
 // y[0..rows) = start + sum over j of f[j] * column number[j] of c, and likewise of the sizes of the terms.
@@ -39,9 +39,9 @@ void add_forces(double* y, const double* start, const MatrixXd& c, const Columns
 
 // All that is of one solution.
 struct FollowedContact::Work {
-  double f[kMost] = {};                       // N
-  double left[kMost] = {};                    // m: bound of what d of these forces differs from 0 by
-  double gap[kMostContacts] = {};             // m: d without the laws
+  double f[kMost] = {};            // N
+  double left[kMost] = {};         // m: bound of what d of these forces differs from 0 by
+  double gap[kMostContacts] = {};  // m: d without the laws
   int laws = 0;
 };
 
@@ -184,8 +184,7 @@ bool FollowedContact::look_at_others(const MatrixXd& c, std::span<const HertzLin
   std::copy_backward(at_ + place, at_ + count_, at_ + count_ + 1);
   carrying_[place] = incoming;
   constexpr double kSlope = 12;  // of a law, in its coefficient, under forces that teeth carry
-  at_[place] =
-      -least / (c(incoming, incoming) + kSlope * law[static_cast<size_t>(incoming)].coefficient());
+  at_[place] = -least / (c(incoming, incoming) + kSlope * law[static_cast<size_t>(incoming)].coefficient());
   ++count_;
   return linear_ = false;
 }

@@ -44,13 +44,13 @@ class FollowedContact {
                       Work& work, Certificate& certificate);
   int stride() const { return padded(count_); }
 
-  int count_ = -1;             // pairs that carry; -1: not known
-  bool linear_ = false;        // what follows is of at_
-  int carrying_[kMost] = {};   // which of all, ascending
-  double at_[kMost] = {};      // N
-  double d_[kMost] = {};       // m, without e
-  double size_[kMost] = {};    // m: sum of the sizes of its terms
-  double slope_[kMost] = {};   // m N-1: of the laws
+  int count_ = -1;               // pairs that carry; -1: not known
+  bool linear_ = false;          // what follows is of at_
+  int carrying_[kMost] = {};     // which of all, ascending
+  double at_[kMost] = {};        // N
+  double d_[kMost] = {};         // m, without e
+  double size_[kMost] = {};      // m: sum of the sizes of its terms
+  double slope_[kMost] = {};     // m N-1: of the laws
   std::vector<double> inverse_;  // (carrying in whole lanes, carrying) N m-1: of C + slopes
 };
 

@@ -34,6 +34,8 @@ SystemDynamics::SystemDynamics(const SystemModel& system, const SystemMotion& mo
   for (size_t m = 0; m < system.mesh.size(); ++m) carried_.push_back(carried_mesh(system.layout, m));
   for (const GearMeshModel& mesh : system.mesh)
     outward_.push_back({mesh.outward_in_system(0), mesh.outward_in_system(1)});
+  turned_.setZero(static_cast<Index>(radius_.size()));
+  shifted_.setZero(2, turned_.size());
 }
 
 double SystemDynamics::moved(const Position& position, int k, const VectorXd& z) const {
@@ -83,8 +85,8 @@ MatrixXd SystemDynamics::modal_compliance(const Position& position, const Vector
   for (size_t p = 0; p < part_.size(); ++p) {
     const Rows& rows = position.rows[p];
     const Part& part = part_[p];
-    const Eigen::Map<const MatrixXd, 0, Eigen::OuterStride<>> h(&stream_[rows.row], part.count, rows.contacts(),
-                                                               Eigen::OuterStride<>(part.length()));
+    const Eigen::Map<const MatrixXd, 0, Eigen::OuterStride<>> h(
+        stream_.data() + rows.row, part.count, rows.contacts(), Eigen::OuterStride<>(part.length()));
     const MatrixXd own = h.transpose() * weight.segment(part.first, part.count).asDiagonal() * h;
     for (int k = 0; k < rows.contacts(); ++k)
       for (int l = 0; l < rows.contacts(); ++l)
@@ -168,7 +170,7 @@ void SystemDynamics::record_bearings(int sample, Period& period) const {
 }
 
 // False if a tip edge that was left out would touch.
-bool SystemDynamics::record(const Position& position, int sample, Period& period) const {
+bool SystemDynamics::record(const Position& position, int sample, Period& period) {
   for (int m = 0; m < meshes(); ++m) period.mesh_force(m, sample) = period.largest_tooth_force(m, sample) = 0;
   period.drift.setZero();
   period.contact_torque.col(sample).setZero();
@@ -194,19 +196,21 @@ bool SystemDynamics::record(const Position& position, int sample, Period& period
   record_bearings(sample, period);
   period.least_gap = std::min(period.least_gap, certificate_.least_gap);
   period.least_force = std::min(period.least_force, certificate_.least_force);
+  for (int b = 0; b < static_cast<int>(radius_.size()); ++b) {
+    turned_[b] = radius_[static_cast<size_t>(b)] * coordinates_.rotation_of(b, z_);
+    shifted_.col(b) = coordinates_.translation_of(b, z_);
+  }
   bool inside = true;
   for (int m = 0; m < meshes(); ++m) {
     double error = 0, closing = 0;
     for (int s = 0; s < kSides; ++s) {
       const int b = system_.layout.meshes[static_cast<size_t>(m)].side[static_cast<size_t>(s)].body;
-      error += closing_sign(s) * radius_[static_cast<size_t>(b)] * coordinates_.rotation_of(b, z_);
-      closing +=
-          outward_[static_cast<size_t>(m)][static_cast<size_t>(s)].dot(coordinates_.translation_of(b, z_));
+      error += closing_sign(s) * turned_[b];
+      closing += outward_[static_cast<size_t>(m)][static_cast<size_t>(s)].dot(shifted_.col(b));
     }
     closing += error;
     if (const CarriedMesh& on = carried_[static_cast<size_t>(m)]; on.carrier >= 0)
-      error +=
-          on.closing * radius_[static_cast<size_t>(on.carrier)] * coordinates_.rotation_of(on.carrier, z_);
+      error += on.closing * turned_[on.carrier];
     period.transmission_error(m, sample) = error;
     period.mesh_deflection(m, sample) = closing;
     if (closing > position.lost_gap[static_cast<size_t>(m)])

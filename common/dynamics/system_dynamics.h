@@ -160,8 +160,8 @@ class SystemDynamics {
     std::vector<Rows> rows;      // [part]
     std::vector<int> order;      // contacts of all parts, one part after the other
     Eigen::MatrixXd instantaneous_compliance, relaxed;  // (contact, contact) m N-1: A, and W V S
-    Eigen::MatrixXd compliance;              // (contact in whole lanes, contact) m N-1: of a step at the speed
-    Eigen::MatrixXd drift;                   // (null vector, contact): of forces
+    Eigen::MatrixXd compliance;  // (contact in whole lanes, contact) m N-1: of a step at the speed
+    Eigen::MatrixXd drift;       // (null vector, contact): of forces
     std::vector<double> next_gap, lost_gap;  // (mesh) m, see PairsInReach
     FollowedContact followed;
     int size() const { return static_cast<int>(contact.size()); }
@@ -197,7 +197,8 @@ class SystemDynamics {
     for (size_t which = 0; which < 4; ++which) {
       if (contact.part[which] < 0) continue;
       const Part& part = part_[static_cast<size_t>(contact.part[which])];
-      visit(static_cast<Eigen::Index>(part.first), Row(&stream_[row_place(position, contact, which)], part.count));
+      visit(static_cast<Eigen::Index>(part.first),
+            Row(&stream_[row_place(position, contact, which)], part.count));
     }
   }
   const Rows& rows_of(const Position& position, const Contact& contact, size_t side) const {
@@ -205,8 +206,8 @@ class SystemDynamics {
   }
   // V^T S^T of a side.
   FieldRow field(const Position& position, const Contact& contact, size_t side) const {
-    return FieldRow(
-        &stream_[rows_of(position, contact, side).field + static_cast<size_t>(contact.in_part[1 + side] * kFields)]);
+    return FieldRow(&stream_[rows_of(position, contact, side).field +
+                             static_cast<size_t>(contact.in_part[1 + side] * kFields)]);
   }
   // W^T of a side, of the relaxed loads of slot `slot` of its body.
   FieldRow reading(const Position& position, const Contact& contact, size_t side, int slot) const {
@@ -241,7 +242,7 @@ class SystemDynamics {
         if (live.last > live.first) visit(&relaxed_[at], &load_[at], (live.last - live.first) * kFields);
       }
   }
-  bool record(const Position& position, int sample, Period& period) const;
+  bool record(const Position& position, int sample, Period& period);
   void record_bearings(int sample, Period& period) const;
   void rename();
   const Position& at(int step) const {  // of the speed's steps
@@ -278,8 +279,8 @@ class SystemDynamics {
 
   double mesh_frequency_ = 0, step_ = 0;
   int steps_ = 0, stride_ = 1;
-  // (coordinate, and zeros up to whole lanes of the last part); half_bq_, half_bv_: half of bq_, bv_.
-  Eigen::VectorXd a11_, a12_, a21_, a22_, bq_, bv_, half_bq_, half_bv_, torque_;
+  // (coordinate, then zeros for whole lanes of the last part), see Propagator; bv is a12.
+  Eigen::VectorXd a11_, a12_, a21_, a22_, bq_, torque_;
   Relaxation relaxed_step_{};
 
   // The state of a step; coordinates as those of the propagators.
@@ -288,8 +289,10 @@ class SystemDynamics {
   std::vector<Live> live_;
   Eigen::VectorXd remembered_;
   std::vector<double> sums_;  // (contact, lane)
-  Eigen::VectorXd rate_;  // (coordinate) z" + mu z', mu the damping by mass; of trains with rigid pins
+  Eigen::VectorXd rate_;      // (coordinate) z" + mu z', mu the damping by mass; of trains with rigid pins
   Eigen::VectorXd e_, p_, d_, p_of_slot_;  // e_, p_, d_: (contact)
+  Eigen::VectorXd turned_;                 // (body) m: r theta
+  Eigen::Matrix2Xd shifted_;               // (xy, body) m: of its hub
   Certificate certificate_;
   MatrixRM forces_;
 };

@@ -19,11 +19,11 @@ class SystemEnergyRecord {
   struct Instant {
     const SystemDynamics::Position* position = nullptr;
     Eigen::VectorXd z, v, force, relaxed, load;
-    Eigen::VectorXd field, moved;             // C relaxed and C load in the slots of `rows`
+    Eigen::VectorXd field, moved;            // C relaxed and C load in the slots of `rows`
     std::vector<SystemDynamics::Live> rows;  // [mesh]
     std::vector<SystemDynamics::Live> live;  // [mesh] outside which relaxed and load are 0
-    Eigen::VectorXd p, d, local;   // (contact) N, m, m
-    double stored = 0;             // J: at once
+    Eigen::VectorXd p, d, local;             // (contact) N, m, m
+    double stored = 0;                       // J: at once
   };
   void fill(Instant& now, const SystemDynamics::Position& position) const;
   void displace(Instant& at, const std::vector<SystemDynamics::Live>& wanted) const;

@@ -104,13 +104,13 @@ MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
     }
   };
   const auto a11 = of.a11_.head(n), a12 = of.a12_.head(n), a21 = of.a21_.head(n), a22 = of.a22_.head(n),
-             bq = of.half_bq_.head(n), bv = of.half_bv_.head(n);
+             bq = of.bq_.head(n);
   spread(of.at(0));
   for (int i = 1; i <= steps_; ++i) {
     const SystemDynamics::Position& position = of.at(i);
     const MatrixXd old = z;
-    z = a11.asDiagonal() * old + a12.asDiagonal() * v + bq.asDiagonal() * force;
-    v = (a21.asDiagonal() * old + a22.asDiagonal() * v + bv.asDiagonal() * force).eval();
+    z = a11.asDiagonal() * old + a12.asDiagonal() * v + (0.5 * bq).asDiagonal() * force;
+    v = (a21.asDiagonal() * old + a22.asDiagonal() * v + (0.5 * a12).asDiagonal() * force).eval();
     relaxed = of.relaxed_step_.decay * relaxed + of.relaxed_step_.from_old * load;
     std::vector<Index> active;
     for (int k = 0; k < position.size(); ++k)
@@ -140,8 +140,8 @@ MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
         p.row(position.contact[static_cast<size_t>(active[a])].slot) = forces.row(static_cast<Index>(a));
     }
     spread(position);
-    z += bq.asDiagonal() * force;
-    v += bv.asDiagonal() * force;
+    z += (0.5 * bq).asDiagonal() * force;
+    v += (0.5 * a12).asDiagonal() * force;
     relaxed += of.relaxed_step_.from_new * load;
   }
   MatrixXd out(directions.rows(), many);

@@ -150,7 +150,8 @@ void SystemDynamics::list_parts() {
   part_ = {{0, coordinates_.rigid}};
   for (size_t b = 0; b < system_.body.size(); ++b)
     part_.push_back({coordinates_.body[b].first, coordinates_.body[b].count});
-  for (const SystemCoordinates::Group& group : coordinates_.group) part_.push_back({group.first, group.count});
+  for (const SystemCoordinates::Group& group : coordinates_.group)
+    part_.push_back({group.first, group.count});
 }
 
 // Of stream_, at most: one row in each part of a contact and what relaxed loads of its bodies move it by.
@@ -272,8 +273,7 @@ SystemDynamics::Position SystemDynamics::filled(const SystemPosition& at, int sh
       if (share.group >= 0) row(3) = part.group;
       const VectorXd field = fields_[own].transpose() * weights.transpose();
       const MatrixXd& c = coupling_[own];
-      const VectorXd reading =
-          c.middleCols(contact.load_at[s] - relaxed_first_[own], field.size()) * field;
+      const VectorXd reading = c.middleCols(contact.load_at[s] - relaxed_first_[own], field.size()) * field;
       const auto put = [&](const FieldRow& to, const double* from) {
         std::copy_n(from, kFields, &stream_[static_cast<size_t>(to.data() - stream_.data())]);
       };
@@ -305,8 +305,8 @@ void SystemDynamics::relate(Position& position, const SystemPosition& at) const 
                         &loaded = position.contact[static_cast<size_t>(l)];
           if (read.body[s] != loaded.body[t]) continue;
           const int b = read.body[s], base = relaxed_first_[static_cast<size_t>(b)];
-          const double soft =
-              reading(position, read, s, (loaded.load_at[t] - base) / kFields).dot(field(position, loaded, t));
+          const double soft = reading(position, read, s, (loaded.load_at[t] - base) / kFields)
+                                  .dot(field(position, loaded, t));
           const auto weights = [&](const Contact& contact, size_t side, Index row) -> RowVectorXd {
             const auto m = static_cast<size_t>(contact.mesh);
             return at.displacement.flank[m][side].row(row - at.first_strip[m]);
@@ -375,12 +375,12 @@ void SystemDynamics::set_positions(const std::vector<double>& corner_gap, int st
   list_parts();
   constexpr double kMostMemory = 12e9;  // bytes
   const double in_stream = numbers(placed),
-               numbers = in_stream + 4.0 * steps * most_contacts_ * padded(most_contacts_);
-  if (8 * numbers > kMostMemory)
-    fail(Failure::input, "the positions of ", steps, " steps of a mesh period need ", 8e-9 * numbers,
+               memory = 8 * (in_stream + 4.0 * steps * most_contacts_ * padded(most_contacts_));
+  if (memory > kMostMemory)
+    fail(Failure::input, "the positions of ", steps, " steps of a mesh period need ", 1e-9 * memory,
          " GB, at most ", 1e-9 * kMostMemory,
          " are allowed; lower min_sample_rate_kHz or modes, or raise the lowest speed");
-  log_memory(text("the positions of ", steps, " steps of a mesh period"), 8 * numbers);
+  log_memory(text("the positions of ", steps, " steps of a mesh period"), memory);
   stream_.clear();
   stream_.reserve(static_cast<size_t>(in_stream) + 8 * part_.size() * static_cast<size_t>(steps + 1));
   couple();

@@ -51,13 +51,11 @@ void subtract_all_rows(const double* rows, int length, const double* z, double* 
 void SystemDynamics::propagate_by(double seconds) {
   step_ = seconds;
   const Index n = coordinates_.size(), whole = n + 2 * kLanes;
-  for (VectorXd* x : {&a11_, &a12_, &a21_, &a22_, &bq_, &bv_, &torque_, &z_, &v_, &force_}) x->setZero(whole);
+  for (VectorXd* x : {&a11_, &a12_, &a21_, &a22_, &bq_, &torque_, &z_, &v_, &force_}) x->setZero(whole);
   for (Index i = 0; i < n; ++i) {
     const Propagator a = exact_propagator(coordinates_.frequency[i], coordinates_.damping[i], step_);
-    a11_[i] = a.a11, a12_[i] = a.a12, a21_[i] = a.a21, a22_[i] = a.a22, bq_[i] = a.bq, bv_[i] = a.bv;
+    a11_[i] = a.a11, a12_[i] = a.a12, a21_[i] = a.a21, a22_[i] = a.a22, bq_[i] = a.bq;
   }
-  half_bq_ = 0.5 * bq_;
-  half_bv_ = 0.5 * bv_;
   torque_.head(n) = coordinates_.torque;
   relaxed_step_ = relaxation_step(relaxation_, step_);
   for (VectorXd* x : {&relaxed_, &load_}) x->setZero(relaxed_size());
@@ -67,9 +65,9 @@ void SystemDynamics::propagate_by(double seconds) {
 
 // Compliance of the contacts at the end of a step.
 void SystemDynamics::close(Position& position) const {
-  position.compliance.topRows(position.size()) =
-      position.instantaneous_compliance + relaxed_step_.from_new * position.relaxed +
-      modal_compliance(position, half_bq_);
+  position.compliance.topRows(position.size()) = position.instantaneous_compliance +
+                                                 relaxed_step_.from_new * position.relaxed +
+                                                 modal_compliance(position, 0.5 * bq_);
   position.followed.forget();
 }
 
@@ -82,8 +80,7 @@ void SystemDynamics::take(const State& state, const Position& position) {
   v_.head(n) = state.v;
   relaxed_ = state.relaxed;
   p_of_slot_ = state.p;
-  for (int k = 0; k < position.size(); ++k)
-    p_[k] = state.p[position.contact[static_cast<size_t>(k)].slot];
+  for (int k = 0; k < position.size(); ++k) p_[k] = state.p[position.contact[static_cast<size_t>(k)].slot];
   force_ = torque_;
   for (int k = 0; k < position.size(); ++k)
     if (p_[k] != 0) push(position, k, p_[k], force_);
@@ -120,13 +117,14 @@ void SystemDynamics::propagate() {
   const auto whole = static_cast<int>(z_.size()) / kLanes * kLanes;
   double *z = z_.data(), *v = v_.data();
   const double *force = force_.data(), *torque = torque_.data(), *a11 = a11_.data(), *a12 = a12_.data(),
-               *a21 = a21_.data(), *a22 = a22_.data(), *bq = half_bq_.data(), *bv = half_bv_.data();
+               *a21 = a21_.data(), *a22 = a22_.data(), *bq = bq_.data();
   for (int i = 0; i < whole; i += kLanes) {
-    const Lanes both = lanes(force + i) + lanes(torque + i), before = lanes(z + i), speed = lanes(v + i);
-    lanes(z + i) = lanes(a11 + i) * before + lanes(a12 + i) * speed + lanes(bq + i) * both;
-    lanes(v + i) = lanes(a21 + i) * before + lanes(a22 + i) * speed + lanes(bv + i) * both;
+    const Lanes mean = 0.5 * (lanes(force + i) + lanes(torque + i)), before = lanes(z + i),
+                speed = lanes(v + i);
+    lanes(z + i) = lanes(a11 + i) * before + lanes(a12 + i) * speed + lanes(bq + i) * mean;
+    lanes(v + i) = lanes(a21 + i) * before + lanes(a22 + i) * speed + lanes(a12 + i) * mean;  // bv = a12
   }
-  remembered_ = relaxed_step_.decay * remembered_ + relaxed_step_.from_old * p_of_slot_;
+  remembered_ = relaxed_step_.decay * remembered_ + relaxed_step_.from_old * p_of_slot_.cwiseAbs();
   each_live([&](double* f, const double* l, int count) {
     for (const double* end = f + count; f < end; f += kLanes, l += kLanes)
       lanes(f) = relaxed_step_.decay * lanes(f) + relaxed_step_.from_old * lanes(l);
@@ -141,7 +139,7 @@ void SystemDynamics::read_gaps(const Position& position) {
   for (size_t p = 0; p < part_.size(); ++p) {
     const Rows& rows = position.rows[p];
     const int* contact = position.order.data() + rows.begin;
-    subtract_all_rows(&stream_[rows.row], part_[p].length(), &z_[part_[p].first], sums, contact,
+    subtract_all_rows(stream_.data() + rows.row, part_[p].length(), &z_[part_[p].first], sums, contact,
                       rows.contacts());
   }
   for (size_t b = 0; b < system_.body.size(); ++b) {
@@ -152,13 +150,19 @@ void SystemDynamics::read_gaps(const Position& position) {
       const Live& live = live_[static_cast<size_t>(meshes_of_[b][place])];
       const int from = static_cast<int>(place) * pairs() + live.first;
       const double* w = stream_.data() + rows.reading + static_cast<size_t>(from * count * kFields);
-      const double* f = relaxed_.data() + relaxed_first_[b] + from * kFields;
-      for (int pair = live.first; pair < live.last; ++pair, f += kFields) {
-        const Lanes f0 = lanes(f), f1 = lanes(f + 4), f2 = lanes(f + 8);
-        for (int c = 0; c < count; ++c, w += kFields)
-          lanes(sums + contact[c] * kLanes) += lanes(w) * f0 + lanes(w + 4) * f1 + lanes(w + 8) * f2;
+      const double* fields = relaxed_.data() + relaxed_first_[b] + from * kFields;
+      for (int c = 0; c < count; ++c, w += kFields) {
+        Lanes total = lanes(sums + contact[c] * kLanes), other{};
+        const double *of = w, *f = fields;
+        for (int pair = live.first; pair < live.last; ++pair, of += count * kFields, f += kFields) {
+          total += lanes(of) * lanes(f) + lanes(of + 4) * lanes(f + 4);
+          other += lanes(of + 8) * lanes(f + 8);
+        }
+        lanes(sums + contact[c] * kLanes) = total + other;
       }
     }
+    for (int c = 0; c < count; ++c)
+      __builtin_prefetch(&stream_[rows.field + static_cast<size_t>(c * kFields)]);
   }
   for (int k = 0; k < whole; k += kLanes) {
     const double* four = sums + k * kLanes;
@@ -180,7 +184,7 @@ void SystemDynamics::solve(Position& position) {
 // reach of the next part is written anew with it.
 void SystemDynamics::push_all(const Position& position) {
   double *z = z_.data(), *v = v_.data(), *force = force_.data();
-  const double *torque = torque_.data(), *bq = half_bq_.data(), *bv = half_bv_.data();
+  const double *torque = torque_.data(), *bq = bq_.data(), *a12 = a12_.data();
   for (size_t p = 0; p < part_.size(); ++p) {
     const Rows& rows = position.rows[p];
     const int length = part_[p].length(), first = part_[p].first;
@@ -189,8 +193,9 @@ void SystemDynamics::push_all(const Position& position) {
     int carrying = 0;
     const auto add = [&](int i, Lanes sum) {
       lanes(force + i) = lanes(torque + i) - sum;
-      lanes(z + i) -= lanes(bq + i) * sum;
-      lanes(v + i) -= lanes(bv + i) * sum;
+      const Lanes half = 0.5 * sum;
+      lanes(z + i) -= lanes(bq + i) * half;
+      lanes(v + i) -= lanes(a12 + i) * half;
     };
     for (int c = 0; c < rows.contacts(); ++c)
       if (const double own = p_[position.order[static_cast<size_t>(rows.begin + c)]]; own > 0) {

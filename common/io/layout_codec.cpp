@@ -1,11 +1,11 @@
 #include "io/layout_codec.h"
 
-#include <algorithm>
+#include <optional>
+#include <type_traits>
 
 #include "base/error.h"
 #include "io/codec.h"
 #include "io/keys.h"
-#include "io/layout_fault.h"
 
 namespace whine {
 namespace {

@@ -73,7 +73,9 @@ std::string remedy_of(const Variable& variable) {
 void check_characters(const Variable& variable, const std::string& value) {
   const std::string remedy = remedy_of(variable);
   const std::string& name = variable.name;
-  if (value.find('\n') != std::string::npos) fail(Failure::input, name, ": it holds a line break", remedy);
+  // As make gives it on the command line, or as it stands in the environment.
+  if (value.find("\\n") != std::string::npos || value.find('\n') != std::string::npos)
+    fail(Failure::input, name, ": it holds a line break", remedy);
   for (const unsigned char c : value)
     if (c != '\t' && (c < 32 || c == 127))
       fail(Failure::input, name, ": it holds a control character", remedy);

@@ -12,7 +12,6 @@
 #include "gear/handbook_sign.h"
 #include "gear/rack_tip.h"
 #include "io/keys.h"
-#include "io/module_lengths.h"
 #include "io/scene_sections.h"
 #include "io/section_reader.h"
 #include "io/suggestion.h"

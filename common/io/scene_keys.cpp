@@ -1,9 +1,7 @@
 #include "io/scene_keys.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <numbers>
 
 #include "base/error.h"
 #include "io/keys.h"

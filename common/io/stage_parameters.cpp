@@ -1,14 +1,10 @@
 #include "io/scene.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <numeric>
-#include <sstream>
-#include <utility>
 
 #include "base/error.h"
 #include "io/keys.h"
-#include "io/module_lengths.h"
 #include "io/publish.h"
 #include "io/section_reader.h"
 #include "io/stage_parameters_text.h"

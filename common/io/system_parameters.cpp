@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "gear/system_layout.h"
-#include "io/layout_fault.h"
+#include "io/layout_codec.h"
 #include "io/scene.h"
 #include "io/stage_parameters_text.h"
 #include "io/system_scene.h"

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <set>
 
 #include "gear/system_layout.h"
 #include "gear/tooth_errors.h"
-#include "io/module_lengths.h"
 #include "io/scene_sections.h"
 #include "io/variant.h"
 #include "system/system_rest.h"

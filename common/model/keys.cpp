@@ -24,7 +24,6 @@ Value Key::value() const {
                     slot);
 }
 
-// A length that goes with the module is 0 until the module is known.
 void Key::take_fallback() const {
   const std::string word(fallback);
   std::visit(Overloaded{[&](double* held) { *held = to_si(std::strtod(fallback, nullptr)); },
@@ -116,6 +115,14 @@ KeyList KeyList::labelled(const std::string& own) const {
   KeyList out = *this;
   for (Key& key : out.keys_) key.own = own;
   return out;
+}
+
+void take_module(const KeyList& keys, double module) {
+  const std::string start = "module / ";
+  for (const Key& key : keys)
+    if (const std::string word(key.fallback ? key.fallback : ""); word.starts_with(start))
+      if (double& value = *std::get<double*>(key.slot); value == 0)
+        value = module / std::strtod(word.c_str() + start.size(), nullptr);
 }
 
 }  // namespace whine

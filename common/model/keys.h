@@ -58,7 +58,7 @@ struct Key {
   const char* section;  // as in the scene: "gear", "material", "mesh", ...
   const char* name;     // in a scene, with the unit's suffix
   Unit unit;
-  // Default in the scene's unit; nullptr: the key is required; "module / 6": see io/module_lengths.h.
+  // Default in the scene's unit; nullptr: the key is required; "module / 6": see take_module().
   const char* fallback;
   Limits limits;
   const char* meaning;  // one line
@@ -128,6 +128,10 @@ class KeyList {
   int groups_ = 0, group_ = 0;
   bool stands_ = true;
 };
+
+// Lengths whose default goes with the module, so that a scene that leaves them open has the same error at every module: they are 0
+// until the gear is known whose module it is (m), and then have their default.
+void take_module(const KeyList& keys, double module);
 
 // What [gear.<name>] says beside the design.
 struct GearWords {

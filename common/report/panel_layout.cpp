@@ -32,7 +32,7 @@ std::vector<double> log_ticks(Range r) {
 
 namespace {
 
-constexpr double kTitle = 56, kScenes = 30, kSample = 64, kEdge = 28;
+constexpr double kTitle = 56, kScenes = 30, kSample = 72, kEdge = 28;
 constexpr double kNote = 24;  // as common.gp's room()
 
 // Of words with '\n' between lines, in a width in parts of their letters.
@@ -186,7 +186,7 @@ Place measured(const Figure& figure, const Panel& panel) {
   for (const PanelRule& rule : panel.rules)
     if (rule.axis == 'y' && !rule.in_key && !rule.label.empty())
       beside = std::max(beside, text_width(rule.label) * 13 * pixels::kPoint);
-  p.right += std::min(beside, 0.45 * pixels::kWidth / static_cast<double>(figure.columns));
+  p.right += std::min(beside, 0.6 * pixels::kWidth / static_cast<double>(figure.columns));
   if (panel.colours) p.right += pixels::kColourBox;
   if (panel.bare) p.left = p.right = 12;
   return p;

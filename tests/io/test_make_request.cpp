@@ -75,7 +75,8 @@ TEST_CASE("names that a shell or make would obey are rejected whole, wherever th
     }
   CHECK(begins(project.said("out/a/T1;touch${IFS}mark;/static.h5"),
                "target out/a/T1;touch${IFS}mark;/static.h5: it holds ; $ { }"));
-  CHECK(begins(project.said("report", {"SCENE=a\nb.toml"}), "SCENE: it holds a line break"));
+  for (const char* scene : {"SCENE=a\nb.toml", "SCENE=a\\nb.toml"})
+    CHECK(begins(project.said("report", {scene}), "SCENE: it holds a line break"));
   CHECK(begins(project.said("report", {"SCENE=\x1b[31m.toml"}), "SCENE: it holds a control character"));
   CHECK(begins(project.said("report", {"TORQUE=1 2"}),
                "TORQUE=1 2: it holds blanks, and may hold letters, digits and . _ - + , @ only"));

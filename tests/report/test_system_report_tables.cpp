@@ -396,7 +396,8 @@ TEST_CASE("stage parameters of modes: gears without teeth and meshes of what is 
     return message_of_input([&] { read_system_parameters(path); });
   };
   CHECK(said([](System&) {}).empty());
-  CHECK(holds(said([](System& s) { s.bodies[1].teeth = 0; }), "[[body]] 'planet1': teeth = 0, which is a gear"));
+  CHECK(holds(said([](System& s) { s.bodies[1].teeth = 0; }),
+              "[[body]] 'planet1': teeth = 0, which is a gear"));
   CHECK(holds(said([](System& s) { s.meshes[0].side[1].body = 5; }), "allowed are two gears that differ"));
   CHECK(holds(said([](System& s) { s.meshes[0].side[1].body = 0; }), "allowed are two gears that differ"));
 }
