@@ -51,7 +51,10 @@ void check_goals(const SceneGoals& goals, const SceneAbilities& scene, const std
           ": it says no speeds; write [operation] with mesh_frequency_Hz = { from = 500, to = 5000, step = 50 } into it");
   }
   for (const std::string& goal : goals.of_pairs) {
-    if (goal == "report" || (goal == "load-sharing" && scene.elastic && scene.planets)) continue;
+    const bool in_motion = scene.elastic && scene.moves;
+    if (goal == "report" || (goal == "load-sharing" && scene.elastic && scene.planets) ||
+        (goal == "order-cuts" && in_motion))
+      continue;
     if (goal == "load-sharing")
       fail(Failure::input, "load-sharing: ", which,
            scene.elastic ? " has no planets that share a load"
@@ -64,7 +67,7 @@ void check_goals(const SceneGoals& goals, const SceneAbilities& scene, const std
     fail(Failure::input, goal, ": ", which,
          " is a system of several meshes, carriers or drives; for it there is: make ", which,
          " report, or of it ", scene.elastic ? "system-static " : "",
-         scene.elastic && scene.moves ? "system-sweep system-ringdown system-branch " : "", "modes");
+         in_motion ? "system-sweep system-ringdown system-branch order-cuts " : "", "modes");
   }
 }
 

@@ -227,5 +227,5 @@ TEST_CASE("goals that a scene cannot reach name what there is of it") {
   CHECK(begins(said({.of_pairs = {"compare"}, .of_systems = {}}, train),
                "SCENES: my.toml is a system of several meshes"));
   CHECK(said({.of_pairs = {"static"}, .of_systems = {}}, train)
-            .ends_with("or of it system-static system-sweep system-ringdown system-branch modes"));
+            .ends_with("or of it system-static system-sweep system-ringdown system-branch order-cuts modes"));
 }
