@@ -350,7 +350,7 @@ rejected "a branch from a sweep's motion without its speed" 2 'go together' "${s
 rejected "a branch from a speed outside the scene's" 3 'cannot begin at 900 Hz: mesh_frequency_Hz is from 2000' "${stage_orbit[@]}" --from-sweep up --at 900
 rejected "a branch of three mesh periods" 3 'give 1, 2 or 4' "${stage_orbit[@]}" --periods 3
 if "${stage_orbit[@]/out\/scene\/T100\/branch.h5/line\/branch.h5}" --from-sweep up --at 2050 --periods 2 > said 2>&1 &&
-  "$bin/gear-inspect" line/branch.h5 | grep -q 'reached 2000; the parameter reached 2100'; then ok "gear-orbit --from-sweep goes both ways"; else
+  "$bin/gear-inspect" line/branch.h5 | grep -q 'reached 2000 Hz; the mesh frequency reached 2100 Hz'; then ok "gear-orbit --from-sweep goes both ways"; else
   wrong "gear-orbit --from-sweep goes both ways" "$(head -n 1 said)"; fi
 rejected "jumps located to nothing" 3 'jumps cannot be located to -1 Hz' $(sweep scene up) --jump-width -1
 rejected "the next model level of a sweep on the last ones" 3 'contact = "strips" is the last model level of contact; body = "full" is the last model level of body' \

@@ -91,7 +91,7 @@ inline void check_rest(whine::SystemDynamics& dynamics, const std::vector<whine:
       double own = 0;
       for (const whine::LoadedSegment& at : statics[static_cast<size_t>(i)].loads)
         own += at.mesh == m ? at.force : 0;
-      CHECK(p.segment(m * dynamics.pairs(), dynamics.pairs()).sum() == relative(own, 1e-9));
+      CHECK(p.segment(m * dynamics.tooth_pairs(), dynamics.tooth_pairs()).sum() == relative(own, 1e-9));
     }
   }
 }

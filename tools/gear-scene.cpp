@@ -17,6 +17,7 @@
 #include "base/error.h"
 #include "base/format.h"
 #include "base/tool.h"
+#include "base/visible.h"
 #include "io/compatibility.h"
 #include "io/make_request.h"
 #include "io/publish.h"
@@ -52,7 +53,7 @@ void cut_system(const std::string& path, const std::string& stem, const std::str
     for (const auto& [name, words] : elastic_parameters(scene, layout))
       publish_if_changed(home + "/params/" + name, words);
   }
-  publish_if_changed(home + "/params/title.txt", scene.title + "\n");
+  publish_if_changed(home + "/params/title.txt", visible(scene.title) + "\n");
   publish(output,
           system_fragment(path, stem, publish_bodies(home, folder, body_parameters_of(scene)),
                           layout.meshes.size() > scene.meshes.size(), scene.operation.frequency_to > 0));
@@ -77,13 +78,10 @@ void cut_pair(const std::string& path, const std::string& stem, const std::strin
     settings.emplace_back(gear.name, body_parameters(scene, gear.name));
   const BodyHashes bodies = publish_bodies(home, folder, settings);
   const std::pair<const char*, std::string> parameters[] = {
-      {"static.toml", static_parameters(scene)},
-      {"impact.toml", impact_parameters(scene)},
-      {"sweep.toml", sweep_parameters(scene)},
-      {"map.toml", map_parameters(scene)},
-      {"lumped.toml", lumped_parameters(scene, true)},
-      {"lumped_map.toml", lumped_parameters(scene, false)},
-      {"title.txt", scene.title + "\n"}};
+      {"static.toml", static_parameters(scene)},       {"impact.toml", impact_parameters(scene)},
+      {"sweep.toml", sweep_parameters(scene)},         {"map.toml", map_parameters(scene)},
+      {"lumped.toml", lumped_parameters(scene, true)}, {"lumped_map.toml", lumped_parameters(scene, false)},
+      {"title.txt", visible(scene.title) + "\n"}};
   for (const auto& [file, content] : parameters) publish_if_changed(home + "/params/" + file, content);
   // 3. The fragment, always written.
   publish(output, scene_fragment(scene, path, stem, bodies));

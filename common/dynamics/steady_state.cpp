@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "orbits/recurrence.h"
+#include "signal/rms.h"
 
 namespace whine {
 
@@ -19,16 +20,10 @@ namespace {
 constexpr int kMostPeriods = 3000;  // mesh periods per speed, before it counts as not periodic
 constexpr int kLeastTurns = 100;    // but this many hunting periods
 
-double oscillating_rms(const std::vector<RollingDynamics::Period>& record) {
-  double sum = 0, square = 0;
-  Eigen::Index count = 0;
-  for (const auto& period : record) {
-    sum += period.transmission_error.sum();
-    count += period.transmission_error.size();
-  }
-  const double mean = sum / static_cast<double>(count);
-  for (const auto& period : record) square += (period.transmission_error.array() - mean).square().sum();
-  return std::sqrt(square / static_cast<double>(count));
+double rms_of(const std::vector<RollingDynamics::Period>& record) {
+  std::vector<Eigen::Ref<const VectorXd>> parts;
+  for (const auto& period : record) parts.emplace_back(period.transmission_error);
+  return oscillating_rms(parts);
 }
 
 // Sample 0 of an integration is that of the period after it, in the names of its teeth.
@@ -92,7 +87,7 @@ class RollingOrbit : public RollingStates {
       if (!dynamics.integrate(state, period_)) return false;
     }
     if (!watched_) return true;
-    const double rms = oscillating_rms({period_});
+    const double rms = rms_of({period_});
     wanted_ = rms >= looked_for_.least && rms <= looked_for_.most;
     if (!wanted_) {
       orbit.rms = rms;
@@ -116,7 +111,7 @@ class RollingOrbit : public RollingStates {
       if (recorded > 1) begin_with_end_of(before, orbit.record.back());
       before = period_;
     }
-    orbit.rms = oscillating_rms(orbit.record);
+    orbit.rms = rms_of(orbit.record);
     return true;
   }
 

@@ -293,13 +293,13 @@ SystemDynamics::State SystemDynamics::fitted(const State& state, const SystemDyn
   State out = state;
   out.p = VectorXd::Zero(slots());
   out.relaxed = VectorXd::Zero(relaxed_size());
-  const int blocks = relaxed_size() / (pairs() * kFields);
+  const int blocks = relaxed_size() / (tooth_pairs() * kFields);
   for (int pair = std::max(first_, of.first_); pair <= std::min(last_, of.last_); ++pair) {
     for (int m = 0; m < meshes(); ++m)
-      out.p[m * pairs() + pair - first_] = state.p[m * of.pairs() + pair - of.first_];
+      out.p[m * tooth_pairs() + pair - first_] = state.p[m * of.tooth_pairs() + pair - of.first_];
     for (int block = 0; block < blocks; ++block)
-      out.relaxed.segment<kFields>((block * pairs() + pair - first_) * kFields) =
-          state.relaxed.segment<kFields>((block * of.pairs() + pair - of.first_) * kFields);
+      out.relaxed.segment<kFields>((block * tooth_pairs() + pair - first_) * kFields) =
+          state.relaxed.segment<kFields>((block * of.tooth_pairs() + pair - of.first_) * kFields);
   }
   return out;
 }

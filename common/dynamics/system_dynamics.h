@@ -91,8 +91,8 @@ class SystemDynamics {
   const SystemModel& system() const { return system_; }
   const SystemCoordinates& coordinates() const { return coordinates_; }
   int meshes() const { return static_cast<int>(system_.mesh.size()); }
-  int slots() const { return meshes() * pairs(); }
-  int pairs() const { return last_ - first_ + 1; }  // of a mesh
+  int slots() const { return meshes() * tooth_pairs(); }
+  int tooth_pairs() const { return last_ - first_ + 1; }  // of a mesh
   int first_pair() const { return first_; }
   int relaxed_size() const { return relaxed_first_.back(); }
   int steps() const { return steps_; }
@@ -238,7 +238,7 @@ class SystemDynamics {
     for (size_t b = 0; b < meshes_of_.size(); ++b)
       for (size_t place = 0; place < meshes_of_[b].size(); ++place) {
         const Live& live = live_[static_cast<size_t>(meshes_of_[b][place])];
-        const int at = relaxed_first_[b] + (static_cast<int>(place) * pairs() + live.first) * kFields;
+        const int at = relaxed_first_[b] + (static_cast<int>(place) * tooth_pairs() + live.first) * kFields;
         if (live.last > live.first) visit(&relaxed_[at], &load_[at], (live.last - live.first) * kFields);
       }
   }

@@ -72,7 +72,7 @@ void SystemEnergyRecord::fill(Instant& now, const SystemDynamics::Position& posi
   now.moved.setZero(of_.relaxed_size());
   std::vector<SystemDynamics::Live> wanted = now.live;
   for (const SystemDynamics::Contact& contact : position.contact) {
-    const int pair = contact.slot - contact.mesh * of_.pairs();
+    const int pair = contact.slot - contact.mesh * of_.tooth_pairs();
     SystemDynamics::Live& in = wanted[static_cast<size_t>(contact.mesh)];
     in = in.hull({pair, pair + 1});
   }
@@ -95,7 +95,7 @@ void SystemEnergyRecord::displace(Instant& at, const std::vector<SystemDynamics:
   for (size_t b = 0; b < of_.coupling_.size(); ++b) {
     const Eigen::MatrixXd& c = of_.coupling_[b];
     const auto first_of = [&](size_t place, int pair) {
-      return (static_cast<Index>(place) * of_.pairs() + pair) * kFields;
+      return (static_cast<Index>(place) * of_.tooth_pairs() + pair) * kFields;
     };
     for (size_t place = 0; place < of_.meshes_of_[b].size(); ++place) {
       const auto m = static_cast<size_t>(of_.meshes_of_[b][place]);

@@ -105,7 +105,8 @@ void SystemDynamics::find_slots(const std::vector<SystemPosition>& placed) {
     for (int m = 0; m < meshes(); ++m)
       if (system_.side_of(b, m) >= 0) meshes_of_[static_cast<size_t>(b)].push_back(m);
     relaxed_first_.push_back(relaxed_first_.back() +
-                             static_cast<int>(meshes_of_[static_cast<size_t>(b)].size()) * pairs() * kFields);
+                             static_cast<int>(meshes_of_[static_cast<size_t>(b)].size()) * tooth_pairs() *
+                                 kFields);
   }
 }
 
@@ -117,7 +118,7 @@ void SystemDynamics::couple() {
   for (int b = 0; b < static_cast<int>(system_.body.size()); ++b) {
     std::vector<ToothFlank> flank;         // of each slot
     std::vector<const ElasticGear*> gear;  // of each slot, as its mesh sees it
-    flank.reserve(meshes_of_[static_cast<size_t>(b)].size() * static_cast<size_t>(pairs()));
+    flank.reserve(meshes_of_[static_cast<size_t>(b)].size() * static_cast<size_t>(tooth_pairs()));
     for (const int m : meshes_of_[static_cast<size_t>(b)]) {
       const auto s = static_cast<size_t>(system_.side_of(b, m));
       const System::Side& side = system_.layout.meshes[static_cast<size_t>(m)].side[s];
@@ -187,7 +188,7 @@ void SystemDynamics::put_contacts(const SystemPosition& at, int shift, Position&
     contact.mesh = segment.mesh;
     contact.normal = segment.normal;
     const int pair = segment.pair - mesh_instant(system_, segment.mesh, at.phase, 0).period - shift;
-    contact.slot = segment.mesh * pairs() + pair - first_;
+    contact.slot = segment.mesh * tooth_pairs() + pair - first_;
     contact.part = {0, 0, 0, -1};
     for (size_t s = 0; s < 2; ++s) {
       const int b = system_.layout.meshes[m].side[s].body;
@@ -196,7 +197,7 @@ void SystemDynamics::put_contacts(const SystemPosition& at, int shift, Position&
       const auto place = static_cast<int>(std::find(list.begin(), list.end(), segment.mesh) - list.begin());
       contact.body[s] = b;
       contact.lever[s] = at.displacement.rotation(k, b);
-      contact.load_at[s] = relaxed_first_[own] + (place * pairs() + pair - first_) * kFields;
+      contact.load_at[s] = relaxed_first_[own] + (place * tooth_pairs() + pair - first_) * kFields;
       contact.part[1 + s] = 1 + b;
       if (const int group = coordinates_.body[own].group; group >= 0)
         contact.part[3] = 1 + static_cast<int>(system_.body.size()) + group;

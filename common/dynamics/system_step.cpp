@@ -94,17 +94,17 @@ void SystemDynamics::find_live() {
   remembered_.setZero();
   for (size_t b = 0; b < system_.body.size(); ++b)
     for (size_t place = 0; place < meshes_of_[b].size(); ++place)
-      for (int pair = 0; pair < pairs(); ++pair) {
-        const Index at = relaxed_first_[b] + (static_cast<Index>(place) * pairs() + pair) * kFields;
-        double& most = remembered_[meshes_of_[b][place] * pairs() + pair];
+      for (int pair = 0; pair < tooth_pairs(); ++pair) {
+        const Index at = relaxed_first_[b] + (static_cast<Index>(place) * tooth_pairs() + pair) * kFields;
+        double& most = remembered_[meshes_of_[b][place] * tooth_pairs() + pair];
         most = std::max({most, relaxed_.segment<kFields>(at).cwiseAbs().maxCoeff(),
                          load_.segment<kFields>(at).cwiseAbs().maxCoeff()});
       }
   for (int m = 0; m < meshes(); ++m) {
     Live& live = live_[static_cast<size_t>(m)];
-    live = {pairs(), 0};
-    for (int pair = 0; pair < pairs(); ++pair)
-      if (remembered_[m * pairs() + pair] != 0) {
+    live = {tooth_pairs(), 0};
+    for (int pair = 0; pair < tooth_pairs(); ++pair)
+      if (remembered_[m * tooth_pairs() + pair] != 0) {
         live.first = std::min(live.first, pair);
         live.last = pair + 1;
       }
@@ -148,7 +148,7 @@ void SystemDynamics::read_gaps(const Position& position) {
     const int* contact = position.order.data() + rows.begin;
     for (size_t place = 0; place < meshes_of_[b].size(); ++place) {
       const Live& live = live_[static_cast<size_t>(meshes_of_[b][place])];
-      const int from = static_cast<int>(place) * pairs() + live.first;
+      const int from = static_cast<int>(place) * tooth_pairs() + live.first;
       const double* w = stream_.data() + rows.reading + static_cast<size_t>(from * count * kFields);
       const double* fields = relaxed_.data() + relaxed_first_[b] + from * kFields;
       for (int c = 0; c < count; ++c, w += kFields) {
@@ -244,11 +244,11 @@ void SystemDynamics::keep_live() {
   const double least = kLeastRelaxed * load_of_mesh_.mean();
   remembered_ += relaxed_step_.from_new * p_of_slot_;
   for (int m = 0; m < meshes(); ++m) {
-    const double* most = &remembered_[m * pairs()];
-    const double* p = &p_of_slot_[m * pairs()];
+    const double* most = &remembered_[m * tooth_pairs()];
+    const double* p = &p_of_slot_[m * tooth_pairs()];
     const auto left = [&](int pair) { return most[pair] > least || p[pair] > 0; };
     Live &live = live_[static_cast<size_t>(m)], before = live;
-    live = {0, pairs()};
+    live = {0, tooth_pairs()};
     while (live.last > 0 && !left(live.last - 1)) --live.last;
     while (live.first < live.last && !left(live.first)) ++live.first;
     if (live.first > before.first || live.last < before.last) drop(m, before, live);
@@ -258,11 +258,11 @@ void SystemDynamics::keep_live() {
 void SystemDynamics::drop(int m, const Live& before, const Live& now) {
   for (int pair = before.first; pair < before.last; ++pair) {
     if (pair >= now.first && pair < now.last) continue;
-    remembered_[m * pairs() + pair] = 0;
+    remembered_[m * tooth_pairs() + pair] = 0;
     for (size_t b = 0; b < system_.body.size(); ++b)
       for (size_t place = 0; place < meshes_of_[b].size(); ++place) {
         if (meshes_of_[b][place] != m) continue;
-        const Index at = relaxed_first_[b] + (static_cast<Index>(place) * pairs() + pair) * kFields;
+        const Index at = relaxed_first_[b] + (static_cast<Index>(place) * tooth_pairs() + pair) * kFields;
         relaxed_.segment<kFields>(at).setZero();
         load_.segment<kFields>(at).setZero();
       }
@@ -295,12 +295,12 @@ void SystemDynamics::rename() {
       (*y)[turn.sine] = turn.c * sine - turn.s * cosine;
     }
   const auto shift = [&](double* of, int size) {  // blocks of `size` numbers, the slots of one mesh
-    std::copy_backward(of, of + (pairs() - 1) * size, of + pairs() * size);
+    std::copy_backward(of, of + (tooth_pairs() - 1) * size, of + tooth_pairs() * size);
     std::fill(of, of + size, 0.0);
   };
-  for (int m = 0; m < meshes(); ++m) shift(&p_of_slot_[m * pairs()], 1);
-  for (int block = 0; block * pairs() * kFields < relaxed_size(); ++block)
-    shift(&relaxed_[block * pairs() * kFields], kFields);
+  for (int m = 0; m < meshes(); ++m) shift(&p_of_slot_[m * tooth_pairs()], 1);
+  for (int block = 0; block * tooth_pairs() * kFields < relaxed_size(); ++block)
+    shift(&relaxed_[block * tooth_pairs() * kFields], kFields);
 }
 
 }  // namespace whine

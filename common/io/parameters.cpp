@@ -55,14 +55,19 @@ void take(const ArtifactReader& in, const std::string& section, const Key& key) 
   const Range range = si_range(key);
   for (const Part& part : parts_of(key)) {
     const std::string name = section + part.name;
+    const auto checked = [&](auto number) {
+      if (const std::string why = outside(range, number); !why.empty())
+        in.reject(text("dataset ", name, " ", why));
+      return number;
+    };
     const auto numbers = [&] { return in.has(name) ? numbers_in(in.word(name)) : std::vector<double>(); };
     std::visit(
         Overloaded{[&](double* held) {
                      *held = name.ends_with(kLargestAngle) && !in.has(name)
                                  ? std::numeric_limits<double>::infinity()
-                                 : in.number(name, range);
+                                 : checked(in.number(name));
                    },
-                   [&](int* held) { *held = in.whole(name, range); },
+                   [&](int* held) { *held = checked(in.whole(name)); },
                    [&](bool* held) { *held = in.whole(name) != 0; },
                    [&](std::string* held) { *held = in.word(name); },
                    [&](const ChoiceSlot& choice) {
@@ -73,9 +78,7 @@ void take(const ArtifactReader& in, const std::string& section, const Key& key) 
                    },
                    [&](std::vector<double>* list) {
                      *list = numbers();
-                     for (const double item : *list)
-                       if (const std::string why = outside(range, item); !why.empty())
-                         in.reject(text("dataset ", name, " ", why));
+                     for (const double item : *list) checked(item);
                    },
                    [&](Points* points) {
                      points->clear();

@@ -1,9 +1,8 @@
 #include "io/scene_words.h"
 
-#include <algorithm>
 #include <filesystem>
 
-#include "base/error.h"
+#include "base/visible.h"
 #include "io/publish.h"
 
 namespace whine {
@@ -16,7 +15,7 @@ std::string scene_words(const std::string& path) {
     const fs::path file = folder / "params" / "title.txt";
     if (std::error_code none; !fs::exists(file, none)) continue;
     std::string title = read_bytes(file.string());
-    title.resize(std::min(title.find('\n'), title.size()));
+    title = visible(title.substr(0, title.find('\n')));
     const std::string name = folder.filename().string();
     std::string words = title.empty() || title == name ? name : name + ": " + title;
     if (words.size() > kMostBytes) {

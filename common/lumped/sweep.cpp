@@ -14,6 +14,7 @@
 #include "orbits/branch.h"
 #include "orbits/recurrence.h"
 #include "signal/jumps.h"
+#include "signal/rms.h"
 
 namespace whine {
 
@@ -67,9 +68,8 @@ void record(LumpedOscillator& oscillator, LumpedOrbit& orbit) {
     mean += orbit.record.back().mean / periods;
     square += orbit.record.back().mean_square / periods;
   }
-  const double off = mean - oscillator.reference();
   orbit.mean = mean;
-  orbit.rms = std::sqrt(std::max(0.0, square - off * off));
+  orbit.rms = oscillating_rms(mean - oscillator.reference(), square);
 }
 
 BranchPoint branch_point(double mesh_frequency, const LumpedOrbit& orbit) {

@@ -484,8 +484,8 @@ OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int directi
     if (!next) {
       next = around(curve, *here, length);
       if (!next) {
-        branch.end = text("at ", branch.points.back().parameter, " a step of ", length,
-                          " along the branch finds no orbit: ", curve.failure());
+        branch.end = text("at ", settings.parameter.words(branch.points.back().parameter), " a step of ",
+                          shown_number(length), " along the branch finds no orbit: ", curve.failure());
         note_contact_ahead(curve, *here, length, branch);
         return branch;
       }
@@ -500,8 +500,9 @@ OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int directi
         continue;
       }
       if (!next) {
-        branch.end = text("the branch is followed to ", branch.points.back().parameter,
-                          ": no orbit of it is found where it leaves the parameters, at ", limit);
+        branch.end =
+            text("the branch is followed to ", settings.parameter.words(branch.points.back().parameter),
+                 ": no orbit of it is found where it leaves the range, at ", settings.parameter.words(limit));
         return branch;
       }
     }
@@ -526,7 +527,8 @@ OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int directi
     }
     if (beyond != 0) {
       branch.reached_limit = beyond;
-      branch.end = text("the parameter reached ", branch.points.back().parameter);
+      branch.end = text("the ", settings.parameter.name, " reached ",
+                        settings.parameter.words(branch.points.back().parameter));
       return branch;
     }
     if (!sharp && next->corrections <= kFew && next->tangent.dot(here->tangent) > settings.straight)

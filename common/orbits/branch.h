@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "orbits/named_parameter.h"
 #include "orbits/periodic_orbit.h"
 
 namespace whine {
@@ -61,7 +62,8 @@ Eigen::VectorXd widths_of(const std::vector<SpecialPoint>& special, Special kind
 struct BranchSettings {
   int multiple = 1;
   double low = 0, high = 0;  // of the parameter: the branch is followed as long as it lies between
-  double scale = 1;          // of the parameter in the arc length
+  NamedParameter parameter{"parameter", ""};
+  double scale = 1;                                                 // of the parameter in the arc length
   double first_step = 0.02, least_step = 1e-7, largest_step = 0.1;  // of the arc
   double straight = 0.97;  // cosine between the tangents of a step above which the next one may be longer
   int most_points = 5000;

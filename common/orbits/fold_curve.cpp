@@ -75,7 +75,7 @@ std::optional<double> cusp_ahead(const FoldPair& pair) {
   return pair.low[k - 1].value + b / (a - b) * (pair.low[k - 1].value - pair.low[k - 2].value);
 }
 
-void meet(FoldPair& pair, double cusp) {
+void meet(FoldPair& pair, double cusp, const NamedParameter& value) {
   const size_t k = pair.low.size();
   const auto middle = [&](size_t i) { return 0.5 * (pair.low[i].parameter + pair.high[i].parameter); };
   const double at = pair.low[k - 1].value;
@@ -83,13 +83,15 @@ void meet(FoldPair& pair, double cusp) {
   pair.cusp_value = cusp;
   pair.cusp_parameter =
       middle(k - 1) + (cusp - at) / (at - pair.low[k - 2].value) * (middle(k - 1) - middle(k - 2));
-  pair.end = text("the folds meet at ", cusp, ", followed to ", 100 * std::abs(cusp / at - 1), " % of it");
+  pair.end = text("the folds meet at ", value.name, " ", value.words(cusp), ", followed to ",
+                  shown_number(100 * std::abs(cusp / at - 1)), " % of it");
 }
 
 // Whether a parameter is one at which folds are looked for; if not `why` says so.
 bool within(const FoldCurveSettings& settings, double parameter, std::string& why) {
   if (parameter > 0 && parameter >= settings.low && parameter <= settings.high) return true;
-  why = text("a fold at ", parameter, " lies outside of ", settings.low, " to ", settings.high);
+  why = text("a fold at ", settings.parameter.words(parameter), " lies outside of ",
+             shown_number(settings.low), " to ", settings.parameter.words(settings.high));
   return false;
 }
 
@@ -214,7 +216,7 @@ FoldPair follow_folds(const MapFamily& family, const Fold& one, const Fold& othe
       const double towards = value > at ? 1 : -1;
       if (cusp && (*cusp - at) * towards > 0 && (*cusp - to) * towards <= 0) {
         if (std::abs(*cusp - at) < kAtCusp * std::abs(*cusp)) {
-          meet(pair, *cusp);
+          meet(pair, *cusp, settings.value);
           return pair;
         }
         to = at + kTowards * (*cusp - at);
@@ -222,18 +224,19 @@ FoldPair follow_folds(const MapFamily& family, const Fold& one, const Fold& othe
       if (take(to)) {
         if (to == value) break;
         if (steps == kMostSteps) {
-          pair.end = text("followed to ", to, ": a cusp seems to lie ahead and is not reached in ",
-                          kMostSteps, " steps");
+          pair.end = text("followed to ", settings.value.words(to),
+                          ": a cusp seems to lie ahead and is not reached in ", kMostSteps, " steps");
           return pair;
         }
         to = value;
         continue;
       }
       if (++halvings > kMostHalvings) {
-        pair.end = text("followed to ", at, "; at ", to, ": ", pair.end);
+        pair.end =
+            text("followed to ", settings.value.words(at), "; at ", settings.value.words(to), ": ", pair.end);
         // Kinks part the last folds in front of a cusp.
         if (cusp && (*cusp - at) * towards > 0 && std::abs(*cusp - at) < kNearCusp * std::abs(*cusp))
-          meet(pair, *cusp);
+          meet(pair, *cusp, settings.value);
         return pair;
       }
       to = at + 0.5 * (to - at);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "orbits/curve.h"
+#include "orbits/named_parameter.h"
 
 namespace whine {
 
@@ -29,7 +30,8 @@ struct Fold {
 
 struct FoldCurveSettings {
   int multiple = 1;
-  double scale = 1;  // of the parameter in the arc length
+  NamedParameter parameter{"parameter", ""}, value{"value", ""};  // the second: of the family
+  double scale = 1;                                               // of the parameter in the arc length
   // Of the parameter: a fold beyond is none of those that are looked for.
   double low = 0, high = std::numeric_limits<double>::infinity();
   double tolerance = 1e-7;  // of the parameter, relative

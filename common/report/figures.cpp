@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "base/visible.h"
 #include "results/static.h"
 
 namespace whine {
@@ -80,7 +81,7 @@ std::string head_of(const Figure& figure) {
   std::string out = "# " + figure.title + "\n";
   for (const auto& scene : figure.scenes) out += "# scene " + scene + "\n";
   for (const auto& note : figure.notes) out += "# " + note + "\n";
-  return out;
+  return visible(out);
 }
 
 // As the end of a file's name: "rectangular wave" is fig13-rectangular-wave.tsv.

@@ -299,7 +299,7 @@ Figure vibration_figure(const std::vector<SweepResult>& sweeps, double mesh_freq
     Eigen::Index strongest = 0;
     const double amplitude = h.amplitude.maxCoeff(&strongest);
     largest_amplitude = std::max(largest_amplitude, amplitude * kMicro);
-    figure.panels.push_back({.heading = m.title,
+    figure.panels.push_back({.heading = m.title + "; mean " + shown(h.mean * kMicro, 3) + " µm",
                              .x = {.label = "Time (ms)", .from = 0, .to = history.rows.back()[0]},
                              .y = {.label = "Oscillating DTE (µm)"},
                              .curves = {{.block = history.name}},
@@ -307,8 +307,7 @@ Figure vibration_figure(const std::vector<SweepResult>& sweeps, double mesh_freq
     figure.panels.push_back(
         {.heading =
              text("RMS ", shown(h.rms * kMicro, 3), " µm, ", shown(50 * std::pow(amplitude / h.rms, 2), 3),
-                  " % of its square at ", shown((strongest + 1.0) / m.periods, 3), " × mesh frequency; mean ",
-                  shown(h.mean * kMicro, 3), " µm"),
+                  " % of its square at ", shown((strongest + 1.0) / m.periods, 3), " × mesh frequency"),
          .x = {.label = "Frequency (Hz)", .from = 0, .to = 1.03 * kShownHarmonics * mesh_frequency},
          .y = {.label = "Amplitude (µm)", .from = 0},
          .curves = {{.block = spectrum.name, .style = PanelStyle::stems, .width = 3, .size = 0.9}},

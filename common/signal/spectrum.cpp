@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "base/error.h"
+#include "signal/rms.h"
 
 namespace whine {
 namespace {
@@ -58,7 +59,7 @@ Harmonics harmonics(const Eigen::Ref<const Eigen::VectorXd>& samples, int count,
   Harmonics result;
   result.mean = samples.mean();
   const Eigen::VectorXd oscillating = samples.array() - result.mean;
-  result.rms = std::sqrt(oscillating.squaredNorm() / n);
+  result.rms = oscillating_rms({samples});
   result.amplitude.resize(count);
   if (count == 0) return result;
   // The mean is taken off first: otherwise its round-off would sit in every bin.

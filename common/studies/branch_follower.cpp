@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/error.h"
+#include "base/format.h"
 #include "studies/sweep.h"
 
 namespace whine {
@@ -16,6 +17,7 @@ BranchSettings segment_speeds(const TimeDiscretisation& time, double from, doubl
   settings.low = from;
   settings.high = to;
   settings.scale = 0.5 * (settings.low + settings.high);
+  settings.parameter = {"mesh frequency", "Hz"};
   if (steps > time.steps_per_period)
     settings.high = std::min(settings.high, 2 * time.min_sample_rate / steps);
   if (time.min_sample_rate > 0) settings.low = std::max(settings.low, time.min_sample_rate / steps);
@@ -175,7 +177,7 @@ void BranchFollower<Rig>::follow_flip(size_t of, size_t which, const Report& rep
   const int part = segments_.back().part + 1;
   const auto none = [&](const std::string& why) {
     Segment empty{{}, from.steps, 2 * from.multiple, part};
-    empty.branch.end = text("at the period doubling at ", flip.parameter, " Hz: ", why);
+    empty.branch.end = text("at the period doubling at ", shown_number(flip.parameter), " Hz: ", why);
     segments_.push_back(empty);
   };
   multiple_ = from.multiple;

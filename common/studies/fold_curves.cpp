@@ -156,7 +156,7 @@ std::vector<std::pair<Fold, Fold>> pairs_of(const std::vector<BranchSegment<Pair
         }
       }
   if (!open.empty())
-    end = text("the branch leaves the speeds beyond its fold at ", open[0].parameter,
+    end = text("the branch leaves the speeds beyond its fold at ", shown_number(open[0].parameter),
                " Hz, which is not followed; ", segments.back().branch.end);
   else if (pairs.empty())
     end = "the branch has no folds; " + segments.back().branch.end;
@@ -281,6 +281,10 @@ FoldCurvesResult fold_curves(const ReducedBody& driver, const ReducedBody& drive
   std::reverse(below.begin(), below.end());
 
   FoldCurveSettings fold_settings;
+  fold_settings.parameter = {"mesh frequency", "Hz"};
+  fold_settings.value = plan.quantity == FoldQuantity::damping  ? NamedParameter{"eta", "µs", 1e6}
+                        : plan.quantity == FoldQuantity::torque ? NamedParameter{"torque", "N m"}
+                                                                : NamedParameter{"tip relief", "µm", 1e6};
   fold_settings.scale = 0.5 * (plan.from + plan.to);
   fold_settings.low = plan.from;
   fold_settings.high = plan.to;
@@ -301,7 +305,8 @@ FoldCurvesResult fold_curves(const ReducedBody& driver, const ReducedBody& drive
     }
     const auto followed = [&](const std::vector<double>& through) {
       return follow_folds(maps, own->first, own->second, through, fold_settings, [&](double raw) {
-        report(std::min(++done, 2 * values), 2 * values, text(plan.quantity, " ", raw));
+        report(std::min(++done, 2 * values), 2 * values,
+               fold_settings.value.name + " " + fold_settings.value.words(raw));
       });
     };
     const FoldPair up = followed(above), down = followed(below);

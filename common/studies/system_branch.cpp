@@ -60,8 +60,8 @@ SystemBranchResult system_branch(const SystemSweepParameters& settings,
   const SystemDynamics& dynamics = rig.train().dynamics();
   for (Eigen::VectorXi* x : {&a.grazing_mesh, &a.grazing_pair}) x->resize(static_cast<Index>(slots.size()));
   for (size_t k = 0; k < slots.size(); ++k) {
-    a.grazing_mesh[static_cast<Index>(k)] = slots[k] / dynamics.pairs() + 1;
-    a.grazing_pair[static_cast<Index>(k)] = slots[k] % dynamics.pairs() + dynamics.first_pair();
+    a.grazing_mesh[static_cast<Index>(k)] = slots[k] / dynamics.tooth_pairs() + 1;
+    a.grazing_pair[static_cast<Index>(k)] = slots[k] % dynamics.tooth_pairs() + dynamics.first_pair();
   }
   return a;
 }

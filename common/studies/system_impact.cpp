@@ -29,7 +29,8 @@ constexpr double kReal = 1e-5;         // Im s / |s| below which a root counts a
 VectorXd loaded_pairs(const SystemDynamics& dynamics, const VectorXd& p) {
   VectorXd out(dynamics.meshes());
   for (int m = 0; m < dynamics.meshes(); ++m)
-    out[m] = static_cast<double>((p.segment(m * dynamics.pairs(), dynamics.pairs()).array() > 0).count());
+    out[m] = static_cast<double>(
+        (p.segment(m * dynamics.tooth_pairs(), dynamics.tooth_pairs()).array() > 0).count());
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "signal/response.h"
+#include "signal/rms.h"
 #include "signal/spectrum.h"
 
 namespace whine {
@@ -59,7 +60,7 @@ void TrainStatistics::take(const SystemDynamics::Period& period) {
 }
 
 VectorXd TrainStatistics::dte_rms() const {
-  return (squares_ / count_ - (sum_ / count_).cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
+  return oscillating_rms(sum_, squares_, count_);
 }
 
 VectorXd TrainStatistics::bearing_force_rms() const {

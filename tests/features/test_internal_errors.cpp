@@ -330,7 +330,7 @@ TEST_CASE(
       double own = 0;
       for (const LoadedSegment& load : each[static_cast<size_t>(i) * periods].loads)
         own += load.mesh == m ? load.force : 0;
-      CHECK(p.segment(m * dynamics.pairs(), dynamics.pairs()).sum() == relative(own, 1e-9));
+      CHECK(p.segment(m * dynamics.tooth_pairs(), dynamics.tooth_pairs()).sum() == relative(own, 1e-9));
     }
   }
   SystemDynamics::State state = dynamics.rest();

@@ -143,6 +143,10 @@ TEST_CASE("texts of files are printed as whole characters of UTF-8, with hidden 
   CHECK(html::escaped(turned + "<b>") ==
         "gear&lt;U+202E&gt;raeg&lt;U+2066&gt;&lt;U+061C&gt;&lt;U+FEFF&gt;&lt;b&gt;");
   CHECK(gnuplot_string(turned) == "'" + shown + "'");
+  Figure figure;
+  figure.title = turned;
+  figure.blocks = {{"block", {"x [1]"}, {{1}}}};
+  CHECK(tables(figure, {}).at(0).text.starts_with("# " + shown + "\n"));
   CHECK(visible("a\nb\tc \xd7\xa9 \xd8\xb4") == "a\nb\tc \xd7\xa9 \xd8\xb4");
   // Cut off, too long for its number, a surrogate, above U+10FFFF, no beginning.
   CHECK(printable("\xc3") == "?");

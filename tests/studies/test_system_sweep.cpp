@@ -213,7 +213,7 @@ TEST_CASE("branch of a planetary train: where a contact begins to come or go its
     map.apply(orbit.orbit.start);
     int count = 0;
     for (const ContactEvent& event : map.events())
-      count += event.contact / rig.train().dynamics().pairs() == mesh - 1;
+      count += event.contact / rig.train().dynamics().tooth_pairs() == mesh - 1;
     return count;
   };
   const double at = branch.grazing_frequency[0];
