@@ -1,19 +1,8 @@
 # The Python examples of data/examples on artifacts as tests make them: they end well, draw a picture and print numbers.
 #
 # Needs Debian's python3-xarray, python3-h5netcdf and python3-matplotlib (make deps-python).
-set -uo pipefail
-B=${B:-build}
-python=$(for candidate in python3 /usr/bin/python3; do "$candidate" -c 'import xarray, h5netcdf, matplotlib' 2> /dev/null && { echo "$candidate"; break; }; done)
-if [ -z "$python" ]; then
-  echo "skipped: examples in Python (python3-xarray, python3-h5netcdf and python3-matplotlib are not all installed; make deps-python)"
-  exit 0
-fi
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-if ! WHINE_KEEP=$work "$B/bin/whine-tests" --no-colors=true -tc='axes of each kind of artifact*' > "$work/said" 2>&1 || [ ! -e "$work/study.h5" ]; then
-  echo "FAILED: one artifact of each kind: $(tail -n 3 "$work/said" | tr '\n' '|')"
-  exit 1
-fi
+source tests/cases
+with_artifacts_and_python "examples in Python" "python3-xarray, python3-h5netcdf and python3-matplotlib" "xarray, h5netcdf, matplotlib"
 # runs <script> <artifact> <what it prints>
 runs() {
   local picture=$work/$1.png

@@ -5,26 +5,17 @@
 #
 # FAULT_KILLS kills, FAULT_SEED (1) for their moments and for the bits that flip; FAULT_BITS (1) per dataset. FAULTS=short is
 # what `make test` has time for: few kills, one damaged artifact, no disks, no second folder or user.
-set -uo pipefail
-B=${B:-build}
+source tests/cases
 [ "${FAULTS:-short}" = short ] && short=1 || short=
 kills=${FAULT_KILLS:-3} bits=${FAULT_BITS:-1}
 RANDOM=${FAULT_SEED:-1}
-top=$PWD
 base=$(mktemp -d)
 mounted=
 trap '[ -z "$mounted" ] || umount "$mounted"; rm -rf "$base"' EXIT
-[ "$B" = build ] && sanitize= || sanitize=SANITIZE=1
-
-ok() { echo "ok: $1"; }
-wrong() { echo "FAILED: $1: $2"; }
-skip() { echo "skipped: $1"; }
 
 # A tree of its own with the real programs, and a coarse scene.
 plant() {
-  mkdir -p "$1/$B"
-  cp -a Makefile pipelines common tools tests data "$1"
-  cp -a "$B/bin" "$B/id" "$B/settings" "$1/$B"
+  copy_of_tree "$1"
   sed 's/^element_mm = [^ ]*/element_mm = 1.5/; s/^element_order = [^ ]*/element_order = 1/; s/^torque_Nm = .*/torque_Nm = [100]/
     s/^mesh_frequency_Hz = .*/mesh_frequency_Hz = { from = 2000, to = 2100, step = 50 }/
     s/^modes = [^ ]*/modes = 5/; s/^\[discretisation\]/&\npositions = 16/; s/^steps_per_period = [^ ]*/steps_per_period = 32/

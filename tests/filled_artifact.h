@@ -180,3 +180,13 @@ std::map<std::string, AnyBlock> fill(Artifact& artifact, Optional optional = Opt
   FAIL("no values found: " << why);
   return {};
 }
+
+// Filled as it was made, {}.
+template <class Artifact>
+Artifact any() {
+  Artifact a;
+  fill(a);
+  return a;
+}
+
+inline const whine::Provenance kMade{"gear-test", "gear-test --output x.h5", {}};

@@ -260,7 +260,7 @@ for goal in system-static system-ringdown animation; do
   rejected_by_make "nor is $goal drawn without a word" "AXIS=rpm:sun: $goal is not drawn against the speed of a gear" AXIS=rpm:sun SCENE=data/scenes/oh58-planetary.toml $goal
 done
 make_ -n AXIS=rpm:sun DB=1e-6 SCENE=data/scenes/oh58-planetary.toml report system-branch
-[ "$(grep -c "gear-plot.* --axis 'rpm:sun'" "$log")" = 3 ] && [ "$(grep -c "gear-plot.* --db 1e-6" "$log")" = 2 ] && ok "speeds in rpm and levels of a train: Campbell diagram, sweeps, branch" ||
+[ "$(grep -c "gear-plot.* --axis 'rpm:sun'" "$log")" = 4 ] && [ "$(grep -c "gear-plot.* --db 1e-6" "$log")" = 3 ] && ok "speeds in rpm and levels of a train: Campbell diagram, sweeps, branch" ||
   wrong "speeds in rpm and levels of a train" "$(grep 'gear-plot' "$log" | cut -c1-120 | tail -n 6)"
 rejected_by_make "a figure that has no amplitudes in dB" 'DB=1e-6: fig05' DB=1e-6 fig05
 rejected_by_make "a sound at a speed and of a run-up" 'AT=1250 and RATE=500: a sound is of one speed (AT) or of a run-up (RATE)' AT=1250 RATE=500 sound
@@ -459,7 +459,7 @@ expect "another torque needs no body of a system" "gear-modes*1 gear-plot*3 gear
 make_ -n SCENE=inline.toml system-sweep
 expect "its motion: a sweep each way" "gear-plot*1 gear-system-sweep*2"
 make_ -n SCENE=inline.toml report
-expect "the report of a system: its picture, its sweeps, the page" "gear-modes*1 gear-plot*5 gear-report*1 gear-system-static*1 gear-system-sweep*2"
+expect "the report of a system: its picture, its sweeps, the page" "gear-modes*1 gear-plot*6 gear-report*1 gear-system-static*1 gear-system-sweep*2"
 grep -q 'gear-report.* out/inline/up/system_sweep.h5 out/inline/down/system_sweep.h5 .*out/inline/report/system-sweep.png' "$log" && ok "the page of a system has its sweeps" || wrong "the page of a system has its sweeps" "$(grep gear-report "$log" | tail -n 1)"
 make_ SCENE=inline.toml report; make_ -n SCENE=inline.toml report mode-shapes system-sweep
 expect "and it is up to date then" ""
@@ -469,7 +469,7 @@ grep -q 'load-sharing: SCENE=inline.toml has no planets that share a load, use m
 make_ -n SCENE=data/scenes/oh58-planetary.toml load-sharing
 expect "load sharing of planets: bodies, statics, one figure" "gear-mesh*3 gear-plot*1 gear-reduce*3 gear-system-static*1"
 make_ -n SCENE=data/scenes/oh58-planetary.toml report
-expect "the report of a train with planets" "gear-mesh*3 gear-modes*1 gear-plot*6 gear-reduce*3 gear-report*1 gear-system-static*1 gear-system-sweep*2"
+expect "the report of a train with planets" "gear-mesh*3 gear-modes*1 gear-plot*7 gear-reduce*3 gear-report*1 gear-system-static*1 gear-system-sweep*2"
 make_ -n SCENE=train.toml report
 expect "the report of rigid gears: modes, their figures, the picture" "gear-modes*1 gear-plot*3 gear-report*1"
 make_ -n SCENE=train.toml load-sharing

@@ -1,18 +1,8 @@
 # Names of files and folders, titles and numbers that were made to do harm: make and the programs take them for data or reject them.
 #
 # Works on a copy of the tree with the real makefiles and programs. A command that runs leaves a file `mark`.
-set -uo pipefail
-B=${B:-build}
-base=$(mktemp -d)
-trap 'rm -rf "$base"' EXIT
-ok() { echo "ok: $1"; }
-wrong() { echo "FAILED: $1: $2"; }
-tree=$base/tree log=$base/log
-mkdir -p "$tree/$B"
-cp -a Makefile pipelines common tools tests data "$tree"
-cp -a "$B/bin" "$B/id" "$B/settings" "$tree/$B"
-cd "$tree" || exit 1
-[ "$B" = build ] && sanitize= || sanitize=SANITIZE=1
+source tests/cases
+in_copy_of_tree
 coarse='s/^element_mm = [^ ]*/element_mm = 1.5/; s/^element_order = [^ ]*/element_order = 1/; s/^modes = [^ ]*/modes = 5/
   s/^\[discretisation\]/&\npositions = 32/; s/^torque_Nm = .*/torque_Nm = [100]/'
 scene() { sed "$coarse" data/scenes/parker2000.toml; }
@@ -109,44 +99,43 @@ motion='s/^steps_per_period = [^ ]*/steps_per_period = 32/; s/^min_sample_rate_k
   s/^mesh_frequency_Hz = .*/mesh_frequency_Hz = { from = 2300, to = 2400, step = 100 }/'
 scene | sed "$motion" > s.toml
 scene | sed "$motion; s/^bore_radius_mm = [^ ]*/bore_radius_mm = 35.0/" > other.toml
-make_() { make $sanitize "$@" > "$log" 2>&1; }
 if ! make_ SCENE=s.toml out/s/T100/static.h5 out/s/T200/static.h5 out/s/T100/{up,down,secant/up}/response.h5 ||
   ! make_ SCENE=other.toml out/other/T100/static.h5; then
   wrong "two coarse scenes are computed" "$(grep -m1 -E 'error|\*\*\*' "$log")"
   exit 1
 fi
 "$bin/gear-inspect" --check out > "$log" 2>&1 && ok "gear-inspect --check finds nothing in what make has made" || wrong "gear-inspect --check finds nothing in what make has made" "$(head -n 1 "$log")"
-# rejected <claim> <status> <pattern> <command...>
+# rejected <claim> <status> <fields of the message> <command...>
 rejected() {
-  local claim=$1 status=$2 pattern=$3 found
+  local claim=$1 status=$2 fields=$3 found
   shift 3
   timeout 60 "$@" > said.out 2> said
   found=$?
   if [ "$found" != "$status" ]; then wrong "$claim" "status $found instead of $status: $(head -n 1 said)"
-  elif ! grep -q -E "$pattern" said; then wrong "$claim" "no '$pattern' in: $(head -c 300 said)"
+  elif ! named_in said "$fields"; then wrong "$claim" "no '$fields' in: $(head -c 300 said)"
   elif [ "$(wc -c < said)" -gt 4000 ] || grep -q $'\e' said; then wrong "$claim" "a message of $(wc -c < said) bytes, or with control characters"
   else ok "$claim"; fi
 }
-# swapped <from> <to> <pattern> <stage that reads it...>
+# swapped <from> <to> <fields> <stage that reads it...>
 swapped() {
-  local from=$1 to=$2 pattern=$3
+  local from=$1 to=$2 fields=$3
   shift 3
   cp -p "$to" kept && cp "$from" "$to"
-  rejected "$from in the place of ${to#out/}: gear-inspect --check" 3 "$to: $pattern" "$bin/gear-inspect" --check out
-  rejected "$from in the place of ${to#out/}: $(basename "$1")" 3 "$to: $pattern.*delete it; rebuild it with: make " "$@"
+  rejected "$from in the place of ${to#out/}: gear-inspect --check" 3 "$to $fields" "$bin/gear-inspect" --check out
+  rejected "$from in the place of ${to#out/}: $(basename "$1")" 3 "$to $fields delete make" "$@"
   cp -p kept "$to"
 }
 body_of() { readlink "out/$1/pinion" | sed 's|^\.\./|out/|'; }
-swapped out/s/T100/static.h5 out/s/T200/static.h5 'is at 100 N m, but lies in T200' "$bin/gear-plot" fig12 --output x out/s/T200/static.h5
-swapped out/other/T100/static.h5 out/s/T100/static.h5 'was made from out/other/params/static.toml, but lies in out/s' "$bin/gear-plot" fig12 --output x out/s/T100/static.h5
-swapped out/s/T100/up/sweep.h5 out/s/T100/down/sweep.h5 'is of the sweep up, but lies in down' "$bin/gear-spectra" --input out/s/T100/down/sweep.h5 --output x.h5
-swapped out/s/T100/secant/up/response.h5 out/s/T100/up/response.h5 'is of the lumped model secant, but lies in T100' "$bin/gear-report" --output x.html out/s/T100/static.h5 out/s/T100/up/response.h5
-swapped "$(body_of other)/body.h5" "$(body_of s)/body.h5" 'is of the stage parameters [0-9a-f]{16}, but lies at' "$bin/gear-static" --params out/s/params/static.toml --body pinion="$(body_of s)/body.h5" --body wheel="$(body_of s)/body.h5" --torque 100 --output x.h5
-swapped "$(body_of s)/mesh.h5" out/s/T100/static.h5 "is 'whine/mesh', but (its name is that of )?'whine/static'" "$bin/gear-plot" fig12 --output x out/s/T100/static.h5
+swapped out/s/T100/static.h5 out/s/T200/static.h5 '100 T200' "$bin/gear-plot" fig12 --output x out/s/T200/static.h5
+swapped out/other/T100/static.h5 out/s/T100/static.h5 'out/other/params/static.toml out/s' "$bin/gear-plot" fig12 --output x out/s/T100/static.h5
+swapped out/s/T100/up/sweep.h5 out/s/T100/down/sweep.h5 'up down' "$bin/gear-spectra" --input out/s/T100/down/sweep.h5 --output x.h5
+swapped out/s/T100/secant/up/response.h5 out/s/T100/up/response.h5 'secant T100' "$bin/gear-report" --output x.html out/s/T100/static.h5 out/s/T100/up/response.h5
+swapped "$(body_of other)/body.h5" "$(body_of s)/body.h5" 'stage parameters' "$bin/gear-static" --params out/s/params/static.toml --body pinion="$(body_of s)/body.h5" --body wheel="$(body_of s)/body.h5" --torque 100 --output x.h5
+swapped "$(body_of s)/mesh.h5" out/s/T100/static.h5 "whine/mesh whine/static" "$bin/gear-plot" fig12 --output x out/s/T100/static.h5
 pair=(--body pinion=out/s/pinion/body.h5 --body wheel=out/s/wheel/body.h5)
-rejected "gear-impact with the parameters of a sweep" 3 'sweep.toml: is what a sweep depends on, and this stage reads what the ring-down depends on: give out/<scene>/params/impact.toml' \
+rejected "gear-impact with the parameters of a sweep" 3 'out/s/params/sweep.toml sweep ring-down out/<scene>/params/impact.toml' \
   "$bin/gear-impact" --params out/s/params/sweep.toml "${pair[@]}" --static out/s/T100/static.h5 --reference-static out/s/T100/static.h5 --output x.h5
-rejected "a report of a lumped sweep" 3 'secant/up/response.h5: is of the lumped model secant; a report is of the elastic pair' "$bin/gear-report" --output x.html out/s/T100/static.h5 out/s/T100/secant/up/response.h5
+rejected "a report of a lumped sweep" 3 'out/s/T100/secant/up/response.h5 lumped secant elastic' "$bin/gear-report" --output x.html out/s/T100/static.h5 out/s/T100/secant/up/response.h5
 
 # --- what is printed and not written
 for program in "$bin"/gear-*; do
@@ -155,22 +144,22 @@ for program in "$bin"/gear-*; do
   grep -q '^Exit status: 0 done; 1 .*; 2 .*; 3 ' <<< "$("$program" --help)" || { wrong "${program##*/} --help" "lacks the exit statuses"; broken=1; }
 done
 [ -z "${broken:-}" ] && ok "every program ends with status 4 where its --help cannot be written, and says the exit statuses there"
-rejected "gear-scene --keys on a full disk" 4 'standard output cannot be written' bash -c "'$bin/gear-scene' --keys > /dev/full"
-rejected "gear-inspect on a full disk" 4 'standard output cannot be written' bash -c "'$bin/gear-inspect' out/s/T100/static.h5 > /dev/full"
+rejected "gear-scene --keys on a full disk" 4 'standard output' bash -c "'$bin/gear-scene' --keys > /dev/full"
+rejected "gear-inspect on a full disk" 4 'standard output' bash -c "'$bin/gear-inspect' out/s/T100/static.h5 > /dev/full"
 
 # --- what make takes for made
 place=out/s/T100/static.h5
 mv $place kept
-: > $place; rejected "an empty artifact" 4 "$place: .*delete it; rebuild it with: make" "$bin/gear-plot" fig12 --output x $place
-rm $place; mkfifo $place; rejected "a pipe for an artifact" 4 "$place: .*delete it; rebuild it with: make" "$bin/gear-plot" fig12 --output x $place
-rm $place; mkdir $place; rejected "a folder for an artifact" 4 "$place: .*remove this folder; rebuild it with: make" "$bin/gear-plot" fig12 --output x $place
-rmdir $place; rejected "a missing artifact" 4 "$place: cannot be read: No such file or directory; rebuild it with: make" "$bin/gear-plot" fig12 --output x $place
+: > $place; rejected "an empty artifact" 4 "$place delete make" "$bin/gear-plot" fig12 --output x $place
+rm $place; mkfifo $place; rejected "a pipe for an artifact" 4 "$place delete make" "$bin/gear-plot" fig12 --output x $place
+rm $place; mkdir $place; rejected "a folder for an artifact" 4 "$place remove folder make" "$bin/gear-plot" fig12 --output x $place
+rmdir $place; rejected "a missing artifact" 4 "$place make" "$bin/gear-plot" fig12 --output x $place
 mv kept $place
 
 # --- strips: contact of next to no load beside errors of the teeth
 { sed 's/^torque_Nm = .*/torque_Nm = [1e-4]/' s.toml; printf '[gear.pinion.error]\niso_class = 5\n[gear.wheel.error]\niso_class = 5\n'; } > light.toml
 make_ SCENE=light.toml -n static
-rejected "statics on strips that no memory holds" 3 'contact is looked for on [0-9]+ strips, whose compliance needs [0-9.]+ GB, at most 2 are allowed' \
+rejected "statics on strips that no memory holds" 3 'strips GB 2' \
   "$bin/gear-static" --params out/light/params/static.toml --body pinion="$(body_of s)/body.h5" --body wheel="$(body_of s)/body.h5" --torque 1e-4 --output x.h5
 
 # --- values from elsewhere: a dataset that HDF5 would read out of another file, its content hash put right
@@ -183,30 +172,30 @@ for kind in soft external storage virtual filter; do
   digits=$(($(grep -a -b -o -m1 'in place of these digits: ' linked.h5 | head -n 1 | cut -d: -f1) + 26))
   printf '%064d' 0 | dd of=linked.h5 bs=1 seek=$digits conv=notrunc status=none
   sha256sum < linked.h5 | head -c 64 | dd of=linked.h5 bs=1 seek=$digits conv=notrunc status=none
-  said_of='is a link .*, and links are not followed'
-  [ $kind != storage ] && [ $kind != virtual ] || said_of='has its values in another file'
-  [ $kind != filter ] || said_of='is stored by the HDF5 filter 3'
+  said_of='link'
+  [ $kind != storage ] && [ $kind != virtual ] || said_of='another file'
+  [ $kind != filter ] || said_of='filter 3'
   for program in "gear-plot fig12 --output x" gear-inspect; do
-    rejected "a dataset by $kind: ${program%% *}" 3 "linked.h5: .*/transmission_error $said_of" "$bin"/$program linked.h5; done
+    rejected "a dataset by $kind: ${program%% *}" 3 "linked.h5 /transmission_error $said_of" "$bin"/$program linked.h5; done
 done
 rm -f endless linked.h5
 
 # --- scenes
 to_scene=("$bin/gear-scene" --output x.mk --out x --scene)
 { printf 'a'; yes .a | head -n 1000000 | tr -d '\n'; echo ' = 1'; } > deep.toml
-rejected "a key of a million parts" 3 'deep.toml:1: is not valid TOML: the file is larger than a megabyte' "${to_scene[@]}" deep.toml
+rejected "a key of a million parts" 3 'deep.toml:1 megabyte' "${to_scene[@]}" deep.toml
 { printf 'title = "x" # ............................................\na'; yes .a | head -n 100000 | tr -d '\n'; echo ' = 1'; } > deep.toml
-rejected "a key of a hundred thousand parts" 3 'deep.toml:2: is not valid TOML: a key has more than 32 parts' "${to_scene[@]}" deep.toml
+rejected "a key of a hundred thousand parts" 3 'deep.toml:2 key 32' "${to_scene[@]}" deep.toml
 { printf 'title = "'; head -c 200000 /dev/zero | tr '\0' x; echo '"'; grep -v '^title' s.toml; } > long.toml
-rejected "a title of 200 kB" 3 "'title' = .*: has 200000 bytes; must be at most 500" "${to_scene[@]}" long.toml
-rejected "a path of 120 kB" 4 'cannot be read: File name too long' bash -c "'$bin/gear-scene' --output x.mk --out x --scene \"\$(head -c 60000 /dev/zero | tr '\\0' x | sed 's|.|x/|g')s.toml\""
-rejected "a name of 100 kB" 3 'the name has 100000 letters; .* so it may have 100 at most' bash -c "'$bin/gear-scene' --output x.mk --out x --scene \"\$(head -c 100000 /dev/zero | tr '\\0' x).toml\""
+rejected "a title of 200 kB" 3 "title 200000 500" "${to_scene[@]}" long.toml
+rejected "a path of 120 kB" 4 'name long' bash -c "'$bin/gear-scene' --output x.mk --out x --scene \"\$(head -c 60000 /dev/zero | tr '\\0' x | sed 's|.|x/|g')s.toml\""
+rejected "a name of 100 kB" 3 'name 100000 100' bash -c "'$bin/gear-scene' --output x.mk --out x --scene \"\$(head -c 100000 /dev/zero | tr '\\0' x).toml\""
 { printf '"\\u001b[31mred" = 1\n'; cat s.toml; } > red.toml
-rejected "a key with control characters" 3 "red.toml:1: unknown key '<U\+001B>\[31mred'" "${to_scene[@]}" red.toml
+rejected "a key with control characters" 3 "red.toml:1 <U+001B>[31mred" "${to_scene[@]}" red.toml
 sed 's/^module_mm = .*/module_mm = 0.049999999999999/' s.toml > near.toml
-rejected "a value beside its limit" 3 '0.049999999999999: must be at least 0.05 mm' "${to_scene[@]}" near.toml
+rejected "a value beside its limit" 3 '0.049999999999999 0.05' "${to_scene[@]}" near.toml
 sed '0,/^\[gear.wheel\]/s//[gear.pinion.crack]\ndepth_mm = 1e-9\n[gear.wheel]/' s.toml > crack.toml
-rejected "a crack of 1e-9 mm" 3 'crack.toml:[0-9]*: \[gear.pinion\]: crack: depth_mm = 1e-09 is too short to be meshed: at least 0.01 modules, 0.03 mm' "${to_scene[@]}" crack.toml
+rejected "a crack of 1e-9 mm" 3 'crack.toml:* [gear.pinion] depth_mm 1e-09 0.01 0.03' "${to_scene[@]}" crack.toml
 
 
 # --- what a scene makes expensive is said before anything is computed
@@ -219,8 +208,8 @@ costs() { sed "$1" s.toml > dear.toml; "${to_scene[@]}" dear.toml 2>&1 | grep -c
 
 # --- files
 before=$(find . -name '.*' | sort)
-rejected "--output ''" 2 '\-\-output is empty; give a value' "$bin/gear-plot" fig12 --output '' $place
-rejected "--out ''" 2 '\-\-out is empty; give a value' "$bin/gear-scene" --scene s.toml --output x.mk --out ''
+rejected "--output ''" 2 '--output empty' "$bin/gear-plot" fig12 --output '' $place
+rejected "--out ''" 2 '--out empty' "$bin/gear-scene" --scene s.toml --output x.mk --out ''
 [ "$(find . -name '.*' | sort)" = "$before" ] || wrong "--output ''" "has written hidden files"
 # exec keeps the number of the process that the name of the temporary file holds
 (
@@ -232,7 +221,7 @@ if [ "$(cat precious.toml)" = precious ] && [ -s x.mk ] && [ ! -L x.mk ]; then o
 
 # --- memory, time, clocks
 if [ -z "$sanitize" ]; then
-  rejected "an address space too small for linear algebra" 1 'address space is limited to [0-9]* MB.*raise the limit' \
+  rejected "an address space too small for linear algebra" 1 'address space MB limit' \
     bash -c "ulimit -v 400000; exec '$bin/gear-reduce' --params out/s/pinion/body.toml --mesh out/s/pinion/mesh.h5 --output x.h5"
 fi
 WHINE_PROGRESS_SECONDS=0 "$bin/gear-static" --params out/s/params/static.toml "${pair[@]}" --torque 100 --output x.h5 2> said

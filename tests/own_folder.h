@@ -1,4 +1,4 @@
-// A folder of its own for each case, in which the case works, removed at the end; WHINE_KEEP=folder keeps a copy.
+// Folders of a case's own, removed at the end.
 #pragma once
 #include <doctest/doctest.h>
 #include <unistd.h>
@@ -6,25 +6,43 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
-class OwnFolder {
+class TemporaryFolder {
  public:
-  OwnFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "whine-files-XXXXXX").string();
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "whine-test-XXXXXX").string();
     REQUIRE(mkdtemp(name.data()) != nullptr);
     path_ = name;
-    std::filesystem::current_path(path_);
   }
+  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  // The path of a file in it with these bytes.
+  std::string file(const std::string& name, const std::string& bytes) const {
+    std::ofstream(path_ / name, std::ios::binary) << bytes;
+    return *this / name;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+// The working folder of the case; WHINE_KEEP=folder keeps a copy.
+class OwnFolder : public TemporaryFolder {
+ public:
+  OwnFolder() { std::filesystem::current_path(path()); }
   ~OwnFolder() {
     std::filesystem::current_path(before_);
     std::error_code ignored;
     using std::filesystem::copy_options;
     if (const char* place = std::getenv("WHINE_KEEP"))
-      std::filesystem::copy(path_, place, copy_options::recursive | copy_options::overwrite_existing,
+      std::filesystem::copy(path(), place, copy_options::recursive | copy_options::overwrite_existing,
                             ignored);
-    std::filesystem::remove_all(path_);
   }
   std::vector<std::string> names(const std::filesystem::path& where = ".") const {
     std::vector<std::string> out;
@@ -35,5 +53,5 @@ class OwnFolder {
   }
 
  private:
-  std::filesystem::path before_ = std::filesystem::current_path(), path_;
+  std::filesystem::path before_ = std::filesystem::current_path();
 };

@@ -3,18 +3,13 @@
 #
 # Of the text only code is read: spans in backticks and indented or fenced lines. tests/pages.exceptions lists what cannot be checked,
 # with a reason each. A page with planted faults shows that each check can fail.
-set -uo pipefail
+source tests/cases
 shopt -s globstar
-B=${B:-build}
-top=$PWD
 bin=$PWD/$B/bin
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 set -f # words of pages are no patterns
 export SLURM_ARRAY_TASK_ID=1 # of a command for a cluster
-
-ok() { echo "ok: $1"; }
-wrong() { echo "FAILED: $1: $2"; }
 
 mapfile -t pages < <(find . -name README.md -not -path './build/*' -not -path './out/*' -not -path './.git/*' | sed 's|^\./||' | sort)
 
@@ -242,7 +237,6 @@ for name in my-pair mass x path/to/x path/to/pair path/to/scene; do cp data/scen
 sed 's|\.\./scenes|../../data/scenes|' data/studies/tolerances.toml > "$work/tree/path/to/it.toml"
 cp data/studies/tolerances.toml "$work/tree/data/studies/big.toml"
 compiler=$(sed 's/ .*//' "$B/settings")
-[ "$B" = build ] && sanitize= || sanitize=SANITIZE=1
 # A line for each set of variables: where it stands, the variables, the targets. What is to be installed is no part of it, and under
 # sanitizers other objects would be compiled.
 while IFS=$'\t' read -r place command; do

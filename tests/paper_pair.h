@@ -13,6 +13,7 @@
 #include "io/artifacts.h"
 #include "results/reduced_body.h"
 #include "results/sweep.h"
+#include "signal/spectrum.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
 #include "studies/sweep.h"
@@ -76,6 +77,16 @@ inline SweepParameters paper_sweep(double from, double to, double step) {
   settings.frequency_to = to;
   settings.frequency_step = step;
   return settings;
+}
+
+// Of the curves of stiffness and transmission error that a result has.
+inline void set_harmonics(StaticResult& s) {
+  const Harmonics k = harmonics(s.stiffness_secant, 10), x = harmonics(s.transmission_error, 10);
+  s.stiffness_harmonic.resize(11);
+  s.stiffness_harmonic << k.mean, k.amplitude;
+  s.transmission_error_harmonic.resize(11);
+  s.transmission_error_harmonic << x.mean, x.amplitude;
+  s.mean_stiffness = k.mean;
 }
 
 inline double rms(const SweepResult& sweep, int row) {

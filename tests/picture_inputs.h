@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "own_folder.h"
 #include "paper_pair.h"
 #include "picture_text.h"
 #include "report/draw_panels.h"
@@ -38,8 +39,7 @@ inline constexpr std::array kTorques{1250.0, 2500.0, 3750.0, 5000.0, 7500.0, 999
 // What is wrong with the picture that a template makes of a figure, a line each; laid out as the PNG and as the SVG.
 inline std::vector<std::string> faults(Figure figure, const std::string& name) {
   if (figure.scenes.empty() && !name.starts_with("compare-")) figure.scenes = {kScene};
-  const auto folder = std::filesystem::temp_directory_path() / text("whine-pictures-", getpid());
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder folder;
   const std::string eps = folder / (name + ".eps"), wrapper = folder / (name + ".gp"),
                     recipe = std::filesystem::absolute(template_of(figure, "pipelines/plots", name));
   const int height = figure.panels.empty() ? figure.height : panel_picture(figure).height;
@@ -64,7 +64,6 @@ inline std::vector<std::string> faults(Figure figure, const std::string& name) {
     const std::string stem = text(kept, "/", name, "-", ++drawn[name]);
     std::ofstream(stem + ".png", std::ios::binary) << draw(figure, data.path(), recipe, Picture::png);
   }
-  std::filesystem::remove_all(folder);
   return out;
 }
 
@@ -121,12 +120,7 @@ inline StaticResult at_rest(double torque) {
   s.friction_loss = 0.01 * torque * (1 + (kTwoPi * s.mesh_phase.array()).cos());
   s.friction_moment = {s.friction_loss, -s.friction_loss};
   s.efficiency = 0.9912345;
-  const Harmonics k = harmonics(s.stiffness_secant, 10), x = harmonics(s.transmission_error, 10);
-  s.stiffness_harmonic.resize(11);
-  s.stiffness_harmonic << k.mean, k.amplitude;
-  s.transmission_error_harmonic.resize(11);
-  s.transmission_error_harmonic << x.mean, x.amplitude;
-  s.mean_stiffness = k.mean;
+  set_harmonics(s);
   return s;
 }
 

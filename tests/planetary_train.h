@@ -54,3 +54,15 @@ inline whine::SystemScene planetary_train(int planets) {
   scene.fidelity.body = BodyModel::rigid;
   return scene;
 }
+
+// Planets of 27, 36 and 99 teeth at 0, 32, 63 and 95 steps of 1/126 turn: mesh phases that differ.
+inline whine::SystemScene unequal_train() {
+  whine::SystemScene scene = planetary_train(4);
+  const std::array teeth{27, 36, 99};
+  for (size_t g = 0; g < 3; ++g) scene.gears[g].design = rigid_gear(teeth[g], g == 2);
+  for (whine::SystemScene::Mesh& mesh : scene.meshes) mesh.spec.centre_distance = 0.5 * 63 * 2.776e-3;
+  scene.carriers[0].planets = 0;
+  for (const double angle : {0.0, 91.43, 180.0, 271.43})
+    scene.carriers[0].positions.push_back(angle * std::numbers::pi / 180);
+  return scene;
+}

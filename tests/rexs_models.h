@@ -17,6 +17,8 @@
 #include "io/rexs/rexs.h"
 #include "io/rexs/scene.h"
 #include "io/scene.h"
+#include "own_folder.h"
+#include "refusal.h"
 
 namespace whine {
 
@@ -39,6 +41,13 @@ struct Gearbox {
 // The pair of data/scenes/first-pair.toml, with the values that a model of a gearbox has.
 inline Gearbox first_pair() {
   Gearbox box;
+  const auto flank = [](int id, const char* shift) {
+    return ModelPart{
+        id,
+        "cylindrical_gear_flank",
+        "",
+        {{"normal_pressure_angle", "deg", "20"}, {"addendum_modification_coefficient", "", shift}}};
+  };
   box.parts = {{1, "gear_unit", "Unit", {}},
                {10,
                 "cylindrical_gear",
@@ -56,22 +65,10 @@ inline Gearbox first_pair() {
                  {"face_width", "mm", "20"},
                  {"inner_diameter", "mm", "60"}}},
                {12, "cylindrical_stage", "First stage", {{"center_distance", "mm", "94.5"}}},
-               {20,
-                "cylindrical_gear_flank",
-                "",
-                {{"normal_pressure_angle", "deg", "20"}, {"addendum_modification_coefficient", "", "0.25"}}},
-               {21,
-                "cylindrical_gear_flank",
-                "",
-                {{"normal_pressure_angle", "deg", "20"}, {"addendum_modification_coefficient", "", "0.25"}}},
-               {22,
-                "cylindrical_gear_flank",
-                "",
-                {{"normal_pressure_angle", "deg", "20"}, {"addendum_modification_coefficient", "", "0.05"}}},
-               {23,
-                "cylindrical_gear_flank",
-                "",
-                {{"normal_pressure_angle", "deg", "20"}, {"addendum_modification_coefficient", "", "0.05"}}},
+               flank(20, "0.25"),
+               flank(21, "0.25"),
+               flank(22, "0.05"),
+               flank(23, "0.05"),
                {30,
                 "rack_shaped_tool",
                 "Tool",
@@ -247,21 +244,11 @@ inline std::string json(const Gearbox& box) {
   return Json::writeString(Json::StreamWriterBuilder(), root);
 }
 
-class Folder {
+class Folder : public TemporaryFolder {
  public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "whine-rexs-XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path_ = name;
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  std::string file(const std::string& name, const std::string& bytes) const {
-    std::ofstream(path_ / name, std::ios::binary) << bytes;
-    return (path_ / name).string();
-  }
   std::string zipped(const std::string& name, const std::vector<std::pair<std::string, std::string>>& entries,
                      int method = ZIP_CM_DEFAULT) const {
-    const std::string path = (path_ / name).string();
+    const std::string path = *this / name;
     zip_t* archive = zip_open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, nullptr);
     REQUIRE(archive != nullptr);
     for (const auto& [entry, bytes] : entries) {
@@ -273,9 +260,6 @@ class Folder {
     REQUIRE(zip_close(archive) == 0);
     return path;
   }
-
- private:
-  std::filesystem::path path_;
 };
 
 inline Scene imported(const Folder& folder, const std::string& model, const std::string& stage = "") {
@@ -297,9 +281,19 @@ inline void set_stage_gear_data(Gearbox& box, int id, int gear) {
   box.links.push_back({"stage_gear_data", {{"stage", 12}, {"gear", gear}, {"stage_gear_data", id}}});
 }
 
+// In um and mm; of these flanks.
+inline void add_tip_relief(Gearbox& box, int id, const std::string& depth, const std::string& diameter,
+                           std::initializer_list<int> flanks) {
+  box.parts.push_back({id,
+                       "tip_relief",
+                       "",
+                       {{"tip_relief_depth", "mum", depth}, {"tip_relief_datum_diameter", "mm", diameter}}});
+  for (const int flank : flanks) box.links.push_back({"reference", {{"origin", flank}, {"referenced", id}}});
+}
+
 inline bool says(const std::vector<std::string>& remarks, const std::string& words) {
   return std::any_of(remarks.begin(), remarks.end(),
-                     [&](const std::string& remark) { return remark.find(words) != std::string::npos; });
+                     [&](const std::string& remark) { return contains(remark, words); });
 }
 
 inline std::string bytes_of(const std::string& path) {
@@ -310,16 +304,6 @@ inline std::string bytes_of(const std::string& path) {
 inline void unset(Gearbox& box, int id, const std::string& attribute) {
   for (ModelPart& part : box.parts)
     if (part.id == id) std::erase_if(part.attributes, [&](const auto& a) { return a[0] == attribute; });
-}
-
-inline std::string message_of(const auto& run) {
-  try {
-    run();
-  } catch (const Error& e) {
-    CHECK(e.kind() == Failure::input);
-    return e.what();
-  }
-  return "no error";
 }
 
 }  // namespace whine

@@ -1,14 +1,12 @@
 // Scenes for tests: a small one, edits of it, and what it is rejected with.
 #pragma once
 #include <doctest/doctest.h>
-#include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
 #include <string>
 
-#include "base/error.h"
 #include "io/scene.h"
+#include "own_folder.h"
+#include "refusal.h"
 
 // A complete scene with required keys only; line numbers are relied on below.
 inline const char* const kScene = R"([gear.pinion]
@@ -35,37 +33,19 @@ torque_Nm = [100, 150]
 mesh_frequency_Hz = { from = 600, to = 4000, step = 20 }
 )";
 
-class SceneFile {
+class SceneFile : public TemporaryFolder {
  public:
-  SceneFile() {
-    std::string name = (std::filesystem::temp_directory_path() / "whine-scene-XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    folder_ = name;
-  }
-  ~SceneFile() { std::filesystem::remove_all(folder_); }
   std::string path(const std::string& text, const std::string& name = "x.toml") const {
-    const std::string place = (folder_ / name).string();
-    std::ofstream(place) << text;
-    return place;
+    return file(name, text);
   }
   whine::Scene read(const std::string& text) const { return whine::read_scene(path(text)); }
 
   // The message with which a scene is rejected, from the file name on; "" if it is not.
   std::string rejection(const std::string& text) const {
-    try {
-      whine::read_scene(path(text));
-    } catch (const whine::Error& error) {
-      CHECK(error.kind() == whine::Failure::input);
-      const std::string message = error.what();
-      CHECK(message.find('\n') == std::string::npos);
-      const auto start = message.find("x.toml");
-      return start == std::string::npos ? message : message.substr(start);
-    }
-    return "";
+    const std::string message = whine::message_of_input([&] { whine::read_scene(path(text)); });
+    const auto start = message.find("x.toml");
+    return start == std::string::npos ? message : message.substr(start);
   }
-
- private:
-  std::filesystem::path folder_;
 };
 
 // kScene with one text replaced; the text must be there once.
@@ -79,10 +59,4 @@ inline std::string scene_with(const std::string& old, const std::string& now) {
 
 inline std::string with_section(const std::string& section) {
   return kScene + section;
-}
-
-inline bool contains(const std::string& text, const std::string& part) {
-  if (text.find(part) != std::string::npos) return true;
-  MESSAGE("'", text, "' lacks '", part, "'");
-  return false;
 }

@@ -3,8 +3,7 @@
 # local run, bit by bit, also after a launcher has failed midway. Everything that is started here is stopped here.
 #
 # Run by `make test-slurm`, which sets SLURM=run; `make test` names it as skipped.
-set -uo pipefail
-B=${B:-build}
+source tests/cases
 if [ "${SLURM:-}" != run ]; then
   echo "skipped: a study on a Slurm cluster of one node (make deps-slurm test-slurm runs it)"
   exit 0
@@ -12,8 +11,6 @@ fi
 for program in munged slurmctld slurmd srun salloc scontrol; do
   command -v $program > /dev/null || { echo "skipped: a study on a Slurm cluster of one node: $program is not installed (make deps-slurm)"; exit 0; }
 done
-ok() { echo "ok: $1"; }
-wrong() { echo "FAILED: $1: $2"; }
 
 base=$(mktemp -d)
 chmod 755 "$base"
@@ -99,7 +96,6 @@ values = [38, 40]
 key = "operation.torque_Nm"
 values = [100, 150, 200]
 STUDY
-[ "$B" = build ] && sanitize= || sanitize=SANITIZE=1
 make_() { make $sanitize -j2 STUDY=own.toml "$@" > "$log" 2>&1; }
 contents() { find out -type f -name '*.h5' -print0 | sort -z | xargs -0 -r sha256sum; }
 if ! make_ study; then wrong "the study runs here" "$(grep -m1 -E 'error|\*\*\*' "$log")"; exit 1; fi

@@ -2,6 +2,7 @@
 #pragma once
 #include <Eigen/Core>
 
+#include "gear/system_layout.h"
 #include "io/system_scene.h"
 #include "planetary_train.h"
 #include "results/system_static.h"

@@ -1,18 +1,7 @@
 # Studies from outside: one target per variant, bodies shared, the same numbers as the stages one by one, resumed after a kill, and
 # what is rejected by which line. Works on a copy of the tree with the real programs and a coarse scene.
-set -uo pipefail
-B=${B:-build}
-base=$(mktemp -d)
-trap 'rm -rf "$base"' EXIT
-ok() { echo "ok: $1"; }
-wrong() { echo "FAILED: $1: $2"; }
-tree=$base/tree log=$base/log
-mkdir -p "$tree/$B"
-cp -a Makefile pipelines common tools tests data "$tree"
-cp -a "$B/bin" "$B/id" "$B/settings" "$tree/$B"
-cd "$tree" || exit 1
-[ "$B" = build ] && sanitize= || sanitize=SANITIZE=1
-make_() { make $sanitize "$@" > "$log" 2>&1; }
+source tests/cases
+in_copy_of_tree
 contents() { find out -type f -name '*.h5' -print0 | sort -z | xargs -0 -r sha256sum; }
 stages() { grep -c "^[^ ]*bin/gear-$1 " "$log"; }
 
@@ -93,41 +82,41 @@ make_ STUDY=small.toml SHARE=1/2 study && [ "$(stages variant) $(stages study)" 
   make_ STUDY=small.toml study && [ "$(stages variant) $(stages study)" = "0 1" ] && ok "two shares and the table" || wrong "two shares and the table" "$(tail -n 1 "$log")"
 
 # --- rejected
-# rejected <claim> <pattern> <make arguments>: status not 0, the line, and no file of a study that was not there
+# rejected <claim> <fields of a line> <make arguments>: status not 0
 rejected() {
-  local claim=$1 pattern=$2
+  local claim=$1 fields=$2
   shift 2
   if make_ "$@"; then wrong "$claim" "make ended with status 0"
-  elif ! grep -q -E "$pattern" "$log"; then wrong "$claim" "no '$pattern' in: $(head -n 3 "$log" | tr '\n' ' ')"
+  elif ! named_in "$log" "$fields"; then wrong "$claim" "no '$fields' in: $(head -n 3 "$log" | tr '\n' ' ')"
   else ok "$claim"; fi
 }
-rejected "make study without STUDY lists the studies" 'which study\? .*there are: .*tolerances' study
-rejected "a study that does not exist" 'there is no data/studies/nowhere.toml; +there are: ' STUDY=nowhere study
+rejected "make study without STUDY lists the studies" 'STUDY tolerances' study
+rejected "a study that does not exist" 'data/studies/nowhere.toml tolerances' STUDY=nowhere study
 sed 's/rayleigh_stiffness_s/rayleigh_stifness_s/' small.original > typo.toml
-rejected "a key that no scene has, by file, line and the nearest" "typo.toml:5: no scene has the key 'damping.rayleigh_stifness_s'; did you mean 'damping.rayleigh_stiffness_s'" STUDY=typo.toml study
+rejected "a key that no scene has, by file, line and the nearest" "typo.toml:5 damping.rayleigh_stifness_s damping.rayleigh_stiffness_s" STUDY=typo.toml study
 sed 's/7.7e-6/7.7/' small.original > wide.toml
-rejected "a value out of range, by variant and limit" "wide.toml:5: variant 2 \(damping.rayleigh_stiffness_s = 7.7, operation.torque_Nm = 100\): .*must be at most 1 s" STUDY=wide.toml study
+rejected "a value out of range, by variant and limit" "wide.toml:5 2 damping.rayleigh_stiffness_s 7.7 operation.torque_Nm 100 1" STUDY=wide.toml study
 sed 's/^scene.*/scene = "gone.toml"/' small.original > lost.toml
-rejected "a scene that is not there" "lost.toml: variant 0 .*gone.toml" STUDY=lost.toml study
+rejected "a scene that is not there" "lost.toml 0 gone.toml" STUDY=lost.toml study
 printf 'scene = "own.toml"\n[[vary]]\nkey = "mesh.centre_distance_mm"\nvalues = [150, 170]\n' > apart.toml
-rejected "gears that do not reach each other, by the variant, before anything runs" "apart.toml: variant 1 \(mesh.centre_distance_mm = 170\): \[\[mesh\]\]" STUDY=apart.toml study
+rejected "gears that do not reach each other, by the variant, before anything runs" "apart.toml 1 mesh.centre_distance_mm 170 [[mesh]]" STUDY=apart.toml study
 [ ! -e out/studies/apart ] && [ ! -e out/studies/typo ] && ok "what is rejected leaves no files" || wrong "what is rejected leaves no files" "$(ls out/studies)"
 printf 'scene = "own.toml"\n[[vary]]\nkey = "damping.rayleigh_stiffness_s"\nvalues = [1e-6, 2e-6]\n' > alike.toml
-rejected "keys that the stage does not depend on" "varies nothing: all 2 variants are alike" STUDY=alike.toml study
+rejected "keys that the stage does not depend on" "2 alike" STUDY=alike.toml study
 mkdir -p other; cp small.toml other/tolerances.toml
-rejected "a study of one's own does not take the place of one of the project" 'out/studies/tolerances is of data/studies/tolerances.toml, which says otherwise; rename the file' STUDY=other/tolerances.toml study
-rejected "a share that is none" 'SHARE=3/2: it is i/n' STUDY=small.toml SHARE=3/2 study
+rejected "a study of one's own does not take the place of one of the project" 'out/studies/tolerances data/studies/tolerances.toml rename' STUDY=other/tolerances.toml study
+rejected "a share that is none" 'SHARE=3/2 i/n' STUDY=small.toml SHARE=3/2 study
 
 # A torque at which the flanks are not long enough: the stage fails.
 printf 'scene = "own.toml"\n[[vary]]\nkey = "operation.torque_Nm"\nvalues = [100, 900000]\n' > heavy.toml
-rejected "a variant outside the model's range, by its values" "gear-variant: error: .*: variant 1 \(operation.torque_Nm = 900000\): at 900000 N m the transmission error of pinion-wheel is [0-9.]* mm, above 0.75 mm, a quarter of the module" -k STUDY=heavy.toml study
+rejected "a variant outside the model's range, by its values" "gear-variant 1 operation.torque_Nm 900000 pinion-wheel 0.75" -k STUDY=heavy.toml study
 [ "$(find out/studies/heavy -name '*.h5' | wc -l)" = 1 ] && ok "make -k computes the others, but no table" || wrong "make -k computes the others, but no table" "$(find out/studies/heavy -name '*.h5')"
 sed -i '1i outside_model = "mark"' heavy.toml
 if make_ STUDY=heavy.toml study && grep -q 'warning: variant 1 (operation.torque_Nm = 900000) lies outside the model.s range: ' "$log" && grep -q '^# outside the model.s range (1): ' out/studies/heavy/study.tsv; then
   ok "outside_model = \"mark\": a line of the table that says so"; else wrong "outside_model = \"mark\"" "$(tail -n 2 "$log" | tr '\n' ' ')"; fi
 sed -i 's/^outside_model = .*/outside_model = "stop"/' heavy.toml
 rejected "outside_model = \"stop\" again: what was marked is an error, by variant and reason" \
-  'gear-study: error: out/studies/heavy/plan.toml: variant 1 \(operation.torque_Nm = 900000\) lies outside the model.s range: .*a quarter of the module' STUDY=heavy.toml study
+  'gear-study out/studies/heavy/plan.toml 1 operation.torque_Nm 900000 quarter' STUDY=heavy.toml study
 
 # Marked is what lies outside the model's range, not what this machine or a setting does.
 cat > large.toml <<'STUDY'
@@ -140,7 +129,7 @@ outside_model = "mark"
 key = "operation.torque_Nm"
 values = [100, 150]
 STUDY
-rejected "outside_model = \"mark\" does not mark a setting that asks for too much" 'gear-variant: error: .*: variant [01] .* positions, at most 2097152 are allowed' -k STUDY=large.toml study
+rejected "outside_model = \"mark\" does not mark a setting that asks for too much" 'gear-variant variant positions 2097152' -k STUDY=large.toml study
 [ -z "$(find out/studies/large -name '*.h5')" ] && ok "nor leaves it as an artifact" || wrong "nor leaves it as an artifact" "$(find out/studies/large -name '*.h5')"
 
 # --- what the stages warn of: here a motion that hardly anything damps

@@ -1,19 +1,8 @@
 # Each kind of artifact in xarray: every group opens with h5netcdf, without a warning, with named axes and their coordinates.
 #
-# Needs Debian's python3-xarray and python3-h5netcdf (make deps-python). The artifacts are those of one case of test_artifact.cpp.
-set -uo pipefail
-B=${B:-build}
-python=$(for candidate in python3 /usr/bin/python3; do "$candidate" -c 'import xarray, h5netcdf' 2> /dev/null && { echo "$candidate"; break; }; done)
-if [ -z "$python" ]; then
-  echo "skipped: artifacts in xarray (python3-xarray and python3-h5netcdf are not installed; make deps-python)"
-  exit 0
-fi
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-if ! WHINE_KEEP=$work "$B/bin/whine-tests" --no-colors=true -tc='axes of each kind of artifact*' > "$work/said" 2>&1 || [ ! -e "$work/study.h5" ]; then
-  echo "FAILED: one artifact of each kind: $(tail -n 3 "$work/said" | tr '\n' '|')"
-  exit 1
-fi
+# Needs Debian's python3-xarray and python3-h5netcdf (make deps-python). The artifacts are those of one case of test_datasets.cpp.
+source tests/cases
+with_artifacts_and_python "artifacts in xarray" "python3-xarray and python3-h5netcdf" "xarray, h5netcdf"
 cd "$work" && "$python" - << 'PYTHON'
 import warnings
 

@@ -191,12 +191,12 @@ void body(int argc, char** argv) {
   Given given;
   declare(options, given);
   options.parse(argc, argv);
+  check(given);
   given.o.model = whine::motion_model_of(given.model + (given.hertz ? "-hertz" : "")).value();
   given.o.integrator = whine::choice_of<whine::Integrator>(given.integrator).value();
   given.o.damper_acts = whine::choice_of<whine::DamperActs>(given.damper).value();
   if (!given.direction.empty())
     given.o.direction = whine::choice_of<whine::Direction>(given.direction).value();
-  check(given);
   whine::LumpedOptions& o = given.o;
   std::vector<double> damping_ratio;
   for (const std::string& word : given.ratios)

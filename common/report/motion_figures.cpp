@@ -331,7 +331,7 @@ Figure tooth_load_figure(const std::vector<SweepResult>& sweeps, double mesh_fre
   set_motion_title(figure, "Tooth loads", motions, mesh_frequency);
   double to = 0;
   for (size_t i = 0; i < motions.size(); ++i) {
-    add_tooth_loads(figure, letter_of(i), motions[i], motions[i].title + "; ");
+    add_tooth_loads(figure, letter_of(i), motions[i], motions[i].title + "\n");
     to = std::max(to, figure.panels.back().y.to);
   }
   for (Panel& panel : figure.panels) {
@@ -374,10 +374,9 @@ Figure dynamic_load_figure(const std::vector<SweepResult>& sweeps, CaptionSource
       .maxCoeff(&sample);
   worst.first = static_cast<int>(sample / worst.per_period());
   const double speed = worst.sweep->mesh_frequency[worst.row];
-  figure.panels.push_back(
-      load_over_speed(std::max(both[0].tooth_load_max.maxCoeff(), both[1].tooth_load_max.maxCoeff()),
-                      curve.up->mesh_frequency.size(), lost,
-                      !speeds_beyond_backlash({&both[0], &both[1]}).empty()));
+  figure.panels.push_back(load_over_speed(
+      std::max(both[0].tooth_load_max.maxCoeff(), both[1].tooth_load_max.maxCoeff()),
+      curve.up->mesh_frequency.size(), lost, !speeds_beyond_backlash({&both[0], &both[1]}).empty()));
   figure.panels[0].rules = {rest_rule(force_at_rest(*curve.up)), {'x', speed, "(b)"}};
   add_tooth_loads(
       figure, "b", worst,

@@ -238,15 +238,16 @@ void set_above(const Figure& figure, size_t index, Place& p) {
 // What stands below the frame, in a row of panels from `first` to `end`.
 void set_below(const Figure& figure, size_t index, size_t first, size_t end, Place& p) {
   const Panel& panel = figure.panels[index];
+  p.x_ticks = ticks_of(panel.x, p.x, 1);
   for (double most = (p.right - p.left) / 45; panel.x.names.empty() && !panel.x.log && most >= 1;
        most *= 0.7) {
     p.x_ticks = ticks_of(panel.x, p.x, most);
     const double room = (p.right - p.left) * p.x_ticks.step / p.x.span();
     if (p.x_ticks.widest * pixels::kAxisLetter + 20 < room) break;
   }
-  // One number alone says no scale: three in smaller letters.
+  // One number alone says no scale: more of them in smaller letters.
   if (panel.x.names.empty() && !panel.x.log && p.x_ticks.step > 0.5 * p.x.span()) {
-    p.x_ticks = ticks_of(panel.x, p.x, 3);
+    for (double most = 3; p.x_ticks.step > 0.5 * p.x.span(); ++most) p.x_ticks = ticks_of(panel.x, p.x, most);
     const double room = (p.right - p.left) * p.x_ticks.step / p.x.span() - 12;
     p.x_ticks.size = std::min(18.0, room / pixels::kPoint / std::max(1.0, p.x_ticks.widest));
   }

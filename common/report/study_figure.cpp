@@ -450,24 +450,24 @@ void add_spread(const DrawnAnswer& quantity, const PanelAxis& y_axis, size_t r, 
   for (size_t i = 0; i < sorted.size(); ++i)
     spread.rows.push_back(
         {100 * (static_cast<double>(i) + 0.5) / static_cast<double>(sorted.size()), sorted[i]});
-  Panel drawn{.x = {.label = "share of the variants (%)", .from = 0, .to = 100},
-              .y = y_axis,
-              .curves = {{.block = spread.name, .width = 2}},
-              .height = 190,
-              .letter = false};
-  figure.blocks.push_back(spread);
+  const std::string at = text("percentiles", r);
+  figure.panels.push_back(
+      {.x = {.label = "share of the variants (%)", .from = 0, .to = 100},
+       .y = y_axis,
+       .curves = {{.block = spread.name, .width = 2},
+                  {.block = at, .style = PanelStyle::points, .colour = kVermilion, .size = 1}},
+       .key = PanelKey::none,
+       .height = 190,
+       .letter = false});
+  FigureBlock percentiles{at, spread.columns, {}, "", "", true};
   for (const int share : {5, 50, 95}) {
     if (sorted.empty()) break;
-    const double value = percentile(sorted, 0.01 * share);
-    figure.blocks.push_back(
-        {text("percentile", r, "_", share), spread.columns, {{1.0 * share, value}}, "", "", true});
-    drawn.curves.push_back({.block = figure.blocks.back().name,
-                            .style = PanelStyle::points,
-                            .colour = kVermilion,
-                            .label = text(share, " %: ", shown(value, 4)),
-                            .size = 1});
+    percentiles.rows.push_back({1.0 * share, percentile(sorted, 0.01 * share)});
+    figure.panels.back().heading +=
+        text(share == 5 ? "" : ", ", share, " %: ", shown(percentiles.rows.back()[1], 4));
   }
-  figure.panels.push_back(drawn);
+  figure.blocks.push_back(spread);
+  figure.blocks.push_back(percentiles);
 }
 
 }  // namespace

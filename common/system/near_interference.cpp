@@ -17,6 +17,8 @@
 namespace whine {
 namespace {
 
+constexpr double kSlopeAtTip = 17;  // of a tooth: times load / (E b m)
+
 struct NearEnd {
   int side = -1;          // whose involute ends within the pressure; -1: none
   double half_width = 0;  // m
@@ -31,13 +33,17 @@ double share(const GearPair& gears, double path, ForceBound force) {
   return least * (1 + std::min(1.0, from_end / shared));
 }
 
-NearEnd near_end(const GearPair& gears, double coefficient, double load, ForceBound force) {
+// slope: of the teeth of either gear loaded at their tips, N-1.
+NearEnd near_end(const GearPair& gears, double coefficient, const std::array<double, kSides>& slope,
+                 double load, ForceBound force) {
   constexpr int kPlaces = 400;
   for (int i = 0; i <= kPlaces; ++i) {
     const double path = gears.path_start() + (gears.path_end() - gears.path_start()) * i / kPlaces;
-    const double half_width =
-        std::sqrt(2 * gears.relative_curvature_radius(path) * coefficient * load * share(gears, path, force));
-    const int side = side_at_root(gears, gears.contact(path / gears.base_pitch()), -half_width, half_width);
+    const double radius = gears.relative_curvature_radius(path), own = load * share(gears, path, force),
+                 half_width = std::sqrt(2 * radius * coefficient * own),
+                 moved = force == ForceBound::least ? radius * own : 0;
+    const int side = side_at_root(gears, gears.contact(path / gears.base_pitch()),
+                                  moved * slope[1] - half_width, half_width - moved * slope[0]);
     if (side >= 0) return {side, half_width};
   }
   return {};
@@ -51,11 +57,15 @@ std::string near_interference(const SceneGear& driver, const SceneGear& driven, 
   const std::array<std::string, kSides> name{driver.name, driven.name};
   const double width = contact_width(driver.design, driven.design);
   double coefficient = 0;
-  for (const SceneGear* gear : {&driver, &driven})
+  std::array<double, kSides> slope{};
+  for (const SceneGear* gear : {&driver, &driven}) {
     coefficient +=
         HalfPlaneSurface(in_contact_plane(gear->material, mesh.contact_plane), width).coefficient();
+    slope[gear == &driver ? 0 : 1] =
+        kSlopeAtTip / (gear->material.youngs_modulus * gear->design.face_width * gear->design.module);
+  }
   const GearPair gears(design[0], design[1], mesh.centre_distance);
-  const NearEnd end = near_end(gears, coefficient, load, force);
+  const NearEnd end = near_end(gears, coefficient, slope, load, force);
   if (end.side < 0) return "";
   const auto own = static_cast<size_t>(end.side), mate = 1 - own;
   const double reached = gears.nominal_roll(end.side, end.side == 0 ? gears.path_start() : gears.path_end());
@@ -65,7 +75,7 @@ std::string near_interference(const SceneGear& driver, const SceneGear& driven, 
   while (room == 0 && design[mate].addendum > kLeast) {
     design[mate].addendum = std::round((design[mate].addendum - kStep) * 1e4) / 1e4;
     try {
-      if (near_end(GearPair(design[0], design[1], mesh.centre_distance), coefficient, load,
+      if (near_end(GearPair(design[0], design[1], mesh.centre_distance), coefficient, slope, load,
                    ForceBound::largest)
               .side < 0)
         room = design[mate].addendum;

@@ -3,8 +3,11 @@
 //
 // Half-width by Hertz, a^2 = 2 R F C (C of both half-planes). F is not known before the bodies are: a pair has at least 1 / (2 n - 1) of
 // the load at the ends of its path, n pairs sharing it, growing to twice that where the next pair comes or goes (the sharing of spur
-// gears in ISO 6336), and at most all of it. What the least force lets reach the root is rejected, what only the largest does is
-// warned of; what passes both computes.
+// gears in ISO 6336), and at most all of it. Under the least force the pressure is moved away from the root by R times the slope to which
+// the mate's tooth bends, k F / (E b m) with k = 17 for a load at its tip (10 of bending, 4 of shear, 3 of its foundation): a tenth of a
+// half-width of steel, most of it of a mate of polymer. What the least force lets reach the root is rejected, what only the largest does
+// is warned of; what passes both computes. A steel pinion of 25 teeth on a POM wheel of 60, module 1 mm, 10 mm wide, runs at rest up to
+// 6 N m and further; without the slope it would be rejected from 2 N m on.
 #pragma once
 #include <string>
 #include <utility>

@@ -16,10 +16,10 @@
 
 #include "base/dense.h"
 #include "base/error.h"
-#include "failure_of.h"
 #include "memory.h"
 #include "peer/strip_problems.h"
 #include "peer/window_problem.h"
+#include "refusal.h"
 #include "relative.h"
 
 using namespace whine;
@@ -175,8 +175,7 @@ TEST_CASE(
     both.strips = {0, 1};
     if (kept) ComplementaritySolver(Singular::shift).solve(a, e, both, p, d);
     CHECK(both.known == kept);
-    CHECK_THROWS_WITH_AS(solver.solve(a, e, both, p, d),
-                         doctest::Contains("the 2 strips that touch is singular to round-off"), Error);
+    CHECK(names(message_of([&] { solver.solve(a, e, both, p, d); }), {2, "round-off"}));
   }
   // One of them alone carries it as well: the set that block pivoting finds needs no shift.
   ActiveSet one;
@@ -188,8 +187,7 @@ TEST_CASE(
   const double close = 1e-9 / 3;
   const MatrixXd pull{{1, close - 1}, {close - 1, 1}};
   ActiveSet active;
-  CHECK_THROWS_WITH_AS(solver.solve(pull, VectorXd{{-1.0 / 3, -0.7}}, active, p, d),
-                       doctest::Contains("of the largest unloaded gap only, 1e-10 is needed"), Error);
+  CHECK(names(message_of([&] { solver.solve(pull, VectorXd{{-1.0 / 3, -0.7}}, active, p, d); }), {"1e-10"}));
   Certificate certificate;
   certificate.residual = kMostResidual;
   CHECK_NOTHROW(require_residual(certificate));
@@ -413,28 +411,23 @@ TEST_CASE("complementarity: no memory is taken once the size is known") {
 
 TEST_CASE("complementarity: what has no solution is rejected with its numbers") {
   const auto says = [](const MatrixXd& a, const VectorXd& e, std::vector<int> start = {}) -> std::string {
-    try {
-      solve(a, e, std::move(start));
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
+    return message_of([&] { solve(a, e, std::move(start)); });
   };
   for (double coupling : {2.0, -2.0})
     for (const std::vector<int>& start : {std::vector<int>{}, {0, 1}})
-      CHECK(says(MatrixXd{{1, coupling}, {coupling, 1}}, VectorXd{{-1, -1}}, start)
-                .find("not positive definite") != std::string::npos);
+      CHECK(names(says(MatrixXd{{1, coupling}, {coupling, 1}}, VectorXd{{-1, -1}}, start),
+                  {"positive definite"}));
   // With coupling 2, forces (1, 0), (0, 1) and (1/3, 1/3) all meet the signs. Here forces (1, 1, 0) do, and the strip
   // that makes A indefinite stays open.
   for (double gap : {0.5, 100.0})
-    CHECK(says(MatrixXd{{1, 0, 0}, {0, 1, 2}, {0, 2, 1}}, VectorXd{{-1, -1, gap}})
-              .find("not positive definite") != std::string::npos);
-  CHECK(says(MatrixXd{{0.0}}, VectorXd{{-1.0}}).find("not positive definite") != std::string::npos);
+    CHECK(names(says(MatrixXd{{1, 0, 0}, {0, 1, 2}, {0, 2, 1}}, VectorXd{{-1, -1, gap}}),
+                {"positive definite"}));
+  CHECK(names(says(MatrixXd{{0.0}}, VectorXd{{-1.0}}), {"positive definite"}));
   // Singular, and no force closes both gaps: d1 + d2 = -2 whatever p is.
   CHECK(says(MatrixXd{{1, -1}, {-1, 1}}, VectorXd{{-1, -1}}) != "");
-  CHECK(says(MatrixXd::Identity(2, 2), VectorXd{{-1, std::nan("")}}).find("finite") != std::string::npos);
+  CHECK(names(says(MatrixXd::Identity(2, 2), VectorXd{{-1, std::nan("")}}), {"finite"}));
   CHECK(says(MatrixXd{{1, std::nan("")}, {std::nan(""), 1}}, VectorXd{{-1, 1}}) != "");
-  CHECK(says(MatrixXd::Identity(3, 3), VectorXd{{-1, -1}}).find("3 x 3") != std::string::npos);
+  CHECK(names(says(MatrixXd::Identity(3, 3), VectorXd{{-1, -1}}), {"3 x 3", 2}));
 }
 
 TEST_CASE("complementarity: a problem that fails leaves nothing to the next one with its set") {

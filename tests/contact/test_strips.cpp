@@ -14,6 +14,7 @@
 #include "contact/line_contact.h"
 #include "contact/strips.h"
 #include "paper_pair.h"
+#include "refusal.h"
 #include "relative.h"
 
 using namespace whine;
@@ -267,8 +268,7 @@ TEST_CASE(
   PairContact apart = gears.contact(0);
   apart.x_min = 1e-5;
   apart.x_max = 0.5e-5;
-  CHECK_THROWS_WITH_AS(make_strips(gears, 0, apart, {2e-4, 24, 1e-5}),
-                       doctest::Contains("no candidate zone of strips fits between"), Error);
+  CHECK(names(message_of([&] { make_strips(gears, 0, apart, {2e-4, 24, 1e-5}); }), {"candidate", "between"}));
 }
 
 namespace {
@@ -566,8 +566,9 @@ TEST_CASE("line contact: pairs without overlap carry nothing; what cannot be sol
   PairMatrix skew(2, 2);
   skew << 2e-9, -9e-9, 0, 2e-9;
   force.setZero();
-  CHECK_THROWS_WITH_AS(solve_line_contact(skew, lines.law, VectorXd::Constant(2, -1e-6), force, d),
-                       doctest::Contains("does not fall along Newton's step"), Error);
+  CHECK(
+      names(message_of([&] { solve_line_contact(skew, lines.law, VectorXd::Constant(2, -1e-6), force, d); }),
+            {"Newton's", "along"}));
   PairMatrix indefinite = -1e-8 * PairMatrix::Identity(2, 2);
   force.setZero();
   CHECK_THROWS_AS(solve_line_contact(indefinite, lines.law, VectorXd::Constant(2, -1e-6), force, d), Error);

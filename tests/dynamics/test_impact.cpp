@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "dynamics/impact.h"
 #include "paper_pair.h"
+#include "refusal.h"
 #include "relative.h"
 #include "signal/decay.h"
 #include "system/statics.h"
@@ -149,11 +150,11 @@ TEST_CASE("decay: a weak slow oscillation is passed over, what does not oscillat
         relative(1200, 1e-6));
   VectorXd decay(200);
   for (int i = 0; i < 200; ++i) decay[i] = std::exp(-0.05 * i);
-  CHECK_THROWS_WITH_AS(fit_decay(decay, step), doctest::Contains("nothing oscillates"), Error);
-  CHECK_THROWS_WITH_AS(fit_decay(VectorXd::Zero(200), step), doctest::Contains("no signal"), Error);
-  CHECK_THROWS_WITH_AS(fit_decay(strong.head(8), step), doctest::Contains("too short"), Error);
+  CHECK(names(message_of([&] { fit_decay(decay, step); }), {"oscillates", "nothing"}));
+  CHECK(names(message_of([&] { fit_decay(VectorXd::Zero(200), step); }), {"signal"}));
+  CHECK(names(message_of([&] { fit_decay(strong.head(8), step); }), {"short", "too"}));
   decay[7] = std::nan("");
-  CHECK_THROWS_WITH_AS(fit_decay(decay, step), doctest::Contains("finite"), Error);
+  CHECK(names(message_of([&] { fit_decay(decay, step); }), {"finite"}));
 }
 
 TEST_CASE("decay: two to five close damped modes keep their own damping, beside modes that die early") {
@@ -263,11 +264,10 @@ TEST_CASE("pair at a fixed phase: one and two pairs, their mean, and no dependen
     }
   }
   // Strips that come and go within the decay split its root in two.
-  CHECK_THROWS_WITH_AS(ring(coarse_impact(), 0.2), doctest::Contains("contact comes and goes"), Error);
-  CHECK_THROWS_WITH_AS(ring(coarse_impact(), 0.2), doctest::Contains("take a torque step smaller than 0.2"),
-                       Error);
-  CHECK_THROWS_WITH_AS(ring(coarse_impact(), 0), doctest::Contains("torque step"), Error);
-  CHECK_THROWS_WITH_AS(ring(coarse_impact(), 0.6), doctest::Contains("torque step"), Error);
+  CHECK(names(message_of([&] { ring(coarse_impact(), 0.2); }), {"contact", "comes"}));
+  CHECK(names(message_of([&] { ring(coarse_impact(), 0.2); }), {"torque", "step", "0.2"}));
+  CHECK(names(message_of([&] { ring(coarse_impact(), 0); }), {"torque", "step"}));
+  CHECK(names(message_of([&] { ring(coarse_impact(), 0.6); }), {"torque", "step"}));
 }
 
 TEST_CASE(
@@ -301,21 +301,21 @@ TEST_CASE(
 TEST_CASE("pair at a fixed phase: contact beyond what the mesh holds is rejected, with the numbers") {
   FixedPhaseMesh mesh = relaxed_mass();
   const double step = 1 / (512 * 2700.0), static_error = 2000 * (0.6e-9 + 2.2e-9);
-  const auto rejected = [&](double torque_step, const char* with) {
-    CHECK_THROWS_WITH_AS(ring_down(mesh, torque_step, step, 33, 16), doctest::Contains(with), Error);
+  const auto rejected = [&](double torque_step, const std::vector<Field>& with) {
+    CHECK(names(message_of([&] { ring_down(mesh, torque_step, step, 33, 16); }), with));
   };
   mesh.zone_end = {0};
-  rejected(0.01, "strip 0 of 1 carries 2020 N");
-  CHECK_THROWS_WITH_AS(frozen_root(mesh), doctest::Contains("carries 2000 N"), Error);
+  rejected(0.01, {0, 1, 2020});
+  CHECK(names(message_of([&] { frozen_root(mesh); }), {2000, "carries"}));
   mesh.zone_end.clear();
   mesh.next_corner_gap = 1.05 * static_error;
   CHECK_NOTHROW(ring_down(mesh, 0.04, step, 33, 16));
-  rejected(0.06, "closes the gap of 5.88 micrometres of a tip edge that was left out");
+  rejected(0.06, {"5.88", "left", "out"});
   mesh.lost_corner_gap = 1.02 * static_error;
-  rejected(0.04, "closes the gap of 5.712 micrometres of a tip edge that would touch below the involute");
+  rejected(0.04, {"5.712", "below", "involute"});
   mesh = relaxed_mass();
   mesh.local(0, 0) = -1e-9;  // the whole is still positive
-  CHECK_THROWS_WITH_AS(frozen_root(mesh), doctest::Contains("not positive definite: pivot -1e-09"), Error);
+  CHECK(names(message_of([&] { frozen_root(mesh); }), {"-1e-09"}));
 }
 
 TEST_CASE(
@@ -346,7 +346,7 @@ TEST_CASE(
                                        pair.settings, {1e-6, 8}, 0.05, ContactState::two, no_report);
   CHECK(found.damping_ratio[1] == relative(0.05, 1e-6));
   // Round-off of the static error stands in the samples of a decay this small.
-  CHECK_THROWS_WITH_AS(pair.ring(1e-12), doctest::Contains("contact stays as it is"), Error);
+  CHECK(names(message_of([&] { pair.ring(1e-12); }), {"contact", "stays"}));
 }
 
 TEST_CASE(
@@ -375,17 +375,12 @@ TEST_CASE("calibration: the factor that it finds gives the ratio, what cannot be
     CHECK(calibrated(settings, 0.05, state).damping.rayleigh_stiffness == found.damping.rayleigh_stiffness);
   }
   ImpactParameters settings = coarse_impact();
-  CHECK_THROWS_WITH_AS(calibrated(settings, 0.05, ContactState::three),
-                       doctest::Contains("choose one of: one, two, mean"), Error);
-  CHECK_THROWS_WITH_AS(calibrated(settings, 0.9, ContactState::two), doctest::Contains("the largest is near"),
-                       Error);
-  CHECK_THROWS_WITH_AS(calibrated(settings, 1.5, ContactState::two), doctest::Contains("outside (0, 1)"),
-                       Error);
+  CHECK(names(message_of([&] { calibrated(settings, 0.05, ContactState::three); }), {"one", "two", "mean"}));
+  CHECK(names(message_of([&] { calibrated(settings, 0.9, ContactState::two); }), {"largest", "near"}));
+  CHECK(names(message_of([&] { calibrated(settings, 1.5, ContactState::two); }), {0, 1}));
   settings.damping.bearing_ratio = 0.1;
-  CHECK_THROWS_WITH_AS(calibrated(settings, 0.05, ContactState::two),
-                       doctest::Contains("lower bearing_ratio"), Error);
+  CHECK(names(message_of([&] { calibrated(settings, 0.05, ContactState::two); }), {"bearing_ratio"}));
   settings = coarse_impact();
   settings.fidelity.body = BodyModel::rigid;
-  CHECK_THROWS_WITH_AS(calibrated(settings, 0.05, ContactState::two),
-                       doctest::Contains("the largest is near"), Error);
+  CHECK(names(message_of([&] { calibrated(settings, 0.05, ContactState::two); }), {"largest", "near"}));
 }

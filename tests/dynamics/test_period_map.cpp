@@ -11,11 +11,11 @@
 
 #include "base/dense.h"
 #include "dynamics/period_map.h"
-#include "failure_of.h"
 #include "lumped/period_map.h"
 #include "lumped/stiffness.h"
 #include "orbits/branch.h"
 #include "paper_pair.h"
+#include "refusal.h"
 #include "relative.h"
 
 using namespace whine;

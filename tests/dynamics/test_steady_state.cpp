@@ -6,8 +6,8 @@
 #include <string>
 
 #include "dynamics/steady_state.h"
-#include "failure_of.h"
 #include "paper_pair.h"
+#include "refusal.h"
 #include "relative.h"
 #include "signal/jumps.h"
 #include "signal/response.h"

@@ -20,18 +20,6 @@ using Eigen::Index;
 
 constexpr double kTorque = 150;
 
-// With elements of 1 mm.
-const ReducedBody& body_of(double depth, int tooth = 0) {
-  static std::map<std::pair<double, int>, ReducedBody> cache;
-  const auto [found, fresh] = cache.try_emplace({depth, tooth});
-  if (fresh) {
-    GearDesign design = cracked_gear(depth);
-    design.crack.tooth = tooth;
-    found->second = reduce(sector_of(design, 1e-3), kSteel, 1);
-  }
-  return found->second;
-}
-
 // Pa N-1: largest along the root of the cracked tooth (0) or of one beside it, under a force at the middle of its own flank.
 double largest(double element, double depth, int tooth) {
   const ReducedBody body = reduce(sector_of(cracked_gear(depth), element), kSteel, 0);
@@ -56,16 +44,16 @@ TEST_CASE(
     "root stress of a cracked gear: over a turn the cracked tooth has less, its neighbours little more, the others the same") {
   constexpr int kPositions = 8, kTeeth = 50;
   const StaticParameters settings = paper_statics(kPositions);
-  const StaticResult intact = static_transmission(body_of(0), body_of(0), settings, kTorque);
+  const StaticResult intact = static_transmission(cracked_body(0), cracked_body(0), settings, kTorque);
   CHECK(intact.root_stress_tooth.size() == 0);
   double beside = 0;
   for (const int gear : {0, 1})
     for (const int tooth : {0, 3}) {
       CAPTURE(gear);
       CAPTURE(tooth);
-      const ReducedBody& cracked = body_of(2e-3, tooth);
-      const StaticResult s = gear == 0 ? static_transmission(cracked, body_of(0), settings, kTorque)
-                                       : static_transmission(body_of(0), cracked, settings, kTorque);
+      const ReducedBody& cracked = cracked_body(2e-3, tooth);
+      const StaticResult s = gear == 0 ? static_transmission(cracked, cracked_body(0), settings, kTorque)
+                                       : static_transmission(cracked_body(0), cracked, settings, kTorque);
       const auto g = static_cast<size_t>(gear);
       REQUIRE(s.root_stress[g].rows() == kTeeth * kPositions);
       const auto of_tooth = [&](int number) {
@@ -99,17 +87,17 @@ TEST_CASE(
   const StaticParameters settings = paper_statics(8);
   double last = 0;
   for (const double depth : {1e-3, 2e-3, 3e-3}) {
-    const StaticResult s = static_transmission(body_of(depth), body_of(0), settings, kTorque);
+    const StaticResult s = static_transmission(cracked_body(depth), cracked_body(0), settings, kTorque);
     CHECK(s.root_stress_max[0] > last);
     last = s.root_stress_max[0];
   }
 }
 
 TEST_CASE("root stress of a cracked gear: no crack, no table; without its table none is given") {
-  CHECK(body_of(0).crack_root_stress.size() == 0);
-  ReducedBody lacking = body_of(2e-3);
+  CHECK(cracked_body(0).crack_root_stress.size() == 0);
+  ReducedBody lacking = cracked_body(2e-3);
   lacking.crack_root_stress.resize(0, 0);
-  const StaticResult s = static_transmission(lacking, body_of(0), paper_statics(8), kTorque);
+  const StaticResult s = static_transmission(lacking, cracked_body(0), paper_statics(8), kTorque);
   CHECK(s.root_stress_max.size() == 0);
   CHECK(s.root_stress[0].size() == 0);
 }

@@ -7,8 +7,10 @@
 #include <fstream>
 
 #include "paper_pair.h"
+#include "refusal.h"
 #include "report/efficiency_figure.h"
 #include "report/gnuplot.h"
+#include "report/plot_file.h"
 #include "report/response_figures.h"
 #include "report/static_figures.h"
 
@@ -19,12 +21,9 @@ namespace {
 
 // Whether gnuplot draws it with a template of the project.
 bool drawn(const Figure& figure, const std::string& recipe) {
-  const auto table = std::filesystem::temp_directory_path() / text("whine-flat-", getpid(), ".tsv");
-  std::ofstream(table) << plot_data(figure);
-  const std::string picture =
-      draw(figure, table, template_of(figure, "pipelines/plots", recipe), Picture::svg);
-  std::filesystem::remove(table);
-  return picture.find("</svg>") != std::string::npos;
+  return contains(
+      draw(figure, PlotFile(figure).path(), template_of(figure, "pipelines/plots", recipe), Picture::svg),
+      "</svg>");
 }
 
 StaticResult flat_statics() {
@@ -103,7 +102,7 @@ TEST_CASE("figures: losses mark the speeds at which the motion goes beyond the b
   CHECK(marked.blocks[1].rows[0].back() == 1);
   const auto says = [](const Figure& figure, const std::string& words) {
     return std::any_of(figure.notes.begin(), figure.notes.end(),
-                       [&](const std::string& note) { return note.find(words) != std::string::npos; });
+                       [&](const std::string& note) { return contains(note, words); });
   };
   CHECK(says(marked, "beyond the backlash"));
   CHECK(says(marked, "at 150 N m: 2000 Hz"));
@@ -120,9 +119,7 @@ TEST_CASE("figures: losses say where Schlenk's formula is beyond its tests") {
       all += note + "; ";
     return all;
   };
-  const auto holds = [](const std::string& all, const std::string& words) {
-    return all.find(words) != std::string::npos;
-  };
+  const auto holds = [](const std::string& all, const std::string& words) { return contains(all, words); };
   CHECK(!holds(notes(2000), "Schlenk"));
   s.mesh.friction.law = FrictionLaw::schlenk;
   // 50 teeth and 75 mm: 1 m/s at 106 Hz, 50 m/s at 5305 Hz; 84 N/mm under 150 N m.

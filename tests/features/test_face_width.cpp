@@ -184,15 +184,25 @@ TEST_CASE("a planetary train of three face widths: forces at rest are those of i
   check_rest(dynamics, rest_over_period(system, ContactModel::line, 8, 16));
 }
 
-TEST_CASE("unequal face widths are remarked with both and the common one") {
+namespace {
+
+Scene two_gears(double module) {
   Scene scene;
   for (const char* name : {"pinion", "wheel"}) {
     SceneGear gear;
     gear.name = name;
     gear.design = paper_gear();
+    gear.design.module = module;
     scene.gears.push_back(gear);
   }
   scene.mesh.gear = {"pinion", "wheel"};
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("unequal face widths are remarked with both and the common one") {
+  Scene scene = two_gears(3e-3);
   CHECK(scene_remarks(scene).empty());
   scene.gears[1].design.face_width = 12e-3;
   const std::vector<std::string> said = scene_remarks(scene);
@@ -203,15 +213,7 @@ TEST_CASE("unequal face widths are remarked with both and the common one") {
 }
 
 TEST_CASE("elements that are long beside the smallest module are remarked, those left open are not") {
-  Scene scene;
-  for (const char* name : {"pinion", "wheel"}) {
-    SceneGear gear;
-    gear.name = name;
-    gear.design = paper_gear();
-    gear.design.module = 4e-3;
-    scene.gears.push_back(gear);
-  }
-  scene.mesh.gear = {"pinion", "wheel"};
+  Scene scene = two_gears(4e-3);
   CHECK(scene_remarks(scene).empty());
   scene.body.element_size = 1.14e-3;
   CHECK(scene_remarks(scene).empty());

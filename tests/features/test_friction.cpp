@@ -13,7 +13,9 @@
 #include "gear/iso6336_strength.h"
 #include "internal_pair.h"
 #include "io/artifacts.h"
+#include "own_folder.h"
 #include "paper_pair.h"
+#include "refusal.h"
 #include "relative.h"
 #include "results/static.h"
 #include "scene_file.h"
@@ -138,13 +140,11 @@ TEST_CASE("friction: Schlenk's formula by hand, and what it needs") {
   Friction rough = friction;
   rough.roughness = 100e-6;
   rough.lubricant_factor = 10;
-  CHECK_THROWS_WITH_AS(friction_coefficient(pair, 20e-3, rough, 300, 1000),
-                       doctest::Contains("at most 0.3 is allowed"), Error);
+  CHECK(names(message_of([&] { friction_coefficient(pair, 20e-3, rough, 300, 1000); }), {"0.3", "allowed"}));
   rough.roughness = 0;
-  CHECK_THROWS_WITH_AS(friction_coefficient(pair, 20e-3, rough, 300, 1000), doctest::Contains("roughness_um"),
-                       Error);
-  CHECK_THROWS_WITH_AS(friction_coefficient(pair, 20e-3, friction, 300, 0),
-                       doctest::Contains("static_frequency_Hz"), Error);
+  CHECK(names(message_of([&] { friction_coefficient(pair, 20e-3, rough, 300, 1000); }), {"roughness_um"}));
+  CHECK(names(message_of([&] { friction_coefficient(pair, 20e-3, friction, 300, 0); }),
+              {"static_frequency_Hz"}));
 }
 
 namespace {
@@ -345,12 +345,12 @@ TEST_CASE("friction: without it nothing changes, and static.h5 keeps it") {
         1e-7 * without.transmission_error.norm());
   CHECK(with.friction_coefficient == 0.05);
   CHECK((with.tooth_load - without.tooth_load).norm() > 1e-4 * without.tooth_load.norm());
-  const std::string path = (std::filesystem::temp_directory_path() / "whine-friction-static.h5").string();
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.h5";
   StaticResult stored = with;
   stored.transmission_error_harmonic = stored.stiffness_harmonic = VectorXd::Ones(2);
   write(path, stored, Provenance());
   const StaticResult read = whine::read<StaticResult>(path);
-  std::filesystem::remove(path);
   CHECK(read.friction_loss == with.friction_loss);
   CHECK(read.friction_moment[1] == with.friction_moment[1]);
   CHECK(read.efficiency == with.efficiency);
@@ -359,12 +359,11 @@ TEST_CASE("friction: without it nothing changes, and static.h5 keeps it") {
   // A mesh with friction and a file without its losses do not go together.
   StaticResult torn = stored;
   torn.friction_loss.resize(0);
-  CHECK_THROWS_WITH_AS(write(path, torn, Provenance()), doctest::Contains("/friction_loss"), Error);
+  CHECK(names(message_of([&] { write(path, torn, Provenance()); }), {"/friction_loss"}));
   torn = stored;
   torn.mesh.friction = {};
   write(path, torn, Provenance());
   CHECK(whine::read<StaticResult>(path).friction_loss.size() == 0);
-  std::filesystem::remove(path);
   // What is left out is said, and where Schlenk's formula ends.
   const auto said = [](const std::vector<Remark>& remarks) {
     std::string all;
@@ -376,11 +375,11 @@ TEST_CASE("friction: without it nothing changes, and static.h5 keeps it") {
   StaticResult schlenk = with;
   schlenk.mesh.friction.law = FrictionLaw::schlenk;
   CHECK(schlenk_speed_remarks(with, 1, 1e5).empty());
-  CHECK(said(schlenk_speed_remarks(schlenk, 1000, 4000)).find("m/s") == std::string::npos);
+  CHECK(!contains(said(schlenk_speed_remarks(schlenk, 1000, 4000)), "m/s"));
   CHECK(contains(said(schlenk_speed_remarks(schlenk, 50, 4000)), "tests of Schlenk's formula begin"));
   CHECK(contains(said(schlenk_speed_remarks(schlenk, 1000, 7500)), "tests of Schlenk's formula end"));
   const double least = kSchlenkLoad * 1e3 * GearPair(with).gear(0).base_radius() * with.face_width();
-  CHECK(said(friction_remarks(schlenk, 1.001 * least)).find("N/mm") == std::string::npos);
+  CHECK(!contains(said(friction_remarks(schlenk, 1.001 * least)), "N/mm"));
   CHECK(contains(said(friction_remarks(schlenk, 0.5 * least)), "the line load is 75 N/mm"));
 }
 
@@ -400,15 +399,4 @@ TEST_CASE("friction: the section of a scene, and what it is rejected with") {
       "[friction]\nlaw = \"schlenk\"\nviscosity_mPas = 15\nroughness_um = 0.4\nstatic_frequency_Hz = 600\n"));
   CHECK(oil.mesh.friction.viscosity == relative(0.015, 1e-12));
   CHECK(oil.mesh.friction.roughness == relative(0.4e-6, 1e-12));
-  CHECK(contains(file.rejection(with_section("[friction]\nsmoothing = 0.01\n")), "x.toml:23: 'coefficient'"));
-  CHECK(contains(file.rejection(with_section("[friction]\ncoefficient = 0.5\n")), "x.toml:24"));
-  CHECK(contains(file.rejection(with_section("[friction]\ncoefficient = 0.05\nroughness_um = 1\n")),
-                 "schlenk"));
-  CHECK(contains(file.rejection(with_section("[friction]\ncoefficient = 0.05\nlubricant_factor = 1\n")),
-                 "schlenk"));
-  CHECK(contains(file.rejection(with_section("[friction]\nlaw = \"schlenk\"\nroughness_um = 1\n")),
-                 "viscosity_mPas"));
-  CHECK(contains(file.rejection(with_section("[friction]\nlaw = \"schlenk\"\ncoefficient = 0.1\n")),
-                 "coefficient"));
-  CHECK(contains(file.rejection(with_section("[friction]\nmu = 0.05\n")), "x.toml:24"));
 }

@@ -11,6 +11,7 @@
 #include "contact/friction.h"
 #include "dynamics/period_map.h"
 #include "friction_motion.h"
+#include "own_folder.h"
 #include "paper_pair.h"
 #include "relative.h"
 #include "signal/response.h"
@@ -238,10 +239,10 @@ TEST_CASE("friction in motion: slow and light, losses are those at rest; a sweep
   const double turning = 2 * std::numbers::pi * 100 / 50;
   CHECK(slow.friction.power[0] == relative((1 - slow.friction.efficiency[0]) * 150 * turning, 1e-12));
   CHECK(slow.energy_imbalance[0] < 1e-9);
-  const std::string path = (std::filesystem::temp_directory_path() / "whine-friction-sweep.h5").string();
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.h5";
   write(path, slow, Provenance());
   const SweepResult read = whine::read<SweepResult>(path);
-  std::filesystem::remove(path);
   CHECK(read.friction.power == slow.friction.power);
   CHECK(read.friction_work == slow.friction_work);
   CHECK(read.friction_rolling == slow.friction_rolling);

@@ -11,6 +11,7 @@
 #include "gear/flank_deviation.h"
 #include "gear/tooth_errors.h"
 #include "internal_pair.h"
+#include "mixed_errors.h"
 #include "relative.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
@@ -50,26 +51,6 @@ GearMeshModel model_of(const ToothErrors& of_planet, const ToothErrors& of_ring,
   const ReducedBody &planet = coarse(planet_gear()), &ring = coarse(ring_gear());
   const GearMeshSpec spec = spec_of(of_planet, of_ring, ring_drives);
   return ring_drives ? GearMeshModel(ring, planet, spec) : GearMeshModel(planet, ring, spec);
-}
-
-ToothErrors pitch(int teeth, double all, double first = 0) {
-  ToothErrors errors;
-  errors.cumulative_pitch.assign(static_cast<size_t>(teeth), all);
-  errors.cumulative_pitch[0] += first;
-  return errors;
-}
-
-// Every kind of error, from tooth to tooth.
-ToothErrors mixed(int teeth) {
-  ToothErrors errors;
-  for (int i = 0; i < teeth; ++i) {
-    errors.cumulative_pitch.push_back(((i * 37) % 11 - 5) * kMicro);
-    errors.profile_slope.push_back(((i * 23) % 7 - 3) * kMicro);
-    errors.profile_form.push_back(((i * 17) % 5 - 2) * kMicro);
-  }
-  errors.eccentricity = 4 * kMicro;
-  errors.eccentric_tooth = 3.5;
-  return errors;
 }
 
 // The same gear seen from behind.

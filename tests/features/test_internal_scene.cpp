@@ -7,6 +7,7 @@
 #include "gear/scene_geometry.h"
 #include "internal_pair.h"
 #include "io/artifacts.h"
+#include "refusal.h"
 #include "relative.h"
 #include "results/reduced_body.h"
 #include "results/sector_grid.h"
@@ -47,9 +48,9 @@ TEST_CASE("a scene with an internal gear: what it takes over, what its parameter
 
   const std::string of_pinion = body_parameters(scene, "pinion"), of_ring = body_parameters(scene, "wheel");
   CHECK(contains(of_pinion, "\nbore_radius = 0.04"));
-  CHECK(of_pinion.find("rim") == std::string::npos);
+  CHECK(!contains(of_pinion, "rim"));
   CHECK(contains(of_ring, "\n[rim]\ninternal = true\nrim_outer_radius = 0.2  # m\n"));
-  CHECK(of_ring.find("bore") == std::string::npos);
+  CHECK(!contains(of_ring, "bore"));
   const GearDesign read = read_body_parameters(file.path(of_ring, "body.toml")).design;
   CHECK(read.internal);
   CHECK(read.rim_outer_radius == ring.rim_outer_radius);
@@ -65,36 +66,27 @@ TEST_CASE("a scene with an internal gear: what it takes over, what its parameter
 
 TEST_CASE("what makes no sense in an internal gear is rejected with its line and a remedy") {
   const SceneFile file;
-  CHECK(contains(
-      file.rejection(with_ring(kRing + "bore_radius_mm = 30\n")),
-      "x.toml:15: [gear.wheel] is internal and gives 'bore_radius_mm'; its ring is held outside: give 'rim_outer_radius_mm' in its place"));
-  CHECK(contains(file.rejection(ring_with("rim_outer_radius_mm = 200\n", "")),
-                 "[gear.wheel] lacks 'rim_outer_radius_mm' (no default)"));
-  CHECK(contains(
-      file.rejection(ring_with("internal = true\n", "")),
-      "[gear.wheel] gives 'rim_outer_radius_mm', which only an internal gear has; write internal = true"));
-  CHECK(
-      contains(file.rejection(ring_with("internal = true", "internal = \"yes\"")), "must be true or false"));
-  CHECK(contains(file.rejection(ring_with("internal = true", "internal = 1")), "must be true or false"));
-  CHECK(contains(file.rejection(scene_with("bore_radius_mm = 40\n", "")),
-                 "[gear.pinion] lacks 'bore_radius_mm'"));
-  CHECK(
-      contains(file.rejection(ring_with("addendum = 0.8\n", "tip_diameter_mm = 370\n")), "tip_diameter_mm"));
-  CHECK(contains(file.rejection(ring_with("rim_outer_radius_mm", "ring_outer_radius_mm")),
-                 "rim_outer_radius_mm"));
+  CHECK(names(file.rejection(with_ring(kRing + "bore_radius_mm = 30\n")),
+              {"x.toml:15", "[gear.wheel]", "bore_radius_mm", "rim_outer_radius_mm"}));
+  CHECK(names(file.rejection(ring_with("rim_outer_radius_mm = 200\n", "")),
+              {"[gear.wheel]", "rim_outer_radius_mm"}));
+  CHECK(names(file.rejection(ring_with("internal = true\n", "")), {"[gear.wheel]", "rim_outer_radius_mm"}));
+  CHECK(names(file.rejection(ring_with("internal = true", "internal = \"yes\"")), {"false", "true"}));
+  CHECK(names(file.rejection(ring_with("internal = true", "internal = 1")), {"false", "true"}));
+  CHECK(names(file.rejection(scene_with("bore_radius_mm = 40\n", "")), {"[gear.pinion]", "bore_radius_mm"}));
+  CHECK(names(file.rejection(ring_with("addendum = 0.8\n", "tip_diameter_mm = 370\n")), {"tip_diameter_mm"}));
+  CHECK(names(file.rejection(ring_with("rim_outer_radius_mm", "ring_outer_radius_mm")),
+              {"rim_outer_radius_mm"}));
   const auto unmeshed = [&](const std::string& text) {
-    try {
+    return message_of([&] {
       check_geometry(file.read(text),
                      [](const std::vector<std::string>&, const std::string&) { return std::string(); });
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    });
   };
   CHECK(unmeshed(with_ring()).empty());
-  CHECK(contains(unmeshed(ring_with("rim_outer_radius_mm = 200", "rim_outer_radius_mm = 180")),
-                 "is not above the root radius of the internal gear"));
-  CHECK(contains(unmeshed(with_ring(kRing + "[gear.wheel.crack]\ndepth_mm = 1\n")), "crack"));
+  CHECK(names(unmeshed(ring_with("rim_outer_radius_mm = 200", "rim_outer_radius_mm = 180")),
+              {"internal", "radius"}));
+  CHECK(names(unmeshed(with_ring(kRing + "[gear.wheel.crack]\ndepth_mm = 1\n")), {"crack"}));
   CHECK(unmeshed(with_ring(kRing + "[gear.wheel.error]\neccentricity_um = 10\n")).empty());
 }
 
@@ -126,24 +118,20 @@ TEST_CASE(
   CHECK(whine::read<SectorGrid>(path).design.rim_tangential_stiffness == 7e8);
 
   // As a file of parameters before there were supports.
-  CHECK(body_parameters(file.read(with_ring()), "wheel").find("stiffness") == std::string::npos);
+  CHECK(!contains(body_parameters(file.read(with_ring()), "wheel"), "stiffness"));
   CHECK(body_parameters(file.read(with_ring(kRing + "rim_radial_stiffness_N_mm2 = 0\n")), "wheel") ==
         body_parameters(file.read(with_ring()), "wheel"));
 
-  CHECK(
-      contains(file.rejection(with_ring(kRing + radial)),
-               "[gear.wheel] gives 'rim_radial_stiffness_N_mm2' and 'rim_tangential_stiffness_N_mm2' is 0"));
-  CHECK(
-      contains(file.rejection(with_ring(kRing + tangential)),
-               "[gear.wheel] gives 'rim_tangential_stiffness_N_mm2' and 'rim_radial_stiffness_N_mm2' is 0"));
-  CHECK(contains(
-      file.rejection(scene_with("bore_radius_mm = 40\n", "bore_radius_mm = 40\n" + radial)),
-      "x.toml:7: [gear.pinion] gives 'rim_radial_stiffness_N_mm2', which only an internal gear has"));
-  CHECK(contains(
-      file.rejection(with_ring(kRing + "rim_radial_stiffness_N_mm2 = 19\n" + tangential)),
-      "x.toml:15: 'rim_radial_stiffness_N_mm2' in [gear.wheel] = 19 is below 20, the softest support"));
-  CHECK(contains(file.rejection(with_ring(kRing + "rim_radial_stiffness_N_mm2 = -1\n" + tangential)),
-                 "rim_radial_stiffness_N_mm2"));
+  CHECK(names(file.rejection(with_ring(kRing + radial)),
+              {"[gear.wheel]", "rim_radial_stiffness_N_mm2", "rim_tangential_stiffness_N_mm2", 0}));
+  CHECK(names(file.rejection(with_ring(kRing + tangential)),
+              {"[gear.wheel]", "rim_tangential_stiffness_N_mm2", "rim_radial_stiffness_N_mm2", 0}));
+  CHECK(names(file.rejection(scene_with("bore_radius_mm = 40\n", "bore_radius_mm = 40\n" + radial)),
+              {"x.toml:7", "[gear.pinion]", "rim_radial_stiffness_N_mm2"}));
+  CHECK(names(file.rejection(with_ring(kRing + "rim_radial_stiffness_N_mm2 = 19\n" + tangential)),
+              {"x.toml:15", "rim_radial_stiffness_N_mm2", "[gear.wheel]", 19, 20}));
+  CHECK(names(file.rejection(with_ring(kRing + "rim_radial_stiffness_N_mm2 = -1\n" + tangential)),
+              {"rim_radial_stiffness_N_mm2"}));
 }
 
 TEST_CASE("artifacts of an internal gear come back as they were; those of external ones know of no rim") {

@@ -10,6 +10,7 @@
 #include "contact/half_plane_strip.h"
 #include "gear/system_layout.h"
 #include "internal_pair.h"
+#include "refusal.h"
 #include "relative.h"
 #include "solid/flank_loads.h"
 #include "solid/flank_table.h"
@@ -345,7 +346,7 @@ TEST_CASE("a result says where a pinion cannot be put into its ring by a radial 
     s.mesh.centre_distance = 0.5 * (99 - teeth) * pinion.module;
     bool warned = false;
     for (const Remark& remark : remarks(s))
-      warned |= remark.warning && remark.words.find("trimming interference") != std::string::npos;
+      warned |= remark.warning && contains(remark.words, "trimming interference");
     CHECK(warned == (teeth == 88));
   }
 }

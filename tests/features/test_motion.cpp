@@ -13,6 +13,7 @@
 #include "dynamics/dynamics.h"
 #include "gear/body_inertia.h"
 #include "paper_pair.h"
+#include "refusal.h"
 #include "relative.h"
 #include "signal/spectrum.h"
 #include "solid/mesher.h"
@@ -323,7 +324,7 @@ TEST_CASE(
         } catch (const ModelRangeError& error) {
           CHECK(root);
           const std::string name = low ? "near the root of the driver," : "near the root of the driven gear,";
-          CHECK(std::string(error.what()).find(name) != std::string::npos);
+          CHECK(contains(error.what(), name));
         }
       }
   }
@@ -400,15 +401,9 @@ TEST_CASE("statics reject a torque that is no load, and one that moves teeth by 
   CHECK_THROWS_AS(static_transmission(body, body, paper_statics(16), 0), Error);
   CHECK_THROWS_AS(static_transmission(body, body, paper_statics(16), -5), Error);
   for (double torque : {5e4, 1e6}) {
-    std::string message;
-    try {
-      static_transmission(body, body, paper_statics(16), torque);
-    } catch (const Error& e) {
-      message = e.what();
-    }
-    INFO(message);
-    CHECK(message.find("above 0.75 mm, a quarter of the module") != std::string::npos);
-    CHECK(message.find(torque == 5e4 ? "at 50000 N m" : "at 1000000 N m") != std::string::npos);
+    const std::string message =
+        message_of([&] { static_transmission(body, body, paper_statics(16), torque); });
+    CHECK(names(message, {"0.75", "quarter", torque}));
   }
 }
 
@@ -448,19 +443,13 @@ TEST_CASE("a flank table that no body has stops the contact with its numbers") {
   for (double factor : {0.0, -1.0}) {
     ReducedBody body = paper_body();
     body.compliance[0] *= factor;
-    std::string message;
-    try {
-      static_transmission(body, body, paper_statics(8), 150);
-    } catch (const Error& e) {
-      message = e.what();
-    }
-    INFO(message);
-    CHECK(message.find("is not positive definite: pivot ") != std::string::npos);
+    const std::string message = message_of([&] { static_transmission(body, body, paper_statics(8), 150); });
+    CHECK(names(message, {"positive", "definite"}));
   }
   ReducedBody moved = paper_body();
   moved.flank_position[3] += 1e-6;
-  CHECK_THROWS_WITH(static_transmission(moved, moved, paper_statics(8), 150),
-                    doctest::Contains("flank positions are not those"));
+  CHECK(names(message_of([&] { static_transmission(moved, moved, paper_statics(8), 150); }),
+              {"positions", "flank"}));
 }
 
 TEST_CASE(
@@ -468,23 +457,16 @@ TEST_CASE(
   const ReducedBody& body = paper_body();
   const StaticResult statics = static_transmission(body, body, paper_statics(128), 150);
   const auto rejection = [&](const SweepParameters& settings) {
-    try {
-      sweep(body, body, statics, statics.mean_stiffness, settings, Direction::up, no_report);
-    } catch (const Error& e) {
-      return std::string(e.what());
-    }
-    return std::string("nothing");
+    return message_of(
+        [&] { sweep(body, body, statics, statics.mean_stiffness, settings, Direction::up, no_report); });
   };
-  CHECK(rejection(paper_sweep(3000, 2000, 20)).find("from 3000 to 2000 Hz in steps of 20 Hz is empty") !=
-        std::string::npos);
+  CHECK(names(rejection(paper_sweep(3000, 2000, 20)), {3000, 2000, 20}));
   // At 0.135 mm Hertz's law ends at a width that the static load does not need, but the first swings of the motion do.
   SweepParameters shallow = paper_sweep(2900, 2900, 20);
   shallow.fidelity.contact = ContactModel::line;
   shallow.damping.undamped_depth = 0.135e-3;
   const std::string words = rejection(shallow);
-  INFO(words);
-  CHECK(words.rfind("at 2900 Hz, at mesh phase 0.", 0) == 0);
-  CHECK(words.find("line contact: a pair carries") != std::string::npos);
+  CHECK(names(words, {2900, "phase", "line contact"}));
 
   const GearMeshModel usual(body, body, statics.mesh), other(body, paper_body(38e-3, 1.6e-3), statics.mesh);
   const DynamicParameters parameters = paper_parameters(statics.mean_stiffness);
@@ -501,15 +483,14 @@ TEST_CASE(
   two.rest();
   RollingDynamics::Period period;
   CHECK(one.integrate(state, period));
-  CHECK_THROWS_WITH(two.integrate(state, period), doctest::Contains("is of other gears or modes"));
+  CHECK(names(message_of([&] { two.integrate(state, period); }), {"other", "gears"}));
   // A wider range has more strips; an energy balance would read forces that the state does not have.
   one.set_zone(candidate_zone(usual.kinematics, usual.gear[0].half_plane(), usual.gear[1].half_plane(), 8,
                               load / usual.kinematics.contact_ratio(), 6 * load, 20e-6),
                128);
   one.set_speed(2000, 128);
   EnergyBalance energy_balance;
-  CHECK_THROWS_WITH(one.integrate(state, period, &energy_balance),
-                    doctest::Contains("integrate a period without an energy balance"));
+  CHECK(names(message_of([&] { one.integrate(state, period, &energy_balance); }), {"integrate", "without"}));
   CHECK(one.integrate(state, period));
   CHECK(one.integrate(state, period, &energy_balance));
   CHECK(energy_balance.imbalance < 1e-9 * energy_balance.throughput);
@@ -534,27 +515,17 @@ TEST_CASE("a body with a number that is none is rejected by the name of its arra
   const auto rejection = [](const std::function<void(ReducedBody&)>& spoil) {
     ReducedBody body = paper_body();
     spoil(body);
-    std::string message;
-    try {
-      ElasticGear gear(body);
-    } catch (const Error& e) {
-      CHECK(e.kind() == Failure::input);
-      message = e.what();
-    }
-    return message;
+    return message_of_input([&] { ElasticGear gear(body); });
   };
   CHECK(rejection([](ReducedBody&) {}) == "");
   for (const double bad : {std::nan(""), double(INFINITY)}) {
-    const auto says = [&](const std::function<void(ReducedBody&)>& spoil, const std::string& name) {
-      const std::string message = rejection(spoil);
-      INFO(message);
-      CHECK(message.find("the body's " + name + " holds a number that is not finite") == 0);
-    };
-    says([&](ReducedBody& b) { b.compliance[2](3, 1) = bad; }, "compliance at tooth offset 2");
-    says([&](ReducedBody& b) { b.flank_mode(1, 2) = bad; }, "flank_mode");
-    says([&](ReducedBody& b) { b.eigenfrequency[4] = bad; }, "eigenfrequency");
-    says([&](ReducedBody& b) { b.inertia_coupling[0] = bad; }, "inertia_coupling");
-    says([&](ReducedBody& b) { b.flank_position[5] = bad; }, "flank_position");
+    CHECK(
+        names(rejection([&](ReducedBody& b) { b.compliance[2](3, 1) = bad; }), {"compliance", 2, "finite"}));
+    CHECK(names(rejection([&](ReducedBody& b) { b.flank_mode(1, 2) = bad; }), {"flank_mode", "finite"}));
+    CHECK(names(rejection([&](ReducedBody& b) { b.eigenfrequency[4] = bad; }), {"eigenfrequency", "finite"}));
+    CHECK(names(rejection([&](ReducedBody& b) { b.inertia_coupling[0] = bad; }),
+                {"inertia_coupling", "finite"}));
+    CHECK(names(rejection([&](ReducedBody& b) { b.flank_position[5] = bad; }), {"flank_position", "finite"}));
   }
 }
 
@@ -577,7 +548,7 @@ TEST_CASE("equilibrium: the load is met to 1e-12, to 1e-10 where no double lies 
     worst = std::max(worst, rounded.residual);
   }
   CHECK(worst > 1e-12);
-  CHECK_THROWS_WITH_AS(at(1, 1.0 / 3), doctest::Contains("did not converge: residual "), Error);
+  CHECK(names(message_of([&] { at(1, 1.0 / 3); }), {"converge", "residual"}));
 }
 
 TEST_CASE("plane strain, any bore: a finer table and finer elements change no transmission error by 0.05 %" *
@@ -896,16 +867,10 @@ TEST_CASE("a total inertia below the body's own is rejected with both numbers") 
   settings.inertia[1] = 0.5 * body.inertia;
   for (const auto level : {BodyModel::modal, BodyModel::rigid}) {
     settings.fidelity.body = level;
-    std::string message;
-    try {
-      sweep(body, body, statics, statics.mean_stiffness, settings, Direction::up, no_report);
-    } catch (const Error& e) {
-      message = e.what();
-    }
-    INFO(message);
-    CHECK(message.find(text("[gear.", statics.mesh.gear[1], "] of the scene: total_inertia_kgm2 = ",
-                            shown_number(settings.inertia[1]), " ")) != std::string::npos);
-    CHECK(message.find(shown_number(body.inertia)) != std::string::npos);
+    const std::string message = message_of(
+        [&] { sweep(body, body, statics, statics.mean_stiffness, settings, Direction::up, no_report); });
+    CHECK(names(message, {"[gear." + statics.mesh.gear[1] + "]", "total_inertia_kgm2",
+                          shown_number(settings.inertia[1]), shown_number(body.inertia)}));
   }
 }
 
@@ -996,7 +961,7 @@ TEST_CASE("one line per pair: held pairs and forces beyond Hertz's law are rejec
   range.corner_gap = 15e-6;
   RollingDynamics fixed(model, paper_parameters(470e6, BodyModel::modal, ContactModel::line));
   fixed.set_zone(range, 2);
-  CHECK_THROWS_WITH(fixed.hold(0), doctest::Contains("set contact = \"strips\""));
+  CHECK(names(message_of([&] { fixed.hold(0); }), {"contact", "strips"}));
   // At 0.135 mm the law ends at a width that the static load does not need, but the first swings of the motion do.
   DynamicParameters parameters = paper_parameters(470e6, BodyModel::modal, ContactModel::line);
   parameters.damping.undamped_depth = 0.135e-3;
@@ -1008,5 +973,5 @@ TEST_CASE("one line per pair: held pairs and forces beyond Hertz's law are rejec
   const auto integrate = [&] {
     for (int i = 0; i < 20; ++i) shallow.integrate(state, period);
   };
-  CHECK_THROWS_WITH(integrate(), doctest::Contains("Hertz's law relative to its depth holds up to"));
+  CHECK(names(message_of([&] { integrate(); }), {"relative", "Hertz's"}));
 }

@@ -13,6 +13,7 @@
 #include "gear/system_layout.h"
 #include "io/system_scene.h"
 #include "orbits/periodic_motion.h"
+#include "refusal.h"
 #include "relative.h"
 #include "signal/spectrum.h"
 #include "studies/turning_carrier.h"
@@ -139,8 +140,7 @@ TEST_CASE(
   CHECK(with(-1453.8462).load.sum() == relative(with(-kOfCarrier).load.sum(), 1e-6));
   Drives drives = kCarrierTurns;
   drives.pop_back();
-  CHECK_THROWS_WITH(mesh_loads(train_with(drives)),
-                    doctest::Contains("that of 'carrier' is 0 N m, and -1453.846154 N m would balance"));
+  CHECK(names(message_of([&] { mesh_loads(train_with(drives)); }), {"carrier", 0, "-1453.846154"}));
 }
 
 TEST_CASE(
@@ -254,8 +254,7 @@ TEST_CASE("a heavy carrier on a stiff bearing is one that is held") {
 
 TEST_CASE("planets on rigid pins of a carrier that is lighter than they are: rejected with both numbers") {
   const SystemModel system = train_with(kCarrierTurns, 0, true, false, 1e-6);
-  CHECK_THROWS_WITH(motion_of(system, 4e8),
-                    doctest::Contains("lies below that of its planets on rigid pins"));
+  CHECK(names(message_of([&] { motion_of(system, 4e8); }), {"planets", "below"}));
 }
 
 namespace {

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "picture_inputs.h"
+#include "refusal.h"
 #include "report/efficiency_figure.h"
 #include "report/engineering_axes.h"
 #include "report/figure_registry.h"
@@ -80,5 +81,5 @@ TEST_CASE("pictures: every figure and every template has a case") {
       names.insert(file.path().stem());
   CHECK(names.size() > 30);
   for (const std::string& name : names)
-    CHECK_MESSAGE(cases.find(", \"" + name + "\");") != std::string::npos, "no case draws ", name);
+    CHECK_MESSAGE(contains(cases, ", \"" + name + "\");"), "no case draws ", name);
 }

@@ -12,6 +12,7 @@
 #include "io/scene_keys.h"
 #include "io/study.h"
 #include "paper_pair.h"
+#include "refusal.h"
 #include "relative.h"
 #include "studies/study_variant.h"
 #include "system/compliance_split.h"
@@ -27,7 +28,7 @@ StaticResult at_rest(double bore) {
 
 bool says(const std::vector<Remark>& remarks, const std::string& words) {
   return std::any_of(remarks.begin(), remarks.end(),
-                     [&](const Remark& r) { return r.warning && r.words.find(words) != std::string::npos; });
+                     [&](const Remark& r) { return r.warning && contains(r.words, words); });
 }
 
 }  // namespace
@@ -102,13 +103,13 @@ TEST_CASE("a face too wide for plane stress is warned of, by gear") {
   const auto of_face = [&] {
     std::string all;
     for (const Remark& remark : body_remarks(s))
-      if (remark.words.find("plane = ") != std::string::npos) all += remark.words + "; ";
+      if (contains(remark.words, "plane = ")) all += remark.words + "; ";
     return all;
   };
   for (auto& gear : s.gear) gear.material.plane_stress = true;
   s.gear[1].design.face_width = 10.1 * s.gear[1].design.module;
   CHECK(of_face().find("the face of wheel is 10.1 modules wide") == 0);
-  CHECK(of_face().find("pinion") == std::string::npos);
+  CHECK(!contains(of_face(), "pinion"));
   s.gear[1].material.plane_stress = false;
   CHECK(of_face().empty());
 }

@@ -12,6 +12,7 @@
 #include "gear/pair.h"
 #include "io/scene.h"
 #include "paper_pair.h"
+#include "refusal.h"
 #include "relative.h"
 #include "signal/response.h"
 #include "solid/mesher.h"
@@ -55,8 +56,7 @@ Cell cell(const std::string& words) {
     }
     const std::string number = words.substr(i, end - i);
     if (out.numbers.empty())
-      out.decimals =
-          number.find('.') == std::string::npos ? 0 : static_cast<int>(number.size() - number.find('.') - 1);
+      out.decimals = !contains(number, ".") ? 0 : static_cast<int>(number.size() - number.find('.') - 1);
     out.numbers.push_back(std::stod(number));
     i = end;
   }

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "failure_of.h"
 #include "paper_pair.h"
+#include "refusal.h"
 #include "relative.h"
 #include "signal/response.h"
 #include "studies/pair_branch.h"

@@ -12,6 +12,7 @@
 #include "gear/path_points.h"
 #include "gear/train.h"
 #include "internal_pair.h"
+#include "refusal.h"
 #include "relative.h"
 
 using namespace whine;
@@ -22,21 +23,6 @@ constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
 
 double inv(double angle) {
   return std::tan(angle) - angle;
-}
-
-std::string rejection(const auto& make) {
-  try {
-    make();
-  } catch (const Error& e) {
-    CHECK(e.kind() == Failure::input);
-    return e.what();
-  }
-  return "";
-}
-
-bool says(const std::string& message, const std::string& words) {
-  CAPTURE(message);
-  return message.find(words) != std::string::npos;
 }
 
 GearPair planet_in_ring() {
@@ -274,44 +260,43 @@ TEST_CASE("tip edges of an internal pair: gaps against a search over both flanks
 
 TEST_CASE("what cannot mesh inside a ring is rejected by name") {
   const auto pair_of = [](const GearDesign& a, const GearDesign& b, double distance) {
-    return rejection([&] { GearPair(a, b, distance); });
+    return message_of_input([&] { GearPair(a, b, distance); });
   };
   const GearDesign planet = planet_gear(), ring = ring_gear();
   CHECK(pair_of(planet, ring, kInternalDistance).empty());
-  CHECK(says(pair_of(ring, ring, kInternalDistance), "both gears are internal"));
+  CHECK(names(pair_of(ring, ring, kInternalDistance), {"both", "internal"}));
   GearDesign many = planet;
   many.teeth = 99;
-  CHECK(says(pair_of(many, ring, kInternalDistance), "needs more than that"));
-  CHECK(says(pair_of(planet, ring, 82e-3), "do not reach each other"));
-  CHECK(says(pair_of(planet, ring, 80e-3), "do not reach each other"));
-  CHECK(says(pair_of(planet, ring, 90e-3), "jam"));
+  CHECK(names(pair_of(many, ring, kInternalDistance), {99, "more"}));
+  CHECK(names(pair_of(planet, ring, 82e-3), {"reach"}));
+  CHECK(names(pair_of(planet, ring, 80e-3), {"reach"}));
+  CHECK(names(pair_of(planet, ring, 90e-3), {"jam"}));
   GearDesign high = planet;
   high.addendum = 1.3;
-  CHECK(says(pair_of(high, ring, kInternalDistance), "inside the root"));
+  CHECK(names(pair_of(high, ring, kInternalDistance), {"inside", "root"}));
   // The ring's tip below the pinion's base tangent point.
   GearDesign few = planet;
   few.teeth = 17;
   few.bore_radius = 10e-3;
   GearDesign deep = ring;
   deep.addendum = 1.22;
-  CHECK(says(pair_of(few, deep, 41 * planet.module), "involute interference"));
+  CHECK(names(pair_of(few, deep, 41 * planet.module), {"involute interference"}));
   // A pinion with almost the ring's number of teeth: their tips meet beside the mesh.
   GearDesign large = planet;
   large.teeth = 95;
   large.addendum = 0.8;
   GearDesign wide = ring;
   wide.addendum = 0.8;
-  CHECK(says(pair_of(large, wide, 2 * planet.module), "trochoid interference"));
+  CHECK(names(pair_of(large, wide, 2 * planet.module), {"trochoid interference"}));
   GearDesign hollow = ring;
   hollow.rim_outer_radius = 140e-3;
-  CHECK(says(rejection([&] { ToothGeometry t(hollow); }), "rim_outer_radius_mm"));
+  CHECK(names(message_of_input([&] { ToothGeometry t(hollow); }), {"rim_outer_radius_mm"}));
   GearDesign low = ring;
   low.teeth = 22;
-  CHECK(says(rejection([&] { ToothGeometry t(low); }), "tips of an internal gear would have no involute"));
+  CHECK(names(message_of_input([&] { ToothGeometry t(low); }), {"internal", "involute"}));
   GearDesign round = ring;
   round.rack_tip_radius = 0.6;
-  CHECK(says(rejection([&] { ToothGeometry t(round); }),
-             "does not fit the space between the teeth of the ring"));
+  CHECK(names(message_of_input([&] { ToothGeometry t(round); }), {"between", "space"}));
 }
 
 TEST_CASE("trochoid and trimming interference: where the closed forms set in, tips begin to overlap") {
@@ -348,7 +333,7 @@ TEST_CASE("trochoid and trimming interference: where the closed forms set in, ti
       const double ahead = std::atan2(q.y(), q.x()) - std::atan2(p.y(), p.x());
       CHECK(pair.gear(1).tip_radius() * ahead == relative(clearance, 1e-8));
     } catch (const Error& error) {
-      interferes = says(error.what(), "trochoid interference");
+      interferes = names(error.what(), {"trochoid interference"});
       CHECK(interferes);
     }
     ++(interferes ? not_clear : clear);

@@ -12,8 +12,8 @@
 #include "gear/scene_geometry.h"
 #include "gear/system_layout.h"
 #include "internal_pair.h"
-#include "message_of_input.h"
 #include "planetary_train.h"
+#include "refusal.h"
 #include "relative.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
@@ -70,9 +70,9 @@ TEST_CASE("the remedy of a drawing that is rejected, followed once, ends in gear
     REQUIRE(!changes.empty());
     CHECK(changes.size() <= 4);
     const std::string said = with_remedy(before, gears);
-    CHECK(said.find("; all checks pass with ") != std::string::npos);
-    CHECK(said.find(changes[0].key) != std::string::npos);
-    CHECK(said.find("raise ") == std::string::npos);  // no advice beside it
+    CHECK(names(said, {"checks", "pass"}));
+    CHECK(contains(said, changes[0].key));
+    CHECK(!contains(said, "raise "));  // no advice beside it
     change(gears, changes);
     CHECK(fault(gears).empty());
   };
@@ -107,10 +107,7 @@ TEST_CASE("a remedy changes what is wrong: bores, low dedenda, undercut gears") 
   const auto said = [](const DrawnGears& gears) { return with_remedy(fault(gears), gears); };
   DrawnGears bored = pair_of(gear(30), gear(45));
   bored.design[0].bore_radius = 36e-3;  // root 34.375
-  CHECK(
-      said(bored).find(
-          "; all checks pass with bore_radius_mm = 31.87 or less in [gear.pinion] (a rim of one module; 36 may be a diameter)") !=
-      std::string::npos);
+  CHECK(names(said(bored), {"bore_radius_mm", "31.87", "[gear.pinion]", 36}));
   DrawnGears thin = pair_of(gear(20), ring_of(60, 0));
   thin.design[1].rim_outer_radius = ToothGeometry(thin.design[1]).root_radius() - 1e-3;
   const std::vector<Change> rim = remedy(thin);
@@ -120,11 +117,8 @@ TEST_CASE("a remedy changes what is wrong: bores, low dedenda, undercut gears") 
   DrawnGears low = pair_of(gear(30, 0, 1), gear(45, 0, 1));
   for (GearDesign& own : low.design) own.rack_tip_radius = 0.2;
   low.mesh[0].centre_distance -= 1e-15;  // the round-off of other numbers
-  CHECK(fault(low).find("has no clearance from the root of the ") != std::string::npos);
-  CHECK(
-      said(low).find(
-          "; all checks pass with dedendum = 1.25 in [gear.pinion] (root_diameter_mm = 68.75) and dedendum = 1.25 in [gear.wheel]") !=
-      std::string::npos);
+  CHECK(names(fault(low), {"clearance", "root"}));
+  CHECK(names(said(low), {"1.25", "[gear.pinion]", "root_diameter_mm", "68.75", "[gear.wheel]"}));
 
   const DrawnGears small = pair_of(gear(10), gear(10));
   REQUIRE(!fault(small).empty());
@@ -153,23 +147,21 @@ TEST_CASE(
     scene.meshes[0].spec.centre_distance = distance;
     std::string out;
     for (const std::string& line : scene_warnings(scene, where))
-      if (line.find("backlash") != std::string::npos) out += line;
+      if (contains(line, "backlash")) out += line;
     return out;
   };
   const std::string wrong = said(gear(17, -0.4), gear(60), 97.2e-3);
   CHECK(wrong.find("x.toml: gear.pinion: the backlash of pinion-wheel is 1.3") == 0);
-  CHECK(wrong.find("; with profile_shift = 0.4 in [gear.pinion] it would be -0.0107881 mm, about none") !=
-        std::string::npos);
+  CHECK(names(wrong, {"profile_shift", "0.4", "[gear.pinion]", "-0.0107881"}));
   CHECK(said(gear(17, 0.4), gear(60), 97.23e-3).empty());
   // One that is not of a sign.
   GearDesign thinned = gear(30);
   thinned.tooth_thinning = 0.3e-3;
-  CHECK(said(thinned, thinned, 30 * kModule)
-            .find("; check centre_distance_mm, profile_shift and tooth_thinning_mm") != std::string::npos);
+  CHECK(names(said(thinned, thinned, 30 * kModule),
+              {"centre_distance_mm", "profile_shift", "tooth_thinning_mm"}));
   thinned.tooth_thinning = 0.1e-3;
   CHECK(said(thinned, thinned, 30 * kModule).empty());
-  CHECK(said(gear(20), ring_of(60, -0.5), 20 * kModule).find("(0.34202 modules) along the line of action") !=
-        std::string::npos);
+  CHECK(names(said(gear(20), ring_of(60, -0.5), 20 * kModule), {"0.34202", "modules"}));
 }
 
 TEST_CASE("a ring whose shift has the sign of handbooks is told so, one with the sign of ISO 21771 is not") {
@@ -190,8 +182,7 @@ TEST_CASE("a ring whose shift has the sign of handbooks is told so, one with the
     CHECK(shift_of_other_sign(pinion, drawn, distance).value() == -shift);
   }
   const DrawnGears jammed = pair_of(gear(20, 0.3), ring_of(60, 0.3));
-  CHECK(with_remedy(fault(jammed), jammed).find("; profile_shift = -0.3 fits: handbooks") !=
-        std::string::npos);
+  CHECK(names(with_remedy(fault(jammed), jammed), {"profile_shift", "-0.3"}));
   CHECK(!shift_of_other_sign(gear(20, 0.3), gear(60, 0.3), 0.1));
   CHECK(!shift_of_other_sign(planet_gear(), ring_gear(), kInternalDistance));
 }
@@ -209,8 +200,7 @@ TEST_CASE("the default rack tip is the standard one or the largest that fits, of
       ring.rack_tip_radius = largest * (1 - 1e-9);
       CHECK_NOTHROW(ToothGeometry{ring});
       ring.rack_tip_radius = largest * (1 + 1e-9);
-      CHECK(message_of_input([&] { ToothGeometry{ring}; }).find("does not fit the space") !=
-            std::string::npos);
+      CHECK(names(message_of_input([&] { ToothGeometry{ring}; }), {"space", "fit"}));
     }
 }
 
@@ -243,24 +233,18 @@ TEST_CASE("what the drawing says of pressure that reaches the root is what stati
     return near_interference(pinion, wheel, settings.mesh, load, force);
   };
   const auto found = [&]() -> std::string {
-    try {
-      static_transmission(of_pinion, body(wheel), settings, torque);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
+    return message_of([&] { static_transmission(of_pinion, body(wheel), settings, torque); });
   };
   wheel.design.addendum = 1.2;
-  CHECK(told(ForceBound::least).find("reaches the start of the involute of 'pinion'") != std::string::npos);
-  CHECK(found().find("the pressure reaches the start of the involute of 'pinion'") != std::string::npos);
+  CHECK(contains(told(ForceBound::least), "reaches the start of the involute of 'pinion'"));
+  CHECK(contains(found(), "the pressure reaches the start of the involute of 'pinion'"));
   // What touches is the common width.
   SceneGear wide = pinion;
   wide.design.face_width *= 2;
   for (const ForceBound force : {ForceBound::least, ForceBound::largest})
     CHECK(near_interference(wide, wheel, settings.mesh, load, force) == told(force));
   // Its remedy passes all the way.
-  CHECK(told(ForceBound::least).find("; addendum = 1.05 in [gear.wheel] is short enough") !=
-        std::string::npos);
+  CHECK(contains(told(ForceBound::least), "; addendum = 1.05 in [gear.wheel] is short enough"));
   wheel.design.addendum = 1.05;
   CHECK(told(ForceBound::largest).empty());
   CHECK(found().empty());
@@ -268,6 +252,19 @@ TEST_CASE("what the drawing says of pressure that reaches the root is what stati
   wheel.design.addendum = 1.12;
   CHECK(told(ForceBound::least).empty());
   CHECK(!told(ForceBound::largest).empty());
+  // Teeth of polymer bend away: statics of this pair run up to 6 N m and further.
+  pinion.design = gear(25);
+  wheel.design = gear(60);
+  for (SceneGear* own : {&pinion, &wheel}) {
+    own->design.module = 1e-3;
+    own->design.face_width = 10e-3;
+  }
+  wheel.material = {2.8e9, 0.37, 1410, true};
+  settings.mesh.centre_distance = 42.5e-3;
+  for (const double torque_of_pom : {1.0, 2.0, 6.0})
+    CHECK(near_interference(pinion, wheel, settings.mesh,
+                            torque_of_pom / ToothGeometry(pinion.design).base_radius(), ForceBound::least)
+              .empty());
 }
 
 TEST_CASE("gears that share a shaft are told that this is not computed, others to follow the flow of power") {
@@ -287,10 +284,9 @@ TEST_CASE("gears that share a shaft are told that this is not computed, others t
   const auto said = [&] { return message_of_input([&] { layout_of(scene); }); };
   mesh("a", "b");
   mesh("c", "d");
-  CHECK(said().find("no [[mesh]] joins 'c' and 'd' to 'a': gears that share a shaft are not computed") !=
-        std::string::npos);
+  CHECK(names(said(), {"[[mesh]]", "c", "d", "a"}));
   mesh("b", "c");
-  CHECK(said().find("name the gears in the order of the flow of power") != std::string::npos);
+  CHECK(names(said(), {"gears", "order"}));
 }
 
 TEST_CASE("a mesh phase of 0 is 0, not 1, whatever round-off the angles have") {

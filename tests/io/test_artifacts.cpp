@@ -15,8 +15,6 @@ using namespace whine;
 
 namespace {
 
-const Provenance kMade{"gear-test", "gear-test --output x.h5", {}};
-
 // Values of a study pass through text with 12 digits, others as they are.
 bool same(double a, double b) {
   return a == b || std::abs(a - b) <= 1e-11 * std::abs(a);

@@ -17,6 +17,7 @@
 #include "io/scene.h"
 #include "io/scene_place.h"
 #include "io/scene_remarks.h"
+#include "refusal.h"
 #include "relative.h"
 #include "scene_file.h"
 #include "system/near_interference.h"
@@ -42,7 +43,7 @@ TEST_CASE("the standard tooth of P2000 reads as it stands, in SI") {
   CHECK(s.mesh.corner.enabled);
   CHECK(s.mesh.contact_plane ==
         ContactPlane::body);  // its stage parameters, and so its results, are those of one plane state
-  CHECK(static_parameters(s).find("contact_plane") == std::string::npos);
+  CHECK(!contains(static_parameters(s), "contact_plane"));
   CHECK(std::isinf(s.mesh.corner.largest_angle));
   CHECK(s.damping.rayleigh_stiffness == 7.7e-6);
   CHECK(s.operation.torques == std::vector<double>{100, 150, 200, 300});
@@ -69,10 +70,10 @@ TEST_CASE(
   CHECK(contains(
       settings,
       "[driven_bearing]\nstiffness = 1e+08  # N m-1\ndamping = 900.0  # N s m-1\nmass = 5.5  # kg\n"));
-  CHECK(settings.find("driver_bearing") == std::string::npos);
+  CHECK(!contains(settings, "driver_bearing"));
   CHECK(read_static_parameters(file.path(settings, "static.toml")).mesh.bearing[1].stiffness == 1e8);
   CHECK(!read_static_parameters(file.path(settings, "static.toml")).mesh.bearing[0].elastic());
-  CHECK(static_parameters(file.read(kScene)).find("bearing") == std::string::npos);
+  CHECK(!contains(static_parameters(file.read(kScene)), "bearing"));
 
   const auto said = [&](const std::string& section, const std::string& part) {
     const std::string message = file.rejection(with_section(section));
@@ -139,8 +140,6 @@ TEST_CASE("lengths that a scene leaves open go with the module of the gear, thos
     CHECK(element(given, "wheel").matching_depth == relative(0.8e-3, 1e-14));
     CHECK(given.damping.undamped_depth == relative(0.7e-3, 1e-14));
   }
-  CHECK(
-      contains(file.rejection(with_section("[discretisation]\nelement_mm = 0\n")), "must be greater than 0"));
   // Each gear by its own module.
   const Scene two = file.read(scene_with("like = \"pinion\"", "like = \"pinion\"\nmodule_mm = 6"));
   CHECK(element(two, "pinion").element_size == relative(0.4e-3, 1e-14));
@@ -187,8 +186,6 @@ TEST_CASE("words of other programs that have no key of their own lead to the rig
 
 TEST_CASE("a gear at the top of a scene is told its section, one in no mesh is warned of with its line") {
   const SceneFile file;
-  CHECK(contains(file.rejection(scene_with("[gear.pinion]", "[pinion]")),
-                 "x.toml:1: unknown section 'pinion'; a gear is [gear.pinion]"));
   const std::string path = file.path(with_section("[gear.wheel2]\nlike = \"pinion\"\n"));
   const Scene scene = read_scene(path);
   std::string said;
@@ -208,13 +205,8 @@ TEST_CASE("a torque in N mm is named where a thousandth of it passes") {
   CHECK(contains(words("[200000]"), ". torque_Nm = 200000 may be N mm: 200 N m pass"));
   CHECK(words("[200]").empty());
   const std::string path = file.path(scene_with("[100, 150]", "[80000]"));
-  std::string said;
-  try {
-    check_scene(read_scene(path), path);
-  } catch (const Error& error) {
-    said = error.what();
-  }
-  CHECK(contains(said, "or lower the torque. torque_Nm = 80000 may be N mm: 80 N m pass"));
+  const std::string said = message_of([&] { check_scene(read_scene(path), path); });
+  CHECK(names(said, {"torque_Nm", 80000, 80}));
 }
 
 TEST_CASE("a ring whose diameters ask for the shift of the other sign is told so") {
@@ -224,8 +216,8 @@ TEST_CASE("a ring whose diameters ask for the shift of the other sign is told so
       "like = \"pinion\"\nteeth = 120\ninternal = true\nrim_outer_radius_mm = 200\nprofile_shift = 1.2\n"
       "tip_diameter_mm = 362.4\n";
   const std::string said = file.rejection(scene_with("like = \"pinion\"\n", ring));
-  CHECK(contains(said, "'tip_diameter_mm' in [gear.wheel] = 362.4"));
-  CHECK(contains(said, "; profile_shift = -1.2 fits: handbooks"));
+  CHECK(names(said, {"tip_diameter_mm", "[gear.wheel]", "362.4*"}));
+  CHECK(names(said, {"profile_shift", "-1.2"}));
 }
 
 TEST_CASE("an empty scene is told what a scene needs") {
@@ -234,32 +226,13 @@ TEST_CASE("an empty scene is told what a scene needs") {
   for (const char* section : {"[gear.<name>]", "[material.<name>]", "[[mesh]]", "[operation]"}) {
     CHECK(contains(said, section));
   }
-  CHECK(contains(said, "data/scenes/first-pair.toml"));
-  CHECK(contains(file.rejection("# only a comment\n"), "lacks"));
+  CHECK(names(said, {"data/scenes/first-pair.toml"}));
+  CHECK(names(file.rejection("# only a comment\n"), {"x.toml", "[gear.<name>]"}));
   CHECK_THROWS_AS(read_scene("/nowhere/x.toml"), Error);
-}
-
-TEST_CASE("an unknown key is rejected with its line and the nearest known one") {
-  const SceneFile file;
-  CHECK(file.rejection(scene_with("module_mm", "modul_mm")) ==
-        "x.toml:3: unknown key 'modul_mm' in [gear.pinion]; did you mean 'module_mm'?");
-  CHECK(contains(file.rejection(scene_with("torque_Nm", "torque")),
-                 "x.toml:21: unknown key 'torque' in [operation]; did you mean 'torque_Nm'?"));
-  CHECK(contains(file.rejection(with_section("[dampin]\n")),
-                 "x.toml:23: unknown section 'dampin'; did you mean 'damping'?"));
-  CHECK(contains(file.rejection(with_section("[fidelity]\nstrips = 15\n")),
-                 "x.toml:24: unknown key 'strips' in [fidelity]; it belongs into [discretisation]"));
-  CHECK(contains(file.rejection(with_section("[damping]\nxyzzy_plugh_foo = 1\n")),
-                 "known are: rayleigh_mass_per_s"));
-  CHECK(contains(file.rejection(scene_with("step = 20", "stepp = 20")), "unknown key 'stepp'"));
 }
 
 TEST_CASE("a missing key is rejected, all of a section in one line") {
   const SceneFile file;
-  CHECK(contains(file.rejection(scene_with("module_mm = 3\n", "")),
-                 "x.toml:1: [gear.pinion] lacks 'module_mm'"));
-  CHECK(
-      contains(file.rejection(scene_with("teeth = 50\nmodule_mm = 3\n", "")), "lacks 'teeth', 'module_mm'"));
   CHECK(file.read(scene_with("total_inertia_kgm2 = 0.0148", "")).gears[0].total_inertia == 0);  // as drawn
   for (const char* key :
        {"teeth = 50", "pressure_angle_deg = 20", "face_width_mm = 25.4", "bore_radius_mm = 40",
@@ -267,40 +240,14 @@ TEST_CASE("a missing key is rejected, all of a section in one line") {
         "plane = \"stress\"", "driver = \"pinion\"", "driven = \"wheel\"", "centre_distance_mm = 150",
         "torque_Nm = [100, 150]", "mesh_frequency_Hz = { from = 600, to = 4000, step = 20 }",
         ", step = 20"}) {
-    INFO(key);
-    CHECK(contains(file.rejection(scene_with(key, "")), "lacks"));
+    const std::string word = std::string(key).substr(key[0] == ',' ? 2 : 0);
+    CHECK(names(file.rejection(scene_with(key, "")), {word.substr(0, word.find(' '))}));
   }
 }
 
 TEST_CASE("a value outside its range is rejected with value and limit") {
   const SceneFile file;
-  CHECK(
-      file.rejection(scene_with("module_mm = 3", "module_mm = -3")) ==
-      "x.toml:3: 'module_mm' in [gear.pinion] = -3: must be at least 0.05 mm: drawings have 0.05 to 50 mm; 0.003 would be 3 mm in metres");
-  CHECK(contains(file.rejection(scene_with("module_mm = 3", "module_mm = 0.003")), "at least 0.05 mm"));
-  CHECK(contains(file.rejection(scene_with("face_width_mm = 25.4", "face_width_mm = 0.025")),
-                 "0.025 would be 25 mm in metres"));
-  CHECK(contains(file.rejection(scene_with("density_kgm3 = 7600", "density_kgm3 = 7.6")), "g/cm3"));
-  CHECK(contains(file.rejection(scene_with("poisson_ratio = 0.3", "poisson_ratio = 0.5")),
-                 "must be at most 0.495"));
-  CHECK(contains(file.rejection(scene_with("teeth = 50", "teeth = 3")), "must be at least 5"));
-  CHECK(
-      contains(file.rejection(scene_with("[100, 150]", "[100, -150]")), "= -150: must be greater than 0 Nm"));
-  CHECK(contains(file.rejection(scene_with("to = 4000", "to = 500")),
-                 "'to' must be at least 'from', which is 600"));
-  CHECK(
-      contains(file.rejection(scene_with("step = 20", "step = 0")), "= 0: 'step' must be greater than 0 Hz"));
-  CHECK(contains(file.rejection(scene_with("from = 600", "from = 0.5")),
-                 "= 0.5: 'from' must be at least 1 Hz: slower, "));
   CHECK(file.read(scene_with("step = 20", "step = 0.5")).operation.frequency_step == 0.5);
-  CHECK(contains(file.rejection(scene_with("step = 20", "step = 1e-9")), "100000 speeds"));
-  CHECK(contains(file.rejection(with_section("[discretisation]\nelement_order = 3\n")), "at most 2"));
-  CHECK(contains(file.rejection(with_section("[fidelity]\nbody = \"whole\"\n")),
-                 "must be one of: rigid, quasi-static, relaxed, modal, full"));
-  CHECK(
-      contains(file.rejection(with_section("[fidelity]\nbody = \"lagged\"\n")), "'lagged' is now 'relaxed'"));
-  CHECK(contains(file.rejection(with_section("[fidelity]\ncontact = \"point\"\n")),
-                 "must be one of: line, strips"));
   CHECK(file.read(with_section("[fidelity]\ncontact = \"line\"\n")).fidelity.contact == ContactModel::line);
   for (const char* near_field : {"", "near_field = \"subtraction\"\n"})
     CHECK(contains(
@@ -310,50 +257,29 @@ TEST_CASE("a value outside its range is rejected with value and limit") {
             " 'matching_depth_mm' in [discretisation] = 2: near_field is \"subtraction\", which has no depth"));
   CHECK(file.read(with_section("[discretisation]\nmatching_depth_mm = 2.0\nnear_field = \"matching\"\n"))
             .body.matching_depth == 2e-3);
-  CHECK(contains(file.rejection(with_section("[fidelity]\nintegrator = \"euler\"\n")),
-                 "must be one of: newmark, exact"));
 }
 
 TEST_CASE("nan, inf and values of another type are rejected") {
   const SceneFile file;
   for (const char* value : {"nan", "inf", "-inf", "+nan"}) {
     INFO(value);
-    CHECK(contains(file.rejection(scene_with("module_mm = 3", std::string("module_mm = ") + value)),
-                   "must be a finite number"));
-    CHECK(contains(file.rejection(scene_with("[100, 150]", std::string("[") + value + "]")),
-                   "must be a finite number"));
+    CHECK(names(file.rejection(scene_with("module_mm = 3", std::string("module_mm = ") + value)),
+                {"finite", "number"}));
+    CHECK(names(file.rejection(scene_with("[100, 150]", std::string("[") + value + "]")),
+                {"finite", "number"}));
   }
-  CHECK(file.rejection(scene_with("torque_Nm = [100, 150]", "torque_Nm = \"high\"")) ==
-        "x.toml:21: 'torque_Nm' in [operation] = 'high': must be a number (in Nm)");
-  CHECK(contains(file.rejection(scene_with("[100, 150]", "[100, \"150\"]")), "must be a number"));
-  CHECK(contains(file.rejection(scene_with("[100, 150]", "[]")), "at least one number"));
-  CHECK(contains(file.rejection(scene_with("[100, 150]", "true")), "must be a number"));
-  CHECK(contains(file.rejection(scene_with("teeth = 50", "teeth = 50.5")), "must be a whole number"));
-  CHECK(contains(file.rejection(scene_with("module_mm = 3", "module_mm = [3]")), "must be a number"));
-  CHECK(contains(file.rejection(scene_with("material = \"steel\"", "material = 1")), "must be text"));
-  CHECK(
-      contains(file.rejection(scene_with("{ from = 600, to = 4000, step = 20 }", "600")), "must be a table"));
-  CHECK(contains(file.rejection(with_section("damping = 3\n")),
-                 "x.toml:23: unknown key 'damping' in [operation]"));
-  CHECK(contains(file.rejection(std::string("damping = 3\n") + kScene), "'damping' must be a section"));
-  CHECK(contains(
-      file.rejection(scene_with("driver = \"pinion\"", "driver = \"pinion\"\ncorner_contact = \"some\"")),
-      "true, false or a number of degrees"));
+  CHECK(names(file.rejection(std::string("damping = 3\n") + kScene), {"damping"}));
 }
 
 TEST_CASE("broken TOML and keys given twice are rejected with the line") {
   const SceneFile file;
-  CHECK(contains(file.rejection(scene_with("teeth = 50", "teeth = ")), "x.toml:2: is not valid TOML"));
-  CHECK(contains(file.rejection(scene_with("teeth = 50", "teeth = 50\nteeth = 51")),
-                 "x.toml:3: is not valid TOML"));
-  CHECK(contains(file.rejection("\xff\xfe"), "is not valid TOML"));
+  CHECK(names(file.rejection("\xff\xfe"), {"valid", "TOML"}));
 }
 
 TEST_CASE("letters beyond ASCII stand in texts and comments, elsewhere they are rejected with the line") {
   const SceneFile file;
   const std::string stray = "is not valid TOML: a character beyond ASCII";
   CHECK(contains(file.rejection(scene_with("teeth = 50", "teeth = 50 µ")), "x.toml:2: " + stray));
-  CHECK(contains(file.rejection(scene_with("[gear.pinion]", "[\ngear.pinion]")), "is not valid TOML"));
   for (const std::string title : {R"("µ" # µ)", R"('\' # "µ)", R"("\"µ" # "µ)", "\"\"\"µ\n\"µ\"\"\"\"\" # µ",
                                   "'''µ\n''' # µ", R"("")"}) {
     CHECK_FALSE(contains(file.rejection("title = " + title + "\n" + kScene), stray));
@@ -366,39 +292,19 @@ TEST_CASE("letters beyond ASCII stand in texts and comments, elsewhere they are 
 
 TEST_CASE("names must lead somewhere: gears, materials, like") {
   const SceneFile file;
-  CHECK(contains(
-      file.rejection(scene_with("driver = \"pinion\"", "driver = \"pinon\"")),
-      "x.toml:17: 'driver' in [mesh] = 'pinon' names no [gear.<name>] section; did you mean 'pinion'?"));
-  CHECK(contains(file.rejection(scene_with("driven = \"wheel\"", "driven = \"pinion\"")),
-                 "cannot mesh with itself"));
-  CHECK(contains(file.rejection(scene_with("material = \"steel\"", "material = \"stel\"")),
-                 "did you mean 'steel'?"));
-  CHECK(contains(file.rejection(scene_with("like = \"pinion\"", "like = \"wheel\"")), "is like itself"));
-  CHECK(contains(file.rejection(scene_with("like = \"pinion\"", "like = \"pinoin\"")),
-                 "did you mean 'pinion'?"));
-  CHECK(contains(file.rejection(scene_with("bore_radius_mm", "bore_mm")),
-                 "did you mean 'bore_radius_mm' (half of the diameter)?"));
-  CHECK(contains(file.rejection(with_section("[gear.third]\nlike = \"wheel\"\n")), "name the first gear"));
-  CHECK(contains(file.rejection(scene_with("[gear.wheel]", "[gear.T150]")), "cannot be called 'T150'"));
   for (const std::string place : {"params", "report", "variants", "teeth", "up", "down"})
-    CHECK(contains(file.rejection(scene_with("[gear.wheel]", "[gear." + place + "]")),
-                   "cannot be called '" + place + "', a folder of results is"));
-  CHECK(contains(file.rejection(scene_with("[gear.wheel]", "[gear." + std::string(101, 'w') + "]")),
-                 "its name has 101 letters; it becomes a folder, so it may have 100 at most"));
-  CHECK(contains(file.rejection(scene_with("[gear.wheel]", "[gear." + std::string(100, 'w') + "]")),
-                 "'wheel' names no [gear.<name>] section"));
-  CHECK(contains(file.rejection(scene_with("[gear.wheel]", "[gear.\"the wheel\"]")), "letters, digits"));
-  CHECK(contains(file.rejection(with_section(
-                     "[[mesh]]\ndriver = \"pinion\"\ndriven = \"wheel\"\ncentre_distance_mm = 150\n")),
-                 "there are 2 [[mesh]] sections"));
-  CHECK(contains(file.rejection(scene_with("[[mesh]]", "[mesh]")), "write [[mesh]]"));
+    CHECK(names(file.rejection(scene_with("[gear.wheel]", "[gear." + place + "]")), {place, "folder"}));
+  CHECK(
+      names(file.rejection(scene_with("[gear.wheel]", "[gear." + std::string(101, 'w') + "]")), {101, 100}));
+  CHECK(names(file.rejection(scene_with("[gear.wheel]", "[gear." + std::string(100, 'w') + "]")),
+              {"wheel", "[gear.<name>]"}));
+  CHECK(names(file.rejection(with_section(
+                  "[[mesh]]\ndriver = \"pinion\"\ndriven = \"wheel\"\ncentre_distance_mm = 150\n")),
+              {2, "[[mesh]]"}));
 }
 
 TEST_CASE("a torque must survive the name of its folder") {
   const SceneFile file;
-  CHECK(
-      contains(file.rejection(scene_with("[100, 150]", "[100.0000001]")), "more than 6 significant digits"));
-  CHECK(contains(file.rejection(scene_with("[100, 150]", "[150, 150.0]")), "holds 150 twice"));
   CHECK(file.read(scene_with("[100, 150]", "62.5")).operation.torques == std::vector<double>{62.5});
 }
 
@@ -426,9 +332,6 @@ TEST_CASE("the corner rule is on, off, or an angle") {
   CHECK(std::isinf(rule("true").largest_angle));
   CHECK_FALSE(rule("false").enabled);
   CHECK(rule("2.5").largest_angle == relative(2.5 * std::numbers::pi / 180, 1e-15));
-  CHECK(
-      contains(file.rejection(scene_with("driver = \"pinion\"", "driver = \"pinion\"\ncorner_contact = -1")),
-               "at least 0"));
 }
 
 TEST_CASE("stage parameters depend on values, not on comments, order, spelling or defaults written out") {
@@ -557,9 +460,6 @@ TEST_CASE("stage parameters read back bit by bit") {
   CHECK(statics.mesh.corner.enabled);
   CHECK(statics.mesh.corner.largest_angle == s.mesh.corner.largest_angle);
   CHECK(statics.mesh.contact_plane == ContactPlane::strain);  // the default
-  CHECK(contains(
-      file.rejection(scene_with("driver = \"pinion\"", "driver = \"pinion\"\ncontact_plane = \"flat\"")),
-      "must be one of: strain, stress, body"));
   CHECK(statics.fidelity.contact == ContactModel::strips);
   CHECK(statics.contact.strips == 8);
   CHECK(statics.body[0] == body_hash(body_parameters(s, "pinion")));
@@ -612,21 +512,16 @@ TEST_CASE("stage parameters read back bit by bit") {
   CHECK(read_lumped_parameters(file.path(sweep_parameters(s), "sweep.toml"), true).frequency_step == 20);
   CHECK_THROWS_AS(read_lumped_parameters(file.path(lumped_parameters(s, false), "lumped_map.toml"), true),
                   Error);
-  std::string said;
-  try {
-    read_static_parameters(file.path(kScene, "whole.toml"));
-  } catch (const Error& e) {
-    said = e.what();
-  }
-  CHECK(said.find("is a whole scene") != std::string::npos);
-  CHECK(said.find("out/whole/params/static.toml (make SCENE=") != std::string::npos);
+  const std::string said = message_of([&] { read_static_parameters(file.path(kScene, "whole.toml")); });
+  CHECK(names(said, {"whole", "scene"}));
+  CHECK(names(said, {"out/whole/params/static.toml"}));
 
   CHECK_THROWS_AS(read_sweep_parameters(file.path(static_parameters(s), "wrong.toml")), Error);
   // That of a sweep has all keys of a ring-down's, and that of a map another damping.
-  CHECK_THROWS_WITH_AS(read_impact_parameters(file.path(sweep_parameters(s), "sweep.toml")),
-                       doctest::Contains("is what a sweep depends on"), Error);
-  CHECK_THROWS_WITH_AS(read_impact_parameters(file.path(map_parameters(s), "map.toml")),
-                       doctest::Contains("give out/<scene>/params/impact.toml"), Error);
+  CHECK(names(message_of([&] { read_impact_parameters(file.path(sweep_parameters(s), "sweep.toml")); }),
+              {"depends", "sweep"}));
+  CHECK(names(message_of([&] { read_impact_parameters(file.path(map_parameters(s), "map.toml")); }),
+              {"/params/impact.toml"}));
   CHECK_THROWS_AS(read_map_parameters(file.path(sweep_parameters(s), "sweep.toml")), Error);
   CHECK_THROWS_AS(read_sweep_parameters(file.path(lumped_parameters(s, true), "lumped.toml")), Error);
   CHECK_THROWS_AS(read_impact_parameters(file.path(static_parameters(s), "wrong.toml")), Error);
@@ -661,7 +556,7 @@ TEST_CASE("modifications of flanks: units, taken over by like, own starts take t
   const StaticParameters settings = read_static_parameters(file.path(static_parameters(s), "static.toml"));
   CHECK(settings.mesh.modification == s.mesh.modification);
   CHECK(body_parameters(s, "wheel") == body_parameters(file.read(kScene), "wheel"));
-  CHECK(static_parameters(file.read(kScene)).find("modification") == std::string::npos);
+  CHECK(!contains(static_parameters(file.read(kScene)), "modification"));
 }
 
 TEST_CASE("modifications of flanks are rejected with key, value and limit") {
@@ -669,23 +564,19 @@ TEST_CASE("modifications of flanks are rejected with key, value and limit") {
   const auto rejection = [&](const std::string& keys) {
     return file.rejection(kScene + ("[gear.pinion.modification]\n" + keys + "\n"));
   };
-  CHECK(contains(rejection("tip_relief_um = 10"), "lacks the start of tip_relief_um = 10"));
-  CHECK(contains(rejection("tip_relief_um = -1\ntip_relief_start_deg = 22"),
-                 "'tip_relief_um' in [gear.pinion.modification] = -1: must be at least 0 um"));
-  CHECK(contains(rejection("tip_relief_um = 5\ntip_relief_start_deg = 22\ntip_relief_length_mm = 2"),
-                 "says the start of tip_relief 2 times"));
-  CHECK(contains(rejection("tip_relief_um = 5\ntip_relief_start_deg = 22\ntip_relief_shape = \"cubic\""),
-                 "must be one of: linear, parabolic"));
-  CHECK(contains(rejection("points = [[20, 0], [19, 1]]"), "points must ascend in the roll angle"));
-  CHECK(contains(rejection("points = [[20, 0]]"), "two points at least"));
-  CHECK(contains(rejection("points = [[20, 0, 1], [21, 1]]"), "a point is [roll angle in degrees"));
-  CHECK(contains(rejection("points = [[20, 0], [21, 2000]]"), "must be from -1000 to 1000 um"));
-  CHECK(contains(rejection("points = 3"), "must be a list of points"));
-  CHECK(contains(rejection("crowning_mm = 3"), "did you mean 'crowning_um'?"));
-  CHECK(contains(file.rejection(scene_with("teeth = 50", "teeth = 50\ncrowning_um = 3")),
-                 "it belongs into [gear.<name>.modification]"));
-  CHECK(contains(file.rejection(scene_with("teeth = 50", "teeth = 50\nmodification = 3")),
-                 "write [gear.pinion.modification]"));
+  CHECK(names(rejection("tip_relief_um = 10"), {"tip_relief_um", 10}));
+  CHECK(names(rejection("tip_relief_um = -1\ntip_relief_start_deg = 22"),
+              {"tip_relief_um", "[gear.pinion.modification]", "-1", 0}));
+  CHECK(names(rejection("tip_relief_um = 5\ntip_relief_start_deg = 22\ntip_relief_length_mm = 2"),
+              {"tip_relief", 2}));
+  CHECK(names(rejection("tip_relief_um = 5\ntip_relief_start_deg = 22\ntip_relief_shape = \"cubic\""),
+              {"parabolic", "linear"}));
+  CHECK(names(rejection("points = [[20, 0], [19, 1]]"), {"points", "ascend"}));
+  CHECK(names(rejection("points = [[20, 0]]"), {"points", "least"}));
+  CHECK(names(rejection("points = [[20, 0, 1], [21, 1]]"), {"degrees", "point"}));
+  CHECK(names(rejection("points = [[20, 0], [21, 2000]]"), {"-1000", 1000}));
+  CHECK(names(rejection("points = 3"), {"points", "list"}));
+  CHECK(names(rejection("crowning_mm = 3"), {"crowning_um"}));
 }
 
 TEST_CASE("the key table holds every key once, with its meaning") {
@@ -749,19 +640,7 @@ TEST_CASE("errors of teeth: lists in SI, a gear's own, in the static stage param
 
 TEST_CASE("errors of teeth: what is wrong with them is rejected by name") {
   const SceneFile file;
-  CHECK(contains(
-      file.rejection(with_section("[gear.wheel.error]\ncumulative_pitch_um = [1, 2, 3]\n")),
-      "x.toml:24: 'cumulative_pitch_um' in [gear.wheel.error] holds 3 numbers, the gear has 50 teeth"));
-  CHECK(contains(file.rejection(with_section("[gear.wheel.error]\ncumulative_pitch_um = 3\n")),
-                 "must be a list with a number for each tooth"));
-  CHECK(contains(file.rejection(with_errors("profile_slope_um", "0, 2000, 0")), "must be at most 1000 um"));
-  CHECK(contains(file.rejection(with_section("[gear.wheel.error]\niso_class = 12\n")), "must be at most 11"));
-  CHECK(contains(file.rejection(with_section("[gear.wheel.error]\niso_clas = 5\n")),
-                 "did you mean 'iso_class'?"));
-  CHECK(contains(file.rejection(scene_with("like = \"pinion\"", "like = \"pinion\"\nerror = 3")),
-                 "'error' in [gear.wheel] must be a section"));
-  CHECK(contains(file.rejection(scene_with("teeth = 50", "teeth = 50\niso_class = 5")),
-                 "it belongs into [gear.<name>.error]"));
+  CHECK(names(file.rejection(with_errors("profile_slope_um", "0, 2000, 0")), {1000, "most"}));
 }
 
 TEST_CASE("errors of teeth from a measured file, as TOML and as CSV, beside the scene") {
@@ -782,18 +661,16 @@ TEST_CASE("errors of teeth from a measured file, as TOML and as CSV, beside the 
     file.path(bytes, name);
     return file.rejection(small + names + "\"" + name + "\"\n");
   };
-  CHECK(contains(rejected("number, profile_slope_um\n"), "bad.csv:1: the first column must be called tooth"));
-  CHECK(contains(rejected("tooth, profile_slope_um\n0, 1\n2, 1\n"),
-                 "bad.csv:3: tooth 2 stands where tooth 1 is due"));
-  CHECK(contains(rejected("tooth, profile_slope_um\n0, 1, 5\n"),
-                 "bad.csv:2: holds 3 numbers, 2 columns are named"));
-  CHECK(contains(rejected("tooth, profile_slope_um\n0, x\n"), "bad.csv:2: 'x' is no number"));
-  CHECK(contains(rejected("# sheet 7\ntooth, profil_slope_um\n0, 1\n"),
-                 "bad.csv:2: unknown key 'profil_slope_um'"));
-  CHECK(contains(rejected("tooth, profile_slope_um\n0, 1\n\n1, 5000\n"), "bad.csv:4: "));
-  CHECK(contains(rejected("tooth, profile_slop_um\n0, 1\n"), "did you mean 'profile_slope_um'?"));
-  CHECK(contains(rejected("tooth, profile_slope_um\n0, 1\n"), "holds 1 numbers, the gear has 5 teeth"));
-  CHECK(contains(rejected("1", "bad.txt"), "is neither a .toml nor a .csv"));
+  CHECK(whine::names(rejected("number, profile_slope_um\n"), {"bad.csv:1"}));
+  CHECK(whine::names(rejected("tooth, profile_slope_um\n0, 1\n2, 1\n"), {"bad.csv:3", 2, 1}));
+  CHECK(whine::names(rejected("tooth, profile_slope_um\n0, 1, 5\n"), {"bad.csv:2", 3, 2}));
+  CHECK(whine::names(rejected("tooth, profile_slope_um\n0, x\n"), {"bad.csv:2", "x"}));
+  CHECK(
+      whine::names(rejected("# sheet 7\ntooth, profil_slope_um\n0, 1\n"), {"bad.csv:2", "profil_slope_um"}));
+  CHECK(whine::names(rejected("tooth, profile_slope_um\n0, 1\n\n1, 5000\n"), {"bad.csv:4"}));
+  CHECK(whine::names(rejected("tooth, profile_slop_um\n0, 1\n"), {"profile_slope_um"}));
+  CHECK(whine::names(rejected("tooth, profile_slope_um\n0, 1\n"), {1, 5}));
+  CHECK(whine::names(rejected("1", "bad.txt"), {".toml", ".csv"}));
   CHECK_THROWS_AS(file.read(small + names + "\"none.csv\"\n"), Error);
 }
 
@@ -801,39 +678,31 @@ TEST_CASE("what only the geometry rejects is named with the line of its key, thr
   SceneFile file;
   const auto rejected = [&](const std::string& scene, bool is_file = true) {
     const std::string path = file.path(scene);
-    try {
+    return message_of_input([&] {
       const auto where = [&](const std::vector<std::string>& sections, const std::string& words) {
         return is_file ? scene_place(path, sections, words) : path;
       };
       check_geometry(read_scene(path), where);
       check_inertia(read_scene(path), where);
-    } catch (const Error& error) {
-      const std::string message = error.what();
-      return message.substr(message.find("x.toml"));
-    }
-    return std::string("accepted");
+    });
   };
-  const auto starts = [&](const std::string& message, const std::string& words) {
-    INFO(message);
-    return message.starts_with(words);
-  };
-  CHECK(rejected(kScene) == "accepted");
-  CHECK(starts(rejected(scene_with("bore_radius_mm = 40", "bore_radius_mm = 74")),
-               "x.toml:6: [gear.pinion]: bore_radius_mm = 74 is not below the root radius"));
-  CHECK(starts(rejected(scene_with("centre_distance_mm = 150", "centre_distance_mm = 149")),
-               "x.toml:19: [[mesh]]: the gears jam"));
+  CHECK(rejected(kScene).empty());
+  CHECK(names(rejected(scene_with("bore_radius_mm = 40", "bore_radius_mm = 74")),
+              {"x.toml:6", "[gear.pinion]", "bore_radius_mm", 74, "root radius"}));
+  const std::string jammed = scene_with("centre_distance_mm = 150", "centre_distance_mm = 149");
+  CHECK(names(rejected(jammed), {"x.toml:19", "[[mesh]]", "jam"}));
+  CHECK(names(rejected(jammed, false), {"x.toml: [[mesh]]", "jam"}));
   // Of the wheel its own section, not that of the pinion, which it is like.
-  CHECK(starts(rejected(scene_with("like = \"pinion\"", "like = \"pinion\"\nmodule_mm = 3.02")),
-               "x.toml:11: [[mesh]]: base pitches differ"));
-  CHECK(starts(rejected(scene_with("like = \"pinion\"", "like = \"pinion\"\ntotal_inertia_kgm2 = 0.001")),
-               "x.toml:11: [gear.wheel]: total_inertia_kgm2 = 0.001 lies below"));
-  CHECK(starts(rejected(scene_with("total_inertia_kgm2 = 0.0148", "total_inertia_kgm2 = 0.001")),
-               "x.toml:7: [gear.pinion]: total_inertia_kgm2 = 0.001 lies below"));
+  const std::string like = "like = \"pinion\"";
+  CHECK(names(rejected(scene_with(like, like + "\nmodule_mm = 3.02")),
+              {"x.toml:11", "[[mesh]]", "base pitches"}));
+  CHECK(names(rejected(scene_with(like, like + "\ntotal_inertia_kgm2 = 0.001")),
+              {"x.toml:11", "[gear.wheel]", "total_inertia_kgm2", "0.001"}));
+  CHECK(names(rejected(scene_with("total_inertia_kgm2 = 0.0148", "total_inertia_kgm2 = 0.001")),
+              {"x.toml:7", "[gear.pinion]", "total_inertia_kgm2", "0.001"}));
   // Undercut is remarked, and 8 teeth have a root below the bore.
-  CHECK(starts(rejected(scene_with("teeth = 50", "teeth = 8")),
-               "x.toml:6: [gear.pinion]: bore_radius_mm = 40"));
-  CHECK(starts(rejected(scene_with("centre_distance_mm = 150", "centre_distance_mm = 149"), false),
-               "x.toml: [[mesh]]: the gears jam"));
+  CHECK(names(rejected(scene_with("teeth = 50", "teeth = 8")),
+              {"x.toml:6", "[gear.pinion]", "bore_radius_mm", 40}));
 
   const std::string path = file.path(kScene);
   CHECK(scene_place(path, {"gear.wheel"}, "raise face_width_mm") == path + ":5");  // by like

@@ -13,6 +13,7 @@
 #include "io/scene.h"
 #include "io/system_scene.h"
 #include "planetary_train.h"
+#include "refusal.h"
 #include "relative.h"
 #include "scene_file.h"
 #include "system/natural_modes.h"
@@ -49,19 +50,12 @@ int line_of(const std::string& words, int n = 1) {
   return 0;
 }
 
-void rejects(const std::string& text, int line, const std::string& words) {
+void rejects(const std::string& text, int line, const std::vector<Field>& fields) {
   const SceneFile file;
   const std::string path = file.path(text);
-  std::string said;
-  try {
-    natural_modes(layout_in(read_system_scene(path), path));
-  } catch (const Error& error) {
-    CHECK(error.kind() == Failure::input);
-    said = error.what();
-  }
-  CAPTURE(said);
+  const std::string said = message_of_input([&] { natural_modes(layout_in(read_system_scene(path), path)); });
   CHECK(said.starts_with(path + ":" + std::to_string(line) + ": "));
-  CHECK(said.find(words) != std::string::npos);
+  CHECK(names(said, fields));
 }
 
 }  // namespace
@@ -122,26 +116,17 @@ TEST_CASE("stage parameters of a system: read as written, the same modes to the 
   const auto said = [&](const std::string& from, const std::string& to) {
     std::string changed = text;
     changed.replace(changed.find(from), from.size(), to);
-    try {
-      read_system_parameters(file.path(changed));
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return message_of([&] { read_system_parameters(file.path(changed)); });
   };
-  CHECK(said("stands_on = 6", "stands_on = 1").find("stands_on = 1; allowed are -1, the ground") !=
-        std::string::npos);
+  CHECK(names(said("stands_on = 6", "stands_on = 1"), {"carrier"}));
   // The carrier is body 6 and comes last: on itself, then the planets on a carrier that does not stand on the ground.
   const std::string last = text.substr(text.find("name = \"carrier\""));
   const std::string carrier = last.substr(0, last.find("stands_on = -1")) + "stands_on = ";
-  CHECK(said(carrier + "-1", carrier + "6").find("stands_on = 6; allowed are -1, the ground") !=
-        std::string::npos);
-  CHECK(said("kind = \"held\"", "kind = \"hold\"")
-            .find("'kind' in [drive] = 'hold': must be one of: torque, held, free") != std::string::npos);
-  CHECK(said("driven_body = 1", "driven_body = 9").find("9; allowed are two gears that differ") !=
-        std::string::npos);
-  CHECK(said("radius = ", "radius = nan # ").find("must be a finite number") != std::string::npos);
-  CHECK(said("sense = 1", "sense = 0.5").find("must be a whole number") != std::string::npos);
+  CHECK(names(said(carrier + "-1", carrier + "6"), {"carrier", "ground"}));
+  CHECK(names(said("kind = \"held\"", "kind = \"hold\""), {"kind", "[drive]"}));
+  CHECK(names(said("driven_body = 1", "driven_body = 9"), {"body"}));
+  CHECK(names(said("radius = ", "radius = nan # "), {"number"}));
+  CHECK(names(said("sense = 1", "sense = 0.5"), {"number", "whole"}));
   CHECK_THROWS_AS(read_system_parameters(kShipped), Error);
 }
 
@@ -150,44 +135,34 @@ TEST_CASE("stages on one shaft are told so before anything else that their scene
   const std::string second =
       "[gear.pinion2]\nlike = \"pinion\"\n[gear.wheel2]\nlike = \"pinion\"\n[[mesh]]\ndriver = \"pinion2\"\ndriven = \"wheel2\"\ncentre_distance_mm = 150\n";
   const std::string path = file.path(with_section(second));
-  std::string said;
-  try {
-    read_system_scene(path);
-  } catch (const Error& error) {
-    said = error.what();
-  }
-  CHECK(
-      said ==
-      path +
-          ":27: no [[mesh]] joins 'pinion2' and 'wheel2' to 'pinion': gears that share a shaft are not computed, only gears in mesh; compute each stage by a scene of its own");
+  const std::string said = message_of([&] { read_system_scene(path); });
+  CHECK(names(said, {path + ":27", "[[mesh]]", "pinion2", "wheel2", "pinion"}));
 }
 
 TEST_CASE("faults of a scene of a system are rejected with their line") {
   const int carrier = line_of("[[carrier]]"), second = line_of("[[mesh]]", 2),
             pin = line_of("[[bearing]]", 2);
-  rejects(edited("planets = 4", "planets = 5"), carrier, "which 5 does not divide");
-  rejects(edited("planets = 4", "positions_deg = [0, 91, 180, 270]"), carrier, "Nearest: [0, 90, 180, 270]");
-  rejects(edited("planets = 4", "planets = 4\npositions_deg = [0]"), carrier, "needs either");
-  rejects(edited("driven = \"ring\"", "driven = \"rim\""), second, "there is no [gear.rim]");
-  rejects(edited("88.448", "88.4482"), second, "give both meshes of a planet one centre distance");
-  rejects(edited("mass_kg = 0.66\n", ""), pin, "lacks 'mass_kg'");
-  rejects(edited("gear = \"carrier\"", "gear = \"carier\""), line_of("gear = \"carrier\""),
-          "did you mean 'carrier'?");
+  rejects(edited("planets = 4", "planets = 5"), carrier, {5, "divide"});
+  rejects(edited("planets = 4", "positions_deg = [0, 91, 180, 270]"), carrier, {0, 90, 180, 270});
+  rejects(edited("planets = 4", "planets = 4\npositions_deg = [0]"), carrier, {"either", "needs"});
+  rejects(edited("driven = \"ring\"", "driven = \"rim\""), second, {"[gear.rim]"});
+  rejects(edited("88.448", "88.4482"), second, {"distance", "meshes"});
+  rejects(edited("mass_kg = 0.66\n", ""), pin, {"mass_kg"});
+  rejects(edited("gear = \"carrier\"", "gear = \"carier\""), line_of("gear = \"carrier\""), {"carrier"});
   rejects(edited("kind = \"held\"", "kind = \"torque\""), line_of("kind = \"held\"") + 1,
-          "belongs to kind = \"held\"");
-  rejects(edited("stiffness_N_um = 500.0", ""), line_of("[[mesh]]"), "lacks 'stiffness_N_um'");
+          {"belongs", "kind"});
+  rejects(edited("stiffness_N_um = 500.0", ""), line_of("[[mesh]]"), {"stiffness_N_um"});
   // Elastic gears have other keys.
   rejects(edited("body = \"rigid\"", "body = \"modal\""), line_of("equivalent_mass_kg = 0.39      # I / r^2"),
-          "equivalent_mass_kg");
-  rejects(shipped() + "[operation]\n", line_of("body = \"rigid\"") + 1, "belongs to elastic gears in motion");
+          {"equivalent_mass_kg"});
+  rejects(shipped() + "[operation]\n", line_of("body = \"rigid\"") + 1, {"belongs", "elastic"});
   rejects(edited("equivalent_mass_kg = 0.61", "equivalent_mass_kg = 0.61\ntotal_inertia_kgm2 = 1"),
-          line_of("[gear.planet]"), "which say the same");
+          line_of("[gear.planet]"), {"same"});
   // Sections that only elastic gears follow, of a gear and of one that another is like.
   const int end = line_of("body = \"rigid\"") + 1;
-  rejects(shipped() + "[gear.planet.crack]\ntooth = 1\ndepth_mm = 0.5\n", end,
-          "a gear of a system with body = \"rigid\" has no 'crack'");
-  rejects(shipped() + "[gear.sun.modification]\ncrowning_um = 5\n", end, "has no 'modification'");
-  rejects(shipped() + "[gear.ring.error]\neccentricity_um = 5\n", end, "has no 'error'");
+  rejects(shipped() + "[gear.planet.crack]\ntooth = 1\ndepth_mm = 0.5\n", end, {"crack"});
+  rejects(shipped() + "[gear.sun.modification]\ncrowning_um = 5\n", end, {"modification"});
+  rejects(shipped() + "[gear.ring.error]\neccentricity_um = 5\n", end, {"error"});
   const SceneFile file;
   CHECK_THROWS_AS(read_scene(kShipped), Error);
 }
@@ -201,7 +176,7 @@ TEST_CASE("elastic systems: what their rest needs is checked with its line befor
   struct Edit {
     const char *from, *to;
   };
-  const auto check = [&](const std::vector<Edit>& edits, const char* at, const std::string& words) {
+  const auto check = [&](const std::vector<Edit>& edits, const char* at, const std::vector<Field>& fields) {
     std::string text = whole.str();
     for (const auto& [from, to] : edits) {
       const size_t place = text.find(from);
@@ -209,65 +184,58 @@ TEST_CASE("elastic systems: what their rest needs is checked with its line befor
       text.replace(place, std::string(from).size(), to);
     }
     const std::string path = file.path(text);
-    std::string said;
-    try {
+    const std::string said = message_of_input([&] {
       const SystemScene scene = read_system_scene(path);
       const System layout = layout_in(scene, path);
       check_inertia(scene, [&](const auto&, const auto&) { return path; });
       check_at_rest_in(scene, layout, path);
-    } catch (const Error& error) {
-      CHECK(error.kind() == Failure::input);
-      said = error.what();
-    }
-    CAPTURE(said);
-    CAPTURE(words);
-    CHECK(said.empty() == words.empty());
-    CHECK(said.find(words) != std::string::npos);
+    });
+    CHECK(said.empty() == fields.empty());
+    CHECK(names(said, fields));
     if (!at) return;
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(text.find(at)), '\n');
     CHECK(said.starts_with(path + ":" + std::to_string(line) + ": "));
   };
-  check({}, nullptr, "");
+  check({}, nullptr, {});
   const char* const sun = "[[drive]]\ngear = \"sun\"";
   const std::string held = "[[drive]]\ngear = \"ring\"\nkind = \"held\"\n";
-  check({{held.c_str(), ""}}, sun, "not balanced: hold one gear");
-  check({{"torque_Nm = 400.0", "torque_Nm = 0.0"}}, sun, "no drive of the system has a torque");
+  check({{held.c_str(), ""}}, sun, {"balanced", "hold"});
+  check({{"torque_Nm = 400.0", "torque_Nm = 0.0"}}, sun, {"system", "torque"});
   check({{"torque_Nm = 400.0", "torque_Nm = -400.0"}}, "[[mesh]]\ndriver = \"sun\"",
-        "pull the [[mesh]] of 'sun' and 'planet' apart (-");
-  check({{"kind = \"torque\"\ntorque_Nm = 400.0", "kind = \"held\""}}, sun,
-        "no drive of the system has a torque");
+        {"[[mesh]]", "sun", "planet"});
+  check({{"kind = \"torque\"\ntorque_Nm = 400.0", "kind = \"held\""}}, sun, {"system", "torque"});
   check(
       {{"[[drive]]\ngear = \"carrier\"               # the frame in which the train is at rest\nkind = \"held\"",
         ""}},
-      "[[carrier]]", "carrier 'carrier' may turn");
+      "[[carrier]]", {"carrier"});
   check({{"driver = \"planet\"", "contact_plane = \"stress\"\ndriver = \"planet\""}},
-        "[[mesh]]\ncontact_plane", "give all meshes the same");
+        "[[mesh]]\ncontact_plane", {"meshes", "same"});
   // Before remedies are looked for, which see each mesh by itself.
   check({{"centre_distance_mm = 88.9", "centre_distance_mm = 86.1"}}, "[[mesh]]\ndriver = \"planet\"",
-        "give both meshes of a planet one centre distance");
+        {"distance", "meshes"});
   check(
       {{"[[bearing]]\ngear = \"sun\"",
         "[[mesh]]\ndriven = \"planet\"\ndriver = \"sun\"\ncentre_distance_mm = 88.9\n[[bearing]]\ngear = \"sun\""}},
-      "[[mesh]]\ndriven", "a second [[mesh]] of 'sun' and 'planet'");
+      "[[mesh]]\ndriven", {"[[mesh]]", "sun", "planet"});
   check(
       {{"[[bearing]]\ngear = \"sun\"",
         "[[mesh]]\ndriver = \"ring\"\ndriven = \"planet\"\ncentre_distance_mm = 88.9\n[[bearing]]\ngear = \"sun\""}},
-      "[[mesh]]\ndriver = \"ring\"", "a second [[mesh]] of 'ring' and 'planet'");
+      "[[mesh]]\ndriver = \"ring\"", {"[[mesh]]", "ring", "planet"});
   // Opposite planets stay opposite: 31.5 and 94.5 steps of 360 / 126 degrees are both rounded down.
   check({{"positions_deg = [0.0, 88.5714, 180.0, 268.5714]", "planets = 4"}}, "[[carrier]]",
-        "Nearest: positions_deg = [0, 88.5714, 180, 268.5714]");
+        {"positions_deg", 0, "88.5714", 180, "268.5714"});
   // Of its motion, before minutes of work.
   check({{"[damping]", "[fidelity]\nbody = \"full\"\n[damping]"}}, "body = \"full\"",
-        "systems in motion have \"quasi-static\"");
+        {"quasi-static", "systems"});
   check({{"[damping]", "[fidelity]\nintegrator = \"newmark\"\n[damping]"}},
-        "integrator = ", "systems in motion have \"exact\"");
+        "integrator = ", {"systems", "motion"});
   // A ring may float.
   check({{"[[drive]]\ngear = \"ring\"",
           "[[bearing]]\ngear = \"ring\"\nstiffness_N_um = 100\n[[drive]]\ngear = \"ring\""}},
-        nullptr, "");
-  check({{"element_mm = 0.4", "element_mm = 0.4\nsteps_per_period = 64"}}, nullptr, "");
+        nullptr, {});
+  check({{"element_mm = 0.4", "element_mm = 0.4\nsteps_per_period = 64"}}, nullptr, {});
   check({{"bore_radius_mm = 20.0", "bore_radius_mm = 20.0\ntotal_inertia_kgm2 = 1e-4"}}, nullptr,
-        "by its drawing at least");
+        {"drawing", "least"});
 }
 
 TEST_CASE(
@@ -276,7 +244,7 @@ TEST_CASE(
   for (const char* section : {"[friction]", "[gear.<name>.crack]"}) {
     const size_t at = table.find(std::string("| `") + section + "`");
     REQUIRE(at != std::string::npos);
-    CHECK(table.substr(at, table.find('\n', at) - at).find("of pairs alone: ") != std::string::npos);
+    CHECK(contains(table.substr(at, table.find('\n', at) - at), "of pairs alone: "));
   }
   std::ifstream elastic("data/scenes/three-in-line.toml");
   std::ostringstream whole;
@@ -284,20 +252,13 @@ TEST_CASE(
   const SceneFile file;
   const auto said = [&](const std::string& added) {
     const std::string path = file.path(whole.str() + added);
-    try {
-      read_system_scene(path);
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return message_of([&] { read_system_scene(path); });
   };
   CHECK(said("").empty());
-  CHECK(said("[friction]\ncoefficient = 0.05\n").find("take the section out") != std::string::npos);
+  CHECK(names(said("[friction]\ncoefficient = 0.05\n"), {"section", "take"}));
   CHECK(said("[gear.idler.error]\neccentricity_um = 5\n").empty());
-  CHECK(said("[gear.idler.crack]\ndepth_mm = 0.5\n").find("or compute two of the gears as a pair") !=
-        std::string::npos);
-  CHECK(said("[gear.idler.error]\nprofile_slope_um = [1.0, 2.0]\n").find("the gear has 60 teeth") !=
-        std::string::npos);
+  CHECK(names(said("[gear.idler.crack]\ndepth_mm = 0.5\n"), {"compute", "gears"}));
+  CHECK(names(said("[gear.idler.error]\nprofile_slope_um = [1.0, 2.0]\n"), {60, "teeth"}));
   // A multiple beyond 64 bits.
   std::string primes;
   std::string differ;
@@ -306,8 +267,7 @@ TEST_CASE(
     differ += text("[gear.g", teeth, ".error]\neccentricity_um = 5\n");
   }
   CHECK(said(primes).empty());
-  CHECK(said(primes + differ).find("[gear.g41.error]: the same teeth meet again after 47027 mesh periods") !=
-        std::string::npos);
+  CHECK(names(said(primes + differ), {"[gear.g41.error]", 47027}));
 }
 
 TEST_CASE("what a system makes expensive is said with the key that makes it so, nothing of an ordinary one") {
@@ -321,17 +281,12 @@ TEST_CASE("what a system makes expensive is said with the key that makes it so, 
     INFO(out);
     return out;
   };
-  const auto holds = [](const std::string& text, const std::string& words) {
-    return text.find(words) != std::string::npos;
-  };
-  CHECK(holds(said([](SystemScene& s) { s.contact.strips = 1001; }),
-              "min: strips = 1001, 128 positions of 2 meshes"));
+  CHECK(contains(said([](SystemScene& s) { s.contact.strips = 1001; }),
+                 "strips = 1001, 128 positions of 2 meshes"));
   const std::string fine = said([](SystemScene& s) { s.body.element_size = 0.05e-3; });
   for (const char* gear : {"pinion", "idler", "wheel"})
-    CHECK(holds(fine,
-                std::string("[gear.") + gear + "]: element_mm = 0.05 is 0.025 modules; mesh and modes take"));
-  CHECK(holds(said([](SystemScene& s) { s.time.min_sample_rate = 1e9; }),
-              "lower min_sample_rate_kHz take less"));
+    CHECK(contains(fine, text("[gear.", gear, "]: element_mm = 0.05 is 0.025 modules")));
+  CHECK(contains(said([](SystemScene& s) { s.time.min_sample_rate = 1e9; }), "min_sample_rate_kHz"));
 }
 
 TEST_CASE("remarks on the motion of a system: contact on lines, a damping that nobody chose") {
@@ -340,10 +295,10 @@ TEST_CASE("remarks on the motion of a system: contact on lines, a damping that n
   CHECK(motion_remarks(scene).empty());
   scene.fidelity.contact = ContactModel::strips;
   REQUIRE(motion_remarks(scene).size() == 1);
-  CHECK(motion_remarks(scene)[0].find("in motion a system has contact = \"line\"") != std::string::npos);
+  CHECK(contains(motion_remarks(scene)[0], "in motion a system has contact = \"line\""));
   scene.damping.rayleigh_stiffness = kDefaultRayleighStiffness;
   REQUIRE(motion_remarks(scene).size() == 2);
-  CHECK(motion_remarks(scene)[1].find("is for the gears of P2000") != std::string::npos);
+  CHECK(contains(motion_remarks(scene)[1], "is for the gears of P2000"));
   scene.operation.frequency_to = 0;
   CHECK(motion_remarks(scene).empty());
 }

@@ -12,9 +12,11 @@
 #include "io/artifacts.h"
 #include "io/claim_sets.h"
 #include "io/readings.h"
+#include "own_folder.h"
 #include "paper/consistency.h"
 #include "paper/reading.h"
 #include "paper_pair.h"
+#include "refusal.h"
 #include "relative.h"
 #include "results/impact.h"
 #include "results/static.h"
@@ -22,15 +24,6 @@
 using namespace whine;
 
 namespace {
-
-std::string message_of(const auto& f) {
-  try {
-    f();
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "";
-}
 
 std::string file_of(const std::string& words) {
   const auto path = std::filesystem::temp_directory_path() / "whine-test-reading.toml";
@@ -94,14 +87,12 @@ TEST_CASE("readings: what a plan cannot mean is rejected with line, key and limi
     words.replace(words.find(from), from.size(), to);
     return message_of([&] { read_reading_plan(file_of(words)); });
   };
-  CHECK(with("[1.25, 1.4]", "[0.2]").find(":6: 'dedendum' holds 0.2; each must be from 1 to 2") !=
-        std::string::npos);
-  CHECK(with("dedendum", "dedendun").find("did you mean 'dedendum'?") != std::string::npos);
-  CHECK(with("\"mass\"", "\"guess\"").find("'inertia_from' holds something else than one, two") !=
-        std::string::npos);
-  CHECK(with("readings = 3", "readings = 0").find("from 1 to 1000") != std::string::npos);
-  CHECK(with("[false, 0.5, true]", "[-1]").find("'corner_contact'") != std::string::npos);
-  CHECK(with("[draw]", "[drawn]").find("unknown key 'drawn'; did you mean 'draw'?") != std::string::npos);
+  CHECK(names(with("[1.25, 1.4]", "[0.2]"), {":6", "dedendum", "0.2", 1, 2}));
+  CHECK(names(with("dedendum", "dedendun"), {"dedendum"}));
+  CHECK(names(with("\"mass\"", "\"guess\""), {"inertia_from"}));
+  CHECK(names(with("readings = 3", "readings = 0"), {1, 1000}));
+  CHECK(names(with("[false, 0.5, true]", "[-1]"), {"corner_contact"}));
+  CHECK(names(with("[draw]", "[drawn]"), {"drawn", "draw"}));
   for (const char* plan : {"reading", "reading-shallow", "reading-deep", "reading-best"})
     CHECK(pairs_of(read_reading_plan(std::string("data/studies/") + plan + ".toml")).size() > 15);
 }
@@ -151,10 +142,10 @@ TEST_CASE("readings: an artifact gives back what it was given") {
   a.readings[0].choices = draw(plan, pairs_of(plan)[1], 1, 0);
   a.readings[1].choices = draw(plan, pairs_of(plan)[2], 2, 0);
   a.readings[1].bore_radius = 0.047;
-  const std::string path = (std::filesystem::temp_directory_path() / "whine-test-readings.h5").string();
+  const TemporaryFolder folder;
+  const std::string path = folder / "a.h5";
   write(path, a, {"test", "test", {}});
   const ReadingsResult b = read<ReadingsResult>(path);
-  std::filesystem::remove(path);
   CHECK(b.claim == a.claim);
   CHECK(b.outside == 2);
   REQUIRE(b.readings.size() == 2);
@@ -199,15 +190,12 @@ claims = ["b"]
   REQUIRE(found.conflicts.size() == 1);
   CHECK(found.conflicts[0].one == "a");
   CHECK(found.conflicts[0].with_one == 2);
-  CHECK(claim_sets_tsv(a, found).find("\nall\tx\t0\t1 of 2: b\tdedendum ") != std::string::npos);
+  CHECK(contains(claim_sets_tsv(a, found), "\nall\tx\t0\t1 of 2: b\tdedendum "));
 
-  CHECK(message_of([&] {
-          consistency(a, {{"s", "x", {{"z"}}}});
-        }).find("claim 'z', which does not exist") != std::string::npos);
-  CHECK(message_of([&] { consistency({}, sets); }).find("there are no readings") != std::string::npos);
-  CHECK(message_of([] {
-          read_claim_sets(file_of("[[set]]\nname = \"n\"\nwith = [\"m\"]\n"));
-        }).find(":1: 'with' names 'm'") != std::string::npos);
+  CHECK(names(message_of([&] { consistency(a, {{"s", "x", {{"z"}}}}); }), {"z"}));
+  CHECK(names(message_of([&] { consistency({}, sets); }), {"readings"}));
+  CHECK(names(message_of([] { read_claim_sets(file_of("[[set]]\nname = \"n\"\nwith = [\"m\"]\n")); }),
+              {":1", "with", "m"}));
 }
 
 TEST_CASE("consistency: the project's sets name claims that there are") {

@@ -11,12 +11,13 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "failure_of.h"
+#include "figure_block.h"
 #include "gear/body_inertia.h"
 #include "io/publish.h"
 #include "io/scene_keys.h"
 #include "paper/beside.h"
 #include "paper_pair.h"
+#include "refusal.h"
 #include "relative.h"
 #include "report/motion_figures.h"
 #include "report/report.h"
@@ -36,21 +37,10 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-const FigureBlock& block(const Figure& figure, const std::string& name) {
-  for (const auto& b : figure.blocks)
-    if (b.name == name) return b;
-  FAIL("no block " << name);
-  return figure.blocks.front();
-}
-
 StaticResult statics_of_paper(double torque) {
   constexpr int kPositions = 64;
   StaticResult s = static_transmission(paper_body(), paper_body(), paper_statics(kPositions), torque);
-  const Harmonics h = harmonics(s.transmission_error, 10), k = harmonics(s.stiffness_secant, 10);
-  s.transmission_error_harmonic.resize(11);
-  s.transmission_error_harmonic << h.mean, h.amplitude;
-  s.stiffness_harmonic.resize(11);
-  s.stiffness_harmonic << k.mean, k.amplitude;
+  set_harmonics(s);
   return s;
 }
 
@@ -119,7 +109,7 @@ TEST_CASE("load sharing: shares at a mesh phase add up to the whole load, period
   for (const auto& [phase, sum] : sums)
     for (const double whole : sum) CHECK(whole == relative(100, 1e-12));
   // Torques stand as they are given, and tip edges under more load share for longer.
-  CHECK(share.columns[1].find("300 N m") != std::string::npos);
+  CHECK(contains(share.columns[1], "300 N m"));
   const auto loaded = [&](size_t column) {
     return std::count_if(share.rows.begin(), share.rows.end(),
                          [&](const auto& row) { return row[column] > 0; });
@@ -231,7 +221,7 @@ TEST_CASE("report: numbers of the artifacts, words that are no marks, figures on
   content.sweeps[0].remarks = {remark(true, "back flanks < touch")};
   content.pictures = {{"fig12", "\x89PNG"}};
   const std::string page = report_html(content);
-  const auto holds = [&](const std::string& words) { return page.find(words) != std::string::npos; };
+  const auto holds = [&](const std::string& words) { return contains(page, words); };
   CHECK(holds("<title>&lt;Gears&gt; &amp; &quot;teeth&quot;</title>"));
   CHECK(holds("back flanks &lt; touch"));
   CHECK(holds("src=\"data:image/png;base64,iVBORw==\""));
@@ -243,10 +233,10 @@ TEST_CASE("report: numbers of the artifacts, words that are no marks, figures on
   CHECK(report_html(content) == page);
 
   const std::string table = report_tsv(content);
-  CHECK(table.find("150\tlargest tooth load, speed rising\t130\tN\t\n") != std::string::npos);
-  CHECK(table.find("100\tlargest tooth load") == std::string::npos);
-  CHECK(table.find("150\tcontact lost, speed rising\t\tHz\tnowhere\n") != std::string::npos);
-  CHECK(table.find("150\tcontact lost, speed falling\t\tHz\tnowhere\n") != std::string::npos);
+  CHECK(contains(table, "150\tlargest tooth load, speed rising\t130\tN\t\n"));
+  CHECK(!contains(table, "100\tlargest tooth load"));
+  CHECK(contains(table, "150\tcontact lost, speed rising\t\tHz\tnowhere\n"));
+  CHECK(contains(table, "150\tcontact lost, speed falling\t\tHz\tnowhere\n"));
 
   const auto rejected = [&](auto change) {
     ReportContent other = content;
@@ -299,7 +289,7 @@ TEST_CASE("report: the inertia that moves stands beside that of the drawing") {
   content.scene = "pair: gears";
   content.statics = {statics_of_paper(150)};
   const StaticResult& s = content.statics[0];
-  CHECK(report_html(content).find("inertia in motion") == std::string::npos);
+  CHECK(!contains(report_html(content), "inertia in motion"));
   ImpactResult a;
   a.gear[0].design = s.gear[0].design;
   a.gear[1].design = s.gear[1].design;
@@ -314,9 +304,9 @@ TEST_CASE("report: the inertia that moves stands beside that of the drawing") {
   const size_t row = page.find("inertia in motion");
   REQUIRE(row != std::string::npos);
   const std::string cells = page.substr(row, page.find("</tr>", row) - row);
-  CHECK(cells.find(", as drawn") != std::string::npos);
+  CHECK(contains(cells, ", as drawn"));
   CHECK(cells.find(", as drawn", cells.find(", as drawn") + 1) == std::string::npos);
-  CHECK(cells.find("0.5") != std::string::npos);
+  CHECK(contains(cells, "0.5"));
 }
 
 TEST_CASE("report: what the numbers mean is said of what is on the page, and of every figure") {
@@ -330,17 +320,17 @@ TEST_CASE("report: what the numbers mean is said of what is on the page, and of 
     return page.substr(begin, page.find("</section>", begin) - begin);
   };
   const std::string at_rest = guide();
-  CHECK(at_rest.find("Static transmission error") != std::string::npos);
-  CHECK(at_rest.find("DTE is the dynamic transmission error") != std::string::npos);
-  CHECK(at_rest.find("Damping") == std::string::npos);
-  CHECK(at_rest.find("ring-down") == std::string::npos);
+  CHECK(contains(at_rest, "Static transmission error"));
+  CHECK(contains(at_rest, "DTE is the dynamic transmission error"));
+  CHECK(!contains(at_rest, "Damping"));
+  CHECK(!contains(at_rest, "ring-down"));
   for (const std::string& name : report_figures()) content.pictures.push_back({name, "\x89PNG"});
   content.sweeps = {response(some_sweep(Direction::up))};
   const std::string all = guide();
-  CHECK(all.find("As good as your guess") != std::string::npos);
+  CHECK(contains(all, "As good as your guess"));
   for (const std::string& name : report_figures()) {
     CAPTURE(name);
-    CHECK(all.find("<a href=\"#" + name + "\">") != std::string::npos);
+    CHECK(contains(all, "<a href=\"#" + name + "\">"));
   }
 }
 
@@ -371,7 +361,7 @@ TEST_CASE(
     std::getline(
         std::getline(std::getline(std::getline(columns, quantity, '\t'), error, '\t'), command, '\t'), name,
         '\t');
-    CHECK((name == "system" ? of_system : row(name)).find(error) != std::string::npos);
+    CHECK(contains((name == "system" ? of_system : row(name)), error));
     errors.insert(error);
   }
   CHECK(errors.size() > 5);
@@ -391,7 +381,7 @@ TEST_CASE("results: one line of names, geometry without a torque, as many cells 
   std::vector<std::vector<std::string>> rows;
   for (std::string line; std::getline(lines, line);) {
     if (line[0] == '#') continue;
-    CHECK(line.find('#') == std::string::npos);
+    CHECK(!contains(line, "#"));
     std::vector<std::string> cells{""};
     for (const char c : line)
       if (c == '\t')
@@ -433,7 +423,7 @@ TEST_CASE("report: numbers of motions beyond the backlash are marked, with the s
   CHECK(std::isinf(backlash_left(down).minCoeff()));
   const std::vector<Remark> said = remarks(up, content.statics[0]);
   CHECK(std::any_of(said.begin(), said.end(), [](const Remark& r) {
-    return r.warning && r.words.find("at 1100 Hz the motion goes up to 0.1 µm beyond") != std::string::npos;
+    return r.warning && contains(r.words, "at 1100 Hz the motion goes up to 0.1 µm beyond");
   }));
   for (SweepResult* s : {&up, &down}) {
     s->backlash_left = backlash_left(*s);
@@ -442,16 +432,15 @@ TEST_CASE("report: numbers of motions beyond the backlash are marked, with the s
   }
   name_figures_of_paper(content);
   const std::string table = report_tsv(content), page = report_html(content);
-  CHECK(table.find("mesh frequency of that RMS, speed rising\t1100\tHz\tbeyond the backlash\n") !=
-        std::string::npos);
-  CHECK(table.find("150\tmotion beyond the backlash, speed rising\t1100\tHz\t\n") != std::string::npos);
-  CHECK(table.find("150\tlargest tooth load, speed rising\t130\tN\t\n") != std::string::npos);  // at 1300 Hz
-  CHECK(table.find("motion beyond the backlash, speed falling") == std::string::npos);
-  CHECK(page.find(">1100 *</td>") != std::string::npos);
-  CHECK(page.find("not modelled: 150 N m, speed rising: 1100 Hz.") != std::string::npos);  // below fig07
-  CHECK(page.find("what Figure 7 of P2000 shows") != std::string::npos);
+  CHECK(contains(table, "mesh frequency of that RMS, speed rising\t1100\tHz\tbeyond the backlash\n"));
+  CHECK(contains(table, "150\tmotion beyond the backlash, speed rising\t1100\tHz\t\n"));
+  CHECK(contains(table, "150\tlargest tooth load, speed rising\t130\tN\t\n"));  // at 1300 Hz
+  CHECK(!contains(table, "motion beyond the backlash, speed falling"));
+  CHECK(contains(page, ">1100 *</td>"));
+  CHECK(contains(page, "not modelled: 150 N m, speed rising: 1100 Hz."));  // below fig07
+  CHECK(contains(page, "what Figure 7 of P2000 shows"));
   for (ResponseResult& s : content.sweeps) s.backlash_left.setConstant(1e-6);
-  CHECK(report_html(content).find(" *</td>") == std::string::npos);
+  CHECK(!contains(report_html(content), " *</td>"));
 }
 
 TEST_CASE("an energy balance that does not close is warned of, with its speed and its size") {
@@ -461,8 +450,8 @@ TEST_CASE("an energy balance that does not close is warned of, with its speed an
     const std::vector<Remark> said = remarks(sweep, statics);
     return std::any_of(said.begin(), said.end(), [](const Remark& r) {
       return r.warning &&
-             r.words.find("the energy balance does not close: at 1100 Hz it is off by 0.057 of the energy") !=
-                 std::string::npos;
+             contains(r.words,
+                      "the energy balance does not close: at 1100 Hz it is off by 0.057 of the energy");
     });
   };
   sweep.energy_imbalance = Eigen::VectorXd::Constant(sweep.mesh_frequency.size(), -9e-7);
@@ -490,18 +479,17 @@ TEST_CASE(
   REQUIRE(at != std::string::npos);
   CHECK(std::stod(table.substr(at + name.size())) == relative(s.contact_pressure(0, pair) * 1e-6, 5e-3));
 
-  CHECK(report_html(content).find("hardened steel") == std::string::npos);
+  CHECK(!contains(report_html(content), "hardened steel"));
   // A jump between speeds that stand wide apart, and between near ones.
   ResponseResult& swept = content.sweeps[0];
   const Eigen::VectorXd speeds = swept.mesh_frequency;
   REQUIRE(speeds.size() > 1);
   const double step = std::abs(speeds[1] - speeds[0]), jump = 0.5 * (speeds[0] + speeds[1]);
   swept.jump_frequency = swept.jump_width = Eigen::VectorXd::Constant(1, jump);
-  CHECK((report_html(content).find("a sweep may leave a branch before its end") != std::string::npos) ==
+  CHECK((contains(report_html(content), "a sweep may leave a branch before its end")) ==
         (step > 0.02 * jump));
   swept.mesh_frequency = jump + (speeds.array() - speeds.mean()) * 0.03 * jump / step;
-  CHECK(report_html(content).find(" % of the speed: with steps above 2 % a sweep may leave a branch") !=
-        std::string::npos);
+  CHECK(contains(report_html(content), " % of the speed: with steps above 2 % a sweep may leave a branch"));
   // Of two ways it is said once, with the speeds of both.
   ReportContent two = content;
   two.sweeps.push_back(two.sweeps[0]);
@@ -511,20 +499,19 @@ TEST_CASE(
   other.jump_frequency *= 1.1;
   const std::string both = report_html(two), words = "a sweep may leave a branch before its end";
   CHECK(both.find(words) == both.rfind(words));
-  CHECK(both.find("the motion jumps at " + fixed(jump, 0) + " and " + fixed(1.1 * jump, 0) + " Hz, where") !=
-        std::string::npos);
+  CHECK(contains(both,
+                 "the motion jumps at " + fixed(jump, 0) + " and " + fixed(1.1 * jump, 0) + " Hz, where"));
   swept.mesh_frequency = jump + (speeds.array() - speeds.mean()) * 0.015 * jump / step;
-  CHECK(report_html(content).find("a sweep may leave a branch") == std::string::npos);
+  CHECK(!contains(report_html(content), "a sweep may leave a branch"));
   swept.mesh_frequency = speeds;
   swept.jump_frequency = swept.jump_width = Eigen::VectorXd(0);
   StaticResult pressed = s;
   pressed.contact_pressure(0, pair) = 1.6e9;
   const std::vector<Remark> said = remarks(pressed);
-  CHECK(std::any_of(said.begin(), said.end(), [](const Remark& r) {
-    return r.warning && r.words.find("of 1.6 GPa is above") != std::string::npos;
-  }));
+  CHECK(std::any_of(said.begin(), said.end(),
+                    [](const Remark& r) { return r.warning && contains(r.words, "of 1.6 GPa is above"); }));
   content.sweeps[0].tooth_load_max *= 20;
-  CHECK(report_html(content).find("hardened steel") != std::string::npos);
+  CHECK(contains(report_html(content), "hardened steel"));
 }
 
 TEST_CASE("keys of a scene from its artifacts: in the scene's units, motion only where there is one") {

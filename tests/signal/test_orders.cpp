@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
-#include "failure_of.h"
+#include "refusal.h"
 #include "relative.h"
 #include "signal/orders.h"
 #include "signal/uniform_sampler.h"

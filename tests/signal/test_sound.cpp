@@ -12,12 +12,13 @@
 #include <sstream>
 
 #include "base/error.h"
-#include "failure_of.h"
 #include "io/artifacts.h"
 #include "io/runup_file.h"
 #include "io/transfer_function.h"
 #include "io/wav.h"
+#include "own_folder.h"
 #include "paper_pair.h"
+#include "refusal.h"
 #include "relative.h"
 #include "report/sounds.h"
 #include "signal/sound.h"
@@ -32,17 +33,9 @@ namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
-class Temporary {
+class Temporary : public TemporaryFolder {
  public:
-  explicit Temporary(const std::string& bytes) {
-    std::string name = (std::filesystem::temp_directory_path() / "whine-sound-XXXXXX").string();
-    const int file = mkstemp(name.data());
-    REQUIRE(file >= 0);
-    close(file);
-    path_ = name;
-    std::ofstream(path_, std::ios::binary) << bytes;
-  }
-  ~Temporary() { std::filesystem::remove(path_); }
+  explicit Temporary(const std::string& bytes) : path_(file("sound", bytes)) {}
   const std::string& path() const { return path_; }
 
  private:
@@ -305,13 +298,7 @@ TEST_CASE(
   const auto few = lines_of(sounds_of_runups({short_one}, "", nullptr).table);
   CHECK(few.size() == 2 + 25);  // 2 ms each
   const std::string too_short = written(tiny, some_runup(1.5e-3, 100));
-  try {
-    sounds_of_runups({first, too_short}, "", nullptr);
-    FAIL("accepted");
-  } catch (const Error& e) {
-    CHECK(e.kind() == Failure::input);
-    CHECK(std::string(e.what()).find("2 ms are the least for a level") != std::string::npos);
-  }
+  CHECK(names(message_of_input([&] { sounds_of_runups({first, too_short}, "", nullptr); }), {2, "least"}));
 }
 
 TEST_CASE("sounds of run-ups: none in common, other rates and silence are rejected by name") {
@@ -321,30 +308,15 @@ TEST_CASE("sounds of run-ups: none in common, other rates and silence are reject
     RunupResult a = some_runup(0.1, 100);
     change(a);
     const std::string path = written(other, a);
-    try {
-      sounds_of_runups({first, path}, "", nullptr);
-    } catch (const Error& e) {
-      return std::string(e.what());
-    }
-    return std::string();
+    return message_of([&] { sounds_of_runups({first, path}, "", nullptr); });
   };
-  CHECK(said([](RunupResult&) {}).find("is heard already") != std::string::npos);
-  CHECK(said([](RunupResult& a) {
-          a.samples.mesh_frequency.array() += 1000;
-        }).find("no mesh frequency in common") != std::string::npos);
-  CHECK(said([](RunupResult& a) { a.sample_rate = 44100; }).find("has 44100 samples a second") !=
-        std::string::npos);
-  CHECK(said([](RunupResult& a) { a.sample_rate = 44100.5; }).find("a sound a whole number") !=
-        std::string::npos);
-  CHECK(said([](RunupResult& a) {
-          a.samples.mesh_force.setConstant(2000);
-        }).find("nothing is heard of up_2") != std::string::npos);
+  CHECK(names(said([](RunupResult&) {}), {"already", "heard"}));
+  CHECK(
+      names(said([](RunupResult& a) { a.samples.mesh_frequency.array() += 1000; }), {"frequency", "common"}));
+  CHECK(names(said([](RunupResult& a) { a.sample_rate = 44100; }), {44100, "samples"}));
+  CHECK(names(said([](RunupResult& a) { a.sample_rate = 44100.5; }), {"number", "sound"}));
+  CHECK(names(said([](RunupResult& a) { a.samples.mesh_force.setConstant(2000); }), {"up_2"}));
   VectorXd broken = VectorXd::Ones(10);
   broken[7] = std::numeric_limits<double>::infinity();
-  try {
-    filtered(broken, 48000, nullptr);
-    FAIL("accepted");
-  } catch (const Error& e) {
-    CHECK(std::string(e.what()).find("sample 7 of 10 is inf") != std::string::npos);
-  }
+  CHECK(names(message_of([&] { filtered(broken, 48000, nullptr); }), {7, 10, "inf"}));
 }

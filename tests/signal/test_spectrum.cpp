@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
-#include "failure_of.h"
+#include "refusal.h"
 #include "relative.h"
 #include "signal/jumps.h"
 #include "signal/response.h"

@@ -15,6 +15,7 @@
 #include "base/error.h"
 #include "contact/half_plane.h"
 #include "gear/involute.h"
+#include "refusal.h"
 #include "relative.h"
 #include "solid/elements.h"
 #include "solid/factor.h"
@@ -50,25 +51,6 @@ double off_identity(const Eigen::MatrixXcd& shapes, const Eigen::SparseMatrix<Co
   const Eigen::MatrixXcd momentum = mass * shapes;
   const Eigen::MatrixXcd energy = shapes.adjoint() * momentum;
   return (energy - Eigen::MatrixXcd::Identity(shapes.cols(), shapes.cols())).norm();
-}
-
-// Calls f and returns the kind of Error that it throws; -1 if it throws none.
-int failure_of(const std::function<void()>& f) {
-  try {
-    f();
-  } catch (const Error& error) {
-    return static_cast<int>(error.kind());
-  }
-  return -1;
-}
-
-std::string rejection(const std::function<void()>& f) {
-  try {
-    f();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 // A sector of an annulus (or of anything that `place` makes of it) with fixed inner edge: columns x rows
@@ -137,16 +119,15 @@ TEST_CASE("flank table: interpolation is exact for polynomials in the logarithmi
   }
   for (int i = 0; i < 12; ++i) CHECK(table.weights(table.points()[i])[i] == relative(1, 1e-10));
   for (int i = 1; i < 12; ++i) CHECK(table.points()[i] > table.points()[i - 1]);
-  CHECK(failure_of([&] { table.weights(tip + 1e-4); }) == 1);
-  CHECK(failure_of([&] { table.weights(table.lowest() - 1e-4); }) == 1);
+  CHECK(failure_of([&] { table.weights(tip + 1e-4); }) == Failure::numerical);
+  CHECK(failure_of([&] { table.weights(table.lowest() - 1e-4); }) == Failure::numerical);
   // Round-off beyond an end reads as the end; what is more stops with its numbers.
   for (const auto& [end, outward] : {std::pair{tip, 1.0}, std::pair{table.lowest(), -1.0}}) {
     CHECK((table.weights(end + outward * 5e-10) - table.weights(end)).norm() < 1e-5);
-    CHECK_THROWS_WITH_AS(table.weights(end + outward * 2e-9),
-                         doctest::Contains("a flank point outside the involute: roll angle "), Error);
+    CHECK(names(message_of([&] { table.weights(end + outward * 2e-9); }), {"involute", "outside"}));
   }
-  CHECK_THROWS_WITH_AS(table.weights(std::nan("")), doctest::Contains("outside the involute"), Error);
-  CHECK(failure_of([&] { FlankTable(0.07, 0.2, 0.2, 1e-5, 8); }) == 3);
+  CHECK(names(message_of([&] { table.weights(std::nan("")); }), {"involute", "outside"}));
+  CHECK(failure_of([&] { FlankTable(0.07, 0.2, 0.2, 1e-5, 8); }) == Failure::input);
 }
 
 TEST_CASE("Gauss rules integrate polynomials of degree 2 n - 1 exactly") {
@@ -315,44 +296,44 @@ TEST_CASE("meshes that cannot be made or are broken are rejected") {
     d.element_order = order;
     return d;
   };
-  CHECK(failure_of([&] { make_sector_mesh(kDefault, with(1e-3, 3)); }) == 3);
-  CHECK(failure_of([&] { make_sector_mesh(kDefault, with(7e-3, 2)); }) == 3);
-  CHECK(failure_of([&] { make_sector_mesh(kDefault, with(0, 2)); }) == 3);
-  CHECK(failure_of([&] { make_sector_mesh(gear(50, 3e-3, 0), good); }) == 3);
-  CHECK(failure_of([&] { make_sector_mesh(gear(50, 3e-3, 72e-3), good); }) == 3);      // bore above the root
-  CHECK(failure_of([&] { make_sector_mesh(gear(5, 3e-3, 2e-3, -1.2), good); }) == 3);  // cut off
+  CHECK(failure_of([&] { make_sector_mesh(kDefault, with(1e-3, 3)); }) == Failure::input);
+  CHECK(failure_of([&] { make_sector_mesh(kDefault, with(7e-3, 2)); }) == Failure::input);
+  CHECK(failure_of([&] { make_sector_mesh(kDefault, with(0, 2)); }) == Failure::input);
+  CHECK(failure_of([&] { make_sector_mesh(gear(50, 3e-3, 0), good); }) == Failure::input);
+  CHECK(failure_of([&] { make_sector_mesh(gear(50, 3e-3, 72e-3), good); }) ==
+        Failure::input);  // bore above the root
+  CHECK(failure_of([&] { make_sector_mesh(gear(5, 3e-3, 2e-3, -1.2), good); }) == Failure::input);  // cut off
 
   const SectorGrid mesh = make_sector_mesh(kDefault, good);
   SectorGrid folded = mesh;
   std::swap(folded.element_node(0, 1), folded.element_node(0, 3));
-  CHECK(failure_of([&] { check_sector_mesh(folded); }) == 1);
+  CHECK(failure_of([&] { check_sector_mesh(folded); }) == Failure::numerical);
   SectorGrid open = mesh;
   open.side_node.row(1) = mesh.side_node.row(2);
   open.side_node(1, 0) = mesh.side_node(1, 0);
-  CHECK(failure_of([&] { check_sector_mesh(open); }) == 1);
+  CHECK(failure_of([&] { check_sector_mesh(open); }) == Failure::numerical);
   SectorGrid small = mesh;
   small.design.bore_radius = 39e-3;
-  CHECK(failure_of([&] { check_sector_mesh(small); }) == 1);
+  CHECK(failure_of([&] { check_sector_mesh(small); }) == Failure::numerical);
   SectorGrid floating = mesh;  // nothing holds the gear
   floating.bore_node.resize(0);
-  CHECK(failure_of([&] { reduce(floating, kSteel, 1); }) == 1);
+  CHECK(failure_of([&] { reduce(floating, kSteel, 1); }) == Failure::numerical);
   SectorGrid wild = mesh;
   wild.bore_node[0] = static_cast<int>(mesh.node_position.rows());
-  CHECK(failure_of([&] { reduce(wild, kSteel, 1); }) == 3);
+  CHECK(failure_of([&] { reduce(wild, kSteel, 1); }) == Failure::input);
   for (const Material& material :
        {Material{-207e9, 0.3, 7600, true}, Material{207e9, 0.5, 7600, false}, Material{207e9, 0.3, 0, true}})
-    CHECK(failure_of([&] { reduce(mesh, material, 1); }) == 3);
+    CHECK(failure_of([&] { reduce(mesh, material, 1); }) == Failure::input);
   SectorGrid regionless = mesh;  // no tooth that carries the load: the table is what was subtracted
   regionless.element_region.setZero();
-  CHECK(rejection([&] { reduce(regionless, kSteel, 1); }).find("indefinite: least eigenvalue -") !=
-        std::string::npos);
+  CHECK(names(message_of([&] { reduce(regionless, kSteel, 1); }), {"indefinite", "eigenvalue"}));
   SectorGrid mirrored = mesh;  // its driving flank is the other one
   mirrored.node_position.col(0) *= -1;
   for (int e = 0; e < mirrored.element_node.rows(); ++e)
     for (auto [a, b] : {std::pair{1, 3}, {4, 7}, {5, 6}})
       std::swap(mirrored.element_node(e, a), mirrored.element_node(e, b));
   mirrored.side_node.col(0).swap(mirrored.side_node.col(1));
-  CHECK(rejection([&] { reduce(mirrored, kSteel, 1); }).find("relative asymmetry 1.") != std::string::npos);
+  CHECK(names(message_of([&] { reduce(mirrored, kSteel, 1); }), {1, "asymmetry"}));
 }
 
 TEST_CASE("no displacement is read off the flank, none below it where there is no tooth") {
@@ -362,18 +343,18 @@ TEST_CASE("no displacement is read off the flank, none below it where there is n
   const ToothGeometry tooth(kDefault);
   const SectorGrid mesh = make_sector_mesh(kDefault, discretisation);
   for (double xi : {tooth.tip_roll_angle() + 1e-3, tooth.form_roll_angle() - 1e-3, std::nan("")})
-    CHECK(failure_of([&] { FlankReader(mesh).outward(Eigen::VectorXd::Constant(1, xi)); }) == 1);
+    CHECK(failure_of([&] { FlankReader(mesh).outward(Eigen::VectorXd::Constant(1, xi)); }) ==
+          Failure::numerical);
   const auto matched = [&](double depth, NearField near_field) {
     SectorGrid copy = mesh;
     copy.discretisation.matching_depth = depth;
     copy.discretisation.near_field = near_field;
-    return rejection([&] { reduce(copy, kSteel, 1); });
+    return message_of([&] { reduce(copy, kSteel, 1); });
   };
   CHECK(matched(1e-3, NearField::matching).empty());
-  CHECK(matched(5e-3, NearField::matching).find("matching_depth_mm = 5 leaves the tooth: ") !=
-        std::string::npos);
-  CHECK(matched(0, NearField::matching).find("matching_depth_mm = 0 is not above 0") != std::string::npos);
-  CHECK(matched(std::nan(""), NearField::matching).find("matching_depth_mm = nan") != std::string::npos);
+  CHECK(names(matched(5e-3, NearField::matching), {"matching_depth_mm", 5}));
+  CHECK(names(matched(0, NearField::matching), {"matching_depth_mm", 0}));
+  CHECK(names(matched(std::nan(""), NearField::matching), {"matching_depth_mm", "nan"}));
 }
 
 TEST_CASE("rigid motions cost no energy and carry the body's inertia") {

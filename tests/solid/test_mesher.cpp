@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "gear/involute.h"
+#include "refusal.h"
 #include "solid/elements.h"
 #include "solid/mesher.h"
 #include "solid/root_stress.h"
@@ -70,8 +71,7 @@ void check_grids(int first, int step, int count) {
       INFO(error.what());
       CHECK(error.kind() == Failure::input);
       const std::string said = error.what();
-      const bool remedy =
-          said.find("lower ") != std::string::npos || said.find("raise ") != std::string::npos;
+      const bool remedy = names(said, {"lower"}) || names(said, {"raise"});
       CHECK(remedy);
       ++refused;
       continue;

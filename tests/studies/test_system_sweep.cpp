@@ -12,6 +12,7 @@
 #include "failure_of.h"
 #include "gear/system_layout.h"
 #include "io/artifacts.h"
+#include "io/publish.h"
 #include "io/system_scene.h"
 #include "orbits/periodic_orbit.h"
 #include "planetary_train.h"
@@ -81,10 +82,7 @@ std::string bytes_of(const SystemSweepResult& a) {
   const SceneFile place;
   const std::string path = place.path("") + ".h5";
   write(path, a, Provenance());
-  std::ifstream in(path, std::ios::binary);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
+  return read_bytes(path);
 }
 
 SystemSweepResult swept(Direction direction, const SystemSweepParameters& settings = train().settings) {
@@ -164,7 +162,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "branch of a planetary train from a sweep's motion: both ways, on the branch from the highest speed") {
+    "orbits of a planetary train from a sweep's motion: both ways, on the branch from the highest speed") {
   SystemSweepParameters settings = train().settings;
   settings.frequency_from = 2550;
   settings.frequency_to = 2600;
@@ -192,7 +190,7 @@ TEST_CASE(
   CHECK(failure_of([&] { follow({.tolerance = 1}); }) == Failure::input);
 }
 
-TEST_CASE("branch of a planetary train: where a contact begins to come or go its events are others") {
+TEST_CASE("orbits of a planetary train: where a contact begins to come or go its events are others") {
   SystemSweepParameters settings = train().settings;
   settings.frequency_from = 2400;
   settings.frequency_to = 2700;

@@ -5,6 +5,7 @@
 
 #include "gear/flank_kink.h"
 #include "paper_pair.h"
+#include "refusal.h"
 #include "relative.h"
 #include "studies/error_budget.h"
 #include "system/flank_pressure.h"
@@ -55,7 +56,7 @@ TEST_CASE(
   const auto remarks_of = pressure_remarks(solved(relieved(ReliefShape::linear, 8)));
   REQUIRE(remarks_of.size() == 1);
   CHECK(remarks_of[0].warning);
-  CHECK(remarks_of[0].words.find("no largest value") != std::string::npos);
+  CHECK(contains(remarks_of[0].words, "no largest value"));
 
   const FlankPressure round8 = flank_pressure(solved(relieved(ReliefShape::parabolic, 8))),
                       round32 = flank_pressure(solved(relieved(ReliefShape::parabolic, 32)));

@@ -11,10 +11,11 @@
 
 #include "base/error.h"
 #include "contact/half_plane.h"
-#include "failure_of.h"
 #include "io/artifacts.h"
 #include "io/h5.h"
+#include "own_folder.h"
 #include "paper_pair.h"
+#include "refusal.h"
 #include "relative.h"
 #include "results/loaded.h"
 #include "results/sector_grid.h"
@@ -243,8 +244,8 @@ TEST_CASE("loaded: what is shown has mid nodes about the loaded teeth alone, and
 
 TEST_CASE("loaded: artifacts are read as they were written, and what cannot be shown is rejected") {
   const LoadedResult& at = loaded_at(0.25);
-  const std::string path =
-      (std::filesystem::temp_directory_path() / text("whine_loaded_", getpid(), ".h5")).string();
+  const TemporaryFolder folder;
+  const std::string path = folder / "loaded.h5";
   write(path, at, {"test", "test", {}});
   const LoadedResult back = read<LoadedResult>(path);
   CHECK(back.strip_pressure == at.strip_pressure);
@@ -258,8 +259,6 @@ TEST_CASE("loaded: artifacts are read as they were written, and what cannot be s
   // 16 bytes of an element, tables and history included; of 390 000 elements, a pair of 25 and 76 teeth, it is 13: 5 MB.
   CHECK(static_cast<double>(std::filesystem::file_size(path)) <
         18.0 * static_cast<double>(at.vtk_cell.rows()));
-  std::filesystem::remove(path);
-  std::filesystem::remove(path.substr(0, path.size() - 2) + "hdf");
 
   CHECK(failure_of([] { loaded_at(1.0); }) == Failure::input);
   CHECK(failure_of([] { loaded_gear(coarse().mesh, paper_steel(), {}); }) == Failure::input);

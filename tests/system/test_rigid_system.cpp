@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "gear/system_layout.h"
 #include "planetary_train.h"
+#include "refusal.h"
 #include "relative.h"
 #include "system/natural_modes.h"
 
@@ -41,18 +42,7 @@ char letter(ModeType type) {
 }
 
 std::string said(const SystemScene& scene) {
-  try {
-    natural_modes(layout_of(scene));
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
-
-bool has(const std::string& words, const std::string& part) {
-  CAPTURE(words);
-  CHECK(words.find(part) != std::string::npos);
-  return true;
+  return message_of([&] { natural_modes(layout_of(scene)); });
 }
 
 }  // namespace
@@ -207,7 +197,7 @@ TEST_CASE(
   const std::array<int, 3> teeth{27, 36, 99};
   for (size_t g = 0; g < 3; ++g) opposite.gears[g].design = rigid_gear(teeth[g], g == 2);
   for (SystemScene::Mesh& mesh : opposite.meshes) mesh.spec.centre_distance = 0.5 * 63 * 2.776e-3;
-  has(said(opposite), "Nearest: positions_deg = [0, 88.5714, 180, 268.5714]");
+  CHECK(names(said(opposite), {"positions_deg", 0, "88.5714", 180, "268.5714"}));
   opposite.carriers[0].planets = 0;
   for (const double angle : {0.0, 91.43, 180.0, 271.43})
     opposite.carriers[0].positions.push_back(angle * kPi / 180);
@@ -294,49 +284,46 @@ TEST_CASE("a pair of rigid gears: the closed form of one degree of freedom; stif
 TEST_CASE("what a system scene says wrong is named, with the section that says it") {
   SystemScene scene = planetary_train(4);
   scene.carriers[0].planets = 5;
-  has(said(scene), "sun and ring have 28 + 100 = 128 teeth, which 5 does not divide");
+  CHECK(names(said(scene), {28, 100, 128, 5}));
   scene.carriers[0].planets = 8;
-  has(said(scene), "run into each other");
+  CHECK(names(said(scene), {"other", "each"}));
   scene = planetary_train(4);
   scene.meshes[1].spec.centre_distance *= 1 + 5e-6;  // further off the gears would jam
-  has(said(scene), "give both meshes of a planet one centre distance");
+  CHECK(names(said(scene), {"distance", "meshes"}));
   scene = planetary_train(4);
   std::swap(scene.meshes[0], scene.meshes[1]);
-  has(said(scene), "begin with the central gear");
+  CHECK(names(said(scene), {"central", "begin"}));
   scene = planetary_train(4);
   scene.gears[2].name = "planet2";
-  has(said(scene), "is called like one of the planets");
+  CHECK(names(said(scene), {"planets", "called"}));
   scene = planetary_train(4);
   scene.carriers[0].planet = "comet";
-  has(said(scene), "names no [gear.<name>] section");
+  CHECK(names(said(scene), {"[gear.<name>]"}));
   scene = planetary_train(4);
   System layout = layout_of(scene);
   layout.bodies.back().on = static_cast<int>(layout.bodies.size()) - 1;
-  CHECK_THROWS_WITH_AS(
-      natural_modes(layout),
-      "'planet1' stands on number 6, which is no carrier on the ground; a rigid system has no other place for it",
-      Error);
+  CHECK(names(message_of([&] { natural_modes(layout); }), {"planet1", 6, "ground"}));
   for (const char* planet : {"planet", "planet1", "planet4"}) {
     scene.drives[0].gear = planet;
-    has(said(scene), "planets have no drives");
+    CHECK(names(said(scene), {"planets", "drives"}));
   }
   scene = planetary_train(4);
   scene.carriers[0].name = "planet1";
-  has(said(scene), "carrier 'planet1' is called like one of the planets of carrier 'planet1'");
+  CHECK(names(said(scene), {"planet1"}));
   scene = planetary_train(4);
   scene.gears.push_back(scene.gears[1]);
   scene.gears.back().name = "comet";
   scene.carriers.push_back(scene.carriers[0]);
   scene.carriers[1].planet = "comet";
-  has(said(scene), "two carriers are called 'carrier'");
+  CHECK(names(said(scene), {"carrier"}));
   scene.carriers[0].name = "comet2";
-  has(said(scene), "carrier 'comet2' is called like one of the planets of carrier 'carrier'");
+  CHECK(names(said(scene), {"comet2", "carrier"}));
   scene = planetary_train(4);
   scene.meshes[0].stiffness = 0;
-  has(said(scene), "a stiffness of the mesh of 'sun-planet1' above 0");
+  CHECK(names(said(scene), {"sun-planet1", 0}));
   scene = planetary_train(4);
   scene.gears[0].bearing.mass = 0;
-  has(said(scene), "a mass of 'sun' above 0");
+  CHECK(names(said(scene), {"sun", 0}));
   try {
     SystemScene other = planetary_train(4);
     other.meshes[1].spec.gear[1] = "rim";

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "failure_of.h"
 #include "gear/iso6336_strength.h"
 #include "internal_pair.h"
 #include "paper_pair.h"
+#include "refusal.h"
 #include "relative.h"
 #include "report/flank_pressure_figure.h"
 #include "report/iso_comparison.h"
@@ -535,7 +535,7 @@ TEST_CASE(
   // Gears by the scene's names, no raw markup.
   CHECK(speed.columns[1] == "root_stress_pinion [MPa]");
   CHECK(rest.columns[2] == "root_stress_wheel [MPa]");
-  CHECK(figure.title.find("150 N m") != std::string::npos);
+  CHECK(contains(figure.title, "150 N m"));
   for (const std::string& note : figure.notes) CHECK(note.find('{') == std::string::npos);
   // One comparison with the standard, which the page shows as well.
   const IsoComparison iso = iso_comparison(s, r.inertia);
@@ -566,7 +566,7 @@ TEST_CASE(
 TEST_CASE("root stress: a pair at rest without it says what to do") {
   StaticResult s;
   s.mesh.gear = {"pinion", "wheel"};
-  CHECK(why_no_root_stress(s).find("make the bodies anew") != std::string::npos);
+  CHECK(contains(why_no_root_stress(s), "make the bodies anew"));
   CHECK(failure_of([&] { root_stress_figure(s, {}); }) == Failure::input);
   s.root_stress_max = Eigen::Vector2d(1e8, 1e8);
   s.root_stress = {MatrixRM::Constant(1, 1, 1e8), MatrixRM::Constant(1, 1, 1e8)};

@@ -8,6 +8,7 @@
 
 #include "gear/train.h"
 #include "paper_pair.h"
+#include "refusal.h"
 #include "relative.h"
 #include "system/rigid_system.h"
 #include "system/statics.h"
@@ -249,10 +250,11 @@ TEST_CASE("a third gear without torque: the first two are the pair, the second m
   CHECK_THROWS_AS(mesh_loads({loose, train_bodies(), {train_mesh(0), train_mesh(1)}}), Error);
   loose.drives = {};
   for (const int b : {0, 1, 2}) loose.drives.push_back({b, System::DriveKind::held});
-  CHECK_THROWS_WITH(mesh_loads({loose, train_bodies(), {train_mesh(0), train_mesh(1)}}),
-                    doctest::Contains("every body is held"));
-  CHECK_THROWS_WITH(mesh_loads(loaded_train(train(), 2, true, 0)),
-                    doctest::Contains("no drive of the system"));
+  CHECK(names(message_of([&] {
+                mesh_loads({loose, train_bodies(), {train_mesh(0), train_mesh(1)}});
+              }),
+              {"every", "body"}));
+  CHECK(names(message_of([&] { mesh_loads(loaded_train(train(), 2, true, 0)); }), {"system", "drive"}));
   // Torque against the flow of power opens the meshes.
   CHECK_THROWS_AS(mesh_loads(loaded_train(train(), 2, true, -kTorque)), Error);
 }

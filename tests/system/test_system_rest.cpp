@@ -12,6 +12,7 @@
 #include "gear/system_layout.h"
 #include "io/system_scene.h"
 #include "planetary_train.h"
+#include "refusal.h"
 #include "relative.h"
 #include "scene_file.h"
 #include "signal/spectrum.h"
@@ -264,7 +265,7 @@ TEST_CASE("a third gear without torque: no stiffness in its mesh, one more free 
   // Springs of a scene are another matter: each needs its stiffness.
   System springs = a.settings.layout;
   springs.meshes[0].stiffness = 0;
-  CHECK_THROWS_WITH(natural_modes(springs), doctest::Contains("a stiffness of the mesh of 'sun-planet'"));
+  CHECK(names(message_of([&] { natural_modes(springs); }), {"sun-planet"}));
 }
 
 TEST_CASE("the four-planet set that ships and its rigid twin stand, turn and mesh alike") {
@@ -331,24 +332,17 @@ TEST_CASE(
     std::ostringstream whole;
     whole << in.rdbuf() << more;
     const std::string path = file.path(whole.str());
-    try {
-      read_system_scene(path);
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return message_of([&] { read_system_scene(path); });
   };
   CHECK(said("").empty());
   CHECK(said("[gear.sun.modification]\ncrowning_um = 5\n").empty());
   CHECK(said("[gear.sun.error]\niso_class = 5\n[gear.planet.error]\niso_class = 5\n").empty());
-  CHECK(
+  CHECK(names(
       said(
-          "[gear.sun.error]\niso_class = 5\n[gear.ring.error]\niso_class = 5\n[gear.planet.error]\niso_class = 5\n")
-          .find("the same teeth meet again after 10395 mesh periods") != std::string::npos);
-  CHECK(said("[gear.sun.crack]\ntooth = 1\ndepth_mm = 0.5\n").find("or compute two of the gears as a pair") !=
-        std::string::npos);
-  CHECK(said("[[bearing]]\ngear = \"carrier\"\nstiffness_N_um = 5.0\n")
-            .find("lacks 'mass_kg', which a carrier needs") != std::string::npos);
+          "[gear.sun.error]\niso_class = 5\n[gear.ring.error]\niso_class = 5\n[gear.planet.error]\niso_class = 5\n"),
+      {10395, "periods"}));
+  CHECK(names(said("[gear.sun.crack]\ntooth = 1\ndepth_mm = 0.5\n"), {"compute", "gears"}));
+  CHECK(names(said("[[bearing]]\ngear = \"carrier\"\nstiffness_N_um = 5.0\n"), {"mass_kg"}));
   CHECK(said("[[bearing]]\ngear = \"carrier\"\nstiffness_N_um = 5.0\nmass_kg = 6.0\n").empty());
   CHECK(said("[fidelity]\ncontact = \"line\"\n").empty());
   // Motion: what the statics do not depend on is in parameters of its own.
@@ -363,20 +357,14 @@ TEST_CASE(
     std::ostringstream whole;
     whole << in.rdbuf();
     std::string scene_text = whole.str();
-    scene_text.insert(scene_text.find("\nmesh_frequency_Hz") == std::string::npos
+    scene_text.insert(!contains(scene_text, "\nmesh_frequency_Hz")
                           ? scene_text.size()
                           : scene_text.find("\nmesh_frequency_Hz") + 1,
                       more);
-    try {
-      read_system_scene(file.path(scene_text));
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return message_of([&] { read_system_scene(file.path(scene_text)); });
   };
-  CHECK(reads(kTrain, "torque_Nm = 5.0\n").find("those of [[drive]]") != std::string::npos);
-  CHECK(reads("data/scenes/lin-parker-planetary.toml", "[damping]\n")
-            .find("belongs to elastic gears in motion") != std::string::npos);
+  CHECK(names(reads(kTrain, "torque_Nm = 5.0\n"), {"[[drive]]"}));
+  CHECK(names(reads("data/scenes/lin-parker-planetary.toml", "[damping]\n"), {"belongs", "elastic"}));
 }
 
 namespace {
@@ -442,7 +430,6 @@ TEST_CASE("a tip that comes too close to the root of its mate is told of, of lin
   scene.drives[0].torque = 1500;
   for (const ContactModel contact : {ContactModel::line, ContactModel::strips}) {
     CAPTURE(contact);
-    CHECK_THROWS_WITH(coarsely_at_rest(scene, contact),
-                      doctest::Contains("reaches the start of the involute of 'sun'"));
+    CHECK(names(message_of([&] { coarsely_at_rest(scene, contact); }), {"sun"}));
   }
 }
