@@ -41,7 +41,7 @@ each = $(wordlist 1,6,$1)
 
 # inputs_<figure>: $1 scenes, $2 torques. What is drawn at one torque takes the first.
 inputs_fig01 = $(call of_gears,$1,mesh) out/$1/T$(firstword $2)/static.h5
-inputs_fig03 = $(call of_gears,$1,mesh) $(call of_gears,$1,body) out/$1/T$(firstword $2)/static.h5
+inputs_fig03 = $(inputs_fig01)
 inputs_fig05 = $(call both_ways,$1,$(firstword $2),response) $(call impacts,$1,$(firstword $2))
 inputs_fig07 = $(call both_ways,$1,$(call each,$2),response) $(call impacts,$1,$(call each,$2))
 # The same with the orbits that no sweep finds.

@@ -24,6 +24,7 @@
 #include "report/sweep_panels.h"
 #include "signal/spectrum.h"
 #include "studies/sweep.h"
+#include "system/rectangular_wave.h"
 
 namespace whine::pictures {
 
@@ -121,6 +122,7 @@ inline StaticResult at_rest(double torque) {
   s.friction_moment = {s.friction_loss, -s.friction_loss};
   s.efficiency = 0.9912345;
   set_harmonics(s);
+  s.rectangular_wave = rectangular_wave(s);
   return s;
 }
 

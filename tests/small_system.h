@@ -7,6 +7,8 @@
 #include "planetary_train.h"
 #include "results/system_static.h"
 #include "results/system_sweep.h"
+#include "studies/turning_carrier.h"
+#include "system/drawing_remarks.h"
 
 // A train at two phases, numbers without meaning.
 inline whine::SystemStaticResult small_system(whine::SystemScene scene = planetary_train(3)) {
@@ -48,6 +50,7 @@ inline whine::SystemStaticResult small_system(whine::SystemScene scene = planeta
   a.mesh_stiffness.assign(2, MatrixRM::Identity(meshes, meshes) * 5e8);
   a.least_gap = a.least_force = a.torque_residual = Eigen::Vector2d(0, 1e-13);
   a.transmission_error_harmonic = MatrixRM::Constant(1, meshes, 2.5e-6);
+  a.remarks = drawing_remarks(a);
   return a;
 }
 
@@ -82,5 +85,6 @@ inline whine::SystemSweepResult small_sweep(const whine::SystemStaticResult& res
     *x = Eigen::Vector2d(1e-6, value *= 0.9);
   a.energy = MatrixRM::Constant(2, static_cast<Eigen::Index>(kSystemEnergyLines.size()), -1.0 / 7);
   a.least_gap = -1e-15;
+  a.remarks = left_out_of_carriers(a);
   return a;
 }

@@ -20,6 +20,7 @@
 #include "report/plot_file.h"
 #include "results/sector_grid.h"
 #include "results/sweep.h"
+#include "solid/tooth_bending.h"
 
 namespace {
 
@@ -46,9 +47,9 @@ void body(int argc, char** argv) {
   const whine::NamedFiles files("--mesh", meshes);
   const whine::SweepResult motion = whine::read<whine::SweepResult>(sweep);
   const std::vector<std::string> paths = files.of(motion.mesh);
-  whine::Figure figure =
-      whine::animation_figure(whine::read<whine::SectorGrid>(paths[0]),
-                              whine::read<whine::SectorGrid>(paths[1]), motion, speed, frames);
+  whine::Figure figure = whine::animation_figure(whine::read<whine::SectorGrid>(paths[0]),
+                                                 whine::read<whine::SectorGrid>(paths[1]), motion,
+                                                 whine::tooth_bending, speed, frames);
   const std::string scene = whine::scene_words(sweep);
   if (!scene.empty()) figure.scenes = {scene};
   for (const std::string& path : {paths[0], paths[1], sweep}) whine::require_fresh(path);

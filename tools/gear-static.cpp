@@ -107,6 +107,7 @@ void body(int argc, char** argv) {
   result.stiffness_harmonic = mean_and_harmonics(result.stiffness_secant, periods, periods);
   if (periods > 1)
     result.transmission_error_order = mean_and_harmonics(result.transmission_error, periods, 1);
+  result.reference_contact = whine::reference_contact(driver, driven, result);
   steps.reset();
 
   whine::write(output, result, provenance);
@@ -118,7 +119,7 @@ void body(int argc, char** argv) {
     tell_change("where a pair carries load off the line of action", change->corner, settings.contact.strips);
     tell_change("elsewhere", change->elsewhere, settings.contact.strips);
   }
-  for (const whine::Remark& remark : whine::remarks(result))
+  for (const whine::Remark& remark : result.remarks)
     whine::log_line("gear-static: ", remark.warning ? "warning: " : "", remark.words);
 }
 

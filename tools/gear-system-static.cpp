@@ -16,7 +16,6 @@
 #include "io/provenance.h"
 #include "io/system_scene.h"
 #include "results/system_static.h"
-#include "system/drawing_remarks.h"
 #include "system/system_rest.h"
 
 namespace {
@@ -55,7 +54,7 @@ void body(int argc, char** argv) {
                   " meshes, mean transmission errors ", te.row(0).minCoeff() * 1e6, " to ",
                   te.row(0).maxCoeff() * 1e6, " µm, shares of the load up to ",
                   result.load_share.maxCoeff() * 100, " %, bearing forces up to ", most, " N -> ", output);
-  for (const whine::Remark& remark : whine::drawing_remarks(result))
+  for (const whine::Remark& remark : result.remarks)
     whine::log_line("gear-system-static: ", remark.warning ? "warning: " : "", remark.words);
 }
 

@@ -19,7 +19,6 @@
 #include "results/system_sweep.h"
 #include "signal/jump_words.h"
 #include "studies/system_sweep.h"
-#include "studies/turning_carrier.h"
 
 namespace {
 
@@ -67,13 +66,8 @@ void body(int argc, char** argv) {
   for (Eigen::Index i = 0; i < result.mesh_frequency.size(); ++i)
     if (result.period_multiple[i] == 0)
       speeds += whine::text(speeds.empty() ? "" : ", ", result.mesh_frequency[i]);
-  for (const whine::TurningCarrier& of : whine::turning_carriers(result))
-    if (of.relative_force() > (of.turns ? whine::kNotedCentrifugal : whine::kLargeCentrifugal))
-      whine::log_line("gear-system-sweep: left out of the pins of ",
-                      settings.layout.bodies[static_cast<size_t>(of.carrier)].name,
-                      of.turns ? "" : " in the machine", ", which turns: centrifugal forces of ",
-                      of.centrifugal_force, " N, ", 100 * of.relative_force(), " % of the mesh force, at ",
-                      of.mesh_frequency, " Hz");
+  for (const whine::Remark& remark : result.remarks)
+    whine::log_line("gear-system-sweep: ", remark.warning ? "warning: " : "", remark.words);
   if (!speeds.empty())
     whine::log_line("gear-system-sweep: the motion does not become periodic at ", speeds,
                     " Hz; raise damping, or periodicity in [discretisation]");

@@ -1,5 +1,6 @@
 // Numbers in messages: as many digits as a drawing has.
 #pragma once
+#include <cmath>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -11,6 +12,23 @@ inline std::string shown_number(double value) {
   char buffer[40];
   std::snprintf(buffer, sizeof buffer, "%.6g", value);
   return buffer;
+}
+
+// %.<digits>g: text() would show ten digits.
+inline std::string shown(double value, int digits) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
+  return buffer;
+}
+
+// %.<decimals>f, without the sign of what rounds to 0.
+inline std::string fixed(double value, int decimals) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, "%.*f", decimals, value);
+  const std::string out = buffer;
+  return std::signbit(value) && std::isfinite(value) && out.find_first_of("123456789") == std::string::npos
+             ? out.substr(1)
+             : out;
 }
 
 // "3.5 mm" of 0.0035.

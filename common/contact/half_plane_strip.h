@@ -4,15 +4,9 @@
 #include <string>
 
 #include "contact/half_plane.h"
-#include "model/scene.h"
+#include "gear/hertz.h"
 
 namespace whine {
-
-// The material with the plane state that the contact has; contact_plane as in GearMeshSpec.
-inline Material in_contact_plane(Material material, ContactPlane contact_plane) {
-  if (contact_plane != ContactPlane::body) material.plane_stress = contact_plane == ContactPlane::stress;
-  return material;
-}
 
 class HalfPlaneSurface {
  public:

@@ -6,7 +6,7 @@
 #include "base/dense.h"
 #include "base/error.h"
 #include "base/units.h"
-#include "system/rigid_system.h"
+#include "gear/layout.h"
 
 namespace whine {
 
@@ -446,16 +446,6 @@ double axis_frequency(const SystemModel& system, const MatrixXd& mean_stiffness)
 
 SystemCoordinates coordinates_of(const SystemModel& system, const SystemMotion& motion) {
   return Builder(system, motion).build();
-}
-
-bool moving_carrier(const System& layout, int b) {
-  const System::Body& body = layout.bodies[static_cast<size_t>(b)];
-  return body.kind == System::BodyKind::carrier && (!layout.held(b) || body.bearing.elastic());
-}
-
-bool on_rigid_moving_pin(const System& layout, int b) {
-  const System::Body& body = layout.bodies[static_cast<size_t>(b)];
-  return body.on != System::kGround && !body.bearing.elastic() && moving_carrier(layout, body.on);
 }
 
 SystemCoordinates::Participation SystemCoordinates::participation(const SystemModel& system, int b,

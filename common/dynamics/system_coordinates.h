@@ -137,11 +137,6 @@ struct SystemCoordinates {
   }
 };
 
-// Whether a body is a carrier that may turn or move: its planets do so with it.
-bool moving_carrier(const System& layout, int b);
-// Whether a body is a planet on a rigid pin of such a carrier: the force on its pin has the inertia of the planet.
-bool on_rigid_moving_pin(const System& layout, int b);
-
 // Throws Error(input) for body = "full", "rigid", contact other than "line", Newmark's method, a gear without a mode that a freedom
 // needs, and inertias and masses below those of the body, of a carrier below those of planets on rigid pins; Error(numerical) if modes
 // cannot be found.

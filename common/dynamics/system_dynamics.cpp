@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/model_range.h"
 #include "dynamics/system_energy_record.h"
-#include "system/rigid_system.h"
+#include "gear/layout.h"
 
 namespace whine {
 

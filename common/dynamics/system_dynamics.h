@@ -30,7 +30,7 @@
 #include "dynamics/system_contact.h"
 #include "dynamics/system_coordinates.h"
 #include "dynamics/system_energy.h"
-#include "system/rigid_system.h"
+#include "gear/layout.h"
 #include "system/system_statics.h"
 
 namespace whine {

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
-#include "system/rigid_system.h"
+#include "gear/layout.h"
 
 namespace whine {
 

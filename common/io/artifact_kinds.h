@@ -42,7 +42,7 @@ struct ArtifactKind {
 inline constexpr std::tuple kArtifactKinds{
     ArtifactKind<SectorGrid>{"mesh", 1, "mesh.h5", "mesh"},
     ArtifactKind<ReducedBody>{"body", 5, "body.h5", "body"},
-    ArtifactKind<StaticResult>{"static", 5, "static.h5", "static"},
+    ArtifactKind<StaticResult>{"static", 6, "static.h5", "static"},
     ArtifactKind<ErrorBudgetResult>{"error_budget", 4, "error_budget.h5", "error_budget"},
     ArtifactKind<LoadedResult>{"loaded", 1, "loaded_<phase>.h5", "loaded_*"},
     ArtifactKind<ImpactResult>{"impact", 1, "impact.h5", "impact"},
@@ -56,7 +56,7 @@ inline constexpr std::tuple kArtifactKinds{
     ArtifactKind<VariantResult>{"variant", 3, "ab12....h5", ""},
     ArtifactKind<StudyResult>{"study", 3, "study.h5", ""},
     ArtifactKind<ModesResult>{"modes", 1, "modes.h5", "modes"},
-    ArtifactKind<SystemStaticResult>{"system_static", 1, "system_static.h5", "system_static"},
+    ArtifactKind<SystemStaticResult>{"system_static", 2, "system_static.h5", "system_static"},
     ArtifactKind<SystemSweepResult>{"system_sweep", 3, "system_sweep.h5", "system_sweep"},
     ArtifactKind<SystemImpactResult>{"system_impact", 1, "system_impact.h5", "system_impact"},
     ArtifactKind<SystemBranchResult>{"system_branch", 3, "system_branch.h5", "system_branch"},

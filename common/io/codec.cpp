@@ -319,12 +319,15 @@ void describe_backlash(Codec& c, double& margin) {
     margin = std::numeric_limits<double>::infinity();
 }
 
-void describe_remarks(Codec& c, Eigen::VectorXd& backlash_left, std::vector<Remark>& remarks) {
+void describe_backlash_left(Codec& c, Eigen::VectorXd& backlash_left) {
   if (c.optional("/backlash_left", backlash_left.size() > 0 && backlash_left.allFinite()))
     c(backlash_left, "/backlash_left", "m", kLength, "mesh_frequency",
       "backlash that the motion leaves along the line of action; below 0 back flanks would touch, which is not modelled");
   else if (c.in())
     backlash_left.setConstant(c.length("mesh_frequency"), std::numeric_limits<double>::infinity());
+}
+
+void describe_remarks(Codec& c, std::vector<Remark>& remarks) {
   if (!c.optional("/remark", !remarks.empty())) return;
   std::vector<std::string> words;
   Eigen::VectorXi warning(static_cast<Eigen::Index>(remarks.size()));

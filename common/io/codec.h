@@ -186,8 +186,9 @@ void describe_model(Codec& codec, MotionModel& model, const std::string& meaning
                     DamperActs* damper_acts = nullptr);
 // Left out where back flanks are ignored: the margin (m) is then infinite.
 void describe_backlash(Codec& codec, double& margin);
-// Of a sweep: (mesh_frequency) m, backlash that is left, stored and left out likewise; what its reader has to know.
-void describe_remarks(Codec& codec, Eigen::VectorXd& backlash_left, std::vector<Remark>& remarks);
+// Of a sweep: (mesh_frequency) m, backlash that is left, stored and left out likewise.
+void describe_backlash_left(Codec& codec, Eigen::VectorXd& backlash_left);
+void describe_remarks(Codec& codec, std::vector<Remark>& remarks);
 
 // How well the contact conditions hold, worst over all steps: m, N, contact solutions by the slower method.
 void describe_certificate(Codec& codec, double& least_gap, double& least_force, int& fallbacks);

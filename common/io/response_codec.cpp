@@ -88,7 +88,8 @@ void describe(Codec& c, ResponseResult& a) {
     "width of the interval in which the response jumps");
   c(a.period_multiple, "/period_multiple", "1", kMultiple, axis,
     "mesh periods after which the motion repeats; 0: not periodic within the limit");
-  describe_remarks(c, a.backlash_left, a.remarks);
+  describe_backlash_left(c, a.backlash_left);
+  describe_remarks(c, a.remarks);
 }
 
 std::string title(const ResponseResult& a) {

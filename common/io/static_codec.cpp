@@ -77,6 +77,53 @@ void describe_static_friction(Codec& c, StaticResult& a) {
     "1 - mean friction_loss / torque");
 }
 
+// What follows from the curves.
+void describe_compliance(Codec& c, ComplianceSplit& a) {
+  c(a.whole, "/compliance/mesh", "m N-1", kFlexibility, "", "of the mesh, mean over the period",
+    "1 / mean_stiffness");
+  c(a.body, "/compliance/body", "m N-1", kFlexibility, "gear",
+    "part of it: twist of each gear's body between bore and root circle, all pairs together",
+    "r_b^2 / (4 pi G b) (1 / r_bore^2 - 1 / r_root^2)");
+  c(a.wider_body, "/compliance/body_of_wider_bore", "m N-1", kFlexibility, "gear",
+    "the same with a bore a tenth larger, the root circle at most");
+  c(a.contact, "/compliance/contact", "m N-1", kFlexibility, "",
+    "part of it: Hertz's approach at the pitch point; what is left are the teeth");
+  c(a.single, "/single_pair_stiffness", "N m-1", kSpring, "",
+    "largest secant stiffness of a pair that carries all the load; 0: no pair ever does");
+}
+
+void describe_flank_pressure(Codec& c, FlankPressure& a) {
+  c(a.smooth, "/flank_pressure_max", "Pa", kPressure, "",
+    "largest contact pressure inside the flanks and clear of ridges, where a relief begins; 0: there is none");
+  if (!c.optional("/ridge/cause", !a.ridge.empty())) return;
+  c(a.ridge, "/ridge/cause", "",
+    "what makes a ridge of the flank that contact runs over; pressure has no largest value there");
+  c(a.on_ridge, "/ridge/pressure_of_strips", "Pa", kPressure, "", "what the strips show there");
+  c(a.per_doubling, "/ridge/pressure_per_doubling", "Pa", kPressure, "",
+    "what that grows by with each doubling of the strips");
+}
+
+void describe_rectangular_wave(Codec& c, RectangularWave& a) {
+  const std::string at = "/rectangular_wave/";
+  c(a.low, at + "low", "N m-1", kSpring, "",
+    "secant stiffness in the middle of the zone of fewer pairs in nominal contact");
+  c(a.high, at + "high", "N m-1", kSpring, "", "the same where there is one pair more");
+  c(a.high_begin, at + "high_begin", "1", kSigned, "",
+    "mesh phase at which a pair comes without load, and the zone of more pairs begins");
+  c(a.high_end, at + "high_end", "1", kSigned, "", "mesh phase at which that zone ends");
+}
+
+void describe_reference_contact(Codec& c, ReferenceContact& a) {
+  const std::string at = "/reference_contact/";
+  if (!c.optional(at + "border", a.border.size() > 0)) return;
+  c(a.border, at + "border", "m", kLength, "strip_border",
+    "borders of the strips of the reference pair at mesh phase 0 along the flank, from the pitch point to the driver's tip");
+  c(a.gap, at + "gap", "m", kLength, "strip", "gap of the unloaded flanks, mean over the strip");
+  c(a.force, at + "force", "N", kForce, "strip", "normal force of each strip", "p of Eq. 18");
+  c(a.separation, at + "separation", "m", kLength, "strip", "gap of the loaded flanks", "d of Eq. 18");
+  c(a.approach, at + "approach", "m", kLength, "", "transmission error at this phase with strips");
+}
+
 }  // namespace
 
 void describe(Codec& c, StaticResult& a) {
@@ -100,6 +147,10 @@ void describe(Codec& c, StaticResult& a) {
   }
   c(a.mean_stiffness, "/mean_stiffness", "N m-1", kStiff, "",
     "mean of the secant stiffness over a mesh period");
+  describe_compliance(c, a.compliance);
+  describe_flank_pressure(c, a.flank_pressure);
+  describe_rectangular_wave(c, a.rectangular_wave);
+  describe_reference_contact(c, a.reference_contact);
   c(a.least_gap, "/certificate/least_gap", "m", kLength, "",
     "least gap of a strip without force, over all positions", "d >= 0 where p = 0 (with Eq. 18, 20)");
   c(a.least_force, "/certificate/least_force", "N", kForce, "",
@@ -107,6 +158,7 @@ void describe(Codec& c, StaticResult& a) {
   c(a.torque_residual, "/certificate/torque_residual", "1", kPositive, "",
     "largest relative residual of the torque, over all positions", "|sum a p - T| / T");
   describe_backlash(c, a.backlash_margin);
+  describe_remarks(c, a.remarks);
 }
 
 std::string title(const StaticResult& a) {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gear/layout.h"
 #include "signal/jump_words.h"
-#include "system/rigid_system.h"
 
 namespace whine {
 

@@ -92,7 +92,8 @@ void describe(Codec& c, SweepResult& a) {
   describe_hunting(c, a.hunting_periods);
   describe_certificate(c, a.least_gap, a.least_force, a.fallbacks);
   describe_backlash(c, a.backlash_margin);
-  describe_remarks(c, a.backlash_left, a.remarks);
+  describe_backlash_left(c, a.backlash_left);
+  describe_remarks(c, a.remarks);
   c(a.jump_frequency, "/jump_frequency", "Hz", kFrequency, "jump",
     "middle of the interval in which the response jumps");
   c(a.jump_width, "/jump_width", "Hz", kFrequency, "jump",

@@ -129,6 +129,7 @@ void describe(Codec& c, SystemStaticResult& a) {
     "p >= 0 where d = 0 (with Eq. 18, 20)");
   c(a.torque_residual, "/certificate/torque_residual", "1", kPositive, "mesh_phase",
     "largest unbalance of a free body's rotation over the largest mesh force", "|L^T p - T / r|");
+  describe_remarks(c, a.remarks);
   if (c.in()) require_whole(c, a);
 }
 

@@ -3,7 +3,7 @@
 #include "io/system_motion_codec.h"
 
 #include "base/error.h"
-#include "dynamics/system_coordinates.h"
+#include "gear/layout.h"
 #include "io/artifact_file.h"
 #include "io/keys.h"
 #include "io/layout_codec.h"
@@ -120,6 +120,7 @@ void describe(Codec& c, SystemSweepResult& a) {
   describe_meshes(c, a);
   describe_bodies(c, a);
   describe_solution(c, a);
+  describe_remarks(c, a.remarks);
   if (!c.in()) return;
   if (a.mesh_frequency.size() == 0) c.in()->reject("dataset /mesh_frequency holds no speed");
   if (a.settings.layout.meshes.empty()) c.in()->reject("dataset /mesh/phase holds no mesh");

@@ -15,7 +15,7 @@ LumpedParameters springs_of(const LumpedInputs& inputs, const SpringChoice& choi
   numbers = Eigen::VectorXi::Zero(1);
   if (choice.model == MotionModel::rectangular)
     return cells_of(choice.stated ? stated_wave(pair, choice.fewer, choice.more, choice.duty)
-                                  : rectangular_wave(inputs.at_reference));
+                                  : inputs.at_reference.rectangular_wave);
   const int positions = static_cast<int>(pair.mesh_phase.size());
   const int cells = choice.cells > 0 ? choice.cells : positions * ((1023 + positions) / positions);
   if (choice.model == MotionModel::pairs) return cells_of_pairs(pair, cells, numbers);

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "contact/half_plane_strip.h"
 #include "gear/pair.h"
+#include "signal/spectrum.h"
 
 namespace whine {
 namespace {
@@ -18,17 +19,6 @@ constexpr double kFarthestDeflection =
 
 double wrapped(double phase) {
   return phase - std::floor(phase);
-}
-
-// Linear between the samples of one period.
-double at_phase(const Eigen::VectorXd& phase, const Eigen::VectorXd& value, double at) {
-  const double p = wrapped(at);
-  const Eigen::Index n = phase.size();
-  Eigen::Index i = n - 1;
-  while (i > 0 && phase[i] > p) --i;
-  const double right = i + 1 < n ? phase[i + 1] : phase[0] + 1.0;
-  const double share = (p - phase[i]) / (right - phase[i]);
-  return (1.0 - share) * value[i] + share * value[(i + 1) % n];
 }
 
 // Ends of `cells` equal cells, the first about phase 0 and therefore in two halves.
@@ -54,34 +44,6 @@ double integral(const Eigen::VectorXd& values, double p) {
 
 }  // namespace
 
-double RectangularWave::mean() const {
-  return low + (high - low) * (high_end - high_begin);
-}
-
-double RectangularWave::amplitude(int harmonic) const {
-  const double n = std::numbers::pi * harmonic;
-  return 2.0 * std::abs((high - low) * std::sin(n * (high_end - high_begin))) / n;
-}
-
-double RectangularWave::at(double phase) const {
-  return wrapped(phase - high_begin) < high_end - high_begin ? high : low;
-}
-
-RectangularWave rectangular_wave(const StaticResult& s) {
-  const GearPair pair(s);
-  // A pair j, which touches the pitch point at phase j, is in contact from j + start to j + end.
-  const double start = pair.path_start() / pair.base_pitch(), end = pair.path_end() / pair.base_pitch();
-  const double few = std::floor(end - start);  // pairs in contact where they are fewest
-  RectangularWave wave;
-  // A new pair comes at start (modulo 1), the oldest leaves at end: between them there is one pair more.
-  wave.high_begin = wrapped(start);
-  wave.high_end = wave.high_begin + (end - start - few);
-  const double middle = 0.5 * (wave.high_begin + wave.high_end);
-  wave.high = at_phase(s.mesh_phase, s.stiffness_secant, middle);
-  wave.low = at_phase(s.mesh_phase, s.stiffness_secant, middle + 0.5);
-  return wave;
-}
-
 RectangularWave stated_wave(const StaticResult& s, double fewer, double more, double duty) {
   const GearPair pair(s);
   const double force = s.torque / pair.gear(0).base_radius(), module = s.gear[0].design.module;
@@ -97,7 +59,7 @@ RectangularWave stated_wave(const StaticResult& s, double fewer, double more, do
   if (!(duty > 0 && duty < 1))
     fail(Failure::input, "lumped model: the duty, the share of the second level, is ", duty,
          "; it must be above 0 and below 1");
-  const RectangularWave place = rectangular_wave(s);
+  const RectangularWave& place = s.rectangular_wave;
   RectangularWave wave;
   wave.low = fewer;
   wave.high = more;

@@ -8,19 +8,6 @@
 
 namespace whine {
 
-// The rectangular wave that approximates a mesh stiffness: one level per number of pairs in nominal contact.
-// Levels are read from the curve in the middle of the two zones, it switches where pairs enter and leave contact
-// without load.
-struct RectangularWave {
-  double low = 0, high = 0;             // N m-1
-  double high_begin = 0, high_end = 0;  // phase; begin in [0, 1), end in (begin, begin + 1)
-  double mean() const;                  // N m-1
-  double amplitude(
-      int harmonic) const;        // N m-1, harmonic >= 1: 2 (high - low) |sin(pi n d)| / (pi n), d the share
-  double at(double phase) const;  // N m-1
-};
-RectangularWave rectangular_wave(const StaticResult& pair);
-
 // Other levels (N m-1) and another share of the high one, about the middle of the statics' own wave. Error(input) unless both
 // are so stiff that the static load bends them by less than a module, the second, of more pairs, is not below the first, and
 // the share lies in (0, 1).

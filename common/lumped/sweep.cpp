@@ -378,7 +378,7 @@ JumpMapResult lumped_jump_map(const StaticResult& statics, LumpedParameters spri
   map.torque = statics.torque;
   map.mean_stiffness = at_rest.mean_stiffness();
   map.first_harmonic = at_rest.first_harmonic();
-  const RectangularWave zones = rectangular_wave(statics);
+  const RectangularWave& zones = statics.rectangular_wave;
   const double middle = 0.5 * (zones.high_begin + zones.high_end);
   map.two_pair_frequency = at_rest.frequency_at(middle);
   if (((statics.tooth_load.array() > 0).rowwise().count() == 1).any())

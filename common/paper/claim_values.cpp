@@ -263,7 +263,7 @@ Finding mean_transmission_errors(const SceneResults& s) {
 }
 
 Finding levels_of_wave(const SceneResults& s) {
-  const RectangularWave wave = rectangular_wave(s.at_rest(100));
+  const RectangularWave& wave = s.at_rest(100).rectangular_wave;
   return {kNone,
           text("rectangular wave ", digits(wave.low * kMega), " and ", digits(wave.high * kMega), " N/µm")};
 }

@@ -27,7 +27,7 @@ Eigen::VectorXd load_of_a_pair(const SweepResult& sweep, Index row) {
 Finding lumped_jumps(const SceneResults& s, int torque) {
   const Branches b = s.branches(torque, MotionModel::rectangular);
   if (jumps(b)) return {1, jumps_text(b)};
-  const RectangularWave wave = rectangular_wave(s.at_rest(kTorques[0]));
+  const RectangularWave& wave = s.at_rest(kTorques[0]).rectangular_wave;
   return {0, text("one branch; ", loss_text(b), "; levels ", digits(wave.low * kMega), " and ",
                   digits(wave.high * kMega), " N/µm, ratio ", digits(wave.high / wave.low, 3),
                   "; first harmonic ", digits(100 * wave.amplitude(1) / wave.mean(), 3), " % of their mean")};
@@ -139,7 +139,7 @@ Finding stiffness_spectrum(const SceneResults& s) {
 }
 
 Finding spectrum_lost(const SceneResults& s) {
-  const RectangularWave wave = rectangular_wave(s.at_rest(100));
+  const RectangularWave& wave = s.at_rest(100).rectangular_wave;
   const auto strength = [](auto amplitude) {
     double sum = 0;
     for (int n = 1; n <= 3; ++n) sum += amplitude(n) * amplitude(n);
@@ -161,7 +161,7 @@ Finding spectrum_lost(const SceneResults& s) {
 
 Finding modest_difference(const SceneResults& s) {
   double largest = 0;
-  const RectangularWave wave = rectangular_wave(s.at_rest(100));
+  const RectangularWave& wave = s.at_rest(100).rectangular_wave;
   for (int torque : kTorques) {
     const StaticResult& a = s.at_rest(torque);
     double sum = 0;

@@ -188,7 +188,7 @@ void PaperPair::add_lumped(const Scene& scene) {
         pair_.sweeps[place + "sweep.h5"] = sweep;
     }
   };
-  const LumpedParameters wave = cells_of(rectangular_wave(pair_.at_rest(kTorques[0])));
+  const LumpedParameters wave = cells_of(pair_.at_rest(kTorques[0]).rectangular_wave);
   for (int torque : {100, 150, 200, 300}) run(MotionModel::rectangular, torque, wave);
   for (int torque : kTorques) {
     const StaticResult& rest = pair_.at_rest(torque);
@@ -333,7 +333,7 @@ Reading PaperPair::judge(Reading out) const {
       if (torque == kFigureTorque) results.sweeps[place + "sweep.h5"] = std::move(motion);
     }
 
-  const RectangularWave wave = rectangular_wave(pair_.at_rest(kTorques[0]));
+  const RectangularWave& wave = pair_.at_rest(kTorques[0]).rectangular_wave;
   out.level_ratio = wave.high / wave.low;
   const StaticResult& rest = pair_.at_rest(kFigureTorque);
   out.first_harmonic = rest.stiffness_harmonic[1] / rest.stiffness_harmonic[0];

@@ -7,13 +7,8 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "contact/half_plane.h"
-#include "gear/face_width.h"
 #include "gear/pair.h"
 #include "report/wireframe.h"
-#include "solid/flank_table.h"
-#include "solid/loaded_gear.h"
-#include "solid/reduce.h"
 
 namespace whine {
 
@@ -21,56 +16,22 @@ using Eigen::Index;
 
 namespace {
 
-constexpr double kDrawnWidth = 0.1;  // of a module: over which a tooth's force is spread in the drawing
-
 // The outline of a gear near the mesh under given tooth loads.
 class ElasticOutline {
  public:
-  // contact_width: m, on which the mesh meets.
-  ElasticOutline(const SectorGrid& mesh, const Material& material, double contact_width)
+  ElasticOutline(const SectorGrid& mesh, const BodyParameters& gear, double contact_width,
+                 FindBending bending)
       : mesh_(mesh),
         tooth_(mesh.design),
-        moduli_(plane_strain_equivalent(material)),
-        concentration_(mesh.design.face_width / carrying_width(mesh.design, contact_width)),
         contour_(Wireframe(mesh).contour()),
-        table_(tooth_, kFlankPoints) {
-    const FlankLoads unit = make_flank_loads(mesh, material, table_.points());
-    const std::vector<Eigen::MatrixXd> all = teeth_under(mesh, material, unit.force);
-    for (int node : contour_) holds_rest_.push_back(unit.holds_rest[static_cast<size_t>(node)]);
-    for (const Eigen::MatrixXd& x : all) {
-      Eigen::MatrixXd of_contour(2 * static_cast<Index>(contour_.size()), x.cols());
-      for (size_t i = 0; i < contour_.size(); ++i)
-        of_contour.middleRows(2 * static_cast<Index>(i), 2) = x.middleRows(2 * contour_[i], 2);
-      under_.push_back(of_contour);
-    }
-  }
-
-  struct Press {
-    int tooth;     // counter-clockwise
-    double roll;   // rad
-    double force;  // N
-  };
+        bending_(bending(mesh, gear.material, contact_width, contour_)) {}
 
   // (x, y) m of the contour of tooth `j`, in the gear's frame: nodes moved by `magnified` times their displacement, those of
   // the back flank first by drawn_back (m) towards the tooth's middle; the tip leans by `lean` (m) away from the mating flank.
-  std::vector<Vec2> tooth(int j, const std::vector<Press>& presses, double magnified, double drawn_back,
+  std::vector<Vec2> tooth(int j, const std::vector<FlankForce>& forces, double magnified, double drawn_back,
                           double lean) const {
-    const int teeth = mesh_.design.teeth;
-    Eigen::VectorXd u = Eigen::VectorXd::Zero(2 * static_cast<Index>(contour_.size()));
-    for (const Press& press : presses) {
-      const int offset = ((j - press.tooth) % teeth + teeth) % teeth;
-      u += concentration_ * press.force *
-           (under_[static_cast<size_t>(offset)] * table_.weights(press.roll).transpose());
-      if (offset != 0) continue;
-      const StripLoadField near(tooth_.flank_point(press.roll), tooth_.flank_normal(press.roll),
-                                kDrawnWidth * mesh_.design.module, moduli_, mesh_.design.face_width,
-                                kReferenceDepth);
-      for (size_t i = 0; i < contour_.size(); ++i)
-        if (holds_rest_[i])
-          u.segment<2>(2 * static_cast<Index>(i)) +=
-              concentration_ * press.force * near.displacement(mesh_.node_position.row(contour_[i]));
-    }
-    const Eigen::Rotation2Dd turn(2 * std::numbers::pi * j / teeth);
+    const Eigen::VectorXd u = bending_(j, forces);
+    const Eigen::Rotation2Dd turn(2 * std::numbers::pi * j / mesh_.design.teeth);
     std::vector<Vec2> out;
     for (size_t i = 0; i < contour_.size(); ++i) {
       const Vec2 p = mesh_.node_position.row(contour_[i]);
@@ -95,12 +56,8 @@ class ElasticOutline {
 
   const SectorGrid& mesh_;
   ToothGeometry tooth_;
-  PlaneModuli moduli_;
-  double concentration_;  // 1: of the load on the part of the width that carries it
   std::vector<int> contour_;
-  FlankTable table_;
-  std::vector<char> holds_rest_;        // of the contour's nodes
-  std::vector<Eigen::MatrixXd> under_;  // [offset] (2 contour node, table point) m N-1
+  ToothBending bending_;  // of the contour's nodes
 };
 
 // The largest of 1, 2, 5, 10 .. that is not above x.
@@ -217,12 +174,12 @@ class Pictures {
  public:
   // drawn_back: m, by which back flanks are drawn thinner.
   Pictures(const SectorGrid& driver, const SectorGrid& driven, const SweepResult& s, const ShownMotion& m,
-           double magnified, double drawn_back)
+           FindBending bending, double magnified, double drawn_back)
       : s_(s),
         motion_(m),
         pair_(s),
-        outline_{ElasticOutline(driver, s.gear[0].material, s.face_width()),
-                 ElasticOutline(driven, s.gear[1].material, s.face_width())},
+        outline_{ElasticOutline(driver, s.gear[0], s.face_width(), bending),
+                 ElasticOutline(driven, s.gear[1], s.face_width(), bending)},
         pitch_point_(0, pair_.gear(0).base_radius() / std::cos(pair_.working_pressure_angle())),
         inverse_mass_{std::pow(pair_.gear(0).base_radius(), 2) / s.inertia[0],
                       std::pow(pair_.gear(1).base_radius(), 2) / s.inertia[1]},
@@ -233,7 +190,7 @@ class Pictures {
   void add(const std::string& name, Index k, Figure& figure) const;
 
  private:
-  using Presses = std::vector<ElasticOutline::Press>;
+  using Presses = std::vector<FlankForce>;
   // m, by which the tooth of a pair leans away from the other gear's at a mesh phase.
   double lean(double phase, int number) const;
   FigureBlock teeth(const std::string& name, int g, Index k, double phase, const Presses& presses,
@@ -284,7 +241,7 @@ FigureBlock Pictures::teeth(const std::string& name, int g, Index k, double phas
   add({line.back().x(), deep});
   add({line.front().x(), deep});
   if (g == 0)
-    for (const ElasticOutline::Press& press : presses) {
+    for (const FlankForce& press : presses) {
       const Eigen::Rotation2Dd turn(pitch * press.tooth);
       const Vec2 p = at(turn * pair_.gear(0).flank_point(press.roll)) - pitch_point_;
       pressing.rows.push_back(
@@ -315,7 +272,7 @@ void Pictures::add(const std::string& name, Index k, Figure& figure) const {
 }  // namespace
 
 Figure animation_figure(const SectorGrid& driver, const SectorGrid& driven, const SweepResult& s,
-                        double mesh_frequency, int frames) {
+                        FindBending bending, double mesh_frequency, int frames) {
   check_inputs(driver, driven, s, frames);
   // 1. The motion.
   const ShownMotion m = motion_of(s, mesh_frequency);
@@ -332,7 +289,7 @@ Figure animation_figure(const SectorGrid& driver, const SectorGrid& driven, cons
   const auto [first, last] = add_history(s, m, figure);
 
   // 3. The teeth, picture by picture.
-  const Pictures pictures(driver, driven, s, m, magnified, drawn_back);
+  const Pictures pictures(driver, driven, s, m, bending, magnified, drawn_back);
   FigureBlock state{"frames", {"mesh period [1]", "dte [µm]", "mesh force [N]"}, {}};
   for (int frame = 0; frame < frames; ++frame) {
     const Index k = static_cast<Index>(frame) * m.samples / frames;

@@ -137,12 +137,10 @@ Drawings drawings_at_rest() {
           return mesh_figure(read<SectorGrid>(in[0]), read<SectorGrid>(in[1]), read<StaticResult>(in[2]));
         }}},
       {"fig03",
-       {"contact zone: candidate pairs, inner and outer region, pressure",
-        "mesh.h5 of driver and driven gear, body.h5 of driver and driven gear, static.h5", 5, 0,
+       {"contact zone: candidate pairs, inner and outer region, pressure", "what fig01 takes", 3, 0,
         [](const Paths& in, const Frequencies&) {
-          const StaticResult pair = read<StaticResult>(in[4]);
-          return contact_zone_figure(read<SectorGrid>(in[0]), read<SectorGrid>(in[1]), pair,
-                                     contact_zone(read<ReducedBody>(in[2]), read<ReducedBody>(in[3]), pair));
+          return contact_zone_figure(read<SectorGrid>(in[0]), read<SectorGrid>(in[1]),
+                                     read<StaticResult>(in[2]));
         }}},
       {"fig12",
        {"static transmission error and its spectrum", "static.h5, one per torque", 0, 0,

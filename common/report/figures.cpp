@@ -11,22 +11,6 @@
 
 namespace whine {
 
-// %.<digits>g: text() would show ten digits.
-std::string shown(double value, int digits) {
-  char buffer[40];
-  std::snprintf(buffer, sizeof buffer, "%.*g", digits, value);
-  return buffer;
-}
-
-std::string fixed(double value, int decimals) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, "%.*f", decimals, value);
-  const std::string out = buffer;
-  return std::signbit(value) && std::isfinite(value) && out.find_first_of("123456789") == std::string::npos
-             ? out.substr(1)
-             : out;
-}
-
 std::string rounded(double value, int decimals) {
   const double scale = std::pow(10, decimals);
   return text(std::round(value * scale) / scale + 0.0);  // no -0

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/format.h"
 #include "io/publish.h"
 #include "report/panels.h"
 #include "results/static.h"
@@ -64,10 +65,6 @@ struct Figure {
       1000;  // of the picture beside a width of 1600; also a variable; of panels their layout decides
 };
 
-// %.<digits>g, %.<decimals>f: text() would show ten digits.
-std::string shown(double value, int digits);
-// What rounds to 0 has no sign.
-std::string fixed(double value, int decimals);
 // To these decimals, without zeros at the end.
 std::string rounded(double value, int decimals);
 

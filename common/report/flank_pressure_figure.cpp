@@ -11,7 +11,6 @@
 #include "gear/pair.h"
 #include "report/figure_words.h"
 #include "report/response_figures.h"
-#include "system/flank_pressure.h"
 
 namespace whine {
 namespace {
@@ -98,7 +97,7 @@ Figure flank_pressure_figure(const StaticResult& s, const std::vector<ResponseRe
   figure.title = "Flank pressure (MPa) and loads over tip edges (N), " + torque_words(s.torque);
   figure.height = both ? 1200 : 900;
   figure.shafts = shafts_of(s);
-  const FlankPressure rest = flank_pressure(s);
+  const FlankPressure& rest = s.flank_pressure;
   const GearPair pair(s);
   figure.blocks.push_back(map_block(up, pair));
   if (both) figure.blocks.push_back(map_block(down, pair));

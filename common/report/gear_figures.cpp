@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "contact/half_plane_strip.h"
+#include "gear/hertz.h"
 #include "gear/pair.h"
 #include "io/summary.h"
 #include "report/wireframe.h"
@@ -150,40 +150,27 @@ void add_body(const SectorGrid& mesh, const StaticResult& s, const GearPair& pai
   figure.blocks.push_back(inner);
 }
 
-// Hertz's line contact (Johnson, Contact Mechanics, 4.2c) of a force.
-struct HertzContact {
-  double half_width, peak;  // m, Pa
-};
-
-HertzContact hertz_contact(const StaticResult& s, const GearPair& pair, double force, double face_width) {
-  const auto coefficient = [&](const Material& material) {
-    return HalfPlaneSurface(in_contact_plane(material, s.mesh.contact_plane), face_width).coefficient();
-  };
-  const double compliance = coefficient(s.gear[0].material) + coefficient(s.gear[1].material);
-  const double half_width = std::sqrt(2 * pair.relative_curvature_radius(0.0) * force * compliance);
-  const double peak = 2 * force / (std::numbers::pi * half_width * face_width);
-  return {half_width, peak};
-}
-
 FigureBlock hertz_block(const HertzContact& contact) {
   FigureBlock hertz{"Hertz", {"along flank [mm]", "pressure [MPa]"}, {}};
   for (int k = 0; k <= 120; ++k) {
     const double x = -std::cos(std::numbers::pi * k / 120);
     hertz.rows.push_back(
-        {x * contact.half_width * kMilli, 1e-6 * contact.peak * std::sqrt(std::max(0.0, 1 - x * x))});
+        {x * contact.half_width * kMilli, 1e-6 * contact.pressure * std::sqrt(std::max(0.0, 1 - x * x))});
   }
   return hertz;
 }
 
 }  // namespace
 
-Figure contact_zone_figure(const SectorGrid& driver, const SectorGrid& driven, const StaticResult& s,
-                           const ContactZone& zone) {
+Figure contact_zone_figure(const SectorGrid& driver, const SectorGrid& driven, const StaticResult& s) {
+  const ReferenceContact& zone = s.reference_contact;
+  if (zone.gap.size() == 0)
+    fail(Failure::input, "figure: the static.h5 holds no contact of the reference pair; make it again");
   require_same_gear("driver", driver.design, s.gear[0].design);
   require_same_gear("driven gear", driven.design, s.gear[1].design);
   const GearPair pair(s);
   const double alpha = pair.working_pressure_angle();
-  const PairStrips& strips = zone.strips;
+  const PairContact contact = pair.contact(0);
   const Vec2 touch(0.0, pair.gear(0).base_radius() / std::cos(alpha));
   // Out of the driver's flank along the line of action; along the flank to the driver's tip.
   const Vec2 normal = contact_normal(pair);
@@ -204,7 +191,7 @@ Figure contact_zone_figure(const SectorGrid& driver, const SectorGrid& driven, c
   const FlankDeviation deviation[2] = {{pair.gear(0), s.mesh.modification[0]},
                                        {pair.gear(1), s.mesh.modification[1]}};
   const auto on_flanks = [&](double x) {
-    const FlankGap at = pair.gap_at(strips.contact, x);
+    const FlankGap at = pair.gap_at(contact, x);
     std::array<Vec2, 2> local;  // along the flank, out of the driver
     for (int g = 0; g < kSides; ++g) {
       const Vec2 p =
@@ -214,10 +201,10 @@ Figure contact_zone_figure(const SectorGrid& driver, const SectorGrid& driven, c
     return local;
   };
   FigureBlock flanks{"flanks", {"along flank [mm]", "driver [µm]", "driven [µm]"}, {}};
-  const Eigen::Index n = strips.size();
-  const double reach = 0.5 * (strips.border[n] - strips.border[0]);
+  const Eigen::Index n = zone.gap.size();
+  const double reach = 0.5 * (zone.border[n] - zone.border[0]);
   for (int k = -60; k <= 60; ++k) {
-    const double x = std::clamp(reach * 1.3 * k / 60, strips.contact.x_min, strips.contact.x_max);
+    const double x = std::clamp(reach * 1.3 * k / 60, contact.x_min, contact.x_max);
     const auto local = on_flanks(x);
     flanks.rows.push_back({x * kMilli, local[0].y() * kMicro, local[1].y() * kMicro});
   }
@@ -227,16 +214,16 @@ Figure contact_zone_figure(const SectorGrid& driver, const SectorGrid& driven, c
        "gap of strip [µm]", "separation under load [µm]", "pressure [MPa]"},
       {}};
   const double face_width = s.face_width();
-  for (int i = 0; i < n; ++i) {
-    const auto local = on_flanks(strips.middle(i));
-    candidates.rows.push_back({strips.middle(i) * kMilli, local[0].y() * kMicro, local[1].y() * kMicro,
-                               strips.border[i] * kMilli, strips.border[i + 1] * kMilli,
-                               strips.gap[i] * kMicro, zone.separation[i] * kMicro,
-                               1e-6 * zone.force[i] / (strips.width(i) * face_width)});
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double low = zone.border[i], high = zone.border[i + 1], middle = 0.5 * (low + high);
+    const auto local = on_flanks(middle);
+    candidates.rows.push_back({middle * kMilli, local[0].y() * kMicro, local[1].y() * kMicro, low * kMilli,
+                               high * kMilli, zone.gap[i] * kMicro, zone.separation[i] * kMicro,
+                               1e-6 * zone.force[i] / ((high - low) * face_width)});
   }
   const double force = zone.force.sum();
-  const auto [half_width, peak] = hertz_contact(s, pair, force, face_width);
-  figure.blocks.insert(figure.blocks.end(), {candidates, flanks, hertz_block({half_width, peak})});
+  const HertzContact hertz = hertz_contact(s, force);
+  figure.blocks.insert(figure.blocks.end(), {candidates, flanks, hertz_block(hertz)});
 
   figure.notes.push_back(pair_words(s));
   const std::string inner =
@@ -247,13 +234,13 @@ Figure contact_zone_figure(const SectorGrid& driver, const SectorGrid& driven, c
   figure.notes.push_back("inner region: " + inner + "; outer region: finite elements");
   figure.notes.push_back(text(n, " strips in the candidate zone; tooth force ", fixed(force, 0),
                               " N; approach of the gears ", shown(zone.approach * kMicro, 4),
-                              " µm; Hertz: half-width ", shown(half_width * kMicro, 4), " µm, peak ",
-                              shown(peak * 1e-6, 4), " MPa"));
+                              " µm; Hertz: half-width ", shown(hertz.half_width * kMicro, 4), " µm, peak ",
+                              shown(hertz.pressure * 1e-6, 4), " MPa"));
   figure.numbers = {{"matching", s.gear[0].discretisation.near_field == NearField::matching},
                     {"touch_y", touch.y() * kMilli},
                     {"half_window", half_zone * kMilli},
                     {"reach", 1.3 * reach * kMilli},
-                    {"peak", peak * 1e-6},
+                    {"peak", hertz.pressure * 1e-6},
                     {"strips", static_cast<double>(n)},
                     {"ring", pair.ring() + 1.0}};
   return figure;

@@ -2,7 +2,7 @@
 #pragma once
 #include "report/figures.h"
 #include "results/sector_grid.h"
-#include "system/statics.h"
+#include "results/static.h"
 
 namespace whine {
 
@@ -14,9 +14,8 @@ Figure mesh_figure(const SectorGrid& driver, const SectorGrid& driven, const Sta
 // The contact zone of the reference pair at mesh phase 0: the teeth with the region in which the half-plane joins the finite
 // elements, the candidate zone of strips with a candidate pair of points in the middle of each (P on the driver, G on the
 // driven gear) on the unloaded flanks, and pressure and separation under load. Lengths along the flank grow to the driver's
-// tip. Throws Error(input) as mesh_figure.
-Figure contact_zone_figure(const SectorGrid& driver, const SectorGrid& driven, const StaticResult& pair,
-                           const ContactZone& zone);
+// tip. Throws Error(input) as mesh_figure, and for statics without that contact.
+Figure contact_zone_figure(const SectorGrid& driver, const SectorGrid& driven, const StaticResult& pair);
 
 // What is taken off the driving flanks of both gears, as an inspection sheet shows it: material against the roll angle, the
 // tip to the right, the designed involute a straight line, plus upwards. Marks: start of the active profile, lowest and

@@ -8,7 +8,6 @@
 #include <set>
 
 #include "base/error.h"
-#include "contact/half_plane_strip.h"
 #include "gear/pair.h"
 #include "io/summary.h"
 #include "report/figures.h"
@@ -72,19 +71,6 @@ std::string jumps_of(const ResponseResult& r) {
   std::string out;
   for (const double f : jumps) out += (out.empty() ? "" : ", ") + hertz(f);
   return out.empty() ? "none" : out;
-}
-
-double hertz_pressure(const StaticResult& s, double force) {
-  const GearPair pair(s);
-  const double tangent = std::tan(pair.working_pressure_angle());
-  const double curvature = (1 / pair.gear(0).base_radius() + 1 / pair.gear(1).base_radius()) / tangent;
-  const auto compliance = [&](const Material& material) {
-    const Material m = in_contact_plane(material, s.mesh.contact_plane);
-    return (m.plane_stress ? 1 : 1 - m.poisson_ratio * m.poisson_ratio) / m.youngs_modulus;
-  };
-  return std::sqrt(force * curvature /
-                   (s.face_width() * std::numbers::pi *
-                    (compliance(s.gear[0].material) + compliance(s.gear[1].material))));
 }
 
 std::string way_words(const ResponseResult& s) {

@@ -49,9 +49,6 @@ void require_one_pair(const ReportContent& c);
 double static_force(const StaticResult& s);  // N: T / r_b
 double peak_to_peak(const Eigen::VectorXd& v);
 
-// Hertz's pressure (Pa) of a force (N) on one tooth pair at the pitch point.
-double hertz_pressure(const StaticResult& s, double force);
-
 std::string way_words(const ResponseResult& s);             // "speed rising"
 std::string hertz(double f);                                // whole Hz
 std::string jumps_of(const ResponseResult& r);              // "1819, 2645", "none"

@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "gear/hertz.h"
 #include "report/figures.h"
 #include "report/html.h"
 #include "report/response_figures.h"
-#include "system/flank_pressure.h"
 
 namespace whine {
 namespace {
@@ -39,8 +39,9 @@ void add_statics(const StaticResult& s, const Adder& add) {
     add(text("static transmission error, harmonic ", n), "µm",
         significant(s.transmission_error_harmonic[n] * kMicro, 3));
   add("static tooth load, largest", "N", fixed(s.tooth_load.maxCoeff(), 0));
-  add(text("static: ", kNominalPressure), "MPa", fixed(hertz_pressure(s, s.tooth_load.maxCoeff()) * 1e-6, 0));
-  const FlankPressure pressure = flank_pressure(s);
+  add(text("static: ", kNominalPressure), "MPa",
+      fixed(hertz_contact(s, s.tooth_load.maxCoeff()).pressure * 1e-6, 0));
+  const FlankPressure& pressure = s.flank_pressure;
   if (pressure.smooth > 0)
     add("static contact pressure inside a flank, largest", "MPa", fixed(pressure.smooth * 1e-6, 0));
   if (pressure.on_ridge > pressure.smooth)
@@ -80,7 +81,7 @@ void add_motion(const StaticResult& s, const ResponseResult& r, const Adder& add
   add("largest tooth load" + way, "N", fixed(load, 0), beyond);
   add("mesh frequency of that tooth load" + way, "Hz", hertz(r.mesh_frequency[at]), beyond);
   add("largest tooth load over T / r_b" + way, "1", fixed(load / static_force(s), 2), beyond);
-  add(kNominalPressure + way, "MPa", fixed(hertz_pressure(s, load) * 1e-6, 0), beyond);
+  add(kNominalPressure + way, "MPa", fixed(hertz_contact(s, load).pressure * 1e-6, 0), beyond);
   for (int g = 0; g < s.root_stress_max.size(); ++g)
     if (r.root_stress_sustained[g].size() > 0) {
       const std::string of = "root stress of " + s.mesh.gear[g] + " (sustained for 1/64 of a mesh period)";

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/tool.h"
 #include "gear/body_inertia.h"
+#include "gear/hertz.h"
 #include "gear/pair.h"
 #include "gear/path_points.h"
 #include "io/scene_keys.h"
@@ -18,7 +19,6 @@
 #include "report/html.h"
 #include "report/report_page.h"
 #include "report/stiffness_table.h"
-#include "system/statics.h"
 
 namespace whine {
 namespace {
@@ -379,7 +379,7 @@ class RemarksByTorque {
 
 std::string remarks_list(const ReportContent& c) {
   RemarksByTorque at_rest, ring_downs, in_motion;
-  for (const StaticResult& s : c.statics) at_rest.add("at rest", s.torque, remarks(s));
+  for (const StaticResult& s : c.statics) at_rest.add("at rest", s.torque, s.remarks);
   for (const ImpactResult& a : c.impacts) {
     std::vector<Remark> found;
     for (Index i = 0; i < a.state_phase.size(); ++i)
@@ -397,7 +397,7 @@ std::string remarks_list(const ReportContent& c) {
     found.insert(found.begin(), wide.begin(), wide.end());
     for (const StaticResult& at : c.statics) {
       if (at.torque != s.torque) continue;
-      if (const double pressure = hertz_pressure(at, s.tooth_load_max.maxCoeff());
+      if (const double pressure = hertz_contact(at, s.tooth_load_max.maxCoeff()).pressure;
           pressure > kHardenedSteelPressure)
         found.push_back(
             remark(true, "the contact pressure of the largest tooth load (Hertz, at the pitch point) of ",

@@ -11,8 +11,8 @@
 #include "io/summary.h"
 #include "report/figure_words.h"
 #include "report/text_width.h"
+#include "signal/jump_cause.h"
 #include "signal/response.h"
-#include "studies/jump_cause.h"
 
 namespace whine {
 namespace {

@@ -14,7 +14,6 @@
 #include "report/iso_comparison.h"
 #include "report/response_figures.h"
 #include "signal/no_root_stress.h"
-#include "system/flank_pressure.h"
 
 namespace whine {
 namespace {
@@ -139,7 +138,7 @@ FigureBlock rest_block(const StaticResult& s, const IsoComparison& iso) {
   const auto megapascal = [](std::optional<double> value) {
     return value ? std::optional<double>(*value * kInMegapascals) : value;
   };
-  const double pressure = flank_pressure(s).smooth;
+  const double pressure = s.flank_pressure.smooth;
   add("torque [N m]", s.torque);
   for (int g = 0; g < kSides; ++g)
     add("root_stress_" + s.mesh.gear[g] + " [MPa]", s.root_stress_max[g] * kInMegapascals);

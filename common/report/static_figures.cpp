@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "gear/pair.h"
-#include "lumped/stiffness.h"
 #include "report/figure_words.h"
 #include "results/impact.h"
 #include "results/response.h"
@@ -145,7 +144,7 @@ Figure transmission_error_figure(const std::vector<StaticResult>& statics) {
 Figure mesh_stiffness_figure(const std::vector<StaticResult>& statics) {
   require_like_pairs(statics);
   const StaticResult& first = statics[0];
-  const RectangularWave wave = rectangular_wave(first);
+  const RectangularWave& wave = first.rectangular_wave;
   Figure figure;
   const bool bearings = first.mesh.bearing[0].elastic() || first.mesh.bearing[1].elastic();
   figure.title = text("Mesh stiffness: torque / (base radius × (static − unloaded transmission error",

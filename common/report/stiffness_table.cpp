@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "gear/iso6336.h"
 #include "report/figures.h"
-#include "system/compliance_split.h"
 
 namespace whine {
 
 WordTable compliance_table(const StaticResult& s) {
-  const ComplianceSplit split = compliance_split(s);
+  const ComplianceSplit& split = s.compliance;
   const double width = s.face_width();
   WordTable out{
       "Where the compliance of the mesh comes from, mean over the period at " + torque_words(s.torque) + ".",
@@ -20,34 +20,36 @@ WordTable compliance_table(const StaticResult& s) {
     out.rows.push_back(
         {what, fixed(compliance * width * 1e9, 5), fixed(compliance / split.whole * kPercent, 1), wider});
   };
-  const auto wider = [&](size_t g) { return "+" + fixed(split.wider_bore[g] * kPercent, 1) + " %"; };
+  const auto wider = [&](size_t g) { return "+" + fixed(split.with_wider_bore(g) * kPercent, 1) + " %"; };
   for (size_t g = 0; g < kSides; ++g)
     add("twist of " + s.mesh.gear[g] + " between bore and root circle", split.body[g], wider(g));
   add("contact (Hertz)", split.contact, "");
-  add("teeth, the rest (with gaps of a relief)", split.teeth, "");
+  add("teeth, the rest (with gaps of a relief)", split.teeth(), "");
   add("whole", split.whole, "");
   return out;
 }
 
 WordTable iso_table(const StaticResult& s) {
-  const ComplianceSplit split = compliance_split(s);
+  const ComplianceSplit& split = s.compliance;
+  const IsoStiffness by_iso = iso_6336_stiffness(s.gear[0].design, s.gear[0].material, s.gear[1].design,
+                                                 s.gear[1].material, s.torque, s.contact_ratio);
   const double width = s.face_width();
   const auto per_width = [&](double stiffness) {
     return stiffness > 0 ? fixed(stiffness / width * 1e-9, 2) : std::string("–");
   };
   const auto iso = [](double value) { return fixed(value * 1e-9, 2); };
   return {
-      text("Stiffness per face width at ", torque_words(s.torque), " (", fixed(split.iso.line_load * 1e-3, 0),
+      text("Stiffness per face width at ", torque_words(s.torque), " (", fixed(by_iso.line_load * 1e-3, 0),
            " N/mm) beside ISO 6336-1, method B, which is for solid discs and knows of no bore",
-           split.iso.in_range ? "."
+           by_iso.in_range ? "."
            : s.gear[0].design.internal || s.gear[1].design.internal
                ? "; of the internal gear it makes a rack."
                : "; profile shifts or contact ratio lie outside what its formula is for."),
       {"", "N/(mm µm)", "bodies not twisting", "ISO 6336-1 B"},
-      {{"c', one pair, largest", per_width(split.single), per_width(split.single_teeth),
-        iso(split.iso.single)},
-       {"c_γα, mean over the period", per_width(s.mean_stiffness), per_width(split.mean_teeth),
-        iso(split.iso.mesh)}}};
+      {{"c', one pair, largest", per_width(split.single), per_width(split.single_teeth()),
+        iso(by_iso.single)},
+       {"c_γα, mean over the period", per_width(s.mean_stiffness), per_width(split.mean_teeth()),
+        iso(by_iso.mesh)}}};
 }
 
 }  // namespace whine

@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "gear/layout.h"
 #include "report/figure_words.h"
 #include "report/one_system.h"
 #include "signal/jump_words.h"
-#include "system/rigid_system.h"
 
 namespace whine {
 

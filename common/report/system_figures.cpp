@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "gear/layout.h"
 #include "report/figure_words.h"
 #include "report/system_picture.h"
 #include "signal/spectrum.h"
-#include "system/rigid_system.h"
 
 namespace whine {
 

@@ -6,10 +6,9 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "gear/layout.h"
 #include "report/figures.h"
 #include "report/html.h"
-#include "studies/turning_carrier.h"
-#include "system/rigid_system.h"
 
 namespace whine {
 namespace {
@@ -162,29 +161,6 @@ std::string sharp_peaks(const SystemSweepResult& a) {
   return out;
 }
 
-// What a sweep leaves out of a planetary train whose carrier turns, by its size at the highest speed.
-Remark left_out(const System& layout, const TurningCarrier& of) {
-  const std::string carrier = layout.bodies[static_cast<size_t>(of.carrier)].name;
-  if (of.still < 0)
-    return remark(
-        true, "Coriolis and centrifugal forces on the planets of ", carrier,
-        " are left out; how large they are the scene does not say, since no gear of its train is held");
-  const std::string still = layout.bodies[static_cast<size_t>(of.still)].name;
-  const std::string sizes =
-      text("centrifugal forces on its planets of ", fixed(of.centrifugal_force, 0), " N (",
-           fixed(of.relative_force() * kPercent, 1), " % of the largest mean mesh force, ",
-           fixed(of.mesh_force, 0), " N) and Coriolis forces (", fixed(of.coriolis * kPercent, 1),
-           " % of the inertia forces of motion at the mesh frequency) are left out");
-  const std::string turns =
-      text("turns at ", fixed(of.speed * 60 / kTwoPi, 0), " rpm at ", shown(of.mesh_frequency, 4), " Hz");
-  if (of.turns)
-    return remark(of.relative_force() > kNotedCentrifugal, carrier, " ", turns, ", ", still,
-                  " being held: ", sizes,
-                  "; add the former, which are constant and point outwards, to the mean forces on the pins");
-  return remark(of.relative_force() > kLargeCentrifugal, "motions are relative to ", carrier,
-                ". In a machine in which ", still, " stands still it ", turns, ": ", sizes);
-}
-
 }  // namespace
 
 std::string speeds_words(const Eigen::VectorXd& speeds, const std::vector<bool>& marked) {
@@ -287,8 +263,7 @@ std::vector<Remark> motion_remarks(const SystemReport& r) {
     if (!undamped.empty())
       out.push_back(remark(false, "no damping_Ns_m in the [[bearing]] of ", undamped,
                            ": where a resonance moves it on its bearing, the height has no meaning"));
-    for (const TurningCarrier& of : turning_carriers(first))
-      out.push_back(left_out(first.settings.layout, of));
+    out.insert(out.end(), first.remarks.begin(), first.remarks.end());
   }
   return out;
 }

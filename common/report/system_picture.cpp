@@ -5,11 +5,11 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "gear/layout.h"
 #include "gear/pair.h"
 #include "gear/system_layout.h"
 #include "gear/tooth_contour.h"
 #include "report/figure_words.h"
-#include "system/rigid_system.h"
 
 namespace whine {
 namespace {

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "base/error.h"
+#include "gear/layout.h"
 #include "report/figures.h"
 #include "report/html.h"
 #include "report/one_system.h"
@@ -14,7 +15,6 @@
 #include "report/system_picture.h"
 #include "report/system_report_guide.h"
 #include "report/system_report_tables.h"
-#include "system/rigid_system.h"
 
 namespace whine {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "gear/layout.h"
 #include "gear/pair.h"
 #include "gear/system_layout.h"
 #include "io/scene_keys.h"
@@ -15,9 +16,6 @@
 #include "report/report_page.h"
 #include "report/system_figures.h"
 #include "report/system_motion_tables.h"
-#include "system/drawing_remarks.h"
-#include "system/rigid_system.h"
-#include "system/statics.h"
 
 namespace whine {
 
@@ -431,7 +429,7 @@ void remark_rest(const SystemStaticResult& a, std::vector<Remark>& out) {
   const System& s = a.settings.layout;
   constexpr double kSmall = 0.01;   // of the largest load of a pair
   constexpr double kUnequal = 1.3;  // of an equal share
-  out = drawing_remarks(a);
+  out = a.remarks;
   // Once for all meshes of a [[mesh]].
   for (size_t k = 0; k < a.settings.mesh.size(); ++k) {
     const std::string name = a.settings.mesh[k].gear[0] + "-" + a.settings.mesh[k].gear[1];

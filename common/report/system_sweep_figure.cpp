@@ -4,11 +4,10 @@
 #include <numeric>
 
 #include "base/error.h"
-#include "dynamics/system_coordinates.h"
+#include "gear/layout.h"
 #include "report/figure_words.h"
 #include "report/one_system.h"
 #include "report/system_picture.h"
-#include "system/rigid_system.h"
 
 namespace whine {
 

@@ -16,7 +16,6 @@
 #include "report/report_page.h"
 #include "report/report_tables.h"
 #include "signal/no_root_stress.h"
-#include "system/flank_pressure.h"
 
 namespace whine {
 namespace {
@@ -75,7 +74,7 @@ WordTable at_rest(const StaticResult& s, const IsoComparison& iso) {
   both("root stress over sigma_F0", "1", [&](size_t g) {
     return iso.root_stress[g] ? fixed(s.root_stress_max[of(g)] / *iso.root_stress[g], 3) : html::kNoValue;
   });
-  const FlankPressure pressure = flank_pressure(s);
+  const FlankPressure& pressure = s.flank_pressure;
   const std::array<double, kSides> edges = edge_load_at_rest(s);
   const auto alike = [&](const char* what, const char* unit, const std::string& value) {
     out.rows.push_back({what, unit, value, value});

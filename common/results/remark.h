@@ -11,6 +11,11 @@ struct Remark {
   std::string words;
 };
 
+// Pa: what flanks of hardened steel carry in the long run; the strongest go to 2 GPa.
+inline constexpr double kHardenedSteelPressure = 1.5e9;
+inline constexpr const char* kBeyondSteel =
+    " GPa is above the 1.5 GPa that flanks of hardened steel carry in the long run (the strongest 2 GPa); the teeth are elastic here and know of no yielding: check the torque and the face width";
+
 // Numbers with 6 digits, as log_line() writes them.
 template <class... Parts>
 Remark remark(bool warning, const Parts&... parts) {

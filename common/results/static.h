@@ -3,10 +3,73 @@
 #include <Eigen/Core>
 #include <array>
 
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
 #include "base/matrix.h"
 #include "model/stages.h"
+#include "results/remark.h"
 
 namespace whine {
+
+// What the compliance of the mesh, 1 / mean_stiffness, consists of (system/compliance_split.h). m N-1, along the line of action.
+struct ComplianceSplit {
+  double whole = 0, contact = 0;
+  Eigen::Vector2d body = Eigen::Vector2d::Zero(),
+                  wider_body = body;  // twist of each gear; with a bore a tenth larger
+  double single = 0;  // N m-1: largest stiffness of a pair that carries all the load; 0: no pair ever does
+
+  double bodies() const { return body[0] + body[1]; }
+  double teeth() const { return whole - bodies() - contact; }  // the rest
+  double body_share() const { return bodies() / whole; }
+  // 1: relative change of the mean mesh stiffness if the bore of a gear were a tenth larger, by the twist alone
+  double with_wider_bore(size_t gear) const {
+    const auto g = static_cast<Eigen::Index>(gear);
+    return whole / (whole - (body[g] - wider_body[g])) - 1;
+  }
+  // N m-1: `single` and the mean mesh stiffness if the bodies did not twist, as in ISO 6336
+  double single_teeth() const { return single > 0 ? 1 / (1 / single - bodies()) : 0; }
+  double mean_teeth() const { return 1 / (whole - bodies()); }
+};
+
+// The largest pressure that the result may state, and where there is none (system/flank_pressure.h).
+struct FlankPressure {
+  double smooth = 0;  // Pa: largest of all contacts inside the flanks and clear of ridges; 0: there is none
+  double on_ridge =
+      0;  // Pa: largest that strips show of contacts over a ridge; 0: there are none, or contact = "line"
+  double per_doubling = 0;  // Pa: what the same grows by with each doubling of the strips
+  std::string ridge;        // what makes the ridge, of which gear: "the linear tip relief of [gear.wheel]"
+};
+
+// The rectangular wave that approximates a mesh stiffness (system/rectangular_wave.h): one level per number of pairs in nominal
+// contact.
+struct RectangularWave {
+  double low = 0, high = 0;             // N m-1
+  double high_begin = 0, high_end = 0;  // phase; begin in [0, 1), end in (begin, begin + 1)
+
+  double duty() const { return high_end - high_begin; }
+  double mean() const { return low + (high - low) * duty(); }  // N m-1
+  // N m-1, harmonic >= 1: 2 (high - low) |sin(pi n d)| / (pi n), d the duty
+  double amplitude(int harmonic) const {
+    const double n = std::numbers::pi * harmonic;
+    return 2.0 * std::abs((high - low) * std::sin(n * duty())) / n;
+  }
+  double at(double phase) const {  // N m-1
+    const double after = phase - high_begin;
+    return after - std::floor(after) < duty() ? high : low;
+  }
+};
+
+// Contact of the reference pair at mesh phase 0, cut into strips; nothing where the pair is out of reach there.
+struct ReferenceContact {
+  Eigen::VectorXd border;      // (strip + 1) m along the flank from the pitch point, to the driver's tip
+  Eigen::VectorXd gap;         // (strip) m, unloaded
+  Eigen::VectorXd force;       // (strip) N
+  Eigen::VectorXd separation;  // (strip) m, of the loaded flanks (d of Eq. 18)
+  double approach = 0;         // m: the transmission error
+};
 
 // static.h5
 struct StaticResult : GearPairParameters {
@@ -49,12 +112,17 @@ struct StaticResult : GearPairParameters {
   // are all alike
   Eigen::VectorXd transmission_error_order;
   double mean_stiffness = 0;  // N m-1: mean over the period of the secant stiffness
+  ComplianceSplit compliance;
+  FlankPressure flank_pressure;
+  RectangularWave rectangular_wave;
+  ReferenceContact reference_contact;
   // certificate: worst over all positions
   double least_gap = 0;          // m, of strips without force
   double least_force = 0;        // N, of strips with force
   double torque_residual = 0;    // relative, |sum a p - T| / T
   double friction_coupling = 0;  // m, by how much gaps are off for what friction of the last forces moves
   double backlash_margin = 0;    // m left on the line of action; infinite backlash is not stored
+  std::vector<Remark> remarks;
 };
 
 }  // namespace whine

@@ -7,6 +7,7 @@
 #include "base/matrix.h"
 #include "model/stages.h"
 #include "model/system_stages.h"
+#include "results/remark.h"
 
 namespace whine {
 
@@ -36,6 +37,7 @@ struct SystemStaticResult {
   MatrixRM transmission_error_harmonic;  // (harmonic, mesh) m; the first row is the mean
   MatrixRM
       transmission_error_order;  // (order, mesh) m: of the hunting frequency; empty where teeth are alike
+  std::vector<Remark> remarks;   // of the drawings in mesh
 };
 
 // Of the gear that a body is; nullptr: of a carrier.

@@ -7,6 +7,7 @@
 #include "base/matrix.h"
 #include "model/stages.h"
 #include "model/system_stages.h"
+#include "results/remark.h"
 
 namespace whine {
 
@@ -62,6 +63,7 @@ struct SystemSweepResult {
   MatrixRM bearing_damping;               // (speed, body) J
   Eigen::VectorXd drift_force;            // (speed) N
   double least_gap = 0, least_force = 0;  // m, N: worst certificate
+  std::vector<Remark> remarks;            // what is left out where a carrier turns
 };
 
 }  // namespace whine

@@ -89,6 +89,16 @@ int resolved_harmonics(Eigen::Index samples, int wanted, int periods) {
   return static_cast<int>(std::min<Eigen::Index>(wanted, limit));
 }
 
+double at_phase(const Eigen::VectorXd& phase, const Eigen::VectorXd& value, double at) {
+  const double p = at - std::floor(at);
+  const Eigen::Index n = phase.size();
+  Eigen::Index i = n - 1;
+  while (i > 0 && phase[i] > p) --i;
+  const double right = i + 1 < n ? phase[i + 1] : phase[0] + 1.0;
+  const double share = (p - phase[i]) / (right - phase[i]);
+  return (1.0 - share) * value[i] + share * value[(i + 1) % n];
+}
+
 Separations separations(const Eigen::Ref<const Eigen::VectorXd>& force) {
   const Eigen::Index n = force.size();
   if (n < 1) fail(Failure::input, "separations: no force samples");

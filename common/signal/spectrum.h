@@ -30,6 +30,9 @@ Eigen::VectorXcd fourier_coefficients(const Eigen::Ref<const Eigen::VectorXd>& s
 // The number of harmonics, `wanted` at most, that `samples` over `periods` base periods resolve; may be 0.
 int resolved_harmonics(Eigen::Index samples, int wanted, int periods = 1);
 
+// At a phase, any, of a periodic curve: linear between its samples at these phases, ascending within one period.
+double at_phase(const Eigen::VectorXd& phase, const Eigen::VectorXd& value, double at);
+
 struct Separations {
   double fraction = 0;  // share of the samples without force
   int intervals =

@@ -29,7 +29,7 @@ using NamedOutcomes = std::vector<std::pair<std::string, Outcome>>;
 
 Outcome outcome(const StaticResult& s) {
   return {s.mean_stiffness, s.transmission_error.maxCoeff() - s.transmission_error.minCoeff(),
-          flank_pressure(s).smooth, harmonics(s.transmission_error, kJudgedHarmonics).amplitude,
+          s.flank_pressure.smooth, harmonics(s.transmission_error, kJudgedHarmonics).amplitude,
           s.root_stress_max};
 }
 

@@ -13,6 +13,7 @@
 #include "studies/branch_rigs.h"
 #include "studies/sweep.h"
 #include "studies/train_statistics.h"
+#include "studies/turning_carrier.h"
 #include "system/system_rest.h"
 
 namespace whine {
@@ -291,6 +292,7 @@ SystemSweepResult system_sweep(const SystemSweepParameters& settings, const std:
     report(i + 1, n, text(speeds[static_cast<size_t>(i)], " Hz", note.empty() ? "" : ", ", note));
   }
   store_jumps(sweeper.jumps(jump_width), out.jump_frequency, out.jump_width);
+  out.remarks = left_out_of_carriers(out);
   return out;
 }
 

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "base/model_range.h"
-#include "system/rigid_system.h"
+#include "gear/layout.h"
 #include "system/system_rest.h"
 
 namespace whine {

@@ -22,12 +22,10 @@ struct TurningCarrier {
   double relative_force() const { return mesh_force > 0 ? centrifugal_force / mesh_force : 0; }
 };
 
-// Above this share of the mesh forces a sweep warns of what it leaves out. Its pin forces are then no loads to design by.
-inline constexpr double kNotedCentrifugal = 0.05;
-// The same where the carrier is held and turns in the machine alone.
-inline constexpr double kLargeCentrifugal = 0.1;
-
 // Carriers whose planets mesh with a held gear, or that turn. Planets without a mass count as weightless.
 std::vector<TurningCarrier> turning_carriers(const SystemSweepResult& sweep);
+
+// The same in words.
+std::vector<Remark> left_out_of_carriers(const SystemSweepResult& sweep);
 
 }  // namespace whine

@@ -27,14 +27,13 @@ ComplianceSplit compliance_split(const StaticResult& s) {
   ComplianceSplit out;
   out.whole = 1 / s.mean_stiffness;
   constexpr double kWider = 1.1;
-  for (size_t g = 0; g < kSides; ++g) {
-    const GearDesign& design = s.gear[g].design;
-    const double bore = design.clamped_radius(), root = pair.gear(static_cast<int>(g)).root_radius();
-    out.body[g] = body_twist(design, s.gear[g].material, bore);
+  for (int g = 0; g < kSides; ++g) {
+    const auto& [design, material, discretisation] = s.gear[static_cast<size_t>(g)];
+    const double bore = design.clamped_radius(), root = pair.gear(g).root_radius();
+    out.body[g] = body_twist(design, material, bore);
     // A bore cannot grow beyond the root circle, nor can the outside of a rim shrink.
-    const double wider = design.internal ? std::max(bore / kWider, root) : std::min(kWider * bore, root);
-    const double less = out.body[g] - body_twist(design, s.gear[g].material, wider);
-    out.wider_bore[g] = out.whole / (out.whole - less) - 1;
+    out.wider_body[g] = body_twist(
+        design, material, design.internal ? std::max(bore / kWider, root) : std::min(kWider * bore, root));
   }
   const double force = s.torque / pair.gear(0).base_radius(), of_pair = force / pair.contact_ratio();
   const auto surface = [&](size_t g) {
@@ -44,15 +43,9 @@ ComplianceSplit compliance_split(const StaticResult& s) {
   out.contact =
       HertzLine(surface(0), surface(1), pair.relative_curvature_radius(0.0), depth).at(of_pair).indentation /
       force;
-  const double bodies = out.body[0] + out.body[1];
-  out.teeth = out.whole - bodies - out.contact;
   for (Eigen::Index i = 0; i < s.tooth_load.rows(); ++i)
     if ((s.tooth_load.row(i).array() > 0).count() == 1)
       out.single = std::max(out.single, s.stiffness_secant[i]);
-  if (out.single > 0) out.single_teeth = 1 / (1 / out.single - bodies);
-  out.mean_teeth = 1 / (out.whole - bodies);
-  out.iso = iso_6336_stiffness(s.gear[0].design, s.gear[0].material, s.gear[1].design, s.gear[1].material,
-                               s.torque, pair.contact_ratio());
   return out;
 }
 
@@ -71,7 +64,7 @@ std::vector<Remark> body_remarks(const StaticResult& s) {
         true, "the face of ", s.mesh.gear[g], " is ", shown_number(design.face_width / design.module),
         " modules wide and plane = \"stress\" is for faces up to about 8: plane = \"strain\" is right for it, 10 % stiffer"));
   }
-  const ComplianceSplit split = compliance_split(s);
+  const ComplianceSplit& split = s.compliance;
   if (!(split.body_share() > kMuch)) return out;
   const auto percent = [](double share) { return std::round(share * 100); };
   const bool supported = s.gear[0].design.elastic_rim() || s.gear[1].design.elastic_rim();

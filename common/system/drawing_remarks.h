@@ -6,7 +6,6 @@
 
 #include "gear/pair.h"
 #include "results/system_static.h"
-#include "system/statics.h"
 
 namespace whine {
 

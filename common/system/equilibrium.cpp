@@ -1,4 +1,5 @@
 // Static equilibrium (Eq. 19, 20) at one position: of one mesh, of a system.
+#include "gear/layout.h"
 #include "system/system.h"
 
 #include <Eigen/LU>
@@ -10,7 +11,6 @@
 #include "base/dense.h"
 #include "base/error.h"
 #include "contact/friction.h"
-#include "system/rigid_system.h"
 
 namespace whine {
 

@@ -85,7 +85,7 @@ FlankPressure flank_pressure(const StaticResult& s) {
 }
 
 std::vector<Remark> pressure_remarks(const StaticResult& s) {
-  const FlankPressure p = flank_pressure(s);
+  const FlankPressure& p = s.flank_pressure;
   if (!(p.on_ridge > p.smooth)) return {};
   return {remark(
       true, "contact pressure has no largest value where contact runs over the start of ", p.ridge,

@@ -3,21 +3,13 @@
 // The pressure of a contact over a ridge of the flank (gear/flank_kink.h) or at a tip edge, which is sharp in this model, has
 // no largest value: what strips show grows as they get finer. Elsewhere 8 strips are within 2.1 % of Hertz.
 #pragma once
-#include <string>
+#include <vector>
 
 #include "results/loaded.h"
 #include "results/static.h"
-#include "system/statics.h"
 
 namespace whine {
 
-struct FlankPressure {
-  double smooth = 0;  // Pa: largest of all contacts inside the flanks and clear of ridges; 0: there is none
-  double on_ridge =
-      0;  // Pa: largest that strips show of contacts over a ridge; 0: there are none, or contact = "line"
-  double per_doubling = 0;  // Pa: what the same grows by with each doubling of the strips
-  std::string ridge;        // what makes the ridge, of which gear: "the linear tip relief of [gear.wheel]"
-};
 FlankPressure flank_pressure(const StaticResult& statics);
 
 // What a report says of contact over a ridge; none if there is none.

@@ -4,7 +4,7 @@
 
 #include "base/dense.h"
 #include "base/error.h"
-#include "system/rigid_system.h"
+#include "gear/layout.h"
 
 namespace whine {
 

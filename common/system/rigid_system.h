@@ -11,36 +11,11 @@
 // 2 Omega_c / w.
 #pragma once
 #include <Eigen/Core>
-#include <array>
-#include <string>
 #include <vector>
 
-#include "gear/involute.h"
-#include "model/system.h"
+#include "gear/layout.h"
 
 namespace whine {
-
-// By which sign a motion of side 0 or 1 along the line of action closes a mesh.
-inline double closing_sign(int side) {
-  return side == 0 ? 1 : -1;
-}
-
-// Unit vector along the line of action of a mesh, from the first side's flank to the second's, in the frame of the system.
-Vec2 line_of_action(const System::Mesh& mesh);
-
-// Displacement of the axis P of a planet per unit u = r theta of its carrier, theta x (P - C) / r: a tangent of the circle of the pins.
-Vec2 pin_direction(const System& system, const System::Body& planet);
-
-// A mesh of a planet moves with its carrier: by how much a unit u of the carrier closes it along the line of action.
-struct CarriedMesh {
-  int carrier = -1;  // number of the body; -1: no side of the mesh is on a carrier
-  int side = 0;      // of the planet
-  double closing = 0;
-};
-CarriedMesh carried_mesh(const System& system, size_t m);
-
-// "sun-planet1": a mesh by its bodies.
-std::string mesh_name(const System& system, size_t m);
 
 struct RigidSystem {
   System layout;
@@ -65,9 +40,5 @@ struct RigidSystem {
 // mesh_stiffness: (mesh, mesh) N m-1, of meshes that elastic bodies join (SystemStatics::mesh_stiffness()), symmetric; empty:
 // those of the layout, each by itself. On its diagonal a mesh without load may have 0.
 RigidSystem rigid_system(const System& layout, const Eigen::MatrixXd& mesh_stiffness = {});
-
-// Whether the axis of a body is on the ground, or on a carrier whose axis is on the ground. A carrier on a carrier, or on
-// itself, is not in the model.
-bool has_place(const System& layout, const System::Body& body);
 
 }  // namespace whine

@@ -18,6 +18,7 @@
 #include "system/compliance_split.h"
 #include "system/drawing_remarks.h"
 #include "system/flank_pressure.h"
+#include "system/rectangular_wave.h"
 #include "system/root_stress.h"
 
 namespace whine {
@@ -212,6 +213,10 @@ StaticResult static_transmission(const ReducedBody& driver, const ReducedBody& d
                      ? (load / result.stiffness_secant.array() + result.unloaded_error.array()).minCoeff()
                      : result.transmission_error.minCoeff())
           : std::numeric_limits<double>::infinity();
+  result.compliance = compliance_split(result);
+  result.flank_pressure = flank_pressure(result);
+  result.rectangular_wave = rectangular_wave(result);
+  result.remarks = remarks(result);
   return result;
 }
 
@@ -234,8 +239,7 @@ std::vector<Remark> remarks(const StaticResult& s) {
   if (s.tooth_thinning() > 0 && s.backlash_margin <= 0)
     add(true, "the backlash is used up by ", -s.backlash_margin * 1e6,
         " µm; back flanks would touch, which is not modelled");
-  const double pressure = flank_pressure(s).smooth;
-  if (pressure > kHardenedSteelPressure)
+  if (const double pressure = s.flank_pressure.smooth; pressure > kHardenedSteelPressure)
     add(true, "the contact pressure of ", std::round(pressure * 1e-7) / 100, kBeyondSteel);
   for (const std::vector<Remark>& more :
        {pressure_remarks(s), body_remarks(s), friction_remarks(s, s.torque)})
@@ -303,10 +307,15 @@ std::vector<ContactZone> contact_zones(const ReducedBody& driver, const ReducedB
        " N m contact leaves the flanks; lower the torque");
 }
 
-ContactZone contact_zone(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics) {
-  for (ContactZone& zone : contact_zones(driver, driven, statics, 0.0, 0))
-    if (zone.strips.pair == 0) return zone;
-  fail(Failure::numerical, "at mesh phase 0 the reference pair is out of reach");
+ReferenceContact reference_contact(const ReducedBody& driver, const ReducedBody& driven,
+                                   const StaticResult& statics) try {
+  for (const ContactZone& zone : contact_zones(driver, driven, statics, 0.0, 0))
+    if (zone.strips.pair == 0)
+      return {zone.strips.border, zone.strips.gap, zone.force, zone.separation, zone.approach};
+  return {};
+} catch (const Error& error) {
+  if (error.kind() != Failure::numerical) throw;
+  return {};
 }
 
 }  // namespace whine

@@ -10,7 +10,8 @@
 
 namespace whine {
 
-// The driven hub is held, the driver carries torque (N m, > 0). Fills all of StaticResult but the harmonics. zone_factor:
+// The driven hub is held, the driver carries torque (N m, > 0). Fills all of StaticResult but the harmonics and the contact
+// of the reference pair. zone_factor:
 // the strips' candidate zone is this many times as wide as the load alone asks for. The tangent stiffness of contact = "line"
 // is off by 0.6 % at most where half the load would reach a tip edge, because the flank tables are read at one place
 // whatever the pair carries (make_line_position). Throws Error(input) for a torque that is not positive,
@@ -18,12 +19,7 @@ namespace whine {
 StaticResult static_transmission(const ReducedBody& driver, const ReducedBody& driven,
                                  const StaticParameters& settings, double torque, double zone_factor = 1);
 
-// Pa: what flanks of hardened steel carry in the long run; the strongest go to 2 GPa.
-inline constexpr double kHardenedSteelPressure = 1.5e9;
-inline constexpr const char* kBeyondSteel =
-    " GPa is above the 1.5 GPa that flanks of hardened steel carry in the long run (the strongest 2 GPa); the teeth are elastic here and know of no yielding: check the torque and the face width";
-
-// Of the statics: teeth that differ, no corner contact, backlash used up, a pressure that no steel carries.
+// Of statics that are complete but for them: teeth that differ, no corner contact, backlash used up, a pressure that no steel carries.
 std::vector<Remark> remarks(const StaticResult& statics);
 
 // Of a pair with friction under a torque (N m, on the driver): what is left out of it, and where Schlenk's formula is beyond what it
@@ -37,7 +33,8 @@ std::vector<Remark> schlenk_speed_remarks(const GearPairParameters& pair, double
 std::vector<ContactZone> contact_zones(const ReducedBody& driver, const ReducedBody& driven,
                                        const StaticResult& statics, double phase, int period);
 
-// Of the reference pair at mesh phase 0.
-ContactZone contact_zone(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics);
+// Of the reference pair at mesh phase 0; nothing where it is out of reach, or where strips find no equilibrium, which lines may have.
+ReferenceContact reference_contact(const ReducedBody& driver, const ReducedBody& driven,
+                                   const StaticResult& statics);
 
 }  // namespace whine

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "gear/layout.h"
 #include "gear/train.h"
-#include "system/rigid_system.h"
 
 namespace whine {
 

@@ -7,6 +7,7 @@
 #include "gear/system_layout.h"
 #include "gear/tooth_errors.h"
 #include "signal/spectrum.h"
+#include "system/drawing_remarks.h"
 #include "system/near_interference.h"
 #include "system/system_statics.h"
 
@@ -255,6 +256,7 @@ SystemStaticResult system_at_rest(const SystemStaticParameters& settings,
   }
   take_pairs(solutions, meshes, out);
   take_harmonics(out);
+  out.remarks = drawing_remarks(out);
   return out;
 }
 

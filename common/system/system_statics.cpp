@@ -11,7 +11,7 @@
 #include "base/model_range.h"
 #include "base/progress.h"
 #include "gear/involute_start.h"
-#include "system/rigid_system.h"
+#include "gear/layout.h"
 
 namespace whine {
 

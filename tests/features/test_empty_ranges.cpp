@@ -13,6 +13,7 @@
 #include "report/plot_file.h"
 #include "report/response_figures.h"
 #include "report/static_figures.h"
+#include "system/rectangular_wave.h"
 
 using namespace whine;
 using Eigen::VectorXd;
@@ -39,6 +40,7 @@ StaticResult flat_statics() {
   s.transmission_error = VectorXd::Zero(kPhases);
   s.stiffness_harmonic = s.transmission_error_harmonic = VectorXd::Zero(kHarmonics);
   s.stiffness_harmonic[0] = s.mean_stiffness = 450e6;
+  s.rectangular_wave = rectangular_wave(s);
   return s;
 }
 

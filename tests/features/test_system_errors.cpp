@@ -12,6 +12,7 @@
 #include "dynamics/system_dynamics.h"
 #include "figure_block.h"
 #include "gear/flank_deviation.h"
+#include "gear/layout.h"
 #include "gear/system_layout.h"
 #include "gear/tooth_errors.h"
 #include "io/artifacts.h"
@@ -29,7 +30,6 @@
 #include "studies/system_branch.h"
 #include "studies/system_impact.h"
 #include "studies/system_sweep.h"
-#include "system/rigid_system.h"
 #include "system/system_rest.h"
 #include "system/system_statics.h"
 

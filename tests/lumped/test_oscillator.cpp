@@ -20,6 +20,7 @@
 #include "report/motion_figures.h"
 #include "report/response_figures.h"
 #include "signal/response.h"
+#include "system/rectangular_wave.h"
 
 using namespace whine;
 using State = LumpedOscillator::State;
@@ -422,7 +423,7 @@ TEST_CASE("lumped: models from a static result") {
     const LumpedParameters springs =
         model == MotionModel::pairs ? pairs
         : model == MotionModel::rectangular
-            ? cells_of(rectangular_wave(s))
+            ? cells_of(s.rectangular_wave)
             : cells_of(model == MotionModel::secant ? s.stiffness_secant : s.stiffness_tangent, 128);
     const SweepResult a = lumped_sweep(
         s, springs, model == MotionModel::pairs ? numbers : Eigen::VectorXi::Zero(1).eval(), o, no_report);
@@ -651,6 +652,7 @@ TEST_CASE("lumped: a cell of a map of jumps is what sweeps up and down of that m
   statics.torque = 150;
   statics.mesh_phase = Eigen::VectorXd::LinSpaced(8, 0, 0.875);
   statics.stiffness_secant = Eigen::VectorXd::Constant(8, kMean);
+  statics.rectangular_wave = rectangular_wave(statics);
   LumpedOptions o;
   o.model = MotionModel::rectangular;
   o.mass = kMass;

@@ -29,6 +29,7 @@
 #include "report/static_figures.h"
 #include "report/wireframe.h"
 #include "signal/spectrum.h"
+#include "system/rectangular_wave.h"
 
 using namespace whine;
 
@@ -65,6 +66,7 @@ StaticResult some_static(double torque) {
     s.transmission_error[i] = torque / 0.0704769 / s.stiffness_secant[i];
   }
   set_harmonics(s);
+  s.rectangular_wave = rectangular_wave(s);
   return s;
 }
 
@@ -139,7 +141,7 @@ TEST_CASE("which figure of P2000 a figure is beside, by its name") {
 TEST_CASE(
     "rectangular wave: switches at the ends of the path of contact, levels in the middle of the zones") {
   const StaticResult s = some_static(100);
-  const RectangularWave wave = rectangular_wave(s);
+  const RectangularWave& wave = s.rectangular_wave;
   // equal gears: contact ratio 1.7547, both zones centred on the pitch point and half a period from it
   CHECK(wave.high_end - wave.high_begin == relative(0.7547, 1e-4));
   CHECK(0.5 * (wave.high_begin + wave.high_end) == relative(0.5, 1e-12));
@@ -204,11 +206,10 @@ TEST_CASE(
   CHECK(block(k, "mesh_stiffness").rows[3][1] == low.stiffness_secant[3] * 1e-6);
   CHECK(block(k, "mesh_stiffness").columns[1].ends_with("[N/µm]"));
   CHECK(block(k, "rectangular wave").rows.size() == 6);
-  CHECK(block(k, "rectangular wave harmonics").rows[0][1] == rectangular_wave(low).amplitude(1) * 1e-6);
+  CHECK(block(k, "rectangular wave harmonics").rows[0][1] == low.rectangular_wave.amplitude(1) * 1e-6);
   // The wave is that of the torque that the scene lists first, whether or not it is the lowest.
   const Figure falling = mesh_stiffness_figure({high, low});
-  CHECK(block(falling, "rectangular wave harmonics").rows[0][1] ==
-        rectangular_wave(high).amplitude(1) * 1e-6);
+  CHECK(block(falling, "rectangular wave harmonics").rows[0][1] == high.rectangular_wave.amplitude(1) * 1e-6);
   CHECK(block(falling, "mesh_stiffness").rows[3][1] == block(k, "mesh_stiffness").rows[3][2]);
   CHECK(block(falling, "mesh_stiffness").rows[3][2] == block(k, "mesh_stiffness").rows[3][1]);
 }
@@ -498,23 +499,24 @@ TEST_CASE("tooth loads of rolling gears pass from period to period without a ste
 TEST_CASE(
     "contact zone: complementary, the force of the static stage, points of the flanks, Hertz's pressure") {
   const ReducedBody& body = paper_body();
-  const StaticResult statics = static_transmission(body, body, paper_statics(8), 150);
-  const ContactZone zone = contact_zone(body, body, statics);
+  StaticResult statics = static_transmission(body, body, paper_statics(8), 150);
+  SectorGrid mesh = make_sector_mesh(body.design, body.discretisation);
+  CHECK(failure_of([&] { contact_zone_figure(mesh, mesh, statics); }) == Failure::input);
+  const ReferenceContact& zone = statics.reference_contact = reference_contact(body, body, statics);
   CHECK(zone.force.sum() == relative(statics.tooth_load(0, 1), 1e-9));
   CHECK(zone.approach == relative(statics.transmission_error[0], 1e-9));
   CHECK(zone.force.minCoeff() >= 0);
-  for (int i = 0; i < zone.strips.size(); ++i) {
+  for (Eigen::Index i = 0; i < zone.gap.size(); ++i) {
     CHECK(zone.separation[i] > -1e-15);
     if (zone.force[i] > 0) CHECK(std::abs(zone.separation[i]) < 1e-14);
   }
-  SectorGrid mesh = make_sector_mesh(body.design, body.discretisation);
-  const Figure figure = contact_zone_figure(mesh, mesh, statics, zone);
+  const Figure figure = contact_zone_figure(mesh, mesh, statics);
   const GearPair pair(statics.gear[0].design, statics.gear[1].design, 0.15);
   const auto& rows = block(figure, "candidate pairs").rows;
-  REQUIRE(rows.size() == static_cast<size_t>(zone.strips.size()));
+  REQUIRE(rows.size() == static_cast<size_t>(zone.gap.size()));
   double force = 0, most = 0;
   for (const auto& row : rows) {
-    CHECK(std::abs(row[2] - row[1] - pair.gap_at(zone.strips.contact, row[0] * 1e-3).gap * 1e6) < 1e-6);
+    CHECK(std::abs(row[2] - row[1] - pair.gap_at(pair.contact(0), row[0] * 1e-3).gap * 1e6) < 1e-6);
     force += row[7] * 1e6 * (row[4] - row[3]) * 1e-3 * 25.4e-3;
     most = std::max(most, row[7]);
   }
@@ -524,7 +526,7 @@ TEST_CASE(
   CHECK(most == relative(hertz, 0.01));
   CHECK(block(figure, "driver inner region").rows.size() > 100);
   mesh.design.bore_radius = 0.03;
-  CHECK(failure_of([&] { contact_zone_figure(mesh, mesh, statics, zone); }) == Failure::input);
+  CHECK(failure_of([&] { contact_zone_figure(mesh, mesh, statics); }) == Failure::input);
 }
 
 ImpactResult some_impact(double torque) {

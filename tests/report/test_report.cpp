@@ -29,6 +29,7 @@
 #include "signal/response.h"
 #include "signal/spectrum.h"
 #include "studies/sweep.h"
+#include "system/flank_pressure.h"
 #include "system/statics.h"
 
 using namespace whine;
@@ -507,6 +508,7 @@ TEST_CASE(
   swept.jump_frequency = swept.jump_width = Eigen::VectorXd(0);
   StaticResult pressed = s;
   pressed.contact_pressure(0, pair) = 1.6e9;
+  pressed.flank_pressure = flank_pressure(pressed);
   const std::vector<Remark> said = remarks(pressed);
   CHECK(std::any_of(said.begin(), said.end(),
                     [](const Remark& r) { return r.warning && contains(r.words, "of 1.6 GPa is above"); }));

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "figure_block.h"
+#include "gear/layout.h"
 #include "gear/pair.h"
 #include "gear/system_layout.h"
 #include "gear/tooth_contour.h"
@@ -20,7 +21,6 @@
 #include "small_system.h"
 #include "system/mode_view.h"
 #include "system/natural_modes.h"
-#include "system/rigid_system.h"
 
 using namespace whine;
 using Eigen::Index;

@@ -225,6 +225,7 @@ TEST_CASE(
   for (System::Body& body : a.settings.layout.bodies)
     if (body.bearing.elastic()) body.bearing.damping = 100;
   const auto said = [&](const std::string& words) {
+    a.remarks = left_out_of_carriers(a);
     for (const Remark& one : motion_remarks(r))
       if (contains(one.words, words)) return one.warning ? 2 : 1;
     return 0;

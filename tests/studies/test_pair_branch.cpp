@@ -26,9 +26,9 @@
 #include "results/branch.h"
 #include "results/response.h"
 #include "results/static.h"
+#include "signal/jump_cause.h"
 #include "signal/response.h"
 #include "studies/branch_follower.h"
-#include "studies/jump_cause.h"
 #include "studies/pair_branch.h"
 #include "studies/sweep.h"
 

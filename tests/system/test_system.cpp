@@ -6,11 +6,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "gear/layout.h"
 #include "gear/train.h"
 #include "paper_pair.h"
 #include "refusal.h"
 #include "relative.h"
-#include "system/rigid_system.h"
 #include "system/statics.h"
 #include "system/system_statics.h"
 

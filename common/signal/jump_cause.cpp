@@ -1,4 +1,4 @@
-#include "studies/jump_cause.h"
+#include "signal/jump_cause.h"
 
 #include <cmath>
 
