@@ -94,12 +94,12 @@ struct Using {
     return text("(column(", curve.where, ") ", curve.is ? "== " + number(*curve.is) : "> 0", " ? ", value,
                 " : NaN)");
   }
-  std::string edge(const Place& place, size_t k) const {
-    const Range& r = k < 2 ? place.x : place.y;
+  std::string edge(const PanelPlace& place, size_t k) const {
+    const AxisRange& r = k < 2 ? place.x : place.y;
     return curve.box[k] > 0 ? text("(column(", curve.box[k], "))")
                             : text("(", number(k % 2 ? r.to : r.from), ")");
   }
-  std::string box(const Place& place) const {
+  std::string box(const PanelPlace& place) const {
     return text(edge(place, 0), ":", edge(place, 1), ":", edge(place, 2), ":", edge(place, 3));
   }
   const PanelCurve& curve;
@@ -107,7 +107,7 @@ struct Using {
 };
 
 // A style that is neither line nor points; "" for those.
-std::string shape(const PanelCurve& c, const Using& of, const Place& place, const std::string& filled) {
+std::string shape(const PanelCurve& c, const Using& of, const PanelPlace& place, const std::string& filled) {
   switch (c.style) {
     case PanelStyle::spans:
       return text("using (0.5 * (column(", c.x, ") + column(", c.y, "))):(", number(place.y.to), "):(column(",
@@ -133,7 +133,7 @@ std::string shape(const PanelCurve& c, const Using& of, const Place& place, cons
   }
 }
 
-void add_curve(const Figure& figure, const Panel& panel, const PanelCurve& c, const Place& place,
+void add_curve(const Figure& figure, const Panel& panel, const PanelCurve& c, const PanelPlace& place,
                Script& script, std::vector<std::string>& plots) {
   const bool line = c.style == PanelStyle::line || c.style == PanelStyle::line_points,
              stems = c.style == PanelStyle::stems,
@@ -166,7 +166,7 @@ void add_curve(const Figure& figure, const Panel& panel, const PanelCurve& c, co
   if (!c.label.empty()) plots.push_back("keyentry with " + keyed + " title " + script.word(c.label));
 }
 
-void add_rules(const Panel& panel, const Place& place, Script& script, std::vector<std::string>& plots) {
+void add_rules(const Panel& panel, const PanelPlace& place, Script& script, std::vector<std::string>& plots) {
   double ends = -1e9;  // of the last label beside an upright line
   int row = 0;
   std::string last;
@@ -174,7 +174,7 @@ void add_rules(const Panel& panel, const Place& place, Script& script, std::vect
   for (const PanelRule& rule : panel.rules) rules.push_back(&rule);
   std::stable_sort(rules.begin(), rules.end(), [](auto* a, auto* b) { return a->at < b->at; });
   for (const PanelRule* rule : rules) {
-    const Range& r = rule->axis == 'x' ? place.x : place.y;
+    const AxisRange& r = rule->axis == 'x' ? place.x : place.y;
     const std::string line = text("nohead ", panel.colours ? "front" : "back", " lt 1 lw 1.4 ",
                                   rgb(rule->colour), dash(rule->dash));
     if (rule->in_key)
@@ -207,13 +207,13 @@ void add_rules(const Panel& panel, const Place& place, Script& script, std::vect
   }
 }
 
-void add_axes(const Panel& panel, const Place& place, Script& script) {
+void add_axes(const Panel& panel, const PanelPlace& place, Script& script) {
   script.add(panel.bare ? "unset border; unset tics; unset grid"
                         : "set border 3; set grid xtics ytics lt 1 lc rgb '#e4e4e4' lw 1");
   for (const bool along_x : {true, false}) {
     const PanelAxis& axis = along_x ? panel.x : panel.y;
-    const Range& r = along_x ? place.x : place.y;
-    const Ticks& ticks = along_x ? place.x_ticks : place.y_ticks;
+    const AxisRange& r = along_x ? place.x : place.y;
+    const AxisTicks& ticks = along_x ? place.x_ticks : place.y_ticks;
     const std::string name = along_x ? "x" : "y";
     script.add(text("set ", name, "range [", number(r.from), ":", number(r.to), "]"));
     if (panel.bare) continue;
@@ -275,7 +275,7 @@ void add_axes(const Panel& panel, const Place& place, Script& script) {
         text("rotate by 90 center ", fitting(panel.colours->label, place.bottom - place.top + 40)).c_str());
 }
 
-void add_words(const Panel& panel, const Place& place, Script& script) {
+void add_words(const Panel& panel, const PanelPlace& place, Script& script) {
   for (const PanelWords& w : panel.words) {
     const bool above = std::isnan(w.y), right = w.x > place.x.from + 0.5 * place.x.span();
     script.add(text("set label ", script.word(w.words), " at first ", number(w.x), ", ",
@@ -286,7 +286,7 @@ void add_words(const Panel& panel, const Place& place, Script& script) {
   }
 }
 
-void add_panel(const Figure& figure, size_t index, const Place& place, Script& script) {
+void add_panel(const Figure& figure, size_t index, const PanelPlace& place, Script& script) {
   const Panel& panel = figure.panels[index];
   if (panel.curves.empty()) return;
   script.add("unset label; unset arrow; unset logscale; unset xlabel; unset ylabel");

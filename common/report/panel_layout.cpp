@@ -21,7 +21,7 @@ bool holds(const PanelCurve& c, const std::vector<double>& row) {
   return c.is ? value == *c.is : value > 0;
 }
 
-std::vector<double> log_ticks(Range r) {
+std::vector<double> log_ticks(AxisRange r) {
   std::vector<double> ticks;
   if (r.to / r.from > 100) return ticks;
   for (double power = std::pow(10, std::floor(std::log10(r.from))); power <= r.to; power *= 10)
@@ -48,7 +48,7 @@ std::vector<std::string> lines_of(const std::string& words, double width = 1e9) 
 }
 
 // Of a curve on an axis: what it reaches there.
-void widen(const Figure& figure, const PanelCurve& c, bool along_x, Range& range) {
+void widen(const Figure& figure, const PanelCurve& c, bool along_x, AxisRange& range) {
   if (c.block.empty()) return;
   const auto take = [&](double value) {
     if (!std::isfinite(value)) return;
@@ -86,24 +86,24 @@ void widen(const Figure& figure, const PanelCurve& c, bool along_x, Range& range
   }
 }
 
-Range range_of(const Figure& figure, const Panel& panel, bool along_x) {
+AxisRange range_of(const Figure& figure, const Panel& panel, bool along_x) {
   const PanelAxis& axis = along_x ? panel.x : panel.y;
   if (!axis.names.empty()) {
     const double first = 0.4, last = static_cast<double>(axis.names.size()) + 0.6;
-    return along_x ? Range{first, last} : Range{last, first};
+    return along_x ? AxisRange{first, last} : AxisRange{last, first};
   }
   constexpr double kFar = std::numeric_limits<double>::infinity();
-  Range r{kFar, -kFar};
+  AxisRange r{kFar, -kFar};
   for (const PanelCurve& c : panel.curves) widen(figure, c, along_x, r);
   for (const PanelRule& rule : panel.rules)
     if ((rule.axis == 'x') == along_x && !along_x) r = {std::min(r.from, rule.at), std::max(r.to, rule.at)};
-  if (!(r.from <= r.to)) r = axis.log ? Range{0.1, 1} : Range{0, 1};
+  if (!(r.from <= r.to)) r = axis.log ? AxisRange{0.1, 1} : AxisRange{0, 1};
   if (axis.log) {
     const double to = r.to > 0 ? r.to : 1;
     const double least = to * std::pow(10, -axis.decades);
     r = {std::isnan(axis.from) ? std::max(r.from > 0 ? 0.7 * r.from : least, least) : axis.from,
          std::isnan(axis.to) ? 2 * to : axis.to};
-    return r.from < r.to ? r : Range{0.5 * r.to, r.to};
+    return r.from < r.to ? r : AxisRange{0.5 * r.to, r.to};
   }
   const bool zero = axis.from_zero && r.from >= 0;
   if (zero) r.from = 0;
@@ -116,7 +116,7 @@ Range range_of(const Figure& figure, const Panel& panel, bool along_x) {
   if (std::isnan(axis.to)) r.to += same ? 0.5 * span : pad;
   if (!std::isnan(axis.from)) r.from = axis.from;
   if (!std::isnan(axis.to)) r.to = axis.to;
-  return r.from < r.to ? r : Range{r.from, r.from + span};
+  return r.from < r.to ? r : AxisRange{r.from, r.from + span};
 }
 
 // 1, 2 or 5 times a power of ten and not below x > 0.
@@ -128,8 +128,8 @@ double step_of(double x) {
 }
 
 // most: that find room.
-Ticks ticks_of(const PanelAxis& axis, Range r, double most) {
-  Ticks ticks;
+AxisTicks ticks_of(const PanelAxis& axis, AxisRange r, double most) {
+  AxisTicks ticks;
   if (!axis.names.empty()) {
     for (const std::string& name : axis.names)
       for (const std::string& line : lines_of(name)) ticks.widest = std::max(ticks.widest, text_width(line));
@@ -172,8 +172,8 @@ std::string letter_before(const Figure& figure, size_t index) {
 }
 
 // What a panel needs beside its frame, and its ranges.
-Place measured(const Figure& figure, const Panel& panel) {
-  Place p;
+PanelPlace measured(const Figure& figure, const Panel& panel) {
+  PanelPlace p;
   p.x = range_of(figure, panel, true);
   p.y = range_of(figure, panel, false);
   p.y_ticks = ticks_of(panel.y, p.y, panel.height / 44.0);
@@ -193,7 +193,7 @@ Place measured(const Figure& figure, const Panel& panel) {
 }
 
 // Frames of a column stand below each other, and all are equally wide: needs are those of their neighbours.
-void set_frames(const Figure& figure, std::vector<Place>& places) {
+void set_frames(const Figure& figure, std::vector<PanelPlace>& places) {
   std::vector<double> before(figure.columns, 0), after(figure.columns, 0);
   double taken = 0;
   for (size_t i = 0; i < places.size(); ++i) {
@@ -204,7 +204,7 @@ void set_frames(const Figure& figure, std::vector<Place>& places) {
   for (size_t c = 0; c < figure.columns; ++c) taken += before[c] + after[c];
   const double frame = std::max(80.0, (pixels::kWidth - taken) / static_cast<double>(figure.columns));
   for (size_t i = 0; i < places.size(); ++i) {
-    Place& p = places[i];
+    PanelPlace& p = places[i];
     const Panel& panel = figure.panels[i];
     if (panel.wide) {
       p.right = pixels::kWidth - p.right;
@@ -215,9 +215,9 @@ void set_frames(const Figure& figure, std::vector<Place>& places) {
     }
     if (!panel.bare) continue;
     const double unit = std::max(p.x.span() / (p.right - p.left), p.y.span() / panel.height);
-    const auto about_middle = [](Range r, double half) {
+    const auto about_middle = [](AxisRange r, double half) {
       const double middle = 0.5 * (r.from + r.to);
-      return Range{middle - half, middle + half};
+      return AxisRange{middle - half, middle + half};
     };
     p.x = about_middle(p.x, 0.5 * unit * (p.right - p.left));
     p.y = about_middle(p.y, 0.5 * unit * panel.height);
@@ -225,7 +225,7 @@ void set_frames(const Figure& figure, std::vector<Place>& places) {
 }
 
 // What stands above the frame.
-void set_above(const Figure& figure, size_t index, Place& p) {
+void set_above(const Figure& figure, size_t index, PanelPlace& p) {
   const Panel& panel = figure.panels[index];
   if (const std::string words = letter_before(figure, index) + panel.heading; !words.empty())
     p.heading = lines_of(words, (p.right - p.left) / pixels::kLetter);
@@ -236,7 +236,7 @@ void set_above(const Figure& figure, size_t index, Place& p) {
 }
 
 // What stands below the frame, in a row of panels from `first` to `end`.
-void set_below(const Figure& figure, size_t index, size_t first, size_t end, Place& p) {
+void set_below(const Figure& figure, size_t index, size_t first, size_t end, PanelPlace& p) {
   const Panel& panel = figure.panels[index];
   p.x_ticks = ticks_of(panel.x, p.x, 1);
   for (double most = (p.right - p.left) / 45; panel.x.names.empty() && !panel.x.log && most >= 1;
@@ -272,7 +272,7 @@ void set_below(const Figure& figure, size_t index, size_t first, size_t end, Pla
 }  // namespace
 
 PanelLayout layout_of_panels(const Figure& figure) {
-  std::vector<Place> places;
+  std::vector<PanelPlace> places;
   size_t row_now = 0, column_now = 0;
   for (const Panel& panel : figure.panels) {
     if (column_now > 0 && (panel.wide || column_now == figure.columns)) ++row_now, column_now = 0;

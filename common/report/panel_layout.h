@@ -17,23 +17,23 @@ inline constexpr double kFrameTop = 16, kNumbersBelow = 50, kLabelBelow = 38, kN
 }  // namespace pixels
 
 // Of an axis; upside down where a y axis has names.
-struct Range {
+struct AxisRange {
   double from = 0, to = 1;
   double span() const { return to - from; }
 };
 
 // A tick at each multiple of `step`, or at powers of ten, or at names.
-struct Ticks {
+struct AxisTicks {
   double step = 1;
   double widest = 0;  // of their words, parts of a letter
   double size = 18;   // of their letters, points
 };
 
 // Where the frame of a panel stands, and what stands about it.
-struct Place {
+struct PanelPlace {
   double left = 0, right = 0, top = 0, bottom = 0;  // of the frame, pixels from the left and from the top
-  Range x = {}, y = {};
-  Ticks x_ticks = {}, y_ticks = {};
+  AxisRange x = {}, y = {};
+  AxisTicks x_ticks = {}, y_ticks = {};
   double above = 0, below = 0;  // pixels that headings, axes and keys take
   size_t row = 0, column = 0;
   std::vector<std::string> heading = {};  // lines
@@ -41,8 +41,8 @@ struct Place {
 };
 
 struct PanelLayout {
-  std::vector<Place> places;  // of each panel
-  int height = 0;             // of the picture
+  std::vector<PanelPlace> places;  // of each panel
+  int height = 0;                  // of the picture
 };
 
 // Throws Error(numerical) for a curve whose block or column the figure does not have.
@@ -54,6 +54,6 @@ const FigureBlock& block_of(const Figure& figure, const std::string& name);
 bool holds(const PanelCurve& c, const std::vector<double>& row);
 
 // Of a logarithmic axis on which powers of ten alone would be too few: 1, 2, 5 times each; else none.
-std::vector<double> log_ticks(Range r);
+std::vector<double> log_ticks(AxisRange r);
 
 }  // namespace whine

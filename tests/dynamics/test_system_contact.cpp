@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "contact/line_contact.h"
-#include "failure_of.h"
 #include "memory.h"
+#include "refusal.h"
 
 using namespace whine;
 using Eigen::Index;

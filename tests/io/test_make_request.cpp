@@ -10,8 +10,8 @@
 
 #include "io/make_request.h"
 #include "io/scene_goals.h"
-#include "message_of_input.h"
 #include "own_folder.h"
+#include "refusal.h"
 
 using namespace whine;
 

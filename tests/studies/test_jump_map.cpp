@@ -223,7 +223,7 @@ TEST_CASE("maps that cannot be are rejected with what, value and limit") {
   p.to = 1900;
   rejected(p, {2000, 1900});
   p.to = 2200;
-  rejected(p, {"torque"}, -5);
+  rejected(p, {"torque_Nm", "-5"}, -5);
 }
 
 TEST_CASE("a map that was written reads back, and tells what differs from another") {

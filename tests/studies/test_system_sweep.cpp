@@ -9,13 +9,13 @@
 #include <numbers>
 #include <sstream>
 
-#include "failure_of.h"
 #include "gear/system_layout.h"
 #include "io/artifacts.h"
 #include "io/publish.h"
 #include "io/system_scene.h"
 #include "orbits/periodic_orbit.h"
 #include "planetary_train.h"
+#include "refusal.h"
 #include "relative.h"
 #include "results/system_sweep.h"
 #include "scene_file.h"
