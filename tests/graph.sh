@@ -2,22 +2,8 @@
 #
 # Works on a copy of the tree with the real makefiles and the real gear-scene; the other programs are replaced by
 # shell scripts that write a line to their outputs, so that the whole pipeline runs in a second.
-set -uo pipefail
-B=${B:-build}
-top=$PWD
-tree=$(mktemp -d)
-trap 'rm -rf "$tree"' EXIT
-log=$tree/log
-
-ok() { echo "ok: $1"; }
-wrong() { echo "FAILED: $1: $2"; }
-
-cp -a Makefile pipelines common tools data tests "$tree"
-mkdir -p "$tree/$B"
-cp -a "$B/bin" "$B/id" "$B/settings" "$tree/$B"
-cd "$tree" || exit 1
-[ "$B" = build ] && sanitize= || sanitize=SANITIZE=1
-make_() { make $sanitize "$@" > "$log" 2>&1; }
+source tests/cases
+in_copy_of_tree
 
 # --- a comment in a source: the same object, so the same program. What compiles it is no part of a copied tree.
 compile=$(ninja -C "$top/$B" -t commands gear-inspect | sed -n 's/ -o [^ ]* -c .*gear-inspect\.cpp$//p')
@@ -83,161 +69,114 @@ shown() { sed -n 's|.*bin/\(gear-[a-z-]*\) .*--output \([^ ]*\).*|\1 \2|p' <(sed
 # programs only, each once
 programs() { shown | cut -d' ' -f1 | uniq -c | awk '{printf "%s%s*%s", s, $2, $1; s=" "}'; }
 
-# expect <claim> <stages as from programs>: after `make_ -n ...`
+# expect <claim> <stages as from programs>: of the last make
 expect() {
   local found
   found=$(programs)
   if [ "$found" = "$2" ]; then ok "$1"; else wrong "$1" "expected '$2', found '$found' $(grep -m1 '\*\*\*' "$log")"; fi
+}
+# Of make -n with further arguments: plans <claim> <stages>, says <claim> <pattern of a line>, refuses <claim> <fields of its line>
+plans() { make_ -n "${@:3}"; expect "$1" "$2"; }
+says() {
+  make_ -n "${@:3}"
+  grep -q -- "$2" "$log" && ok "$1" || wrong "$1" "no '$2' in: $(tail -n 1 "$log")"
+}
+refuses() {
+  make_ -n "${@:3}"
+  named_in "$log" "$2" && ok "$1" || wrong "$1" "no '$2' in: $(tail -n 1 "$log")"
 }
 # change <sed script>: edits the scene
 change() { sed -i -E "$1" $scene; cmp -s $scene scene.original && echo "FAILED: sed '$1' changed nothing"; }
 restore() { cp scene.original $scene; make_ $all; }
 all="figures static sweep"
 
-make_ -n $all
-expect "everything is missing at first: one body for two gears that are alike" \
-  "gear-impact*5 gear-lumped*14 gear-mesh*1 gear-plot*16 gear-reduce*1 gear-spectra*10 gear-static*5 gear-sweep*10"
+plans "everything is missing at first: one body for two gears that are alike" "gear-impact*5 gear-lumped*14 gear-mesh*1 gear-plot*16 gear-reduce*1 gear-spectra*10 gear-static*5 gear-sweep*10" $all
 make_ $all || wrong "the whole pipeline runs" "$(tail -n 1 "$log")"
 expect "the pipeline runs what make -n has shown" \
   "gear-impact*5 gear-lumped*14 gear-mesh*1 gear-plot*16 gear-reduce*1 gear-spectra*10 gear-static*5 gear-sweep*10"
 if [ "$(sort calls | uniq -d | wc -l)" = 0 ] && [ "$(wc -l < calls)" = 62 ]; then ok "each stage runs once, in parallel, too"
 else wrong "each stage runs once" "$(sort calls | uniq -d | head -n 3)"; fi
-make_ -n $all
-expect "nothing to do the second time" ""
+plans "nothing to do the second time" "" $all
 said=$(grep -v -E '^make: (Nothing to be done|.* is up to date)|/id/' "$log" | head -2)
 [ -z "$said" ] && ok "and make -n then says nothing else" || wrong "and make -n then says nothing else" "$said"
 make_ -q $all && ok "make -q agrees" || wrong "make -q agrees" "status $?"
 
-touch "$B"/bin/gear-*; make_ -n $all
-expect "programs linked anew with the same bytes redo nothing" ""; make_ $all
+touch "$B"/bin/gear-*; plans "programs linked anew with the same bytes redo nothing" "" $all; make_ $all
 # Else every make from here on would look at the bytes of these programs again; others are older than what they are linked from.
 for program in "$B"/bin/gear-*; do [ ! "$B/id/${program##*/}" -nt scene.original ] || touch -r "$B/id/${program##*/}" "$program"; done
 
-change '1i # a comment'; make_ -n $all
-expect "a comment in the scene redoes nothing" ""
-change 's/^(centre_distance_mm = )150.0/\1  150.000/'; make_ -n $all
-expect "another spelling of a number redoes nothing" ""; restore
-touch $scene; make_ -n $all
-expect "a touched scene redoes nothing" ""
+change '1i # a comment'; plans "a comment in the scene redoes nothing" "" $all
+change 's/^(centre_distance_mm = )150.0/\1  150.000/'; plans "another spelling of a number redoes nothing" "" $all; restore
+touch $scene; plans "a touched scene redoes nothing" "" $all
 
-change 's/^(torque_Nm = ).*/\1[100, 160, 200, 300]/'; make_ -n static sweep
-expect "a changed torque redoes the static and the sweeps of that torque" "gear-spectra*2 gear-static*1 gear-sweep*2"
+change 's/^(torque_Nm = ).*/\1[100, 160, 200, 300]/'; plans "a changed torque redoes the static and the sweeps of that torque" "gear-spectra*2 gear-static*1 gear-sweep*2" static sweep
 shown | grep -v T160 && wrong "only that torque" "$(shown)" || ok "only that torque"; restore
-change 's/^(torque_Nm = ).*/\1[110, 150, 200, 300]/'; make_ -n static sweep
-expect "the first torque sets the dampers of all sweeps" "gear-spectra*8 gear-static*1 gear-sweep*8"
-make_ static sweep; restore; make_ -n $all
-expect "changed back and made again, all is up to date" ""
+change 's/^(torque_Nm = ).*/\1[110, 150, 200, 300]/'; plans "the first torque sets the dampers of all sweeps" "gear-spectra*8 gear-static*1 gear-sweep*8" static sweep
+make_ static sweep; restore; plans "changed back and made again, all is up to date" "" $all
 
-change 's/^bore_radius_mm = [0-9.]+/bore_radius_mm = 30.0/'; make_ -n $all
-expect "the bore redoes everything from the mesh" "gear-impact*5 gear-lumped*14 gear-mesh*1 gear-plot*16 gear-reduce*1 gear-spectra*10 gear-static*5 gear-sweep*10"
-make_ $all; cp scene.original $scene; make_ -n $all
-expect "going back to a bore keeps its body and redoes what rests on it" \
-  "gear-impact*5 gear-lumped*14 gear-plot*16 gear-spectra*10 gear-static*5 gear-sweep*10"; restore
-change 's/^rayleigh_stiffness_s = [^ ]*/rayleigh_stiffness_s = 5.5e-6/'; make_ -n $all
-expect "damping redoes the elastic sweeps, no lumped one" "gear-impact*5 gear-plot*9 gear-spectra*10 gear-sweep*10"; restore
-make_ impact; make_ -n impact
-expect "ring-downs are up to date" ""
-change 's/^(mesh_frequency_Hz = .*)step = 20/\1step = 40/'; make_ -n impact
-expect "speeds redo no ring-down" ""; restore
-change 's/^rayleigh_stiffness_s = [^ ]*/rayleigh_stiffness_s = 5.5e-6/'; make_ -n impact
-expect "damping redoes the ring-downs" "gear-impact*4"; restore
-change 's/^total_inertia_kgm2 = [^ ]*/total_inertia_kgm2 = 0.0150/'; make_ -n $all
-expect "inertia redoes the sweeps" "gear-impact*5 gear-lumped*14 gear-plot*12 gear-spectra*10 gear-sweep*10"; restore
-change 's/^corner_contact = [^ ]*/corner_contact = false/'; make_ -n $all
-expect "the corner rule redoes statics and sweeps, no body" "gear-impact*5 gear-lumped*14 gear-plot*16 gear-spectra*10 gear-static*5 gear-sweep*10"; restore
-change 's/^\[gear.wheel\]/[gear.pinion.modification]\ntip_relief_um = 10\ntip_relief_start_deg = 22\n[gear.wheel]/'; make_ -n $all
-expect "a relief redoes statics and sweeps, no body" "gear-impact*5 gear-lumped*14 gear-plot*16 gear-spectra*10 gear-static*5 gear-sweep*10"; restore
-change 's/^(mesh_frequency_Hz = .*)step = 20/\1step = 40/'; make_ -n $all
-expect "speeds redo the sweeps" "gear-lumped*14 gear-plot*11 gear-spectra*10 gear-sweep*10"; restore
-change 's/^like = "pinion"/&\nprofile_shift = 0.1/; s/^centre_distance_mm = .*/centre_distance_mm = 150.4/'; make_ -n mesh
-expect "a gear that differs gets a body of its own" "gear-mesh*1"; restore
+change 's/^bore_radius_mm = [0-9.]+/bore_radius_mm = 30.0/'; plans "the bore redoes everything from the mesh" "gear-impact*5 gear-lumped*14 gear-mesh*1 gear-plot*16 gear-reduce*1 gear-spectra*10 gear-static*5 gear-sweep*10" $all
+make_ $all; cp scene.original $scene; plans "going back to a bore keeps its body and redoes what rests on it" "gear-impact*5 gear-lumped*14 gear-plot*16 gear-spectra*10 gear-static*5 gear-sweep*10" $all; restore
+change 's/^rayleigh_stiffness_s = [^ ]*/rayleigh_stiffness_s = 5.5e-6/'; plans "damping redoes the elastic sweeps, no lumped one" "gear-impact*5 gear-plot*9 gear-spectra*10 gear-sweep*10" $all; restore
+make_ impact; plans "ring-downs are up to date" "" impact
+change 's/^(mesh_frequency_Hz = .*)step = 20/\1step = 40/'; plans "speeds redo no ring-down" "" impact; restore
+change 's/^rayleigh_stiffness_s = [^ ]*/rayleigh_stiffness_s = 5.5e-6/'; plans "damping redoes the ring-downs" "gear-impact*4" impact; restore
+change 's/^total_inertia_kgm2 = [^ ]*/total_inertia_kgm2 = 0.0150/'; plans "inertia redoes the sweeps" "gear-impact*5 gear-lumped*14 gear-plot*12 gear-spectra*10 gear-sweep*10" $all; restore
+change 's/^corner_contact = [^ ]*/corner_contact = false/'; plans "the corner rule redoes statics and sweeps, no body" "gear-impact*5 gear-lumped*14 gear-plot*16 gear-spectra*10 gear-static*5 gear-sweep*10" $all; restore
+change 's/^\[gear.wheel\]/[gear.pinion.modification]\ntip_relief_um = 10\ntip_relief_start_deg = 22\n[gear.wheel]/'; plans "a relief redoes statics and sweeps, no body" "gear-impact*5 gear-lumped*14 gear-plot*16 gear-spectra*10 gear-static*5 gear-sweep*10" $all; restore
+change 's/^(mesh_frequency_Hz = .*)step = 20/\1step = 40/'; plans "speeds redo the sweeps" "gear-lumped*14 gear-plot*11 gear-spectra*10 gear-sweep*10" $all; restore
+change 's/^like = "pinion"/&\nprofile_shift = 0.1/; s/^centre_distance_mm = .*/centre_distance_mm = 150.4/'; plans "a gear that differs gets a body of its own" "gear-mesh*1" mesh; restore
 
 # --- maps and variants
-make_ -n jump-map
-expect "a map of jumps: one artifact per torque and corner rule or lumped model, statics for these, no body" \
-  "gear-folds*5 gear-jump-map*24 gear-lumped*64 gear-plot*2 gear-static*3"
-make_ jump-map; make_ -n jump-map
-expect "a map is up to date" ""
-change 's/^rayleigh_stiffness_s = [^ ]*/rayleigh_stiffness_s = 5.5e-6/; s/^(mesh_frequency_Hz = .*)step = 20/\1step = 40/'; make_ -n jump-map
-expect "damping and speeds of the scene redo no map, only the curves of folds" "gear-folds*5 gear-plot*1"; restore
-change 's/^total_inertia_kgm2 = [^ ]*/total_inertia_kgm2 = 0.0150/'; make_ -n jump-map
-expect "inertia redoes the maps" "gear-folds*5 gear-jump-map*24 gear-lumped*64 gear-plot*2"; restore; make_ jump-map
-rm out/parker2000/T300/jump_map_1.h5; make_ -n jump-map
-expect "one artifact that is missing, and the figures" "gear-jump-map*1 gear-plot*2"
-make_ jump-map; rm out/parker2000/T300/jump_map_secant-contact.h5; make_ -n jump-map
-expect "one of a lumped model that is missing, and its figure" "gear-lumped*1 gear-plot*1"
-make_ jump-map; make_ -n JUMP_MAP=fine jump-map
-expect "a fine map stands beside the coarse one" "gear-jump-map*48 gear-lumped*128 gear-plot*2 gear-static*8"
-make_ -n JUMP_MAP_TORQUES='150 700' JUMP_MAP_CORNERS=2 jump-map
-expect "torques and corner rules of one's own" "gear-jump-map*2 gear-lumped*8 gear-plot*2 gear-static*1"
-make_ -n JUMP_MAP_STEP=25 jump-map
-expect "another step redoes the maps" "gear-jump-map*24 gear-lumped*64 gear-plot*2"
-make_ -n JUMP_MAP_MODELS= JUMP_MAP_STEP=30 jump-map
-expect "a map without lumped models" "gear-jump-map*24 gear-plot*1"
+plans "a map of jumps: one artifact per torque and corner rule or lumped model, statics for these, no body" "gear-folds*5 gear-jump-map*24 gear-lumped*64 gear-plot*2 gear-static*3" jump-map
+make_ jump-map; plans "a map is up to date" "" jump-map
+change 's/^rayleigh_stiffness_s = [^ ]*/rayleigh_stiffness_s = 5.5e-6/; s/^(mesh_frequency_Hz = .*)step = 20/\1step = 40/'; plans "damping and speeds of the scene redo no map, only the curves of folds" "gear-folds*5 gear-plot*1" jump-map; restore
+change 's/^total_inertia_kgm2 = [^ ]*/total_inertia_kgm2 = 0.0150/'; plans "inertia redoes the maps" "gear-folds*5 gear-jump-map*24 gear-lumped*64 gear-plot*2" jump-map; restore; make_ jump-map
+rm out/parker2000/T300/jump_map_1.h5; plans "one artifact that is missing, and the figures" "gear-jump-map*1 gear-plot*2" jump-map
+make_ jump-map; rm out/parker2000/T300/jump_map_secant-contact.h5; plans "one of a lumped model that is missing, and its figure" "gear-lumped*1 gear-plot*1" jump-map
+make_ jump-map; plans "a fine map stands beside the coarse one" "gear-jump-map*48 gear-lumped*128 gear-plot*2 gear-static*8" JUMP_MAP=fine jump-map
+plans "torques and corner rules of one's own" "gear-jump-map*2 gear-lumped*8 gear-plot*2 gear-static*1" JUMP_MAP_TORQUES='150 700' JUMP_MAP_CORNERS=2 jump-map
+plans "another step redoes the maps" "gear-jump-map*24 gear-lumped*64 gear-plot*2" JUMP_MAP_STEP=25 jump-map
+plans "a map without lumped models" "gear-jump-map*24 gear-plot*1" JUMP_MAP_MODELS= JUMP_MAP_STEP=30 jump-map
 make_ -n out/parker2000/T300/fold_curves_torque.h5
 grep -q 'gear-folds .* --torque 300 --over torque .*--first 300 ' "$log" &&
   ok "folds over torque begin at the torque of their path" || wrong "folds over torque begin at the torque of their path" "$(grep gear-folds "$log" | grep -o -e '--torque.*')"
-make_ -n JUMP_MAP=finer jump-map
-grep -q 'JUMP_MAP=finer: it is coarse or fine' "$log" && ok "a fineness that is none is rejected" || wrong "JUMP_MAP=finer is rejected" "$(tail -n 1 "$log")"
-make_ -n sensitivity
-expect "sensitivity: bodies of the variants whose gears differ, a map of each" "gear-jump-map*18 gear-mesh*9 gear-plot*1 gear-reduce*9"
-make_ sensitivity; make_ -n sensitivity
-expect "sensitivity is up to date" ""
-change '1i # a comment'; make_ -n sensitivity
-expect "a comment in the scene redoes no variant" ""; restore
-change 's/^dedendum = [0-9.]+/dedendum = 1.22/'; make_ -n sensitivity
-expect "another dedendum redoes all but the two variants that set their own" "gear-jump-map*16 gear-mesh*8 gear-plot*1 gear-reduce*8"; restore
-make_ sensitivity; make_ -n VARIANTS='bore35:bore_radius_mm=35 both:bore_radius_mm=35,dedendum=1.3' sensitivity
-expect "variants of one's own, one of two keys" "gear-jump-map*1 gear-mesh*1 gear-plot*1 gear-reduce*1"
-make_ -n VARIANTS='bad:bore_radius=35' sensitivity
-grep -q "did you mean 'bore_radius_mm'" "$log" && ok "a variant of a key that is none is rejected" || wrong "a bad variant is rejected" "$(tail -n 1 "$log")"
+refuses "a fineness that is none is rejected" 'JUMP_MAP=finer coarse fine' JUMP_MAP=finer jump-map
+plans "sensitivity: bodies of the variants whose gears differ, a map of each" "gear-jump-map*18 gear-mesh*9 gear-plot*1 gear-reduce*9" sensitivity
+make_ sensitivity; plans "sensitivity is up to date" "" sensitivity
+change '1i # a comment'; plans "a comment in the scene redoes no variant" "" sensitivity; restore
+change 's/^dedendum = [0-9.]+/dedendum = 1.22/'; plans "another dedendum redoes all but the two variants that set their own" "gear-jump-map*16 gear-mesh*8 gear-plot*1 gear-reduce*8" sensitivity; restore
+make_ sensitivity; plans "variants of one's own, one of two keys" "gear-jump-map*1 gear-mesh*1 gear-plot*1 gear-reduce*1" VARIANTS='bore35:bore_radius_mm=35 both:bore_radius_mm=35,dedendum=1.3' sensitivity
+refuses "a variant of a key that is none is rejected" 'bore_radius bore_radius_mm' VARIANTS='bad:bore_radius=35' sensitivity
 make_ -n LAUNCH='srun -n1' JUMP_MAP_STEP=10 jump-map
 [ "$(grep -c '^srun -n1 build.*/bin/gear-jump-map ' "$log")" = 24 ] && [ "$(grep -c '^srun -n1 build.*/bin/gear-lumped --map ' "$log")" = 64 ] && ok "LAUNCH carries the maps" || wrong "LAUNCH carries the maps" "$(tail -n 1 "$log")"
 
 # --- what a goal or a number of a goal may be
-rejected_by_make() { # claim, words, arguments of make
-  local claim=$1 words=$2
-  shift 2
-  make_ -n "$@"
-  grep -q -F -- "$words" "$log" && ok "$claim" || wrong "$claim" "no '$words' in: $(tail -n 1 "$log")"
-}
-rejected_by_make "a misspelt target gets the one that is spelt alike" 'raport: there is no such target; did you mean report? `make help`' raport
-rejected_by_make "a variable that nothing reads gets the one that is spelt alike" 'BRANCH: there is no such variable; did you mean BRANCHES?' BRANCH=yes report
-rejected_by_make "a word that is like no target gets make help" 'xyzzyq: there is no such target; `make help`' xyzzyq
+refuses "a misspelt target gets the one that is spelt alike" 'raport report' raport
+refuses "a variable that nothing reads gets the one that is spelt alike" 'BRANCH BRANCHES' BRANCH=yes report
+refuses "a word that is like no target gets make help" 'xyzzyq help' xyzzyq
 touch own.toml
-rejected_by_make "a scene as a target is told SCENE=" 'own.toml: a scene is given by SCENE in front of a target: make SCENE=own.toml report' own.toml
+refuses "a scene as a target is told SCENE=" 'own.toml SCENE=own.toml' own.toml
 rm own.toml
-rejected_by_make "a damping in per cent is told the share" 'DAMPING=5: it is a share of critical damping, above 0 and below 1: 0.05 for 5 %' DAMPING=5 calibrate
-rejected_by_make "a damping with a decimal comma is rejected" 'DAMPING=0,05: it is a share' DAMPING=0,05 calibrate
-rejected_by_make "histories without a speed are told how to say one" 'say the mesh frequency in Hz, one of the sweep: make histories AT=1250' histories
-rejected_by_make "a sound without a speed is told how to say one" 'say the mesh frequency in Hz, one of the sweep: make sound AT=2400' sound
-make_ -n AT=1250 TORQUE=100 sound
-grep -q 'gear-sound --sweep out/parker2000/T100/up/sweep.h5 --sweep out/parker2000/T100/down/sweep.h5 --mesh-frequency 1250 .*--output out/figures/sound-1250Hz-T100' "$log" &&
-  ok "a sound at a speed and a torque of one's own" || wrong "a sound at a speed and a torque of one's own" "$(tail -n 1 "$log")"
-make_ -n RATE=500 FROM=2400 TO=2800 TORQUE=100 sound
-grep -q 'gear-sound --runup out/parker2000/T100/up/runup_500_2400_2800.h5 --runup out/parker2000/T100/down/runup_500_2800_2400.h5 .*--output out/figures/sound-runup-500-2400-2800-T100' "$log" &&
-  ok "the sound of a run-up, then of the run-down over the same speeds" || wrong "the sound of a run-up" "$(tail -n 1 "$log")"
+refuses "a damping in per cent is told the share" 'DAMPING=5 0 1 0.05' DAMPING=5 calibrate
+refuses "a damping with a decimal comma is rejected" 'DAMPING=0,05 share' DAMPING=0,05 calibrate
+refuses "histories without a speed are told how to say one" 'Hz make histories AT=1250' histories
+refuses "a sound without a speed is told how to say one" 'Hz make sound AT=2400' sound
+says "a sound at a speed and a torque of one's own" 'gear-sound --sweep out/parker2000/T100/up/sweep.h5 --sweep out/parker2000/T100/down/sweep.h5 --mesh-frequency 1250 .*--output out/figures/sound-1250Hz-T100' AT=1250 TORQUE=100 sound
+says "the sound of a run-up, then of the run-down over the same speeds" 'gear-sound --runup out/parker2000/T100/up/runup_500_2400_2800.h5 --runup out/parker2000/T100/down/runup_500_2800_2400.h5 .*--output out/figures/sound-runup-500-2400-2800-T100' RATE=500 FROM=2400 TO=2800 TORQUE=100 sound
 mkdir -p a b; echo first > a/mic.csv; echo second > b/mic.csv; touch -d 2000-01-01 a/mic.csv b/mic.csv
-make_ AT=1250 TORQUE=100 TRANSFER=a/mic.csv sound; make_ -n AT=1250 TORQUE=100 TRANSFER=a/mic.csv sound
-expect "a sound behind a transfer function is up to date" ""
-make_ -n AT=1250 TORQUE=100 TRANSFER=b/mic.csv sound
-expect "a transfer function of the same name in another folder, however old, makes the sound again" "gear-sound*1"
-cp -p b/mic.csv a/mic.csv; make_ -n AT=1250 TORQUE=100 TRANSFER=a/mic.csv sound
-expect "and so does another one in its place" "gear-sound*1"
-rejected_by_make "an export without a model is told what it needs" 'export: which model? make export SCENE=my-pair.toml MODEL=stage.rexs' export
-rejected_by_make "an export to a model that is not there" 'MODEL=a/none.rexs: there is no such file' MODEL=a/none.rexs export
-echo first > a/stage.rexsj; make_ MODEL=a/stage.rexsj STAGE='First stage' export; make_ -n MODEL=a/stage.rexsj STAGE='First stage' export
-expect "an export is up to date" ""
-make_ -n MODEL=a/stage.rexsj STAGE=12 export
-grep -q "gear-export --model 'a/stage.rexsj' --stage '12' --output out/figures/stage-results.rexsj .*out/parker2000/T300/down/response.h5" "$log" &&
-  ok "another stage of a model: its results, at all torques" || wrong "another stage of a model" "$(tail -n 1 "$log")"
+make_ AT=1250 TORQUE=100 TRANSFER=a/mic.csv sound; plans "a sound behind a transfer function is up to date" "" AT=1250 TORQUE=100 TRANSFER=a/mic.csv sound
+plans "a transfer function of the same name in another folder, however old, makes the sound again" "gear-sound*1" AT=1250 TORQUE=100 TRANSFER=b/mic.csv sound
+cp -p b/mic.csv a/mic.csv; plans "and so does another one in its place" "gear-sound*1" AT=1250 TORQUE=100 TRANSFER=a/mic.csv sound
+refuses "an export without a model is told what it needs" 'export model make SCENE=my-pair.toml MODEL=stage.rexs' export
+refuses "an export to a model that is not there" 'MODEL=a/none.rexs file' MODEL=a/none.rexs export
+echo first > a/stage.rexsj; make_ MODEL=a/stage.rexsj STAGE='First stage' export; plans "an export is up to date" "" MODEL=a/stage.rexsj STAGE='First stage' export
+says "another stage of a model: its results, at all torques" "gear-export --model 'a/stage.rexsj' --stage '12' --output out/figures/stage-results.rexsj .*out/parker2000/T300/down/response.h5" MODEL=a/stage.rexsj STAGE=12 export
 sed 's/^bore_radius_mm = .*/bore_radius_mm = 35/' $scene > a/short.toml; cp $scene b/short.toml
-rejected_by_make "designs without scenes are told how to name them" "compare: which scenes? two to six of them: make compare SCENES='a.toml b.toml'" compare
-rejected_by_make "a design that is not there" 'SCENES=a/none.toml: there is no such file' SCENES="$scene a/none.toml" compare
-rejected_by_make "two designs of one name" 'two files are called short.toml, which would share out/short' SCENES="a/short.toml b/short.toml" compare
-rejected_by_make "a figure at a torque that the designs do not have" 'TORQUE=77: the scenes have in common 100 150 200 300 N m' SCENES="$scene a/short.toml" TORQUE=77 compare
-make_ SCENES="$scene a/short.toml" compare; make_ -n SCENES="$scene a/short.toml" compare
-expect "designs side by side are up to date" ""
+refuses "designs without scenes are told how to name them" 'compare scenes make SCENES=' compare
+refuses "a design that is not there" 'SCENES=a/none.toml file' SCENES="$scene a/none.toml" compare
+refuses "two designs of one name" 'two short.toml out/short' SCENES="a/short.toml b/short.toml" compare
+refuses "a figure at a torque that the designs do not have" 'TORQUE=77 100 150 200 300' SCENES="$scene a/short.toml" TORQUE=77 compare
+make_ SCENES="$scene a/short.toml" compare; plans "designs side by side are up to date" "" SCENES="$scene a/short.toml" compare
 make_ -n SCENES="$scene a/short.toml" TORQUE=200 compare
 grep -q 'gear-plot compare-rest --output out/compare/parker2000+short/compare-rest-T200 .*out/parker2000/T200/static.h5 out/short/T200/static.h5' "$log" &&
   ok "designs at another torque" || wrong "designs at another torque" "$(programs)"
@@ -248,42 +187,42 @@ make_ -n SCENE=a/short.toml SCENES="b/short.toml $scene" report
 grep -q 'gear-scene.*b/short.toml' "$log" && wrong "SCENES leave a report of SCENE alone" "$(grep -m1 b/short.toml "$log")" ||
   { programs | grep -q 'gear-report\*1' && ok "SCENES leave a report of SCENE alone" || wrong "SCENES leave a report of SCENE alone" "$(programs) $(tail -n 1 "$log")"; }
 grep -q '^bore_radius = 0.035 ' out/short/*/body.toml && ok "and its artifacts are of SCENE" || wrong "and its artifacts are of SCENE" "$(grep bore_radius out/short/*/body.toml | head -n 1)"
-rejected_by_make "a scene and a design of one name" 'SCENE=a/short.toml: out/short is of b/short.toml, which is compared; rename the file' SCENE=a/short.toml SCENES="b/short.toml $scene" report compare
+refuses "a scene and a design of one name" 'SCENE=a/short.toml out/short b/short.toml rename' SCENE=a/short.toml SCENES="b/short.toml $scene" report compare
 make_ -n SCENE=a/short.toml SCENES="./a/short.toml $scene" report compare
 programs | grep -q 'gear-compare\*1.*gear-report\*1' && ok "a scene that is compared, too, has its report" || wrong "a scene that is compared, too, has its report" "$(tail -n 1 "$log")"
 cp $scene a/a--b.toml; cp $scene a/c.toml; cp $scene a/a.toml; cp $scene a/b--c.toml
 make_ SCENES='a/a--b.toml a/c.toml' compare; make_ -n SCENES='a/a.toml a/b--c.toml' compare
 grep -q 'gear-compare --output out/compare/a+b--c/index.html' "$log" && [ -e out/compare/a--b+c/index.html ] &&
   ok "designs of other names have a folder of their own" || wrong "designs of other names have a folder of their own" "$(ls out/compare) $(tail -n 1 "$log")"
-rejected_by_make "a figure that has no axis of speed" 'AXIS=rpm:driver: multipliers' AXIS=rpm:driver multipliers
+refuses "a figure that has no axis of speed" 'AXIS=rpm:driver multipliers' AXIS=rpm:driver multipliers
 for goal in system-static system-ringdown animation; do
-  rejected_by_make "nor is $goal drawn without a word" "AXIS=rpm:sun: $goal is not drawn against the speed of a gear" AXIS=rpm:sun SCENE=data/scenes/oh58-planetary.toml $goal
+  refuses "nor is $goal drawn without a word" "AXIS=rpm:sun $goal" AXIS=rpm:sun SCENE=data/scenes/oh58-planetary.toml $goal
 done
 make_ -n AXIS=rpm:sun DB=1e-6 SCENE=data/scenes/oh58-planetary.toml report system-branch
 [ "$(grep -c "gear-plot.* --axis 'rpm:sun'" "$log")" = 4 ] && [ "$(grep -c "gear-plot.* --db 1e-6" "$log")" = 3 ] && ok "speeds in rpm and levels of a train: Campbell diagram, sweeps, branch" ||
   wrong "speeds in rpm and levels of a train" "$(grep 'gear-plot' "$log" | cut -c1-120 | tail -n 6)"
-rejected_by_make "a figure that has no amplitudes in dB" 'DB=1e-6: fig05' DB=1e-6 fig05
-rejected_by_make "a sound at a speed and of a run-up" 'AT=1250 and RATE=500: a sound is of one speed (AT) or of a run-up (RATE)' AT=1250 RATE=500 sound
-rejected_by_make "a speed of something" 'AXIS=order:1: it is rpm:<gear>, such as rpm:pinion' AXIS=order:1 fig05
-rejected_by_make "decibels of nothing" 'DB=0: it is the length in m that is 0 dB' DB=0 order-cuts
+refuses "a figure that has no amplitudes in dB" 'DB=1e-6 fig05' DB=1e-6 fig05
+refuses "a sound at a speed and of a run-up" 'AT=1250 RATE=500' AT=1250 RATE=500 sound
+refuses "a speed of something" 'AXIS=order:1 rpm:<gear>' AXIS=order:1 fig05
+refuses "decibels of nothing" 'DB=0 length 0' DB=0 order-cuts
 mkfifo a/pipe.csv a/pipe.rexs a/pipe.toml
 for given in 'TRANSFER=a/pipe.csv AT=1250 sound' 'MODEL=a/pipe.rexs export' 'MODEL=/dev/zero export' 'SCENE=a/pipe.toml report' 'STUDY=a/pipe.toml study'; do
   timeout 60 make $sanitize -n $given > "$log" 2>&1
   grep -q "\*\*\* ${given%% *}: it is no regular file" "$log" && ok "${given%% *}, which has no end, is not read" || wrong "${given%% *}, which has no end, is not read" "$(tail -n 1 "$log")"
 done
 rm a/pipe.*
-rejected_by_make "a transfer function that is not there" 'TRANSFER=a/none.csv: there is no such file' TRANSFER=a/none.csv AT=1250 sound
-rejected_by_make "a file whose name is that of an option" 'take a name that begins with - for an option; write ./-t.csv' TRANSFER=-t.csv AT=1250 sound
-rejected_by_make "a share whose numbers overflow" 'SHARE=18446744073709551617/18446744073709551617: it is i/n' STUDY=tolerances SHARE=18446744073709551617/18446744073709551617 study
-rejected_by_make "a variant whose name leads out of its folder" "VARIANTS: ../..:bore_radius_mm=35: the name '../..' becomes a folder" VARIANTS=../..:bore_radius_mm=35 sensitivity
-rejected_by_make "a variant without a change" 'VARIANTS: ../..: write name:key=value' VARIANTS=../.. sensitivity
-rejected_by_make "a number that leads out of its folder" 'JUMP_MAP_TORQUES=../..: it holds /' JUMP_MAP_TORQUES=../.. jump-map
+refuses "a transfer function that is not there" 'TRANSFER=a/none.csv file' TRANSFER=a/none.csv AT=1250 sound
+refuses "a file whose name is that of an option" 'option ./-t.csv' TRANSFER=-t.csv AT=1250 sound
+refuses "a share whose numbers overflow" 'SHARE=18446744073709551617/18446744073709551617 i/n' STUDY=tolerances SHARE=18446744073709551617/18446744073709551617 study
+refuses "a variant whose name leads out of its folder" 'VARIANTS ../..:bore_radius_mm=35 folder' VARIANTS=../..:bore_radius_mm=35 sensitivity
+refuses "a variant without a change" 'VARIANTS ../.. name:key=value' VARIANTS=../.. sensitivity
+refuses "a number that leads out of its folder" 'JUMP_MAP_TORQUES=../.. /' JUMP_MAP_TORQUES=../.. jump-map
 make_ order-cuts; before=$(ls out/figures/order-cuts.*)
 FAIL=out/figures/order-cuts make_ DB=1e-6 order-cuts
 [ "$(ls out/figures/order-cuts.*)" = "$before" ] && [ "$(wc -l <<< "$before")" -ge 3 ] && ok "a figure that fails leaves all files of the earlier one" ||
   wrong "a figure that fails leaves all files of the earlier one" "$(printf '%s ' out/figures/order-cuts.*)"
-rejected_by_make "a run-up at a rate that is none is told what it is" "RATE=fast: it is the change of the driver's speed in rpm/s" RATE=fast runup
-rejected_by_make "a run-up with one end is told to give both" 'give both or none' FROM=2400 runup
+refuses "a run-up at a rate that is none is told what it is" 'RATE=fast rpm/s' RATE=fast runup
+refuses "a run-up with one end is told to give both" 'both none' FROM=2400 runup
 make_ -n RATE=500 WAY=down FROM=2800 TO=2400 TORQUE=100 runup
 grep -q "gear-runup --params .*T100/static.h5 .*--direction down --rate '500' --from '2800' --to '2400' --output out/parker2000/T100/down/runup_500_2800_2400.h5" "$log" &&
   grep -q 'gear-plot runup --output out/figures/runup-500-2800-2400-down-T100 ' "$log" &&
@@ -292,81 +231,54 @@ make_ -n AT=1250 TORQUE=100 histories
 grep -q 'gear-plot fig08 --output out/figures/histories-1250Hz-T100 --mesh-frequency 1250 .*out/parker2000/T100/up/sweep.h5' "$log" &&
   grep -q 'gear-plot fig10 --output out/figures/history-loads-1250Hz-T100 --mesh-frequency 1250 ' "$log" && ok "histories at a speed and a torque of one's own" ||
   wrong "histories at a speed and a torque of one's own" "$(tail -n 1 "$log")"
-rejected_by_make "a phase beyond the mesh period is told its range" 'PHASE=1.2: it is a share of the mesh period, 0 up to, not including, 1' PHASE=1.2 loaded
+refuses "a phase beyond the mesh period is told its range" 'PHASE=1.2 share 0 1' PHASE=1.2 loaded
 make_ help
 if grep -q '^Other$' "$log"; then wrong "make help has a task for each target" "$(sed -n '/^Other$/,$p' "$log" | tr '\n' ' ')"; else
   [ "$(grep -c '^  [a-z0-9-]* .* ' "$log")" -gt 50 ] && ok "make help has a task for each target" || wrong "make help lists the targets" "$(head -n 3 "$log")"; fi
 
 # --- loaded gears, moving gears
-make_ static; make_ -n loaded
-expect "loaded gears rest on statics and meshes that are there" "gear-loaded*1"
+make_ static; plans "loaded gears rest on statics and meshes that are there" "gear-loaded*1" loaded
 make_ PHASE=0.5 TORQUE=170 loaded
 grep -q '^.*bin/gear-loaded --static out/parker2000/T170/static.h5 .*--mesh-phase 0.5 --output out/parker2000/T170/loaded_0.5.h5' <(sed ':a;/\\$/{N;s/\\\n//;ba}' "$log") &&
   ok "at a phase and a torque of one's own" || wrong "at a phase and a torque of one's own" "$(tail -n 1 "$log")"
-make_ -n PHASE=0.5 TORQUE=170 loaded
-expect "loaded gears are up to date then" ""
-make_ -n -W out/parker2000/T170/static.h5 PHASE=0.5 TORQUE=170 loaded
-expect "other statics load them anew" "gear-loaded*1"
-make_ -n animation
-expect "an animation: one sweep, on the calibrated scene" "gear-animate*1 gear-mesh*1 gear-reduce*1 gear-static*2 gear-sweep*1"
-make_ animation; make_ -n animation
-expect "an animation is up to date" ""
+plans "loaded gears are up to date then" "" PHASE=0.5 TORQUE=170 loaded
+plans "other statics load them anew" "gear-loaded*1" -W out/parker2000/T170/static.h5 PHASE=0.5 TORQUE=170 loaded
+plans "an animation: one sweep, on the calibrated scene" "gear-animate*1 gear-mesh*1 gear-reduce*1 gear-static*2 gear-sweep*1" animation
+make_ animation; plans "an animation is up to date" "" animation
 [ "$(find out/figures/animation -name 'motion-*.png' | wc -l)" = 48 ] && [ -e out/figures/animation/motion.gif ] && ok "with its 48 frames" || wrong "with its 48 frames" "$(find out/figures/animation -type f | wc -l) files"
-make_ -n -W out/parker2000-calibrated/T150/down/sweep.h5 animation
-expect "another sweep moves them anew" "gear-animate*1"
+plans "another sweep moves them anew" "gear-animate*1" -W out/parker2000-calibrated/T150/down/sweep.h5 animation
 mkdir -p mine; sed -E 's/^torque_Nm = .*/torque_Nm = [90, 120]/' scene.original > mine/moving.toml
 make_ -n SCENE=mine/moving.toml animation
 grep -q -e '--sweep out/moving/T90/down/sweep.h5 .*--output out/moving/report/animation/motion' <(sed ':a;/\\$/{N;s/\\\n//;ba}' "$log") && ok "of a scene at its first torque" || wrong "of a scene at its first torque" "$(tail -n 1 "$log")"
 
 # --- reports
-make_ -n report
-expect "a report of the paper's scene: its figures and the error budget, all else is there" "gear-plot*10 gear-report*1 gear-static*1"
-make_ report; make_ -n report
-expect "a report is up to date" ""
+plans "a report of the paper's scene: its figures and the error budget, all else is there" "gear-plot*10 gear-report*1 gear-static*1" report
+make_ report; plans "a report is up to date" "" report
 make_ report; grep -q '^report: .*out/parker2000/report/index.html' "$log" && ok "and says where it stands" || wrong "and says where it stands" "$(tail -n 1 "$log")"
 mkdir -p mine
 sed -E 's/^torque_Nm = .*/torque_Nm = [90, 120]/' scene.original > mine/plain.toml
-make_ -n SCENE=mine/plain.toml report
-expect "a report of a scene: every torque both ways, ring-downs, one error budget" "gear-impact*2 gear-plot*10 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
-make_ -n SCENE=mine/plain.toml BRANCHES=yes report
-expect "with branches: one branch, two figures more" "gear-impact*2 gear-orbit*1 gear-plot*12 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
-sed -E 's/^contact = .*/contact = "line"/' mine/plain.toml > mine/line.toml; make_ -n SCENE=mine/line.toml report
-expect "contact in lines: no ring-down" "gear-plot*10 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
-sed -E 's/^\[gear.wheel\]/[gear.pinion.modification]\ntip_relief_um = 10\ntip_relief_start_deg = 22\n&/' mine/plain.toml > mine/relief.toml; make_ -n SCENE=mine/relief.toml report
-expect "relief: a profile chart" "gear-impact*2 gear-plot*11 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
-sed -E 's/^\[gear.wheel\]/[gear.pinion.error]\niso_class = 5\n&/' mine/plain.toml > mine/graded.toml; make_ -n SCENE=mine/graded.toml report
-expect "teeth that differ: sidebands instead of figures of one mesh period" "gear-plot*6 gear-report*1 gear-spectra*4 gear-static*2 gear-sweep*4"
-sed -E 's/^\[gear.wheel\]/[gear.pinion.crack]\ndepth_mm = 1.0\n&/' mine/plain.toml > mine/cracked.toml; make_ -n SCENE=mine/cracked.toml report
-expect "a cracked tooth: gears at rest only" "gear-mesh*1 gear-plot*2 gear-reduce*1 gear-report*1 gear-static*2"
-make_ -n SCENE=mine/graded.toml teeth
-grep -q 'teeth: SCENE=mine/graded.toml has teeth that differ.*make SCENE=mine/graded.toml tooth-loads sidebands' "$log" && ok "make teeth says what there is of teeth that differ" ||
-  wrong "make teeth says what there is of teeth that differ" "$(tail -n 1 "$log")"
+plans "a report of a scene: every torque both ways, ring-downs, one error budget" "gear-impact*2 gear-plot*10 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4" SCENE=mine/plain.toml report
+plans "with branches: one branch, two figures more" "gear-impact*2 gear-orbit*1 gear-plot*12 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4" SCENE=mine/plain.toml BRANCHES=yes report
+sed -E 's/^contact = .*/contact = "line"/' mine/plain.toml > mine/line.toml; plans "contact in lines: no ring-down" "gear-plot*10 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4" SCENE=mine/line.toml report
+sed -E 's/^\[gear.wheel\]/[gear.pinion.modification]\ntip_relief_um = 10\ntip_relief_start_deg = 22\n&/' mine/plain.toml > mine/relief.toml; plans "relief: a profile chart" "gear-impact*2 gear-plot*11 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4" SCENE=mine/relief.toml report
+sed -E 's/^\[gear.wheel\]/[gear.pinion.error]\niso_class = 5\n&/' mine/plain.toml > mine/graded.toml; plans "teeth that differ: sidebands instead of figures of one mesh period" "gear-plot*6 gear-report*1 gear-spectra*4 gear-static*2 gear-sweep*4" SCENE=mine/graded.toml report
+sed -E 's/^\[gear.wheel\]/[gear.pinion.crack]\ndepth_mm = 1.0\n&/' mine/plain.toml > mine/cracked.toml; plans "a cracked tooth: gears at rest only" "gear-mesh*1 gear-plot*2 gear-reduce*1 gear-report*1 gear-static*2" SCENE=mine/cracked.toml report
+refuses "make teeth says what there is of teeth that differ" 'teeth differ make SCENE=mine/graded.toml tooth-loads sidebands' SCENE=mine/graded.toml teeth
 make_ -n teeth
 grep -q 'gear-report --teeth --output out/figures/teeth/index.html out/parker2000/T150/static.h5 .*out/figures/root-stress.png' "$log" && ! grep -q 'T100/up' "$log" && ok "make teeth is at the torque of the figures that it shows" ||
   wrong "make teeth is at the torque of the figures that it shows" "$(grep -e --teeth "$log" | tail -n 1) $(tail -n 1 "$log")"
-make_ -n SCENE=mine/cracked.toml teeth
-grep -q 'teeth: SCENE=mine/cracked.toml has teeth that are cracked.*make SCENE=mine/cracked.toml crack' "$log" && ok "make teeth says what there is of a cracked tooth" ||
-  wrong "make teeth says what there is of a cracked tooth" "$(tail -n 1 "$log")"
-make_ -n SCENE=mine/graded.toml fig05
-expect "teeth that differ have no ring-down in other figures either" "gear-plot*1 gear-spectra*2 gear-static*1 gear-sweep*2"
-make_ -n SCENE=mine/plain.toml out/plain/report/index.html
-expect "a page by its path" "gear-impact*2 gear-plot*10 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4"
+refuses "make teeth says what there is of a cracked tooth" 'teeth cracked make SCENE=mine/cracked.toml crack' SCENE=mine/cracked.toml teeth
+plans "teeth that differ have no ring-down in other figures either" "gear-plot*1 gear-spectra*2 gear-static*1 gear-sweep*2" SCENE=mine/graded.toml fig05
+plans "a page by its path" "gear-impact*2 gear-plot*10 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4" SCENE=mine/plain.toml out/plain/report/index.html
 
 # --- any torque, other scenes
-make_ -n out/parker2000/T700/up/response.h5
-expect "a torque that no list names" "gear-spectra*1 gear-static*1 gear-sweep*1"
-make_ -n out/parker2000/T700/impact.h5
-expect "a ring-down at a torque that no list names" "gear-impact*1 gear-static*1"
-make_ -n out/parker2000/T700/secant/up/response.h5
-expect "a lumped model at a torque that no list names" "gear-lumped*1 gear-spectra*1 gear-static*1"
-make_ -n lumped fig15
-expect "lumped models run from the statics, without body or sweep" "gear-lumped*27 gear-spectra*40"
-make_ lumped; make_ -n -W out/parker2000/T100/static.h5 out/parker2000/T150/{rectangular,secant}/up/sweep.h5
-expect "the rectangular wave is that of the first torque, the curves are those of their own" "gear-lumped*1"
-make_ lumped fig15; sed -i 's/^lumped_options_pairs-hertz = .*/& --cells 512/; s/--duty 0.755/--duty 0.75/' pipelines/stages.mk; make_ -n lumped fig15
-expect "other options of two lumped models redo these" "gear-lumped*9 gear-plot*1 gear-spectra*8"
-cp "$top/pipelines/stages.mk" pipelines/stages.mk; make_ lumped fig15; make_ jump-map; sed -i 's/--mass 1.4/--mass 1.3/' pipelines/stages.mk; make_ -n jump-map
-expect "another mass redoes the maps of lumped models" "gear-lumped*64 gear-plot*1"
+plans "a torque that no list names" "gear-spectra*1 gear-static*1 gear-sweep*1" out/parker2000/T700/up/response.h5
+plans "a ring-down at a torque that no list names" "gear-impact*1 gear-static*1" out/parker2000/T700/impact.h5
+plans "a lumped model at a torque that no list names" "gear-lumped*1 gear-spectra*1 gear-static*1" out/parker2000/T700/secant/up/response.h5
+plans "lumped models run from the statics, without body or sweep" "gear-lumped*27 gear-spectra*40" lumped fig15
+make_ lumped; plans "the rectangular wave is that of the first torque, the curves are those of their own" "gear-lumped*1" -W out/parker2000/T100/static.h5 out/parker2000/T150/{rectangular,secant}/up/sweep.h5
+make_ lumped fig15; sed -i 's/^lumped_options_pairs-hertz = .*/& --cells 512/; s/--duty 0.755/--duty 0.75/' pipelines/stages.mk; plans "other options of two lumped models redo these" "gear-lumped*9 gear-plot*1 gear-spectra*8" lumped fig15
+cp "$top/pipelines/stages.mk" pipelines/stages.mk; make_ lumped fig15; make_ jump-map; sed -i 's/--mass 1.4/--mass 1.3/' pipelines/stages.mk; plans "another mass redoes the maps of lumped models" "gear-lumped*64 gear-plot*1" jump-map
 cp "$top/pipelines/stages.mk" pipelines/stages.mk
 for goal in fig04 fig5; do
   make_ $goal && wrong "make $goal ends with an error" "status 0"
@@ -380,43 +292,32 @@ rm -f calls; make_ calibrate DAMPING=0.05 TORQUE=700 STATE=one
 make_ calibrate; make_ -n calibrate
 grep -q 'gear-impact .*/T150/static.h5 .* --calibrate 0.07 --contact-state two$' "$log" && ok "calibrate: 7 %, 150 N m, two pairs unless told" ||
   wrong "calibrate: 7 %, 150 N m, two pairs unless told" "$(cat "$log")"
-make_ -n out/parker2000/pinion/body.h5
-expect "a body by its name is up to date" ""
-make_ -n out/parker2000/T080/static.h5
-grep -q 'T080: the torque' "$log" && ok "a torque that is not as %g prints it is rejected" || wrong "T080 is rejected" "$(tail -n 1 "$log")"
+plans "a body by its name is up to date" "" out/parker2000/pinion/body.h5
+refuses "a torque that is not as %g prints it is rejected" 'T080 torque' out/parker2000/T080/static.h5
 mkdir -p elsewhere
 sed -E 's/^torque_Nm = .*/torque_Nm = [90]/' scene.original > elsewhere/own.toml
 echo broken > data/scenes/parker2000.toml
-make_ -n SCENE=elsewhere/own.toml sweep
-expect "SCENE opens no other scene file, and a gear that is known keeps its body" "gear-spectra*2 gear-static*1 gear-sweep*2"
-make_ -n SCENE=elsewhere/own.toml out/own/T80/static.h5
-expect "SCENE with a torque of its own" "gear-static*1"
-make_ -n SCENE=elsewhere/own.toml out/own/T80/up/response.h5
-expect "a sweep waits for the static at the first torque, too" "gear-spectra*1 gear-static*2 gear-sweep*1"
+plans "SCENE opens no other scene file, and a gear that is known keeps its body" "gear-spectra*2 gear-static*1 gear-sweep*2" SCENE=elsewhere/own.toml sweep
+plans "SCENE with a torque of its own" "gear-static*1" SCENE=elsewhere/own.toml out/own/T80/static.h5
+plans "a sweep waits for the static at the first torque, too" "gear-spectra*1 gear-static*2 gear-sweep*1" SCENE=elsewhere/own.toml out/own/T80/up/response.h5
 rm -f calls; make_ SCENE=elsewhere/own.toml figures error-budget
 drawn() { sed -n 's/^gear-plot //p' calls | sort | tr '\n' ' '; }
 [ "$(drawn)" = "$(printf 'out/own/report/%s ' error-budget fig01 fig03 fig05 fig07 fig12 fig13 fig14 fig14-elastic fig16 table1)" ] && [ ! -e out/own/T150 ] && ok "figures of SCENE stand in its report, at its own torques" ||
   wrong "figures of SCENE stand in its report, at its own torques" "$(drawn) $(tail -n 1 "$log")"
-make_ -n SCENE=elsewhere/own.toml figures error-budget
-expect "and are up to date then" ""
+plans "and are up to date then" "" SCENE=elsewhere/own.toml figures error-budget
 rm -f calls; make_ SCENE=elsewhere/own.toml teeth
 [ "$(drawn)" = "$(printf 'out/own/report/%s ' flank-pressure load-sharing root-stress tooth-loads)" ] && [ -e out/own/teeth/index.html ] && ok "make teeth draws what a tooth suffers, on a page" ||
   wrong "make teeth draws what a tooth suffers, on a page" "$(drawn) $(tail -n 1 "$log")"
-make_ -n SCENE=elsewhere/own.toml BRANCHES=yes teeth
-expect "with the branch: one orbit, one figure and the page" "gear-orbit*1 gear-plot*1 gear-report*1"
-make_ -n SCENE=elsewhere/own.toml efficiency
-expect "losses by friction are drawn from statics and both sweeps at each torque" "gear-plot*1"
-make_ -n SCENE=elsewhere/own.toml jump-map
-expect "a map of SCENE is at its own torques" "gear-folds*1 gear-jump-map*3 gear-lumped*8 gear-plot*2"
+plans "with the branch: one orbit, one figure and the page" "gear-orbit*1 gear-plot*1 gear-report*1" SCENE=elsewhere/own.toml BRANCHES=yes teeth
+plans "losses by friction are drawn from statics and both sweeps at each torque" "gear-plot*1" SCENE=elsewhere/own.toml efficiency
+plans "a map of SCENE is at its own torques" "gear-folds*1 gear-jump-map*3 gear-lumped*8 gear-plot*2" SCENE=elsewhere/own.toml jump-map
 sed -i -E 's/^torque_Nm = .*/torque_Nm = [600, 90, 80]/' elsewhere/own.toml
 make_ -n SCENE=elsewhere/own.toml fig05 fig12
 grep -q 'gear-plot fig05 .* out/own/T600/up/response.h5 out/own/T600/down/response.h5 out/own/T600/impact.h5$' "$log" && grep -q 'gear-plot fig12 .* out/own/T600/static.h5 out/own/T90/static.h5 out/own/T80/static.h5$' "$log" &&
   ok "a frequency response takes the first torque of SCENE, statics take them all" || wrong "a frequency response takes the first torque of SCENE, statics take them all" "$(grep gear-plot "$log")"
 make_ SCENE=elsewhere/own.toml fig12; sed -i -E 's/^torque_Nm = .*/torque_Nm = [600, 90]/' elsewhere/own.toml
-make_ -n SCENE=elsewhere/own.toml fig12
-expect "a torque that is taken out redraws the curves" "gear-plot*1"
-make_ -n SCENE=elsewhere/own.toml out/own/report/fig12.png
-expect "a figure of SCENE by its path" "gear-plot*1"
+plans "a torque that is taken out redraws the curves" "gear-plot*1" SCENE=elsewhere/own.toml fig12
+plans "a figure of SCENE by its path" "gear-plot*1" SCENE=elsewhere/own.toml out/own/report/fig12.png
 sed -i -E 's/^torque_Nm = .*/torque_Nm = [90]/' elsewhere/own.toml
 make_ -n fig05
 if [ $? != 0 ] && [ "$(grep -v 'unfinished jobs' "$log" | grep -c .)" = 2 ] && grep -q '^gear-scene: error: ' "$log"; then ok "a broken scene ends with one line and make's own"
@@ -428,80 +329,47 @@ touch -d 2000-01-01 other/own.toml
 make_ -n SCENE=other/own.toml sweep
 if [ $? != 0 ] && grep -q 'other/own.toml: out/own is of elsewhere/own.toml, which says otherwise; rename one of the two, or delete out/own' "$log"; then
   ok "two scenes of one name do not share a folder"; else wrong "two scenes of one name do not share a folder" "$(tail -n 1 "$log")"; fi
-cp elsewhere/own.toml own.toml; make_ -n SCENE=own.toml sweep
-expect "a copy of a scene is that scene" ""
-rm own.toml elsewhere/own.toml; make_ -n SCENE=other/own.toml sweep
-expect "a scene in place of one that has gone is noticed, however old" "gear-spectra*2 gear-static*1 gear-sweep*2"
+cp elsewhere/own.toml own.toml; plans "a copy of a scene is that scene" "" SCENE=own.toml sweep
+rm own.toml elsewhere/own.toml; plans "a scene in place of one that has gone is noticed, however old" "gear-spectra*2 gear-static*1 gear-sweep*2" SCENE=other/own.toml sweep
 cp $scene other/parker2000.toml
 make_ -n SCENE=other/parker2000.toml sweep && ok "a copy of a scene of the project is that scene" || wrong "a copy of a scene of the project is that scene" "$(tail -n 1 "$log")"
 cp other/own.toml other/parker2000.toml
 make_ -n SCENE=other/parker2000.toml sweep
 if [ $? != 0 ] && grep -q 'SCENE=other/parker2000.toml: out/parker2000 is of data/scenes/parker2000.toml, which says otherwise; rename the file' "$log"; then
   ok "another scene does not take the place of one of the project"; else wrong "another scene does not take the place of one of the project" "$(tail -n 1 "$log")"; fi
-change 's/^title = .*/title = "Another title"/'; : > calls; make_ fig12; make_ -n fig12
-expect "figures with another title are up to date" ""
+change 's/^title = .*/title = "Another title"/'; : > calls; make_ fig12; plans "figures with another title are up to date" "" fig12
 grep -q 'Another title' out/parker2000/params/title.txt && grep -q 'gear-plot out/figures/fig12' calls && ok "another title redraws" || wrong "another title redraws" "$(tail -n 2 calls)"; cp scene.original $scene
-make_ -n modes
-expect "natural modes of a system that ships: one stage and its figures" "gear-modes*1 gear-plot*2"
-make_ modes; make_ -n modes
-expect "and they are up to date then" ""
-cp data/scenes/lin-parker-planetary.toml train.toml; make_ -n SCENE=train.toml modes
-expect "those of SCENE" "gear-modes*1 gear-plot*2"
-make_ SCENE=train.toml modes; sed -i 's/^# .*//' train.toml; make_ -n SCENE=train.toml modes
-expect "comments redo nothing" ""
-sed -i 's/^stiffness_N_um = 500.0/stiffness_N_um = 400.0/' train.toml; make_ -n SCENE=train.toml modes
-expect "stiffnesses redo them" "gear-modes*1 gear-plot*2"
-make_ -n SCENE=data/scenes/three-in-line.toml system-static modes
-expect "a system of elastic gears: three bodies, its statics, its modes" "gear-mesh*3 gear-modes*1 gear-plot*3 gear-reduce*3 gear-system-static*1"
+plans "natural modes of a system that ships: one stage and its figures" "gear-modes*1 gear-plot*2" modes
+make_ modes; plans "and they are up to date then" "" modes
+cp data/scenes/lin-parker-planetary.toml train.toml; plans "those of SCENE" "gear-modes*1 gear-plot*2" SCENE=train.toml modes
+make_ SCENE=train.toml modes; sed -i 's/^# .*//' train.toml; plans "comments redo nothing" "" SCENE=train.toml modes
+sed -i 's/^stiffness_N_um = 500.0/stiffness_N_um = 400.0/' train.toml; plans "stiffnesses redo them" "gear-modes*1 gear-plot*2" SCENE=train.toml modes
+plans "a system of elastic gears: three bodies, its statics, its modes" "gear-mesh*3 gear-modes*1 gear-plot*3 gear-reduce*3 gear-system-static*1" SCENE=data/scenes/three-in-line.toml system-static modes
 cp data/scenes/three-in-line.toml inline.toml; make_ SCENE=inline.toml system-static modes; sed -i 's/^torque_Nm = 60.0/torque_Nm = 50.0/' inline.toml
-make_ -n SCENE=inline.toml system-static modes
-expect "another torque needs no body of a system" "gear-modes*1 gear-plot*3 gear-system-static*1"
-make_ -n SCENE=inline.toml system-sweep
-expect "its motion: a sweep each way" "gear-plot*1 gear-system-sweep*2"
-make_ -n SCENE=inline.toml report
-expect "the report of a system: its picture, its sweeps, the page" "gear-modes*1 gear-plot*6 gear-report*1 gear-system-static*1 gear-system-sweep*2"
+plans "another torque needs no body of a system" "gear-modes*1 gear-plot*3 gear-system-static*1" SCENE=inline.toml system-static modes
+plans "its motion: a sweep each way" "gear-plot*1 gear-system-sweep*2" SCENE=inline.toml system-sweep
+plans "the report of a system: its picture, its sweeps, the page" "gear-modes*1 gear-plot*6 gear-report*1 gear-system-static*1 gear-system-sweep*2" SCENE=inline.toml report
 grep -q 'gear-report.* out/inline/up/system_sweep.h5 out/inline/down/system_sweep.h5 .*out/inline/report/system-sweep.png' "$log" && ok "the page of a system has its sweeps" || wrong "the page of a system has its sweeps" "$(grep gear-report "$log" | tail -n 1)"
-make_ SCENE=inline.toml report; make_ -n SCENE=inline.toml report mode-shapes system-sweep
-expect "and it is up to date then" ""
+make_ SCENE=inline.toml report; plans "and it is up to date then" "" SCENE=inline.toml report mode-shapes system-sweep
 grep -q 'open out/inline/modes.hdf in ParaView' <(make_ SCENE=inline.toml mode-shapes; cat "$log") && ok "mode shapes for ParaView stand beside the modes" || wrong "mode shapes for ParaView stand beside the modes" "$(tail -n 1 "$log")"
-make_ -n SCENE=inline.toml load-sharing
-grep -q 'load-sharing: SCENE=inline.toml has no planets that share a load, use make SCENE=inline.toml report' "$log" && ok "load sharing needs planets" || wrong "load sharing needs planets" "$(tail -n 1 "$log")"
-make_ -n SCENE=data/scenes/oh58-planetary.toml load-sharing
-expect "load sharing of planets: bodies, statics, one figure" "gear-mesh*3 gear-plot*1 gear-reduce*3 gear-system-static*1"
-make_ -n SCENE=data/scenes/oh58-planetary.toml report
-expect "the report of a train with planets" "gear-mesh*3 gear-modes*1 gear-plot*7 gear-reduce*3 gear-report*1 gear-system-static*1 gear-system-sweep*2"
-make_ -n SCENE=train.toml report
-expect "the report of rigid gears: modes, their figures, the picture" "gear-modes*1 gear-plot*3 gear-report*1"
-make_ -n SCENE=train.toml load-sharing
-grep -q 'load-sharing: SCENE=train.toml has rigid gears, of which there are natural modes alone, use make SCENE=train.toml report' "$log" && ok "load sharing needs elastic gears" || wrong "load sharing needs elastic gears" "$(tail -n 1 "$log")"
+refuses "load sharing needs planets" 'load-sharing SCENE=inline.toml planets make report' SCENE=inline.toml load-sharing
+plans "load sharing of planets: bodies, statics, one figure" "gear-mesh*3 gear-plot*1 gear-reduce*3 gear-system-static*1" SCENE=data/scenes/oh58-planetary.toml load-sharing
+plans "the report of a train with planets" "gear-mesh*3 gear-modes*1 gear-plot*7 gear-reduce*3 gear-report*1 gear-system-static*1 gear-system-sweep*2" SCENE=data/scenes/oh58-planetary.toml report
+plans "the report of rigid gears: modes, their figures, the picture" "gear-modes*1 gear-plot*3 gear-report*1" SCENE=train.toml report
+refuses "load sharing needs elastic gears" 'load-sharing SCENE=train.toml rigid make report' SCENE=train.toml load-sharing
 sed -i 's/^rayleigh_stiffness_s = 3e-6/rayleigh_stiffness_s = 4e-6/' inline.toml
-make_ -n SCENE=inline.toml system-static modes system-sweep
-expect "another damping of a system redoes its sweeps alone" "gear-plot*1 gear-system-sweep*2"
-make_ -n SCENE=inline.toml system-ringdown
-expect "its ring-down needs bodies alone" "gear-plot*1 gear-system-impact*1"
-make_ SCENE=inline.toml system-sweep; make_ -n SCENE=inline.toml system-branch
-expect "its branch, drawn over both sweeps" "gear-plot*1 gear-system-orbit*1"
-make_ SCENE=inline.toml system-ringdown system-branch; make_ -n SCENE=inline.toml system-ringdown system-branch
-expect "and both are up to date then" ""
-sed '/^\[operation\]/,$d' inline.toml > still.toml; make_ -n SCENE=still.toml system-sweep
-grep -q 'it says no speeds; write \[operation\]' "$log" && ok "a sweep of a system without speeds is rejected" || wrong "a sweep of a system without speeds is rejected" "$(tail -n 1 "$log")"
-make_ -n SCENE=data/scenes/lin-parker-planetary.toml system-static
-grep -q 'its gears are rigid; system-static needs elastic ones' "$log" && ok "statics of a system reject rigid gears" || wrong "statics of a system reject rigid gears" "$(tail -n 1 "$log")"
-make_ -n SCENE=train.toml static
-grep -q 'SCENE=train.toml is a system of several meshes' "$log" && ok "stages of pairs reject a system" || wrong "stages of pairs reject a system" "$(tail -n 1 "$log")"
-make_ -n SCENE=data/scenes/nasa28.toml modes
-grep -q 'it is a pair; modes are of systems' "$log" && ok "modes reject a pair" || wrong "modes reject a pair" "$(tail -n 1 "$log")"
-make_ -n out/nowhere/T1/static.h5
-grep -q 'there is no data/scenes/nowhere.toml' "$log" && ok "a scene that does not exist is named" ||
-  wrong "a scene that does not exist is named" "$(tail -n 1 "$log")"
-make_ -n SCENE=nowhere.toml sweep
-grep -q 'SCENE=nowhere.toml: there is no such file' "$log" && ok "a missing SCENE is named" || wrong "a missing SCENE is named" "$(tail -n 1 "$log")"
-make_ -n SCENE=other/own sweep
-grep -q 'SCENE=other/own: there is no such file; there is other/own.toml' "$log" && ok "a SCENE without its .toml is told the file" ||
-  wrong "a SCENE without its .toml is told the file" "$(tail -n 1 "$log")"
-make_ -n SCENE=parker2000 sweep
-grep -q 'SCENE=parker2000: there is no such file; there is data/scenes/parker2000.toml' "$log" && ok "a SCENE of the project by its name alone is told the file" ||
-  wrong "a SCENE of the project by its name alone is told the file" "$(tail -n 1 "$log")"
+plans "another damping of a system redoes its sweeps alone" "gear-plot*1 gear-system-sweep*2" SCENE=inline.toml system-static modes system-sweep
+plans "its ring-down needs bodies alone" "gear-plot*1 gear-system-impact*1" SCENE=inline.toml system-ringdown
+make_ SCENE=inline.toml system-sweep; plans "its branch, drawn over both sweeps" "gear-plot*1 gear-system-orbit*1" SCENE=inline.toml system-branch
+make_ SCENE=inline.toml system-ringdown system-branch; plans "and both are up to date then" "" SCENE=inline.toml system-ringdown system-branch
+sed '/^\[operation\]/,$d' inline.toml > still.toml; refuses "a sweep of a system without speeds is rejected" 'speeds [operation]' SCENE=still.toml system-sweep
+refuses "statics of a system reject rigid gears" 'rigid system-static elastic' SCENE=data/scenes/lin-parker-planetary.toml system-static
+refuses "stages of pairs reject a system" 'SCENE=train.toml system' SCENE=train.toml static
+refuses "modes reject a pair" 'pair modes systems' SCENE=data/scenes/nasa28.toml modes
+refuses "a scene that does not exist is named" 'data/scenes/nowhere.toml' out/nowhere/T1/static.h5
+refuses "a missing SCENE is named" 'SCENE=nowhere.toml file' SCENE=nowhere.toml sweep
+refuses "a SCENE without its .toml is told the file" 'SCENE=other/own other/own.toml' SCENE=other/own sweep
+refuses "a SCENE of the project by its name alone is told the file" 'SCENE=parker2000 data/scenes/parker2000.toml' SCENE=parker2000 sweep
 
 # --- broken off, removed, failed
 make_ $all
@@ -515,10 +383,8 @@ if grep -q 'gear-sweep out/parker2000/T150/down/sweep.h5' <<< "$(shown)" && ! gr
   ok "a run that broke off resumes at what is missing"
 else wrong "a run that broke off resumes at what is missing" "$(shown)"; fi
 make_ fig05 && [ -e out/figures/fig05.png ] && ok "and ends with the figure" || wrong "and ends with the figure" "$(tail -n 1 "$log")"
-make_ -n -W "$B/id/gear-sweep" fig05
-expect "another gear-sweep redoes sweeps and what follows" "gear-plot*1 gear-spectra*2 gear-sweep*2"
-make_ -n FREEZE=1 -W "$B/id/gear-sweep" fig05
-expect "FREEZE=1 keeps them" ""
+plans "another gear-sweep redoes sweeps and what follows" "gear-plot*1 gear-spectra*2 gear-sweep*2" -W "$B/id/gear-sweep" fig05
+plans "FREEZE=1 keeps them" "" FREEZE=1 -W "$B/id/gear-sweep" fig05
 make_ -n LAUNCH='srun -n1 --exact' out/parker2000/T50/up/response.h5
 [ "$(grep -c '^srun -n1 --exact build.*/bin/gear-\(static\|sweep\) ' "$log")" = 2 ] && ok "LAUNCH carries the heavy stages" ||
   wrong "LAUNCH carries the heavy stages" "$(grep bin/ "$log")"
