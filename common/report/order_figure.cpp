@@ -4,12 +4,12 @@
 #include <array>
 
 #include "base/error.h"
+#include "gear/layout.h"
 #include "report/figure_words.h"
 #include "report/one_system.h"
 #include "report/response_figures.h"
 #include "report/sweep_panels.h"
 #include "report/system_picture.h"
-#include "system/rigid_system.h"
 
 namespace whine {
 namespace {

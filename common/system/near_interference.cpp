@@ -65,7 +65,12 @@ std::string near_interference(const SceneGear& driver, const SceneGear& driven, 
         kSlopeAtTip / (gear->material.youngs_modulus * gear->design.face_width * gear->design.module);
   }
   const GearPair gears(design[0], design[1], mesh.centre_distance);
-  const NearEnd end = near_end(gears, coefficient, slope, load, force);
+  // Teeth bend away in proportion to the load, pressure spreads by its root: what touches under a part of it counts.
+  const double least_part = force == ForceBound::least ? 1e-4 : 1;
+  double under = load;
+  NearEnd end = near_end(gears, coefficient, slope, under, force);
+  for (; end.side < 0 && under > least_part * load; under /= 2)
+    end = near_end(gears, coefficient, slope, under / 2, force);
   if (end.side < 0) return "";
   const auto own = static_cast<size_t>(end.side), mate = 1 - own;
   const double reached = gears.nominal_roll(end.side, end.side == 0 ? gears.path_start() : gears.path_end());
@@ -83,14 +88,14 @@ std::string near_interference(const SceneGear& driver, const SceneGear& driven, 
       break;
     }
   }
-  return text("under ", shown_number(load), " N the pressure, ", shown_number(end.half_width * 1e3),
-              " mm to each side, reaches the start of the involute of '", name[own], "' at roll angle ",
-              shown_number(gears.gear(end.side).form_roll_angle() * kInDegrees), " deg: the tip of '",
-              name[mate], "' comes to ", shown_number(reached * kInDegrees), " deg; ",
-              room > 0
-                  ? text("addendum = ", shown_number(room), " in [gear.", name[mate], "] is short enough")
-                  : text("shorten that tip or deepen the root (dedendum)"),
-              ", or lower the torque");
+  return text(
+      "under ", shown_number(under), " N", under < load ? ", a part of the load," : "", " the pressure, ",
+      shown_number(end.half_width * 1e3), " mm to each side, reaches the start of the involute of '",
+      name[own], "' at roll angle ", shown_number(gears.gear(end.side).form_roll_angle() * kInDegrees),
+      " deg: the tip of '", name[mate], "' comes to ", shown_number(reached * kInDegrees), " deg; ",
+      room > 0 ? text("addendum = ", shown_number(room), " in [gear.", name[mate], "] is short enough")
+               : text("shorten that tip or deepen the root (dedendum)"),
+      ", or lower the torque");
 }
 
 std::string near_interference(const Scene& scene, ForceBound force) {

@@ -49,6 +49,7 @@ set lmargin at screen 0.575
 set rmargin at screen 0.97
 set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set xlabel "Torque (N m)\n{/:Bold (b)}"
+set xtics step_of(map_max_y / 5)
 set ylabel "Peak-to-peak transmission error (µm)"
 set xrange [0:*]
 set yrange [0:*]
@@ -68,6 +69,7 @@ if (moving > 0) {
   set xrange [*:*] noextend
   set yrange [*:*] noextend
   set colorbox user origin screen 0.435, 0.085 + lift size screen 0.014, 0.355
+  set xtics autofreq
   set xlabel "Tip relief (µm)\n{/:Bold (c)} RMS at the worst speed (µm)"
   set ylabel "Torque (N m)"
   plot tsv index "[rms]" using 1:2:3 with image

@@ -124,7 +124,7 @@ TEST_CASE("stage parameters of a system: read as written, the same modes to the 
   const std::string carrier = last.substr(0, last.find("stands_on = -1")) + "stands_on = ";
   CHECK(names(said(carrier + "-1", carrier + "6"), {"carrier", "ground"}));
   CHECK(names(said("kind = \"held\"", "kind = \"hold\""), {"kind", "[drive]"}));
-  CHECK(names(said("driven_body = 1", "driven_body = 9"), {"body"}));
+  CHECK(names(said("driven_body = 1", "driven_body = 9"), {"body_number", 9}));
   CHECK(names(said("radius = ", "radius = nan # "), {"number"}));
   CHECK(names(said("sense = 1", "sense = 0.5"), {"number", "whole"}));
   CHECK_THROWS_AS(read_system_parameters(kShipped), Error);
