@@ -22,6 +22,7 @@ constexpr int kLeastTurns = 100;    // but this many hunting periods
 
 double rms_of(const std::vector<RollingDynamics::Period>& record) {
   std::vector<Eigen::Ref<const VectorXd>> parts;
+  parts.reserve(record.size());
   for (const auto& period : record) parts.emplace_back(period.transmission_error);
   return oscillating_rms(parts);
 }

@@ -70,7 +70,7 @@ bool FollowedContact::linearise(const MatrixXd& c, std::span<const HertzLine> la
   std::fill_n(inverse_.begin(), apart * count_, 0.0);
   for (int j = 0; j < count_; ++j) {
     const double* column = c.data() + carrying_[j] * c.rows();
-    for (int i = 0; i < count_; ++i) inverse_[static_cast<size_t>(j * apart + i)] = column[carrying_[i]];
+    for (int i = 0; i < count_; ++i) inverse_.data()[j * apart + i] = column[carrying_[i]];
   }
   for (int i = 0; i < count_; ++i) {
     const HertzLine::Point own = law[static_cast<size_t>(carrying_[i])].at(at_[i]);
@@ -78,11 +78,11 @@ bool FollowedContact::linearise(const MatrixXd& c, std::span<const HertzLine> la
     size_[i] = std::abs(own.indentation);
     slope_[i] = own.slope;
     for (int j = 0; j < count_; ++j) {
-      const double shared = inverse_[static_cast<size_t>(j * apart + i)] * at_[j];
+      const double shared = inverse_.data()[j * apart + i] * at_[j];
       d_[i] += shared;
       size_[i] += std::abs(shared);
     }
-    inverse_[static_cast<size_t>(i * apart + i)] += own.slope;
+    inverse_.data()[i * apart + i] += own.slope;
   }
   return linear_ = invert();
 }

@@ -90,8 +90,7 @@ MatrixXd SystemDynamics::modal_compliance(const Position& position, const Vector
     const MatrixXd own = h.transpose() * weight.segment(part.first, part.count).asDiagonal() * h;
     for (int k = 0; k < rows.contacts(); ++k)
       for (int l = 0; l < rows.contacts(); ++l)
-        out(position.order[static_cast<size_t>(rows.begin + k)],
-            position.order[static_cast<size_t>(rows.begin + l)]) += own(k, l);
+        out(position.order.data()[rows.begin + k], position.order.data()[rows.begin + l]) += own(k, l);
   }
   return out;
 }

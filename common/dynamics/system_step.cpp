@@ -198,7 +198,7 @@ void SystemDynamics::push_all(const Position& position) {
       lanes(v + i) -= lanes(a12 + i) * half;
     };
     for (int c = 0; c < rows.contacts(); ++c)
-      if (const double own = p_[position.order[static_cast<size_t>(rows.begin + c)]]; own > 0) {
+      if (const double own = p_[position.order.data()[rows.begin + c]]; own > 0) {
         row[carrying] = &stream_[rows.row + static_cast<size_t>(c * length)];
         pushed[carrying++] = own;
       }

@@ -37,6 +37,8 @@ template <class... Case>
 struct Overloaded : Case... {
   using Case::operator()...;
 };
+template <class... Case>
+Overloaded(Case...) -> Overloaded<Case...>;
 
 // SI = value * multiply / divide; two factors because 3.0 / 1000 is the double nearest to 0.003 and 3.0 *
 // 0.001 is not always.

@@ -468,8 +468,8 @@ OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int directi
   if (report) report(branch.points.back());
   double length = settings.first_step;
   constexpr int kFew = 6, kMany = 9;  // corrections
-  constexpr double kSharp =
-      0.8;  // cosine between tangents, below which the step is too long, unless there is a kink
+  // Cosine between tangents, below which the step is too long, unless there is a kink.
+  constexpr double kSharp = 0.8;
   while (static_cast<int>(branch.points.size()) < settings.most_points) {
     auto next = step(curve, *here, length);
     const bool sharp = next && next->tangent.dot(here->tangent) < kSharp;
@@ -521,10 +521,8 @@ OrbitBranch follow_branch(PeriodMap& map, const PeriodicOrbit& from, int directi
     if (report) report(branch.points.back());
     if (settings.stop)
       branch.end = settings.stop(branch.points[branch.points.size() - 2], branch.points.back());
-    if (!branch.end.empty()) {
-      branch.stopped = true;
-      return branch;
-    }
+    branch.stopped = !branch.end.empty();
+    if (branch.stopped) return branch;
     if (beyond != 0) {
       branch.reached_limit = beyond;
       branch.end = text("the ", settings.parameter.name, " reached ",

@@ -114,10 +114,7 @@ FigureBlock folds_block(const FoldCurvesResult& a, const std::string& number, co
   return folds;
 }
 
-}  // namespace
-
-Figure fold_curve_figure(const std::vector<FoldCurvesResult>& curves,
-                         const std::vector<JumpMapResult>& maps) {
+void require_one_quantity(const std::vector<FoldCurvesResult>& curves) {
   if (curves.empty()) fail(Failure::input, "a figure of folds needs one fold_curves.h5 at least");
   if (curves.size() > kMostCurves)
     fail(Failure::input, curves.size(), " artifacts; ", kMostCurves, " can be told apart");
@@ -125,6 +122,13 @@ Figure fold_curve_figure(const std::vector<FoldCurvesResult>& curves,
     if (a.quantity != curves[0].quantity)
       fail(Failure::input, "folds over ", curves[0].quantity, " and over ", a.quantity,
            "; draw one figure of each");
+}
+
+}  // namespace
+
+Figure fold_curve_figure(const std::vector<FoldCurvesResult>& curves,
+                         const std::vector<JumpMapResult>& maps) {
+  require_one_quantity(curves);
   Figure figure;
   const std::string axis = over_damping(curves[0]) ? "Damping ratio, two pairs in contact (%)"
                            : curves[0].quantity == FoldQuantity::torque

@@ -160,6 +160,13 @@ FigureBlock hertz_block(const HertzContact& contact) {
   return hertz;
 }
 
+std::string inner_region(const StaticResult& s) {
+  return s.gear[0].discretisation.near_field == NearField::matching
+             ? "matched to the finite elements at " +
+                   shown(s.gear[0].discretisation.matching_depth * kMilli, 4) + " mm depth"
+             : "the half-plane's field is subtracted there, finite elements carry the smooth rest";
+}
+
 }  // namespace
 
 Figure contact_zone_figure(const SectorGrid& driver, const SectorGrid& driven, const StaticResult& s) {
@@ -226,12 +233,7 @@ Figure contact_zone_figure(const SectorGrid& driver, const SectorGrid& driven, c
   figure.blocks.insert(figure.blocks.end(), {candidates, flanks, hertz_block(hertz)});
 
   figure.notes.push_back(pair_words(s));
-  const std::string inner =
-      s.gear[0].discretisation.near_field == NearField::matching
-          ? "matched to the finite elements at " +
-                shown(s.gear[0].discretisation.matching_depth * kMilli, 4) + " mm depth"
-          : "the half-plane's field is subtracted there, finite elements carry the smooth rest";
-  figure.notes.push_back("inner region: " + inner + "; outer region: finite elements");
+  figure.notes.push_back("inner region: " + inner_region(s) + "; outer region: finite elements");
   figure.notes.push_back(text(n, " strips in the candidate zone; tooth force ", fixed(force, 0),
                               " N; approach of the gears ", shown(zone.approach * kMicro, 4),
                               " µm; Hertz: half-width ", shown(hertz.half_width * kMicro, 4), " µm, peak ",

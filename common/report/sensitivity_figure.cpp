@@ -81,6 +81,13 @@ FigureBlock changes_block(const JumpMapResult& base, const std::vector<VariantRo
   return block;
 }
 
+std::string branch_words(const JumpMapResult& a, Index c) {
+  return a.two_branches[c]
+             ? text("two branches from ", rounded(a.branches_from[c], 0),
+                    a.open_below[c] ? " Hz or less to " : " to ", rounded(a.branches_to[c], 0), " Hz")
+             : std::string("one branch");
+}
+
 }  // namespace
 
 Figure sensitivity_figure(const JumpMapResult& base, const std::vector<JumpMapResult>& variants) {
@@ -91,12 +98,6 @@ Figure sensitivity_figure(const JumpMapResult& base, const std::vector<JumpMapRe
   Figure figure;
   figure.title = text("What inputs are worth at ", base.torque, " N m, ",
                       rounded(base.damping_ratio[shown] * 100, 2), " % damping with two pairs in contact");
-  const auto branch_words = [&](const JumpMapResult& a, Index c) {
-    return a.two_branches[c]
-               ? text("two branches from ", rounded(a.branches_from[c], 0),
-                      a.open_below[c] ? " Hz or less to " : " to ", rounded(a.branches_to[c], 0), " Hz")
-               : std::string("one branch");
-  };
   figure.notes.push_back(text(
       "base: mean stiffness ", rounded(base.mean_stiffness * 1e-6, 1), " N/µm, natural frequencies ",
       rounded(base.one_pair_frequency, 0), " Hz (one pair) and ", rounded(base.two_pair_frequency, 0),

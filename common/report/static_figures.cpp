@@ -134,6 +134,7 @@ Figure transmission_error_figure(const std::vector<StaticResult>& statics) {
   figure.blocks.push_back(spectrum_block(statics, "transmission_error", "µm",
                                          &StaticResult::transmission_error_harmonic, kMicro));
   std::vector<std::string> labels;
+  labels.reserve(statics.size());
   for (const auto& s : statics) labels.push_back(torque_label(s));
   figure.panels = {period_panel("Static transmission error (µm)", "transmission_error", labels),
                    harmonics_panel("Amplitude (µm)", "transmission_error harmonics", labels)};
@@ -174,6 +175,7 @@ Figure mesh_stiffness_figure(const std::vector<StaticResult>& statics) {
   figure.blocks = {period_block(statics, "mesh_stiffness", unit, &StaticResult::stiffness_secant, kMega),
                    rectangle, spectrum, rectangle_spectrum};
   std::vector<std::string> labels;
+  labels.reserve(statics.size());
   for (const auto& s : statics)
     labels.push_back(text(torque_label(s), ", mean ", fixed(s.mean_stiffness * kMega, 1)));
   const PanelCurve black{.block = "rectangular wave harmonics",
@@ -190,6 +192,29 @@ Figure mesh_stiffness_figure(const std::vector<StaticResult>& statics) {
   figure.columns = 2;
   return figure;
 }
+
+namespace {
+
+// Loads of the pairs from `from` to `to` over a mesh period.
+Panel loads_panel(const StaticResult& first, int from, int to) {
+  Panel each{.heading = torque_label(first),
+             .x = {.label = "Mesh phase (mesh periods, 0: pitch point)", .from = 0, .to = 1},
+             .y = {.label = "Load (N)", .from_zero = true},
+             .key = PanelKey::below};
+  each.curves.push_back({.block = "loads", .colour = kDark, .label = "all pairs", .width = 1.8, .dash = 4});
+  for (int j = from; j <= to; ++j)
+    each.curves.push_back({.block = "loads",
+                           .y = 3 + j - from,
+                           .colour = (3 + j - from) % 6 + 1,
+                           .label = j == 0 ? "reference pair"
+                                           : text(j > 0 ? "preceding pair" : "following pair",
+                                                  std::abs(j) > 1 ? text(" ", std::abs(j)) : ""),
+                           .width = 2.6});
+  each.rules = {rest_rule(first.torque / ToothGeometry(first.gear[0].design).base_radius())};
+  return each;
+}
+
+}  // namespace
 
 // What a pair of teeth carries on its way through the mesh. Pair j is j places ahead of the reference pair: at mesh phase f it
 // is at phase f + j of its own.
@@ -265,22 +290,8 @@ Figure load_sharing_figure(const std::vector<StaticResult>& statics) {
   figure.notes.push_back(text("one pair alone carries the load for ", alone,
                               " of the mesh period; on the line of action alone it would for ",
                               fixed(kPercent * std::max(0.0, 2 - first.contact_ratio), 0), " %"));
-  Panel each{.heading = torque_label(first),
-             .x = {.label = "Mesh phase (mesh periods, 0: pitch point)", .from = 0, .to = 1},
-             .y = {.label = "Load (N)", .from_zero = true},
-             .key = PanelKey::below};
-  each.curves.push_back({.block = "loads", .colour = kDark, .label = "all pairs", .width = 1.8, .dash = 4});
-  for (int j = from; j <= to; ++j)
-    each.curves.push_back({.block = "loads",
-                           .y = 3 + j - from,
-                           .colour = (3 + j - from) % 6 + 1,
-                           .label = j == 0 ? "reference pair"
-                                           : text(j > 0 ? "preceding pair" : "following pair",
-                                                  std::abs(j) > 1 ? text(" ", std::abs(j)) : ""),
-                           .width = 2.6});
-  each.rules = {rest_rule(first.torque / pair.gear(0).base_radius())};
   figure.blocks = {share, loads};
-  figure.panels = {shares, each};
+  figure.panels = {shares, loads_panel(first, from, to)};
   figure.columns = 2;
   return figure;
 }

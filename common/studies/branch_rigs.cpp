@@ -70,6 +70,7 @@ TrainRig::State TrainRig::predicted(const std::vector<KnownOrbit<State>>& branch
                                     int steps) {
   const SystemPeriodMap map(train_.dynamics(), steps);
   std::vector<KnownOrbit<Eigen::VectorXd>> flat;
+  flat.reserve(branch.size());
   for (const KnownOrbit<State>& orbit : branch) flat.push_back({orbit.mesh_frequency, map.flat(orbit.state)});
   return map.state(whine::predicted(FlatStates{}, flat, mesh_frequency));
 }
