@@ -65,8 +65,9 @@ struct Field {
 inline Reasoned names(const std::string& message, const std::vector<Field>& fields) {
   const auto in_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
   const std::string line = " " + message + "  ";
-  Reasoned all{line.find('\n') == std::string::npos, "in '" + message + "'"};
+  Reasoned all{!fields.empty() && line.find('\n') == std::string::npos, "in '" + message + "'"};
   for (auto [words] : fields) {
+    REQUIRE(!words.empty());
     const bool open = words.back() == '*';
     if (open) words.pop_back();
     bool found = false;

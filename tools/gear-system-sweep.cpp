@@ -59,8 +59,9 @@ void body(int argc, char** argv) {
   whine::log_line("gear-system-sweep: ", direction, ", ", result.mesh_frequency.size(), " speeds, ",
                   result.periods.sum(), " mesh periods, RMS of the transmission error up to ",
                   result.dte_rms.maxCoeff() * 1e6, " µm, contact lost at ",
-                  (result.separation_fraction.rowwise().maxCoeff().array() > 0).count(),
-                  " speeds, jumps: ", whine::jump_words(result.jump_frequency, result.jump_width),
+                  (result.separation_fraction.rowwise().maxCoeff().array() > 0).count(), " speeds, jumps: ",
+                  result.hunting_periods > 1 ? "not looked for, since teeth differ"
+                                             : whine::jump_words(result.jump_frequency, result.jump_width),
                   ", bearing forces up to ", result.bearing_force_max.maxCoeff(), " N -> ", output);
   std::string speeds;
   for (Eigen::Index i = 0; i < result.mesh_frequency.size(); ++i)

@@ -291,8 +291,11 @@ class SystemDynamics {
   std::vector<double> sums_;  // (contact, lane)
   Eigen::VectorXd rate_;      // (coordinate) z" + mu z', mu the damping by mass; of trains with rigid pins
   Eigen::VectorXd e_, p_, d_, p_of_slot_;  // e_, p_, d_: (contact)
-  Eigen::VectorXd turned_;                 // (body) m: r theta
-  Eigen::Matrix2Xd shifted_;               // (xy, body) m: of its hub
+  // (contact) of a part, those that carry: their rows and forces
+  std::vector<const double*> carrying_rows_;
+  std::vector<double> carrying_forces_;
+  Eigen::VectorXd turned_;    // (body) m: r theta
+  Eigen::Matrix2Xd shifted_;  // (xy, body) m: of its hub
   Certificate certificate_;
   MatrixRM forces_;
 };

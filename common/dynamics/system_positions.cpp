@@ -392,6 +392,8 @@ void SystemDynamics::set_positions(const std::vector<double>& corner_gap, int st
   positions_.back() = filled(placed[0], 1);
   set_hunting_gaps(placed);
   for (VectorXd* x : {&e_, &p_, &d_}) x->setZero(padded(most_contacts_));
+  carrying_rows_.assign(static_cast<size_t>(most_contacts_), nullptr);
+  carrying_forces_.assign(static_cast<size_t>(most_contacts_), 0);
   const int sums = kLanes * padded(most_contacts_);
   sums_.assign(static_cast<size_t>(sums), 0);
   steps_ = 0;

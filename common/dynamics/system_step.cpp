@@ -188,8 +188,8 @@ void SystemDynamics::push_all(const Position& position) {
   for (size_t p = 0; p < part_.size(); ++p) {
     const Rows& rows = position.rows[p];
     const int length = part_[p].length(), first = part_[p].first;
-    const double* row[kMostContacts];
-    double pushed[kMostContacts];
+    const double** row = carrying_rows_.data();
+    double* pushed = carrying_forces_.data();
     int carrying = 0;
     const auto add = [&](int i, Lanes sum) {
       lanes(force + i) = lanes(torque + i) - sum;

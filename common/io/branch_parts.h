@@ -7,7 +7,7 @@
 
 namespace whine {
 
-// Of each point of the branch. Orbits of several mesh periods and parts of a branch are those of pairs.
+// Of each point of the branch.
 template <class Branch>
 void describe_stability(Codec& c, Branch& a) {
   using namespace ranges;

@@ -17,8 +17,8 @@ constexpr double kSilence = 300;  // dB below it: what stands for a level of not
 
 // Numbers of templates that are mesh frequencies, by how they begin.
 bool is_speed(const std::string& number) {
-  constexpr std::array kSpeeds{"natural_frequency", "frequency_from", "frequency_to",
-                               "speed_step",        "worst_speed",    "resonance"};
+  constexpr std::array kSpeeds{"natural_frequency", "frequency_from", "frequency_to", "speed_step",
+                               "resonance"};
   return std::any_of(kSpeeds.begin(), kSpeeds.end(), [&](const char* s) { return number.starts_with(s); });
 }
 
@@ -166,9 +166,6 @@ void in_levels(double reference, Figure& figure) {
       panel.y = {.label = panel.y.label.substr(0, panel.y.label.rfind(" (")) + " (" + label + ")",
                  .from = foot,
                  .to = std::ceil((highest + 4) / 10) * 10};
-  figure.words.emplace_back("level_label", label);
-  figure.numbers.emplace_back("level_low", foot);
-  figure.numbers.emplace_back("level_high", std::ceil((highest + 4) / 10) * 10);
 }
 
 }  // namespace
@@ -182,7 +179,7 @@ void apply(const EngineeringAxes& axes, Figure& figure) {
   if (figure.levels.empty())
     fail(
         Failure::usage, "--db ", reference,
-        ": this figure has no amplitudes of the transmission error; it is for order-cuts, compare-motion and runup");
+        ": this figure has no amplitudes of the transmission error; it is for order-cuts, system-sweep, system-branch, compare-motion and runup");
   in_levels(reference, figure);
 }
 

@@ -553,11 +553,11 @@ Figure lumped_jump_map_figure(std::vector<JumpMapResult> maps, PrintedJumps prin
     figure.panels[column + (in_contact ? columns.size() : 0)] =
         cells_panel(figure.blocks.back(), 100 * ratio, column == 0 || in_contact);
   }
-  // In the free place below the elastic pair, what the cells mean.
-  Panel& key = figure.panels[columns.size()];
-  key.bare = true;
+  // Below all, what the cells mean.
+  Panel key{.key = PanelKey::below, .height = 4, .bare = true, .wide = true};
   for (const CellClass& c : kCellClasses)
     key.curves.push_back({.style = PanelStyle::boxes, .colour = c.colour, .label = c.words, .fill = c.fill});
+  figure.panels.push_back(std::move(key));
   return figure;
 }
 

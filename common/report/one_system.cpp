@@ -1,9 +1,12 @@
 #include "report/one_system.h"
 
+#include <algorithm>
+
 #include <cmath>
 
 #include "base/error.h"
 #include "gear/system_layout.h"
+#include "signal/jump_words.h"
 
 namespace whine {
 namespace {
@@ -64,6 +67,21 @@ void require_one_system(const std::string& what, const SystemSweepParameters& se
         fail(Failure::input, "figure: two sweeps in the direction '", name_of(sweep.direction),
              "' are given; give one of each direction");
   }
+}
+
+bool jumps_between(const SystemSweepResult& sweep, double from, double to) {
+  return std::any_of(sweep.jump_frequency.begin(), sweep.jump_frequency.end(),
+                     [&](double jump) { return (jump - from) * (jump - to) <= 0; });
+}
+
+std::string jump_note(const std::vector<SystemSweepResult>& sweeps) {
+  std::string words;
+  for (const SystemSweepResult& sweep : sweeps)
+    if (sweep.jump_frequency.size() > 0)
+      words += text(words.empty() ? "jumps: " : "; ",
+                    sweep.direction == Direction::up ? "speed rising " : "speed falling ",
+                    jump_words(sweep.jump_frequency, sweep.jump_width));
+  return words;
 }
 
 }  // namespace whine

@@ -1,5 +1,6 @@
 // Whether motions are of one system: what a figure may set beside each other.
 #pragma once
+#include <string>
 #include <vector>
 
 #include "report/figures.h"
@@ -9,6 +10,11 @@ namespace whine {
 
 // Bodies by name and teeth, and the number of meshes.
 bool one_system(const System& a, const System& b);
+
+// Whether the sweep jumps between two speeds (Hz), across which its curve is not drawn.
+bool jumps_between(const SystemSweepResult& sweep, double from, double to);
+// "jumps: speed rising 2645 +- 0.4 Hz"; "" where none is known.
+std::string jump_note(const std::vector<SystemSweepResult>& sweeps);
 
 // What a figure of a system needs for speeds in rpm: its gears and carriers, or why they have none.
 void add_shafts(const System& system, Figure& figure);

@@ -99,7 +99,9 @@ Figure order_figure(const std::vector<SystemSweepResult>& sweeps) {
     figure.notes.push_back(text("the first ", kMostPanels, " of ", meshes.size(), " meshes"));
     meshes.resize(kMostPanels);
   }
-  const Eigen::Index orders = std::min(kOrderCuts, a.dte_harmonic[0].rows());
+  Eigen::Index orders = kOrderCuts;
+  for (const SystemSweepResult& sweep : sweeps)
+    for (const MatrixRM& at : sweep.dte_harmonic) orders = std::min(orders, at.rows());
   for (const size_t mesh : meshes) {
     const std::string name = mesh_name(s, mesh);
     Panel panel{.heading = "mesh of " + without_markup(name)};
@@ -122,6 +124,8 @@ Figure order_figure(const std::vector<SystemSweepResult>& sweeps) {
                                 .dash = up ? 1 : 3});
       }
       for (Eigen::Index i = 0; i < sweep.mesh_frequency.size(); ++i) {
+        if (i > 0 && jumps_between(sweep, sweep.mesh_frequency[i - 1], sweep.mesh_frequency[i]))
+          block.rows.emplace_back();
         std::vector<double> row{sweep.mesh_frequency[i]};
         for (Eigen::Index k = 0; k < orders; ++k)
           row.push_back(sweep.dte_harmonic[static_cast<size_t>(i)](k, static_cast<Eigen::Index>(mesh)) *

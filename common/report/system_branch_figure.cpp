@@ -20,7 +20,7 @@ std::string rms_column(const System& s, size_t mesh) {
   return text("dte_rms ", mesh_name(s, mesh), " [µm]");
 }
 
-// Where stability changes the curve of the other kind begins with the last point of this one.
+// Where stability changes the curve of the other kind begins with the last point of this one; parts are curves of their own.
 FigureBlock system_branch_block(const SystemBranchResult& b, size_t meshes, bool stable) {
   FigureBlock block{stable ? "stable" : "unstable",
                     {"mesh_frequency [Hz]", "largest multiplier"},
@@ -28,7 +28,10 @@ FigureBlock system_branch_block(const SystemBranchResult& b, size_t meshes, bool
                     stable ? "stable" : "unstable"};
   for (size_t m = 0; m < meshes; ++m) block.columns.push_back(rms_column(b.settings.layout, m));
   for (Index i = 0; i < b.mesh_frequency.size(); ++i) {
-    const bool own = (b.stable[i] != 0) == stable, before = i > 0 && (b.stable[i - 1] != 0) == stable;
+    const bool goes_on = i > 0 && (b.part.size() == 0 || b.part[i] == b.part[i - 1]);
+    const bool own = (b.stable[i] != 0) == stable, before = goes_on && (b.stable[i - 1] != 0) == stable;
+    if (i > 0 && !goes_on && !block.rows.empty() && !block.rows.back().empty())
+      block.rows.emplace_back();  // lifts the pen
     if (!own && !before) continue;
     std::vector<double> row{b.mesh_frequency[i], b.floquet_multiplier[static_cast<size_t>(i)].row(0).norm()};
     row.reserve(meshes + 2);
@@ -44,6 +47,7 @@ FigureBlock sweep_block(const SystemSweepResult& s, size_t meshes) {
   FigureBlock block{way, {"mesh_frequency [Hz]"}, {}, text("sweep_", name_of(s.direction))};
   for (size_t m = 0; m < meshes; ++m) block.columns.push_back(rms_column(s.settings.layout, m));
   for (Index i = 0; i < s.mesh_frequency.size(); ++i) {
+    if (i > 0 && jumps_between(s, s.mesh_frequency[i - 1], s.mesh_frequency[i])) block.rows.emplace_back();
     std::vector<double> row{s.mesh_frequency[i]};
     row.reserve(meshes + 1);
     for (size_t m = 0; m < meshes; ++m) row.push_back(s.dte_rms(i, static_cast<Index>(m)) * kMicro);

@@ -51,6 +51,8 @@ FigureBlock block_of(const Quantity& q, const SystemSweepResult& a, size_t curve
   std::sort(order.begin(), order.end(),
             [&](Index x, Index y) { return a.mesh_frequency[x] < a.mesh_frequency[y]; });
   for (const Index i : order) {
+    if (!block.rows.empty() && jumps_between(a, block.rows.back()[0], a.mesh_frequency[i]))
+      block.rows.emplace_back();  // lifts the pen
     std::vector<double> row{a.mesh_frequency[i]};
     row.reserve(curves + 1);
     for (size_t c = 0; c < curves; ++c) row.push_back((a.*q.values)(i, static_cast<Index>(c)) * q.scale);
@@ -101,6 +103,7 @@ Figure system_sweep_figure(const std::vector<SystemSweepResult>& sweeps) {
                               shown(a.settings.damping.rayleigh_mass, 3), " 1/s x mass"));
   bool pins = false;
   for (int b = 0; b < static_cast<int>(s.bodies.size()); ++b) pins = pins || on_rigid_moving_pin(s, b);
+  if (const std::string jumps = jump_note(sweeps); !jumps.empty()) figure.notes.push_back(jumps);
   figure.notes.push_back(
       text("lines: rising speed; open marks: falling speed; force on a rigid axis: sum of the contact forces",
            pins ? ", on a rigid pin less the inertia force of the planet" : ""));

@@ -134,8 +134,10 @@ void BranchFollower<Rig>::run(int steps, int direction, int part, const Report& 
                                        }),
                          steps, multiple_, part});
     const OrbitBranch& branch = segments_.back().branch;
-    for (const SpecialPoint& p : branch.special)
+    for (const SpecialPoint& p : branch.special) {
       segments_.back().special_state.push_back(map_->state(p.start));
+      segments_.back().special_place.push_back(rig_.place_of(p.event.contact));
+    }
     const BranchPosition& last = branch.points.back();
     const double at = last.parameter;
     direction = branch.reached_limit != 0 ? branch.reached_limit : last.turn > 0 ? 1 : -1;

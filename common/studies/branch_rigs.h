@@ -4,6 +4,7 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "dynamics/period_map.h"
@@ -41,6 +42,8 @@ class PairRig {
   // Contact forces where this zone has its strips: an orbit puts them there in the periods after which it repeats, at the map's
   // speed. False if contact leaves the zone.
   bool fit(State& state, int periods);
+  // Of a contact of a map's events: its mesh, from 1, and its tooth pair.
+  static std::pair<int, int> place_of(int contact) { return {1, contact}; }
   int level() const { return level_; }
 
  private:
@@ -67,6 +70,10 @@ class TrainRig {
   State predicted(const std::vector<KnownOrbit<State>>& branch, double mesh_frequency, int steps);
   void widen(const std::vector<State*>& states) { train_.widen(states); }
   bool fit(State& /*state*/, int /*periods*/) { return true; }
+  std::pair<int, int> place_of(int slot) {
+    const SystemDynamics& dynamics = train_.dynamics();
+    return {slot / dynamics.tooth_pairs() + 1, slot % dynamics.tooth_pairs() + dynamics.first_pair()};
+  }
 
  private:
   const SystemSweepParameters& settings_;

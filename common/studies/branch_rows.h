@@ -2,6 +2,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "base/matrix.h"
@@ -20,9 +21,6 @@ struct BranchPlace {
   }
 };
 
-// Fills the rows of `a` that every branch has. point(i, position, multiple): the others of point i, all points being filled in this
-// order before folds; fold(i, place): of fold i; grazing(i, contact): of the contact, by its number, that comes or goes there.
-// `points` are counted before, by points_of().
 template <class State>
 Eigen::Index points_of(const std::vector<BranchSegment<State>>& segments) {
   Eigen::Index points = 0;
@@ -30,6 +28,9 @@ Eigen::Index points_of(const std::vector<BranchSegment<State>>& segments) {
   return points;
 }
 
+// Fills the rows of `a` that every branch has. point(i, position, multiple): the others of point i, all points being filled in this
+// order before folds; fold(i, place): of fold i; grazing(mesh, pair): of the next one, of the contact that comes or goes
+// there.
 template <class State, class Branch, class Point, class Fold, class Grazing>
 void fill_branch(const std::vector<BranchSegment<State>>& segments, const std::vector<double>& mismatch,
                  const Point& point, const Fold& fold, const Grazing& grazing, Branch& a) {
@@ -38,6 +39,7 @@ void fill_branch(const std::vector<BranchSegment<State>>& segments, const std::v
   for (Eigen::VectorXd* x : {&a.mesh_frequency, &a.residual}) x->resize(points);
   for (Eigen::VectorXi* x : {&a.stable, &a.steps, &a.period_multiple, &a.part}) x->resize(points);
   std::vector<SpecialPoint> special;
+  std::vector<std::pair<int, int>> contacts;  // (special) mesh and pair
   std::vector<BranchPlace> folds;
   Index i = 0;
   for (const auto& s : segments) {
@@ -57,6 +59,7 @@ void fill_branch(const std::vector<BranchSegment<State>>& segments, const std::v
       a.floquet_multiplier.push_back(rows);
       ++i;
     }
+    contacts.insert(contacts.end(), s.special_place.begin(), s.special_place.end());
     for (const SpecialPoint& p : s.branch.special) {
       special.push_back(p);
       if (p.kind != Special::fold) continue;
@@ -84,15 +87,15 @@ void fill_branch(const std::vector<BranchSegment<State>>& segments, const std::v
   a.grazing_phase.resize(a.grazing_frequency.size());
   a.grazing_closes.resize(a.grazing_frequency.size());
   Index turn = 0, graze = 0;
-  for (const SpecialPoint& p : special)
-    if (p.kind == Special::fold) {
+  for (size_t k = 0; k < special.size(); ++k)
+    if (const SpecialPoint& p = special[k]; p.kind == Special::fold) {
       fold(turn, folds[static_cast<size_t>(turn)]);
       a.fold_smooth[turn] = p.smooth;
       a.fold_multiplier.row(turn++) << p.before.real(), p.after.real();
     } else if (p.kind == Special::grazing) {
       a.grazing_phase[graze] = p.event.phase - std::floor(p.event.phase);  // of the mesh period
-      a.grazing_closes[graze] = p.event.closes;
-      grazing(graze++, p.event.contact);
+      a.grazing_closes[graze++] = p.event.closes;
+      grazing(contacts[k].first, contacts[k].second);
     }
 }
 

@@ -61,7 +61,7 @@ BranchResult pair_branch(const ReducedBody& driver, const ReducedBody& driven, c
   fill_branch(
       segments, follower.mismatch(), point,
       [&](Eigen::Index, const BranchPlace& place) { fold_rms.push_back(place.of(a.dte_rms)[0]); },
-      [&](Eigen::Index, int pair) { grazing_pair.push_back(pair); }, a);
+      [&](int, int pair) { grazing_pair.push_back(pair); }, a);
   a.fold_rms = Eigen::Map<const VectorXd>(fold_rms.data(), static_cast<Eigen::Index>(fold_rms.size()));
   a.grazing_pair =
       Eigen::Map<const Eigen::VectorXi>(grazing_pair.data(), static_cast<Eigen::Index>(grazing_pair.size()));

@@ -53,16 +53,16 @@ SystemBranchResult system_branch(const SystemSweepParameters& settings,
     }
     a.bearing_force_rms.row(i) = p.peaks.tail(p.peaks.size() - at).transpose();
   };
-  std::vector<int> slots;
+  std::vector<int> mesh, pair;
   fill_branch(
       segments, follower.mismatch(), point, [](Index, const BranchPlace&) {},
-      [&](Index, int slot) { slots.push_back(slot); }, a);
-  const SystemDynamics& dynamics = rig.train().dynamics();
-  for (Eigen::VectorXi* x : {&a.grazing_mesh, &a.grazing_pair}) x->resize(static_cast<Index>(slots.size()));
-  for (size_t k = 0; k < slots.size(); ++k) {
-    a.grazing_mesh[static_cast<Index>(k)] = slots[k] / dynamics.tooth_pairs() + 1;
-    a.grazing_pair[static_cast<Index>(k)] = slots[k] % dynamics.tooth_pairs() + dynamics.first_pair();
-  }
+      [&](int of_mesh, int of_pair) {
+        mesh.push_back(of_mesh);
+        pair.push_back(of_pair);
+      },
+      a);
+  a.grazing_mesh = Eigen::Map<const Eigen::VectorXi>(mesh.data(), static_cast<Index>(mesh.size()));
+  a.grazing_pair = Eigen::Map<const Eigen::VectorXi>(pair.data(), static_cast<Index>(pair.size()));
   return a;
 }
 

@@ -1,9 +1,7 @@
 // The branch of periodic orbits of a system of elastic gears over the mesh frequencies of a scene, stable or not.
 //
-// It begins with the orbit into which the system settles at the highest speed and is followed towards lower ones, round its folds,
-// until it leaves the speeds of the scene or ends: pseudo-arclength continuation (orbits/branch.h) of the period map of
-// dynamics/system_period_map.h. Steps per period change with the speed, as in a sweep: there the orbit is found anew with the other
-// number of steps, and its change is measured. Where an orbit needs tip edges that are farther off, it is computed again with those.
+// As that of a pair (studies/pair_branch.h), of the period map of dynamics/system_period_map.h. Where an orbit needs tip edges that are
+// farther off, it is computed again with those.
 #pragma once
 #include <functional>
 #include <string>

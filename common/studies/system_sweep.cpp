@@ -58,10 +58,12 @@ class SystemSweeper {
   }
 
   // Where the RMS steps along the sweep, of teeth that are alike: the branch is followed there with smaller steps.
-  std::vector<BranchJump> jumps(double width) {
+  std::vector<BranchJump> jumps(double width, const std::function<void(const std::string&)>& report) {
     std::vector<BranchJump> out;
     for (size_t i = 1; hunting_periods() == 1 && i < motions_.size(); ++i)
       if (may_break(motions_, i)) {
+        report(text("what lies between ", motions_[i - 1].mesh_frequency, " and ", motions_[i].mesh_frequency,
+                    " Hz"));
         const auto follower = [&] {
           BranchContinuation follow = continuation(i);
           follow.finest = width;
@@ -106,11 +108,25 @@ class SystemSweeper {
     return follower;
   }
 
-  // From where the orbits that are known lead; their RMS as that of the rows.
+  // From where the orbits that are known lead, or from the last of them; the RMS as that of the rows. A motion that fails is none of
+  // the branch.
   BranchMotion run_on(double frequency) {
+    const bool leads = settings_.time.steady_state == SteadyState::extrapolate;
+    for (const bool predicts : {true, false}) {
+      if (predicts && !leads) continue;
+      try {
+        return run_from(frequency, predicts);
+      } catch (const Error& error) {
+        if (error.kind() != Failure::numerical) throw;
+      }
+    }
+    state_ = known_.back().state;
+    return {frequency, 0, 0};
+  }
+  BranchMotion run_from(double frequency, bool predicts) {
     const int steps = steps_at(settings_.time, frequency);
     for (;;) {
-      state_ = rig_.predicted(known_, frequency, steps);
+      state_ = predicts ? rig_.predicted(known_, frequency, steps) : known_.back().state;
       if (const auto settled = rig_.settle(state_, frequency, steps, settings_.time.steady_state)) {
         TrainStatistics statistics(settings_, rig_.train().system().mesh.size(),
                                    settings_.layout.bodies.size());
@@ -130,7 +146,8 @@ class SystemSweeper {
     const int periods = hunting * (motion.multiple > 0 ? motion.multiple
                                    : hunting > 1       ? 1
                                                        : Recurrence<VectorXd>::kMostMultiple);
-    TrainStatistics recorded(out.settings, rig_.train().system().mesh.size(), settings_.layout.bodies.size());
+    TrainStatistics recorded(out.settings, rig_.train().system().mesh.size(), settings_.layout.bodies.size(),
+                             true);
     SystemEnergyBalance energy;
     double imbalance = 0;
     SystemDynamics::Period period;
@@ -291,7 +308,8 @@ SystemSweepResult system_sweep(const SystemSweepParameters& settings, const std:
     const std::string note = sweeper.run(speeds[static_cast<size_t>(i)], i, out);
     report(i + 1, n, text(speeds[static_cast<size_t>(i)], " Hz", note.empty() ? "" : ", ", note));
   }
-  store_jumps(sweeper.jumps(jump_width), out.jump_frequency, out.jump_width);
+  store_jumps(sweeper.jumps(jump_width, [&](const std::string& words) { report(n, n, words); }),
+              out.jump_frequency, out.jump_width);
   out.remarks = left_out_of_carriers(out);
   return out;
 }

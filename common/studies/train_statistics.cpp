@@ -12,8 +12,9 @@ namespace whine {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-TrainStatistics::TrainStatistics(const SystemStaticParameters& settings, size_t meshes, size_t bodies)
-    : settings_(settings), force_sum_(2, static_cast<Index>(bodies)) {
+TrainStatistics::TrainStatistics(const SystemStaticParameters& settings, size_t meshes, size_t bodies,
+                                 bool orders)
+    : settings_(settings), orders_(orders), force_sum_(2, static_cast<Index>(bodies)) {
   sum_.resize(static_cast<Index>(meshes));
   clear();
 }
@@ -32,17 +33,17 @@ void TrainStatistics::take(const SystemDynamics::Period& period) {
   const Index steps = period.mesh_force.cols();
   count_ += static_cast<double>(steps);
   if (periods_++ == 0) fourier_.setZero(resolved_harmonics(steps, kResponseHarmonics), sum_.size());
-  for (Index m = 0; m < sum_.size(); ++m)
+  for (Index m = 0; orders_ && m < sum_.size(); ++m)
     fourier_.col(m) +=
         fourier_coefficients(period.transmission_error.row(m).transpose(), static_cast<int>(fourier_.rows()))
             .tail(fourier_.rows());
   for (Index i = 0; i < steps; ++i) {
-    std::vector<double> carried(settings_.mesh.size(), 0.0);
+    carried_.assign(settings_.mesh.size(), 0.0);
     for (Index m = 0; m < sum_.size(); ++m)
-      carried[static_cast<size_t>(settings_.section[static_cast<size_t>(m)])] += period.mesh_force(m, i);
+      carried_[static_cast<size_t>(settings_.section[static_cast<size_t>(m)])] += period.mesh_force(m, i);
     for (Index m = 0; m < sum_.size(); ++m) {
       const double error = period.transmission_error(m, i), force = period.mesh_force(m, i),
-                   all = carried[static_cast<size_t>(settings_.section[static_cast<size_t>(m)])];
+                   all = carried_[static_cast<size_t>(settings_.section[static_cast<size_t>(m)])];
       sum_[m] += error;
       squares_[m] += error * error;
       most_[m] = std::max(most_[m], force);

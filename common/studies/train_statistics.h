@@ -1,6 +1,7 @@
 // What a motion of a train shows over its periods: of each mesh and each bearing.
 #pragma once
 #include <Eigen/Core>
+#include <vector>
 
 #include "dynamics/system_dynamics.h"
 #include "model/system_stages.h"
@@ -9,8 +10,8 @@ namespace whine {
 
 class TrainStatistics {
  public:
-  // settings: lives as long as this.
-  TrainStatistics(const SystemStaticParameters& settings, size_t meshes, size_t bodies);
+  // settings: lives as long as this. orders: whether dte_harmonic() is asked for.
+  TrainStatistics(const SystemStaticParameters& settings, size_t meshes, size_t bodies, bool orders = false);
   void clear();
   void take(const SystemDynamics::Period& period);
   // Over all steps of the periods taken. (mesh)
@@ -28,6 +29,8 @@ class TrainStatistics {
 
  private:
   const SystemStaticParameters& settings_;
+  bool orders_;
+  std::vector<double> carried_;  // [[[mesh]]] N: of all its meshes
   Eigen::VectorXd sum_, squares_, most_, tooth_, share_, parted_;
   Eigen::MatrixXd force_sum_;
   Eigen::VectorXd force_squares_, force_most_;

@@ -9,8 +9,8 @@ set border 3 lw 1.6
 set tics out nomirror
 set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 
-# blue, vermilion, green, purple, orange, grey: told apart by all eyes, and in print
-# of curves: blue, vermilion, green, purple, orange, dark; beside them black, grey, pale blue, shade, two more greys
+# of curves, told apart by all eyes and in print: blue, vermilion, green, purple, orange, dark; beside them black, grey, pale blue, shade,
+# two more greys
 array colour[12] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#444444", "#000000", "#9a9a9a", "#7f9fbf", "#f3d9a8", "#707070", "#d0d0d0"]
 
 # the step of numbers of an axis: 1, 2 or 5 times a power of ten and not below x > 0

@@ -487,7 +487,7 @@ void body(int argc, char** argv) {
   figure.blocks.push_back(together);
   add_work_precision_panels(choices.size(), kFollowStep / kFineness, figure);
 
-  const std::string recipe = plots + "/work-precision.gp";
+  const std::string recipe = template_of(figure, plots, "work-precision");
   const PlotFile data(figure);
   std::vector<FileBytes> files = table_files(
       figure, output,

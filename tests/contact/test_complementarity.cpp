@@ -416,13 +416,13 @@ TEST_CASE("complementarity: what has no solution is rejected with its numbers") 
   for (double coupling : {2.0, -2.0})
     for (const std::vector<int>& start : {std::vector<int>{}, {0, 1}})
       CHECK(names(says(MatrixXd{{1, coupling}, {coupling, 1}}, VectorXd{{-1, -1}}, start),
-                  {"positive definite"}));
+                  {"not positive definite"}));
   // With coupling 2, forces (1, 0), (0, 1) and (1/3, 1/3) all meet the signs. Here forces (1, 1, 0) do, and the strip
   // that makes A indefinite stays open.
   for (double gap : {0.5, 100.0})
     CHECK(names(says(MatrixXd{{1, 0, 0}, {0, 1, 2}, {0, 2, 1}}, VectorXd{{-1, -1, gap}}),
-                {"positive definite"}));
-  CHECK(names(says(MatrixXd{{0.0}}, VectorXd{{-1.0}}), {"positive definite"}));
+                {"not positive definite"}));
+  CHECK(names(says(MatrixXd{{0.0}}, VectorXd{{-1.0}}), {"not positive definite"}));
   // Singular, and no force closes both gaps: d1 + d2 = -2 whatever p is.
   CHECK(says(MatrixXd{{1, -1}, {-1, 1}}, VectorXd{{-1, -1}}) != "");
   CHECK(names(says(MatrixXd::Identity(2, 2), VectorXd{{-1, std::nan("")}}), {"finite"}));

@@ -208,7 +208,7 @@ TEST_CASE(
   CHECK(figure.panels[0].y.from == -10);
   Figure small = order_figure(both_ways());
   apply({"", 2e-9}, small);
-  CHECK(word(small, "level_label") == "dB re 2 nm RMS");
+  CHECK(small.panels[0].y.label.ends_with("(dB re 2 nm RMS)"));
   CHECK(block(small, "orders up").rows[0][1] == relative(20 * std::log10(500) - half, 1e-12));
   // An RMS stays one: of a motion that is a cosine it has the level of its first order.
   ResponseResult up = some_response(Direction::up), down = some_response(Direction::down);
