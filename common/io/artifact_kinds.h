@@ -31,7 +31,7 @@ template <class A>
 struct ArtifactKind {
   using Artifact = A;
   const char* name;  // "static" for the schema "whine/static"
-  int version;       // raised whenever a dataset changes its name, shape or meaning
+  int version;       // raised whenever a dataset is new or changes its name, shape or meaning
   const char* file;  // how the list of datasets calls its files
   const char*
       stems;  // names of its files in out/<scene>/ without .h5, blank between; "runup_*" for all that begin so

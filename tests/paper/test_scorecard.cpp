@@ -437,16 +437,16 @@ TEST_CASE("scorecard: artifacts that are missing, foreign or given twice are rej
   };
   std::vector<std::string> fewer = paths;
   fewer.erase(std::find(fewer.begin(), fewer.end(), "out/x/T200/impact.h5"));
-  CHECK(names(said(fewer), {"T200/impact.h5", "'x'", "make out/x/T200/impact.h5"}));
+  CHECK(names(said(fewer), {"T200/impact.h5 of x", "make out/x/T200/impact.h5"}));
   std::vector<std::string> more = paths;
   more.push_back("out/x/T120/static.h5");
   CHECK(names(said(more), {"out/x/T120/static.h5:", "claim"}));
   std::vector<std::string> apart;
   for (const std::string& f : files)
     if (f != "T200/impact.h5") apart.push_back("results/x/" + f);
-  CHECK(names(said(apart), {"T200/impact.h5", "'x'", "results/x/T200/impact.h5"}));
+  CHECK(names(said(apart), {"T200/impact.h5 of x", "results/x/T200/impact.h5"}));
   more.back() = "elsewhere/x/T200/impact.h5";
-  CHECK(names(said(more), {"elsewhere/x/T200/impact.h5:", "T200/impact.h5", "'x'", "twice"}));
+  CHECK(names(said(more), {"elsewhere/x/T200/impact.h5:", "T200/impact.h5 of x", "twice"}));
   // what a claim asks for and memory does not hold
   const SceneResults nothing{"y", {}, {}, {}, {}};
   CHECK(names(message_of([&] { claim("table1-one-300").find(nothing); }), {"T300/impact.h5", "y"}));
