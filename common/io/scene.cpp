@@ -40,12 +40,14 @@ std::vector<SectionReader> named_sections(const Source& source, const std::strin
     return a.second->source().begin.line < b.second->source().begin.line;
   });
   std::vector<SectionReader> out;
+  out.reserve(found.size());
   for (const auto& [name, table] : found) out.emplace_back(source, *table, group, group + "." + name, name);
   return out;
 }
 
 std::vector<std::string> names_of(const std::vector<SectionReader>& sections) {
   std::vector<std::string> names;
+  names.reserve(sections.size());
   for (const SectionReader& section : sections) names.push_back(section.name());
   return names;
 }
@@ -328,6 +330,7 @@ void read_bearings(const Source& source, const std::vector<std::pair<std::string
     const SectionReader reader(source, *table, "bearing", "bearing");
     reader.read_all(bearing_gear_key(name).append(keys(bearing)));
     std::vector<std::string> names;
+    names.reserve(of.size());
     for (const auto& [own, held] : of) names.push_back(own);
     const auto at = static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin());
     if (at == names.size())
