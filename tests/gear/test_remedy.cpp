@@ -258,6 +258,7 @@ TEST_CASE("what the drawing says of pressure that reaches the root is what stati
   for (SceneGear* own : {&pinion, &wheel}) {
     own->design.module = 1e-3;
     own->design.face_width = 10e-3;
+    own->design.bore_radius = 0.25 * own->design.module * own->design.teeth;
   }
   wheel.material = {2.8e9, 0.37, 1410, true};
   settings.mesh.centre_distance = 42.5e-3;
