@@ -66,12 +66,13 @@ stage_system=("$bin/gear-system-static" --params out/scene-inline/params/system_
   --body idler=out/scene-inline/idler/body.h5 --body wheel=out/scene-inline/wheel/body.h5 --output out/scene-inline/system_static.h5)
 stage_system_sweep=("$bin/gear-system-sweep" --params out/scene-inline/params/system_sweep.toml --body pinion=out/scene-inline/pinion/body.h5
   --body idler=out/scene-inline/idler/body.h5 --body wheel=out/scene-inline/wheel/body.h5 --direction up --output out/scene-inline/up/system_sweep.h5)
-stage_system_sweep_plot=("$bin/gear-plot" system-sweep --plots "$plots" --output system-sweep out/scene-inline/up/system_sweep.h5)
+stage_system_response=("$bin/gear-spectra" --input out/scene-inline/up/system_sweep.h5 --output out/scene-inline/up/response.h5)
+stage_system_sweep_plot=("$bin/gear-plot" system-sweep --plots "$plots" --output system-sweep out/scene-inline/up/response.h5)
 inline_bodies_given=(--body pinion=out/scene-inline/pinion/body.h5 --body idler=out/scene-inline/idler/body.h5 --body wheel=out/scene-inline/wheel/body.h5)
 stage_system_impact=("$bin/gear-system-impact" --params out/scene-inline/params/system_sweep.toml "${inline_bodies_given[@]}" --modes 3 --phases 2 --output out/scene-inline/system_impact.h5)
 stage_system_orbit=("$bin/gear-system-orbit" --params out/scene-inline/params/system_sweep.toml "${inline_bodies_given[@]}" --output out/scene-inline/system_branch.h5)
 stage_ringdown_plot=("$bin/gear-plot" system-ringdown --plots "$plots" --output system-ringdown out/scene-inline/system_impact.h5)
-stage_system_branch_plot=("$bin/gear-plot" system-branch --plots "$plots" --output system-branch out/scene-inline/system_branch.h5 out/scene-inline/up/system_sweep.h5)
+stage_system_branch_plot=("$bin/gear-plot" system-branch --plots "$plots" --output system-branch out/scene-inline/system_branch.h5 out/scene-inline/up/response.h5)
 stage_elastic_modes=("$bin/gear-modes" --static out/scene-inline/system_static.h5 --output out/scene-inline/modes.h5)
 stage_system_plot=("$bin/gear-plot" system-static --plots "$plots" --output system out/scene-inline/system_static.h5)
 stage_picture=("$bin/gear-plot" system --plots "$plots" --output system-picture out/scene-inline/system_static.h5)
@@ -88,8 +89,8 @@ chain() {
   "${stage_scene[@]}" && mkdir -p out/scene/T100/up out/scene/T100/down && "${stage_mesh[@]}" && "${stage_reduce[@]}" &&
     $(static scene 100) && "${stage_impact[@]}" && "${stage_orbit[@]}" && "${stage_folds[@]}" && "${stage_runup[@]}" && $(sweep scene up) && $(sweep scene down) && $(lumped pairs) && "${stage_spectra[@]}" && "${stage_map[@]}" && "${stage_loaded[@]}" && "${stage_plot[@]}" &&
     "${stage_train[@]}" && "${stage_modes[@]}" && "${stage_modes_plot[@]}" &&
-    "${stage_inline[@]}" && inline_bodies && "${stage_system[@]}" && mkdir -p out/scene-inline/up && "${stage_system_sweep[@]}" && "${stage_system_sweep_plot[@]}" && "${stage_system_impact[@]}" && "${stage_system_orbit[@]}" && "${stage_ringdown_plot[@]}" && "${stage_system_branch_plot[@]}" && "${stage_elastic_modes[@]}" && "${stage_system_plot[@]}" && "${stage_campbell[@]}" &&
-    "${stage_picture[@]}" && "${stage_rigid_picture[@]}" && "$bin/gear-report" --output system-page/index.html out/scene-inline/system_static.h5 out/scene-inline/modes.h5 out/scene-inline/up/system_sweep.h5 system-sweep.png
+    "${stage_inline[@]}" && inline_bodies && "${stage_system[@]}" && mkdir -p out/scene-inline/up && "${stage_system_sweep[@]}" && "${stage_system_response[@]}" && "${stage_system_sweep_plot[@]}" && "${stage_system_impact[@]}" && "${stage_system_orbit[@]}" && "${stage_ringdown_plot[@]}" && "${stage_system_branch_plot[@]}" && "${stage_elastic_modes[@]}" && "${stage_system_plot[@]}" && "${stage_campbell[@]}" &&
+    "${stage_picture[@]}" && "${stage_rigid_picture[@]}" && "$bin/gear-report" --output system-page/index.html out/scene-inline/system_static.h5 out/scene-inline/modes.h5 out/scene-inline/up/response.h5 system-sweep.png
 }
 if chain > log 2>&1; then ok "a coarse scene runs from end to end"; else
   wrong "a coarse scene runs from end to end" "$(tail -n 1 log)"
@@ -244,8 +245,8 @@ rejected "decibels re nothing" 2 '--db 0' "$bin/gear-plot" waterfall --plots "$p
 rejected "a speed of no gear" 2 'carrier pinion wheel' "$bin/gear-plot" waterfall --plots "$plots" --axis rpm:carrier --output cuts out/scene/T100/up/sweep.h5 out/scene/T100/down/sweep.h5
 rejected "the report of a system without its modes" 3 'modes.h5' "$bin/gear-report" out/scene-inline/system_static.h5 --output x.html
 rejected "two modes.h5 in the report of a system" 2 'whine/modes second' "$bin/gear-report" out/scene-inline/modes.h5 out/scene-inline/../scene-inline/modes.h5 --output x.html
-rejected "a sweep of a system without its statics in a report" 3 'system_static.h5' "$bin/gear-report" out/scene-inline/modes.h5 out/scene-inline/up/system_sweep.h5 --output x.html
-rejected "two sweeps of a system in one direction in a report" 3 "two up" "$bin/gear-report" out/scene-inline/system_static.h5 out/scene-inline/modes.h5 out/scene-inline/up/system_sweep.h5 out/scene-inline/../scene-inline/up/system_sweep.h5 --output x.html
+rejected "a sweep of a system without its statics in a report" 3 'system_static.h5' "$bin/gear-report" out/scene-inline/modes.h5 out/scene-inline/up/response.h5 --output x.html
+rejected "two sweeps of a system in one direction in a report" 3 "two up" "$bin/gear-report" out/scene-inline/system_static.h5 out/scene-inline/modes.h5 out/scene-inline/up/response.h5 out/scene-inline/../scene-inline/up/response.h5 --output x.html
 rejected "artifacts of a pair in the report of a system" 3 'out/scene/T100/static.h5 scene' "$bin/gear-report" out/scene-inline/modes.h5 out/scene/T100/static.h5 --output x.html
 rejected "artifacts of two systems in a report" 3 'scene-train scene-inline' "$bin/gear-report" out/scene-inline/system_static.h5 out/scene-train/modes.h5 --output x.html
 rejected "load sharing of a system without planets" 3 'planets' "$bin/gear-plot" system-load-sharing --plots "$plots" out/scene-inline/system_static.h5 --output x

@@ -18,8 +18,8 @@
 #include "io/artifacts.h"
 #include "io/codec.h"
 
-// Whether a file has what a codec calls optional; usual: all but what excludes other parts, which are lumped models, rims and
-// variants outside the model's range.
+// Whether a file has what a codec calls optional; usual: all but what excludes other parts, which are lumped models, rims, trains in
+// response.h5 and variants outside the model's range.
 enum class Optional { none, all, usual };
 
 using AnyBlock = std::variant<whine::Block<double>, whine::Block<int>, whine::Block<std::string>>;
@@ -47,6 +47,7 @@ inline const std::map<std::string, AnyBlock>& given_values() {
       {"/hunting_periods", Block<int>{{3}, {}}},
       {"/mesh_phase", Block<double>{{1.0 / 7, 1.0 / 3, 2.0 / 3}, {3}}},
       {"/body/is_carrier", Block<int>{{0}, {1}}},
+      {"/layout/body/is_carrier", Block<int>{{0}, {1}}},
       // Sectors of two elements whose edges meet their images.
       {"/parameters/gear/teeth", Block<int>{{6}, {}}},
       {"/sector/node_position", node},
@@ -71,7 +72,8 @@ class Filling : public whine::ArtifactReader {
     for (const char* pair :
          {"/parameters/friction/", "/parameters/driver_", "/parameters/driven_", "/parameters/modification_"})
       if (train && name.starts_with(pair)) return false;
-    const bool excludes = name == "/parameters/fidelity/model" || name.find("_rim/") != std::string::npos;
+    const bool excludes = name == "/parameters/fidelity/model" || name == "/layout/body/name" ||
+                          name.find("_rim/") != std::string::npos;
     return optional_ == Optional::all || (optional_ == Optional::usual && !excludes);
   }
 

@@ -347,9 +347,9 @@ sed -i 's/^stiffness_N_um = 500.0/stiffness_N_um = 400.0/' train.toml; plans "st
 plans "a system of elastic gears: three bodies, its statics, its modes" "gear-mesh*3 gear-modes*1 gear-plot*3 gear-reduce*3 gear-system-static*1" SCENE=data/scenes/three-in-line.toml system-static modes
 cp data/scenes/three-in-line.toml inline.toml; make_ SCENE=inline.toml system-static modes; sed -i 's/^torque_Nm = 60.0/torque_Nm = 50.0/' inline.toml
 plans "another torque needs no body of a system" "gear-modes*1 gear-plot*3 gear-system-static*1" SCENE=inline.toml system-static modes
-plans "its motion: a sweep each way" "gear-plot*1 gear-system-sweep*2" SCENE=inline.toml system-sweep
-plans "the report of a system: its picture, its sweeps, the page" "gear-modes*1 gear-plot*6 gear-report*1 gear-system-static*1 gear-system-sweep*2" SCENE=inline.toml report
-grep -q 'gear-report.* out/inline/up/system_sweep.h5 out/inline/down/system_sweep.h5 .*out/inline/report/system-sweep.png' "$log" && ok "the page of a system has its sweeps" || wrong "the page of a system has its sweeps" "$(grep gear-report "$log" | tail -n 1)"
+plans "its motion: a sweep each way" "gear-plot*1 gear-spectra*2 gear-system-sweep*2" SCENE=inline.toml system-sweep
+plans "the report of a system: its picture, its sweeps, the page" "gear-modes*1 gear-plot*6 gear-report*1 gear-spectra*2 gear-system-static*1 gear-system-sweep*2" SCENE=inline.toml report
+grep -q 'gear-report.* out/inline/up/response.h5 out/inline/down/response.h5 .*out/inline/report/system-sweep.png' "$log" && ok "the page of a system has its sweeps" || wrong "the page of a system has its sweeps" "$(grep gear-report "$log" | tail -n 1)"
 make_ SCENE=inline.toml report; plans "and it is up to date then" "" SCENE=inline.toml report mode-shapes system-sweep
 grep -q 'open out/inline/modes.hdf in ParaView' <(make_ SCENE=inline.toml mode-shapes; cat "$log") && ok "mode shapes for ParaView stand beside the modes" || wrong "mode shapes for ParaView stand beside the modes" "$(tail -n 1 "$log")"
 refuses "load sharing needs planets" 'load-sharing SCENE=inline.toml planets make report' SCENE=inline.toml load-sharing

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "one_mesh.h"
 #include "own_folder.h"
 #include "paper_pair.h"
 #include "picture_text.h"
@@ -137,26 +138,28 @@ inline ResponseResult response_at(double torque, Direction direction, double eta
   r.natural_frequency = 5432.1;
   r.mesh_frequency = VectorXd::LinSpaced(n, 1000, 9000);
   if (direction == Direction::down) r.mesh_frequency.reverseInPlace();
-  r.dte_rms.resize(n);
+  r.dte_rms.resize(n, 1);
   for (int i = 0; i < n; ++i) {
     double rms = 1e-6;
     for (const double f : {1.0, 0.5, 1 / 3.0})
       rms += f * 1e-8 * torque / (0.02 + std::pow((r.mesh_frequency[i] - f * r.natural_frequency) / 1e3, 2));
-    r.dte_rms[i] = rms;
+    r.dte_rms(i, 0) = rms;
   }
   r.backlash_left = 30e-6 - r.dte_rms.array();  // rings where motions go beyond the backlash
   r.dte_mean = r.dte_rms * 2;
-  r.dte_harmonic.resize(n, 10);
-  for (int h = 0; h < 10; ++h) r.dte_harmonic.col(h) = r.dte_rms * std::pow(0.4, h);
+  MatrixRM harmonic(n, 10);
+  for (int h = 0; h < 10; ++h) harmonic.col(h) = r.dte_rms * std::pow(0.4, h);
+  r.dte_harmonic = of_one_mesh(harmonic);
   r.separation_fraction = (r.dte_rms.array() > 20e-6).cast<double>() * 0.3;
   r.separations_per_period = (r.separation_fraction.array() > 0).cast<double>();
   r.period_multiple = Eigen::VectorXi::Ones(n);
-  const VectorXd force = torque / 0.07 * (1 + 1e3 * r.dte_rms.array());
+  const VectorXd force = torque / 0.07 * (1 + 1e3 * r.dte_rms.col(0).array());
   r.tooth_load_max = r.mesh_force_max = r.tooth_load_sustained = r.mesh_force_sustained = force;
-  r.root_stress_max = r.root_stress_sustained = {5e3 * force, 6e3 * force};
-  r.root_stress_angle = r.root_stress_phase = {VectorXd::Constant(n, 0.5), VectorXd::Constant(n, 0.5)};
-  r.bearing_force_max = {force, force};
-  r.bearing_force_rms = {0.1 * force, 0.1 * force};
+  r.root_stress_max = force * Eigen::RowVector2d(5e3, 6e3);
+  r.root_stress_sustained = r.root_stress_max;
+  r.root_stress_angle = r.root_stress_phase = MatrixRM::Constant(n, 2, 0.5);
+  r.bearing_force_max = force * Eigen::RowVector2d(1, 1);
+  r.bearing_force_rms = 0.1 * r.bearing_force_max;
   r.loss_factor = VectorXd::Constant(n, 0.11);
   r.friction.coefficient = VectorXd::Constant(n, 0.05);
   r.friction.power = force;
@@ -167,7 +170,7 @@ inline ResponseResult response_at(double torque, Direction direction, double eta
   r.flank_pressure = 5e6 * force.cwiseSqrt() * Eigen::RowVectorXd::Ones(41);
   r.edge_load_there = MatrixRM::Zero(n, 41);
   r.flank_pressure_sustained = 5e6 * force.cwiseSqrt();
-  r.edge_load = {0.1 * force, 0.2 * force};
+  r.edge_load = force * Eigen::RowVector2d(0.1, 0.2);
   r.jump_frequency =
       direction == Direction::up ? Eigen::Vector3d(2050, 3050, 5750) : Eigen::Vector3d(1950, 2850, 4950);
   r.jump_width = Eigen::Vector3d::Ones();

@@ -2,9 +2,11 @@
 #pragma once
 #include <Eigen/Core>
 
+#include "gear/layout.h"
 #include "gear/system_layout.h"
 #include "io/system_scene.h"
 #include "planetary_train.h"
+#include "results/response.h"
 #include "results/system_static.h"
 #include "results/system_sweep.h"
 #include "studies/turning_carrier.h"
@@ -68,15 +70,13 @@ inline whine::SystemSweepResult small_sweep(const whine::SystemStaticResult& res
   a.axis_frequency = 1e4 / 3;
   a.mesh_frequency = Eigen::Vector2d(2000, 1000);
   double value = 1.0 / 3;
-  for (MatrixRM* x : {&a.dte_rms, &a.dte_mean, &a.load_share_max, &a.separation_fraction, &a.mesh_force_max,
-                      &a.tooth_force_max, &a.rolling})
-    *x = MatrixRM::Constant(2, meshes, value *= 0.9);
-  for (MatrixRM* x : {&a.bearing_force_max, &a.bearing_force_rms, &a.bearing_damping, &a.holding_torque})
+  a.rolling = MatrixRM::Constant(2, meshes, value *= 0.9);
+  for (MatrixRM* x : {&a.bearing_damping, &a.holding_torque})
     *x = MatrixRM::Constant(2, bodies, value *= 0.9);
-  a.dte_harmonic.assign(2, MatrixRM::Constant(5, meshes, 1e-7 / 3));
   a.transmission_error.assign(2, MatrixRM::Constant(4, meshes, 1e-6 / 3));
   a.mesh_deflection.assign(2, MatrixRM::Constant(4, meshes, 1e-6 / 7));
   a.mesh_force.assign(2, MatrixRM::Constant(4, meshes, 1e3 / 3));
+  a.largest_tooth_load.assign(2, MatrixRM::Constant(4, meshes, 1e3 / 7));
   a.bearing_force.assign(static_cast<size_t>(bodies),
                          std::vector<MatrixRM>(2, MatrixRM::Constant(4, 2, 1e2 / 3)));
   a.periods = Eigen::Vector2i(20, 30);
@@ -87,4 +87,33 @@ inline whine::SystemSweepResult small_sweep(const whine::SystemStaticResult& res
   a.least_gap = -1e-15;
   a.remarks = left_out_of_carriers(a);
   return a;
+}
+
+// What such a sweep may say.
+inline whine::ResponseResult small_response(const whine::SystemStaticResult& rest,
+                                            whine::Direction direction) {
+  using namespace whine;
+  const SystemSweepResult sweep = small_sweep(rest, direction);
+  ResponseResult r;
+  r.train = sweep.settings;
+  r.drive = sweep.torque;
+  r.direction = direction;
+  r.mesh_frequency = sweep.mesh_frequency;
+  r.periods = sweep.periods;
+  r.period_multiple = sweep.period_multiple;
+  r.energy_imbalance = sweep.energy_imbalance;
+  r.remarks = sweep.remarks;
+  const System& layout = r.train.layout;
+  const auto bodies = static_cast<Eigen::Index>(layout.bodies.size()),
+             meshes = static_cast<Eigen::Index>(layout.meshes.size());
+  for (size_t m = 0; m < layout.meshes.size(); ++m) r.mesh_names.push_back(mesh_name(layout, m));
+  for (const System::Body& body : layout.bodies) r.body_names.push_back(body.name);
+  double value = 1.0 / 3;
+  for (MatrixRM* x : {&r.dte_rms, &r.dte_mean, &r.load_share_max, &r.separation_fraction, &r.mesh_force_max,
+                      &r.tooth_load_max, &r.separations_per_period})
+    *x = MatrixRM::Constant(2, meshes, value *= 0.9);
+  for (MatrixRM* x : {&r.bearing_force_max, &r.bearing_force_rms})
+    *x = MatrixRM::Constant(2, bodies, value *= 0.9);
+  r.dte_harmonic.assign(2, MatrixRM::Constant(5, meshes, 1e-7 / 3));
+  return r;
 }

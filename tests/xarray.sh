@@ -31,7 +31,7 @@ expected = {
     "loaded": ("/strip", "roll_angle", ("strip", "gear"), set()),
     "impact": ("/ring_down", "transmission_error", ("mesh_phase", "time"), {"mesh_phase", "time"}),
     "sweep": ("/", "tooth_load", ("mesh_frequency", "sample", "pair"), {"mesh_frequency", "pair"}),
-    "response": ("/", "dte_harmonic", ("mesh_frequency", "harmonic"), {"mesh_frequency", "harmonic"}),
+    "response": ("/", "dte_harmonic", ("mesh_frequency", "harmonic", "mesh"), {"mesh_frequency", "harmonic", "mesh"}),
     "branch": ("/", "floquet_multiplier", ("point", "multiplier", "part"), set()),
     "jump_map": ("/up", "dte_rms", ("case", "mesh_frequency"), set()),
     "harris_map": ("/", "peak_to_peak", ("relief_length", "torque", "relief"), {"relief_length", "torque", "relief"}),
@@ -59,4 +59,7 @@ for kind, (group, name, axes, coordinates) in expected.items():
 with xarray.open_dataset("response.h5", engine="h5netcdf") as data:
     first = data.dte_harmonic.sel(harmonic=1)
     check("a harmonic is chosen by its number", (first.values == data.dte_harmonic.values[:, 0]).all())
+    name = data.mesh.values[-1]
+    check("a mesh is chosen by its name", (data.dte_rms.sel(mesh=name).values == data.dte_rms.values[:, -1]).all())
+    check("bodies have names", data.bearing_force_max.dims == ("mesh_frequency", "body") and "body" in data.coords, str(data.coords))
 PYTHON

@@ -2,7 +2,7 @@
 //
 // Reads      static.h5 (their order is that of the torques), impact.h5 and response.h5 of one scene, error_budget.h5; figures that
 //            gear-plot has drawn, as .png; params/title.txt in the folder of the scene, if there is one
-//            of a system of several meshes: modes.h5 and, of elastic gears, system_static.h5 and system_sweep.h5
+//            of a system of several meshes: modes.h5 and, of elastic gears, system_static.h5 and response.h5
 // Writes     --output: the page; results.tsv beside it, the numbers of its first table; with --teeth the page alone
 // Equations  none
 // Example    gear-report --output report/index.html out/parker2000/T100/static.h5

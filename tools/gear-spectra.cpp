@@ -1,9 +1,9 @@
 // gear-spectra: what a speed sweep says, as numbers of a frequency response.
 //
-// Reads      sweep.h5       transmission error and tooth loads over the last mesh period(s) of each speed
-// Writes     response.h5    per speed: mean and RMS of the oscillating DTE, harmonics of the mesh frequency,
-//                           largest loads, root stress and flank pressure, separations; the sweep's jumps
-// Equations  x = r1 theta1 + r2 theta2; mean = <x>, rms^2 = <(x - mean)^2>,
+// Reads      sweep.h5, or system_sweep.h5 of a train: transmission error and loads over the last mesh period(s) of each speed
+// Writes     response.h5    per speed, of each mesh and body: mean and RMS of the oscillating DTE, harmonics of the mesh
+//                           frequency, largest loads, root stress and flank pressure, separations; the sweep's jumps
+// Equations  x: transmission error of a mesh; mean = <x>, rms^2 = <(x - mean)^2>,
 //            amplitude_k = 2 |<x exp(-2 pi i k f t)>|, over a whole number of periods
 #include <cstdio>
 
@@ -12,6 +12,7 @@
 #include "io/provenance.h"
 #include "results/response.h"
 #include "results/sweep.h"
+#include "results/system_sweep.h"
 #include "studies/sweep_response.h"
 
 namespace {
@@ -19,7 +20,7 @@ namespace {
 void body(int argc, char** argv) {
   whine::Options options{"Mean, RMS, harmonics, loads and separations of a speed sweep", "gear-spectra"};
   std::string input, output;
-  options.add("--input", input, "sweep.h5").required();
+  options.add("--input", input, "sweep.h5 or system_sweep.h5").required();
   options.add("--output", output, "response.h5 to write").required();
   options.footer(
       "Example:\n"
@@ -27,16 +28,19 @@ void body(int argc, char** argv) {
   options.parse(argc, argv);
 
   const whine::Provenance provenance = whine::made_by(argc, argv, {"sweep=" + input});
-  const auto sweep = whine::read<whine::SweepResult>(input);
-  const whine::ResponseResult result = whine::sweep_response(sweep);
+  const whine::ResponseResult result =
+      whine::read_origin(input).schema == "whine/system_sweep"
+          ? whine::sweep_response(whine::read<whine::SystemSweepResult>(input))
+          : whine::sweep_response(whine::read<whine::SweepResult>(input));
   whine::write(output, result, provenance);
 
-  Eigen::Index peak = 0;
-  const double rms = result.dte_rms.maxCoeff(&peak);
+  Eigen::Index peak = 0, mesh = 0;
+  const double rms = result.dte_rms.maxCoeff(&peak, &mesh);
   char peak_words[64];
   std::snprintf(peak_words, sizeof peak_words, "%.3f µm at %.0f Hz", rms * 1e6, result.mesh_frequency[peak]);
-  whine::log_line("gear-spectra: ", result.torque, " N m ", result.direction, ", ",
-                  result.mesh_frequency.size(), " speeds, largest RMS ", peak_words, ", ",
+  whine::log_line("gear-spectra: ", result.of_train() ? "" : whine::text(result.torque, " N m "),
+                  result.direction, ", ", result.mesh_frequency.size(), " speeds, largest RMS ", peak_words,
+                  result.of_train() ? " of " + result.mesh_names[static_cast<size_t>(mesh)] : "", ", ",
                   result.jump_frequency.size(),
                   result.jump_frequency.size() == 1 ? " jump -> " : " jumps -> ", output);
 }

@@ -47,7 +47,7 @@ inline constexpr std::tuple kArtifactKinds{
     ArtifactKind<LoadedResult>{"loaded", 1, "loaded_<phase>.h5", "loaded_*"},
     ArtifactKind<ImpactResult>{"impact", 1, "impact.h5", "impact"},
     ArtifactKind<SweepResult>{"sweep", 7, "sweep.h5", "sweep"},
-    ArtifactKind<ResponseResult>{"response", 8, "response.h5", "response"},
+    ArtifactKind<ResponseResult>{"response", 9, "response.h5", "response"},
     ArtifactKind<BranchResult>{"branch", 6, "branch.h5", "branch"},
     ArtifactKind<RunupResult>{"runup", 3, "runup_<rate>.h5", "runup_*"},
     ArtifactKind<FoldCurvesResult>{"fold_curves", 1, "fold_curves_*.h5", "fold_curves*"},
@@ -57,7 +57,7 @@ inline constexpr std::tuple kArtifactKinds{
     ArtifactKind<StudyResult>{"study", 3, "study.h5", ""},
     ArtifactKind<ModesResult>{"modes", 1, "modes.h5", "modes"},
     ArtifactKind<SystemStaticResult>{"system_static", 2, "system_static.h5", "system_static"},
-    ArtifactKind<SystemSweepResult>{"system_sweep", 3, "system_sweep.h5", "system_sweep"},
+    ArtifactKind<SystemSweepResult>{"system_sweep", 4, "system_sweep.h5", "system_sweep"},
     ArtifactKind<SystemImpactResult>{"system_impact", 1, "system_impact.h5", "system_impact"},
     ArtifactKind<SystemBranchResult>{"system_branch", 3, "system_branch.h5", "system_branch"},
     ArtifactKind<ReadingsResult>{"readings", 1, "readings.h5", ""}};

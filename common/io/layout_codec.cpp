@@ -32,7 +32,7 @@ void describe_column(Codec& c, const Dataset& d, std::vector<Item>& items, size_
 
 // Datasets /<list>/<key> of these keys of the items.
 template <class Item>
-void describe_columns(Codec& c, const std::string& list, std::vector<Item>& items,
+void describe_columns(Codec& c, const LayoutPlace& place, const std::string& list, std::vector<Item>& items,
                       std::initializer_list<const char*> names) {
   Item any;
   const KeyList all = keys(any);
@@ -41,7 +41,7 @@ void describe_columns(Codec& c, const std::string& list, std::vector<Item>& item
       const Key& key = all[k];
       if (!key.called(name)) continue;
       const std::string own = key.called("bearing_mass") ? "mass" : name;
-      const Dataset d{"/" + list + "/" + own, key.unit.si, key.meaning, list + "_number",
+      const Dataset d{place.group + "/" + list + "/" + own, key.unit.si, key.meaning, list + place.axis_end,
                       Range{key.limits.least, key.limits.most}};
       std::visit(Overloaded{[&](int) { describe_column<Eigen::VectorXi>(c, d, items, k); },
                             [&](double) { describe_column<Eigen::VectorXd>(c, d, items, k); },
@@ -64,7 +64,8 @@ void describe_two(Codec& c, const Dataset& d, std::vector<Item>& items, const Me
 }
 
 // Of drives what they hold.
-void describe_holds(Codec& c, System& s) {
+void describe_holds(Codec& c, const LayoutPlace& place, System& s) {
+  const std::string body = place.group + "/body/", axis = "body" + place.axis_end;
   Eigen::VectorXi held = Eigen::VectorXi::Zero(static_cast<Eigen::Index>(s.bodies.size()));
   Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(held.size());
   for (const System::Drive& drive : s.drives)
@@ -72,8 +73,8 @@ void describe_holds(Codec& c, System& s) {
       held[drive.body] = 1;
       stiffness[drive.body] = drive.stiffness;
     }
-  c(held, "/body/held", "1", kFlag, "body_number", "1: a drive holds the rotation");
-  c(stiffness, "/body/hold_stiffness", "N m-1", kStiff, "body_number",
+  c(held, body + "held", "1", kFlag, axis, "1: a drive holds the rotation");
+  c(stiffness, body + "hold_stiffness", "N m-1", kStiff, axis,
     "stiffness of what holds it, at the radius; 0: rigid");
   for (int b = 0; c.in() && b < held.size(); ++b)
     if (held[b]) s.drives.push_back({b, System::DriveKind::held, 0, stiffness[b]});
@@ -81,29 +82,38 @@ void describe_holds(Codec& c, System& s) {
 
 }  // namespace
 
-void describe_layout(Codec& c, System& s) {
+void describe_layout(Codec& c, System& s, const LayoutPlace& place) {
   if (c.in()) s = {};
-  describe_columns(c, "body", s.bodies, {"name", "is_carrier", "teeth", "sense", "stands_on"});
-  describe_two<MatrixRM>(c, {"/body/centre", "m", "place of the axis", "body_number xy", kPlace}, s.bodies,
-                         [](System::Body& body, size_t k) -> double& { return body.centre[k]; });
-  describe_columns(c, "body", s.bodies,
+  const std::string body = "body" + place.axis_end, mesh = "mesh" + place.axis_end;
+  describe_columns(c, place, "body", s.bodies, {"name", "is_carrier", "teeth", "sense", "stands_on"});
+  describe_two<MatrixRM>(c, {place.group + "/body/centre", "m", "place of the axis", body + " xy", kPlace},
+                         s.bodies, [](System::Body& body, size_t k) -> double& { return body.centre[k]; });
+  describe_columns(c, place, "body", s.bodies,
                    {"angle", "radius", "inertia", "bearing_mass", "bearing_stiffness", "bearing_damping"});
-  describe_holds(c, s);
+  describe_holds(c, place, s);
   describe_two<MatrixRMi>(c,
-                          {"/mesh/body_number",
+                          {place.group + "/mesh/body_number",
                            "1",
                            "numbers of the driving and the driven body",
-                           "mesh_number gear",
+                           mesh + " gear",
                            {0, 10000}},
                           s.meshes, [](System::Mesh& mesh, size_t k) -> int& { return mesh.side[k].body; });
-  describe_columns(c, "mesh", s.meshes,
+  describe_columns(c, place, "mesh", s.meshes,
                    {"ring_drives", "centre_distance", "direction", "phase", "pressure_angle", "stiffness"});
   if (!c.in()) return;
   if (const auto fault = layout_fault(s))
-    c.in()->reject(text("dataset /", fault->list, "/", fault->key, " holds ", fault->value, " of ",
-                        fault->list, " ", fault->number, fault->allowed));
+    c.in()->reject(text("dataset ", place.group, "/", fault->list, "/", fault->key, " holds ", fault->value,
+                        " of ", fault->list, " ", fault->number, fault->allowed));
   for (System::Mesh& mesh : s.meshes)
     for (System::Side& own : mesh.side) own.sense = s.bodies[static_cast<size_t>(own.body)].sense;
+}
+
+void describe_sections(Codec& c, std::vector<int>& section) {
+  constexpr Range kSection{0, 10000};
+  Eigen::VectorXi numbers =
+      Eigen::Map<const Eigen::VectorXi>(section.data(), static_cast<Eigen::Index>(section.size()));
+  c(numbers, "/mesh/section", "1", kSection, "mesh_number", "number of the [[mesh]] of the scene");
+  if (c.in()) section.assign(numbers.begin(), numbers.end());
 }
 
 void describe_errors(Codec& c, SystemStaticParameters& s) {

@@ -11,9 +11,17 @@ namespace whine {
 
 class Codec;
 
+// Where a layout stands in a file, and how its axes are called: body_number, mesh_number.
+struct LayoutPlace {
+  std::string group;                 // "" or "/layout"
+  std::string axis_end = "_number";  // "" where the file has the names as /body and /mesh
+};
+
 // /body/... and /mesh/...; of drives what is held. A reader rejects names, senses, teeth and places that no system has, and meshes
 // of what is not two gears. Flanks and tooth numbers of the sides are left out.
-void describe_layout(Codec& codec, System& layout);
+void describe_layout(Codec& codec, System& layout, const LayoutPlace& place = {});
+// (mesh) number of its [[mesh]], from 0.
+void describe_sections(Codec& codec, std::vector<int>& section);
 
 // [gear.<name>.error] of the bodies that have some, as parameters, and then the tooth numbers of the sides, by which each pair in
 // contact is one of two teeth.

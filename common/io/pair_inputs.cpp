@@ -49,4 +49,12 @@ PairInputs read_pair_inputs(const NamedFiles& files, const std::string& statics,
   return inputs;
 }
 
+ResponseResult read_pair_response(const std::string& path) {
+  ResponseResult out = read<ResponseResult>(path);
+  if (out.of_train())
+    fail(Failure::input, path, ": is of a train, ", out.mesh_names.size(),
+         " meshes; give the response.h5 of a pair of gears");
+  return out;
+}
+
 }  // namespace whine

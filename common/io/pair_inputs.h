@@ -1,10 +1,11 @@
-// What the programs of a pair read in the same way: the bodies of its gears, and its results at rest.
+// What the programs of a pair read in the same way: the bodies of its gears, its results at rest, and what its sweeps say.
 #pragma once
 #include <array>
 #include <string>
 
 #include "io/named_files.h"
 #include "results/reduced_body.h"
+#include "results/response.h"
 #include "results/static.h"
 
 namespace whine {
@@ -26,5 +27,8 @@ struct PairInputs {
 // target, unless both results at rest were made from these bodies with the contact and at the reference torque of `settings`.
 PairInputs read_pair_inputs(const NamedFiles& files, const std::string& statics, const std::string& reference,
                             ImpactParameters& settings);
+
+// Throws Error(input) for the response.h5 of a train.
+ResponseResult read_pair_response(const std::string& path);
 
 }  // namespace whine

@@ -2,19 +2,17 @@
 
 #include "base/error.h"
 #include "io/artifact_file.h"
+#include "io/keys.h"
+#include "io/system_motion_codec.h"
 
 namespace whine {
 namespace {
 
 using namespace ranges;
 
-void describe_bearings(Codec& c, ResponseResult& a, int g) {
-  if (!c.optional(of_body(c, a.mesh, g, "bearing_force_max"), a.bearing_force_max[g].size() > 0)) return;
-  c(a.bearing_force_max[g], of_body(c, a.mesh, g, "bearing_force_max"), "N", kForce, "mesh_frequency",
-    "largest force of the gear on its bearing");
-  c(a.bearing_force_rms[g], of_body(c, a.mesh, g, "bearing_force_rms"), "N", kForce, "mesh_frequency",
-    "RMS of the oscillating part of the force of the gear on its bearing, x and y together");
-}
+constexpr const char* kSpeeds = "mesh_frequency";
+constexpr const char* kOfMesh = "mesh_frequency mesh";
+constexpr const char* kOfBody = "mesh_frequency body";
 
 // Flank pressure and what tip edges carry.
 void describe_pressure(Codec& c, ResponseResult& a) {
@@ -27,72 +25,107 @@ void describe_pressure(Codec& c, ResponseResult& a) {
     "sqrt(F E* / (pi b R))");
   c(a.edge_load_there, "/edge_load_there", "N", kLoad, "mesh_frequency pair_phase",
     "largest load over the mesh periods that a pair holds at a place of the flanks over a tip edge; 0: it holds none, or inside its flanks: see flank_pressure");
-  c(a.flank_pressure_sustained, "/flank_pressure_sustained", "Pa", kPressure, "mesh_frequency",
+  c(a.flank_pressure_sustained, "/flank_pressure_sustained", "Pa", kPressure, kSpeeds,
     "largest pressure that a pair sustains inside its flanks for 1/64 of a mesh period; 0: no pair holds load there");
-  for (int g = 0; g < (c.lists() ? 1 : kSides); ++g)
-    c(a.edge_load[static_cast<size_t>(g)], of_body(c, a.mesh, g, "edge_load"), "N", kLoad, "mesh_frequency",
-      "largest load that a pair sustains over the tip edge of the gear for 1/64 of a mesh period; 0: no pair does");
+  c(a.edge_load, "/edge_load", "N", kLoad, kOfBody,
+    "largest load that a pair sustains over the tip edge of the gear for 1/64 of a mesh period; 0: no pair does");
+}
+
+// What it was computed from: /layout of a train, the parameters of two gears of a pair.
+void describe_source(Codec& c, ResponseResult& a) {
+  if (c.optional("/layout/body/name", a.of_train())) {
+    describe_system(c, a.train, a.drive, {"/layout", ""});
+    describe_time_steps(c, a.train.time);
+  }
+  if (a.of_train()) return;
+  describe_pair(c, a);
+  describe_motion(c, a);
+  describe_torque(c, a.torque);
+  describe_model(c, a.model, "finite elements, or the name of a lumped model");
+  describe_natural_frequency(c, a.natural_frequency);
+}
+
+void describe_vibration(Codec& c, ResponseResult& a) {
+  c(a.dte_rms, "/dte_rms", "m", kSize, kOfMesh,
+    "RMS of the oscillating part of the dynamic transmission error");
+  c(a.dte_mean, "/dte_mean", "m", kLength, kOfMesh, "mean of the dynamic transmission error");
+  c(a.dte_harmonic, "/dte_harmonic", "m", kSize, "mesh_frequency harmonic mesh",
+    "amplitude of the harmonics 1, 2, ... of the mesh frequency");
+  c.numbers("harmonic", 1, "number of the harmonic of the mesh frequency");
+  describe_hunting(c, a.hunting_periods);
+  if (!c.lists() && a.hunting_periods == 1) return;
+  c(a.dte_order, "/dte_order", "m", kSize, "mesh_frequency order mesh",
+    "amplitude of the harmonics 1, 2, ... of the hunting frequency");
+  c.numbers("order", 1, "number of the harmonic of the hunting frequency");
+}
+
+void describe_loads(Codec& c, ResponseResult& a) {
+  c(a.tooth_load_max, "/tooth_load_max", "N", kLoad, kOfMesh, "largest normal force of one tooth pair");
+  c(a.mesh_force_max, "/mesh_force_max", "N", kLoad, kOfMesh,
+    "largest normal force of all pairs together; of trains largest torque on the driving body over its base radius");
+  if (c.optional("/load_share_max", a.load_share_max.size() > 0))
+    c(a.load_share_max, "/load_share_max", "1", kShare, kOfMesh,
+      "largest share, at one instant, of the meshes that come from one [[mesh]]: of planets the load sharing; left out where no [[mesh]] has several");
+  if (c.optional("/bearing_force_max", a.bearing_force_max.size() > 0)) {
+    c(a.bearing_force_max, "/bearing_force_max", "N", kLoad, kOfBody,
+      "largest force of the body on its bearing, pin or axis; 0 of a gear of a pair whose bearing is rigid");
+    c(a.bearing_force_rms, "/bearing_force_rms", "N", kLoad, kOfBody,
+      "RMS of the oscillating part of that force, x and y together");
+  }
+  if (c.optional("/root_stress_max", a.root_stress_max.size() > 0)) {
+    c(a.root_stress_max, "/root_stress_max", "Pa", kStress, kOfBody,
+      "largest tangential stress along the roots beside the loaded flanks, quasi-static in the tooth loads: the inertia of the body adds none; 0 of a body of which it is not known");
+    c(a.root_stress_sustained, "/root_stress_sustained", "Pa", kStress, kOfBody,
+      "the same, sustained for 1/64 of a mesh period: without spikes whose height depends on the time step");
+    c(a.root_stress_angle, "/root_stress_angle", "1", kRoll, kOfBody,
+      "angle (rad) of the root's tangent against the centre line of the tooth where the stress is largest of what is sustained for 1/64 of a mesh period");
+    c(a.root_stress_phase, "/root_stress_phase", "1", kPlace, kOfBody,
+      "mesh phase of the tooth's pair then, 0 at the pitch point");
+  }
+  if (c.optional("/tooth_load_sustained", a.tooth_load_sustained.size() > 0)) {
+    c(a.tooth_load_sustained, "/tooth_load_sustained", "N", kLoad, kOfMesh,
+      "largest normal force that one pair sustains for 1/64 of a mesh period");
+    c(a.mesh_force_sustained, "/mesh_force_sustained", "N", kLoad, kOfMesh, "the same of all pairs together");
+  }
 }
 
 }  // namespace
 
 void describe(Codec& c, ResponseResult& a) {
-  const char* const axis = "mesh_frequency";
-  describe_pair(c, a);
-  describe_motion(c, a);
-  describe_torque(c, a.torque);
+  describe_source(c, a);
+  c(a.mesh_names, "/mesh", "mesh", "meshes by the names of their bodies, driving-driven");
+  c(a.body_names, "/body", "body", "bodies by name; of a pair the driver, then the driven gear");
   c(a.direction, "/parameters/operation/direction", "", "direction in which the speeds are run through");
-  describe_model(c, a.model, "finite elements, or the name of a lumped model");
-  describe_natural_frequency(c, a.natural_frequency);
-  c(a.mesh_frequency, "/mesh_frequency", "Hz", kSpeed, axis,
+  c(a.mesh_frequency, "/mesh_frequency", "Hz", kSpeed, kSpeeds,
     "mesh frequency, in the order in which they were computed");
-  c(a.dte_rms, "/dte_rms", "m", kSize, axis, "RMS of the oscillating part of the dynamic transmission error");
-  c(a.dte_mean, "/dte_mean", "m", kLength, axis, "mean of the dynamic transmission error");
-  c(a.dte_harmonic, "/dte_harmonic", "m", kSize, "mesh_frequency harmonic",
-    "amplitude of the harmonics 1, 2, ... of the mesh frequency");
-  c.numbers("harmonic", 1, "number of the harmonic of the mesh frequency");
-  describe_hunting(c, a.hunting_periods);
-  if (c.lists() || a.hunting_periods > 1) {
-    c(a.dte_order, "/dte_order", "m", kSize, "mesh_frequency order",
-      "amplitude of the harmonics 1, 2, ... of the hunting frequency");
-    c.numbers("order", 1, "number of the harmonic of the hunting frequency");
-  }
-  c(a.tooth_load_max, "/tooth_load_max", "N", kLoad, axis, "largest normal force of one tooth pair");
-  c(a.mesh_force_max, "/mesh_force_max", "N", kLoad, axis, "largest normal force of all pairs together");
-  for (int g = 0; g < (c.lists() ? 1 : 2); ++g) {
-    describe_bearings(c, a, g);
-    if (c.optional(of_body(c, a.mesh, g, "root_stress_max"), a.root_stress_max[g].size() > 0)) {
-      c(a.root_stress_max[g], of_body(c, a.mesh, g, "root_stress_max"), "Pa", kStress, axis,
-        "largest tangential stress along the roots beside the loaded flanks, quasi-static in the tooth loads: the inertia of the body adds none");
-      c(a.root_stress_sustained[g], of_body(c, a.mesh, g, "root_stress_sustained"), "Pa", kStress, axis,
-        "the same, sustained for 1/64 of a mesh period: without spikes whose height depends on the time step");
-      describe_root_place(c, a.mesh, g, axis, a.root_stress_angle, a.root_stress_phase);
-    }
-  }
-  if (c.optional("/tooth_load_sustained", a.tooth_load_sustained.size() > 0)) {
-    c(a.tooth_load_sustained, "/tooth_load_sustained", "N", kLoad, axis,
-      "largest normal force that one pair sustains for 1/64 of a mesh period");
-    c(a.mesh_force_sustained, "/mesh_force_sustained", "N", kLoad, axis, "the same of all pairs together");
-  }
+  describe_vibration(c, a);
+  describe_loads(c, a);
   if (c.optional("/loss_factor", a.loss_factor.size() > 0))
-    c(a.loss_factor, "/loss_factor", "1", kPositive, axis,
+    c(a.loss_factor, "/loss_factor", "1", kPositive, kSpeeds,
       "mean power lost by sliding over the power carried, per unit coefficient of friction");
   describe_pressure(c, a);
-  describe_friction(c, a.mesh, a.friction);
-  c(a.separation_fraction, "/separation_fraction", "1", kShare, axis, "share of the period without force");
-  c(a.separations_per_period, "/separations_per_period", "1", kPositive, axis,
+  if (!a.of_train()) describe_friction(c, a.mesh, a.friction);
+  c(a.separation_fraction, "/separation_fraction", "1", kShare, kOfMesh, "share of the period without force");
+  c(a.separations_per_period, "/separations_per_period", "1", kPositive, kOfMesh,
     "losses of contact per mesh period");
   c(a.jump_frequency, "/jump_frequency", "Hz", kFrequency, "jump",
     "middle of the interval in which the response jumps");
   c(a.jump_width, "/jump_width", "Hz", kFrequency, "jump",
     "width of the interval in which the response jumps");
-  c(a.period_multiple, "/period_multiple", "1", kMultiple, axis,
+  c(a.periods, "/periods", "1", kNumber, kSpeeds, "mesh periods run to steady state");
+  c(a.period_multiple, "/period_multiple", "1", kMultiple, kSpeeds,
     "mesh periods after which the motion repeats; 0: not periodic within the limit");
+  c(a.energy_imbalance, "/energy_imbalance", "1", {-1e300, 1e300}, kSpeeds,
+    "energy not accounted for, relative to what goes through the system");
   describe_backlash_left(c, a.backlash_left);
   describe_remarks(c, a.remarks);
+  if (c.in() && a.mesh_frequency.size() == 0) c.in()->reject("dataset /mesh_frequency holds no speed");
 }
 
 std::string title(const ResponseResult& a) {
+  if (a.of_train())
+    return text("Response, sweep ", a.direction, " of a system: ", a.body_names.size(), " bodies, ",
+                a.mesh_names.size(), " meshes");
   return text("Response, sweep ", a.direction, ": ", pair_title(a.mesh, a.torque));
 }
 

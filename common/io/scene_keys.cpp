@@ -134,7 +134,7 @@ std::vector<SceneKey> scene_keys_of(const ResponseResult& a) {
 namespace {
 
 // One of the gears of a system, and what all of its meshes have in common.
-View view_of(const SystemStaticResult& a, size_t g, const SystemSweepResult* moving) {
+View view_of(const SystemStaticResult& a, size_t g, const SystemSweepParameters* moving) {
   View view;
   const std::string& name = a.settings.body[g].first;
   set_drawing(view, a.drawing[g]);
@@ -145,18 +145,18 @@ View view_of(const SystemStaticResult& a, size_t g, const SystemSweepResult* mov
       view.bearing = a.settings.layout.bodies[b].bearing;
       view.words.total_inertia = a.settings.layout.bodies[b].inertia;
     }
-  view.fidelity = moving ? moving->settings.fidelity : a.settings.fidelity;
+  view.fidelity = moving ? moving->fidelity : a.settings.fidelity;
   view.contact = a.settings.contact;
   if (moving) {
-    view.damping = moving->settings.damping;
-    view.time = moving->settings.time;
+    view.damping = moving->damping;
+    view.time = moving->time;
   }
   return view;
 }
 
 }  // namespace
 
-SystemKeys scene_keys_of(const SystemStaticResult& a, const SystemSweepResult* moving) {
+SystemKeys scene_keys_of(const SystemStaticResult& a, const SystemSweepParameters* moving) {
   SystemKeys out;
   out.gears = a.settings.gears();
   std::vector<View> views;

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "model/system_stages.h"
 #include "results/jump_map.h"
 #include "results/response.h"
 #include "results/static.h"
 #include "results/system_static.h"
-#include "results/system_sweep.h"
 
 namespace whine {
 
@@ -36,7 +36,7 @@ struct SystemKeys {
   std::vector<Row> rows;
 };
 // moving: with what concerns motion; nullptr: without. Positions, torques and what is held are left out.
-SystemKeys scene_keys_of(const SystemStaticResult& artifact, const SystemSweepResult* moving);
+SystemKeys scene_keys_of(const SystemStaticResult& artifact, const SystemSweepParameters* moving);
 
 // What two maps were made from that differs, in a scene's keys and units: "bore_radius_mm 40 -> 35"; "" if nothing
 // does. Gears by the driver's, if both gears changed alike.

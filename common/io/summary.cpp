@@ -335,32 +335,45 @@ void show(SummaryLines& lines, const RunupResult& a) {
 }
 
 void show(SummaryLines& lines, const ResponseResult& a) {
-  show_friction(lines, a.mesh);
-  add(lines, "operating point", a.torque, " N m, ", a.direction, ", ", range_of(a.mesh_frequency));
-  add(lines, "model", a.model);
-  if (a.mesh_frequency.size() > 0) {
-    Eigen::Index worst = 0;
-    const double peak = a.dte_rms.maxCoeff(&worst);
-    add(lines, "largest DTE", peak * 1e6, " µm RMS at ", a.mesh_frequency[worst], " Hz");
-    add(lines, "largest tooth load", a.tooth_load_max.maxCoeff(), " N, all pairs ",
-        a.mesh_force_max.maxCoeff(), " N");
-    for (int g = 0; g < kSides; ++g)
-      if (a.bearing_force_max[g].size() > 0)
-        add(lines, text("bearing of ", a.mesh.gear[g]), "force at most ", a.bearing_force_max[g].maxCoeff(),
-            " N, its oscillation at most ", a.bearing_force_rms[g].maxCoeff(), " N RMS");
-    for (size_t g = 0; g < kSides; ++g)
-      if (a.root_stress_sustained[g].size() > 0) {
-        const double stress = a.root_stress_sustained[g].maxCoeff(&worst);
-        add(lines, "root stress of " + a.mesh.gear[g], stress * 1e-6, " MPa sustained at ",
-            a.mesh_frequency[worst], " Hz, at a tangent of ",
-            a.root_stress_angle[g][worst] * 180 / std::numbers::pi, " deg, phase of its pair ",
-            a.root_stress_phase[g][worst]);
-      }
-    add(lines, "contact lost", (a.separation_fraction.array() > 0).count(), " speeds, at most ",
-        a.separation_fraction.maxCoeff() * 100, " % of the period");
+  if (a.of_train()) {
+    add(lines, "operating point", a.direction, ", ", range_of(a.mesh_frequency));
+    show_model(lines, a.train);
+  } else {
+    show_friction(lines, a.mesh);
+    add(lines, "operating point", a.torque, " N m, ", a.direction, ", ", range_of(a.mesh_frequency));
+    add(lines, "model", a.model);
   }
-  add(lines, "natural frequency", a.natural_frequency,
-      " Hz (mean over the period, contact frozen under the static load)");
+  if (a.mesh_frequency.size() > 0) {
+    Eigen::Index worst = 0, mesh = 0;
+    const auto of_mesh = [&] { return a.of_train() ? " of " + a.mesh_names[static_cast<size_t>(mesh)] : ""; };
+    const double peak = a.dte_rms.maxCoeff(&worst, &mesh);
+    add(lines, "largest DTE", peak * 1e6, " µm RMS", of_mesh(), " at ", a.mesh_frequency[worst], " Hz");
+    const double load = a.tooth_load_max.maxCoeff(&worst, &mesh);
+    add(lines, "largest tooth load", load, " N", of_mesh(), ", all pairs ", a.mesh_force_max.maxCoeff(),
+        " N");
+    for (Eigen::Index b = 0; b < a.bearing_force_max.cols(); ++b)
+      if (known_of(a.bearing_force_max, b))
+        add(lines, "bearing of " + a.body_names[static_cast<size_t>(b)], "force at most ",
+            a.bearing_force_max.col(b).maxCoeff(), " N, its oscillation at most ",
+            a.bearing_force_rms.col(b).maxCoeff(), " N RMS");
+    for (Eigen::Index b = 0; b < a.root_stress_max.cols(); ++b)
+      if (known_of(a.root_stress_max, b)) {
+        const double stress = a.root_stress_sustained.col(b).maxCoeff(&worst);
+        add(lines, "root stress of " + a.body_names[static_cast<size_t>(b)], stress * 1e-6,
+            " MPa sustained at ", a.mesh_frequency[worst], " Hz, at a tangent of ",
+            a.root_stress_angle(worst, b) * 180 / std::numbers::pi, " deg, phase of its pair ",
+            a.root_stress_phase(worst, b));
+      }
+    add(lines, "contact lost", (a.separation_fraction.rowwise().maxCoeff().array() > 0).count(),
+        " speeds, at most ", a.separation_fraction.maxCoeff() * 100, " % of the period");
+    if (a.of_train()) {
+      add(lines, "not periodic", (a.period_multiple.array() == 0).count(), " speeds");
+      add(lines, "energy imbalance", a.energy_imbalance.cwiseAbs().maxCoeff(), " of the throughput");
+    }
+  }
+  if (!a.of_train())
+    add(lines, "natural frequency", a.natural_frequency,
+        " Hz (mean over the period, contact frozen under the static load)");
   add(lines, "jumps", jump_words(a.jump_frequency, a.jump_width));
 }
 

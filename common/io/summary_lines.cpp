@@ -47,7 +47,7 @@ void show(SummaryLines& lines, const SystemStaticResult& a) {
   add(lines, "residual", a.torque_residual.maxCoeff(), " of the largest mesh force");
 }
 
-static void show_model(SummaryLines& lines, const SystemSweepParameters& s) {
+void show_model(SummaryLines& lines, const SystemSweepParameters& s) {
   add(lines, "system", s.layout.bodies.size(), " bodies, ", s.layout.meshes.size(), " meshes");
   add(lines, "model", "body ", s.fidelity.body, ", contact ", s.fidelity.contact, ", damping ",
       s.damping.rayleigh_stiffness, " s and ", s.damping.rayleigh_mass, " 1/s");
@@ -59,19 +59,9 @@ void show(SummaryLines& lines, const SystemSweepResult& a) {
   show_model(lines, a.settings);
   show_differing_teeth(lines, a.settings, a.hunting_periods);
   if (a.mesh_frequency.size() == 0) return;
-  Eigen::Index speed = 0, mesh = 0;
-  const double peak = a.dte_rms.maxCoeff(&speed, &mesh);
-  add(lines, "largest RMS of the DTE", peak * 1e6, " µm of ", mesh_name(s, static_cast<size_t>(mesh)), " at ",
-      a.mesh_frequency[speed], " Hz");
-  const double force = a.mesh_force_max.maxCoeff(&speed, &mesh);
-  add(lines, "largest mesh force", force, " N of ", mesh_name(s, static_cast<size_t>(mesh)), " at ",
-      a.mesh_frequency[speed], " Hz");
-  add(lines, "contact lost", (a.separation_fraction.rowwise().maxCoeff().array() > 0).count(),
-      " speeds, at most ", a.separation_fraction.maxCoeff() * 100, " % of the period of a mesh");
-  for (size_t b = 0; b < s.bodies.size(); ++b)
-    add(lines, "bearing of " + s.bodies[b].name, "force at most ",
-        a.bearing_force_max.col(static_cast<Eigen::Index>(b)).maxCoeff(), " N, its oscillation at most ",
-        a.bearing_force_rms.col(static_cast<Eigen::Index>(b)).maxCoeff(), " N RMS");
+  double most = 0;
+  for (const MatrixRM& force : a.mesh_force) most = std::max(most, force.maxCoeff());
+  add(lines, "largest mesh force", most, " N; what the sweep says of each mesh: response.h5 (gear-spectra)");
   add(lines, "not periodic", (a.period_multiple.array() == 0).count(), " speeds");
   add(lines, "energy imbalance", a.energy_imbalance.cwiseAbs().maxCoeff(), " of the throughput");
 }

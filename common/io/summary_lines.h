@@ -40,6 +40,7 @@ inline std::string range_of(const Eigen::VectorXd& frequency) {
 std::string words_of(const ToothErrors& errors);
 
 // Of artifacts of systems of several meshes.
+void show_model(SummaryLines& lines, const SystemSweepParameters& s);
 void show(SummaryLines& lines, const ModesResult& a);
 void show(SummaryLines& lines, const SystemStaticResult& a);
 void show(SummaryLines& lines, const SystemSweepResult& a);

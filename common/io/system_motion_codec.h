@@ -2,13 +2,16 @@
 //
 // Private to the layer io/.
 #pragma once
+#include "io/layout_codec.h"
 #include "results/system_sweep.h"
 
 namespace whine {
 
 class Codec;
 
-// axis_frequency: Hz, as axis_frequency() gives it.
+void describe_system(Codec& codec, SystemSweepParameters& settings, Eigen::VectorXd& torque,
+                     const LayoutPlace& place = {});
+// The same with axis_frequency: Hz, as axis_frequency() gives it.
 void describe_system_motion(Codec& codec, SystemSweepParameters& settings, Eigen::VectorXd& torque,
                             double& axis_frequency);
 void describe_time_steps(Codec& codec, TimeDiscretisation& time);

@@ -27,16 +27,15 @@ void describe_settings(Codec& c, SystemStaticResult& a) {
   SystemStaticParameters& s = a.settings;
   describe_layout(c, s.layout);
   std::vector<std::string> gears = s.gears();
-  Eigen::VectorXi section =
-      Eigen::Map<Eigen::VectorXi>(s.section.data(), static_cast<Eigen::Index>(s.section.size()));
   c(s.gear, "/body/gear", "body_number", "name of its gear in the scene; empty of a carrier");
   c(gears, "/gear", "gear_number", "names of the gears of the scene");
-  c(section, "/mesh/section", "1", {0, 10000}, "mesh_number", "number of the [[mesh]] of the scene");
+  describe_sections(c, s.section);
   c.parameters("fidelity", keys(s.fidelity).only({"contact"}));
   c.parameters("discretisation", keys(s.contact));
   if (c.in()) {
-    s.section.assign(section.begin(), section.end());
-    s.mesh.resize(section.size() > 0 ? static_cast<size_t>(section.maxCoeff()) + 1 : 0);
+    s.mesh.resize(s.section.empty()
+                      ? 0
+                      : static_cast<size_t>(*std::max_element(s.section.begin(), s.section.end())) + 1);
     a.drawing.resize(gears.size());
     for (const std::string& name : gears) s.body.emplace_back(name, "");
   }

@@ -16,35 +16,21 @@ using namespace ranges;
 constexpr const char* kAxis = "mesh_frequency";
 
 void describe_meshes(Codec& c, SystemSweepResult& a) {
-  const std::string axes = std::string(kAxis) + " mesh_number";
-  c(a.dte_rms, "/dte_rms", "m", kSize, axes,
-    "RMS of the oscillating part of the dynamic transmission error of each mesh");
-  c(a.dte_mean, "/dte_mean", "m", kLength, axes, "mean of the dynamic transmission error of each mesh");
-  c(a.dte_harmonic, "/dte_harmonic", "m", kSize, std::string(kAxis) + " harmonic mesh_number",
-    "amplitude of the harmonics 1, 2, ... of the mesh frequency, over the recorded periods");
-  c.numbers("harmonic", 1, "number of the harmonic of the mesh frequency");
-  c(a.mesh_force_max, "/mesh_force_max", "N", kLoad, axes,
-    "largest torque on the driving body over its base radius");
-  c(a.tooth_force_max, "/tooth_force_max", "N", kLoad, axes, "largest normal force of one pair of teeth");
-  c(a.load_share_max, "/load_share_max", "1", kShare, axes,
-    "largest share, at one instant, of the meshes that come from one [[mesh]]: of planets the load sharing");
-  c(a.separation_fraction, "/separation_fraction", "1", kShare, axes,
-    "share of the time steps at which no pair of the mesh carries force");
-  c(a.transmission_error, "/transmission_error", "m", kLength, std::string(kAxis) + " sample mesh_number",
-    "dynamic transmission error of each mesh over the last mesh period, of teeth that differ the last hunting period, positive when the driver is ahead",
+  const std::string axes = std::string(kAxis) + " sample mesh_number";
+  c(a.transmission_error, "/transmission_error", "m", kLength, axes,
+    "dynamic transmission error of each mesh from phase 0, positive when the driver is ahead; the first period_multiple mesh periods are one motion, shorter motions repeat to fill the row",
     "r1 theta1 - r2 theta2, each in its own sense");
-  c(a.mesh_deflection, "/mesh_deflection", "m", kLength, std::string(kAxis) + " sample mesh_number",
+  c(a.mesh_deflection, "/mesh_deflection", "m", kLength, axes,
     "what the flanks of each mesh close by over the same, the motion of the hubs included",
     "sum over both sides of (row on r) r");
-  c(a.mesh_force, "/mesh_force", "N", kForce, std::string(kAxis) + " sample mesh_number",
+  c(a.mesh_force, "/mesh_force", "N", kForce, axes,
     "torque on the driving body over its base radius, over the same");
+  c(a.largest_tooth_load, "/largest_tooth_load", "N", kLoad, axes,
+    "normal force of the pair of teeth that carries most, over the same");
 }
 
 void describe_bodies(Codec& c, SystemSweepResult& a) {
   const std::string axes = std::string(kAxis) + " body_number";
-  c(a.bearing_force_max, "/bearing_force_max", "N", kLoad, axes,
-    "largest force of each body on its bearing, pin or axis");
-  c(a.bearing_force_rms, "/bearing_force_rms", "N", kLoad, axes, "RMS of the oscillating part of that force");
   c(a.holding_torque, "/holding_torque", "N m", kMoment, axes,
     "mean torque that holds the body, in its sense: of a gear against its contact forces, of a carrier against the forces on its pins; 0 of bodies that turn");
   a.bearing_force.resize(c.lists() ? 1 : a.settings.layout.bodies.size());
@@ -53,7 +39,7 @@ void describe_bodies(Codec& c, SystemSweepResult& a) {
       "/body/" + (c.lists() ? "<body>" : a.settings.layout.bodies[b].name) + "/bearing_force", "N", kForce,
       std::string(kAxis) + " sample xy",
       text(
-          "force of the body on its bearing or pin over the last mesh or hunting period; on a rigid axis the sum of its contact forces",
+          "force of the body on its bearing or pin over the same; on a rigid axis the sum of its contact forces",
           c.lists() || on_rigid_moving_pin(a.settings.layout, static_cast<int>(b))
               ? ", on a rigid pin of a carrier that moves less the rate of its momentum"
               : "",
@@ -94,13 +80,17 @@ void describe_solution(Codec& c, SystemSweepResult& a) {
 
 }  // namespace
 
-void describe_system_motion(Codec& c, SystemSweepParameters& s, Eigen::VectorXd& torque,
-                            double& axis_frequency) {
-  describe_layout(c, s.layout);
-  c(torque, "/body/torque", "N m", kMoment, "body_number",
+void describe_system(Codec& c, SystemSweepParameters& s, Eigen::VectorXd& torque, const LayoutPlace& place) {
+  describe_layout(c, s.layout, place);
+  c(torque, place.group + "/body/torque", "N m", kMoment, "body" + place.axis_end,
     "torque of the drive in the body's sense; 0 where none gives a torque");
   c.parameters("fidelity", keys(s.fidelity));
   c.parameters("damping", keys(s.damping));
+}
+
+void describe_system_motion(Codec& c, SystemSweepParameters& s, Eigen::VectorXd& torque,
+                            double& axis_frequency) {
+  describe_system(c, s, torque);
   c(axis_frequency, "/axis_frequency", "Hz", kFrequency, "",
     "highest natural frequency of the rigid train on its mean stiffnesses, to which the dampers of the axes refer");
 }
@@ -111,6 +101,7 @@ void describe_time_steps(Codec& c, TimeDiscretisation& time) {
 
 void describe(Codec& c, SystemSweepResult& a) {
   describe_system_motion(c, a.settings, a.torque, a.axis_frequency);
+  describe_sections(c, a.settings.section);
   describe_errors(c, a.settings);
   describe_hunting(c, a.hunting_periods);
   describe_time_steps(c, a.settings.time);

@@ -48,8 +48,9 @@ Summit summit(const ResponseResult& up, int order) {
   found.natural_frequency = up.natural_frequency;
   const double centre = up.natural_frequency / order;
   for (Index i = 1; i + 1 < up.mesh_frequency.size(); ++i)
-    if (std::abs(up.mesh_frequency[i] / centre - 1) < 0.15 && up.dte_rms[i] > up.dte_rms[i - 1] &&
-        up.dte_rms[i] >= up.dte_rms[i + 1] && (found.row < 0 || up.dte_rms[i] > up.dte_rms[found.row]))
+    if (std::abs(up.mesh_frequency[i] / centre - 1) < 0.15 && up.dte_rms(i, 0) > up.dte_rms(i - 1, 0) &&
+        up.dte_rms(i, 0) >= up.dte_rms(i + 1, 0) &&
+        (found.row < 0 || up.dte_rms(i, 0) > up.dte_rms(found.row, 0)))
       found.row = i;
   if (found.row >= 0) found.speed = up.mesh_frequency[found.row];
   return found;
@@ -67,7 +68,7 @@ double rise(const ResponseResult& up, int order) {
     if (const Index i = left[j];
         i >= 0 &&
         std::abs(up.jump_frequency[static_cast<Index>(j)] * order / up.natural_frequency - 1) <= 0.15)
-      largest = std::max(largest, up.dte_rms[i + 1] - up.dte_rms[i]);
+      largest = std::max(largest, up.dte_rms(i + 1, 0) - up.dte_rms(i, 0));
   return largest;
 }
 
@@ -83,8 +84,8 @@ Finding no_second_branch(const SceneResults& s, int torque, const Pair& at, doub
 }
 
 double largest_load(const SceneResults& s, const Motion& m, LoadOf what) {
-  if (what == LoadOf::sum) return m.sweep->mesh_force_max[m.row];
-  if (what == LoadOf::tooth) return m.sweep->tooth_load_max[m.row];
+  if (what == LoadOf::sum) return m.sweep->mesh_force_max(m.row, 0);
+  if (what == LoadOf::tooth) return m.sweep->tooth_load_max(m.row, 0);
   const SweepResult& sweep = s.sweep(kFigureTorque, m.sweep->direction);
   return sustained_load(sweep.tooth_load[static_cast<size_t>(m.row)], sweep.time.steps_per_period);
 }
@@ -197,7 +198,7 @@ Finding upper_losses(const SceneResults& s, double f) {
   const Pair at = printed_branches(s, f);
   if (!at.two()) return no_second_branch(s, kFigureTorque, at, f);
   return {at.upper.losses(),
-          text("without force for ", digits(100 * at.upper.sweep->separation_fraction[at.upper.row], 3),
+          text("without force for ", digits(100 * at.upper.sweep->separation_fraction(at.upper.row, 0), 3),
                " % of the period at ", digits(at.upper.speed()), " Hz")};
 }
 

@@ -67,7 +67,8 @@ Finding mean_jumps(const SceneResults& s, bool less) {
   for (const ResponseResult* r : {&b.up, &b.down})
     for (const Index i : rows_before_jumps(*r)) {
       if (i < 0) continue;
-      const double rms = r->dte_rms[i + 1] - r->dte_rms[i], mean = r->dte_mean[i + 1] - r->dte_mean[i];
+      const double rms = r->dte_rms(i + 1, 0) - r->dte_rms(i, 0),
+                   mean = r->dte_mean(i + 1, 0) - r->dte_mean(i, 0);
       if (less ? std::abs(mean) >= std::abs(rms) : mean * rms >= 0) holds = false;
       note += text(note.empty() ? "" : "; ", r->direction, ": RMS ", digits(rms * kMicro, 3), ", mean ",
                    digits(mean * kMicro, 3), " µm");
@@ -121,7 +122,7 @@ Finding secant_reduced(const SceneResults& s) {
 Finding secant_linear(const SceneResults& s, int torque) {
   const Branches b = s.branches(torque, MotionModel::secant);
   const double difference =
-      ((b.up.dte_rms - b.down.dte_rms.reverse()).array() / b.up.dte_rms.array()).abs().maxCoeff();
+      ((b.up.dte_rms - b.down.dte_rms.colwise().reverse()).array() / b.up.dte_rms.array()).abs().maxCoeff();
   const bool linear = speeds_with_loss(b).empty() && !jumps(b);
   return {linear ? 1.0 : 0.0,
           text(loss_text(b), "; up and down differ by ", digits(100 * difference, 2), " % at most")};

@@ -63,7 +63,7 @@ std::vector<double> speeds_with_loss(const Branches& b) {
   std::vector<double> speeds;
   for (const ResponseResult* r : {&b.up, &b.down})
     for (Index i = 0; i < r->mesh_frequency.size(); ++i)
-      if (r->separation_fraction[i] > 0) speeds.push_back(r->mesh_frequency[i]);
+      if (r->separation_fraction(i, 0) > 0) speeds.push_back(r->mesh_frequency[i]);
   std::sort(speeds.begin(), speeds.end());
   speeds.erase(std::unique(speeds.begin(), speeds.end()), speeds.end());
   return speeds;

@@ -29,19 +29,19 @@ struct Motion {
   Index row = -1;
 
   double speed() const { return sweep->mesh_frequency[row]; }
-  double rms() const { return sweep->dte_rms[row]; }
-  bool loses_contact() const { return sweep->separation_fraction[row] > 0; }
-  double losses() const { return sweep->separations_per_period[row]; }
+  double rms() const { return sweep->dte_rms(row, 0); }
+  bool loses_contact() const { return sweep->separation_fraction(row, 0) > 0; }
+  double losses() const { return sweep->separations_per_period(row, 0); }
   int largest_harmonic() const {
     Index largest;
-    sweep->dte_harmonic.row(row).maxCoeff(&largest);
+    sweep->dte_harmonic[static_cast<size_t>(row)].col(0).maxCoeff(&largest);
     return static_cast<int>(largest) + 1;
   }
   // RMS of the harmonic over that of all that oscillates
   double share(int harmonic) const {
-    return harmonic > sweep->dte_harmonic.cols()
+    return harmonic > sweep->harmonics()
                ? 0
-               : sweep->dte_harmonic(row, harmonic - 1) / std::numbers::sqrt2 / rms();
+               : sweep->dte_harmonic[static_cast<size_t>(row)](harmonic - 1, 0) / std::numbers::sqrt2 / rms();
   }
 };
 

@@ -129,9 +129,9 @@ Figure compared_motion_figure(const std::vector<OfDesign<ResponseResult>>& sweep
           text(names[i], " ", direction)};
       const std::vector<bool> broken = broken_after(r, other == sweeps.end() ? nullptr : &other->artifact);
       for (Index k = 0; k < r.mesh_frequency.size(); ++k) {
-        block.rows.push_back({r.mesh_frequency[k], r.dte_rms[k] * kMicro,
-                              r.dte_harmonic.cols() > 0 ? r.dte_harmonic(k, 0) * kMicro : 0,
-                              r.tooth_load_max[k] / force});
+        block.rows.push_back({r.mesh_frequency[k], r.dte_rms(k, 0) * kMicro,
+                              r.harmonics() > 0 ? r.dte_harmonic[static_cast<size_t>(k)](0, 0) * kMicro : 0,
+                              r.tooth_load_max(k, 0) / force});
         if (broken[static_cast<size_t>(k)]) block.rows.emplace_back();
       }
       for (size_t p = 0; p < figure.panels.size(); ++p) {

@@ -84,7 +84,7 @@ void export_motion(const ReportContent& c, Direction direction, Collector& all) 
   add("dynamic_transmission_error_rms_max", kMicrometre, [](R r) { return r.dte_rms.maxCoeff() * kMicro; });
   const auto resonance = [](R r) {
     Index at = 0;
-    r.dte_rms.maxCoeff(&at);
+    r.dte_rms.col(0).maxCoeff(&at);
     return r.mesh_frequency[at];
   };
   add("resonance_mesh_frequency", kHertz, resonance);

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "io/artifact_kinds.h"
 #include "io/artifacts.h"
+#include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "io/scene_words.h"
 #include "report/campbell_figure.h"
@@ -78,7 +79,7 @@ Captioned<ResponseResult> read_responses(const Paths& inputs) {
       const SweepResult sweep = read<SweepResult>(path);
       captions.add(path, response(sweep), sweep.lumped);
     } else {
-      captions.add(path, read<ResponseResult>(path), {});
+      captions.add(path, read_pair_response(path), {});
     }
   }
   return captions;
@@ -112,7 +113,7 @@ Figure draw_root_stress(const Paths& inputs, const Frequencies&) {
     else if (is_a("whine/branch", path))
       branches.push_back(read<BranchResult>(path));
     else
-      sweeps.push_back(read<ResponseResult>(path));
+      sweeps.push_back(read_pair_response(path));
   if (statics.size() != 1)
     fail(Failure::usage, "root-stress needs one static.h5; ", statics.size(), " given");
   return root_stress_figure(statics[0], sweeps, branches);
@@ -125,7 +126,7 @@ Figure draw_efficiency(const Paths& inputs, const Frequencies&) {
     if (is_a("whine/static", path))
       statics.push_back(read<StaticResult>(path));
     else
-      sweeps.push_back(read<ResponseResult>(path));
+      sweeps.push_back(read_pair_response(path));
   return efficiency_figure(statics, sweeps);
 }
 
@@ -184,13 +185,13 @@ Drawings drawings_at_rest() {
         "static.h5, response.h5 of the sweeps up and down, all of one torque", 3, 0,
         [](const Paths& in, const Frequencies&) {
           return flank_pressure_figure(read<StaticResult>(in[0]),
-                                       {read<ResponseResult>(in[1]), read<ResponseResult>(in[2])});
+                                       {read_pair_response(in[1]), read_pair_response(in[2])});
         }}},
       {"sidebands",
        {"teeth that differ: transmission error over the hunting period, shaft orders and sidebands",
         "static.h5 and response.h5 of one torque", 2, 0,
         [](const Paths& in, const Frequencies&) {
-          return sidebands_figure(read<StaticResult>(in[0]), read<ResponseResult>(in[1]));
+          return sidebands_figure(read<StaticResult>(in[0]), read_pair_response(in[1]));
         }}},
   };
 }
@@ -214,7 +215,7 @@ Drawings drawings_of_designs() {
        {"designs in motion: RMS, first order and tooth load against speed",
         "response.h5 of sweeps up and down of each scene, at one torque", 0, 0,
         [](const Paths& in, const Frequencies&) {
-          return compared_motion_figure(read_designs(in, read<ResponseResult>));
+          return compared_motion_figure(read_designs(in, read_pair_response));
         }}},
   };
 }
@@ -226,7 +227,7 @@ Figure draw_runup(const Paths& inputs, const Frequencies&) {
     if (is_a("whine/runup", path))
       runs.push_back(read<RunupResult>(path));
     else
-      sweeps.push_back(read<ResponseResult>(path));
+      sweeps.push_back(read_pair_response(path));
   }
   if (runs.size() != 1) fail(Failure::usage, "runup needs one runup.h5; ", runs.size(), " given");
   return runup_figure(runs[0], sweeps);
@@ -239,10 +240,8 @@ Drawings drawings_of_motions() {
         "runup.h5; response.h5 of sweeps at the same torque, to compare", 0, 0, draw_runup}},
       {"order-cuts",
        {"order cuts: the first orders of the dynamic transmission error against speed, both ways",
-        "response.h5 of sweeps up and down of one torque, or system_sweep.h5 of a system", 0, 0,
+        "response.h5 of sweeps up and down of one pair and torque, or of one system", 0, 0,
         [](const Paths& in, const Frequencies&) {
-          if (!in.empty() && is_a("whine/system_sweep", in[0]))
-            return order_figure(read_all(in, read<SystemSweepResult>));
           return order_figure(read_all(in, read<ResponseResult>));
         }}},
       {"fig05",
@@ -379,9 +378,9 @@ Drawings drawings_of_systems() {
         }}},
       {"system-sweep",
        {"a system over its speeds: vibration and contact loss of meshes, forces on bearings",
-        "system_sweep.h5 of one system, rising, falling or both", 0, 0,
+        "response.h5 of one system, rising, falling or both", 0, 0,
         [](const Paths& in, const Frequencies&) {
-          return system_sweep_figure(read_all(in, read<SystemSweepResult>));
+          return system_sweep_figure(read_all(in, read<ResponseResult>));
         }}},
       {"system-ringdown",
        {"damping ratios and natural frequencies of the modes of a system by ring-down", "system_impact.h5", 1,
@@ -391,11 +390,11 @@ Drawings drawings_of_systems() {
         }}},
       {"system-branch",
        {"the branch of periodic motions of a system, stable and unstable, over its sweeps",
-        "system_branch.h5, and system_sweep.h5 of the same system if you like", 0, 0,
+        "system_branch.h5, and response.h5 of the same system if you like", 0, 0,
         [](const Paths& in, const Frequencies&) {
           const Paths sweeps(in.begin() + 1, in.end());
           return system_branch_figure(read<SystemBranchResult>(in[0]),
-                                      read_all(sweeps, read<SystemSweepResult>));
+                                      read_all(sweeps, read<ResponseResult>));
         }}},
   };
 }

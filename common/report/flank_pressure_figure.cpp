@@ -63,7 +63,7 @@ FigureBlock pressure_block(const ResponseResult& r, const ResponseResult& other)
   const std::vector<bool> broken = broken_after(r, &other);
   for (Index f = 0; f < r.mesh_frequency.size(); ++f) {
     block.rows.push_back({r.mesh_frequency[f], r.flank_pressure_sustained[f] * kInMegapascals,
-                          r.edge_load[0][f], r.edge_load[1][f]});
+                          r.edge_load(f, 0), r.edge_load(f, 1)});
     if (broken[static_cast<size_t>(f)]) block.rows.emplace_back();
   }
   return block;
@@ -105,7 +105,7 @@ Figure flank_pressure_figure(const StaticResult& s, const std::vector<ResponseRe
   for (const ResponseResult* r : {&up, &down}) {
     figure.blocks.push_back(pressure_block(*r, r == &up ? down : up));
     largest = std::max({largest, r->flank_pressure.maxCoeff(), r->flank_pressure_sustained.maxCoeff()});
-    for (const Eigen::VectorXd& load : r->edge_load) edge = std::max(edge, load.maxCoeff());
+    if (r->edge_load.size() > 0) edge = std::max(edge, r->edge_load.maxCoeff());
   }
   const std::string all[] = {
       "pressure inside the flanks, by Hertz's law of the load that a pair sustains for 1/64 of a mesh period; largest over the mesh periods" +

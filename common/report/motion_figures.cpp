@@ -238,7 +238,7 @@ FigureBlock spectra_block(const SweepResult& sweep, const ResponseResult& r, Eig
   const Eigen::Index speeds = r.mesh_frequency.size();
   for (Eigen::Index g = 0; g < speeds; g += group) {
     Eigen::Index row = 0;
-    r.dte_rms.segment(g, std::min(group, speeds - g)).maxCoeff(&row);
+    r.dte_rms.col(0).segment(g, std::min(group, speeds - g)).maxCoeff(&row);
     const double f = r.mesh_frequency[g + row];
     const Motion m = motion_at(sweep, f);
     const Eigen::VectorXd x = m.orbit(sweep.transmission_error);
@@ -258,7 +258,8 @@ FigureBlock orders_block(const ResponseResult& r, const ResponseResult* other, E
   const std::vector<bool> broken = broken_after(r, other);
   for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i) {
     std::vector<double> row{r.mesh_frequency[i]};
-    for (Eigen::Index k = 0; k < known; ++k) row.push_back(r.dte_harmonic(i, k) * kMicro);
+    for (Eigen::Index k = 0; k < known; ++k)
+      row.push_back(r.dte_harmonic[static_cast<size_t>(i)](k, 0) * kMicro);
     orders.rows.push_back(row);
     if (broken[i]) orders.rows.emplace_back();
   }
@@ -359,7 +360,7 @@ Figure dynamic_load_figure(const std::vector<SweepResult>& sweeps, CaptionSource
     figure.blocks.push_back(
         response_block(name_of(sweep->direction), r, &both[sweep == curve.up ? 1 : 0], elastic(*sweep)));
     Eigen::Index row = 0;
-    if (const double here = r.dte_rms.maxCoeff(&row); here > rms) {
+    if (const double here = r.dte_rms.col(0).maxCoeff(&row); here > rms) {
       rms = here;
       worst = motion_at(*sweep, r.mesh_frequency[row]);
     }
@@ -425,7 +426,7 @@ Figure waterfall_figure(const std::vector<SweepResult>& sweeps) {
   for (size_t i = 0; i < shown.size(); ++i) {
     const SweepResult* sweep = shown[i];
     const ResponseResult& r = responses[i];
-    known = std::min(known, r.dte_harmonic.cols());
+    known = std::min(known, r.harmonics());
     FigureBlock lines = spectra_block(*sweep, r, group, end);
     for (const std::vector<double>& row : lines.rows) largest = std::max(largest, row[2]);
     figure.blocks.insert(

@@ -43,20 +43,20 @@ void add_shafts(const System& system, Figure& figure) {
 }
 
 void require_one_system(const std::string& what, const SystemSweepParameters& settings,
-                        const Eigen::VectorXd& torque, const std::vector<SystemSweepResult>& sweeps) {
+                        const Eigen::VectorXd& torque, const std::vector<ResponseResult>& sweeps) {
   const System& s = settings.layout;
   for (size_t i = 0; i < sweeps.size(); ++i) {
-    const SystemSweepResult& sweep = sweeps[i];
+    const ResponseResult& sweep = sweeps[i];
     const std::string of = text("the sweep ", name_of(sweep.direction));
-    if (!one_system(sweep.settings.layout, s))
+    if (!one_system(sweep.train.layout, s))
       fail(Failure::input, "figure: ", what, " and ", of,
            " are of two systems, with other bodies, teeth or meshes; give those of one scene");
     for (Eigen::Index b = 0; b < torque.size(); ++b)
-      if (!agree(sweep.torque[b], torque[b]))
+      if (!agree(sweep.drive[b], torque[b]))
         fail(Failure::input, "figure: the torque on '", s.bodies[static_cast<size_t>(b)].name, "' is ",
-             torque[b], " N m in ", what, " and ", sweep.torque[b], " N m in ", of,
+             torque[b], " N m in ", what, " and ", sweep.drive[b], " N m in ", of,
              "; give those of one scene");
-    const Damping &own = settings.damping, &other = sweep.settings.damping;
+    const Damping &own = settings.damping, &other = sweep.train.damping;
     if (!agree(own.rayleigh_stiffness, other.rayleigh_stiffness) ||
         !agree(own.rayleigh_mass, other.rayleigh_mass))
       fail(Failure::input, "figure: the damping is ", own.rayleigh_stiffness, " s x stiffness + ",
@@ -69,14 +69,14 @@ void require_one_system(const std::string& what, const SystemSweepParameters& se
   }
 }
 
-bool jumps_between(const SystemSweepResult& sweep, double from, double to) {
+bool jumps_between(const ResponseResult& sweep, double from, double to) {
   return std::any_of(sweep.jump_frequency.begin(), sweep.jump_frequency.end(),
                      [&](double jump) { return (jump - from) * (jump - to) <= 0; });
 }
 
-std::string jump_note(const std::vector<SystemSweepResult>& sweeps) {
+std::string jump_note(const std::vector<ResponseResult>& sweeps) {
   std::string words;
-  for (const SystemSweepResult& sweep : sweeps)
+  for (const ResponseResult& sweep : sweeps)
     if (sweep.jump_frequency.size() > 0)
       words += text(words.empty() ? "jumps: " : "; ",
                     sweep.direction == Direction::up ? "speed rising " : "speed falling ",

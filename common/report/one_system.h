@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "report/figures.h"
-#include "results/system_sweep.h"
+#include "results/response.h"
 
 namespace whine {
 
@@ -12,9 +12,9 @@ namespace whine {
 bool one_system(const System& a, const System& b);
 
 // Whether the sweep jumps between two speeds (Hz), across which its curve is not drawn.
-bool jumps_between(const SystemSweepResult& sweep, double from, double to);
+bool jumps_between(const ResponseResult& sweep, double from, double to);
 // "jumps: speed rising 2645 +- 0.4 Hz"; "" where none is known.
-std::string jump_note(const std::vector<SystemSweepResult>& sweeps);
+std::string jump_note(const std::vector<ResponseResult>& sweeps);
 
 // What a figure of a system needs for speeds in rpm: its gears and carriers, or why they have none.
 void add_shafts(const System& system, Figure& figure);
@@ -22,6 +22,6 @@ void add_shafts(const System& system, Figure& figure);
 // Throws Error(input) unless all sweeps are of one system, with one torque on each body and one damping, at most one of them in a
 // direction. `settings` and `torque`: of what else stands in the figure, or of the first sweep; `what` it is, such as "the branch".
 void require_one_system(const std::string& what, const SystemSweepParameters& settings,
-                        const Eigen::VectorXd& torque, const std::vector<SystemSweepResult>& sweeps);
+                        const Eigen::VectorXd& torque, const std::vector<ResponseResult>& sweeps);
 
 }  // namespace whine

@@ -16,9 +16,7 @@ namespace {
 
 constexpr Eigen::Index kOrderCuts = 5;
 
-}  // namespace
-
-Figure order_figure(const std::vector<ResponseResult>& sweeps) {
+Figure orders_of_pair(const std::vector<ResponseResult>& sweeps) {
   const auto panels = panels_of(sweeps, {});
   const auto& curve = only_curve(panels, "order cuts");
   Figure figure;
@@ -26,8 +24,7 @@ Figure order_figure(const std::vector<ResponseResult>& sweeps) {
   figure.notes = {
       operating_words(panels[0], {}) + "; " + panels[0].choices,
       "orders of the mesh frequency; f_n: mean natural frequency over the mesh period, contact frozen under the static load"};
-  const Eigen::Index orders =
-      std::min({kOrderCuts, curve.up->dte_harmonic.cols(), curve.down->dte_harmonic.cols()});
+  const Eigen::Index orders = std::min({kOrderCuts, curve.up->harmonics(), curve.down->harmonics()});
   for (const ResponseResult* r : {curve.up, curve.down}) {
     FigureBlock block{
         text("orders ", r->direction), {"mesh_frequency [Hz]"}, {}, "orders", name_of(r->direction)};
@@ -35,7 +32,8 @@ Figure order_figure(const std::vector<ResponseResult>& sweeps) {
     const std::vector<bool> broken = broken_after(*r, r == curve.up ? curve.down : curve.up);
     for (Eigen::Index i = 0; i < r->mesh_frequency.size(); ++i) {
       std::vector<double> row{r->mesh_frequency[i]};
-      for (Eigen::Index k = 0; k < orders; ++k) row.push_back(r->dte_harmonic(i, k) * kMicro);
+      for (Eigen::Index k = 0; k < orders; ++k)
+        row.push_back(r->dte_harmonic[static_cast<size_t>(i)](k, 0) * kMicro);
       block.rows.push_back(std::move(row));
       if (broken[static_cast<size_t>(i)]) block.rows.emplace_back();
     }
@@ -65,15 +63,15 @@ Figure order_figure(const std::vector<ResponseResult>& sweeps) {
   return figure;
 }
 
-Figure order_figure(const std::vector<SystemSweepResult>& sweeps) {
+Figure orders_of_train(const std::vector<ResponseResult>& sweeps) {
   if (sweeps.empty() || sweeps[0].mesh_frequency.size() == 0)
     fail(Failure::input, "figure: a sweep of no speeds was given");
-  const SystemSweepResult& a = sweeps.front();
-  const System& s = a.settings.layout;
-  require_one_system("another sweep", a.settings, a.torque, sweeps);
+  const ResponseResult& a = sweeps.front();
+  const System& s = a.train.layout;
+  require_one_system("another sweep", a.train, a.drive, sweeps);
   Figure figure;
   figure.title = "Order cuts of the dynamic transmission error (DTE) of a system";
-  figure.notes = in_lines(bodies_words(s, a.torque));
+  figure.notes = in_lines(bodies_words(s, a.drive));
   figure.notes.emplace_back("orders of the mesh frequency; solid: rising speed, dashed: falling speed");
   constexpr size_t kMostPanels = 4;
   // Planets of a carrier are alike: of their meshes with one gear the first.
@@ -100,14 +98,13 @@ Figure order_figure(const std::vector<SystemSweepResult>& sweeps) {
     meshes.resize(kMostPanels);
   }
   Eigen::Index orders = kOrderCuts;
-  for (const SystemSweepResult& sweep : sweeps)
-    for (const MatrixRM& at : sweep.dte_harmonic) orders = std::min(orders, at.rows());
+  for (const ResponseResult& sweep : sweeps) orders = std::min(orders, sweep.harmonics());
   for (const size_t mesh : meshes) {
     const std::string name = mesh_name(s, mesh);
     Panel panel{.heading = "mesh of " + without_markup(name)};
     panel.x = {.label = "Mesh frequency (Hz)", .speed = true};
     panel.y = {.label = "Amplitude of DTE (µm)", .log = true, .decades = 4, .level = true};
-    for (const SystemSweepResult& sweep : sweeps) {
+    for (const ResponseResult& sweep : sweeps) {
       const bool up = sweep.direction == Direction::up;
       FigureBlock block{text("orders ", name, " ", sweep.direction),
                         {"mesh_frequency [Hz]"},
@@ -139,6 +136,12 @@ Figure order_figure(const std::vector<SystemSweepResult>& sweeps) {
   for (Eigen::Index k = 1; k <= orders; ++k) figure.levels.push_back({text("order_", k, " [µm]"), true});
   add_shafts(s, figure);
   return figure;
+}
+
+}  // namespace
+
+Figure order_figure(const std::vector<ResponseResult>& sweeps) {
+  return !sweeps.empty() && sweeps[0].of_train() ? orders_of_train(sweeps) : orders_of_pair(sweeps);
 }
 
 }  // namespace whine

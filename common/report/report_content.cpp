@@ -100,7 +100,7 @@ std::vector<Index> resonances(const ResponseResult& r) {
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
             [&](Index a, Index b) { return r.mesh_frequency[a] < r.mesh_frequency[b]; });
-  const auto rms = [&](Index k) { return r.dte_rms[order[static_cast<size_t>(k)]]; };
+  const auto rms = [&](Index k) { return r.dte_rms(order[static_cast<size_t>(k)], 0); };
   // Least RMS on the way to a higher one, or to the end of the sweep.
   const auto foot = [&](Index k, Index step) {
     double least = rms(k);

@@ -69,7 +69,7 @@ std::string response_caption(const ReportContent& c) {
     std::vector<std::string> peaks;
     for (const Index i : resonances(r))
       peaks.push_back(
-          text(hertz(r.mesh_frequency[i]), " Hz (", significant(r.dte_rms[i] * kMicro, 3), " µm)"));
+          text(hertz(r.mesh_frequency[i]), " Hz (", significant(r.dte_rms(i, 0) * kMicro, 3), " µm)"));
     const std::string loss = loss_both_ways(r, f);
     out += text("At ", torque_words(s.torque), ", f_n = ", hertz(r.natural_frequency),
                 " Hz: ", peaks.empty() ? "no resonance within the sweep" : "resonances at " + listed(peaks),
@@ -120,8 +120,8 @@ std::string bearings_caption(const ReportContent& c) {
                       double most = 0;
                       for (const Direction direction : {Direction::up, Direction::down})
                         if (const ResponseResult* sweep = sweep_of(c, s.torque, direction))
-                          for (const Eigen::VectorXd& rms : sweep->bearing_force_rms)
-                            if (rms.size() > 0) most = std::max(most, rms.maxCoeff());
+                          if (sweep->bearing_force_rms.size() > 0)
+                            most = std::max(most, sweep->bearing_force_rms.maxCoeff());
                       return fixed(most, 0) + " N";
                     }) +
          ", and the largest force, beside the load at rest.";

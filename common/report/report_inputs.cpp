@@ -8,6 +8,7 @@
 #include "base/tool.h"
 #include "io/artifact_kinds.h"
 #include "io/artifacts.h"
+#include "io/pair_inputs.h"
 #include "io/picture_sources.h"
 #include "io/provenance.h"
 #include "io/publish.h"
@@ -28,7 +29,7 @@ ReportPicture read_picture(const std::string& path, const std::string& scene) {
 }
 
 ResponseResult read_response_of(const ReportContent& content, const std::string& path) {
-  ResponseResult out = read<ResponseResult>(path);
+  ResponseResult out = read_pair_response(path);
   if (!elastic(out))
     fail(Failure::input, path, ": is of the lumped model ", out.model,
          "; a report is of the elastic pair: give the response.h5 in T<torque>/up or T<torque>/down");
@@ -55,8 +56,7 @@ bool is_of_system(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     if (path.ends_with(".png")) continue;
     const std::string schema = read_origin(path).schema;
-    if (schema == "whine/system_static" || schema == "whine/modes" || schema == "whine/system_sweep")
-      return true;
+    if (schema == "whine/system_static" || schema == "whine/modes") return true;
   }
   return false;
 }
@@ -90,14 +90,14 @@ SystemReport read_system_report(const std::vector<std::string>& paths) {
     }
     take_source(path, report);
     const std::string& schema = report.sources.back().origin.schema;
-    if (schema == "whine/system_sweep") {
-      report.sweeps.push_back(read<SystemSweepResult>(path));
+    if (schema == "whine/response") {
+      report.sweeps.push_back(read<ResponseResult>(path));
       continue;
     }
     const bool rest = schema == "whine/system_static";
     if (!rest && schema != "whine/modes")
       fail(Failure::usage, path, ": is ", schema,
-           "; the report of a system is made of system_static.h5, modes.h5 and system_sweep.h5");
+           "; the report of a system is made of system_static.h5, modes.h5 and response.h5");
     if (rest ? report.rest.has_value() : report.modes.has_value())
       fail(Failure::usage, path, ": a second ", schema, "; give one of each");
     if (rest)

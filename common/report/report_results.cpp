@@ -72,32 +72,32 @@ void add_ring_down(const ImpactResult& a, const Adder& add) {
 void add_motion(const StaticResult& s, const ResponseResult& r, const Adder& add) {
   const std::string way = r.direction == Direction::up ? ", speed rising" : ", speed falling";
   Index at = 0;
-  const double rms = r.dte_rms.maxCoeff(&at);
+  const double rms = r.dte_rms.col(0).maxCoeff(&at);
   std::string beyond = beyond_backlash(r, at) ? kBeyond : "";
   add("largest RMS of the dynamic transmission error" + way, "µm", significant(rms * kMicro, 3), beyond);
   add("mesh frequency of that RMS" + way, "Hz", hertz(r.mesh_frequency[at]), beyond);
-  const double load = r.tooth_load_max.maxCoeff(&at);
+  const double load = r.tooth_load_max.col(0).maxCoeff(&at);
   beyond = beyond_backlash(r, at) ? kBeyond : "";
   add("largest tooth load" + way, "N", fixed(load, 0), beyond);
   add("mesh frequency of that tooth load" + way, "Hz", hertz(r.mesh_frequency[at]), beyond);
   add("largest tooth load over T / r_b" + way, "1", fixed(load / static_force(s), 2), beyond);
   add(kNominalPressure + way, "MPa", fixed(hertz_contact(s, load).pressure * 1e-6, 0), beyond);
   for (int g = 0; g < s.root_stress_max.size(); ++g)
-    if (r.root_stress_sustained[g].size() > 0) {
+    if (known_of(r.root_stress_max, g)) {
       const std::string of = "root stress of " + s.mesh.gear[g] + " (sustained for 1/64 of a mesh period)";
-      const double stress = r.root_stress_sustained[g].maxCoeff(&at);
+      const double stress = r.root_stress_sustained.col(g).maxCoeff(&at);
       beyond = beyond_backlash(r, at) ? kBeyond : "";
       add("largest " + of + way, "MPa", fixed(stress * 1e-6, 1), beyond);
       add("largest " + of + " over that at rest" + way, "1", fixed(stress / s.root_stress_max[g], 2), beyond);
     }
   for (int g = 0; g < kSides; ++g)
-    if (r.bearing_force_rms[g].size() > 0) {
+    if (known_of(r.bearing_force_max, g)) {
       const std::string of = "force on the bearing of " + s.mesh.gear[g];
-      const double force = r.bearing_force_rms[g].maxCoeff(&at);
+      const double force = r.bearing_force_rms.col(g).maxCoeff(&at);
       beyond = beyond_backlash(r, at) ? kBeyond : "";
       add("largest RMS of the oscillating " + of + way, "N", fixed(force, 0), beyond);
       add("mesh frequency of that RMS, " + s.mesh.gear[g] + way, "Hz", hertz(r.mesh_frequency[at]), beyond);
-      add("largest " + of + way, "N", fixed(r.bearing_force_max[g].maxCoeff(&at), 0),
+      add("largest " + of + way, "N", fixed(r.bearing_force_max.col(g).maxCoeff(&at), 0),
           beyond_backlash(r, at) ? kBeyond : "");
     }
   add("jumps" + way, "Hz", jumps_of(r));

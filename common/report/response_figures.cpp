@@ -36,8 +36,8 @@ FigureBlock jump_block(const std::string& name, const ResponseResult& r) {
     const auto after = [&](const Eigen::VectorXd& v) {
       return (i == at ? v[at + 1] : (1 - share) * v[at] + share * v[at + 1]) * kMicro;
     };
-    block.rows.push_back({f, r.dte_rms[i] * kMicro, after(r.dte_rms), r.jump_width[j], r.dte_mean[i] * kMicro,
-                          after(r.dte_mean), r.mesh_frequency[i]});
+    block.rows.push_back({f, r.dte_rms(i, 0) * kMicro, after(r.dte_rms.col(0)), r.jump_width[j],
+                          r.dte_mean(i, 0) * kMicro, after(r.dte_mean.col(0)), r.mesh_frequency[i]});
   }
   std::sort(block.rows.begin(), block.rows.end());
   return block;
@@ -248,7 +248,7 @@ bool found_again(const ResponseResult& r, Eigen::Index row, const ResponseResult
   constexpr double kAlike = 0.02;  // of the RMS
   for (Eigen::Index i = 0; i < other.mesh_frequency.size(); ++i)
     if (std::abs(other.mesh_frequency[i] / r.mesh_frequency[row] - 1) < 1e-9)
-      return std::abs(other.dte_rms[i] - r.dte_rms[row]) < kAlike * r.dte_rms[row];
+      return std::abs(other.dte_rms(i, 0) - r.dte_rms(row, 0)) < kAlike * r.dte_rms(row, 0);
   return false;
 }
 
@@ -261,12 +261,12 @@ std::vector<bool> broken_after(const ResponseResult& r, const ResponseResult* ot
     if (i >= 0) jumps[i] = true;
   broken = jumps;
   const auto change = [&](Eigen::Index i) {
-    return i < 0 || i + 1 >= n || jumps[i] ? 0.0 : std::abs(std::log(r.dte_rms[i + 1] / r.dte_rms[i]));
+    return i < 0 || i + 1 >= n || jumps[i] ? 0.0 : std::abs(std::log(r.dte_rms(i + 1, 0) / r.dte_rms(i, 0)));
   };
   // Over a wider step one branch crosses a whole resonance.
   constexpr double kWidest = 0.05;  // of the speed
   for (Eigen::Index i = 0; i + 1 < n; ++i)
-    if (r.dte_rms[i] > 0 && r.dte_rms[i + 1] > 0 &&
+    if (r.dte_rms(i, 0) > 0 && r.dte_rms(i + 1, 0) > 0 &&
         r.mesh_frequency[i + 1] - r.mesh_frequency[i] < kWidest * r.mesh_frequency[i] &&
         change(i) > std::max(std::log(1.5), 2.5 * std::max(change(i - 1), change(i + 1))) &&
         !(other && found_again(r, i, *other) && found_again(r, i + 1, *other)))
@@ -285,8 +285,8 @@ FigureBlock response_block(const std::string& name, const ResponseResult& r, con
   if (backlash) block.columns.emplace_back("beyond_backlash [1]");
   const std::vector<bool> broken = broken_after(r, other);
   for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i) {
-    block.rows.push_back({r.mesh_frequency[i], r.dte_rms[i] * kMicro, r.dte_mean[i] * kMicro,
-                          r.separation_fraction[i], r.mesh_force_max[i], r.tooth_load_max[i],
+    block.rows.push_back({r.mesh_frequency[i], r.dte_rms(i, 0) * kMicro, r.dte_mean(i, 0) * kMicro,
+                          r.separation_fraction(i, 0), r.mesh_force_max(i, 0), r.tooth_load_max(i, 0),
                           static_cast<double>(r.period_multiple[i])});
     if (backlash) block.rows.back().push_back(beyond_backlash(r, i) ? 1 : 0);
     // A line across would pretend that there are states between.
@@ -298,7 +298,7 @@ FigureBlock response_block(const std::string& name, const ResponseResult& r, con
 std::string loss_ranges(const ResponseResult& sweep) {
   std::map<double, bool> lost;
   for (Eigen::Index f = 0; f < sweep.mesh_frequency.size(); ++f)
-    lost[sweep.mesh_frequency[f]] = sweep.separation_fraction[f] > 0;
+    lost[sweep.mesh_frequency[f]] = sweep.separation_fraction(f, 0) > 0;
   const std::string ranges = speed_ranges(lost);
   if (ranges.empty()) return "nowhere";
   return lost.rbegin()->second ? ranges + " or more" : ranges;  // lost at the last speed, too
@@ -388,7 +388,7 @@ Figure bearing_force_figure(const std::vector<ResponseResult>& sweeps, const Cap
                         text(mesh.gear[g], " ", r->direction)};
       const std::vector<bool> broken = broken_after(*r, r == curve.up ? curve.down : curve.up);
       for (Eigen::Index i = 0; i < r->mesh_frequency.size(); ++i) {
-        block.rows.push_back({r->mesh_frequency[i], r->bearing_force_rms[g][i], r->bearing_force_max[g][i]});
+        block.rows.push_back({r->mesh_frequency[i], r->bearing_force_rms(i, g), r->bearing_force_max(i, g)});
         if (broken[i]) block.rows.emplace_back();
       }
       figure.blocks.push_back(block);

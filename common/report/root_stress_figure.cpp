@@ -27,15 +27,13 @@ void require_root_stresses(const StaticResult& s, const std::vector<ResponseResu
     if (r.torque != s.torque)
       fail(Failure::input, "root-stress: a response.h5 of ", r.torque, " N m; static.h5 is of ", s.torque,
            " N m; give both of one torque");
-    for (const auto& [name, values] :
-         {std::pair{"root_stress_sustained of the driver", &r.root_stress_sustained[0]},
-          std::pair{"root_stress_sustained of the driven gear", &r.root_stress_sustained[1]},
-          std::pair{"mesh_force_sustained", &r.mesh_force_sustained},
-          std::pair{"tooth_load_sustained", &r.tooth_load_sustained},
-          std::pair{"loss_factor", &r.loss_factor}})
-      if (values->size() != r.mesh_frequency.size() || values->size() == 0)
-        fail(Failure::input, "root-stress: the response.h5 of the sweep ", r.direction, " holds ",
-             values->size(), " values of ", name, " at ", r.mesh_frequency.size(),
+    for (const auto& [name, rows] : {std::pair{"root_stress_sustained", r.root_stress_sustained.rows()},
+                                     std::pair{"mesh_force_sustained", r.mesh_force_sustained.rows()},
+                                     std::pair{"tooth_load_sustained", r.tooth_load_sustained.rows()},
+                                     std::pair{"loss_factor", r.loss_factor.size()}})
+      if (rows != r.mesh_frequency.size() || rows == 0)
+        fail(Failure::input, "root-stress: the response.h5 of the sweep ", r.direction, " holds ", rows,
+             " values of ", name, " at ", r.mesh_frequency.size(),
              " speeds; one at each is needed, which lumped models do not have");
   }
 }
@@ -61,13 +59,9 @@ void add_place_columns(const GearPairParameters& pair, FigureBlock& block) {
   }
 }
 
-// Result: ResponseResult or BranchResult.
-template <typename Result>
-void add_place(const Result& r, Eigen::Index i, std::vector<double>& row) {
-  for (size_t g = 0; g < kSides; ++g) {
-    row.push_back(r.root_stress_angle[g][i] * 180 / std::numbers::pi);
-    row.push_back(r.root_stress_phase[g][i]);
-  }
+void add_place(double angle, double phase, std::vector<double>& row) {
+  row.push_back(angle * 180 / std::numbers::pi);
+  row.push_back(phase);
 }
 
 struct AtRest {
@@ -93,12 +87,13 @@ FigureBlock stress_block(const ResponseResult& r, const ResponseResult& other, c
   add_place_columns(r, block);
   const std::vector<bool> broken = broken_after(r, &other);
   for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i) {
-    const double a = r.root_stress_sustained[0][i], b = r.root_stress_sustained[1][i];
+    const double a = r.root_stress_sustained(i, 0), b = r.root_stress_sustained(i, 1);
     block.rows.push_back({r.mesh_frequency[i], a * kInMegapascals, b * kInMegapascals,
-                          r.mesh_force_sustained[i] / rest.mesh_force,
-                          r.tooth_load_sustained[i] / rest.tooth_load, a / rest.root_stress[0],
+                          r.mesh_force_sustained(i, 0) / rest.mesh_force,
+                          r.tooth_load_sustained(i, 0) / rest.tooth_load, a / rest.root_stress[0],
                           b / rest.root_stress[1], r.loss_factor[i]});
-    add_place(r, i, block.rows.back());
+    for (Eigen::Index g = 0; g < kSides; ++g)
+      add_place(r.root_stress_angle(i, g), r.root_stress_phase(i, g), block.rows.back());
     if (broken[static_cast<size_t>(i)]) block.rows.emplace_back();
   }
   return block;
@@ -122,7 +117,8 @@ FigureBlock branch_block(const BranchResult& b, const StaticResult& s, const AtR
                           b.tooth_load_sustained[i] / rest.tooth_load, first / rest.root_stress[0],
                           second / rest.root_stress[1], static_cast<double>(b.stable[i]),
                           static_cast<double>(b.part[i])});
-    add_place(b, i, block.rows.back());
+    for (size_t g = 0; g < kSides; ++g)
+      add_place(b.root_stress_angle[g][i], b.root_stress_phase[g][i], block.rows.back());
   }
   return block;
 }

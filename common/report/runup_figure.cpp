@@ -143,8 +143,8 @@ Figure runup_figure(const RunupResult& a, const std::vector<ResponseResult>& swe
     block.table = "sweeps";
     block.curve = text(r.direction);
     for (Index i = 0; i < r.mesh_frequency.size(); ++i)
-      if (r.mesh_frequency[i] >= low && r.mesh_frequency[i] <= high && r.dte_harmonic.cols() > 0)
-        block.rows.push_back({r.mesh_frequency[i], r.dte_harmonic(i, 0) * kMicro});
+      if (r.mesh_frequency[i] >= low && r.mesh_frequency[i] <= high && r.harmonics() > 0)
+        block.rows.push_back({r.mesh_frequency[i], r.dte_harmonic[static_cast<size_t>(i)](0, 0) * kMicro});
     if (block.rows.empty()) continue;
     figure.panels[1].curves.push_back({.block = block.name,
                                        .style = PanelStyle::points,

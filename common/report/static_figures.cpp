@@ -307,7 +307,7 @@ Figure sidebands_figure(const StaticResult& s, const ResponseResult& r) {
          " N m, the statics are of ", periods, " at ", s.torque, " N m; give those of one scene and torque");
   constexpr double kLastOrder = 3.5, kFloor = 1e-12;  // m: below, nothing but round-off
   Eigen::Index peak = 0;
-  r.dte_rms.maxCoeff(&peak);
+  r.dte_rms.col(0).maxCoeff(&peak);
   Figure figure;
   figure.title = "Sidebands of teeth that differ";
   figure.notes.push_back(text(pair_words(s), ", ", torque_words(s.torque)));
@@ -323,11 +323,11 @@ Figure sidebands_figure(const StaticResult& s, const ResponseResult& r) {
       block.rows.push_back({static_cast<double>(k) / periods, std::max(kFloor, amplitude(k)) * kMicro});
     return block;
   };
-  figure.blocks = {
-      error,
-      orders("at rest", s.transmission_error_order.size() - 1,
-             [&](Eigen::Index k) { return s.transmission_error_order[k]; }),
-      orders("in motion", r.dte_order.cols(), [&](Eigen::Index k) { return r.dte_order(peak, k - 1); })};
+  figure.blocks = {error,
+                   orders("at rest", s.transmission_error_order.size() - 1,
+                          [&](Eigen::Index k) { return s.transmission_error_order[k]; }),
+                   orders("in motion", r.dte_order[static_cast<size_t>(peak)].rows(),
+                          [&](Eigen::Index k) { return r.dte_order[static_cast<size_t>(peak)](k - 1, 0); })};
   figure.panels = {{.x = {.label = "Mesh periods", .from = 0, .to = static_cast<double>(periods)},
                     .y = {.label = "Static transmission error (µm)"},
                     .curves = {{.block = "transmission_error", .width = 1.4}},

@@ -42,10 +42,10 @@ FigureBlock system_branch_block(const SystemBranchResult& b, size_t meshes, bool
   return block;
 }
 
-FigureBlock sweep_block(const SystemSweepResult& s, size_t meshes) {
+FigureBlock sweep_block(const ResponseResult& s, size_t meshes) {
   const std::string way = text("sweep ", name_of(s.direction));
   FigureBlock block{way, {"mesh_frequency [Hz]"}, {}, text("sweep_", name_of(s.direction))};
-  for (size_t m = 0; m < meshes; ++m) block.columns.push_back(rms_column(s.settings.layout, m));
+  for (size_t m = 0; m < meshes; ++m) block.columns.push_back(rms_column(s.train.layout, m));
   for (Index i = 0; i < s.mesh_frequency.size(); ++i) {
     if (i > 0 && jumps_between(s, s.mesh_frequency[i - 1], s.mesh_frequency[i])) block.rows.emplace_back();
     std::vector<double> row{s.mesh_frequency[i]};
@@ -116,7 +116,7 @@ Panel multiplier_panel(const std::vector<FigureBlock>& blocks) {
 
 }  // namespace
 
-Figure system_branch_figure(const SystemBranchResult& b, const std::vector<SystemSweepResult>& sweeps) {
+Figure system_branch_figure(const SystemBranchResult& b, const std::vector<ResponseResult>& sweeps) {
   if (b.mesh_frequency.size() == 0) fail(Failure::input, "figure: the branch holds no orbit");
   const System& s = b.settings.layout;
   require_one_system("the branch", b.settings, b.torque, sweeps);
@@ -126,7 +126,7 @@ Figure system_branch_figure(const SystemBranchResult& b, const std::vector<Syste
   const bool unstable = b.stable.minCoeff() == 0, stable = b.stable.maxCoeff() == 1;
   if (stable) figure.blocks.push_back(system_branch_block(b, meshes, true));
   if (unstable) figure.blocks.push_back(system_branch_block(b, meshes, false));
-  for (const SystemSweepResult& sweep : sweeps) figure.blocks.push_back(sweep_block(sweep, meshes));
+  for (const ResponseResult& sweep : sweeps) figure.blocks.push_back(sweep_block(sweep, meshes));
   for (size_t m = 0; m < meshes; ++m) figure.levels.push_back({rms_column(s, m), false});
   figure.notes.push_back(text(b.mesh_frequency.size(), " orbits, ", b.mesh_frequency.size() - b.stable.sum(),
                               " unstable, ", b.fold_frequency.size(), " folds, ", b.flip_frequency.size(),

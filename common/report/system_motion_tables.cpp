@@ -24,18 +24,19 @@ struct Peak {
   double value = 0, at = 0;  // at: Hz
 };
 
-Peak peak_of(const SystemSweepResult& a, const MatrixRM& values, size_t column) {
+Peak peak_of(const ResponseResult& a, const MatrixRM& values, size_t column) {
+  if (values.size() == 0) return {};
   Index row = 0;
   const double value = values.col(static_cast<Index>(column)).maxCoeff(&row);
   return {value, a.mesh_frequency[row]};
 }
 
-std::string way_words_of(const SystemSweepResult& a) {
+std::string way_words_of(const ResponseResult& a) {
   return text("speed ", a.direction == Direction::up ? "rising" : "falling");
 }
 
 // Rows of a sweep by speed.
-std::vector<Index> by_speed(const SystemSweepResult& a) {
+std::vector<Index> by_speed(const ResponseResult& a) {
   std::vector<Index> order(static_cast<size_t>(a.mesh_frequency.size()));
   std::iota(order.begin(), order.end(), Index{0});
   std::sort(order.begin(), order.end(),
@@ -44,7 +45,7 @@ std::vector<Index> by_speed(const SystemSweepResult& a) {
 }
 
 // "" if no row is marked.
-std::string speeds_where(const SystemSweepResult& a, const auto& marks) {
+std::string speeds_where(const ResponseResult& a, const auto& marks) {
   const std::vector<Index> order = by_speed(a);
   Eigen::VectorXd speeds(a.mesh_frequency.size());
   std::vector<bool> marked;
@@ -69,13 +70,13 @@ std::string factor_words(const SystemReport& r, size_t m, const Peak& force) {
 
 std::string meshes_table(const SystemReport& r) {
   html::Rows rows;
-  for (const SystemSweepResult& a : r.sweeps)
-    for (size_t m = 0; m < a.settings.layout.meshes.size(); ++m) {
+  for (const ResponseResult& a : r.sweeps)
+    for (size_t m = 0; m < a.train.layout.meshes.size(); ++m) {
       const Peak error = peak_of(a, a.dte_rms, m), force = peak_of(a, a.mesh_force_max, m),
-                 tooth = peak_of(a, a.tooth_force_max, m), share = peak_of(a, a.load_share_max, m),
+                 tooth = peak_of(a, a.tooth_load_max, m), share = peak_of(a, a.load_share_max, m),
                  loss = peak_of(a, a.separation_fraction, m);
       const std::string factor = factor_words(r, m, force);
-      rows.push_back({mesh_name(a.settings.layout, m), way_words_of(a), significant(error.value * kMicro, 4),
+      rows.push_back({mesh_name(a.train.layout, m), way_words_of(a), significant(error.value * kMicro, 4),
                       shown(error.at, 6), fixed(force.value, 0), shown(force.at, 6),
                       factor.empty() ? "–" : factor, fixed(tooth.value, 0),
                       r.rest && shares_load(*r.rest, m) ? fixed(share.value * kPercent, 1) : "–",
@@ -93,9 +94,9 @@ std::string meshes_table(const SystemReport& r) {
 
 std::string bodies_table(const SystemReport& r) {
   html::Rows rows;
-  for (const SystemSweepResult& a : r.sweeps)
-    for (size_t b = 0; b < a.settings.layout.bodies.size(); ++b) {
-      const System::Body& body = a.settings.layout.bodies[b];
+  for (const ResponseResult& a : r.sweeps)
+    for (size_t b = 0; b < a.train.layout.bodies.size(); ++b) {
+      const System::Body& body = a.train.layout.bodies[b];
       const Peak most = peak_of(a, a.bearing_force_max, b), rms = peak_of(a, a.bearing_force_rms, b);
       rows.push_back({text(body.name, body.on != System::kGround ? " (pin)" : ""), way_words_of(a),
                       fixed(most.value, 1), shown(most.at, 6), fixed(rms.value, 1), shown(rms.at, 6)});
@@ -109,7 +110,7 @@ std::string bodies_table(const SystemReport& r) {
 
 std::string sweeps_table(const SystemReport& r) {
   html::Rows rows;
-  for (const SystemSweepResult& a : r.sweeps) {
+  for (const ResponseResult& a : r.sweeps) {
     const std::string loss =
         speeds_where(a, [&](Index i) { return a.separation_fraction.row(i).maxCoeff() > 0; });
     const std::string open = speeds_where(a, [&](Index i) { return a.period_multiple[i] == 0; });
@@ -131,14 +132,14 @@ std::string sweeps_table(const SystemReport& r) {
 }
 
 // The sweep the other way; nullptr: there is none.
-const SystemSweepResult* other_way(const SystemReport& r, const SystemSweepResult& a) {
-  for (const SystemSweepResult& other : r.sweeps)
+const ResponseResult* other_way(const SystemReport& r, const ResponseResult& a) {
+  for (const ResponseResult& other : r.sweeps)
     if (other.direction != a.direction) return &other;
   return nullptr;
 }
 
 // Whether the motions of two sweeps at one speed differ in the RMS of a mesh by more than kSamePeak of its larger value.
-bool differs(const SystemSweepResult& a, Index row, const SystemSweepResult& b) {
+bool differs(const ResponseResult& a, Index row, const ResponseResult& b) {
   for (Index other = 0; other < b.mesh_frequency.size(); ++other) {
     if (std::abs(b.mesh_frequency[other] - a.mesh_frequency[row]) > 1e-9 * a.mesh_frequency[row]) continue;
     for (Index m = 0; m < a.dte_rms.cols(); ++m) {
@@ -150,7 +151,7 @@ bool differs(const SystemSweepResult& a, Index row, const SystemSweepResult& b) 
 }
 
 // Hz: speeds at which the RMS of a mesh is far above those at the speeds on either side.
-std::string sharp_peaks(const SystemSweepResult& a) {
+std::string sharp_peaks(const ResponseResult& a) {
   const std::vector<Index> order = by_speed(a);
   std::string out;
   for (size_t i = 1; i + 1 < order.size(); ++i) {
@@ -182,8 +183,8 @@ std::string motion_tables(const SystemReport& r) {
 
 std::vector<SystemNumber> motion_numbers(const SystemReport& r) {
   std::vector<SystemNumber> out;
-  for (const SystemSweepResult& a : r.sweeps) {
-    const System& s = a.settings.layout;
+  for (const ResponseResult& a : r.sweeps) {
+    const System& s = a.train.layout;
     const std::string way = way_words_of(a);
     const auto add = [&](const std::string& part, const char* what, const char* unit,
                          const std::string& value, const Peak& peak) {
@@ -193,7 +194,7 @@ std::vector<SystemNumber> motion_numbers(const SystemReport& r) {
     for (size_t m = 0; m < s.meshes.size(); ++m) {
       const std::string name = mesh_name(s, m);
       const Peak error = peak_of(a, a.dte_rms, m), force = peak_of(a, a.mesh_force_max, m),
-                 tooth = peak_of(a, a.tooth_force_max, m), share = peak_of(a, a.load_share_max, m),
+                 tooth = peak_of(a, a.tooth_load_max, m), share = peak_of(a, a.load_share_max, m),
                  loss = peak_of(a, a.separation_fraction, m);
       add(name, "RMS of the dynamic transmission error, largest", "µm", significant(error.value * kMicro, 4),
           error);
@@ -222,7 +223,7 @@ std::vector<SystemNumber> motion_numbers(const SystemReport& r) {
 
 std::vector<Remark> motion_remarks(const SystemReport& r) {
   std::vector<Remark> out;
-  for (const SystemSweepResult& a : r.sweeps) {
+  for (const ResponseResult& a : r.sweeps) {
     const std::string way = way_words_of(a);
     const auto open = (a.period_multiple.array() == 0).count();
     if (open > 0)
@@ -234,9 +235,9 @@ std::vector<Remark> motion_remarks(const SystemReport& r) {
         speeds_where(a, [&](Index i) { return a.separation_fraction.row(i).maxCoeff() > 0; });
     if (!loss.empty()) {
       std::string meshes;
-      for (size_t m = 0; m < a.settings.layout.meshes.size(); ++m)
+      for (size_t m = 0; m < a.train.layout.meshes.size(); ++m)
         if (a.separation_fraction.col(static_cast<Index>(m)).maxCoeff() > 0)
-          meshes += (meshes.empty() ? "" : ", ") + mesh_name(a.settings.layout, m);
+          meshes += (meshes.empty() ? "" : ", ") + mesh_name(a.train.layout, m);
       out.push_back(remark(false, way, ": teeth part at ", loss, " Hz (", meshes,
                            "): the vibration is nonlinear there"));
     }
@@ -245,8 +246,8 @@ std::vector<Remark> motion_remarks(const SystemReport& r) {
                            " of the energy that goes through is not accounted for; raise steps_per_period"));
   }
   if (!r.sweeps.empty()) {
-    const SystemSweepResult& first = r.sweeps.front();
-    if (const SystemSweepResult* other = other_way(r, first)) {
+    const ResponseResult& first = r.sweeps.front();
+    if (const ResponseResult* other = other_way(r, first)) {
       const std::string two = speeds_where(first, [&](Index i) { return differs(first, i, *other); });
       if (!two.empty())
         out.push_back(remark(false, "rising and falling speed lead to different motions at ", two,
@@ -257,7 +258,7 @@ std::vector<Remark> motion_remarks(const SystemReport& r) {
           true, "peaks at ", sharp, " Hz are one speed wide, of more than ", fixed(kSharpPeak, 0),
           " times the RMS beside them: their height is that of the step of mesh_frequency_Hz; lower it, or give the bearings their damping"));
     std::string undamped;
-    for (const System::Body& body : first.settings.layout.bodies)
+    for (const System::Body& body : first.train.layout.bodies)
       if (body.bearing.elastic() && body.bearing.damping == 0)
         undamped += (undamped.empty() ? "" : ", ") + body.name;
     if (!undamped.empty())
@@ -272,12 +273,12 @@ std::string motion_words(const SystemReport& r) {
   Peak most;
   std::string mesh, way;
   double loss = 0;
-  for (const SystemSweepResult& a : r.sweeps)
-    for (size_t m = 0; m < a.settings.layout.meshes.size(); ++m) {
+  for (const ResponseResult& a : r.sweeps)
+    for (size_t m = 0; m < a.train.layout.meshes.size(); ++m) {
       loss = std::max(loss, peak_of(a, a.separation_fraction, m).value);
       if (const Peak peak = peak_of(a, a.dte_rms, m); peak.value > most.value) {
         most = peak;
-        mesh = mesh_name(a.settings.layout, m);
+        mesh = mesh_name(a.train.layout, m);
         way = way_words_of(a);
       }
     }

@@ -154,28 +154,28 @@ void require_sweeps(const SystemReport& r) {
   if (r.sweeps.empty()) return;
   if (!r.rest)
     fail(Failure::input,
-         "report: system_sweep.h5 is given without the system_static.h5 of its scene; give it, too");
+         "report: response.h5 is given without the system_static.h5 of its scene; give it, too");
   for (size_t i = 0; i < r.sweeps.size(); ++i) {
-    const SystemSweepResult& a = r.sweeps[i];
-    const System& layout = a.settings.layout;
+    const ResponseResult& a = r.sweeps[i];
+    const System& layout = a.train.layout;
     if (!one_system(layout, r.rest->settings.layout))
       fail(Failure::input,
-           "report: system_sweep.h5 and system_static.h5 are of two systems; give artifacts of one scene");
+           "report: response.h5 and system_static.h5 are of two systems; give artifacts of one scene");
     if (a.hunting_periods != r.rest->hunting_periods)
       fail(Failure::input, "report: the same teeth meet again after ", a.hunting_periods,
-           " mesh periods in system_sweep.h5 and after ", r.rest->hunting_periods,
+           " mesh periods in response.h5 and after ", r.rest->hunting_periods,
            " in system_static.h5; give artifacts of one scene");
     for (size_t j = 0; j < i; ++j)
       if (r.sweeps[j].direction == a.direction)
         fail(Failure::input, "report: two sweeps in the direction '", name_of(a.direction),
              "' are given; give one of each direction");
     for (size_t b = 0; b < layout.bodies.size(); ++b) {
-      const double moving = a.torque[static_cast<Index>(b)],
+      const double moving = a.drive[static_cast<Index>(b)],
                    resting = r.rest->torque.col(static_cast<Index>(b)).mean();
       if (layout.held(static_cast<int>(b)) || std::abs(moving - resting) <= 1e-9 * std::abs(resting))
         continue;
       fail(Failure::input, "report: the torque on '", layout.bodies[b].name, "' is ", moving,
-           " N m in system_sweep.h5 and ", resting, " N m in system_static.h5; give artifacts of one scene");
+           " N m in response.h5 and ", resting, " N m in system_static.h5; give artifacts of one scene");
     }
   }
 }

@@ -9,8 +9,8 @@
 
 #include "report/report_content.h"
 #include "results/modes.h"
+#include "results/response.h"
 #include "results/system_static.h"
-#include "results/system_sweep.h"
 
 namespace whine {
 
@@ -18,7 +18,7 @@ struct SystemReport {
   std::string scene;  // "file: title"
   std::optional<SystemStaticResult> rest;
   std::optional<ModesResult> modes;
-  std::vector<SystemSweepResult> sweeps = {};  // rising, falling, or none
+  std::vector<ResponseResult> sweeps = {};  // rising, falling, or none
   std::vector<ReportPicture> pictures;
   std::vector<ReportSource> sources;
 };

@@ -376,7 +376,7 @@ std::string modes_table(const SystemReport& r) {
 
 std::string settings_table(const SystemReport& r) {
   if (!r.rest) return "";
-  const SystemKeys keys = scene_keys_of(*r.rest, r.sweeps.empty() ? nullptr : &r.sweeps.front());
+  const SystemKeys keys = scene_keys_of(*r.rest, r.sweeps.empty() ? nullptr : &r.sweeps.front().train);
   html::Rows rows;
   rows.reserve(keys.rows.size() + 1);
   for (const SystemKeys::Row& key : keys.rows) {

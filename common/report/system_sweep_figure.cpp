@@ -18,15 +18,15 @@ namespace {
 struct Quantity {
   const char *name, *heading, *axis, *unit;
   double scale;
-  MatrixRM SystemSweepResult::*values;  // (speed, mesh or body)
+  MatrixRM ResponseResult::*values;  // (speed, mesh or body)
   bool of_bodies;
 };
 constexpr Quantity kQuantities[] = {
-    {"dte_rms", "RMS of the transmission error", "RMS", "µm", kMicro, &SystemSweepResult::dte_rms, false},
+    {"dte_rms", "RMS of the transmission error", "RMS", "µm", kMicro, &ResponseResult::dte_rms, false},
     {"separation_fraction", "Time without contact", "Time", "%", kPercent,
-     &SystemSweepResult::separation_fraction, false},
+     &ResponseResult::separation_fraction, false},
     {"bearing_force_rms", "Bearing force, oscillating (RMS)", "Force", "N", 1,
-     &SystemSweepResult::bearing_force_rms, true}};
+     &ResponseResult::bearing_force_rms, true}};
 
 std::vector<std::string> curve_names(const System& s, bool bodies) {
   std::vector<std::string> out;
@@ -41,8 +41,8 @@ std::string column_of(const Quantity& q, const std::string& curve) {
   return text(q.name, " ", curve, " [", q.unit, "]");
 }
 
-FigureBlock block_of(const Quantity& q, const SystemSweepResult& a, size_t curves) {
-  const std::vector<std::string> names = curve_names(a.settings.layout, q.of_bodies);
+FigureBlock block_of(const Quantity& q, const ResponseResult& a, size_t curves) {
+  const std::vector<std::string> names = curve_names(a.train.layout, q.of_bodies);
   const std::string way = name_of(a.direction);
   FigureBlock block{text(q.name, " ", way), {"mesh_frequency [Hz]"}, {}, text(q.name, "_", way)};
   for (size_t i = 0; i < curves; ++i) block.columns.push_back(column_of(q, names[i]));
@@ -62,7 +62,7 @@ FigureBlock block_of(const Quantity& q, const SystemSweepResult& a, size_t curve
 }
 
 // Meshes that are alike lie on each other: dashes and the wider line below let both show.
-void add_curves(const Quantity& q, const std::vector<SystemSweepResult>& sweeps, size_t i, size_t curves,
+void add_curves(const Quantity& q, const std::vector<ResponseResult>& sweeps, size_t i, size_t curves,
                 const std::string& name, Panel& panel) {
   PanelCurve curve{.y = static_cast<int>(i) + 2,
                    .colour = curve_colour(i),
@@ -73,7 +73,7 @@ void add_curves(const Quantity& q, const std::vector<SystemSweepResult>& sweeps,
                                    : 3,
                    .mark = i < 6 ? 6 : 4,
                    .size = 0.9};
-  for (const SystemSweepResult& sweep : sweeps) {
+  for (const ResponseResult& sweep : sweeps) {
     curve.block = text(q.name, " ", name_of(sweep.direction));
     curve.style = sweep.direction == Direction::up ? PanelStyle::line : PanelStyle::points;
     panel.curves.push_back(curve);
@@ -87,20 +87,19 @@ void add_curves(const Quantity& q, const std::vector<SystemSweepResult>& sweeps,
 
 }  // namespace
 
-Figure system_sweep_figure(const std::vector<SystemSweepResult>& sweeps) {
-  for (const SystemSweepResult& one : sweeps)
-    if (one.mesh_frequency.size() == 0 || one.settings.layout.meshes.empty())
+Figure system_sweep_figure(const std::vector<ResponseResult>& sweeps) {
+  for (const ResponseResult& one : sweeps)
+    if (one.mesh_frequency.size() == 0 || one.train.layout.meshes.empty())
       fail(Failure::input, "figure: a sweep of no speeds, or of a system without meshes, was given");
-  const SystemSweepResult& a = sweeps.front();
-  const System& s = a.settings.layout;
-  require_one_system("another sweep", a.settings, a.torque, sweeps);
+  const ResponseResult& a = sweeps.front();
+  const System& s = a.train.layout;
+  require_one_system("another sweep", a.train, a.drive, sweeps);
   Figure figure;
   figure.title = "A system over its speeds: vibration, contact loss, forces on bearings";
-  figure.notes = in_lines(bodies_words(s, a.torque));
-  figure.notes.push_back(text("body \"", a.settings.fidelity.body, "\", contact \"",
-                              a.settings.fidelity.contact, "\", damping ",
-                              shown(a.settings.damping.rayleigh_stiffness, 3), " s x stiffness + ",
-                              shown(a.settings.damping.rayleigh_mass, 3), " 1/s x mass"));
+  figure.notes = in_lines(bodies_words(s, a.drive));
+  figure.notes.push_back(text("body \"", a.train.fidelity.body, "\", contact \"", a.train.fidelity.contact,
+                              "\", damping ", shown(a.train.damping.rayleigh_stiffness, 3),
+                              " s x stiffness + ", shown(a.train.damping.rayleigh_mass, 3), " 1/s x mass"));
   bool pins = false;
   for (int b = 0; b < static_cast<int>(s.bodies.size()); ++b) pins = pins || on_rigid_moving_pin(s, b);
   if (const std::string jumps = jump_note(sweeps); !jumps.empty()) figure.notes.push_back(jumps);
@@ -112,8 +111,8 @@ Figure system_sweep_figure(const std::vector<SystemSweepResult>& sweeps) {
     if (names.size() > kMostLines)
       figure.notes.push_back(text(q.heading, ": the first ", kMostLines, " of ", names.size(), " curves"));
     const size_t curves = std::min(names.size(), kMostLines);
-    const bool vibration = q.values == &SystemSweepResult::dte_rms;
-    for (const SystemSweepResult& sweep : sweeps) figure.blocks.push_back(block_of(q, sweep, curves));
+    const bool vibration = q.values == &ResponseResult::dte_rms;
+    for (const ResponseResult& sweep : sweeps) figure.blocks.push_back(block_of(q, sweep, curves));
     Panel panel{.heading = q.heading,
                 .x = {.label = "Mesh frequency (Hz)", .speed = true},
                 .y = {.label = text(q.axis, " (", q.unit, ")"), .from_zero = true, .level = vibration}};

@@ -102,8 +102,8 @@ WordTable in_motion(const StaticResult& s, const GearPair& pair, const IsoCompar
   for (size_t d = 0; d < sweeps.size(); ++d) {
     const ResponseResult& r = *sweeps[d];
     // 0: it does not occur at any speed
-    const auto add = [&](const std::string& what, const Eigen::VectorXd& values, double scale,
-                         const char* unit, Factor factor, double rest = 0,
+    const auto add = [&](const std::string& what, const Eigen::Ref<const Eigen::VectorXd>& values,
+                         double scale, const char* unit, Factor factor, double rest = 0,
                          const std::function<std::string(Index)>& where = {}) {
       Index top = 0;
       const double most = values.maxCoeff(&top), speed = r.mesh_frequency[top];
@@ -115,17 +115,18 @@ WordTable in_motion(const StaticResult& s, const GearPair& pair, const IsoCompar
                           compared ? fixed(most / rest, 2) : html::kNoValue,
                           compared ? or_dash(iso.dynamic_factor(speed), 2) : html::kNoValue});
     };
-    for (size_t g = 0; g < kSides; ++g)
-      add("root stress of " + s.mesh.gear[g], r.root_stress_sustained[g], kInMegapascals, " MPa",
-          Factor::of_rest, s.root_stress_max[static_cast<Index>(g)], [&](Index i) {
-            return fixed(r.root_stress_angle[g][i] * kInDegrees, 0) + " deg, " +
-                   fixed(r.root_stress_phase[g][i], 2);
+    for (int g = 0; g < kSides; ++g)
+      add("root stress of " + s.mesh.gear[g], r.root_stress_sustained.col(g), kInMegapascals, " MPa",
+          Factor::of_rest, s.root_stress_max[g], [&](Index i) {
+            return fixed(r.root_stress_angle(i, g) * kInDegrees, 0) + " deg, " +
+                   fixed(r.root_stress_phase(i, g), 2);
           });
-    add("mesh force", r.mesh_force_sustained, 1, " N", Factor::of_rest, force);
-    add("load of a pair of teeth", r.tooth_load_sustained, 1, " N", Factor::of_rest, s.tooth_load.maxCoeff());
+    add("mesh force", r.mesh_force_sustained.col(0), 1, " N", Factor::of_rest, force);
+    add("load of a pair of teeth", r.tooth_load_sustained.col(0), 1, " N", Factor::of_rest,
+        s.tooth_load.maxCoeff());
     add("pressure inside the flanks", r.flank_pressure_sustained, kInMegapascals, " MPa", Factor::none);
-    for (size_t g = 0; g < kSides; ++g)
-      add("load over the tip edge of " + s.mesh.gear[g], r.edge_load[g], 1, " N", Factor::none);
+    for (int g = 0; g < kSides; ++g)
+      add("load over the tip edge of " + s.mesh.gear[g], r.edge_load.col(g), 1, " N", Factor::none);
     out.rows.push_back({"loss factor H_V, least to largest", d == 0 ? "rising" : "falling",
                         fixed(r.loss_factor.minCoeff(), 4) + " to " + fixed(r.loss_factor.maxCoeff(), 4),
                         html::kNoValue, html::kNoValue, html::kNoValue, html::kNoValue});
@@ -162,7 +163,7 @@ std::vector<WordTable> teeth_tables(const ReportContent& c) {
   std::array<const ResponseResult*, 2> sweeps{};
   for (const Direction direction : {Direction::up, Direction::down}) {
     const ResponseResult* sweep = sweep_of(c, s.torque, direction);
-    if (!sweep || sweep->root_stress_sustained[0].size() == 0)
+    if (!sweep || !known_of(sweep->root_stress_max, 0))
       fail(Failure::input, "teeth: no response.h5 ", direction, " with root stress at ",
            torque_words(s.torque), " is given");
     sweeps[direction == Direction::up ? 0 : 1] = sweep;

@@ -1,39 +1,53 @@
-// What a sweep says, per speed.
+// What a sweep says, per speed: of a pair or of a train.
 #pragma once
 #include <Eigen/Core>
-#include <array>
+#include <string>
 #include <vector>
 
 #include "base/matrix.h"
 #include "model/stages.h"
+#include "model/system_stages.h"
 #include "results/friction_losses.h"
 #include "results/motion_model.h"
 #include "results/remark.h"
 
 namespace whine {
 
-// response.h5: what a sweep says, per speed
+// response.h5: what a sweep says, per speed, of each mesh and each body. A pair has one mesh and two bodies, driver and driven.
 struct ResponseResult : MotionParameters {
-  double torque = 0;
+  // Of a train its layout, damping, model levels and steps, in place of what MotionParameters say of a pair; of a pair no bodies.
+  SystemSweepParameters train;
+  Eigen::VectorXd drive;  // (body) N m, of a train: torque of its drive; 0 where none gives a torque
+  bool of_train() const { return !train.layout.bodies.empty(); }
+  std::vector<std::string> mesh_names, body_names;  // (mesh) "sun-planet1"; (body)
+
+  double torque = 0;  // N m on the driver of a pair
   Direction direction = Direction::up;
   MotionModel model = MotionModel::finite_elements;
-  Eigen::VectorXd mesh_frequency;     // (speed) Hz
-  Eigen::VectorXd dte_rms, dte_mean;  // (speed) m
-  MatrixRM dte_harmonic;              // (speed, harmonic 1..) m, amplitude
-  int hunting_periods = 1;            // as in the sweep
-  // (speed, order 1..) m, amplitude of the harmonics of the hunting frequency, up to those above; empty if it is the mesh
+  Eigen::VectorXd mesh_frequency;      // (speed) Hz
+  MatrixRM dte_rms, dte_mean;          // (speed, mesh) m
+  std::vector<MatrixRM> dte_harmonic;  // [speed] (harmonic 1.., mesh) m, amplitude
+  Eigen::Index harmonics() const { return dte_harmonic.empty() ? 0 : dte_harmonic[0].rows(); }
+  int hunting_periods = 1;  // as in the sweep
+  // [speed] (order 1.., mesh) m, amplitude of the harmonics of the hunting frequency, up to those above; empty if it is the mesh
   // frequency
-  MatrixRM dte_order;
-  Eigen::VectorXd tooth_load_max, mesh_force_max;  // (speed) N
-  // [gear] (speed) N: largest force on its bearing, and RMS of what of it oscillates; empty for a rigid bearing
-  std::array<Eigen::VectorXd, 2> bearing_force_max, bearing_force_rms;
-  // [gear] (speed) Pa: largest root stress, as in the sweep; empty for lumped models
-  std::array<Eigen::VectorXd, 2> root_stress_max;
+  std::vector<MatrixRM> dte_order;
+  MatrixRM tooth_load_max, mesh_force_max;  // (speed, mesh) N
+  // (speed, mesh) 1: largest share, at one instant, of the meshes that come from one [[mesh]]; empty unless one has several
+  MatrixRM load_share_max;
+  MatrixRM separation_fraction;     // (speed, mesh) share of the period without force
+  MatrixRM separations_per_period;  // (speed, mesh) 1
+  // (speed, body) N: largest force on its bearing, and RMS of what of it oscillates; 0 of the gears of a pair on rigid bearings,
+  // empty if both are
+  MatrixRM bearing_force_max, bearing_force_rms;
+  // (speed, body) Pa: largest root stress, as in the sweep; 0 of gears whose root stress is not known, empty if it is of none:
+  // of lumped models and trains. So are the next ones.
+  MatrixRM root_stress_max;
   // What is sustained for 1/64 of a mesh period: without the spikes of pairs that come into contact at once, whose height depends on
-  // the time step. [gear] (speed) Pa; (speed) N; empty for lumped models
-  std::array<Eigen::VectorXd, 2> root_stress_sustained;
-  std::array<Eigen::VectorXd, 2> root_stress_angle, root_stress_phase;  // [gear] (speed) as in the sweep
-  Eigen::VectorXd tooth_load_sustained, mesh_force_sustained;
+  // the time step. (speed, body) Pa; (speed, mesh) N
+  MatrixRM root_stress_sustained;
+  MatrixRM root_stress_angle, root_stress_phase;  // (speed, body) as in the sweep
+  MatrixRM tooth_load_sustained, mesh_force_sustained;
   Eigen::VectorXd loss_factor;  // (speed) H_V, as in static.h5; empty without root stress
   // Flank pressure (studies/sweep_pressure.h); empty for lumped models. Places of the flanks by the phase of the pair that touches
   // there, in mesh periods from the pitch point: (place) 1; (place, gear) rad
@@ -43,16 +57,21 @@ struct ResponseResult : MotionParameters {
   MatrixRM flank_pressure, edge_load_there;
   Eigen::VectorXd
       flank_pressure_sustained;  // (speed) Pa: sustained inside the flanks for 1/64 of a mesh period; 0: never
-  std::array<Eigen::VectorXd, 2> edge_load;  // [gear] (speed) N: sustained over the gear's tip edge; 0: never
+  MatrixRM edge_load;            // (speed, body) N: sustained over the gear's tip edge; 0: never
   FrictionLosses friction;
-  Eigen::VectorXd separation_fraction;         // (speed) share of the period without force
-  Eigen::VectorXd separations_per_period;      // (speed) 1
   Eigen::VectorXd jump_frequency, jump_width;  // (jump) Hz
+  Eigen::VectorXi periods;                     // (speed) mesh periods run
   Eigen::VectorXi period_multiple;             // (speed) 1; 0: not periodic within the limit
+  Eigen::VectorXd energy_imbalance;            // (speed) as in the sweep
   Eigen::VectorXd backlash_left;               // (speed) m, as in the sweep
   std::vector<Remark> remarks;                 // as in the sweep
   // what the sweep was computed with, so that a figure needs no other file
-  double natural_frequency = 0;  // Hz: as in the sweep
+  double natural_frequency = 0;  // Hz: as in the sweep, of pairs
 };
+
+// Whether values (speed, body) hold something of this body: of others they are 0.
+inline bool known_of(const MatrixRM& values, Eigen::Index body) {
+  return values.size() > 0 && values.col(body).maxCoeff() > 0;
+}
 
 }  // namespace whine

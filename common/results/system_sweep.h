@@ -38,18 +38,14 @@ struct SystemSweepResult {
   double axis_frequency = 0;       // Hz, see axis_frequency(): of the rigid train on its mean stiffnesses
   int hunting_periods = 1;         // mesh periods after which the same teeth meet, as far as teeth differ
   Eigen::VectorXd mesh_frequency;  // (speed) Hz
-  // Over the recorded mesh periods: (speed, mesh)
-  MatrixRM dte_rms, dte_mean;                // m: of the dynamic transmission error
-  std::vector<MatrixRM> dte_harmonic;        // [speed] (harmonic 1.., mesh) m: amplitudes
-  MatrixRM mesh_force_max, tooth_force_max;  // N
-  MatrixRM load_share_max;                   // 1: largest share of the meshes of one [[mesh]]
-  MatrixRM separation_fraction;              // 1: of the steps, without force
-  MatrixRM holding_torque;  // (speed, body) N m: mean, of what holds the body; 0 of free ones
-  MatrixRM bearing_force_max, bearing_force_rms;  // (speed, body) N: of its size; of the oscillating part
-  // Of the last mesh period; of teeth that differ the last hunting period
-  std::vector<MatrixRM> transmission_error;          // [speed] (sample, mesh) m: of rotations
-  std::vector<MatrixRM> mesh_deflection;             // [speed] (sample, mesh) m: with the motion of the hubs
-  std::vector<MatrixRM> mesh_force;                  // [speed] (sample, mesh) N
+  MatrixRM holding_torque;         // (speed, body) N m: mean, of what holds the body; 0 of free ones
+  // From phase 0: the first period_multiple mesh periods are one motion; shorter ones repeat to fill the row. Of a motion that is
+  // not periodic its last periods.
+  std::vector<MatrixRM> transmission_error;  // [speed] (sample, mesh) m: of rotations
+  std::vector<MatrixRM> mesh_deflection;     // [speed] (sample, mesh) m: with the motion of the hubs
+  std::vector<MatrixRM> mesh_force;          // [speed] (sample, mesh) N
+  std::vector<MatrixRM>
+      largest_tooth_load;  // [speed] (sample, mesh) N: of the pair of teeth that carries most
   std::vector<std::vector<MatrixRM>> bearing_force;  // [body][speed] (sample, xy) N
   Eigen::VectorXi periods;                           // (speed) mesh periods run
   Eigen::VectorXi

@@ -181,9 +181,9 @@ void add_case(JumpMapResult& map, Eigen::Index c, double step,
     for (Eigen::Index i = 0; i < speed.size(); ++i)
       sustained[i] = sustained_load(swept.tooth_load[i], swept.time.steps_per_period);
     const auto ascending = [&](const VectorXd& row) { return d == 0 ? row : VectorXd(row.reverse()); };
-    map.dte_rms[d].row(c) = ascending(r.dte_rms).transpose();
-    map.tooth_load_max[d].row(c) = ascending(r.tooth_load_max).transpose();
-    map.separation_fraction[d].row(c) = ascending(r.separation_fraction).transpose();
+    map.dte_rms[d].row(c) = ascending(r.dte_rms.col(0)).transpose();
+    map.tooth_load_max[d].row(c) = ascending(r.tooth_load_max.col(0)).transpose();
+    map.separation_fraction[d].row(c) = ascending(r.separation_fraction.col(0)).transpose();
     map.peak_tooth_load(c, d) = r.tooth_load_max.maxCoeff();
     map.sustained_tooth_load(c, d) = sustained.maxCoeff();
     for (Eigen::Index i = 0; i < speed.size(); ++i)

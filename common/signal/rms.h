@@ -9,6 +9,8 @@
 #include <cmath>
 #include <vector>
 
+#include "base/matrix.h"
+
 namespace whine {
 
 // Of samples in parts, one after the other.
@@ -29,10 +31,9 @@ inline double oscillating_rms(double mean, double mean_square) {
   return std::sqrt(std::max(0.0, mean_square - mean * mean));
 }
 
-// Of several signals, from the sums of x and x² over `count` samples.
-inline Eigen::VectorXd oscillating_rms(const Eigen::VectorXd& sum, const Eigen::VectorXd& squares,
-                                       double count) {
-  return (squares / count - (sum / count).cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
+// Of a vector, (sample, component): of its components together.
+inline double oscillating_vector_rms(const Eigen::Ref<const MatrixRM>& vector) {
+  return std::sqrt((vector.rowwise() - vector.colwise().mean()).rowwise().squaredNorm().mean());
 }
 
 }  // namespace whine

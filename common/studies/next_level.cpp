@@ -98,16 +98,16 @@ SweepChange sweep_change(const SweepResult& here, const SweepResult& next) {
   SweepChange change;
   bool apart = false;
   for (Eigen::Index i = 0; i < speeds; ++i) {
-    apart = (apart || jumped[static_cast<size_t>(i)]) && like_a_jump(a.dte_rms[i], b.dte_rms[i]);
+    apart = (apart || jumped[static_cast<size_t>(i)]) && like_a_jump(a.dte_rms(i, 0), b.dte_rms(i, 0));
     if (a.period_multiple[i] < 1 || a.period_multiple[i] != b.period_multiple[i]) {
       ++change.uneven;
     } else if (apart) {
       ++change.apart;
     } else {
       ++change.compared;
-      add(change.dte_rms, a.dte_rms[i] / b.dte_rms[i] - 1, a.mesh_frequency[i]);
-      add(change.dte_mean, a.dte_mean[i] / b.dte_mean[i] - 1, a.mesh_frequency[i]);
-      add(change.tooth_load, a.tooth_load_max[i] / b.tooth_load_max[i] - 1, a.mesh_frequency[i]);
+      add(change.dte_rms, a.dte_rms(i, 0) / b.dte_rms(i, 0) - 1, a.mesh_frequency[i]);
+      add(change.dte_mean, a.dte_mean(i, 0) / b.dte_mean(i, 0) - 1, a.mesh_frequency[i]);
+      add(change.tooth_load, a.tooth_load_max(i, 0) / b.tooth_load_max(i, 0) - 1, a.mesh_frequency[i]);
     }
   }
   for (LevelChange* c : {&change.dte_rms, &change.dte_mean, &change.tooth_load})

@@ -46,13 +46,13 @@ void add_motion(Quantities& quantities, const ResponseResult& motion) {
   const std::string d = name_of(motion.direction);
   Index worst = 0;
   quantities["natural_frequency"] = motion.natural_frequency;
-  quantities["rms_max_" + d] = motion.dte_rms.maxCoeff(&worst);
+  quantities["rms_max_" + d] = motion.dte_rms.col(0).maxCoeff(&worst);
   quantities["rms_max_speed_" + d] = motion.mesh_frequency[worst];
   quantities["tooth_load_max_" + d] = motion.tooth_load_max.maxCoeff();
   quantities["separation_max_" + d] = motion.separation_fraction.maxCoeff();
   double from = 0, to = 0;
   for (Index i = 0; i < motion.mesh_frequency.size(); ++i) {
-    if (!(motion.separation_fraction[i] > 0)) continue;
+    if (!(motion.separation_fraction(i, 0) > 0)) continue;
     const double f = motion.mesh_frequency[i];
     from = from > 0 ? std::min(from, f) : f;
     to = std::max(to, f);

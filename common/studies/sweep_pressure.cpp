@@ -112,7 +112,7 @@ void add_sustained(const SweepResult& s, const Hertz& hertz, ResponseResult& r) 
     }
   const Index speeds = s.mesh_frequency.size();
   r.flank_pressure_sustained.resize(speeds);
-  for (Eigen::VectorXd& load : r.edge_load) load.resize(speeds);
+  r.edge_load.resize(speeds, kSides);
   MatrixRM pressure;
   std::array<MatrixRM, kSides> over_edge;
   for (Index f = 0; f < speeds; ++f) {
@@ -130,7 +130,8 @@ void add_sustained(const SweepResult& s, const Hertz& hertz, ResponseResult& r) 
           over_edge[static_cast<size_t>(edge)](n, pair) = load(n, pair);
       }
     r.flank_pressure_sustained[f] = sustained_load(pressure, steps);
-    for (size_t g = 0; g < kSides; ++g) r.edge_load[g][f] = sustained_load(over_edge[g], steps);
+    for (Index g = 0; g < kSides; ++g)
+      r.edge_load(f, g) = sustained_load(over_edge[static_cast<size_t>(g)], steps);
   }
 }
 

@@ -14,4 +14,8 @@ ResponseResult sweep_response(const SweepResult& sweep) {
   return out;
 }
 
+ResponseResult sweep_response(const SystemSweepResult& sweep) {
+  return response(sweep);
+}
+
 }  // namespace whine

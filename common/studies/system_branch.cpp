@@ -22,14 +22,14 @@ SystemBranchResult system_branch(const SystemSweepParameters& settings,
   TrainRig rig(settings, bodies);
   const size_t meshes = rig.train().system().mesh.size(), all = settings.layout.bodies.size();
   BranchFollower<TrainRig> follower(rig, speeds_of(settings));
-  TrainStatistics statistics(settings, meshes, all);
+  TrainStatistics statistics;
   // Of an orbit, for each mesh and then each body: the columns of the artifact, one after the other.
   follower.measure([&](const SystemDynamics::Period& period, int number, int /*periods*/) {
     if (number == 0) statistics.clear();
     statistics.take(period);
     VectorXd out(static_cast<Index>(5 * meshes + all));
     out << statistics.dte_rms(), statistics.dte_mean(), statistics.mesh_force_max(),
-        statistics.tooth_force_max(), statistics.separation_fraction(), statistics.bearing_force_rms();
+        statistics.tooth_load_max(), statistics.separation_fraction(), statistics.bearing_force_rms();
     return out;
   });
   const auto& segments = follower.follow(plan, report);

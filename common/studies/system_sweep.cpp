@@ -43,7 +43,7 @@ class SystemSweeper {
         if (const auto found = rig_.settle(state_, frequency, steps, settings_.time.steady_state))
           settled = *found;
         if (settled.turns > 0 && record(settled, row, out)) {
-          motions_.push_back({frequency, out.dte_rms.row(row).norm(), settled.multiple * hunting});
+          motions_.push_back({frequency, rms_, settled.multiple * hunting});
           reached_.push_back(state_);
           return settled.multiple == 1   ? ""
                  : settled.multiple == 0 ? "not periodic"
@@ -128,8 +128,7 @@ class SystemSweeper {
     for (;;) {
       state_ = predicts ? rig_.predicted(known_, frequency, steps) : known_.back().state;
       if (const auto settled = rig_.settle(state_, frequency, steps, settings_.time.steady_state)) {
-        TrainStatistics statistics(settings_, rig_.train().system().mesh.size(),
-                                   settings_.layout.bodies.size());
+        TrainStatistics statistics;
         SystemDynamics::Period period;
         int n = 0;
         const int periods = settled->multiple > 0 ? settled->multiple : Recurrence<VectorXd>::kMostMultiple;
@@ -146,8 +145,7 @@ class SystemSweeper {
     const int periods = hunting * (motion.multiple > 0 ? motion.multiple
                                    : hunting > 1       ? 1
                                                        : Recurrence<VectorXd>::kMostMultiple);
-    TrainStatistics recorded(out.settings, rig_.train().system().mesh.size(), settings_.layout.bodies.size(),
-                             true);
+    TrainStatistics recorded;
     SystemEnergyBalance energy;
     double imbalance = 0;
     SystemDynamics::Period period;
@@ -156,11 +154,11 @@ class SystemSweeper {
     out.bearing_damping.row(row).setZero();
     out.drift_force[row] = 0;
     out.holding_torque.row(row).setZero();
-    begin_samples(hunting, row, out);
+    begin_samples(periods, row, out);
     for (int n = 0; n < periods; ++n) {
       if (!rig_.train().dynamics().integrate(state_, period, &energy)) return false;
       recorded.take(period);
-      take_samples(period, n % hunting, row, out);
+      take_samples(period, n, row, out);
       take(energy, row, out);
       take_holding(period, static_cast<double>(periods), row, out);
       imbalance += energy.imbalance;
@@ -168,16 +166,7 @@ class SystemSweeper {
       out.least_gap = std::min(out.least_gap, period.least_gap);
       out.least_force = std::min(out.least_force, period.least_force);
     }
-    out.dte_mean.row(row) = recorded.dte_mean();
-    out.dte_rms.row(row) = recorded.dte_rms();
-    out.dte_harmonic[static_cast<size_t>(row)] = recorded.dte_harmonic().topRows(
-        resolved_harmonics(settings_.time.steps_per_period, kResponseHarmonics));
-    out.mesh_force_max.row(row) = recorded.mesh_force_max();
-    out.tooth_force_max.row(row) = recorded.tooth_force_max();
-    out.load_share_max.row(row) = recorded.load_share_max();
-    out.separation_fraction.row(row) = recorded.separation_fraction();
-    out.bearing_force_max.row(row) = recorded.bearing_force_max();
-    out.bearing_force_rms.row(row) = recorded.bearing_force_rms();
+    rms_ = recorded.dte_rms().norm();
     out.periods[row] = motion.turns * hunting;
     out.period_multiple[row] = motion.multiple * hunting;
     out.residual[row] = motion.residual;
@@ -185,15 +174,16 @@ class SystemSweeper {
     return true;
   }
 
-  void begin_samples(int hunting, Index row, SystemSweepResult& out) const {
+  void begin_samples(int periods, Index row, SystemSweepResult& out) const {
     const auto at = static_cast<size_t>(row);
-    const Index samples = static_cast<Index>(hunting) * settings_.time.steps_per_period;
-    for (auto* x : {&out.transmission_error, &out.mesh_deflection, &out.mesh_force})
-      (*x)[at].setZero(samples, out.dte_rms.cols());
+    const Index samples = static_cast<Index>(periods) * settings_.time.steps_per_period,
+                meshes = static_cast<Index>(settings_.layout.meshes.size());
+    for (auto* x : {&out.transmission_error, &out.mesh_deflection, &out.mesh_force, &out.largest_tooth_load})
+      (*x)[at].setZero(samples, meshes);
     for (auto& of_body : out.bearing_force) of_body[at].setZero(samples, 2);
   }
 
-  // Of mesh period k of a hunting period, which the last one that is recorded overwrites. Sample 0 is that of the period's end.
+  // Of recorded mesh period k. Sample 0 is that of the last period's end.
   void take_samples(const SystemDynamics::Period& period, int k, Index row, SystemSweepResult& out) const {
     const std::vector<Eigen::Matrix2Xd>& forces = period.bearing_force;
     const Index samples = settings_.time.steps_per_period, stride = period.mesh_force.cols() / samples;
@@ -205,6 +195,7 @@ class SystemSweeper {
     put(period.transmission_error, out.transmission_error[at]);
     put(period.mesh_deflection, out.mesh_deflection[at]);
     put(period.mesh_force, out.mesh_force[at]);
+    put(period.largest_tooth_force, out.largest_tooth_load[at]);
     for (size_t b = 0; b < forces.size(); ++b) put(forces[b], out.bearing_force[b][at]);
   }
 
@@ -239,6 +230,7 @@ class SystemSweeper {
   const SystemSweepParameters& settings_;
   TrainRig rig_;
   State state_;
+  double rms_ = 0;  // m, over the meshes, of the motion recorded last
   std::vector<BranchMotion> motions_;
   std::vector<State> reached_;       // [motion]
   std::vector<Known> known_, runs_;  // of a branch that is followed: the last ones on it; all that were tried
@@ -253,7 +245,7 @@ namespace {
 void require_memory_for(const SystemSweepParameters& settings, int hunting, size_t speeds) {
   constexpr double kMostMemory = 4e9;  // bytes
   const double memory = 8.0 * static_cast<double>(speeds) * hunting * settings.time.steps_per_period *
-                        (3.0 * static_cast<double>(settings.layout.meshes.size()) +
+                        (4.0 * static_cast<double>(settings.layout.meshes.size()) +
                          2.0 * static_cast<double>(settings.layout.bodies.size()));
   if (memory > kMostMemory)
     fail(Failure::input,
@@ -262,6 +254,25 @@ void require_memory_for(const SystemSweepParameters& settings, int hunting, size
          " are allowed; give fewer mesh_frequency_Hz, or lower steps_per_period",
          hunting > 1 ? ", or give errors to fewer gears" : "");
   log_memory(text("the samples of ", speeds, " speeds"), memory);
+}
+
+}  // namespace
+
+namespace {
+
+// Motions of fewer mesh periods than the longest one repeat.
+void fill_rows(SystemSweepResult& a) {
+  Index longest = 0;
+  for (const MatrixRM& rows : a.transmission_error) longest = std::max(longest, rows.rows());
+  const auto fill = [&](std::vector<MatrixRM>& of_speeds) {
+    for (MatrixRM& rows : of_speeds) {
+      const Index own = rows.rows();
+      rows.conservativeResize(longest, rows.cols());
+      for (Index i = own; i < longest; ++i) rows.row(i) = rows.row(i - own);
+    }
+  };
+  for (auto* x : {&a.transmission_error, &a.mesh_deflection, &a.mesh_force, &a.largest_tooth_load}) fill(*x);
+  for (auto& of_body : a.bearing_force) fill(of_body);
 }
 
 }  // namespace
@@ -288,26 +299,21 @@ SystemSweepResult system_sweep(const SystemSweepParameters& settings, const std:
   for (int b = 0; b < all; ++b) out.torque[b] = settings.layout.torque(b);
   out.axis_frequency = rig.motion().axis_frequency / (2 * std::numbers::pi);
   out.mesh_frequency = Eigen::Map<const VectorXd>(speeds.data(), n);
-  for (MatrixRM* x : {&out.dte_rms, &out.dte_mean, &out.mesh_force_max, &out.tooth_force_max,
-                      &out.load_share_max, &out.separation_fraction, &out.rolling})
-    x->setZero(n, meshes);
-  for (MatrixRM* x :
-       {&out.bearing_force_max, &out.bearing_force_rms, &out.bearing_damping, &out.holding_torque})
-    x->setZero(n, all);
+  out.rolling.setZero(n, meshes);
+  for (MatrixRM* x : {&out.bearing_damping, &out.holding_torque}) x->setZero(n, all);
   out.energy.setZero(n, static_cast<Index>(kSystemEnergyLines.size()));
   for (VectorXd* x : {&out.residual, &out.energy_imbalance, &out.drift_force}) x->setZero(n);
   out.periods.setZero(n);
   out.period_multiple.setZero(n);
-  out.dte_harmonic.resize(speeds.size());
-  out.transmission_error.resize(speeds.size());
-  out.mesh_deflection.resize(speeds.size());
-  out.mesh_force.resize(speeds.size());
+  for (auto* x : {&out.transmission_error, &out.mesh_deflection, &out.mesh_force, &out.largest_tooth_load})
+    x->resize(speeds.size());
   out.bearing_force.assign(settings.layout.bodies.size(), std::vector<MatrixRM>(speeds.size()));
   for (Index i = 0; i < n; ++i) {
     report(i, n, text(speeds[static_cast<size_t>(i)], " Hz"));
     const std::string note = sweeper.run(speeds[static_cast<size_t>(i)], i, out);
     report(i + 1, n, text(speeds[static_cast<size_t>(i)], " Hz", note.empty() ? "" : ", ", note));
   }
+  fill_rows(out);
   store_jumps(sweeper.jumps(jump_width, [&](const std::string& words) { report(n, n, words); }),
               out.jump_frequency, out.jump_width);
   out.remarks = left_out_of_carriers(out);

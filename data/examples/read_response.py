@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Response of a pair over speed, rising and falling: what it was, where it jumps, how large each order is.
+"""Response of a mesh over speed, rising and falling: what it was, where it jumps, how large each order is.
 
     data/examples/read_response.py out/parker2000/T150/up/response.h5 out/parker2000/T150/down/response.h5 --output response.png
 
@@ -17,12 +17,14 @@ import xarray
 parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
 parser.add_argument("response", nargs="+", help="response.h5 of a sweep")
 parser.add_argument("--output", required=True, help="picture to write (.png, .svg)")
+parser.add_argument("--mesh", help="of a train: name of the mesh, such as sun-planet1 (default: the first)")
 options = parser.parse_args()
 
 figure, (rms, orders) = plt.subplots(2, 1, sharex=True, figsize=(9, 8), layout="constrained")
 for path in options.response:
     with xarray.open_dataset(path, engine="h5netcdf") as response:
         response.load()
+    response = response.sel(mesh=options.mesh) if options.mesh else response.isel(mesh=0)
     micrometre = 1e6 * response.dte_rms
     title = response.attrs["title"]
     rms.plot(response.mesh_frequency, micrometre, ".-", markersize=3, label=title)

@@ -282,7 +282,8 @@ TEST_CASE(
             1e-2 * size);
   const ResponseResult observable = response(swept);
   CHECK(observable.period_multiple[0] == 0);
-  CHECK(observable.dte_rms[0] == relative(rms(swept, 0), 1e-12));  // of all that is stored, not of one period
+  CHECK(observable.dte_rms(0, 0) ==
+        relative(rms(swept, 0), 1e-12));  // of all that is stored, not of one period
   CHECK(observable.jump_frequency.size() == 0);
 }
 
@@ -326,15 +327,15 @@ TEST_CASE(
   int early = 0, compared = 0;
   for (Eigen::Index i = 0; i < predicted.mesh_frequency.size(); ++i) {
     const double f = predicted.mesh_frequency[i];
-    const bool upper = predicted.dte_rms[i] > 5e-6;
+    const bool upper = predicted.dte_rms(i, 0) > 5e-6;
     if (f > 2700) continue;  // the branches are one
     CHECK(upper == (f > predicted.jump_frequency[0]));
-    if ((integrated.dte_rms[i] > 5e-6) != upper) {
+    if ((integrated.dte_rms(i, 0) > 5e-6) != upper) {
       CHECK(upper);
       ++early;
       continue;
     }
-    apart = std::max(apart, std::abs(integrated.dte_rms[i] / predicted.dte_rms[i] - 1));
+    apart = std::max(apart, std::abs(integrated.dte_rms(i, 0) / predicted.dte_rms(i, 0) - 1));
     ++compared;
   }
   MESSAGE("integrated sweep: " << early << " speeds early, apart by " << apart << " at " << compared
@@ -364,7 +365,7 @@ TEST_CASE("on one branch sweeps up and down agree, though one of them came from 
   for (Eigen::Index i = 0; i <= last; ++i) {
     const double f = up.mesh_frequency[i];
     if (f > down.jump_frequency[0] - 200 && f < up.jump_frequency[0] + 50) continue;
-    apart = std::max(apart, std::abs(down.dte_rms[last - i] / up.dte_rms[i] - 1));
+    apart = std::max(apart, std::abs(down.dte_rms(last - i, 0) / up.dte_rms(i, 0) - 1));
     ++compared;
   }
   MESSAGE("apart by " << apart << " at " << compared << " speeds");
@@ -386,7 +387,8 @@ TEST_CASE("near the cusp: a jump of less than 20 % is found from wide steps, whe
     // Of steps of 1 Hz the one with the largest change.
     const ResponseResult fine = swept(2820, 2880, 1, direction);
     Eigen::Index at = 0;
-    const VectorXd change = (fine.dte_rms.tail(60).array() / fine.dte_rms.head(60).array()).log().abs();
+    const VectorXd change =
+        (fine.dte_rms.bottomRows(60).array() / fine.dte_rms.topRows(60).array()).log().abs();
     const double most = change.maxCoeff(&at),
                  there = 0.5 * (fine.mesh_frequency[at] + fine.mesh_frequency[at + 1]);
     for (const double step : {20.0, 50.0}) {

@@ -74,7 +74,8 @@ TEST_CASE("pictures of teeth that differ, cracks, bearings, relief: no text is c
   differ.transmission_error_order = VectorXd::Constant(4 * kPeriods, 1e-6);
   ResponseResult moving = response_at(9999, Direction::up);
   moving.hunting_periods = kPeriods;
-  moving.dte_order = MatrixRM::Constant(moving.mesh_frequency.size(), 4 * kPeriods, 1e-6);
+  moving.dte_order.assign(static_cast<size_t>(moving.mesh_frequency.size()),
+                          MatrixRM::Constant(4 * kPeriods, 1, 1e-6));
   check(sidebands_figure(differ, moving), "sidebands");
   for (int g = 0; g < kSides; ++g) differ.gear[g].design.crack = {12, 1.2345e-3};
   differ.tooth_load = MatrixRM::Constant(8 * kPeriods, 3, 1e4);

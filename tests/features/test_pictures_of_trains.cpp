@@ -40,8 +40,8 @@ TEST_CASE("pictures of trains: no text is cut or lies on other text, eight meshe
   check(system_static_figure(rest), "system-static");
   check(system_load_sharing_figure(rest), "system-load-sharing");
   check(system_picture(rest), "system");
-  const std::vector<SystemSweepResult> sweeps{small_sweep(rest, Direction::up),
-                                              small_sweep(rest, Direction::down)};
+  const std::vector<ResponseResult> sweeps{small_response(rest, Direction::up),
+                                           small_response(rest, Direction::down)};
   check(system_sweep_figure(sweeps), "system-sweep");
   Figure turned = system_sweep_figure(sweeps);
   apply({"rpm:" + scene.gears[0].name, 1e-6}, turned);
@@ -54,8 +54,8 @@ TEST_CASE("pictures of trains: no text is cut or lies on other text, eight meshe
   check(modes_figure(modes), "modes");
   check(campbell_figure(modes), "campbell");
   SystemBranchResult branch;
-  branch.settings = sweeps[0].settings;
-  branch.torque = sweeps[0].torque;
+  branch.settings = sweeps[0].train;
+  branch.torque = sweeps[0].drive;
   constexpr Index n = 41;
   branch.mesh_frequency = VectorXd::LinSpaced(n, 1000, 9000);
   branch.dte_rms = 123e-6 * MatrixRM::Random(n, 8).cwiseAbs();
@@ -67,7 +67,7 @@ TEST_CASE("pictures of trains: no text is cut or lies on other text, eight meshe
   branch.fold_smooth = Eigen::Vector3i(1, 0, 1);
   check(system_branch_figure(branch, sweeps), "system-branch");
   SystemImpactResult decay;
-  decay.settings = sweeps[0].settings;
+  decay.settings = sweeps[0].train;
   decay.mesh_phase = Eigen::Vector2d(0, 0.5);
   decay.natural_frequency = decay.eigen_frequency = MatrixRM(2, 6);
   decay.damping_ratio = decay.eigen_damping_ratio = MatrixRM::Constant(2, 6, 0.0765);

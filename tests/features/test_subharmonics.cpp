@@ -67,14 +67,14 @@ TEST_CASE("subharmonics: beyond a period doubling the branch of two mesh periods
       continue;
     const double share = (at - a) / (b - a),
                  rms = (1 - share) * branch.dte_rms[i] + share * branch.dte_rms[i + 1];
-    nearest = std::min(nearest, std::abs(rms / response.dte_rms[0] - 1));
+    nearest = std::min(nearest, std::abs(rms / response.dte_rms(0, 0) - 1));
     double apart = 0;
     const auto beside = [&](const Eigen::VectorXd& along, double swept_value) {
       apart = std::max(apart, std::abs(((1 - share) * along[i] + share * along[i + 1]) / swept_value - 1));
     };
-    beside(branch.mesh_force_sustained, response.mesh_force_sustained[0]);
+    beside(branch.mesh_force_sustained, response.mesh_force_sustained(0, 0));
     for (size_t g = 0; g < kSides; ++g)
-      beside(branch.root_stress_sustained[g], response.root_stress_sustained[g][0]);
+      beside(branch.root_stress_sustained[g], response.root_stress_sustained(0, g));
     sustained = std::min(sustained, apart);
   }
   CHECK(nearest < 0.01);
@@ -108,7 +108,7 @@ TEST_CASE(
   up.frequency_to = 2500;
   const SweepResult swept =
       sweep(paper_body(), paper_body(), coarse_statics(), 463e6, up, Direction::up, no_report);
-  CHECK(lower.dte_rms[0] == relative(whine::response(swept).dte_rms.tail(1)[0], 1e-4));
+  CHECK(lower.dte_rms[0] == relative(whine::response(swept).dte_rms.bottomRows(1)(0, 0), 1e-4));
   // What cannot be done is said.
   CHECK(failure_of([&] { follow({.sweep = Direction::up, .at = 1000}); }) == Failure::input);
   CHECK(failure_of([&] { follow({.most_periods = 3}); }) == Failure::input);

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "one_mesh.h"
 #include "own_folder.h"
 #include "paper/scorecard.h"
 #include "paper_pair.h"
@@ -54,8 +55,9 @@ ResponseResult flat_response(double torque, Direction direction) {
   if (direction == Direction::down) r.mesh_frequency.reverseInPlace();
   r.dte_rms = Eigen::VectorXd::Constant(n, 1e-6);
   r.dte_mean = Eigen::VectorXd::Constant(n, 5e-6);
-  r.dte_harmonic = MatrixRM::Zero(n, 10);
-  r.dte_harmonic.col(0) = r.dte_rms * std::numbers::sqrt2;
+  MatrixRM harmonic = MatrixRM::Zero(n, 10);
+  harmonic.col(0) = r.dte_rms * std::numbers::sqrt2;
+  r.dte_harmonic = of_one_mesh(harmonic);
   r.tooth_load_max = Eigen::VectorXd::Constant(n, 3000);
   r.mesh_force_max = Eigen::VectorXd::Constant(n, 4000);
   r.separation_fraction = r.separations_per_period = Eigen::VectorXd::Zero(n);
@@ -234,18 +236,18 @@ TEST_CASE("scorecard: two branches with known loads, losses and harmonics") {
   ResponseResult& down = s.responses["T150/down/response.h5"];
   ResponseResult& up = s.responses["T150/up/response.h5"];
   const Eigen::Index primary = row_of(down, 2400), secondary = row_of(down, 1300);
-  down.dte_rms[primary] = 7e-6;
-  down.dte_harmonic(primary, 0) = 0.96 * 7e-6 * std::numbers::sqrt2;
-  down.tooth_load_max[primary] = 4500;
-  down.separation_fraction[primary] = 0.3;
-  down.separations_per_period[primary] = 1;
-  down.dte_rms[secondary] = 4e-6;
-  down.dte_harmonic(secondary, 1) = 0.94 * 4e-6 * std::numbers::sqrt2;
-  down.separation_fraction[secondary] = 0.2;
-  down.separations_per_period[secondary] = 2;
+  down.dte_rms(primary, 0) = 7e-6;
+  down.dte_harmonic[static_cast<size_t>(primary)](0, 0) = 0.96 * 7e-6 * std::numbers::sqrt2;
+  down.tooth_load_max(primary, 0) = 4500;
+  down.separation_fraction(primary, 0) = 0.3;
+  down.separations_per_period(primary, 0) = 1;
+  down.dte_rms(secondary, 0) = 4e-6;
+  down.dte_harmonic[static_cast<size_t>(secondary)](1, 0) = 0.94 * 4e-6 * std::numbers::sqrt2;
+  down.separation_fraction(secondary, 0) = 0.2;
+  down.separations_per_period(secondary, 0) = 2;
   down.jump_frequency = Eigen::VectorXd::Constant(1, 1290);
   up.jump_frequency = Eigen::VectorXd::Constant(1, 2410);
-  up.dte_rms[row_of(up, 2820)] = 3e-6;
+  up.dte_rms(row_of(up, 2820), 0) = 3e-6;
 
   CHECK(claim("branches-2400").find(s).value == 1);
   // caption and text name 2400 and 2500 Hz for one pair of branches: one speed between them is enough
@@ -255,7 +257,7 @@ TEST_CASE("scorecard: two branches with known loads, losses and harmonics") {
   // 4500 N on one tooth, 4000 N in all: all three numbers take the reading that both loads are nearer to
   CHECK(claim("load-upper").find(s).value == 4500);
   CHECK(claim("load-upper").find(s).reading == "one tooth");
-  down.mesh_force_max[primary] = 4800;
+  down.mesh_force_max(primary, 0) = 4800;
   CHECK(claim("load-upper").find(s).value == 4500);
   CHECK(claim("load-upper").find(s).reading == "one tooth");
   CHECK(contains(claim("load-upper").find(s).note, "read as one tooth 4500 N, sum over the teeth 4800 N"));
@@ -274,20 +276,20 @@ TEST_CASE("scorecard: two branches with known loads, losses and harmonics") {
   CHECK(claim("lower-keeps-contact-2400").find(s).value == 1);
   CHECK(claim("resonance-1").find(s).value == relative(2820.0 / 2900, 1e-12));
   // 1350 Hz lies between two speeds: the lower one is taken on both sweeps
-  down.dte_rms[row_of(down, 1340)] = 4e-6;
+  down.dte_rms(row_of(down, 1340), 0) = 4e-6;
   // ... and are those of the resonance at f_n / 2 only if the second harmonic is the largest of the upper one; otherwise the
   // speed of the caption counts
   CHECK(contains(claim("lower-keeps-contact-1350").find(s).note, "1300 Hz"));
   SceneResults first = s;
-  first.responses["T150/down/response.h5"].dte_harmonic(secondary, 1) = 0;
+  first.responses["T150/down/response.h5"].dte_harmonic[static_cast<size_t>(secondary)](1, 0) = 0;
   CHECK(std::isnan(claim("lower-keeps-contact-1350").find(first).value));
   CHECK(contains(claim("lower-keeps-contact-1350").find(first).note, "that of f_n"));
   CHECK(claim("branches-1300").find(first).value == 0);
-  down.dte_harmonic(row_of(down, 1340), 1) = 4e-6;
+  down.dte_harmonic[static_cast<size_t>(row_of(down, 1340))](1, 0) = 4e-6;
   CHECK(claim("branches-1350").find(s).value == 1);
   CHECK(contains(claim("lower-keeps-contact-1350").find(s).note, "1340 Hz"));
 
-  up.separation_fraction[row_of(up, 2400)] = 0.1;
+  up.separation_fraction(row_of(up, 2400), 0) = 0.1;
   CHECK(claim("lower-keeps-contact-2400").find(s).value == 0);
 }
 
@@ -295,15 +297,15 @@ TEST_CASE("scorecard: shares of harmonics and the tolerance of the increase are 
   SceneResults s = flat_results();
   ResponseResult& down = s.responses["T150/down/response.h5"];
   const Eigen::Index primary = row_of(down, 2400);
-  down.dte_rms[primary] = 2e-6;
+  down.dte_rms(primary, 0) = 2e-6;
   const Claim& increase = claim("load-increase");
-  down.tooth_load_max[primary] = 1.700 * 3000;
+  down.tooth_load_max(primary, 0) = 1.700 * 3000;
   CHECK(verdict(increase, increase.find(s), false) == Verdict::agrees);
-  down.tooth_load_max[primary] = 1.702 * 3000;
+  down.tooth_load_max(primary, 0) = 1.702 * 3000;
   CHECK(verdict(increase, increase.find(s), false) == Verdict::differs);
   const Claim& harmonic = claim("upper-harmonic-1");
   for (double share : {0.949, 0.951}) {
-    down.dte_harmonic(primary, 0) = share * 2e-6 * std::numbers::sqrt2;
+    down.dte_harmonic[static_cast<size_t>(primary)](0, 0) = share * 2e-6 * std::numbers::sqrt2;
     CHECK(verdict(harmonic, harmonic.find(s), false) == (share > 0.95 ? Verdict::agrees : Verdict::differs));
   }
 }
@@ -316,9 +318,9 @@ TEST_CASE(
       s.responses[text("T", torque, "/", direction, "/response.h5")] = flat_response(torque, direction);
   const auto two_at = [&](int torque, double f, double lower_loss) {
     ResponseResult& down = s.responses[text("T", torque, "/down/response.h5")];
-    down.dte_rms[row_of(down, f)] = 4e-6;
+    down.dte_rms(row_of(down, f), 0) = 4e-6;
     ResponseResult& up = s.responses[text("T", torque, "/up/response.h5")];
-    up.separation_fraction[row_of(up, f)] = lower_loss;
+    up.separation_fraction(row_of(up, f), 0) = lower_loss;
   };
   const Claim& never = claim("lower-never-loses");
   CHECK(std::isnan(never.find(s).value));
@@ -340,7 +342,7 @@ TEST_CASE(
   const Claim& below = claim("two-states-below-2500");
   const auto two = [&](double from, double to) {
     for (Eigen::Index i = 0; i < down.dte_rms.size(); ++i)
-      if (down.mesh_frequency[i] >= from && down.mesh_frequency[i] <= to) down.dte_rms[i] = 4e-6;
+      if (down.mesh_frequency[i] >= from && down.mesh_frequency[i] <= to) down.dte_rms(i, 0) = 4e-6;
     down.jump_frequency = Eigen::VectorXd::Constant(1, from - 5);
     up.jump_frequency = Eigen::VectorXd::Constant(1, to + 5);
   };

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "figure_block.h"
 #include "gear/system_layout.h"
+#include "one_mesh.h"
 #include "paper_pair.h"
 #include "refusal.h"
 #include "relative.h"
@@ -46,9 +47,9 @@ ResponseResult some_response(Direction direction, int driven_teeth = 40) {
   if (direction == Direction::down) r.mesh_frequency.reverseInPlace();
   r.dte_rms = VectorXd::LinSpaced(n, 1e-6, 5e-6);
   r.dte_mean = r.tooth_load_max = r.mesh_force_max = VectorXd::Ones(n);
-  r.dte_harmonic = 1e-6 * MatrixRM::Ones(n, 3);
-  r.dte_harmonic(2, 1) = 10e-6;
-  r.dte_harmonic(3, 2) = 0;
+  r.dte_harmonic = of_one_mesh(1e-6 * MatrixRM::Ones(n, 3));
+  r.dte_harmonic[2](1, 0) = 10e-6;
+  r.dte_harmonic[3](2, 0) = 0;
   r.separation_fraction = r.separations_per_period = VectorXd::Zero(n);
   r.period_multiple = Eigen::VectorXi::Ones(n);
   r.jump_frequency = r.jump_width = VectorXd(0);
@@ -136,7 +137,7 @@ TEST_CASE(
 
   const SystemStaticResult rest = small_system();
   const Figure hertz =
-      system_sweep_figure({small_sweep(rest, Direction::up), small_sweep(rest, Direction::down)});
+      system_sweep_figure({small_response(rest, Direction::up), small_response(rest, Direction::down)});
   Figure rpm = hertz;
   apply({"rpm:sun", 1e-6}, rpm);
   CHECK(rpm.panels[0].x.label == "Speed of sun, ring at rest (rpm)");

@@ -268,7 +268,7 @@ TEST_CASE("a curve breaks at a sudden change of the RMS, but not over steps that
   r.jump_frequency.resize(0);
   r.jump_width.resize(0);
   r.dte_rms = Eigen::VectorXd::Constant(5, 1e-6);
-  r.dte_rms.tail(3).setConstant(2e-6);
+  r.dte_rms.bottomRows(3).setConstant(2e-6);
   r.mesh_frequency = Eigen::VectorXd::LinSpaced(5, 2000, 2100);
   const std::vector<bool> at_change{false, true, false, false, false};
   CHECK(broken_after(r) == at_change);
@@ -277,11 +277,11 @@ TEST_CASE("a curve breaks at a sudden change of the RMS, but not over steps that
   down.jump_frequency.resize(0);
   down.jump_width.resize(0);
   down.mesh_frequency = r.mesh_frequency.reverse();
-  down.dte_rms = 1.01 * r.dte_rms.reverse();
+  down.dte_rms = 1.01 * r.dte_rms.colwise().reverse();
   CHECK(broken_after(r, &down) == std::vector<bool>(5, false));
-  down.dte_rms[3] *= 1.5;  // at 2025 Hz, before the change
+  down.dte_rms(3, 0) *= 1.5;  // at 2025 Hz, before the change
   CHECK(broken_after(r, &down) == at_change);
-  down.dte_rms = r.dte_rms.reverse();
+  down.dte_rms = r.dte_rms.colwise().reverse();
   r.jump_frequency = r.jump_width = Eigen::VectorXd::Constant(1, 2037.5);
   CHECK(broken_after(r, &down) == at_change);
   r.jump_frequency.resize(0);
@@ -622,7 +622,7 @@ TEST_CASE("response figure: scene and measured damping ratio stand at the panel 
 TEST_CASE("response figure: a lumped model is not described as elastic gears") {
   ResponseResult up = some_response(Direction::up), down = some_response(Direction::down);
   up.model = down.model = MotionModel::secant;
-  up.separation_fraction[1] = up.separation_fraction[2] = down.separation_fraction[0] = 0.1;
+  up.separation_fraction(1, 0) = up.separation_fraction(2, 0) = down.separation_fraction(0, 0) = 0.1;
   LumpedParameters lumped;
   lumped.mass = 1.4;
   lumped.damping_ratio = 0.08;
@@ -650,7 +650,7 @@ TEST_CASE("response figure: speeds beyond the backlash are marked, and said") {
       if (key == name) return value;
     return -1.0;
   };
-  up.separation_fraction[3] = 0.1;
+  up.separation_fraction(3, 0) = 0.1;
   up.backlash_left = down.backlash_left = Eigen::VectorXd::Constant(5, 1e-6);
   CHECK(number(response_figure({up, down}), "beyond_backlash_a") == 0);
   CHECK(!contains(word_of(response_figure({up, down}), "loss_a"), "backlash"));

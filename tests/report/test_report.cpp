@@ -175,7 +175,7 @@ TEST_CASE("tooth loads against speed: those of the sweeps, the period of the lar
     size_t i = 0;
     for (const auto& row : block(figure, name_of(direction)).rows) {
       if (row.empty()) continue;
-      CHECK(row[5] == r.tooth_load_max[static_cast<Eigen::Index>(i++)]);
+      CHECK(row[5] == r.tooth_load_max(static_cast<Eigen::Index>(i++), 0));
     }
     CHECK(i == 4);
   }

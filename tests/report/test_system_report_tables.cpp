@@ -23,8 +23,8 @@
 #include "report/system_sweep_figure.h"
 #include "report/text_width.h"
 #include "results/modes.h"
+#include "results/response.h"
 #include "results/system_static.h"
-#include "results/system_sweep.h"
 #include "scene_file.h"
 #include "small_system.h"
 #include "system/mode_view.h"
@@ -73,15 +73,15 @@ SystemReport report_of(const SystemStaticResult& rest) {
 
 // Rising: planet 2 vibrates most at 2000 Hz, where it loses contact; at 1000 Hz the motion does not repeat. Falling: another
 // motion at 2000 Hz.
-std::vector<SystemSweepResult> sweeps_of(const SystemStaticResult& rest) {
-  std::vector<SystemSweepResult> out{small_sweep(rest, Direction::up), small_sweep(rest, Direction::down)};
-  for (SystemSweepResult& a : out) {
+std::vector<ResponseResult> sweeps_of(const SystemStaticResult& rest) {
+  std::vector<ResponseResult> out{small_response(rest, Direction::up), small_response(rest, Direction::down)};
+  for (ResponseResult& a : out) {
     a.dte_rms.setConstant(1e-6);
     a.separation_fraction.setZero();
     a.mesh_force_max.setConstant(1500);
     a.energy_imbalance.setConstant(1e-13);
   }
-  SystemSweepResult& up = out.front();
+  ResponseResult& up = out.front();
   up.dte_rms(0, 1) = 3e-6;
   up.separation_fraction(0, 1) = 0.25;
   up.mesh_force_max(0, 1) = 2200;
@@ -145,7 +145,7 @@ TEST_CASE(
   SystemReport again = r;
   again.rest = read<SystemStaticResult>(file + "s.h5");
   again.modes = read<ModesResult>(file + "m.h5");
-  again.sweeps = {read<SystemSweepResult>(file + "u.h5"), read<SystemSweepResult>(file + "d.h5")};
+  again.sweeps = {read<ResponseResult>(file + "u.h5"), read<ResponseResult>(file + "d.h5")};
   CHECK(system_report_html(again) == page);
   CHECK(system_report_tsv(again) == table);
   CHECK(plot_data(system_picture(*again.rest)) == plot_data(system_picture(rest)));
@@ -173,7 +173,7 @@ TEST_CASE(
               {"systems"}));
   CHECK(names(said(r, [](SystemReport& c) { c.rest.reset(); }), {"system_static.h5"}));
   CHECK(names(said(r, [](SystemReport& c) { c.sweeps[1] = c.sweeps[0]; }), {"up"}));
-  CHECK(names(said(r, [](SystemReport& c) { c.sweeps[1].torque[0] = 401; }), {"sun", 401}));
+  CHECK(names(said(r, [](SystemReport& c) { c.sweeps[1].drive[0] = 401; }), {"sun", 401}));
 }
 
 TEST_CASE(
@@ -213,19 +213,22 @@ TEST_CASE(
     "remarks on motion: peaks that are one speed wide, bearings without dampers, what a turning carrier leaves out") {
   const SystemStaticResult rest = varied();
   SystemReport r;
-  r.sweeps = {small_sweep(rest, Direction::up)};
-  SystemSweepResult& a = r.sweeps[0];
+  r.sweeps = {small_response(rest, Direction::up)};
+  ResponseResult& a = r.sweeps[0];
   const Index meshes = a.dte_rms.cols();
   a.mesh_frequency = Eigen::Vector4d(1000, 1100, 1200, 1300);
   a.dte_rms = MatrixRM::Constant(4, meshes, 1e-6);
   a.separation_fraction = MatrixRM::Zero(4, meshes);
   a.energy_imbalance = Eigen::VectorXd::Zero(4);
   a.period_multiple = Eigen::VectorXi::Ones(4);
-  a.mesh_force.assign(4, MatrixRM::Constant(2, meshes, 1000));
-  for (System::Body& body : a.settings.layout.bodies)
+  SystemSweepResult sweep;
+  sweep.mesh_frequency = a.mesh_frequency;
+  sweep.mesh_force.assign(4, MatrixRM::Constant(2, meshes, 1000));
+  for (System::Body& body : a.train.layout.bodies)
     if (body.bearing.elastic()) body.bearing.damping = 100;
   const auto said = [&](const std::string& words) {
-    a.remarks = left_out_of_carriers(a);
+    sweep.settings.layout = a.train.layout;
+    a.remarks = left_out_of_carriers(sweep);
     for (const Remark& one : motion_remarks(r))
       if (contains(one.words, words)) return one.warning ? 2 : 1;
     return 0;
@@ -236,26 +239,26 @@ TEST_CASE(
   CHECK(said("peaks at 1200 Hz are one speed wide") == 2);
   a.dte_rms(1, 1) = 1.1e-6;
   CHECK(said("one speed wide") == 0);
-  for (System::Body& body : a.settings.layout.bodies)
+  for (System::Body& body : a.train.layout.bodies)
     if (body.name == "planet2") body.bearing = {1e8, 0, 1};
   CHECK(said("no damping_Ns_m in the [[bearing]] of planet2:") == 1);
   // The ring is held, and the carrier; then the carrier is let go.
   CHECK(said("In a machine in which ring stands still") == 2);
-  a.mesh_force.assign(4, MatrixRM::Constant(2, meshes, 1e9));
+  sweep.mesh_force.assign(4, MatrixRM::Constant(2, meshes, 1e9));
   CHECK(said("In a machine in which ring stands still") == 1);
-  a.mesh_force.assign(4, MatrixRM::Constant(2, meshes, 1000));
-  std::erase_if(a.settings.layout.drives, [&](const System::Drive& drive) {
-    return a.settings.layout.bodies[static_cast<size_t>(drive.body)].kind == System::BodyKind::carrier;
+  sweep.mesh_force.assign(4, MatrixRM::Constant(2, meshes, 1000));
+  std::erase_if(a.train.layout.drives, [&](const System::Drive& drive) {
+    return a.train.layout.bodies[static_cast<size_t>(drive.body)].kind == System::BodyKind::carrier;
   });
   CHECK(said("rpm at 1300 Hz, ring being held: centrifugal forces on its planets of") == 2);
 }
 
 TEST_CASE("figures of motion set only motions of one system beside each other, one sweep in a direction") {
   const SystemStaticResult rest = varied();
-  const std::vector<SystemSweepResult> sweeps = sweeps_of(rest);
+  const std::vector<ResponseResult> sweeps = sweeps_of(rest);
   SystemBranchResult branch;
-  branch.settings = sweeps[0].settings;
-  branch.torque = sweeps[0].torque;
+  branch.settings = sweeps[0].train;
+  branch.torque = sweeps[0].drive;
   branch.mesh_frequency = Eigen::Vector2d(1000, 1100);
   branch.dte_rms = MatrixRM::Constant(2, sweeps[0].dte_rms.cols(), 1e-6);
   branch.floquet_multiplier.assign(2, MatrixRM::Constant(1, 2, 0.5));
@@ -264,17 +267,16 @@ TEST_CASE("figures of motion set only motions of one system beside each other, o
   REQUIRE(system_branch_figure(branch, sweeps).blocks.size() == 3);
 
   const auto said = [&](const auto& change, const std::vector<Field>& fields) {
-    std::vector<SystemSweepResult> changed = sweeps;
+    std::vector<ResponseResult> changed = sweeps;
     change(changed[1]);
     CHECK(names(message_of_input([&] { system_sweep_figure(changed); }), fields));
     CHECK(names(message_of_input([&] { system_branch_figure(branch, changed); }), fields));
   };
-  said([](SystemSweepResult& c) { c.settings.layout.bodies[0].teeth = 28; }, {"two", "systems"});
-  said([](SystemSweepResult& c) { c.settings.layout.bodies[0].name = "other"; }, {"two", "systems"});
-  said([](SystemSweepResult& c) { c.torque[0] = 401; }, {"torque", "sun", 400, 401});
-  said([](SystemSweepResult& c) { c.settings.damping.rayleigh_stiffness = 3e-6; },
-       {"damping", "2e-06", "3e-06"});
-  said([](SystemSweepResult& c) { c.direction = Direction::up; }, {"up"});
+  said([](ResponseResult& c) { c.train.layout.bodies[0].teeth = 28; }, {"two", "systems"});
+  said([](ResponseResult& c) { c.train.layout.bodies[0].name = "other"; }, {"two", "systems"});
+  said([](ResponseResult& c) { c.drive[0] = 401; }, {"torque", "sun", 400, 401});
+  said([](ResponseResult& c) { c.train.damping.rayleigh_stiffness = 3e-6; }, {"damping", "2e-06", "3e-06"});
+  said([](ResponseResult& c) { c.direction = Direction::up; }, {"up"});
 }
 
 TEST_CASE("odd names in the figures of a system: marks of gnuplot, names that are long") {
@@ -289,7 +291,7 @@ TEST_CASE("odd names in the figures of a system: marks of gnuplot, names that ar
     return std::string();
   };
   for (const Figure& figure : {system_picture(a), system_static_figure(a), system_load_sharing_figure(a),
-                               system_sweep_figure({small_sweep(a, Direction::up)})}) {
+                               system_sweep_figure({small_response(a, Direction::up)})}) {
     CAPTURE(figure.title);
     CHECK(
         (figure.captions.empty() ? words_of(figure, "line1") : figure.captions[0]).starts_with("sun\\_gear"));

@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <fstream>
 #include <numbers>
 #include <sstream>
@@ -19,6 +20,8 @@
 #include "relative.h"
 #include "results/system_sweep.h"
 #include "scene_file.h"
+#include "signal/response.h"
+#include "small_system.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
 #include "studies/branch_rigs.h"
@@ -105,7 +108,8 @@ TEST_CASE(
     "sweep of a planetary train: contact is lost, energy closes, both ways meet, two runs are identical") {
   const SystemSweepResult up = swept(Direction::up), down = swept(Direction::down);
   REQUIRE(up.mesh_frequency.size() == 4);
-  CHECK(up.separation_fraction.maxCoeff() > 0.01);
+  const ResponseResult rising = response(up), falling = response(down);
+  CHECK(rising.separation_fraction.maxCoeff() > 0.01);
   for (const SystemSweepResult* a : {&up, &down}) {
     CHECK(a->energy_imbalance.maxCoeff() < 1e-9);
     CHECK(a->least_gap > -1e-12);
@@ -116,7 +120,7 @@ TEST_CASE(
     REQUIRE(up.period_multiple[i] == 1);
     REQUIRE(down.period_multiple[3 - i] == 1);
     CHECK(up.residual[i] < 1e-5);
-    for (Index m = 0; m < 6; ++m) CHECK(down.dte_rms(3 - i, m) == relative(up.dte_rms(i, m), 1e-3));
+    for (Index m = 0; m < 6; ++m) CHECK(falling.dte_rms(3 - i, m) == relative(rising.dte_rms(i, m), 1e-3));
     // Nothing turns faster and faster: torques on what stands on the ground, drives and what holds.
     double all = 0;
     for (size_t b = 0; b < up.settings.layout.bodies.size(); ++b)
@@ -136,6 +140,85 @@ TEST_CASE(
   CHECK(bytes_of(up) == bytes_of(swept(Direction::up)));
 }
 
+// By sums over the stored rows, apart from the program's functions.
+TEST_CASE(
+    "what a sweep of a train says: each mesh and each body by sums over its rows, read back with its names") {
+  const SystemSweepResult a = swept(Direction::down);
+  const SceneFile place;
+  const std::string path = place.path("") + ".h5", answer = place.path("") + "-response.h5";
+  write(path, a, Provenance());
+  write(answer, response(read<SystemSweepResult>(path)), Provenance());
+  const ResponseResult r = read<ResponseResult>(answer);
+  REQUIRE(r.of_train());
+  REQUIRE(r.mesh_names.size() == 6);
+  CHECK(r.mesh_names[1] == "sun-planet2");
+  CHECK(r.body_names == std::vector<std::string>{"sun", "planet1", "planet2", "planet3", "ring", "carrier"});
+  REQUIRE(r.harmonics() == 10);
+  CHECK(r.root_stress_max.size() == 0);
+  double parted = 0;
+  for (Index i = 0; i < 4; ++i) {
+    const auto at = static_cast<size_t>(i);
+    const MatrixRM &error = a.transmission_error[at], &force = a.mesh_force[at];
+    const Index n = error.rows();
+    REQUIRE(n == 48);
+    for (Index m = 0; m < 6; ++m) {
+      double sum = 0, square = 0, most = 0, tooth = 0, apart = 0, share = 0;
+      std::complex<double> second = 0;
+      for (Index k = 0; k < n; ++k) {
+        sum += error(k, m);
+        second += error(k, m) * std::polar(1.0, -4 * std::numbers::pi * static_cast<double>(k) / 48);
+        most = std::max(most, force(k, m));
+        tooth = std::max(tooth, a.largest_tooth_load[at](k, m));
+        apart += force(k, m) > 0 ? 0 : 1;
+        const double all = force.row(k).segment(m < 3 ? 0 : 3, 3).sum();
+        if (all > 0) share = std::max(share, force(k, m) / all);
+      }
+      for (Index k = 0; k < n; ++k) square += std::pow(error(k, m) - sum / 48, 2);
+      CHECK(r.dte_mean(i, m) == relative(sum / 48, 1e-12));
+      CHECK(r.dte_rms(i, m) == relative(std::sqrt(square / 48), 1e-12));
+      CHECK(r.dte_harmonic[at](1, m) == relative(std::abs(second) / 24, 1e-9));
+      CHECK(r.mesh_force_max(i, m) == most);
+      CHECK(r.tooth_load_max(i, m) == tooth);
+      CHECK(tooth <= most * (1 + 1e-12));
+      CHECK(r.separation_fraction(i, m) == apart / 48);
+      CHECK(r.load_share_max(i, m) == relative(share, 1e-12));
+      parted += apart;
+    }
+    for (size_t b = 0; b < 6; ++b) {
+      const MatrixRM& bearing = a.bearing_force[b][at];
+      double x = 0, y = 0, square = 0, most = 0;
+      for (Index k = 0; k < n; ++k) {
+        x += bearing(k, 0) / 48;
+        y += bearing(k, 1) / 48;
+        most = std::max(most, std::hypot(bearing(k, 0), bearing(k, 1)));
+      }
+      for (Index k = 0; k < n; ++k) square += std::pow(bearing(k, 0) - x, 2) + std::pow(bearing(k, 1) - y, 2);
+      CHECK(r.bearing_force_max(i, static_cast<Index>(b)) == relative(most, 1e-12));
+      CHECK(std::abs(r.bearing_force_rms(i, static_cast<Index>(b)) - std::sqrt(square / 48)) < 1e-9 * most);
+    }
+  }
+  CHECK(parted > 0);
+}
+
+TEST_CASE("a sweep of a train whose rows do not fit each other is rejected with what does not") {
+  const SystemSweepResult good = small_sweep(small_system(), Direction::up);
+  const auto said = [&](const auto& spoil) {
+    SystemSweepResult a = good;
+    a.settings.time.steps_per_period = 4;
+    spoil(a);
+    return message_of_input([&] { response(a); });
+  };
+  CHECK(names(said([](SystemSweepResult& a) { a.mesh_frequency.resize(0); }), {"no speed"}));
+  CHECK(names(said([](SystemSweepResult& a) { a.mesh_force.pop_back(); }), {"mesh_force", 1, 2}));
+  CHECK(names(said([](SystemSweepResult& a) { a.largest_tooth_load[1].resize(3, 6); }),
+              {"largest_tooth_load", 3, 4}));
+  CHECK(names(said([](SystemSweepResult& a) { a.bearing_force.pop_back(); }), {"bearing_force", 5, 6}));
+  CHECK(names(said([](SystemSweepResult& a) { a.settings.section.pop_back(); }), {"[[mesh]]", 5, 6}));
+  CHECK(names(said([](SystemSweepResult& a) { a.settings.section[0] = -1; }), {"[[mesh]]", -1}));
+  CHECK(names(said([](SystemSweepResult& a) { a.settings.time.steps_per_period = 3; }), {4, 3}));
+  CHECK(names(said([](SystemSweepResult& a) { a.period_multiple[0] = 2; }), {"period_multiple", 2}));
+}
+
 TEST_CASE(
     "branch of a planetary train: its ends are the motions of the sweep, all along it they are stable") {
   SystemSweepParameters settings = train().settings;
@@ -143,7 +226,7 @@ TEST_CASE(
   settings.frequency_to = 2600;
   settings.frequency_step = 25;
   const SystemBranchResult branch = system_branch(settings, train().bodies, [](auto&&...) {});
-  const SystemSweepResult sweep = swept(Direction::down, settings);
+  const ResponseResult sweep = response(swept(Direction::down, settings));
   INFO(branch.end);
   const Index last = branch.mesh_frequency.size() - 1;
   REQUIRE(last >= 1);
@@ -176,7 +259,7 @@ TEST_CASE(
   CHECK(branch.mesh_frequency[0] == relative(2575, 1e-12));
   REQUIRE(branch.part.maxCoeff() == 1);
   CHECK(branch.period_multiple.maxCoeff() == 1);
-  const SystemSweepResult sweep = swept(Direction::up, settings);
+  const ResponseResult sweep = response(swept(Direction::up, settings));
   for (Index m = 0; m < 6; ++m) CHECK(branch.dte_rms(0, m) == relative(sweep.dte_rms(1, m), 1e-4));
   for (Index part = 0; part < 2; ++part) {
     Index last = branch.part.size() - 1;

@@ -469,8 +469,8 @@ TEST_CASE(
                                                 5e-3));
   CHECK(r.flank_roll(middle, 0) == relative(pair.nominal_roll(0, place), 1e-9));
   // Tip edges touch with corner contact only.
-  CHECK(r.edge_load[0][0] > 0);
-  CHECK(r.edge_load[1][0] > 0);
+  CHECK(r.edge_load(0, 0) > 0);
+  CHECK(r.edge_load(0, 1) > 0);
   // A place has a pressure, or a load over an edge, or neither: then no pair holds load there. Held values over speed are no less
   // than those of places, whose windows stand still.
   const std::array<double, 2> path{pair.path_start() / pair.base_pitch(),
@@ -488,17 +488,17 @@ TEST_CASE(
   CHECK(r.flank_pressure_sustained[0] == relative(r.flank_pressure.maxCoeff(), 0.02));
   // Windows over three samples against places of two, where the load goes to 0 within some of them.
   const double there = r.edge_load_there.maxCoeff();
-  CHECK(std::max(r.edge_load[0][0], r.edge_load[1][0]) > 0.9 * there);
-  CHECK(std::max(r.edge_load[0][0], r.edge_load[1][0]) <= up.tooth_load[0].maxCoeff());
+  CHECK(std::max(r.edge_load(0, 0), r.edge_load(0, 1)) > 0.9 * there);
+  CHECK(std::max(r.edge_load(0, 0), r.edge_load(0, 1)) <= up.tooth_load[0].maxCoeff());
   CHECK(r.loss_factor[0] == relative(s.loss_factor, 2e-3));
   for (size_t g = 0; g < kSides; ++g) {
-    CHECK(r.root_stress_sustained[g][0] <= r.root_stress_max[g][0]);
-    CHECK(r.root_stress_angle[g] == up.root_stress_angle[g]);
-    CHECK(r.root_stress_phase[g] == up.root_stress_phase[g]);
-    CHECK(r.root_stress_sustained[g][0] == relative(r.root_stress_max[g][0], 0.02));
+    CHECK(r.root_stress_sustained(0, g) <= r.root_stress_max(0, g));
+    CHECK(r.root_stress_angle.col(g) == up.root_stress_angle[g]);
+    CHECK(r.root_stress_phase.col(g) == up.root_stress_phase[g]);
+    CHECK(r.root_stress_sustained(0, g) == relative(r.root_stress_max(0, g), 0.02));
   }
-  CHECK(r.tooth_load_sustained[0] <= r.tooth_load_max[0]);
-  CHECK(r.mesh_force_sustained[0] <= r.mesh_force_max[0]);
+  CHECK(r.tooth_load_sustained(0, 0) <= r.tooth_load_max(0, 0));
+  CHECK(r.mesh_force_sustained(0, 0) <= r.mesh_force_max(0, 0));
 
   const Figure pressures = flank_pressure_figure(s, {r, [&] {
                                                        ResponseResult other = r;
@@ -529,8 +529,8 @@ TEST_CASE(
   REQUIRE(speed.columns.size() == 12);
   CHECK(speed.columns[8] == "root_angle_pinion [deg]");
   CHECK(speed.columns[11] == "root_phase_wheel [1]");
-  CHECK(speed.rows[0][8] == relative(r.root_stress_angle[0][0] * 180 / std::numbers::pi, 1e-12));
-  CHECK(speed.rows[0][11] == relative(r.root_stress_phase[1][0], 1e-12));
+  CHECK(speed.rows[0][8] == relative(r.root_stress_angle(0, 0) * 180 / std::numbers::pi, 1e-12));
+  CHECK(speed.rows[0][11] == relative(r.root_stress_phase(0, 1), 1e-12));
   CHECK(block("iso").rows.front()[1] >= 1);
   // Gears by the scene's names, no raw markup.
   CHECK(speed.columns[1] == "root_stress_pinion [MPa]");
@@ -557,9 +557,9 @@ TEST_CASE(
     return failure_of([&] { root_stress_figure(s, {lacking, back}); });
   };
   CHECK(without([](ResponseResult&) {}) == static_cast<Failure>(0));
-  CHECK(without([](ResponseResult& a) { a.root_stress_sustained[1].resize(0); }) == Failure::input);
-  CHECK(without([](ResponseResult& a) { a.mesh_force_sustained.resize(0); }) == Failure::input);
-  CHECK(without([](ResponseResult& a) { a.tooth_load_sustained.resize(0); }) == Failure::input);
+  CHECK(without([](ResponseResult& a) { a.root_stress_sustained.resize(0, 0); }) == Failure::input);
+  CHECK(without([](ResponseResult& a) { a.mesh_force_sustained.resize(0, 0); }) == Failure::input);
+  CHECK(without([](ResponseResult& a) { a.tooth_load_sustained.resize(0, 0); }) == Failure::input);
   CHECK(without([](ResponseResult& a) { a.loss_factor.resize(0); }) == Failure::input);
 }
 
