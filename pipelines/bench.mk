@@ -20,6 +20,13 @@ bench-stress: $(stress_benches) ## root stress of two pairs at one position besi
 bench-internal: $(B)/bin/whine-bench $(call pair_bodies,$(internal_scene)) ## static positions of a planet in a ring beside CalculiX, if `deps-bench` has installed it
 	@$< --params out/$(internal_scene)/params/static.toml $(call pair_options,$(internal_scene)) --torque 200 --position 0 --position 0.25 --position 0.5
 
+# A train's steps beside those of the pair with a standard tooth; SCENE: of its train.
+bench_train := $(if $(SCENE),$(own_scene),$(elastic_system_scene))
+.PHONY: bench-train
+bench-train: $(B)/bin/whine-bench-train $(call pair_bodies,$(standard_scene)) $(foreach g,$(SCENE_$(bench_train)_SYSTEM_GEARS),out/$(bench_train)/$g/body.h5) ## time of a step of a train beside that of a pair and of the pair told as a train
+	@$< --params out/$(standard_scene)/params/static.toml --sweep-params out/$(standard_scene)/params/sweep.toml $(call pair_options,$(standard_scene)) \
+	  --train-params out/$(bench_train)/params/system_sweep.toml $(foreach g,$(SCENE_$(bench_train)_SYSTEM_GEARS),--train-body $g=out/$(bench_train)/$g/body.h5)
+
 .PHONY: work-precision
 work-precision: $(B)/bin/whine-work-precision $(call pair_bodies,$(deep_scene)) ## error against CPU time of each numerical choice, at a damping with two branches
 	@$< --static-params out/$(deep_scene)/params/static.toml --sweep-params out/$(deep_scene)/params/sweep.toml \

@@ -1,11 +1,11 @@
-// gear-runup: the motion of the pair while its speed changes with time, through jumps, contact loss and transients.
+// gear-runup: the motion of a pair or a train while its speed changes with time, through jumps, contact loss and transients.
 //
-// Reads   params (stage parameters of a scene: damping, inertia, speeds, fidelity, time), body.h5 of both gears,
-//         static.h5 of the torque (mesh, contact discretisation), static.h5 of the reference torque (mean stiffness of
-//         the dampers)
-// Writes  runup.h5    transmission error, mesh and bearing forces, tooth loads over time, and per mesh period RMS, largest
-//         tooth load and loss of contact; written as it comes
-// Equations: those of gear-sweep; mesh frequency f(t) = from + a t, a = rate / 60 x teeth of the driver
+// Reads   params (stage parameters of sweeps of a scene: damping, inertia, speeds, fidelity, time), body.h5 of all gears;
+//         of a pair also static.h5 of the torque (mesh, contact discretisation) and static.h5 of the reference torque (mean stiffness
+//         of the dampers)
+// Writes  runup.h5    transmission errors, mesh and bearing forces, tooth loads over time, and per mesh period RMS, largest
+//         tooth load and loss of contact of each mesh; written as it comes
+// Equations: those of gear-sweep; mesh frequency f(t) = from + a t, a = rate / 60 x mesh periods in a revolution of the input
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,10 +14,12 @@
 #include "base/progress.h"
 #include "base/tool.h"
 #include "io/artifacts.h"
+#include "io/compatibility.h"
 #include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "io/runup_file.h"
 #include "io/scene.h"
+#include "io/system_scene.h"
 #include "studies/runup.h"
 
 namespace {
@@ -30,6 +32,14 @@ class RunupFileWithNotes : public RunupFile {
   using RunupFile::RunupFile;
   void end(const RunupResult& tail) override {
     RunupFile::end(tail);
+    if (!tail.of_train()) log_torques(tail);
+    if (tail.backlash_margin <= 0)
+      log_line("gear-runup: warning: the motion goes up to ", -tail.backlash_margin * 1e6,
+               " µm beyond the backlash; back flanks would touch there, which is not modelled");
+  }
+
+ private:
+  static void log_torques(const RunupResult& tail) {
     const auto torque = acceleration_torque(tail);
     for (size_t g = 0; g < kSides; ++g)
       if (const double own =
@@ -39,23 +49,36 @@ class RunupFileWithNotes : public RunupFile {
         log_line("gear-runup: accelerating ", tail.mesh.gear[g], " takes ", torque[g], " N m, ",
                  100 * torque[g] / own,
                  " % of its torque; its own shaft is taken to supply this, so the mesh does not carry it");
-    if (tail.backlash_margin <= 0)
-      log_line("gear-runup: warning: the motion goes up to ", -tail.backlash_margin * 1e6,
-               " µm beyond the backlash; back flanks would touch there, which is not modelled");
   }
 };
 
+// Ends of the ramp that are not given are those of the scene's speeds.
+template <class Settings>
+void complete_ramp(SpeedRamp& ramp, const Settings& scene, const std::string& way) {
+  const bool up = way == "up";
+  if (ramp.from == 0) ramp.from = up ? scene.frequency_from : scene.frequency_to;
+  if (ramp.to == 0) ramp.to = up ? scene.frequency_to : scene.frequency_from;
+  if ((ramp.to > ramp.from) != up)
+    fail(Failure::usage, "--direction ", way, ": the ramp goes from ", ramp.from, " to ", ramp.to,
+         " Hz; exchange --from and --to, or give the other direction");
+}
+
 void body(int argc, char** argv) {
-  Options options{"Motion of the pair while its speed changes with time", "gear-runup"};
+  Options options{"Motion of a pair or a train while its speed changes with time", "gear-runup"};
   std::string params, statics, reference, output;
   std::vector<std::string> bodies;
   RunupSettings wanted;
   options.add("--params", params, "stage parameters of the scene: out/<scene>/params/sweep.toml").required();
   options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
-  options.add("--static", statics, "static.h5 of the torque to run").required();
-  options.add("--reference-static", reference, "static.h5 whose mean stiffness sets the bearing dampers")
+  Option at_torque = options.add("--static", statics, "static.h5 of the torque to run, of a pair");
+  Option at_reference = options.add("--reference-static", reference,
+                                    "static.h5 whose mean stiffness sets the bearing dampers of a pair");
+  at_torque.needs(at_reference);
+  at_reference.needs(at_torque);
+  options
+      .add("--rate", wanted.ramp.rate,
+           "rpm/s by which the speed of the driver, of a train of its input, changes, above 0")
       .required();
-  options.add("--rate", wanted.ramp.rate, "rpm/s by which the driver's speed changes, above 0").required();
   options.add("--from", wanted.ramp.from, "mesh frequency at the start in Hz; 0: an end of the scene's");
   options.add("--to", wanted.ramp.to, "mesh frequency at the end in Hz; 0: the other end");
   std::string way = "up";
@@ -70,29 +93,35 @@ void body(int argc, char** argv) {
   if (!(wanted.sample_rate >= 1000 && wanted.sample_rate <= 1e6))
     fail(Failure::usage, "--sample-rate ", wanted.sample_rate, ": 1000 to 1000000 Hz");
 
+  const bool pair = !statics.empty();
   const NamedFiles files("--body", bodies);
-  const Provenance provenance =
+  RunupFileWithNotes file(
+      output,
       made_by(argc, argv,
-              files.and_inputs({"params=" + params, "static=" + statics, "reference_static=" + reference}));
-  SweepParameters settings = read_sweep_parameters(params);
-  const auto [pair, at_torque, at_reference] = read_pair_inputs(files, statics, reference, settings);
-  const bool up = way == "up";
-  if (wanted.ramp.from == 0) wanted.ramp.from = up ? settings.frequency_from : settings.frequency_to;
-  if (wanted.ramp.to == 0) wanted.ramp.to = up ? settings.frequency_to : settings.frequency_from;
-  if ((wanted.ramp.to > wanted.ramp.from) != up)
-    fail(Failure::usage, "--direction ", way, ": the ramp goes from ", wanted.ramp.from, " to ",
-         wanted.ramp.to, " Hz; exchange --from and --to, or give the other direction");
-
-  RunupFileWithNotes file(output, provenance);
+              files.and_inputs(pair ? std::vector<std::string>{"params=" + params, "static=" + statics,
+                                                               "reference_static=" + reference}
+                                    : std::vector<std::string>{"params=" + params})));
   std::optional<Progress> progress;
-  runup(pair[0], pair[1], at_torque, at_reference.mean_stiffness, settings, wanted, file,
-        [&](long done, long total, const std::string& note) {
-          if (!progress) progress.emplace(text("gear-runup ", way), total);
-          progress->update(done, note);
-        });
+  const auto report = [&](long done, long total, const std::string& note) {
+    if (!progress) progress.emplace(text("gear-runup ", way), total);
+    progress->update(done, note);
+  };
+  std::string operating_point;
+  if (pair) {
+    SweepParameters settings = read_sweep_parameters(params);
+    const PairInputs inputs = read_pair_inputs(files, statics, reference, settings);
+    complete_ramp(wanted.ramp, settings, way);
+    operating_point = text(inputs.at_torque.torque, " N m, ");
+    runup(inputs.body[0], inputs.body[1], inputs.at_torque, inputs.at_reference.mean_stiffness, settings,
+          wanted, file, report);
+  } else {
+    const SystemSweepParameters settings = read_system_sweep_parameters(params);
+    complete_ramp(wanted.ramp, settings, way);
+    runup(settings, read_bodies(files, settings), wanted, file, report);
+  }
   progress.reset();
-  log_line("gear-runup: ", at_torque.torque, " N m, ", wanted.ramp.from, " to ", wanted.ramp.to, " Hz at ",
-           wanted.ramp.rate, " rpm/s -> ", output);
+  log_line("gear-runup: ", operating_point, wanted.ramp.from, " to ", wanted.ramp.to, " Hz at ", wanted.ramp.rate,
+           " rpm/s -> ", output);
 }
 
 }  // namespace

@@ -27,15 +27,19 @@ constexpr double kHeadroom = 1.1;  // of a full scale that nobody has chosen, ab
 void body(int argc, char** argv) {
   Options options{"Writes a force of a periodic motion as sound, one branch after the other", "gear-sound"};
   std::vector<std::string> sweeps, runups;
-  std::string output, transfer_path, bearing;
+  HeardForce force;
+  std::string output, transfer_path;
   double frequency = 0, seconds = 3, full_scale = 0;
-  Option sweep = options.add("--sweep", sweeps, "sweep.h5, once for each branch");
+  Option sweep = options.add("--sweep", sweeps, "sweep.h5 of a pair or a train, once for each branch");
   Option speed = options.add("--mesh-frequency", frequency, "speed in Hz, one of the sweep's");
   Option runup = options.add("--runup", runups, "runup.h5 in place of sweeps, once for each branch");
   speed.needs(sweep);
   runup.excludes(sweep);
   options.add("--output", output, "path without extension").required();
-  options.add("--bearing", bearing, "<gear>:x or <gear>:y: the force on its bearing; else the mesh force");
+  Option bearing = options.add("--bearing", force.bearing,
+                               "<body>:x or <body>:y: the force on its bearing; else a mesh force");
+  options.add("--mesh", force.mesh, "mesh of a train, as sun-planet1, whose force is heard; else the first")
+      .excludes(bearing);
   options.add("--transfer", transfer_path, "CSV: frequency_Hz, magnitude, phase_deg");
   options.add("--seconds", seconds, "of each branch of a sweep").show_default().needs(sweep);
   options
@@ -53,8 +57,8 @@ void body(int argc, char** argv) {
 
   std::unique_ptr<Transfer> transfer;
   if (!transfer_path.empty()) transfer = std::make_unique<Transfer>(read_transfer_function(transfer_path));
-  Sounds heard = runups.empty() ? sounds_of_motions(sweeps, frequency, bearing, transfer.get(), seconds)
-                                : sounds_of_runups(runups, bearing, transfer.get());
+  Sounds heard = runups.empty() ? sounds_of_motions(sweeps, frequency, force, transfer.get(), seconds)
+                                : sounds_of_runups(runups, force, transfer.get());
   double loudest = 0;
   for (const VectorXd& y : heard.sounds) loudest = std::max(loudest, y.cwiseAbs().maxCoeff());
   if (full_scale == 0) full_scale = kHeadroom * loudest;

@@ -49,7 +49,7 @@ inline constexpr std::tuple kArtifactKinds{
     ArtifactKind<SweepResult>{"sweep", 7, "sweep.h5", "sweep"},
     ArtifactKind<ResponseResult>{"response", 9, "response.h5", "response"},
     ArtifactKind<BranchResult>{"branch", 6, "branch.h5", "branch"},
-    ArtifactKind<RunupResult>{"runup", 3, "runup_<rate>.h5", "runup_*"},
+    ArtifactKind<RunupResult>{"runup", 4, "runup_<rate>.h5", "runup_*"},
     ArtifactKind<FoldCurvesResult>{"fold_curves", 1, "fold_curves_*.h5", "fold_curves*"},
     ArtifactKind<JumpMapResult>{"jump_map", 2, "jump_map_*.h5", "jump_map* branches*"},
     ArtifactKind<HarrisMapResult>{"harris_map", 1, "harris_map.h5", "harris_*"},

@@ -93,8 +93,7 @@ void describe_loads(Codec& c, ResponseResult& a) {
 
 void describe(Codec& c, ResponseResult& a) {
   describe_source(c, a);
-  c(a.mesh_names, "/mesh", "mesh", "meshes by the names of their bodies, driving-driven");
-  c(a.body_names, "/body", "body", "bodies by name; of a pair the driver, then the driven gear");
+  describe_names(c, a.of_train(), a.mesh_names, a.body_names);
   c(a.direction, "/parameters/operation/direction", "", "direction in which the speeds are run through");
   c(a.mesh_frequency, "/mesh_frequency", "Hz", kSpeed, kSpeeds,
     "mesh frequency, in the order in which they were computed");

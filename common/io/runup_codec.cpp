@@ -4,6 +4,8 @@
 
 #include "base/error.h"
 #include "io/artifact_file.h"
+#include "io/keys.h"
+#include "io/system_motion_codec.h"
 
 namespace whine {
 namespace {
@@ -11,56 +13,74 @@ namespace {
 using namespace ranges;
 using Eigen::Index;
 
-void describe_head(Codec& c, RunupResult& a) {
+// What it was computed from: /layout of a train, the parameters of two gears of a pair.
+void describe_source(Codec& c, RunupResult& a) {
+  if (c.optional("/layout/body/name", a.of_train())) {
+    describe_system(c, a.train, a.drive, {"/layout", ""});
+    c(a.axis_frequency, "/axis_frequency", "Hz", kFrequency, "",
+      "highest natural frequency of the rigid train on its mean stiffnesses, to which the dampers of the axes refer");
+    describe_time_steps(c, a.train.time);
+  }
+  if (a.of_train()) return;
   describe_pair(c, a);
   describe_motion(c, a);
   describe_bearing_dampers(c, a.mean_stiffness, a.bearing_damper);
   describe_torque(c, a.torque);
-  const std::string at = "/parameters/operation/";
-  c(a.direction, at + "direction", "", "direction in which the speed goes");
-  c(a.ramp.from, at + "ramp_from", "Hz", kSpeed, "", "mesh frequency at the start");
-  c(a.ramp.to, at + "ramp_to", "Hz", kSpeed, "", "mesh frequency at the end");
-  c(a.ramp.rate, at + "ramp_rate", "min-1 s-1", kSpeed, "",
-    "change of the driver's rotational speed with time");
-  c(a.mesh_acceleration, at + "mesh_acceleration", "Hz s-1", {-1e12, 1e12}, "",
-    "change of the mesh frequency with time");
-  c(a.sample_rate, at + "sample_rate", "Hz", kSpeed, "", "samples in a second");
   describe_natural_frequency(c, a.natural_frequency);
   c(a.pair, "/pair", "1", kPair, "pair", "number of the tooth pair: -1 following, 0 reference, +1 preceding");
 }
 
-void describe_samples(Codec& c, const GearMeshSpec& mesh, RunupSamples& a) {
+void describe_head(Codec& c, RunupResult& a) {
+  describe_source(c, a);
+  describe_names(c, a.of_train(), a.mesh_names, a.body_names);
+  const std::string at = "/parameters/operation/";
+  c(a.input, at + "input", "", "body whose rotational speed ramp_rate is of");
+  c(a.direction, at + "direction", "", "direction in which the speed goes");
+  c(a.ramp.from, at + "ramp_from", "Hz", kSpeed, "", "mesh frequency at the start");
+  c(a.ramp.to, at + "ramp_to", "Hz", kSpeed, "", "mesh frequency at the end");
+  c(a.ramp.rate, at + "ramp_rate", "min-1 s-1", kSpeed, "",
+    "change of the input's rotational speed with time");
+  c(a.mesh_acceleration, at + "mesh_acceleration", "Hz s-1", {-1e12, 1e12}, "",
+    "change of the mesh frequency with time");
+  c(a.sample_rate, at + "sample_rate", "Hz", kSpeed, "", "samples in a second");
+}
+
+void describe_samples(Codec& c, const RunupResult& head, RunupSamples& a) {
   c(a.time, "/time", "s", kTime, "time", "time since the start of the ramp");
   c(a.mesh_frequency, "/mesh_frequency", "Hz", kSpeed, "time", "mesh frequency",
     "ramp_from + mesh_acceleration t");
-  c(a.transmission_error, "/transmission_error", "m", kLength, "time",
+  c(a.transmission_error, "/transmission_error", "m", kLength, "time mesh",
     "dynamic transmission error, up to 5/12 of the sample rate", "r1 theta1 + r2 theta2");
-  c(a.mesh_force, "/mesh_force", "N", kForce, "time",
-    "normal force of all tooth pairs together, up to 5/12 of the sample rate: its low-pass filter may swing below 0");
-  c(a.tooth_load, "/tooth_load", "N", kForce, "time pair",
-    "normal force of each tooth pair, filtered in the same way");
-  for (int g = 0; g < (c.lists() ? 1 : kSides); ++g)
-    if (const auto side = static_cast<size_t>(g); c.lists() || mesh.bearing[side].elastic())
-      c(a.bearing_force[side], of_body(c, mesh, g, "bearing_force"), "N", kForce, "time xy",
-        "force of the gear on its bearing; x, y: the driven gear stands above the driver, which turns counter-clockwise");
+  c(a.mesh_force, "/mesh_force", "N", kForce, "time mesh",
+    "normal force of all tooth pairs together, of trains torque on the driving body over its base radius, up to 5/12 of the sample rate: its low-pass filter may swing below 0");
+  if (!head.of_train())
+    c(a.tooth_load, "/tooth_load", "N", kForce, "time pair",
+      "normal force of each tooth pair, filtered in the same way; left out of trains");
+  a.bearing_force.resize(c.lists() ? 1 : head.body_names.size());
+  for (size_t b = 0; b < a.bearing_force.size(); ++b)
+    if (c.lists() || head.has_bearing(b))
+      c(a.bearing_force[b], "/bearing_force/" + (c.lists() ? "<body>" : head.body_names[b]), "N", kForce,
+        "time xy",
+        "force of the body on its bearing or pin, as in the sweep; x, y: of a pair the driven gear stands above the driver, which turns counter-clockwise");
 }
 
-void describe_periods(Codec& c, const GearMeshSpec& mesh, RunupPeriods& a, bool& root_stress) {
+void describe_periods(Codec& c, RunupPeriods& a, bool& root_stress) {
   const std::string at = "/mesh_period/";
   const char* const axis = "mesh_period/time";
+  const std::string of_mesh = "mesh_period/time mesh";
   c(a.time, at + "time", "s", kTime, axis, "time at which a mesh period begins");
   c(a.mesh_frequency, at + "mesh_frequency", "Hz", kSpeed, axis, "mesh frequency there");
-  c(a.dte_rms, at + "dte_rms", "m", kSize, axis,
+  c(a.dte_rms, at + "dte_rms", "m", kSize, of_mesh,
     "RMS of the oscillating transmission error in the mesh period");
-  c(a.dte_mean, at + "dte_mean", "m", kLength, axis, "its mean");
-  c(a.tooth_load_max, at + "tooth_load_max", "N", kForce, axis,
+  c(a.dte_mean, at + "dte_mean", "m", kLength, of_mesh, "its mean");
+  c(a.tooth_load_max, at + "tooth_load_max", "N", kForce, of_mesh,
     "largest load that a tooth pair sustains for 1/64 of the mesh period");
-  c(a.separation_fraction, at + "separation_fraction", "1", kShare, axis,
+  c(a.separation_fraction, at + "separation_fraction", "1", kShare, of_mesh,
     "share of the time steps without contact");
-  const auto name = [&](int g) { return at + of_body(c, mesh, g, "root_stress_sustained").substr(1); };
-  root_stress = c.optional(name(0), root_stress);
-  for (int g = 0; root_stress && g < (c.lists() ? 1 : kSides); ++g)
-    c(a.root_stress_sustained[static_cast<size_t>(g)], name(g), "Pa", kStress, axis,
+  const std::string name = at + "root_stress_sustained";
+  root_stress = c.optional(name, root_stress);
+  if (root_stress)
+    c(a.root_stress_sustained, name, "Pa", kStress, "mesh_period/time body",
       "largest tangential stress along the roots beside the loaded flanks that is sustained for 1/64 of the mesh period, quasi-static in the tooth loads");
 }
 
@@ -75,8 +95,8 @@ void describe_tail(Codec& c, RunupResult& a) {
 
 void describe(Codec& c, RunupResult& a) {
   describe_head(c, a);
-  describe_samples(c, a.mesh, a.samples);
-  describe_periods(c, a.mesh, a.periods, a.root_stress);
+  describe_samples(c, a, a.samples);
+  describe_periods(c, a.periods, a.root_stress);
   if (c.in() && (a.samples.size() < 1 || a.periods.size() < 1))
     c.in()->reject(text("has ", a.samples.size(), " samples and ", a.periods.size(),
                         " mesh periods, at least one of each is wanted"));
@@ -84,7 +104,10 @@ void describe(Codec& c, RunupResult& a) {
 }
 
 std::string title(const RunupResult& a) {
-  return text("Run-", a.direction, " at ", a.ramp.rate, " rpm/s: ", pair_title(a.mesh, a.torque));
+  return text("Run-", a.direction, " at ", a.ramp.rate, " rpm/s",
+              a.of_train()
+                  ? text(" of a system: ", a.body_names.size(), " bodies, ", a.mesh_names.size(), " meshes")
+                  : ": " + pair_title(a.mesh, a.torque));
 }
 
 template struct ArtifactFile<RunupResult>;
@@ -96,8 +119,7 @@ struct RunupFile::Open {
         codec(out) {}
   ArtifactWriter out;
   Codec codec;
-  GearMeshSpec mesh;
-  bool root_stress = false;
+  RunupResult head;                          // without samples and periods
   Index samples = 0, periods = 0;            // that will come
   Index samples_here = 0, periods_here = 0;  // that have come
 };
@@ -110,29 +132,36 @@ RunupFile::~RunupFile() = default;
 void RunupFile::begin(const RunupResult& head, Index samples, Index periods) {
   open_ = std::make_unique<Open>(path_, title(head), provenance_);
   Open& file = *open_;
-  file.mesh = head.mesh;
+  file.head = head;
   file.samples = samples;
   file.periods = periods;
   RunupResult a = head;
   describe_head(file.codec, a);
+  const Index meshes = head.meshes();
+  a.samples.transmission_error.resize(0, meshes);
+  a.samples.mesh_force.resize(0, meshes);
   a.samples.tooth_load.resize(0, head.pair.size());
-  for (MatrixRM& force : a.samples.bearing_force) force.resize(0, 2);
+  a.samples.bearing_force.assign(head.body_names.size(), MatrixRM(0, 2));
+  for (MatrixRM* x :
+       {&a.periods.dte_rms, &a.periods.dte_mean, &a.periods.tooth_load_max, &a.periods.separation_fraction})
+    x->resize(0, meshes);
+  a.periods.root_stress_sustained.resize(0, static_cast<Index>(head.body_names.size()));
   file.codec.record(Codec::Record::reserve, samples);
-  describe_samples(file.codec, a.mesh, a.samples);
+  describe_samples(file.codec, a, a.samples);
   file.codec.record(Codec::Record::reserve, periods);
-  describe_periods(file.codec, a.mesh, a.periods, file.root_stress = a.root_stress);
+  describe_periods(file.codec, a.periods, file.head.root_stress);
 }
 
 void RunupFile::take(const RunupSamples& samples) {
   open_->codec.record(Codec::Record::append, open_->samples_here);
-  describe_samples(open_->codec, open_->mesh,
+  describe_samples(open_->codec, open_->head,
                    const_cast<RunupSamples&>(samples));  // a writer changes no member
   open_->samples_here += samples.size();
 }
 
 void RunupFile::take(const RunupPeriods& periods) {
   open_->codec.record(Codec::Record::append, open_->periods_here);
-  describe_periods(open_->codec, open_->mesh, const_cast<RunupPeriods&>(periods), open_->root_stress);
+  describe_periods(open_->codec, const_cast<RunupPeriods&>(periods), open_->head.root_stress);
   open_->periods_here += periods.size();
 }
 

@@ -1,15 +1,17 @@
 #include "io/sound_inputs.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "gear/layout.h"
 #include "io/artifacts.h"
 #include "io/provenance.h"
 #include "io/publish.h"
 #include "results/sweep.h"
+#include "results/system_sweep.h"
 #include "studies/runup.h"
 
 namespace whine {
@@ -18,16 +20,66 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-// Gear and axis of a bearing whose force an artifact holds.
-template <class Mesh, class Held>
-std::pair<size_t, int> bearing_of(const std::string& path, const std::string& wanted, const Mesh& mesh,
-                                  const Held& held) {
-  for (size_t g = 0; g < kSides; ++g)
-    for (const int axis : {0, 1})
-      if (held(g) && wanted == mesh.gear[g] + (axis == 0 ? ":x" : ":y")) return {g, axis};
-  fail(Failure::usage, "--bearing ", printable(wanted, 80),
-       ": wanted is <gear>:x or <gear>:y of a gear on an elastic bearing; ", path, " is of ", mesh.gear[0],
-       " and ", mesh.gear[1]);
+// Where a force stands that is asked for: on the bearing of a body, in one direction, or in a mesh.
+struct Place {
+  bool on_bearing = false;
+  Index body = 0, axis = 0, mesh = 0;
+};
+
+// has_bearing(b): whether the artifact holds the force on the bearing of a body.
+template <class HasBearing>
+Place place_of(const std::string& path, const HeardForce& wanted, const std::vector<std::string>& meshes,
+               const std::vector<std::string>& bodies, const HasBearing& has_bearing) {
+  const auto listed = [](const std::vector<std::string>& names) {
+    std::string out;
+    for (const std::string& name : names) out += (out.empty() ? "" : ", ") + printable(name, 80);
+    return out;
+  };
+  if (!wanted.bearing.empty()) {
+    for (size_t b = 0; b < bodies.size(); ++b)
+      for (const int axis : {0, 1})
+        if (has_bearing(b) && wanted.bearing == bodies[b] + (axis == 0 ? ":x" : ":y"))
+          return {true, static_cast<Index>(b), axis, 0};
+    fail(Failure::usage, "--bearing ", printable(wanted.bearing, 80),
+         ": wanted is <body>:x or <body>:y of a body on an elastic bearing; ", path, " is of ",
+         listed(bodies));
+  }
+  if (wanted.mesh.empty()) return {};
+  for (size_t m = 0; m < meshes.size(); ++m)
+    if (wanted.mesh == meshes[m]) return {false, 0, 0, static_cast<Index>(m)};
+  fail(Failure::usage, "--mesh ", printable(wanted.mesh, 80), ": there is no such mesh; ", path, " has ",
+       listed(meshes));
+}
+
+Index speed_row(const std::string& path, const VectorXd& speeds, const Eigen::VectorXi& period_multiple,
+                double frequency) {
+  Index row = 0;
+  const double off = (speeds.array() - frequency).abs().minCoeff(&row);
+  if (!(off <= 1e-9 * frequency))
+    fail(Failure::input, path, ": holds no speed of ", frequency, " Hz; the nearest is ", speeds[row], " Hz");
+  if (period_multiple[row] == 0)
+    fail(Failure::input, path, ": the motion at ", frequency, " Hz is not periodic; choose another speed");
+  return row;
+}
+
+HeardMotion heard_of_train(const std::string& path, double frequency, const HeardForce& force) {
+  const SystemSweepResult sweep = read<SystemSweepResult>(path);
+  const System& layout = sweep.settings.layout;
+  std::vector<std::string> bodies, meshes;
+  for (const System::Body& body : layout.bodies) bodies.push_back(body.name);
+  for (size_t m = 0; m < layout.meshes.size(); ++m) meshes.push_back(mesh_name(layout, m));
+  const Index row = speed_row(path, sweep.mesh_frequency, sweep.period_multiple, frequency);
+  const auto of = static_cast<size_t>(row);
+  const Index periods = sweep.period_multiple[row];
+  // One motion; behind it the row repeats.
+  const Index samples =
+      std::min<Index>(periods * sweep.settings.time.steps_per_period, sweep.mesh_force[of].rows());
+  const Place at = place_of(path, force, meshes, bodies, [](size_t) { return true; });
+  HeardMotion out{name_of(sweep.direction), sweep.mesh_frequency[row] / static_cast<double>(periods), {}};
+  out.record = at.on_bearing ? VectorXd(sweep.bearing_force[static_cast<size_t>(at.body)][of].col(at.axis))
+                             : VectorXd(sweep.mesh_force[of].col(at.mesh));
+  out.record.conservativeResize(samples);
+  return out;
 }
 
 }  // namespace
@@ -43,38 +95,34 @@ void require_sound_inputs(const std::vector<std::string>& paths) {
   }
 }
 
-HeardMotion heard_motion(const std::string& path, double frequency, const std::string& bearing) {
+HeardMotion heard_motion(const std::string& path, double frequency, const HeardForce& force) {
+  if (read_origin(path).schema == "whine/system_sweep") return heard_of_train(path, frequency, force);
   const SweepResult sweep = read<SweepResult>(path);
-  Index row = 0;
-  const double off = (sweep.mesh_frequency.array() - frequency).abs().minCoeff(&row);
-  if (!(off <= 1e-9 * frequency))
-    fail(Failure::input, path, ": holds no speed of ", frequency, " Hz; the nearest is ",
-         sweep.mesh_frequency[row], " Hz");
-  if (sweep.period_multiple[row] == 0)
-    fail(Failure::input, path, ": the motion at ", frequency, " Hz is not periodic; choose another speed");
+  const Index row = speed_row(path, sweep.mesh_frequency, sweep.period_multiple, frequency);
   // One orbit; behind it the row repeats.
   const Index periods = sweep.period_multiple[row], samples = periods * sweep.time.steps_per_period;
+  const auto& gears = sweep.mesh.gear;
+  const Place at = place_of(path, force, {gears[0] + "-" + gears[1]}, {gears[0], gears[1]},
+                            [&](size_t g) { return !sweep.bearing_force[g].empty(); });
   HeardMotion out{name_of(sweep.direction), sweep.mesh_frequency[row] / static_cast<double>(periods),
                   sweep.mesh_force.row(row).head(samples)};
-  if (bearing.empty()) return out;
-  const auto [g, axis] =
-      bearing_of(path, bearing, sweep.mesh, [&](size_t side) { return !sweep.bearing_force[side].empty(); });
-  out.record = sweep.bearing_force[g][static_cast<size_t>(row)].col(axis).head(samples);
+  if (at.on_bearing)
+    out.record =
+        sweep.bearing_force[static_cast<size_t>(at.body)][static_cast<size_t>(row)].col(at.axis).head(
+            samples);
   return out;
 }
 
-HeardRunup heard_runup(const std::string& path, const std::string& bearing) {
+HeardRunup heard_runup(const std::string& path, const HeardForce& force) {
   const RunupResult a = read<RunupResult>(path);
   if (a.sample_rate != std::round(a.sample_rate))
     fail(Failure::input, path, ": has ", a.sample_rate,
          " samples a second, a sound a whole number; make the run-up with --sample-rate 48000");
-  HeardRunup out{name_of(a.direction), static_cast<int>(a.sample_rate), a.samples.mesh_frequency,
-                 a.samples.mesh_force};
-  if (bearing.empty()) return out;
-  const auto [g, axis] = bearing_of(path, bearing, a.mesh,
-                                    [&](size_t side) { return a.samples.bearing_force[side].size() > 0; });
-  out.record = a.samples.bearing_force[g].col(axis);
-  return out;
+  const Place at =
+      place_of(path, force, a.mesh_names, a.body_names, [&](size_t b) { return a.has_bearing(b); });
+  return {name_of(a.direction), static_cast<int>(a.sample_rate), a.samples.mesh_frequency,
+          at.on_bearing ? a.samples.bearing_force[static_cast<size_t>(at.body)].col(at.axis)
+                        : a.samples.mesh_force.col(at.mesh)};
 }
 
 void number_names(const std::vector<std::string*>& names) {

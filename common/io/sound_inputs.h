@@ -12,6 +12,12 @@ namespace whine {
 // twice.
 void require_sound_inputs(const std::vector<std::string>& paths);
 
+// Which force is heard: the mesh force of the first mesh unless one of these is given.
+struct HeardForce {
+  std::string mesh;     // "sun-planet1"
+  std::string bearing;  // "<body>:x" or "<body>:y" of a body whose force on its bearing the artifact holds
+};
+
 // One whole period of a motion.
 struct HeardMotion {
   std::string name;        // direction of its sweep
@@ -19,10 +25,9 @@ struct HeardMotion {
   Eigen::VectorXd record;  // (sample) N
 };
 
-// sweep.h5 at one of its speeds (Hz). bearing: "<gear>:x" or "<gear>:y" of a gear on an elastic bearing; empty: the mesh force.
-// Throws Error(input) for a speed that the sweep does not have or a motion that is not periodic, Error(usage) for a bearing that
-// there is not.
-HeardMotion heard_motion(const std::string& path, double mesh_frequency, const std::string& bearing);
+// A sweep of a pair or of a train at one of its speeds (Hz). Throws Error(input) for a speed that the sweep does not have or a motion
+// that is not periodic, Error(usage) for a mesh or a bearing that there is not.
+HeardMotion heard_motion(const std::string& path, double mesh_frequency, const HeardForce& force);
 
 struct HeardRunup {
   std::string name;                        // direction of its ramp
@@ -31,7 +36,7 @@ struct HeardRunup {
 };
 
 // runup.h5. Throws Error(input) for a sample rate that is no whole number, else as heard_motion.
-HeardRunup heard_runup(const std::string& path, const std::string& bearing);
+HeardRunup heard_runup(const std::string& path, const HeardForce& force);
 
 // Names that occur several times get numbers in their order: up_1, up_2.
 void number_names(const std::vector<std::string*>& names);

@@ -323,15 +323,17 @@ void show(SummaryLines& lines, const FoldCurvesResult& a) {
 }
 
 void show(SummaryLines& lines, const RunupResult& a) {
-  show_friction(lines, a.mesh);
-  add(lines, "operating point", a.torque, " N m, ", a.ramp.from, " to ", a.ramp.to, " Hz at ", a.ramp.rate,
-      " rpm/s");
+  if (!a.of_train()) show_friction(lines, a.mesh);
+  add(lines, "operating point", a.of_train() ? "" : text(a.torque, " N m, "), a.ramp.from, " to ", a.ramp.to,
+      " Hz at ", a.ramp.rate, " rpm/s of ", a.input);
   add(lines, "record", a.samples.size(), " samples at ", a.sample_rate, " Hz, ", a.periods.size(),
       " mesh periods");
-  Eigen::Index worst = 0;
-  const double most = a.periods.dte_rms.maxCoeff(&worst);
-  add(lines, "largest RMS of the DTE", most * 1e6, " µm in the mesh period at ",
-      a.periods.mesh_frequency[worst], " Hz");
+  for (Eigen::Index m = 0; m < a.meshes(); ++m) {
+    Eigen::Index worst = 0;
+    const double most = a.periods.dte_rms.col(m).maxCoeff(&worst);
+    add(lines, "largest RMS of the DTE of " + a.mesh_names[static_cast<size_t>(m)], most * 1e6,
+        " µm in the mesh period at ", a.periods.mesh_frequency[worst], " Hz");
+  }
 }
 
 void show(SummaryLines& lines, const ResponseResult& a) {

@@ -2,6 +2,9 @@
 //
 // Private to the layer io/.
 #pragma once
+#include <string>
+#include <vector>
+
 #include "io/layout_codec.h"
 #include "results/system_sweep.h"
 
@@ -14,6 +17,9 @@ void describe_system(Codec& codec, SystemSweepParameters& settings, Eigen::Vecto
 // The same with axis_frequency: Hz, as axis_frequency() gives it.
 void describe_system_motion(Codec& codec, SystemSweepParameters& settings, Eigen::VectorXd& torque,
                             double& axis_frequency);
+// /mesh and /body, the coordinates of the axes mesh and body: of a pair one mesh and two bodies, else those of the layout.
+void describe_names(Codec& codec, bool of_train, std::vector<std::string>& meshes,
+                    std::vector<std::string>& bodies);
 void describe_time_steps(Codec& codec, TimeDiscretisation& time);
 
 }  // namespace whine

@@ -95,6 +95,16 @@ void describe_system_motion(Codec& c, SystemSweepParameters& s, Eigen::VectorXd&
     "highest natural frequency of the rigid train on its mean stiffnesses, to which the dampers of the axes refer");
 }
 
+void describe_names(Codec& c, bool of_train, std::vector<std::string>& meshes,
+                    std::vector<std::string>& bodies) {
+  if (!of_train && !c.lists()) {
+    c.axis("mesh", 1);
+    c.axis("body", kSides);
+  }
+  c(meshes, "/mesh", "mesh", "meshes by the names of their bodies, driving-driven");
+  c(bodies, "/body", "body", "bodies by name; of a pair the driver, then the driven gear");
+}
+
 void describe_time_steps(Codec& c, TimeDiscretisation& time) {
   c.parameters("discretisation", keys(time));
 }

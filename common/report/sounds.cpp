@@ -103,13 +103,13 @@ std::string bands(const std::vector<HeardRunup>& runs, const std::vector<VectorX
 
 }  // namespace
 
-Sounds sounds_of_motions(const std::vector<std::string>& paths, double frequency, const std::string& bearing,
+Sounds sounds_of_motions(const std::vector<std::string>& paths, double frequency, const HeardForce& force,
                          const Transfer* transfer, double seconds) {
   Sounds out;
   std::vector<HeardMotion> branches;
   require_sound_inputs(paths);
   for (const std::string& path : paths) {
-    branches.push_back(heard_motion(path, frequency, bearing));
+    branches.push_back(heard_motion(path, frequency, force));
     const HeardMotion& heard = branches.back();
     out.sounds.push_back(
         sound(heard.record, heard.fundamental, transfer, kSoundRate, std::lround(seconds * kSoundRate)));
@@ -123,13 +123,13 @@ Sounds sounds_of_motions(const std::vector<std::string>& paths, double frequency
   return out;
 }
 
-Sounds sounds_of_runups(const std::vector<std::string>& paths, const std::string& bearing,
+Sounds sounds_of_runups(const std::vector<std::string>& paths, const HeardForce& force,
                         const Transfer* transfer) {
   Sounds out;
   std::vector<HeardRunup> runs;
   require_sound_inputs(paths);
   for (const std::string& path : paths) {
-    runs.push_back(heard_runup(path, bearing));
+    runs.push_back(heard_runup(path, force));
     if (runs.back().rate != runs[0].rate)
       fail(Failure::input, path, ": has ", runs.back().rate, " samples a second, ", paths[0], " ",
            runs[0].rate);

@@ -1,60 +1,76 @@
-// A motion while the speed changes with time.
+// A motion while the speed changes with time, of a pair or of a train.
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <string>
+#include <vector>
 
 #include "base/matrix.h"
 #include "model/stages.h"
+#include "model/system_stages.h"
 
 namespace whine {
 
-// Linear ramp of the mesh frequency: f(t) = from + a t, a = +-rate / 60 x teeth of the driver, phase(t) = from t + a t^2 / 2.
+// Linear ramp of the mesh frequency: f(t) = from + a t, a = +-rate x mesh periods in a revolution of the input / 60, phase(t) = from t +
+// a t^2 / 2.
 struct SpeedRamp {
   double from = 0, to = 0;  // Hz, mesh frequency
-  double rate = 0;          // rev min-1 s-1 of the driver, > 0
+  double rate = 0;          // rev min-1 s-1 of the input, > 0
 };
 
 // Samples of one rate; (sample).
 struct RunupSamples {
-  Eigen::VectorXd time, mesh_frequency;            // s, Hz
-  Eigen::VectorXd transmission_error, mesh_force;  // m, N
-  MatrixRM tooth_load;                             // (sample, pair) N
-  std::array<MatrixRM, kSides> bearing_force;      // (sample, xy) N; empty for a rigid bearing
+  Eigen::VectorXd time, mesh_frequency;     // s, Hz
+  MatrixRM transmission_error, mesh_force;  // (sample, mesh) m, N
+  MatrixRM tooth_load;                      // (sample, pair) N, of a pair; empty of trains
+  std::vector<MatrixRM> bearing_force;      // [body] (sample, xy) N; empty for a rigid bearing of a pair
   Eigen::Index size() const { return time.size(); }
 };
 
 // What each mesh period showed at its time steps, before any filter; (mesh period).
 struct RunupPeriods {
   Eigen::VectorXd time, mesh_frequency;  // s, Hz, at its start
-  Eigen::VectorXd dte_rms, dte_mean;     // m
-  Eigen::VectorXd tooth_load_max;        // N: largest that a pair sustains for 1/64 of the period
-  Eigen::VectorXd separation_fraction;   // 1: share of the time without contact
-  // [gear] Pa: largest root stress that the teeth sustain for 1/64 of the period, quasi-static in their loads; empty where bodies
-  // have no tables
-  std::array<Eigen::VectorXd, kSides> root_stress_sustained = {};
+  MatrixRM dte_rms, dte_mean;            // (mesh period, mesh) m
+  MatrixRM tooth_load_max;       // (mesh period, mesh) N: largest that a pair sustains for 1/64 of the period
+  MatrixRM separation_fraction;  // (mesh period, mesh) 1: share of the time without contact
+  // (mesh period, body) Pa: largest root stress that the teeth sustain for 1/64 of the period, quasi-static in their loads; empty where
+  // bodies have no tables, and of trains
+  MatrixRM root_stress_sustained;
   Eigen::Index size() const { return time.size(); }
 };
 
 // runup.h5
 struct RunupResult : MotionParameters {
-  double torque = 0;                               // N m on the driver
-  double mean_stiffness = 0;                       // N m-1 that sets the bearing dampers
+  // Of a train its layout, damping, model levels and steps, in place of what MotionParameters say of a pair; of a pair no bodies.
+  SystemSweepParameters train;
+  Eigen::VectorXd drive;      // (body) N m, of a train: torque of its drive; 0 where none gives a torque
+  double axis_frequency = 0;  // Hz, of a train: see axis_frequency() of dynamics/system_coordinates.h
+  bool of_train() const { return !train.layout.bodies.empty(); }
+  std::vector<std::string> mesh_names, body_names;  // (mesh) "sun-planet1"; (body)
+  std::string input;                                // the body of whose speed ramp.rate is
+
+  double torque = 0;                               // N m on the driver of a pair
+  double mean_stiffness = 0;                       // N m-1 that sets the bearing dampers of a pair
   std::array<double, kSides> bearing_damper = {};  // N m s
-  double natural_frequency = 0;                    // Hz, as in sweep.h5
+  double natural_frequency = 0;                    // Hz, as in sweep.h5, of a pair
   Direction direction = Direction::up;
   SpeedRamp ramp;
   double mesh_acceleration = 0;  // Hz s-1, below 0 for falling speed
   double sample_rate = 0;        // Hz
-  Eigen::VectorXi pair;          // (pair)
+  Eigen::VectorXi pair;          // (pair) of tooth_load
   RunupSamples samples;
   RunupPeriods periods;
   bool root_stress = false;  // periods have it
   // certificate: worst over all steps
   double least_gap = 0, least_force = 0;  // m, N
   int fallbacks = 0;
-  double drift_force = 0;      // N: largest force that the output must supply to hold the speed
-  double backlash_margin = 0;  // m left on the line of action; infinite where no backlash is counted
+  double drift_force = 0;  // N: largest force that the output must supply to hold the speed
+  double backlash_margin =
+      0;  // m left on the line of action; infinite where no backlash is counted, and of trains
 
+  Eigen::Index meshes() const { return static_cast<Eigen::Index>(mesh_names.size()); }
+  // Whether samples hold the force of a body on its bearing.
+  bool has_bearing(size_t body) const { return of_train() || mesh.bearing[body].elastic(); }
   // Mesh periods since the start, at t (s).
   double mesh_phase(double t) const { return t * (ramp.from + 0.5 * mesh_acceleration * t); }
 };

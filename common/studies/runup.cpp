@@ -8,15 +8,13 @@
 #include <vector>
 
 #include "base/error.h"
-#include "base/model_range.h"
-#include "dynamics/steady_state.h"
 #include "gear/body_inertia.h"
-#include "gear/pair.h"
-#include "signal/branches.h"
+#include "gear/layout.h"
+#include "gear/system_layout.h"
 #include "signal/uniform_sampler.h"
-#include "studies/sustained_peaks.h"
+#include "studies/runup_motion.h"
 #include "studies/sweep.h"
-#include "studies/zone_levels.h"
+#include "studies/train_in_motion.h"
 
 namespace whine {
 namespace {
@@ -56,48 +54,42 @@ struct SpeedBlock {
 
 class Runner {
  public:
-  Runner(const GearMeshModel& model, const StaticResult& statics, const SweepParameters& settings,
-         const RunupSettings& wanted, RunupResult& head, RunupSink& sink,
-         const std::function<void(long, long, const std::string&)>& report)
-      : model_(model),
-        settings_(settings),
+  Runner(RunupMotion& motion, const TimeDiscretisation& time, const RunupSettings& wanted, RunupResult& head,
+         RunupSink& sink, const std::function<void(long, long, const std::string&)>& report)
+      : motion_(motion),
+        time_(time),
         wanted_(wanted),
         clock_(wanted.ramp, head.mesh_acceleration),
         head_(head),
         sink_(sink),
-        report_(report),
-        levels_(model,
-                dynamic_parameters(statics, head.mean_stiffness, settings,
-                                   std::max(wanted.ramp.from, wanted.ramp.to)),
-                statics, steps_at(settings.time, std::min(wanted.ramp.from, wanted.ramp.to))),
-        peaks_(model, settings.time.steps_per_period) {
-    head.root_stress = peaks_.root_stress();
-  }
+        report_(report) {}
 
   void run() {
     begin();
-    settle();
+    // Without a periodic motion the record would begin with a transient of no known cause.
+    if (!motion_.settle(wanted_.ramp.from, steps_at(time_, wanted_.ramp.from)))
+      fail(Failure::numerical, "no periodic motion is found at ", wanted_.ramp.from,
+           " Hz, where the ramp starts: from rest the motion does not repeat to ", time_.periodicity,
+           "; start at a mesh frequency at which the sweep has a periodic motion (--from, FROM= of make)");
     const double margin = (UniformSampler::kHalfWidth + 1) / wanted_.sample_rate;
     SpeedBlock block = block_at(-(static_cast<long>(std::ceil(margin * wanted_.ramp.from)) + 1));
     for (int before = block.steps; !sampler_->complete();) {
       const SpeedBlock next = block_at(block.end());
       for (long k = block.first; k < block.end(); ++k) {
         const int own_next = k + 1 == block.end() ? next.steps : block.steps;
-        integrate(k, block);
-        record(k, block.steps, k == block.first ? before : block.steps, own_next);
+        record(integrated(k, block), k, block.steps, k == block.first ? before : block.steps, own_next);
       }
       before = block.steps;
       block = next;
       hand_on(false);
     }
     hand_on(true);
-    head_.backlash_margin = head_.tooth_thinning() > 0 ? model_.kinematics.backlash() + least_closing_
-                                                       : std::numeric_limits<double>::infinity();
+    head_.backlash_margin =
+        head_.tooth_thinning() > 0 ? motion_.backlash_margin() : std::numeric_limits<double>::infinity();
     sink_.end(head_);
   }
 
  private:
-  // Level 0 tells the pairs that can touch; a wider zone may reach one more on either side.
   void begin() {
     const double samples = std::floor(clock_.end() * wanted_.sample_rate) + 1,
                  periods = std::floor(clock_.end_phase());
@@ -110,81 +102,34 @@ class Runner {
            periods, " mesh periods, ", kMost, " of each at most; raise the rate");
     samples_ = static_cast<Index>(samples);  // no such number before the limits are checked
     periods_ = static_cast<Index>(periods);
-    levels_.at(0);
-    reach_ = levels_.reach() + 1;
-    head_.natural_frequency = levels_.natural_frequency();
-    head_.pair = Eigen::VectorXi::LinSpaced(2 * reach_ + 1, -reach_, reach_);
-    for (size_t g = 0; g < kSides; ++g) {
-      head_.bearing_damper[g] = levels_.at(0).bearing_damper(static_cast<int>(g));
-      floating_ += head_.mesh.bearing[g].elastic();
-    }
-    channels_ = 2 + 2 * reach_ + 1 + 2 * floating_;
+    reach_ = motion_.begin(head_);
+    if (reach_ >= 0) head_.pair = Eigen::VectorXi::LinSpaced(2 * reach_ + 1, -reach_, reach_);
+    for (size_t b = 0; b < head_.body_names.size(); ++b)
+      if (head_.has_bearing(b)) borne_.push_back(b);
+    channels_ = 2 * static_cast<int>(head_.meshes()) + static_cast<int>(head_.pair.size()) +
+                2 * static_cast<int>(borne_.size());
+    period_columns_ = 2 + 4 * head_.meshes() + (head_.root_stress ? bodies() : 0);
     sampler_.emplace(wanted_.sample_rate, samples_, channels_);
     sink_.begin(head_, samples_, periods_);
     row_.resize(static_cast<size_t>(channels_));
   }
+  Index bodies() const { return static_cast<Index>(head_.body_names.size()); }
 
   // The largest block from period k on within which the speed changes by no more than it may.
   SpeedBlock block_at(long k) const {
     constexpr double kMost = 64;
     const double f = clock_.frequency(clock_.time(static_cast<double>(k)));
     const double most = wanted_.speed_change * f * f / std::abs(head_.mesh_acceleration);
-    return {k, static_cast<int>(std::clamp(most, 1.0, kMost)), steps_at(settings_.time, f)};
+    return {k, static_cast<int>(std::clamp(most, 1.0, kMost)), steps_at(time_, f)};
   }
 
-  // The periodic motion at the start of the ramp. Without one the record would begin with a transient of no known cause.
-  void settle() {
-    for (;; ++level_) {
-      levels_.require(level_, wanted_.ramp.from);
-      RollingDynamics& dynamics = levels_.at(level_);
-      state_ = dynamics.rest();
-      dynamics.set_speed(wanted_.ramp.from, steps_at(settings_.time, wanted_.ramp.from));
-      const auto orbit =
-          iterate_to_orbit(dynamics, state_, settings_.time.periodicity, settings_.time.steady_state);
-      if (!orbit) continue;
-      if (orbit->multiple == 0)
-        fail(Failure::numerical, "no periodic motion is found at ", wanted_.ramp.from,
-             " Hz, where the ramp starts: from rest the motion does not repeat to ",
-             settings_.time.periodicity,
-             "; start at a mesh frequency at which the sweep has a periodic motion (--from, FROM= of make)");
-      return;
-    }
-  }
-
-  void set_block(const SpeedBlock& block) {
+  const RunupPeriod& integrated(long k, const SpeedBlock& block) {
     const double start = clock_.time(static_cast<double>(block.first)),
                  end = clock_.time(static_cast<double>(block.end()));
-    levels_.at(level_).pass_speed(block.periods / (end - start), block.steps);
-  }
-
-  bool try_period() {
-    trial_ = state_;
-    if (!levels_.at(level_).integrate(trial_, period_)) return false;
-    std::swap(state_, trial_);
-    return true;
-  }
-
-  // One mesh period into period_, on the level of before or a higher one; a lower one is tried now and then.
-  void integrate(long k, const SpeedBlock& block) {
-    constexpr long kPatience = 64;  // mesh periods on a level before the one below it is tried
-    const double at = clock_.frequency(clock_.time(static_cast<double>(k)));
     try {
-      if (k == block.first) set_block(block);
-      if (level_ > 0 && !levels_.keeps_one() && k - level_since_ >= kPatience) {
-        --level_;
-        level_since_ = k;
-        set_block(block);
-        if (try_period()) return;
-        ++level_;
-        set_block(block);
-      }
-      while (!try_period()) {
-        levels_.require(++level_, at);
-        level_since_ = k;
-        set_block(block);
-      }
+      return motion_.integrate(k, block.periods / (end - start), block.steps, k == block.first);
     } catch (const Error& error) {
-      fail_as(error, "at ", at, " Hz, ", error.what());
+      fail_as(error, "at ", clock_.frequency(clock_.time(static_cast<double>(k))), " Hz, ", error.what());
     }
   }
 
@@ -208,59 +153,60 @@ class Runner {
     return rest < 0 ? rest + pairs : rest;
   }
 
+  // Channels: transmission errors, mesh forces, forces on bearings, loads of pairs.
+  void fill_row(const RunupPeriod& period, Index at, long named) {
+    std::fill(row_.begin(), row_.end(), 0.0);
+    size_t next = 0;
+    for (const Eigen::MatrixXd* of : {&period.transmission_error, &period.mesh_force})
+      for (Index m = 0; m < of->cols(); ++m) row_[next++] = (*of)(at, m);
+    for (const size_t b : borne_)
+      for (int xy = 0; xy < 2; ++xy) row_[next++] = period.bearing_force[b](xy, at);
+    const Index pairs = period.tooth_load.rows();
+    for (Index j = 0; reach_ >= 0 && j < pairs; ++j)
+      row_[next + static_cast<size_t>(pair_channel(static_cast<long>(j - pairs / 2), named))] =
+          period.tooth_load(j, at);
+  }
+
   // Samples i = 1 to steps of a period; the last one is the first of the next.
-  void record(long k, int steps, int before, int after) {
-    const VectorXd& error = period_.transmission_error;
-    const int own_reach = static_cast<int>(period_.tooth_pair_load.rows()) / 2;
-    if (own_reach > reach_)
-      fail(Failure::numerical, "pairs up to ", own_reach, " touch, ", reach_, " are foreseen");
-    double squares = 0;
-    int parted = 0;
-    const double mean = error.mean();
+  void record(const RunupPeriod& period, long k, int steps, int before, int after) {
+    if (reach_ >= 0 && period.tooth_load.rows() / 2 > reach_)
+      fail(Failure::numerical, "pairs up to ", period.tooth_load.rows() / 2, " touch, ", reach_,
+           " are foreseen");
     for (int i = 1; i <= steps; ++i) {
-      const int at = i % steps;
-      const auto loads = period_.tooth_pair_load.col(at);
-      const double force = loads.sum();
-      std::fill(row_.begin(), row_.end(), 0.0);
-      row_[0] = error[at];
-      row_[1] = force;
-      const long named = i < steps ? k : k + 1;  // the state at the end has the names of the next period
-      for (Index j = 0; j < loads.size(); ++j)
-        row_[2 + static_cast<size_t>(pair_channel(static_cast<long>(j) - own_reach, named))] = loads[j];
-      double closing = error[at];  // without what bearings give way
-      size_t next = 2 + 2 * static_cast<size_t>(reach_) + 1;
-      for (size_t g = 0; g < kSides; ++g)
-        if (head_.mesh.bearing[g].elastic()) {
-          for (int xy = 0; xy < 2; ++xy) row_[next++] = period_.bearing_force[g](xy, at);
-          closing += (g == 0 ? 1 : -1) / head_.mesh.bearing[g].stiffness *
-                     period_.bearing_force[g].col(at).dot(normal_);
-        }
+      // The state at the end has the names of the next period.
+      fill_row(period, i % steps, i < steps ? k : k + 1);
       const double w = i < steps ? weight(k, i, steps, before, after) : weight(k + 1, 0, after, steps, after);
       sampler_->push(clock_.time(static_cast<double>(k) + static_cast<double>(i) / steps), w, row_.data());
-      squares += (error[at] - mean) * (error[at] - mean);
-      least_closing_ = std::min(least_closing_, closing);
-      parted += !(force > 0);
     }
-    head_.least_gap = std::min(head_.least_gap, period_.least_gap);
-    head_.least_force = std::min(head_.least_force, period_.least_force);
-    head_.fallbacks += period_.fallbacks;
-    head_.drift_force = std::max(head_.drift_force, period_.drift_force);
+    head_.least_gap = std::min(head_.least_gap, period.least_gap);
+    head_.least_force = std::min(head_.least_force, period.least_force);
+    head_.fallbacks += period.fallbacks;
+    head_.drift_force = std::max(head_.drift_force, period.drift_force);
     if (k < 0 || k >= periods_) return;
     const double start = clock_.time(static_cast<double>(k));
-    const double most =
-        sustained_load(period_.tooth_pair_load.transpose(), static_cast<int>(period_.tooth_pair_load.cols()));
-    const VectorXd peaks = head_.root_stress ? peaks_.of(period_, static_cast<int>(k), SustainedPeaks::kNever)
-                                             : VectorXd::Zero(SustainedPeaks::kRows);
-    for (const double x : {start, clock_.frequency(start), std::sqrt(squares / steps), mean, most,
-                           static_cast<double>(parted) / steps, peaks[2], peaks[3]})
-      period_rows_.push_back(x);
+    const auto put = [&](const VectorXd& x) {
+      period_rows_.insert(period_rows_.end(), x.data(), x.data() + x.size());
+    };
+    const Index meshes = head_.meshes();
+    VectorXd rms(meshes), mean(meshes);
+    for (Index m = 0; m < meshes; ++m) {
+      const auto error = period.transmission_error.col(m);
+      mean[m] = error.mean();
+      double squares = 0;
+      for (int i = 1; i <= steps; ++i) squares += (error[i % steps] - mean[m]) * (error[i % steps] - mean[m]);
+      rms[m] = std::sqrt(squares / steps);
+    }
+    put(Eigen::Vector2d(start, clock_.frequency(start)));
+    for (const auto& x : {std::cref(rms), std::cref(mean), std::cref(period.tooth_load_max),
+                          std::cref(period.separation)})
+      put(x);
+    if (head_.root_stress) put(period.root_stress);
   }
 
   // Whole blocks to the sink, at last what is left.
   void hand_on(bool last) {
     const MatrixRM fresh = sampler_->take();
     sample_rows_.insert(sample_rows_.end(), fresh.data(), fresh.data() + fresh.size());
-    constexpr Index kPeriodColumns = 8;
     const auto whole = [&](const std::vector<double>& rows, Index columns) {
       const Index count = static_cast<Index>(rows.size()) / columns;
       return last ? std::min(count, kRunupBlock) : count >= kRunupBlock ? kRunupBlock : 0;
@@ -274,58 +220,58 @@ class Runner {
       const double t = static_cast<double>(first_) / wanted_.sample_rate;
       report_(first_, samples_, text(t, " s, ", clock_.frequency(t), " Hz"));
     }
-    while (const Index n = whole(period_rows_, kPeriodColumns)) {
-      const Eigen::Map<const MatrixRM> rows(period_rows_.data(), n, kPeriodColumns);
-      RunupPeriods periods{rows.col(0), rows.col(1), rows.col(2), rows.col(3), rows.col(4), rows.col(5)};
-      for (size_t g = 0; head_.root_stress && g < kSides; ++g)
-        periods.root_stress_sustained[g] = rows.col(6 + static_cast<Index>(g));
+    while (const Index n = whole(period_rows_, period_columns_)) {
+      const Eigen::Map<const MatrixRM> rows(period_rows_.data(), n, period_columns_);
+      RunupPeriods periods{rows.col(0), rows.col(1), {}, {}, {}, {}, {}};
+      Index next = 2;
+      for (MatrixRM* x :
+           {&periods.dte_rms, &periods.dte_mean, &periods.tooth_load_max, &periods.separation_fraction}) {
+        *x = rows.middleCols(next, head_.meshes());
+        next += head_.meshes();
+      }
+      if (head_.root_stress) periods.root_stress_sustained = rows.middleCols(next, bodies());
       sink_.take(periods);
-      drop(period_rows_, n * kPeriodColumns);
+      drop(period_rows_, n * period_columns_);
     }
   }
 
   RunupSamples samples_of(const Eigen::Ref<const MatrixRM>& rows) {
     RunupSamples out;
-    const Index n = rows.rows();
+    const Index n = rows.rows(), meshes = head_.meshes();
     out.time = VectorXd::NullaryExpr(
         n, [&](Index i) { return static_cast<double>(first_ + i) / wanted_.sample_rate; });
     out.mesh_frequency = out.time.unaryExpr([&](double t) { return clock_.frequency(t); });
-    out.transmission_error = rows.col(0);
-    out.mesh_force = rows.col(1);
-    out.tooth_load.resize(n, 2 * reach_ + 1);
-    for (Index i = 0; i < n; ++i) {
+    out.transmission_error = rows.leftCols(meshes);
+    out.mesh_force = rows.middleCols(meshes, meshes);
+    Index next = 2 * meshes;
+    out.bearing_force.resize(head_.body_names.size());
+    for (const size_t b : borne_) {
+      out.bearing_force[b] = rows.middleCols(next, 2);
+      next += 2;
+    }
+    if (reach_ >= 0) out.tooth_load.resize(n, head_.pair.size());
+    for (Index i = 0; reach_ >= 0 && i < n; ++i) {
       const auto k = static_cast<long>(std::floor(head_.mesh_phase(out.time[i])));
       for (int number = -reach_; number <= reach_; ++number)
-        out.tooth_load(i, reach_ + number) = rows(i, 2 + pair_channel(number, k));
+        out.tooth_load(i, reach_ + number) = rows(i, next + pair_channel(number, k));
     }
-    Index next = 2 + 2 * reach_ + 1;
-    for (size_t g = 0; g < kSides; ++g)
-      if (head_.mesh.bearing[g].elastic()) {
-        out.bearing_force[g] = rows.middleCols(next, 2);
-        next += 2;
-      }
     first_ += n;
     return out;
   }
 
-  const GearMeshModel& model_;
-  const SweepParameters& settings_;
+  RunupMotion& motion_;
+  const TimeDiscretisation& time_;
   const RunupSettings& wanted_;
   RampClock clock_;
   RunupResult& head_;
   RunupSink& sink_;
   const std::function<void(long, long, const std::string&)>& report_;
-  ZoneLevels levels_;
-  SustainedPeaks peaks_;
-  Vec2 normal_ = contact_normal(GearPair(head_));
-  int level_ = 0, reach_ = 0, channels_ = 0, floating_ = 0;
-  long level_since_ = 0;
+  int reach_ = -1, channels_ = 0;  // reach: largest |pair| whose load is recorded, -1: none is
+  Index period_columns_ = 0;
+  std::vector<size_t> borne_;  // bodies whose force on the bearing is recorded
   Index periods_ = 0, samples_ = 0, first_ = 0;
-  RollingDynamics::State state_, trial_;
-  RollingDynamics::Period period_;
   std::optional<UniformSampler> sampler_;
   std::vector<double> row_, sample_rows_, period_rows_;
-  double least_closing_ = std::numeric_limits<double>::infinity();
 };
 
 void require_ramp(const RunupSettings& wanted, const TimeDiscretisation& time) {
@@ -351,23 +297,74 @@ std::array<double, kSides> acceleration_torque(const RunupResult& a) {
   return torque;
 }
 
+namespace {
+
+// mesh_periods: in a revolution of the input.
+RunupResult head_of(const RunupSettings& wanted, double mesh_periods) {
+  RunupResult head;
+  head.direction = wanted.ramp.to > wanted.ramp.from ? Direction::up : Direction::down;
+  head.ramp = wanted.ramp;
+  head.mesh_acceleration = wanted.ramp.rate / 60 * mesh_periods * (head.direction == Direction::up ? 1 : -1);
+  head.sample_rate = wanted.sample_rate;
+  return head;
+}
+
+// The body of the first drive that gives power, or the first that turns.
+size_t input_of(const System& layout, const TrainSpeeds& speeds) {
+  for (const System::Drive& drive : layout.drives)
+    if (const auto b = static_cast<size_t>(drive.body);
+        drive.kind == System::DriveKind::torque && drive.torque > 0 && speeds.turns[b] != 0)
+      return b;
+  for (size_t b = 0; b < speeds.turns.size(); ++b)
+    if (speeds.turns[b] != 0) return b;
+  fail(Failure::input,
+       "no body of the train turns, so it has no speed to change; give a drive its torque_Nm");
+}
+
+}  // namespace
+
 void runup(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
            double mean_stiffness, const SweepParameters& settings, const RunupSettings& wanted,
            RunupSink& sink, const std::function<void(long, long, const std::string&)>& report) {
   require_ramp(wanted, settings.time);
   require_inertia(statics.mesh, {driver.inertia, driven.inertia}, settings.inertia);
   const GearMeshModel model(driver, driven, statics.mesh);
-  RunupResult head;
+  RunupResult head = head_of(wanted, statics.gear[0].design.teeth);
   set_motion(head, {driver, driven}, statics, settings);
   head.time = settings.time;
   head.torque = statics.torque;
   head.mean_stiffness = mean_stiffness;
-  head.direction = wanted.ramp.to > wanted.ramp.from ? Direction::up : Direction::down;
-  head.ramp = wanted.ramp;
-  head.mesh_acceleration =
-      wanted.ramp.rate / 60 * statics.gear[0].design.teeth * (head.direction == Direction::up ? 1 : -1);
-  head.sample_rate = wanted.sample_rate;
-  Runner(model, statics, settings, wanted, head, sink, report).run();
+  head.body_names = {statics.mesh.gear[0], statics.mesh.gear[1]};
+  head.mesh_names = {statics.mesh.gear[0] + "-" + statics.mesh.gear[1]};
+  head.input = statics.mesh.gear[0];
+  const auto [lowest, highest] = std::minmax(wanted.ramp.from, wanted.ramp.to);
+  PairRunup motion(model, dynamic_parameters(statics, mean_stiffness, settings, highest), statics, settings,
+                   lowest);
+  Runner(motion, settings.time, wanted, head, sink, report).run();
+}
+
+void runup(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
+           const RunupSettings& wanted, RunupSink& sink,
+           const std::function<void(long, long, const std::string&)>& report) {
+  require_ramp(wanted, settings.time);
+  require_like_teeth(settings, "a run-up");
+  const TrainSpeeds speeds = train_speeds(settings.layout);
+  const size_t input = input_of(settings.layout, speeds);
+  RunupResult head = head_of(wanted, 1 / std::abs(speeds.turns[input]));
+  head.time = settings.time;
+  const size_t meshes = settings.layout.meshes.size();
+  head.drive.setZero(static_cast<Index>(settings.layout.bodies.size()));
+  for (size_t b = 0; b < settings.layout.bodies.size(); ++b) {
+    head.body_names.push_back(settings.layout.bodies[b].name);
+    head.drive[static_cast<Index>(b)] = settings.layout.torque(static_cast<int>(b));
+  }
+  for (size_t m = 0; m < meshes; ++m) head.mesh_names.push_back(mesh_name(settings.layout, m));
+  head.input = settings.layout.bodies[input].name;
+  SystemSweepParameters of_ramp = settings;
+  of_ramp.frequency_from = std::min(wanted.ramp.from, wanted.ramp.to);
+  of_ramp.frequency_to = std::max(wanted.ramp.from, wanted.ramp.to);
+  TrainRunup motion(of_ramp, bodies);
+  Runner(motion, settings.time, wanted, head, sink, report).run();
 }
 
 }  // namespace whine

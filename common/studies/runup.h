@@ -10,6 +10,7 @@
 #include <array>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "results/reduced_body.h"
 #include "results/runup.h"
@@ -35,7 +36,7 @@ struct RunupSettings {
   double speed_change = 2e-4;  // relative, within a block of one speed
 };
 
-// N m: what accelerates the inertias of driver and driven gear.
+// N m: what accelerates the inertias of driver and driven gear of a pair.
 std::array<double, kSides> acceleration_torque(const RunupResult& a);
 
 // From the periodic motion at the start into which the pair settles from rest. statics, mean_stiffness, settings: as for
@@ -45,5 +46,10 @@ std::array<double, kSides> acceleration_torque(const RunupResult& a);
 void runup(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
            double mean_stiffness, const SweepParameters& settings, const RunupSettings& wanted,
            RunupSink& sink, const std::function<void(long, long, const std::string&)>& report);
+// The same of a train, whose input is the body of the first drive that gives power. bodies: as of system_sweep(). Throws
+// Error(input) for teeth that differ too, and where nothing turns.
+void runup(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
+           const RunupSettings& wanted, RunupSink& sink,
+           const std::function<void(long, long, const std::string&)>& report);
 
 }  // namespace whine

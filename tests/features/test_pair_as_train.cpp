@@ -7,6 +7,7 @@
 #include "paper_pair.h"
 #include "relative.h"
 #include "studies/pair_branch.h"
+#include "studies/runup.h"
 #include "studies/sweep.h"
 #include "studies/system_branch.h"
 #include "studies/system_sweep.h"
@@ -97,6 +98,42 @@ TEST_CASE("a pair as a train: the sweep jumps where that of the pair does, and w
   // A sweep in steps ends at the fold, or at a kink a little before.
   CHECK(std::abs(train.jump_frequency[0] - branch.fold_frequency[0]) <
         branch.fold_width[0] + train.jump_width[0]);
+}
+
+namespace {
+
+struct KeptPeriods : RunupSink {
+  RunupPeriods periods;
+  MatrixRM force;
+  void begin(const RunupResult&, Eigen::Index, Eigen::Index) override {}
+  void take(const RunupSamples& samples) override { force = samples.mesh_force; }  // one block
+  void take(const RunupPeriods& all) override { periods = all; }
+  void end(const RunupResult&) override {}
+};
+
+}  // namespace
+
+TEST_CASE("a pair as a train: run-ups lose contact in the same mesh periods and carry the same loads") {
+  const Both both(2740, 2900, 5.5e-6);
+  RunupSettings wanted;
+  wanted.ramp = {2740, 2900, 2000};
+  KeptPeriods pair, train;
+  runup(body(), body(), Both::statics(), Both::statics().mean_stiffness, both.pair, wanted, pair, no_report);
+  runup(both.train, {body(), body()}, wanted, train, no_report);
+  REQUIRE(pair.periods.size() == train.periods.size());
+  REQUIRE(pair.periods.separation_fraction.maxCoeff() > 0.1);
+  CHECK(train.periods.time == pair.periods.time);
+  // The fold is passed 2 Hz apart, and after it the vibration grows by the same law.
+  const auto first_parted = [](const RunupPeriods& periods) {
+    Eigen::Index at = 0;
+    while (!(periods.separation_fraction(at, 0) > 0)) ++at;
+    return periods.mesh_frequency[at];
+  };
+  CHECK(first_parted(train.periods) == relative(first_parted(pair.periods), kAlike));
+  const auto off = [](const MatrixRM& x, const MatrixRM& y) { return (x - y).norm() / y.norm(); };
+  CHECK(off(train.periods.dte_rms, pair.periods.dte_rms) < 0.02);
+  CHECK(off(train.periods.tooth_load_max, pair.periods.tooth_load_max) < 0.02);
+  CHECK(off(train.force, pair.force) < 0.02);
 }
 
 TEST_CASE("a pair as a train: orbits of two mesh periods begin at the same speeds") {

@@ -124,6 +124,9 @@ TEST_CASE("pictures of designs and of an error budget: no text is cut or lies on
 TEST_CASE("pictures of a run-up: no text is cut or lies on other text") {
   RunupResult run;
   set_motions(run);
+  run.body_names = {run.mesh.gear[0], run.mesh.gear[1]};
+  run.mesh_names = {run.mesh.gear[0] + "-" + run.mesh.gear[1]};
+  run.input = run.mesh.gear[0];
   run.torque = 9999;
   run.natural_frequency = 5432.1;
   run.ramp = {1000, 9000, 12345};
@@ -134,18 +137,18 @@ TEST_CASE("pictures of a run-up: no text is cut or lies on other text") {
   const auto samples = static_cast<Index>(seconds * run.sample_rate), periods = static_cast<Index>(200);
   run.samples.time = VectorXd::LinSpaced(samples, 0, seconds);
   run.samples.mesh_frequency = 1000 + run.mesh_acceleration * run.samples.time.array();
-  run.samples.mesh_force = run.samples.transmission_error = VectorXd(samples);
+  run.samples.mesh_force = run.samples.transmission_error = MatrixRM(samples, 1);
   for (Index i = 0; i < samples; ++i) {
     const double wave = std::cos(kTwoPi * run.mesh_phase(run.samples.time[i]));
-    run.samples.mesh_force[i] = 1.4e5 * (1 + 0.5 * wave);
-    run.samples.transmission_error[i] = 123e-6 * (1 + wave);
+    run.samples.mesh_force(i, 0) = 1.4e5 * (1 + 0.5 * wave);
+    run.samples.transmission_error(i, 0) = 123e-6 * (1 + wave);
   }
   run.samples.tooth_load = MatrixRM::Constant(samples, 3, 1e5);
   run.periods.time = VectorXd::LinSpaced(periods, 0, seconds);
   run.periods.mesh_frequency = VectorXd::LinSpaced(periods, 1000, 9000);
-  run.periods.dte_rms = run.periods.dte_mean = VectorXd::Constant(periods, 1e-4);
-  run.periods.tooth_load_max = VectorXd::Constant(periods, 5e5);
-  run.periods.separation_fraction = VectorXd::Constant(periods, 0.3);
+  run.periods.dte_rms = run.periods.dte_mean = MatrixRM::Constant(periods, 1, 1e-4);
+  run.periods.tooth_load_max = MatrixRM::Constant(periods, 1, 5e5);
+  run.periods.separation_fraction = MatrixRM::Constant(periods, 1, 0.3);
   check(runup_figure(run, both_ways(9999)), "runup");
 }
 

@@ -64,12 +64,15 @@ TEST_CASE(
   write_streamed("runup.h5", a);
   const RunupResult b = read<RunupResult>("runup.h5");
   const auto single = [](const auto& x) { return x.template cast<float>().template cast<double>().eval(); };
+  const auto alike = [&](const MatrixRM& read, const MatrixRM& written) {
+    return read.rows() == written.rows() && read.cols() == written.cols() && read == single(written);
+  };
   CHECK(b.samples.time == a.samples.time);
-  CHECK(b.samples.mesh_force == single(a.samples.mesh_force));
-  CHECK(b.samples.tooth_load == single(a.samples.tooth_load));
+  CHECK(alike(b.samples.mesh_force, a.samples.mesh_force));
+  CHECK(alike(b.samples.tooth_load, a.samples.tooth_load));
   CHECK(b.periods.time == a.periods.time);
-  CHECK(b.periods.dte_rms == single(a.periods.dte_rms));
-  CHECK(b.periods.root_stress_sustained[1] == single(a.periods.root_stress_sustained[1]));
+  CHECK(alike(b.periods.dte_rms, a.periods.dte_rms));
+  CHECK(alike(b.periods.root_stress_sustained, a.periods.root_stress_sustained));
   CHECK(b.drift_force == a.drift_force);
   const std::string counted = text(a.samples.size(), " samples and ");
 
@@ -81,6 +84,9 @@ TEST_CASE(
   RunupResult silent = a;
   silent.samples = RunupSamples();
   silent.samples.tooth_load.resize(0, a.pair.size());
+  silent.samples.transmission_error.resize(0, a.meshes());
+  silent.samples.mesh_force.resize(0, a.meshes());
+  silent.samples.bearing_force.assign(a.body_names.size(), MatrixRM(0, 2));
   write_streamed("silent.h5", silent);
   CHECK(names(message_of([] { read<RunupResult>("silent.h5"); }),
               {text("0 samples and ", a.periods.size(), " mesh periods")}));

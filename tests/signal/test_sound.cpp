@@ -237,19 +237,22 @@ RunupResult some_runup(double seconds, double amplitude, Direction direction = D
   a.mesh_acceleration = (a.ramp.to - a.ramp.from) / seconds;
   a.sample_rate = 48000;
   a.pair = Eigen::VectorXi{{0}};
+  a.body_names = {"pinion", "wheel"};
+  a.mesh_names = {"pinion-wheel"};
+  a.input = "pinion";
   const auto n = static_cast<Index>(std::lround(seconds * a.sample_rate));
   RunupSamples& s = a.samples;
   s.time = VectorXd::NullaryExpr(n, [&](Index i) { return static_cast<double>(i) / a.sample_rate; });
   s.mesh_frequency = a.ramp.from + a.mesh_acceleration * s.time.array();
   s.mesh_force =
       s.time.unaryExpr([&](double t) { return 2000 + amplitude * std::cos(kTwoPi * a.mesh_phase(t)); });
-  s.transmission_error = VectorXd::Zero(n);
+  s.transmission_error = MatrixRM::Zero(n, 1);
   s.tooth_load = MatrixRM::Zero(n, 1);
   RunupPeriods& p = a.periods;
   p.time = VectorXd{{0}};
   p.mesh_frequency = VectorXd{{a.ramp.from}};
-  p.dte_rms = p.dte_mean = p.separation_fraction = VectorXd{{0}};
-  p.tooth_load_max = VectorXd{{2000}};
+  p.dte_rms = p.dte_mean = p.separation_fraction = MatrixRM{{0}};
+  p.tooth_load_max = MatrixRM{{2000}};
   a.backlash_margin = std::numeric_limits<double>::infinity();
   return a;
 }
@@ -282,7 +285,7 @@ TEST_CASE(
   // 0.1 of the force of the first: -20 dB in every band, whatever the direction.
   const std::string first = written(loud, some_runup(1, 100)),
                     second = written(quiet, some_runup(1, 10, Direction::down));
-  const Sounds both = sounds_of_runups({first, second}, "", nullptr);
+  const Sounds both = sounds_of_runups({first, second}, {}, nullptr);
   CHECK(both.rate == 48000);
   const auto lines = lines_of(both.table);
   REQUIRE(lines.size() == 102);
@@ -295,10 +298,10 @@ TEST_CASE(
   }
 
   const std::string short_one = written(brief, some_runup(0.05, 100));
-  const auto few = lines_of(sounds_of_runups({short_one}, "", nullptr).table);
+  const auto few = lines_of(sounds_of_runups({short_one}, {}, nullptr).table);
   CHECK(few.size() == 2 + 25);  // 2 ms each
   const std::string too_short = written(tiny, some_runup(1.5e-3, 100));
-  CHECK(names(message_of_input([&] { sounds_of_runups({first, too_short}, "", nullptr); }), {2, "least"}));
+  CHECK(names(message_of_input([&] { sounds_of_runups({first, too_short}, {}, nullptr); }), {2, "least"}));
 }
 
 TEST_CASE("sounds of run-ups: none in common, other rates and silence are rejected by name") {
@@ -308,7 +311,7 @@ TEST_CASE("sounds of run-ups: none in common, other rates and silence are reject
     RunupResult a = some_runup(0.1, 100);
     change(a);
     const std::string path = written(other, a);
-    return message_of([&] { sounds_of_runups({first, path}, "", nullptr); });
+    return message_of([&] { sounds_of_runups({first, path}, {}, nullptr); });
   };
   CHECK(names(said([](RunupResult&) {}), {"already", "heard"}));
   CHECK(
