@@ -106,6 +106,8 @@ struct Writer::Impl {
     for (const std::string& word : words) block += word + std::string(longest + 1 - word.size(), '\0');
     const Handle type = string_type(longest + 1);
     put(path, type, type, longest + 1, block.data(), shape, label);
+    // Names along an axis are text to xarray, by which it finds them: sel(mesh="sun-planet1").
+    if (path == "/" + label.axes) text_attribute(object(path), "_Encoding", "utf-8");
   }
 
   void attribute(hid_t object, const std::string& name, hid_t file_type, hid_t memory_type, hid_t space,

@@ -97,7 +97,6 @@ struct Repetition {
   int multiple = 0;     // turns after which the state repeats; 0: it does not
   int turns = 0;        // that were made
   double residual = 0;  // distance over `multiple` turns
-  bool given_up = false;
 };
 
 // Turns from `state` until it repeats. `Motion` are States that also have
@@ -149,7 +148,7 @@ std::optional<Repetition> iterate(Motion& motion, typename States::State& state,
         continue;
       }
       if (motion.wanted()) return std::nullopt;
-      return Repetition{0, n, 0, true};
+      return Repetition{0, n, 0};
     }
     recurrence.compare(state, n, distance);
     if (const int multiple = recurrence.multiple(); multiple > 0 || n >= options.most_turns) {

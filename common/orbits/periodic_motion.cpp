@@ -32,11 +32,12 @@ VectorXd FlatStates::combination(const std::vector<const VectorXd*>& states, con
   return sum;
 }
 
-PeriodicMotion iterate_to_orbit(PeriodMap& map, const VectorXd& start, const Iteration& options) {
+PeriodicMotion iterate_to_orbit(PeriodMap& map, const VectorXd& start, const Iteration& options,
+                                AndersonAcceleration<FlatStates>* shared) {
   MappedMotion motion{{}, map, options.most_turns};
-  AndersonAcceleration<FlatStates> acceleration;
+  AndersonAcceleration<FlatStates> own;
   VectorXd state = start;
-  const Repetition found = *iterate(motion, state, options, acceleration);
+  const Repetition found = *iterate(motion, state, options, shared ? *shared : own);
   return {found, state};
 }
 

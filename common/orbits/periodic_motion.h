@@ -21,7 +21,9 @@ struct PeriodicMotion : Repetition {
   Eigen::VectorXd state;  // at the end of the last period
 };
 
-// At the map's parameter. Throws what the map throws, but for proposals.
-PeriodicMotion iterate_to_orbit(PeriodMap& map, const Eigen::VectorXd& start, const Iteration& options);
+// At the map's parameter. shared: columns of a speed nearby to begin with, then of this one. Throws what the map throws, but for
+// proposals.
+PeriodicMotion iterate_to_orbit(PeriodMap& map, const Eigen::VectorXd& start, const Iteration& options,
+                                AndersonAcceleration<FlatStates>* shared = nullptr);
 
 }  // namespace whine

@@ -48,7 +48,8 @@ bool PairRig::fit(State& state, int periods) {
 TrainRig::TrainRig(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies)
     : settings_(settings), train_(settings, bodies, steps_at(settings.time, settings.frequency_from)) {}
 
-std::optional<Settled> TrainRig::settle(State& state, double mesh_frequency, int steps, SteadyState method) {
+std::optional<Settled> TrainRig::settle(State& state, double mesh_frequency, int steps, SteadyState method,
+                                        AndersonAcceleration<FlatStates>* shared) {
   const int hunting = train_.dynamics().hunting_periods();
   SystemPeriodMap map(train_.dynamics(), steps);
   map.set_parameter(mesh_frequency);
@@ -56,7 +57,8 @@ std::optional<Settled> TrainRig::settle(State& state, double mesh_frequency, int
     const PeriodicMotion motion = iterate_to_orbit(
         map, map.flat(state),
         {settings_.time.periodicity, std::max(kMostSystemPeriods / hunting, kLeastSystemTurns),
-         method == SteadyState::extrapolate});
+         method == SteadyState::extrapolate},
+        shared);
     state = map.state(motion.state);
     return Settled{motion.multiple, motion.turns, motion.residual};
   } catch (const ModelRangeError&) {

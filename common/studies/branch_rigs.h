@@ -65,7 +65,9 @@ class TrainRig {
   void begin() {}
   State rest() { return train_.dynamics().rest(); }
   std::unique_ptr<Map> map(int steps) { return std::make_unique<Map>(train_.dynamics(), steps); }
-  std::optional<Settled> settle(State& state, double mesh_frequency, int steps, SteadyState method);
+  // shared: as iterate_to_orbit() takes it, of this train since it was widened last.
+  std::optional<Settled> settle(State& state, double mesh_frequency, int steps, SteadyState method,
+                                AndersonAcceleration<FlatStates>* shared = nullptr);
   // The state to start from so as to stay on the branch of these orbits, see predicted().
   State predicted(const std::vector<KnownOrbit<State>>& branch, double mesh_frequency, int steps);
   void widen(const std::vector<State*>& states) { train_.widen(states); }

@@ -5,7 +5,6 @@
 #include <iomanip>
 #include <limits>
 #include <map>
-#include <memory>
 #include <numbers>
 #include <optional>
 #include <sstream>
@@ -23,6 +22,7 @@
 #include "signal/branches.h"
 #include "signal/jumps.h"
 #include "signal/response.h"
+#include "studies/speed_sweep.h"
 #include "studies/zone_levels.h"
 #include "system/root_stress.h"
 
@@ -66,12 +66,16 @@ void require_memory(int hunting, int speeds, const SweepParameters& settings, in
   log_memory(text("the motions at ", speeds, " speeds"), memory);
 }
 
-// The pair from speed to speed, on the lowest level of candidate contact zones that holds its motion, whatever the speeds before
-// it wanted.
-class Sweeper {
+// The pair, on the lowest level of candidate contact zones that holds its motion, whatever the speeds before it wanted; the rig of
+// a SpeedSweep.
+class PairSweepRig {
  public:
-  Sweeper(const GearMeshModel& model, const DynamicParameters& parameters, const StaticResult& statics,
-          const SweepParameters& settings)
+  using State = RollingDynamics::State;
+  using Motion = Orbit;
+  using Acceleration = RollingAcceleration;
+
+  PairSweepRig(const GearMeshModel& model, const DynamicParameters& parameters, const StaticResult& statics,
+               const SweepParameters& settings)
       : settings_(settings),
         finest_(steps_at(settings.time, settings.frequency_from)),
         levels_(model, parameters, statics, finest_) {
@@ -80,11 +84,13 @@ class Sweeper {
   }
 
   RollingDynamics& dynamics() { return levels_.at(level_); }
-  int hunting_periods() const { return hunting_; }
+  int single() const { return hunting_; }
+  static bool finds_jumps() { return true; }
+  static void watch(const std::function<std::vector<State*>()>& /*states*/) {}  // they fit every level
   int reach() const { return levels_.reach(); }
   double natural_frequency() { return levels_.natural_frequency(); }
-  RollingDynamics::State& state() { return state_; }
-  RollingAcceleration& acceleration() { return acceleration_; }  // to begin the next run with
+  const State& state() const { return state_; }
+  Acceleration& acceleration() { return acceleration_; }
 
   // Runs at this speed from the present state until the state repeats, or as iterate_to_orbit() has it.
   Orbit run(double mesh_frequency, const RmsRange& looked_for = {}) {
@@ -97,9 +103,8 @@ class Sweeper {
     }
   }
 
-  // The same from a state that is predicted; from the present one if that leads beyond what the contact holds.
-  Orbit run_from(const RollingDynamics::State& predicted, double mesh_frequency) {
-    const RollingDynamics::State present = state_;
+  Orbit run_from(const State& predicted, double mesh_frequency) {
+    const State present = state_;
     const int level = level_;
     state_ = predicted;
     // Returned behind the catch, or clang-tidy takes what follows for never reached.
@@ -114,6 +119,28 @@ class Sweeper {
     level_ = level;
     acceleration_.forget();
     return run(mesh_frequency);
+  }
+  Orbit follow(const State& predicted, const State& /*last*/, double mesh_frequency,
+               const RmsRange& looked_for) {
+    state_ = predicted;
+    return run(mesh_frequency, looked_for);
+  }
+  State predicted(const std::vector<KnownOrbit<State>>& known, double mesh_frequency) {
+    return whine::predicted(RollingStates{dynamics()}, known, mesh_frequency);
+  }
+  static BranchMotion motion_at(double mesh_frequency, const Orbit& orbit) {
+    return {mesh_frequency, orbit.rms, orbit.multiple};
+  }
+  static BranchPoint point_at(double mesh_frequency, const Orbit& orbit) {
+    BranchPoint point{mesh_frequency, orbit.rms, 0, 0, false};
+    for (const RollingDynamics::Period& period : orbit.record) {
+      point.tooth_load_max = std::max(point.tooth_load_max, period.tooth_pair_load.maxCoeff());
+      point.sustained_load =
+          std::max(point.sustained_load, sustained_load(period.tooth_pair_load.transpose(),
+                                                        static_cast<int>(period.tooth_pair_load.cols())));
+      point.parted = point.parted || !(period.tooth_pair_load.colwise().sum().minCoeff() > 0);
+    }
+    return point;
   }
 
  private:
@@ -156,92 +183,6 @@ class Sweeper {
   RollingDynamics::State state_;
   RollingAcceleration acceleration_;
 };
-
-BranchPoint branch_point(double mesh_frequency, const Orbit& orbit) {
-  BranchPoint point{mesh_frequency, orbit.rms, 0, 0, false};
-  for (const RollingDynamics::Period& period : orbit.record) {
-    point.tooth_load_max = std::max(point.tooth_load_max, period.tooth_pair_load.maxCoeff());
-    point.sustained_load = std::max(
-        point.sustained_load,
-        sustained_load(period.tooth_pair_load.transpose(), static_cast<int>(period.tooth_pair_load.cols())));
-    point.parted = point.parted || !(period.tooth_pair_load.colwise().sum().minCoeff() > 0);
-  }
-  return point;
-}
-
-BranchMotion branch_motion(double mesh_frequency, const Orbit& orbit) {
-  return {mesh_frequency, orbit.rms, orbit.multiple};
-}
-
-using RollingOrbitAt = KnownOrbit<RollingDynamics::State>;
-
-// Runs from where the motions of the last speeds lead, which is nearer to the motion at the next speed than where the last
-// one ended, and on the branch up to where it ends; from where that one ended where the RMS does not go on evenly (by more than
-// some 8 % a step, or as across a jump).
-Orbit run_on(Sweeper& sweeper, const std::vector<BranchMotion>& motions,
-             const std::vector<RollingDynamics::State>& reached, double mesh_frequency) {
-  constexpr size_t kMostKnown = 3;
-  const size_t n = motions.size();
-  const auto even = [&](size_t i) {
-    const int single = sweeper.hunting_periods();
-    return motions[i - 1].multiple == single && motions[i].multiple == single && !may_break(motions, i);
-  };
-  size_t first = n;
-  while (first > 1 && n - first < kMostKnown - 1 && even(first - 1)) --first;
-  if (first == n) {
-    sweeper.acceleration().forget();
-    return sweeper.run(mesh_frequency);
-  }
-  std::vector<RollingOrbitAt> known;
-  for (size_t i = first - 1; i < n; ++i) known.push_back({motions[i].mesh_frequency, reached[i]});
-  return sweeper.run_from(predicted(RollingStates{sweeper.dynamics()}, known, mesh_frequency),
-                          mesh_frequency);
-}
-
-// How the branch of the motion i - 1 of a sweep is followed; reached: the states at the end of speeds.
-BranchContinuation follow_motion(Sweeper& sweeper, const std::vector<BranchMotion>& motions, size_t i,
-                                 const std::vector<RollingDynamics::State>& reached, bool integrate) {
-  struct Run {
-    Orbit orbit;
-    RollingOrbitAt end;
-    RollingAcceleration acceleration;
-  };
-  struct Branch {
-    std::vector<Run> runs;
-    std::vector<RollingOrbitAt> known;
-    RollingAcceleration acceleration;
-    double rms = 0;
-    bool single = false;
-  };
-  const auto branch = std::make_shared<Branch>();
-  const BranchMotion& from = motions[i - 1];
-  branch->rms = from.rms;
-  // Of a subharmonic nothing says in which of its periods a run ends.
-  branch->single = from.multiple == sweeper.hunting_periods();
-  size_t first = i - 1;
-  while (branch->single && first > 0 && i - first < 3 && motions[first - 1].multiple == from.multiple)
-    --first;
-  for (size_t k = first; k < i; ++k) branch->known.push_back({motions[k].mesh_frequency, reached[k]});
-  BranchContinuation follower;
-  follower.run = [&sweeper, branch, integrate](double mesh_frequency, double most) {
-    sweeper.state() = integrate ? branch->known.back().state
-                                : predicted(RollingStates{sweeper.dynamics()}, branch->known, mesh_frequency);
-    sweeper.acceleration() = branch->acceleration;
-    const Orbit orbit = sweeper.run(
-        mesh_frequency, branch->single ? RmsRange{branch->rms / most, branch->rms * most} : RmsRange{});
-    branch->runs.push_back({orbit, {mesh_frequency, sweeper.state()}, sweeper.acceleration()});
-    return branch_motion(mesh_frequency, orbit);
-  };
-  follower.keep = [branch](int n) {
-    const Run& run = branch->runs[static_cast<size_t>(n)];
-    branch->known.push_back(run.end);
-    branch->acceleration = run.acceleration;
-    if (!branch->single || branch->known.size() > 3) branch->known.erase(branch->known.begin());
-    branch->rms = run.orbit.rms;
-    return branch_point(run.end.mesh_frequency, run.orbit);
-  };
-  return follower;
-}
 
 }  // namespace
 
@@ -512,20 +453,20 @@ SweepResult sweep(const ReducedBody& driver, const ReducedBody& driven, const St
   require_inertia(statics.mesh, {driver.inertia, driven.inertia}, settings.inertia);
   const GearMeshModel model(driver, driven, statics.mesh);
   report(0, speeds, "candidate contact zone");
-  Sweeper sweeper(model, dynamic_parameters(statics, mean_stiffness, settings, settings.frequency_to),
-                  statics, settings);
+  PairSweepRig rig(model, dynamic_parameters(statics, mean_stiffness, settings, settings.frequency_to),
+                   statics, settings);
 
   SweepResult result;
   set_motion(result, {driver, driven}, statics, settings);
   result.time = settings.time;
   result.torque = statics.torque;
   result.mean_stiffness = mean_stiffness;
-  for (int g = 0; g < kSides; ++g) result.bearing_damper[g] = sweeper.dynamics().bearing_damper(g);
-  result.natural_frequency = sweeper.natural_frequency();
-  result.hunting_periods = sweeper.hunting_periods();
+  for (int g = 0; g < kSides; ++g) result.bearing_damper[g] = rig.dynamics().bearing_damper(g);
+  result.natural_frequency = rig.natural_frequency();
+  result.hunting_periods = rig.single();
   require_memory(result.hunting_periods, speeds, settings,
-                 2 * sweeper.dynamics().reach() + 1 + (model.on_bearings() ? 4 : 0),
-                 static_cast<double>(sweeper.dynamics().difference(sweeper.state(), sweeper.state()).size()));
+                 2 * rig.dynamics().reach() + 1 + (model.on_bearings() ? 4 : 0),
+                 static_cast<double>(rig.dynamics().difference(rig.state(), rig.state()).size()));
   result.direction = direction;
   for (VectorXd* v : {&result.mesh_frequency, &result.residual, &result.energy_imbalance}) v->resize(speeds);
   for (Eigen::VectorXi* v : {&result.periods, &result.period_multiple}) v->resize(speeds);
@@ -535,33 +476,20 @@ SweepResult sweep(const ReducedBody& driver, const ReducedBody& driven, const St
                         &result.friction_rolling, &result.friction_work})
       v->resize(speeds);
 
-  const bool integrate = settings.time.steady_state == SteadyState::integrate;
   std::vector<Orbit> steady;
-  std::vector<BranchMotion> motions;
-  std::vector<RollingDynamics::State> reached;
-  for (const double f : speed) {
-    report(static_cast<long>(steady.size()), speeds, text(f, " Hz"));
-    steady.push_back(integrate ? sweeper.run(f) : run_on(sweeper, motions, reached, f));
-    motions.push_back(branch_motion(f, steady.back()));
-    reached.push_back(sweeper.state());
-    const auto row = static_cast<Eigen::Index>(steady.size()) - 1;
-    store_orbit(steady.back(), f, row, result);
+  steady.reserve(speed.size());
+  SpeedSweep<PairSweepRig> sweep(rig, settings.time.steady_state);
+  sweep.run(speed, report, [&](long i, Orbit&& orbit) {
+    const double f = speed[static_cast<size_t>(i)];
+    store_orbit(orbit, f, i, result);
     if (model.friction.acts())
-      result.friction.coefficient[row] = model.coefficient_of_friction(statics.torque, f);
-    report(static_cast<long>(steady.size()), speeds, text(f, " Hz, ", steady.back().periods, " periods"));
-  }
-  std::vector<BranchJump> jumps;
-  for (size_t i = 1; i < motions.size(); ++i)
-    if (may_break(motions, i)) {
-      const auto follower = [&] {
-        BranchContinuation follow = follow_motion(sweeper, motions, i, reached, integrate);
-        follow.finest = jump_width;
-        return follow;
-      };
-      if (const auto jump = find_jump(motions, i, follower, left_early)) jumps.push_back(*jump);
-    }
+      result.friction.coefficient[i] = model.coefficient_of_friction(statics.torque, f);
+    steady.push_back(std::move(orbit));
+    return text(steady.back().periods, " periods");
+  });
+  const std::vector<BranchJump> jumps = sweep.jumps(jump_width, left_early, report);
 
-  double least_error = store_motions(steady, sweeper.reach(), result);
+  double least_error = store_motions(steady, rig.reach(), result);
   store_root_stress(model, result);
   if (model.on_bearings()) least_error = least_closing(result).minCoeff();
   result.backlash_margin = result.tooth_thinning() > 0 ? model.kinematics.backlash() + least_error

@@ -1,5 +1,5 @@
-// Speed sweeps: the state is carried from speed to speed, as on a test rig, and each speed runs until it is
-// periodic.
+// Speed sweeps of a pair: the state is carried from speed to speed, as on a test rig, and each speed runs until it is periodic, by
+// SpeedSweep of studies/speed_sweep.h.
 #pragma once
 #include <functional>
 #include <string>

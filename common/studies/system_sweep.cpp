@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "base/error.h"
 #include "base/memory.h"
 #include "dynamics/dynamics.h"
 #include "orbits/recurrence.h"
-#include "signal/response.h"
-#include "signal/spectrum.h"
 #include "studies/branch_rigs.h"
+#include "studies/speed_sweep.h"
 #include "studies/sweep.h"
 #include "studies/train_statistics.h"
 #include "studies/turning_carrier.h"
@@ -24,32 +25,91 @@ using Eigen::VectorXd;
 
 namespace {
 
-// The system from speed to speed.
-class SystemSweeper {
+// What a train settled into; along a branch that is followed its RMS alone.
+struct TrainMotion {
+  Settled settled{0, 0, 0};
+  double rms = 0;  // m, over the meshes
+  // Over the recorded periods: (sample, mesh), [body] (sample, xy)
+  MatrixRM transmission_error, mesh_deflection, mesh_force, largest_tooth_load;
+  std::vector<MatrixRM> bearing_force;
+  // J: by line of kSystemEnergyLines, mesh, body; N m, by body
+  Eigen::RowVectorXd energy, rolling, bearing_damping, holding_torque;
+  double imbalance = 0, drift_force = 0, least_gap = 0, least_force = 0;
+};
+
+// A train with the tip edges that are looked at; the rig of a SpeedSweep.
+class TrainSweepRig {
  public:
-  SystemSweeper(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies)
+  using State = TrainRig::State;
+  using Motion = TrainMotion;
+  struct Acceleration {
+    AndersonAcceleration<FlatStates> columns;
+    int widenings = 0;  // of the train that they are of
+    void forget() { columns.forget(); }
+  };
+
+  TrainSweepRig(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies)
       : settings_(settings), rig_(settings, bodies), state_(rig_.rest()) {}
 
-  const TrainInMotion& rig() const { return rig_.train(); }
-  int hunting_periods() { return rig_.train().dynamics().hunting_periods(); }
+  const TrainInMotion& train() const { return rig_.train(); }
+  int single() { return rig_.train().dynamics().hunting_periods(); }
+  bool finds_jumps() { return single() == 1; }
+  void watch(std::function<std::vector<State*>()> states) { states_ = std::move(states); }
+  const State& state() const { return state_; }
+  Acceleration& acceleration() { return acceleration_; }
+  State predicted(const std::vector<KnownOrbit<State>>& known, double frequency) {
+    return rig_.predicted(known, frequency, steps_at(settings_.time, frequency));
+  }
 
-  // The periodic motion at a speed, into row `row`.
-  std::string run(double frequency, Index row, SystemSweepResult& out) {
-    SystemDynamics::State start = state_;
-    const int hunting = hunting_periods(), steps = steps_at(settings_.time, frequency);
+  Motion run(double frequency) { return run(frequency, true, nullptr); }
+  Motion run_from(const State& predicted, double frequency) {
+    State present = std::exchange(state_, predicted);
+    if (auto motion = tried(frequency, true, &present)) return std::move(*motion);
+    state_ = present;
+    acceleration_.forget();
+    return run(frequency);
+  }
+  // A motion that fails is none of the branch.
+  Motion follow(const State& predicted, const State& last, double frequency, const RmsRange& /*looked_for*/) {
+    state_ = predicted;
+    if (auto motion = tried(frequency, false, nullptr)) return std::move(*motion);
+    state_ = last;
+    if (auto motion = tried(frequency, false, nullptr)) return std::move(*motion);
+    state_ = last;
+    return {};
+  }
+  BranchMotion motion_at(double frequency, const Motion& motion) {
+    return {frequency, motion.rms, motion.settled.multiple * single()};
+  }
+  static BranchPoint point_at(double frequency, const Motion& motion) { return {frequency, motion.rms}; }
+
+ private:
+  std::optional<Motion> tried(double frequency, bool recorded, State* beside) {
+    try {
+      return run(frequency, recorded, beside);
+    } catch (const Error& error) {
+      if (error.kind() != Failure::numerical) throw;
+      return std::nullopt;
+    }
+  }
+
+  // beside: a state that has to fit as well, where the train is made anew.
+  Motion run(double frequency, bool recorded, State* beside) {
+    State start = state_;
+    const int steps = steps_at(settings_.time, frequency);
     try {
       for (;;) {
-        Settled settled;
-        if (const auto found = rig_.settle(state_, frequency, steps, settings_.time.steady_state))
-          settled = *found;
-        if (settled.turns > 0 && record(settled, row, out)) {
-          motions_.push_back({frequency, rms_, settled.multiple * hunting});
-          reached_.push_back(state_);
-          return settled.multiple == 1   ? ""
-                 : settled.multiple == 0 ? "not periodic"
-                                         : text(settled.multiple * hunting, " periods");
-        }
-        widen({&start});
+        Motion motion;
+        if (acceleration_.widenings != widenings_) acceleration_ = {{}, widenings_};
+        if (const auto found =
+                rig_.settle(state_, frequency, steps, settings_.time.steady_state, &acceleration_.columns))
+          motion.settled = *found;
+        if (motion.settled.turns > 0 && record(recorded, motion)) return motion;
+        std::vector<State*> states = states_();
+        states.push_back(&start);
+        if (beside) states.push_back(beside);
+        rig_.widen(states);
+        ++widenings_;
         state_ = start;
       }
     } catch (const Error& error) {
@@ -57,155 +117,66 @@ class SystemSweeper {
     }
   }
 
-  // Where the RMS steps along the sweep, of teeth that are alike: the branch is followed there with smaller steps.
-  std::vector<BranchJump> jumps(double width, const std::function<void(const std::string&)>& report) {
-    std::vector<BranchJump> out;
-    for (size_t i = 1; hunting_periods() == 1 && i < motions_.size(); ++i)
-      if (may_break(motions_, i)) {
-        report(text("what lies between ", motions_[i - 1].mesh_frequency, " and ", motions_[i].mesh_frequency,
-                    " Hz"));
-        const auto follower = [&] {
-          BranchContinuation follow = continuation(i);
-          follow.finest = width;
-          return follow;
-        };
-        if (const auto jump = find_jump(motions_, i, follower, nullptr)) out.push_back(*jump);
-      }
-    return out;
-  }
-
- private:
-  using State = TrainRig::State;
-  using Known = KnownOrbit<State>;
-
-  void widen(std::vector<State*> states) {
-    for (State& state : reached_) states.push_back(&state);
-    for (auto* orbits : {&known_, &runs_})
-      for (Known& orbit : *orbits) states.push_back(&orbit.state);
-    rig_.widen(states);
-  }
-
-  // How the branch of the motion i - 1 is followed.
-  BranchContinuation continuation(size_t i) {
-    const int multiple = motions_[i - 1].multiple;
-    size_t first = i - 1;
-    while (multiple == 1 && first > 0 && i - first < kKnownOrbits && motions_[first - 1].multiple == 1)
-      --first;
-    known_.clear();
-    runs_.clear();
-    for (size_t k = first; k < i; ++k) known_.push_back({motions_[k].mesh_frequency, reached_[k]});
-    BranchContinuation follower;
-    follower.run = [this](double frequency, double) {
-      const BranchMotion motion = run_on(frequency);
-      runs_.push_back({frequency, state_});
-      return motion;
-    };
-    follower.keep = [this, multiple](int n) {
-      known_.push_back(runs_[static_cast<size_t>(n)]);
-      if (multiple != 1 || known_.size() > kKnownOrbits) known_.erase(known_.begin());
-      return BranchPoint{};
-    };
-    return follower;
-  }
-
-  // From where the orbits that are known lead, or from the last of them; the RMS as that of the rows. A motion that fails is none of
-  // the branch.
-  BranchMotion run_on(double frequency) {
-    const bool leads = settings_.time.steady_state == SteadyState::extrapolate;
-    for (const bool predicts : {true, false}) {
-      if (predicts && !leads) continue;
-      try {
-        return run_from(frequency, predicts);
-      } catch (const Error& error) {
-        if (error.kind() != Failure::numerical) throw;
-      }
-    }
-    state_ = known_.back().state;
-    return {frequency, 0, 0};
-  }
-  BranchMotion run_from(double frequency, bool predicts) {
-    const int steps = steps_at(settings_.time, frequency);
-    for (;;) {
-      state_ = predicts ? rig_.predicted(known_, frequency, steps) : known_.back().state;
-      if (const auto settled = rig_.settle(state_, frequency, steps, settings_.time.steady_state)) {
-        TrainStatistics statistics;
-        SystemDynamics::Period period;
-        int n = 0;
-        const int periods = settled->multiple > 0 ? settled->multiple : Recurrence<VectorXd>::kMostMultiple;
-        for (; n < periods && rig_.train().dynamics().integrate(state_, period); ++n) statistics.take(period);
-        if (n == periods) return {frequency, statistics.dte_rms().norm(), settled->multiple};
-      }
-      widen({});
-    }
-  }
-
   // False if contact leaves the tip edges that are looked at.
-  bool record(const Settled& motion, Index row, SystemSweepResult& out) {
-    const int hunting = hunting_periods();
-    const int periods = hunting * (motion.multiple > 0 ? motion.multiple
-                                   : hunting > 1       ? 1
-                                                       : Recurrence<VectorXd>::kMostMultiple);
-    TrainStatistics recorded;
+  bool record(bool whole, Motion& motion) {
+    const int hunting = single();
+    const int periods = hunting * (motion.settled.multiple > 0 ? motion.settled.multiple
+                                   : hunting > 1               ? 1
+                                                               : Recurrence<VectorXd>::kMostMultiple);
+    TrainStatistics statistics;
     SystemEnergyBalance energy;
-    double imbalance = 0;
     SystemDynamics::Period period;
-    out.energy.row(row).setZero();
-    out.rolling.row(row).setZero();
-    out.bearing_damping.row(row).setZero();
-    out.drift_force[row] = 0;
-    out.holding_torque.row(row).setZero();
-    begin_samples(periods, row, out);
+    if (whole) begin(periods, motion);
     for (int n = 0; n < periods; ++n) {
-      if (!rig_.train().dynamics().integrate(state_, period, &energy)) return false;
-      recorded.take(period);
-      take_samples(period, n, row, out);
-      take(energy, row, out);
-      take_holding(period, static_cast<double>(periods), row, out);
-      imbalance += energy.imbalance;
-      out.drift_force[row] = std::max(out.drift_force[row], period.drift_force);
-      out.least_gap = std::min(out.least_gap, period.least_gap);
-      out.least_force = std::min(out.least_force, period.least_force);
+      if (!rig_.train().dynamics().integrate(state_, period, whole ? &energy : nullptr)) return false;
+      statistics.take(period);
+      if (!whole) continue;
+      take_samples(period, n, motion);
+      take(energy, motion);
+      take_holding(period, static_cast<double>(periods), motion);
+      motion.imbalance += energy.imbalance;
+      motion.drift_force = std::max(motion.drift_force, period.drift_force);
+      motion.least_gap = std::min(motion.least_gap, period.least_gap);
+      motion.least_force = std::min(motion.least_force, period.least_force);
     }
-    rms_ = recorded.dte_rms().norm();
-    out.periods[row] = motion.turns * hunting;
-    out.period_multiple[row] = motion.multiple * hunting;
-    out.residual[row] = motion.residual;
-    out.energy_imbalance[row] = imbalance / out.energy(row, kThroughputLine);
+    motion.rms = statistics.dte_rms().norm();
     return true;
   }
 
-  void begin_samples(int periods, Index row, SystemSweepResult& out) const {
-    const auto at = static_cast<size_t>(row);
+  void begin(int periods, Motion& motion) const {
     const Index samples = static_cast<Index>(periods) * settings_.time.steps_per_period,
-                meshes = static_cast<Index>(settings_.layout.meshes.size());
-    for (auto* x : {&out.transmission_error, &out.mesh_deflection, &out.mesh_force, &out.largest_tooth_load})
-      (*x)[at].setZero(samples, meshes);
-    for (auto& of_body : out.bearing_force) of_body[at].setZero(samples, 2);
+                meshes = static_cast<Index>(settings_.layout.meshes.size()),
+                bodies = static_cast<Index>(settings_.layout.bodies.size());
+    for (MatrixRM* x : {&motion.transmission_error, &motion.mesh_deflection, &motion.mesh_force,
+                        &motion.largest_tooth_load})
+      x->setZero(samples, meshes);
+    motion.bearing_force.assign(static_cast<size_t>(bodies), MatrixRM::Zero(samples, 2));
+    motion.energy.setZero(static_cast<Index>(kSystemEnergyLines.size()));
+    motion.rolling.setZero(meshes);
+    for (Eigen::RowVectorXd* x : {&motion.bearing_damping, &motion.holding_torque}) x->setZero(bodies);
   }
 
   // Of recorded mesh period k. Sample 0 is that of the last period's end.
-  void take_samples(const SystemDynamics::Period& period, int k, Index row, SystemSweepResult& out) const {
-    const std::vector<Eigen::Matrix2Xd>& forces = period.bearing_force;
+  void take_samples(const SystemDynamics::Period& period, int k, Motion& motion) const {
     const Index samples = settings_.time.steps_per_period, stride = period.mesh_force.cols() / samples;
-    const auto at = static_cast<size_t>(row);
     const auto put = [&](const auto& of, MatrixRM& rows) {
       for (Index i = 1; i <= samples; ++i)
         rows.row((k * samples + i) % rows.rows()) = of.col(i % samples * stride).transpose();
     };
-    put(period.transmission_error, out.transmission_error[at]);
-    put(period.mesh_deflection, out.mesh_deflection[at]);
-    put(period.mesh_force, out.mesh_force[at]);
-    put(period.largest_tooth_force, out.largest_tooth_load[at]);
-    for (size_t b = 0; b < forces.size(); ++b) put(forces[b], out.bearing_force[b][at]);
+    put(period.transmission_error, motion.transmission_error);
+    put(period.mesh_deflection, motion.mesh_deflection);
+    put(period.mesh_force, motion.mesh_force);
+    put(period.largest_tooth_force, motion.largest_tooth_load);
+    for (size_t b = 0; b < period.bearing_force.size(); ++b)
+      put(period.bearing_force[b], motion.bearing_force[b]);
   }
 
   // Mean over the recorded periods of the torques that hold bodies; of a carrier -sum (P - C) x F of its pins, as at rest.
-  void take_holding(const SystemDynamics::Period& period, double periods, Index row,
-                    SystemSweepResult& out) const {
+  void take_holding(const SystemDynamics::Period& period, double periods, Motion& motion) const {
     const System& layout = settings_.layout;
     for (size_t b = 0; b < layout.bodies.size(); ++b)
       if (layout.held(static_cast<int>(b)) && layout.bodies[b].kind == System::BodyKind::gear)
-        out.holding_torque(row, static_cast<Index>(b)) +=
+        motion.holding_torque[static_cast<Index>(b)] +=
             period.contact_torque.row(static_cast<Index>(b)).mean() / periods;
     for (size_t b = 0; b < layout.bodies.size(); ++b) {
       const System::Body& body = layout.bodies[b];
@@ -213,33 +184,53 @@ class SystemSweeper {
       const System::Body& carrier = layout.bodies[static_cast<size_t>(body.on)];
       const double x = body.centre[0] - carrier.centre[0], y = body.centre[1] - carrier.centre[1];
       const Vec2 pin = period.bearing_force[b].rowwise().mean();
-      out.holding_torque(row, body.on) -= carrier.sense * (x * pin.y() - y * pin.x()) / periods;
+      motion.holding_torque[body.on] -= carrier.sense * (x * pin.y() - y * pin.x()) / periods;
     }
   }
 
-  static void take(const SystemEnergyBalance& e, Index row, SystemSweepResult& out) {
-    Eigen::RowVectorXd lines(static_cast<Index>(kSystemEnergyLines.size()));
+  static void take(const SystemEnergyBalance& e, Motion& motion) {
+    Eigen::RowVectorXd lines(motion.energy.size());
     lines << e.kinetic + e.modal + e.residual + e.local, e.drive.sum(), e.rolling.sum(), e.modal_damping,
         e.bearing_damping.sum(), e.relaxation_damping, e.switching.sum(), e.cutting.sum(), e.averaging,
         e.dropped, e.throughput;
-    out.energy.row(row) += lines;
-    out.rolling.row(row) += e.rolling;
-    out.bearing_damping.row(row).head(e.bearing_damping.size()) += e.bearing_damping;
+    motion.energy += lines;
+    motion.rolling += e.rolling;
+    motion.bearing_damping.head(e.bearing_damping.size()) += e.bearing_damping;
   }
 
   const SystemSweepParameters& settings_;
   TrainRig rig_;
   State state_;
-  double rms_ = 0;  // m, over the meshes, of the motion recorded last
-  std::vector<BranchMotion> motions_;
-  std::vector<State> reached_;       // [motion]
-  std::vector<Known> known_, runs_;  // of a branch that is followed: the last ones on it; all that were tried
-  static constexpr size_t kKnownOrbits = 3;
+  Acceleration acceleration_;
+  int widenings_ = 0;
+  std::function<std::vector<State*>()> states_ = [] { return std::vector<State*>(); };
 };
 
-}  // namespace
-
-namespace {
+// A motion into its row; the note that the sweep reports of it.
+std::string store(TrainMotion&& motion, Index row, SystemSweepResult& out) {
+  const auto at = static_cast<size_t>(row);
+  out.transmission_error[at] = std::move(motion.transmission_error);
+  out.mesh_deflection[at] = std::move(motion.mesh_deflection);
+  out.mesh_force[at] = std::move(motion.mesh_force);
+  out.largest_tooth_load[at] = std::move(motion.largest_tooth_load);
+  for (size_t b = 0; b < out.bearing_force.size(); ++b)
+    out.bearing_force[b][at] = std::move(motion.bearing_force[b]);
+  out.energy.row(row) = motion.energy;
+  out.rolling.row(row) = motion.rolling;
+  out.bearing_damping.row(row) = motion.bearing_damping;
+  out.holding_torque.row(row) = motion.holding_torque;
+  out.drift_force[row] = motion.drift_force;
+  out.periods[row] = motion.settled.turns * out.hunting_periods;
+  out.period_multiple[row] = motion.settled.multiple * out.hunting_periods;
+  out.residual[row] = motion.settled.residual;
+  out.energy_imbalance[row] = motion.imbalance / motion.energy[kThroughputLine];
+  out.least_gap = std::min(out.least_gap, motion.least_gap);
+  out.least_force = std::min(out.least_force, motion.least_force);
+  return text(out.periods[row], " periods",
+              motion.settled.multiple == 0  ? ", not periodic"
+              : motion.settled.multiple > 1 ? text(", repeats after ", out.period_multiple[row])
+                                            : "");
+}
 
 // All samples are kept until the sweep is written.
 void require_memory_for(const SystemSweepParameters& settings, int hunting, size_t speeds) {
@@ -287,14 +278,14 @@ SystemSweepResult system_sweep(const SystemSweepParameters& settings, const std:
   require_relaxation_range(settings.damping, settings.fidelity.body, settings.frequency_to);
   require_memory_for(settings, whine::hunting_periods(settings), speeds.size());
   report(0, static_cast<long>(speeds.size()), "at rest");
-  SystemSweeper sweeper(settings, bodies);
-  const TrainInMotion& rig = sweeper.rig();
+  TrainSweepRig moving(settings, bodies);
+  const TrainInMotion& rig = moving.train();
   const auto n = static_cast<Index>(speeds.size()), meshes = static_cast<Index>(rig.system().mesh.size()),
              all = static_cast<Index>(settings.layout.bodies.size());
   SystemSweepResult out;
   out.settings = rig.used();
   out.direction = direction;
-  out.hunting_periods = sweeper.hunting_periods();
+  out.hunting_periods = moving.single();
   out.torque.setZero(all);
   for (int b = 0; b < all; ++b) out.torque[b] = settings.layout.torque(b);
   out.axis_frequency = rig.motion().axis_frequency / (2 * std::numbers::pi);
@@ -308,14 +299,10 @@ SystemSweepResult system_sweep(const SystemSweepParameters& settings, const std:
   for (auto* x : {&out.transmission_error, &out.mesh_deflection, &out.mesh_force, &out.largest_tooth_load})
     x->resize(speeds.size());
   out.bearing_force.assign(settings.layout.bodies.size(), std::vector<MatrixRM>(speeds.size()));
-  for (Index i = 0; i < n; ++i) {
-    report(i, n, text(speeds[static_cast<size_t>(i)], " Hz"));
-    const std::string note = sweeper.run(speeds[static_cast<size_t>(i)], i, out);
-    report(i + 1, n, text(speeds[static_cast<size_t>(i)], " Hz", note.empty() ? "" : ", ", note));
-  }
+  SpeedSweep<TrainSweepRig> sweep(moving, settings.time.steady_state);
+  sweep.run(speeds, report, [&](long i, TrainMotion&& motion) { return store(std::move(motion), i, out); });
   fill_rows(out);
-  store_jumps(sweeper.jumps(jump_width, [&](const std::string& words) { report(n, n, words); }),
-              out.jump_frequency, out.jump_width);
+  store_jumps(sweep.jumps(jump_width, nullptr, report), out.jump_frequency, out.jump_width);
   out.remarks = left_out_of_carriers(out);
   return out;
 }
