@@ -143,7 +143,7 @@ $(tools:%=$(B)/id/%): $(B)/id/%: $(B)/bin/% | $(B)/id/
 include tests/checks.mk
 reads_scenes := $(filter-out help build test test-slow test-all test-sanitize test-report test-slurm hard-cases format check-format lint replay deps deps-% clean clean-% FORCE $(B)/%,$(goals))
 ifneq ($(and $(reads_scenes),$(judged)),)
-include $(addprefix pipelines/,figures.mk scenes.mk studies.mk bifurcations.mk stages.mk systems.mk compare.mk maps.mk bench.mk reading.mk)
+include $(addprefix pipelines/,figures.mk scenes.mk studies.mk bifurcations.mk stages.mk compare.mk maps.mk bench.mk reading.mk)
 else ifneq ($(reads_scenes),)
 targets := $(shell awk -f pipelines/help.awk pipelines/help.txt Makefile pipelines/*.mk tests/*.mk | sed -n 's/^  \([a-z0-9-]*\) .*/\1/p')
 $(foreach g,$(filter-out $(targets),$(reads_scenes)),$(if $(findstring /,$g),,$(error $g: there is no such target; `make help` lists them)))

@@ -4,30 +4,30 @@
 #   make work-precision       out/figures/work-precision.{tsv,svg,png}; it holds times, so no two runs give the same bytes
 
 .PHONY: bench
-bench: $(B)/bin/whine-bench $(call pair_bodies,$(standard_scene)) ## speed and memory, beside Siconos and CalculiX if `deps-bench` has installed them
+bench: $(B)/bin/whine-bench $(call bodies_of,$(standard_scene)) ## speed and memory, beside Siconos and CalculiX if `deps-bench` has installed them
 	@$< --params out/$(standard_scene)/params/static.toml --sweep-params out/$(standard_scene)/params/sweep.toml --torque 150 \
 	  --body pinion=out/$(standard_scene)/pinion/body.h5 --body wheel=out/$(standard_scene)/wheel/body.h5
 
 # Of SCENE, or of a pair with a deep root and of 16 and 24 teeth of module 4.5 mm.
 stress_benches := $(if $(filter bench-stress,$(goals)),$(patsubst %,bench-stress-of-%,$(if $(SCENE),$(own_scene),$(deep_scene) fzg-c)))
 .PHONY: bench-stress $(stress_benches)
-$(stress_benches): bench-stress-of-%: $(B)/bin/whine-bench-stress out/%/params/static.toml out/%/params/sweep.toml $$(call pair_bodies,$$*)
-	@$< --params out/$*/params/static.toml --sweep-params out/$*/params/sweep.toml $(call pair_options,$*) --torque 150
+$(stress_benches): bench-stress-of-%: $(B)/bin/whine-bench-stress out/%/params/static.toml out/%/params/sweep.toml $$(call bodies_of,$$*)
+	@$< --params out/$*/params/static.toml --sweep-params out/$*/params/sweep.toml $(call named,--body,$*,body) --torque 150
 bench-stress: $(stress_benches) ## root stress of two pairs at one position beside CalculiX, which `deps-bench` installs (SCENE: of its pair)
 
 # One static position of an internal pair beside CalculiX: three mesh phases, of which the middle one has two pairs of teeth in contact.
 .PHONY: bench-internal
-bench-internal: $(B)/bin/whine-bench $(call pair_bodies,$(internal_scene)) ## static positions of a planet in a ring beside CalculiX, if `deps-bench` has installed it
-	@$< --params out/$(internal_scene)/params/static.toml $(call pair_options,$(internal_scene)) --torque 200 --position 0 --position 0.25 --position 0.5
+bench-internal: $(B)/bin/whine-bench $(call bodies_of,$(internal_scene)) ## static positions of a planet in a ring beside CalculiX, if `deps-bench` has installed it
+	@$< --params out/$(internal_scene)/params/static.toml $(call named,--body,$(internal_scene),body) --torque 200 --position 0 --position 0.25 --position 0.5
 
 # A train's steps beside those of the pair with a standard tooth; SCENE: of its train.
-bench_train := $(if $(SCENE),$(own_scene),$(elastic_system_scene))
+bench_train := $(if $(SCENE),$(own_scene),$(train_scene))
 .PHONY: bench-train
-bench-train: $(B)/bin/whine-bench-train $(call pair_bodies,$(standard_scene)) $(foreach g,$(SCENE_$(bench_train)_SYSTEM_GEARS),out/$(bench_train)/$g/body.h5) ## time of a step of a train beside that of a pair and of the pair told as a train
-	@$< --params out/$(standard_scene)/params/static.toml --sweep-params out/$(standard_scene)/params/sweep.toml $(call pair_options,$(standard_scene)) \
-	  --train-params out/$(bench_train)/params/system_sweep.toml $(foreach g,$(SCENE_$(bench_train)_SYSTEM_GEARS),--train-body $g=out/$(bench_train)/$g/body.h5)
+bench-train: $(B)/bin/whine-bench-train $(call bodies_of,$(standard_scene)) $(call bodies_of,$(bench_train)) ## time of a step of a train beside that of a pair and of the pair told as a train
+	@$< --params out/$(standard_scene)/params/static.toml --sweep-params out/$(standard_scene)/params/sweep.toml $(call named,--body,$(standard_scene),body) \
+	  --train-params out/$(bench_train)/params/sweep.toml $(call named,--train-body,$(bench_train),body)
 
 .PHONY: work-precision
-work-precision: $(B)/bin/whine-work-precision $(call pair_bodies,$(deep_scene)) ## error against CPU time of each numerical choice, at a damping with two branches
+work-precision: $(B)/bin/whine-work-precision $(call bodies_of,$(deep_scene)) ## error against CPU time of each numerical choice, at a damping with two branches
 	@$< --static-params out/$(deep_scene)/params/static.toml --sweep-params out/$(deep_scene)/params/sweep.toml \
-	  $(call pair_options,$(deep_scene)) --torque 150 --rayleigh-stiffness 2.0e-6 --output out/figures/work-precision
+	  $(call named,--body,$(deep_scene),body) --torque 150 --rayleigh-stiffness 2.0e-6 --output out/figures/work-precision

@@ -23,10 +23,10 @@ cracked_scene := parker2000-crack
 bearing_scene := parker2000-bearings
 internal_scene := internal-pair
 friction_scene := fzg-c-friction
-# of rigid bodies; see systems.mk
+# of several meshes, of rigid gears
 system_scene := lin-parker-planetary
-# of elastic ones
-elastic_system_scene := oh58-planetary
+# whose steps bench-train times
+train_scene := oh58-planetary
 
 # $(call both_ways,scenes,torques,artifact): sweeps up and down
 both_ways = $(foreach s,$1,$(foreach t,$2,$(foreach d,up down,out/$s/T$t/$d/$3.h5)))
@@ -51,6 +51,7 @@ inputs_multipliers = out/$1/T$(firstword $2)/branch.h5
 inputs_fig08 = $(call both_ways,$1,$(firstword $2),sweep) $(call impacts,$1,$(firstword $2))
 inputs_fig12 = $(foreach t,$(call each,$2),out/$1/T$t/static.h5)
 inputs_waterfall = $(call both_ways,$1,$(firstword $2),sweep)
+# What order cuts are made from.
 inputs_order-cuts = $(call both_ways,$1,$(firstword $2),response)
 inputs_bearing-forces = $(call both_ways,$1,$(firstword $2),response) $(call impacts,$1,$(firstword $2))
 inputs_fig14 = $(foreach t,$(call each,$2),$(call both_ways,$1,$t/rectangular,sweep))
@@ -63,6 +64,14 @@ inputs_root-stress = out/$1/T$(firstword $2)/static.h5 $(call both_ways,$1,$(fir
 inputs_root-stress-branches = $(inputs_root-stress) out/$1/T$(firstword $2)/branch.h5
 inputs_efficiency = $(foreach t,$(call each,$2),out/$1/T$t/static.h5 $(call both_ways,$1,$t,response))
 inputs_crack = out/$1/T$(firstword $2)/static.h5
+# Of systems: trains, planetary trains.
+inputs_system-static = out/$1/T$(firstword $2)/static.h5
+inputs_system = $(if $2,$(inputs_system-static),$(inputs_modes))
+inputs_modes = out/$1/modes.h5
+inputs_campbell = $(inputs_modes)
+inputs_system-sweep = $(call both_ways,$1,$(firstword $2),response)
+inputs_system-ringdown = out/$1/T$(firstword $2)/impact.h5
+inputs_system-branch = out/$1/T$(firstword $2)/branch.h5 $(inputs_system-sweep)
 inputs_table1 = $(foreach t,$2,out/$1/T$t/impact.h5)
 # Those that are made from what another one is made from, and those that are drawn as another one.
 same_inputs := fig07-600:fig07 fig09:fig08 fig10:fig08 fig11:fig08 fig13:fig12 load-sharing:fig12 tooth-loads:fig08 fig14-elastic:fig07 relief-jumps:fig05 \
@@ -123,13 +132,14 @@ AXIS ?=
 DB ?=
 speed_figures := fig05 fig07 fig05-branches fig07-branches fig07-600 fig14 fig14-elastic fig16 relief-jumps waterfall order-cuts tooth-loads bearing-forces efficiency root-stress root-stress-branches flank-pressure compare-motion runup-up runup-down campbell system-sweep system-branch
 level_figures := order-cuts compare-motion runup-up runup-down system-sweep system-branch
-# A figure that would not take them is not drawn without them; `modes` draws the Campbell diagram, too.
-not_drawn_with = $(filter-out $1,$(filter $(figures) table1 histories multipliers fold-curves jump-map sensitivity harris-map branches modes \
-  system-static system-ringdown system-sweep system-branch animation study reading work-precision,$(goals)))
+# A figure that would not take them is not drawn without them; `modes` draws the Campbell diagram, too, and `sweep` and `branches` draw those
+# of trains.
+not_drawn_with = $(filter-out $1,$(filter $(figures) table1 static impact histories multipliers fold-curves jump-map sensitivity harris-map modes \
+  animation study reading work-precision,$(goals)))
 $(if $(AXIS),$(if $(call not_drawn_with,modes $(speed_figures)),$(error AXIS=$(AXIS): $(firstword $(call not_drawn_with,modes $(speed_figures))) \
-  is not drawn against the speed of a gear; leave AXIS out. It is for $(filter-out compare-motion runup-up runup-down campbell,$(speed_figures))$(,) modes$(,) runup$(,) compare and report)))
+  is not drawn against the speed of a gear; leave AXIS out. It is for $(filter-out compare-motion runup-up runup-down campbell system-%,$(speed_figures))$(,) modes$(,) runup$(,) compare$(,) report$(,) of a train sweep and branches)))
 $(if $(DB),$(if $(call not_drawn_with,$(level_figures)),$(error DB=$(DB): $(firstword $(call not_drawn_with,$(level_figures))) \
-  is not drawn in dB; leave DB out. It is for order-cuts$(,) system-sweep$(,) system-branch$(,) runup$(,) compare and report)))
+  is not drawn in dB; leave DB out. It is for order-cuts$(,) runup$(,) compare$(,) report$(,) of a train sweep and branches)))
 axis_options = $(strip $(if $(AXIS),$(if $(filter $1,$(speed_figures)),--axis '$(AXIS)')) $(if $(DB),$(if $(filter $1,$(level_figures)),--db $(DB))))
 
 # Figures, by the path out/$1 of a file without its ending: out/S/report/fig05, out/figures/histories-1250Hz-T150. Those of a scene depend on its
@@ -138,11 +148,12 @@ figure_of = $(or $(strip $(foreach f,histories history-loads compare-rest compar
   $(if $(filter runup-%,$(notdir $1)),runup-$(WAY)),$(patsubst harris-dynamic,harris-map,$(patsubst %-fine,%,$(notdir $1))))
 scene_of_figure = $(patsubst %/report/,%,$(filter %/report/,$(dir $1)))
 inputs_of_figure = $(if $(filter compare/%,$1),$(call inputs,$2,$(compared),$(compared_torque)),$(if $(filter histories history-loads runup-%,$2),$(call inputs,$2,$(own_scene),$(TORQUE)),\
-  $(if $3,$(if $(SCENE_$3_SYSTEM),$(call inputs_of_$2,$3),$(call inputs,$2,$3,$(SCENE_$3_TORQUES))),$(call inputs_of_paper,$2))))
-drawing = $(if $(SCENE_$3_SYSTEM),$(call drawn_of_system,$2),$(call drawn_as,$2))
+  $(if $3,$(if $(if $(call is_pair,$3),$(filter-out system% modes campbell,$2),$(filter $2,$(system_figures))),$(call inputs,$2,$3,$(SCENE_$3_TORQUES))),$(call inputs_of_paper,$2))))
+# Load sharing of a pair is among its teeth, of a train among its planets.
+drawing = $(call drawn_as,$(if $(filter $3,$(systems)),$(patsubst load-sharing,system-load-sharing,$2),$2))
 fragments = $(foreach s,$(or $3,$(if $(filter compare/%,$1),$(compared))),$(B)/scenes/$s.mk)
 of_figure = $(call $1,$2,$(call figure_of,$2),$(call scene_of_figure,$2))
-needs_of_figure = $(or $(inputs_of_figure),no-such-figure) $(fragments) $(call titles,$(inputs_of_figure)) $(call template,$(drawing)) $(axis_plan)
+needs_of_figure = $(or $(strip $(inputs_of_figure)),no-such-figure) $(fragments) $(call titles,$(inputs_of_figure)) $(call template,$(drawing)) $(axis_plan)
 # Only figures that have the choice remember it.
 axis_plan = $(if $(filter $2,$(speed_figures)),$(B)/plans/axes/out/$1)
 # Each program publishes its files together, whole or as they were: make, which has not looked at the times of all of them, leaves them if it fails.
@@ -196,10 +207,14 @@ $(animation_files): $$(call animation_needs,$$*,$$(call animated_scene,$$*)) \
     pipelines/plots/animation.gp pipelines/plots/common.gp $(call id,gear-animate) | $(B)/bin/gear-animate $(with_deps)
 	$(call run,animate) $(call named,--mesh,$(call animated_scene,$*),mesh) --sweep $(filter %/sweep.h5,$^) $(if $(filter figures,$*),--mesh-frequency 2400) --frames $(words $(animation_frames)) --output out/$*/animation/motion $(call landed,animate)
 
-# A report shows what there is of a pair: with teeth that differ no figure of one mesh period, with a crack no motion.
+# A report shows what there is of a scene: of a system with planets their load sharing, of one in motion its sweeps; of a pair with teeth
+# that differ no figure of one mesh period, with a crack no motion.
 teeth = $(filter $2,$(SCENE_$1_TEETH))
 # BRANCHES=yes: with the branch at the first torque, which takes about as long as four sweeps.
 BRANCHES ?= no
+system_shows = system $(if $2,system-static) $(if $(and $2,$(filter yes,$(SCENE_$1_PLANETS))),load-sharing) modes campbell $(if $(filter yes,$(SCENE_$1_MOVES)),system-sweep order-cuts)
+system_artifacts = $(if $2,$(inputs_system-static)) out/$1/modes.h5 $(if $(filter yes,$(SCENE_$1_MOVES)),$(inputs_system-sweep))
+system_figures := system system-static load-sharing modes campbell system-sweep order-cuts system-ringdown system-branch
 report_shows = fig01 $(if $(filter yes,$(SCENE_$1_MODIFIED)),profile-chart) \
   $(if $(call teeth,$1,alike),fig12 fig13 load-sharing error-budget) \
   $(if $(call teeth,$1,cracked),$(if $(call teeth,$1,differ),,crack),fig07 \
@@ -207,9 +222,10 @@ report_shows = fig01 $(if $(filter yes,$(SCENE_$1_MODIFIED)),profile-chart) \
   $(if $(filter yes,$(SCENE_$1_FRICTION)),efficiency) $(if $(filter elastic,$(SCENE_$1_BEARINGS)),bearing-forces) $(if $(call teeth,$1,differ),sidebands))
 report_artifacts = $(foreach t,$2,out/$1/T$t/static.h5) $(call impacts,$1,$2) \
   $(if $(call teeth,$1,cracked),,$(call both_ways,$1,$2,response)) $(if $(call teeth,$1,alike),out/$1/T$(firstword $2)/error_budget.h5)
-report_inputs = $(call report_artifacts,$1,$(SCENE_$1_TORQUES)) $(patsubst %,out/$1/report/%.png,$(report_shows))
-
-page_inputs = $(if $(SCENE_$1_SYSTEM),$(system_artifacts) $(patsubst %,out/$1/report/%.png,$(system_shows)),$(report_inputs))
+of_report = $(call $(if $(filter $2,$(systems)),system,report)_$1,$2,$(SCENE_$2_TORQUES))
+page_inputs = $(call of_report,artifacts,$1) $(patsubst %,out/$1/report/%.png,$(call of_report,shows,$1))
+# $(call report_figure,scene,figures)
+report_figure = $(foreach f,$2,$(foreach e,tsv svg png,out/$1/report/$f.$e))
 .PRECIOUS: out/%/report/index.html out/%/report/results.tsv
 out/%/report/index.html out/%/report/results.tsv: $$(call page_inputs,$$*) out/%/params/title.txt $(B)/scenes/%.mk $(call id,gear-report) | $(B)/bin/gear-report $(with_deps)
 	$(B)/bin/gear-report --output $(@D)/index.html $(filter %.h5 %.png,$+)

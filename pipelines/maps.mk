@@ -52,7 +52,7 @@ plan_fold_curves_tip_relief := --over tip_relief --first 0 --values $(call comma
 
 map_plan := jump_map$(call fineness,JUMP_MAP)
 branches_plan := branches$(call fineness,SENSITIVITY)
-own_pair := $(if $(SCENE_$(own_scene)_GEARS),out/$(own_scene))
+own_pair := $(if $(call is_pair,$(own_scene)),out/$(own_scene))
 own_plans := $(if $(own_pair),$(B)/plans/$(own_scene))
 # What a map is of, in its name: jump_map_<corner rule or model>.h5, ..._fine.h5; of a lumped model its plan is jump_map_<model>, jump_map_fine_<model>.
 mapped = $(patsubst jump_map_%,%,$(patsubst %$(call fineness,JUMP_MAP).h5,%,$(@F)))

@@ -2,7 +2,7 @@
 #
 # gear-scene checks a scene, rejects goals that it cannot reach, and writes the stage parameters that stages depend on (out/S/params/*.toml),
 # the keys of each distinct gear (out/bodies/<hash>/body.toml), the links out/S/<gear>, and a fragment of make, in which
-# common/io/scene_fragment.h says what stands: SCENE_S_GEARS, SCENE_S_TORQUES, ..., BODIES.
+# common/io/scene_fragment.h says what stands: SCENE_S_KIND, SCENE_S_TORQUES, ..., BODIES.
 # Make remakes a fragment before anything else, under -n as well (gear-scene itself is then compiled, too). This
 # happens in every run and costs milliseconds: times cannot tell a scene of the same name in another folder, one that
 # went back in time, or deleted stage parameters. All that it writes keeps its time if its content stays.
@@ -38,10 +38,9 @@ changes = $(subst $(,), ,$(foreach v,$(VARIANTS) $(BIFURCATION_VARIANTS),$(if $(
 scene_file = $(or $(if $(filter $1,$(study_designs)),$(design_folder)/$1.toml),$(firstword $(foreach f,$(compared_files),$(if $(filter $1,$(basename $(notdir $f))),$f))),\
   $(if $(filter $(scene_stem),$1),$(SCENE)),$(if $(filter $1,$(variant_scenes) $(bifurcation_scenes)),out/$(own_scene)/variants/$1.toml),data/scenes/$1.toml)
 
-# that need a scene of a pair, SCENE or the paper's; a system
+# of SCENE, or of the paper's; of a system
 pair_goals := mesh reduce static loaded impact calibrate sweep histories sound runup lumped branches jump-map fold-curves sensitivity harris-map report teeth export
-motion_goals := system-sweep system-ringdown system-branch
-system_goals := modes mode-shapes system-static $(motion_goals)
+system_goals := modes mode-shapes
 path_goals := $(filter out/%,$(goals))
 # $(call of_goals,goals,scenes): SCENE, else these
 of_goals = $(if $(filter $1,$(goals)),$(if $(SCENE),$(own_scene),$2))
@@ -51,8 +50,8 @@ scenes := $(sort $(compared) $(call of_goals,$(pair_goals) jump-folds bifurcatio
   $(call of_goals,$(figures) table1 figures,$(shown_scenes)) $(call of_goals,animation,$(calibrated_scene)) $(call drawn_of_scene,sidebands,$(graded_scene)) \
   $(call drawn_of_scene,bearing-forces,$(bearing_scene)) $(call drawn_of_scene,efficiency,$(friction_scene)) $(call drawn_of_scene,crack,$(cracked_scene)) \
   $(call of_goals,profile-chart relief-jumps out/figures/profile-chart% out/figures/relief-jumps%,$(relief_scenes) $(standard_scene) $(calibrated_scene)) \
-  $(call of_goals,modes mode-shapes,$(system_scene)) $(call of_goals,system-static $(motion_goals),$(elastic_system_scene)) \
-  $(if $(filter bench bench-train,$(goals)),$(standard_scene)) $(call of_goals,bench-train,$(elastic_system_scene)) $(call of_goals,bench-stress,$(deep_scene) fzg-c) $(if $(filter bench-internal,$(goals)),$(internal_scene)) $(if $(filter work-precision,$(goals)),$(deep_scene)) \
+  $(call of_goals,$(system_goals),$(system_scene)) \
+  $(if $(filter bench bench-train,$(goals)),$(standard_scene)) $(call of_goals,bench-train,$(train_scene)) $(call of_goals,bench-stress,$(deep_scene) fzg-c) $(if $(filter bench-internal,$(goals)),$(internal_scene)) $(if $(filter work-precision,$(goals)),$(deep_scene)) \
   $(foreach g,$(filter-out out/figures/% out/bodies/% out/studies/% out/reading/%,$(path_goals)),$(word 2,$(subst /, ,$g))))
 
 variants := $(filter $(variant_scenes) $(bifurcation_scenes),$(scenes))
@@ -65,9 +64,8 @@ fragment = @new=$(call new,$@); said=$$($1 --output $$new --out out --ids $(B)/i
   if cmp -s $$new $@; then rm $$new; else mv $$new $@; echo "$$said" >&2; fi
 empty_fragments = $(foreach f,$(filter-out $(wildcard $1),$1),$(shell mkdir -p $(dir $f) && touch $f))
 
-# $(call required,scene): goals that are of pairs or of systems alone
-required = $(patsubst %,--of-pairs %,$(filter $(if $(filter $1,$(compared)),compare) $(if $(filter $1,$(scene_stem)),$(pair_goals) figures $(figures) table1 animation),$(goals))) \
-  $(patsubst %,--of-systems %,$(if $(filter $1,$(scene_stem)),$(filter $(system_goals),$(goals))))
+# $(call required,scene): goals that it may not reach
+required = $(patsubst %,--goal %,$(filter $(if $(filter $1,$(compared)),compare) $(if $(filter $1,$(scene_stem)),$(pair_goals) $(system_goals) figures $(figures) table1 animation),$(goals)))
 
 scene_fragments := $(scenes:%=$(B)/scenes/%.mk)
 $(call empty_fragments,$(scene_fragments))

@@ -51,7 +51,7 @@ stage_folds=("$bin/gear-folds" --params out/scene/params/sweep.toml --static-par
   --over torque --first 100 --values 90,110 --from 2000 --to 2100 --output out/scene/T100/fold_curves_torque.h5)
 sed 's/^title = .*/title = "A planetary train"/' "$(dirname "$scene_of_paper")/lin-parker-planetary.toml" > scene-train.toml
 stage_train=("$bin/gear-scene" --scene scene-train.toml --output scene-train.mk --out out)
-stage_modes=("$bin/gear-modes" --params out/scene-train/params/system.toml --output out/scene-train/modes.h5)
+stage_modes=("$bin/gear-modes" --params out/scene-train/params/modes.toml --output out/scene-train/modes.h5)
 stage_modes_plot=("$bin/gear-plot" modes --plots "$plots" --output modes out/scene-train/modes.h5)
 sed 's/from = 1000, to = 5000, step = 50/from = 2000, to = 2100, step = 100/; s/^element_mm = .*/element_mm = 1.5\nelement_order = 1\npositions = 8\nsteps_per_period = 64/' "$(dirname "$scene_of_paper")/three-in-line.toml" > scene-inline.toml
 printf '[gear.idler.modification]\ncrowning_um = 5\n[fidelity]\nmodes = 15\ncontact = "line"\n' >> scene-inline.toml
@@ -62,20 +62,20 @@ inline_bodies() {
       "$bin/gear-reduce" --params out/scene-inline/$gear/body.toml --mesh out/scene-inline/$gear/mesh.h5 --output out/scene-inline/$gear/body.h5 || return 1
   done
 }
-stage_system=("$bin/gear-system-static" --params out/scene-inline/params/system_static.toml --body pinion=out/scene-inline/pinion/body.h5
-  --body idler=out/scene-inline/idler/body.h5 --body wheel=out/scene-inline/wheel/body.h5 --output out/scene-inline/system_static.h5)
-stage_system_sweep=("$bin/gear-system-sweep" --params out/scene-inline/params/system_sweep.toml --body pinion=out/scene-inline/pinion/body.h5
-  --body idler=out/scene-inline/idler/body.h5 --body wheel=out/scene-inline/wheel/body.h5 --direction up --output out/scene-inline/up/system_sweep.h5)
-stage_system_response=("$bin/gear-spectra" --input out/scene-inline/up/system_sweep.h5 --output out/scene-inline/up/response.h5)
-stage_system_sweep_plot=("$bin/gear-plot" system-sweep --plots "$plots" --output system-sweep out/scene-inline/up/response.h5)
+stage_system=("$bin/gear-static" --params out/scene-inline/params/static.toml --body pinion=out/scene-inline/pinion/body.h5
+  --body idler=out/scene-inline/idler/body.h5 --body wheel=out/scene-inline/wheel/body.h5 --output out/scene-inline/T60/static.h5)
+stage_system_sweep=("$bin/gear-sweep" --params out/scene-inline/params/sweep.toml --body pinion=out/scene-inline/pinion/body.h5
+  --body idler=out/scene-inline/idler/body.h5 --body wheel=out/scene-inline/wheel/body.h5 --direction up --output out/scene-inline/T60/up/sweep.h5)
+stage_system_response=("$bin/gear-spectra" --input out/scene-inline/T60/up/sweep.h5 --output out/scene-inline/T60/up/response.h5)
+stage_system_sweep_plot=("$bin/gear-plot" system-sweep --plots "$plots" --output system-sweep out/scene-inline/T60/up/response.h5)
 inline_bodies_given=(--body pinion=out/scene-inline/pinion/body.h5 --body idler=out/scene-inline/idler/body.h5 --body wheel=out/scene-inline/wheel/body.h5)
-stage_system_impact=("$bin/gear-system-impact" --params out/scene-inline/params/system_sweep.toml "${inline_bodies_given[@]}" --modes 3 --phases 2 --output out/scene-inline/system_impact.h5)
-stage_system_orbit=("$bin/gear-system-orbit" --params out/scene-inline/params/system_sweep.toml "${inline_bodies_given[@]}" --output out/scene-inline/system_branch.h5)
-stage_ringdown_plot=("$bin/gear-plot" system-ringdown --plots "$plots" --output system-ringdown out/scene-inline/system_impact.h5)
-stage_system_branch_plot=("$bin/gear-plot" system-branch --plots "$plots" --output system-branch out/scene-inline/system_branch.h5 out/scene-inline/up/response.h5)
-stage_elastic_modes=("$bin/gear-modes" --static out/scene-inline/system_static.h5 --output out/scene-inline/modes.h5)
-stage_system_plot=("$bin/gear-plot" system-static --plots "$plots" --output system out/scene-inline/system_static.h5)
-stage_picture=("$bin/gear-plot" system --plots "$plots" --output system-picture out/scene-inline/system_static.h5)
+stage_system_impact=("$bin/gear-impact" --params out/scene-inline/params/impact.toml "${inline_bodies_given[@]}" --modes 3 --phases 2 --output out/scene-inline/T60/impact.h5)
+stage_system_orbit=("$bin/gear-orbit" --params out/scene-inline/params/sweep.toml "${inline_bodies_given[@]}" --output out/scene-inline/T60/branch.h5)
+stage_ringdown_plot=("$bin/gear-plot" system-ringdown --plots "$plots" --output system-ringdown out/scene-inline/T60/impact.h5)
+stage_system_branch_plot=("$bin/gear-plot" system-branch --plots "$plots" --output system-branch out/scene-inline/T60/branch.h5 out/scene-inline/T60/up/response.h5)
+stage_elastic_modes=("$bin/gear-modes" --static out/scene-inline/T60/static.h5 --output out/scene-inline/modes.h5)
+stage_system_plot=("$bin/gear-plot" system-static --plots "$plots" --output system out/scene-inline/T60/static.h5)
+stage_picture=("$bin/gear-plot" system --plots "$plots" --output system-picture out/scene-inline/T60/static.h5)
 stage_rigid_picture=("$bin/gear-plot" system --plots "$plots" --output system-rigid out/scene-train/modes.h5)
 stage_campbell=("$bin/gear-plot" campbell --plots "$plots" --output campbell out/scene-inline/modes.h5)
 lumped() { echo "$bin/gear-lumped --model $1 --static out/scene/T100/static.h5 --params out/scene/params/lumped.toml --direction up \
@@ -89,8 +89,8 @@ chain() {
   "${stage_scene[@]}" && mkdir -p out/scene/T100/up out/scene/T100/down && "${stage_mesh[@]}" && "${stage_reduce[@]}" &&
     $(static scene 100) && "${stage_impact[@]}" && "${stage_orbit[@]}" && "${stage_folds[@]}" && "${stage_runup[@]}" && $(sweep scene up) && $(sweep scene down) && $(lumped pairs) && "${stage_spectra[@]}" && "${stage_map[@]}" && "${stage_loaded[@]}" && "${stage_plot[@]}" &&
     "${stage_train[@]}" && "${stage_modes[@]}" && "${stage_modes_plot[@]}" &&
-    "${stage_inline[@]}" && inline_bodies && "${stage_system[@]}" && mkdir -p out/scene-inline/up && "${stage_system_sweep[@]}" && "${stage_system_response[@]}" && "${stage_system_sweep_plot[@]}" && "${stage_system_impact[@]}" && "${stage_system_orbit[@]}" && "${stage_ringdown_plot[@]}" && "${stage_system_branch_plot[@]}" && "${stage_elastic_modes[@]}" && "${stage_system_plot[@]}" && "${stage_campbell[@]}" &&
-    "${stage_picture[@]}" && "${stage_rigid_picture[@]}" && "$bin/gear-report" --output system-page/index.html out/scene-inline/system_static.h5 out/scene-inline/modes.h5 out/scene-inline/up/response.h5 system-sweep.png
+    "${stage_inline[@]}" && inline_bodies && "${stage_system[@]}" && mkdir -p out/scene-inline/T60/up && "${stage_system_sweep[@]}" && "${stage_system_response[@]}" && "${stage_system_sweep_plot[@]}" && "${stage_system_impact[@]}" && "${stage_system_orbit[@]}" && "${stage_ringdown_plot[@]}" && "${stage_system_branch_plot[@]}" && "${stage_elastic_modes[@]}" && "${stage_system_plot[@]}" && "${stage_campbell[@]}" &&
+    "${stage_picture[@]}" && "${stage_rigid_picture[@]}" && "$bin/gear-report" --output system-page/index.html out/scene-inline/T60/static.h5 out/scene-inline/modes.h5 out/scene-inline/T60/up/response.h5 system-sweep.png
 }
 if chain > log 2>&1; then ok "a coarse scene runs from end to end"; else
   wrong "a coarse scene runs from end to end" "$(tail -n 1 log)"
@@ -103,7 +103,7 @@ if [ "$(contents)" = "$first" ]; then ok "two runs give identical bytes"; else
   wrong "two runs give identical bytes" "$(diff <(echo "$first") <(contents) | sed -n 's/^> [0-9a-f]* *//p' | tr '\n' ' ')"; fi
 if found=$(grep -l -r -F "$work" out); [ -z "$found" ]; then ok "no artifact holds a path of the machine"; else
   wrong "no artifact holds a path of the machine" "$found"; fi
-for artifact in out/scene/pinion/mesh.h5 out/scene/pinion/body.h5 out/scene/T100/static.h5 out/scene/T100/impact.h5 out/scene/T100/branch.h5 out/scene/T100/fold_curves_torque.h5 out/scene/T100/up/runup_5000.h5 out/scene/T100/up/sweep.h5 out/scene/T100/pairs/up/sweep.h5 out/scene/T100/up/response.h5 out/scene/T100/jump_map_false.h5 out/scene/T100/loaded_0.25.h5 out/scene-train/modes.h5 out/scene-inline/system_static.h5 out/scene-inline/up/system_sweep.h5 out/scene-inline/system_impact.h5 out/scene-inline/system_branch.h5 out/scene-inline/modes.h5; do
+for artifact in out/scene/pinion/mesh.h5 out/scene/pinion/body.h5 out/scene/T100/static.h5 out/scene/T100/impact.h5 out/scene/T100/branch.h5 out/scene/T100/fold_curves_torque.h5 out/scene/T100/up/runup_5000.h5 out/scene/T100/up/sweep.h5 out/scene/T100/pairs/up/sweep.h5 out/scene/T100/up/response.h5 out/scene/T100/jump_map_false.h5 out/scene/T100/loaded_0.25.h5 out/scene-train/modes.h5 out/scene-inline/T60/static.h5 out/scene-inline/T60/up/sweep.h5 out/scene-inline/T60/impact.h5 out/scene-inline/T60/branch.h5 out/scene-inline/modes.h5; do
   if "$bin/gear-inspect" $artifact > said 2>&1 && [ -s said ]; then ok "gear-inspect ${artifact##*/}"; else
     wrong "gear-inspect ${artifact##*/}" "$(head -n 1 said)"; fi
   if ! command -v h5ls > /dev/null; then echo "skipped: units of ${artifact##*/} (h5ls is not installed)"; continue; fi
@@ -145,6 +145,7 @@ for program in $(sed 's/\<[a-z]/gear-&/g; s/-gear-/-/g' <<< "$flow") $(cd "$bin"
   claim="the examples in $program --help run"
   examples_of "$program" > examples/lines
   cat examples/lines >> examples/all
+  grep -m1 parker2000 examples/lines > examples/pair
   [ -s examples/lines ] || wrong "$claim" "there are none; end it with 'Example:' and a command line of the default scene"
   broken=
   while read -r line; do run_example "$line" || broken="$line: $(tail -n 1 said)"; done < examples/lines
@@ -153,12 +154,12 @@ for program in $(sed 's/\<[a-z]/gear-&/g; s/-gear-/-/g' <<< "$flow") $(cd "$bin"
   case $program in
     gear-mesh) as_made mesh pinion/mesh ;;
     gear-reduce) as_made body pinion/body ;;
-    gear-static) as_made static T150/static; run_example "$(sed 's/150/100/g' examples/lines)"; as_made static T100/static
+    gear-static) as_made static T150/static; run_example "$(sed 's/150/100/g' examples/pair)"; as_made static T100/static
       # a second design, of the same bodies
       sed 's/^centre_distance_mm = 150.0/centre_distance_mm = 150.05/' examples/data/scenes/parker2000.toml > examples/data/scenes/parker2000-longer.toml
       run_example 'gear-scene --scene data/scenes/parker2000-longer.toml --output longer.mk --out out'
-      run_example "$(sed 's|out/parker2000/|out/parker2000-longer/|g' examples/lines)"; as_made static ../parker2000-longer/T150/static ;;
-    gear-sweep) as_made sweep T150/up/sweep; run_example "$(sed 's/\<up\>/down/g' examples/lines)"; as_made sweep T150/down/sweep ;;
+      run_example "$(sed 's|out/parker2000/|out/parker2000-longer/|g' examples/pair)"; as_made static ../parker2000-longer/T150/static ;;
+    gear-sweep) as_made sweep T150/up/sweep; run_example "$(sed 's/\<up\>/down/g' examples/pair)"; as_made sweep T150/down/sweep ;;
     gear-spectra) as_made response T150/up/response; run_example "$(sed 's/\<up\>/down/g' examples/lines)"; as_made response T150/down/response ;;
   esac
 done
@@ -190,8 +191,7 @@ declare -A whole=([gear-scene]="${stage_scene[*]}" [gear-mesh]="${stage_mesh[*]}
   [gear-compare]="$bin/gear-compare out/scene/T100/static.h5 --output x"
   [gear-export]="$bin/gear-export --model $scene_of_paper out/scene/T100/static.h5 --output x.rexs"
   [gear-import]="$bin/gear-import --input $scene_of_paper --output x.toml"
-  [gear-loaded]="${stage_loaded[*]}" [gear-modes]="${stage_modes[*]}" [gear-system-static]="${stage_system[*]}" [gear-system-sweep]="${stage_system_sweep[*]}"
-  [gear-system-impact]="${stage_system_impact[*]}" [gear-system-orbit]="${stage_system_orbit[*]}"
+  [gear-loaded]="${stage_loaded[*]}" [gear-modes]="${stage_modes[*]}"
   [gear-animate]="$bin/gear-animate --mesh pinion=out/scene/pinion/mesh.h5 --mesh wheel=out/scene/wheel/mesh.h5 --plots $plots --sweep out/scene/T100/up/sweep.h5 --output x"
   [gear-study]="$bin/gear-study --study scene.toml --output study.mk"
   [gear-reading]="$bin/gear-reading --printed $claims --plan scene.toml --output x"
@@ -243,13 +243,13 @@ rejected "a variant that cannot be" 3 'scene_wide.toml:* bore_radius_mm 90' "$bi
 rm -f map.* scene_variant.toml scene_wide.toml
 rejected "decibels re nothing" 2 '--db 0' "$bin/gear-plot" waterfall --plots "$plots" --db 0 --output cuts out/scene/T100/up/sweep.h5 out/scene/T100/down/sweep.h5
 rejected "a speed of no gear" 2 'carrier pinion wheel' "$bin/gear-plot" waterfall --plots "$plots" --axis rpm:carrier --output cuts out/scene/T100/up/sweep.h5 out/scene/T100/down/sweep.h5
-rejected "the report of a system without its modes" 3 'modes.h5' "$bin/gear-report" out/scene-inline/system_static.h5 --output x.html
+rejected "the report of a system without its modes" 3 'modes.h5' "$bin/gear-report" out/scene-inline/T60/static.h5 --output x.html
 rejected "two modes.h5 in the report of a system" 2 'whine/modes second' "$bin/gear-report" out/scene-inline/modes.h5 out/scene-inline/../scene-inline/modes.h5 --output x.html
-rejected "a sweep of a system without its statics in a report" 3 'system_static.h5' "$bin/gear-report" out/scene-inline/modes.h5 out/scene-inline/up/response.h5 --output x.html
-rejected "two sweeps of a system in one direction in a report" 3 "two up" "$bin/gear-report" out/scene-inline/system_static.h5 out/scene-inline/modes.h5 out/scene-inline/up/response.h5 out/scene-inline/../scene-inline/up/response.h5 --output x.html
+rejected "a sweep of a system without its statics in a report" 3 'static.h5' "$bin/gear-report" out/scene-inline/modes.h5 out/scene-inline/T60/up/response.h5 --output x.html
+rejected "two sweeps of a system in one direction in a report" 3 "two up" "$bin/gear-report" out/scene-inline/T60/static.h5 out/scene-inline/modes.h5 out/scene-inline/T60/up/response.h5 out/scene-inline/../scene-inline/T60/up/response.h5 --output x.html
 rejected "artifacts of a pair in the report of a system" 3 'out/scene/T100/static.h5 scene' "$bin/gear-report" out/scene-inline/modes.h5 out/scene/T100/static.h5 --output x.html
-rejected "artifacts of two systems in a report" 3 'scene-train scene-inline' "$bin/gear-report" out/scene-inline/system_static.h5 out/scene-train/modes.h5 --output x.html
-rejected "load sharing of a system without planets" 3 'planets' "$bin/gear-plot" system-load-sharing --plots "$plots" out/scene-inline/system_static.h5 --output x
+rejected "artifacts of two systems in a report" 3 'scene-train scene-inline' "$bin/gear-report" out/scene-inline/T60/static.h5 out/scene-train/modes.h5 --output x.html
+rejected "load sharing of a system without planets" 3 'planets' "$bin/gear-plot" system-load-sharing --plots "$plots" out/scene-inline/T60/static.h5 --output x
 rejected "two static.h5 of one torque in a report" 3 'static.h5 100 twice' "$bin/gear-report" out/scene/T100/static.h5 out/scene/../scene/T100/static.h5 --output x.html
 mkdir -p other_scene/params other_scene/T100 && cp out/scene/T100/static.h5 other_scene/T100 && echo Other > other_scene/params/title.txt
 rejected "two scenes in an export" 3 'other_scene/T100/static.h5 other_scene Other scene' "$bin/gear-export" --model "$scene_of_paper" \
@@ -346,6 +346,15 @@ if ${line_sweep//out\/scene\/T100/line} --next-level > said 2>&1 && grep -q 'con
   wrong "gear-sweep --next-level" "$(head -n 1 said)"; fi
 rejected "a branch from a sweep's motion without its speed" 2 'together' "${stage_orbit[@]}" --from-sweep up
 rejected "a branch from a speed outside the scene's" 3 '900 mesh_frequency_Hz 2000' "${stage_orbit[@]}" --from-sweep up --at 900
+# One program, pairs and trains: options that one of them alone has.
+rejected "a torque for a train" 2 '--torque train drives' "${stage_system[@]}" --torque 60
+rejected "an error budget of a train" 2 '--error-budget train' "${stage_system[@]}" --error-budget
+rejected "statics for the sweep of a train" 2 '--static train' "${stage_system_sweep[@]}" --static out/scene-inline/T60/static.h5
+rejected "another level for the sweep of a train" 2 '--next-level train' "${stage_system_sweep[@]}" --next-level
+rejected "modes of a pair that rings down" 2 '--modes pair' "${stage_impact[@]}" --modes 3
+rejected "a pair at rest without a torque" 2 '--torque needed pair' "$bin/gear-static" --params out/scene/params/static.toml "${pair[@]}" --output x.h5
+rejected "a branch of a pair without its statics" 2 '--static needed pair' "$bin/gear-orbit" --params out/scene/params/sweep.toml "${pair[@]}" --output x.h5
+rejected "parameters of another stage of a train" 3 'sweep statics system params/static.toml' "${stage_system[@]/static.toml/sweep.toml}"
 rejected "a branch of three mesh periods" 3 '1 2 4' "${stage_orbit[@]}" --periods 3
 if "${stage_orbit[@]/out\/scene\/T100\/branch.h5/line\/branch.h5}" --from-sweep up --at 2050 --periods 2 > said 2>&1 &&
   "$bin/gear-inspect" line/branch.h5 | grep -q 'reached 2000 Hz; the mesh frequency reached 2100 Hz'; then ok "gear-orbit --from-sweep goes both ways"; else
@@ -680,7 +689,7 @@ $(sweep scene up) > /dev/null 2>&1
 if [ "$(contents)" = "$kept" ]; then ok "the next run makes the same artifact and removes what killed runs left"; else
   wrong "the next run makes the same artifact and removes what killed runs left" "$(find out -name '*.tmp*' | tr '\n' ' ')"; fi
 # A limit on the size of files stands for a full disk: the write fails half-way with an error, as on a full one.
-for name in gear-mesh gear-reduce gear-static gear-loaded gear-impact gear-sweep gear-orbit gear-folds gear-runup gear-lumped gear-spectra gear-modes gear-system-static gear-system-sweep gear-system-impact gear-system-orbit gear-plot; do
+for name in gear-mesh gear-reduce gear-static gear-loaded gear-impact gear-sweep gear-orbit gear-folds gear-runup gear-lumped gear-spectra gear-modes gear-plot; do
   before=$(contents)
   (ulimit -f 8; trap '' XFSZ; exec ${whole[$name]}) > /dev/null 2> said
   status=$?

@@ -195,10 +195,10 @@ make_ SCENES='a/a--b.toml a/c.toml' compare; make_ -n SCENES='a/a.toml a/b--c.to
 grep -q 'gear-compare --output out/compare/a+b--c/index.html' "$log" && [ -e out/compare/a--b+c/index.html ] &&
   ok "designs of other names have a folder of their own" || wrong "designs of other names have a folder of their own" "$(ls out/compare) $(tail -n 1 "$log")"
 refuses "a figure that has no axis of speed" 'AXIS=rpm:driver multipliers' AXIS=rpm:driver multipliers
-for goal in system-static system-ringdown animation; do
+for goal in static impact animation; do
   refuses "nor is $goal drawn without a word" "AXIS=rpm:sun $goal" AXIS=rpm:sun SCENE=data/scenes/oh58-planetary.toml $goal
 done
-make_ -n AXIS=rpm:sun DB=1e-6 SCENE=data/scenes/oh58-planetary.toml report system-branch
+make_ -n AXIS=rpm:sun DB=1e-6 SCENE=data/scenes/oh58-planetary.toml report branches
 [ "$(grep -c "gear-plot.* --axis 'rpm:sun'" "$log")" = 4 ] && [ "$(grep -c "gear-plot.* --db 1e-6" "$log")" = 3 ] && ok "speeds in rpm and levels of a train: Campbell diagram, sweeps, branch" ||
   wrong "speeds in rpm and levels of a train" "$(grep 'gear-plot' "$log" | cut -c1-120 | tail -n 6)"
 refuses "a figure that has no amplitudes in dB" 'DB=1e-6 fig05' DB=1e-6 fig05
@@ -344,27 +344,32 @@ make_ modes; plans "and they are up to date then" "" modes
 cp data/scenes/lin-parker-planetary.toml train.toml; plans "those of SCENE" "gear-modes*1 gear-plot*2" SCENE=train.toml modes
 make_ SCENE=train.toml modes; sed -i 's/^# .*//' train.toml; plans "comments redo nothing" "" SCENE=train.toml modes
 sed -i 's/^stiffness_N_um = 500.0/stiffness_N_um = 400.0/' train.toml; plans "stiffnesses redo them" "gear-modes*1 gear-plot*2" SCENE=train.toml modes
-plans "a system of elastic gears: three bodies, its statics, its modes" "gear-mesh*3 gear-modes*1 gear-plot*3 gear-reduce*3 gear-system-static*1" SCENE=data/scenes/three-in-line.toml system-static modes
-cp data/scenes/three-in-line.toml inline.toml; make_ SCENE=inline.toml system-static modes; sed -i 's/^torque_Nm = 60.0/torque_Nm = 50.0/' inline.toml
-plans "another torque needs no body of a system" "gear-modes*1 gear-plot*3 gear-system-static*1" SCENE=inline.toml system-static modes
-plans "its motion: a sweep each way" "gear-plot*1 gear-spectra*2 gear-system-sweep*2" SCENE=inline.toml system-sweep
-plans "the report of a system: its picture, its sweeps, the page" "gear-modes*1 gear-plot*6 gear-report*1 gear-spectra*2 gear-system-static*1 gear-system-sweep*2" SCENE=inline.toml report
-grep -q 'gear-report.* out/inline/up/response.h5 out/inline/down/response.h5 .*out/inline/report/system-sweep.png' "$log" && ok "the page of a system has its sweeps" || wrong "the page of a system has its sweeps" "$(grep gear-report "$log" | tail -n 1)"
-make_ SCENE=inline.toml report; plans "and it is up to date then" "" SCENE=inline.toml report mode-shapes system-sweep
+plans "a system of elastic gears: three bodies, its statics, its modes" "gear-mesh*3 gear-modes*1 gear-plot*3 gear-reduce*3 gear-static*1" SCENE=data/scenes/three-in-line.toml static modes
+cp data/scenes/three-in-line.toml inline.toml; make_ SCENE=inline.toml static modes; sed -i 's/^torque_Nm = 60.0/torque_Nm = 50.0/' inline.toml
+plans "another torque needs no body of a system" "gear-modes*1 gear-plot*3 gear-static*1" SCENE=inline.toml static modes
+plans "its motion: a sweep each way" "gear-plot*1 gear-spectra*2 gear-sweep*2" SCENE=inline.toml sweep
+plans "the report of a system: its picture, its sweeps, the page" "gear-modes*1 gear-plot*6 gear-report*1 gear-spectra*2 gear-static*1 gear-sweep*2" SCENE=inline.toml report
+grep -q 'gear-report.* out/inline/T50/up/response.h5 out/inline/T50/down/response.h5 .*out/inline/report/system-sweep.png' "$log" && ok "the page of a system has its sweeps" || wrong "the page of a system has its sweeps" "$(grep gear-report "$log" | tail -n 1)"
+make_ SCENE=inline.toml report; plans "and it is up to date then" "" SCENE=inline.toml report mode-shapes sweep
 grep -q 'open out/inline/modes.hdf in ParaView' <(make_ SCENE=inline.toml mode-shapes; cat "$log") && ok "mode shapes for ParaView stand beside the modes" || wrong "mode shapes for ParaView stand beside the modes" "$(tail -n 1 "$log")"
 refuses "load sharing needs planets" 'load-sharing SCENE=inline.toml planets make report' SCENE=inline.toml load-sharing
-plans "load sharing of planets: bodies, statics, one figure" "gear-mesh*3 gear-plot*1 gear-reduce*3 gear-system-static*1" SCENE=data/scenes/oh58-planetary.toml load-sharing
-plans "the report of a train with planets" "gear-mesh*3 gear-modes*1 gear-plot*7 gear-reduce*3 gear-report*1 gear-system-static*1 gear-system-sweep*2" SCENE=data/scenes/oh58-planetary.toml report
+plans "load sharing of planets: bodies, statics, one figure" "gear-mesh*3 gear-plot*1 gear-reduce*3 gear-static*1" SCENE=data/scenes/oh58-planetary.toml load-sharing
+plans "the report of a train with planets" "gear-mesh*3 gear-modes*1 gear-plot*7 gear-reduce*3 gear-report*1 gear-spectra*2 gear-static*1 gear-sweep*2" SCENE=data/scenes/oh58-planetary.toml report
 plans "the report of rigid gears: modes, their figures, the picture" "gear-modes*1 gear-plot*3 gear-report*1" SCENE=train.toml report
 refuses "load sharing needs elastic gears" 'load-sharing SCENE=train.toml rigid make report' SCENE=train.toml load-sharing
 sed -i 's/^rayleigh_stiffness_s = 3e-6/rayleigh_stiffness_s = 4e-6/' inline.toml
-plans "another damping of a system redoes its sweeps alone" "gear-plot*1 gear-system-sweep*2" SCENE=inline.toml system-static modes system-sweep
-plans "its ring-down needs bodies alone" "gear-plot*1 gear-system-impact*1" SCENE=inline.toml system-ringdown
-make_ SCENE=inline.toml system-sweep; plans "its branch, drawn over both sweeps" "gear-plot*1 gear-system-orbit*1" SCENE=inline.toml system-branch
-make_ SCENE=inline.toml system-ringdown system-branch; plans "and both are up to date then" "" SCENE=inline.toml system-ringdown system-branch
-sed '/^\[operation\]/,$d' inline.toml > still.toml; refuses "a sweep of a system without speeds is rejected" 'speeds [operation]' SCENE=still.toml system-sweep
-refuses "statics of a system reject rigid gears" 'rigid system-static elastic' SCENE=data/scenes/lin-parker-planetary.toml system-static
-refuses "stages of pairs reject a system" 'SCENE=train.toml system' SCENE=train.toml static
+plans "another damping of a system redoes its sweeps alone" "gear-plot*1 gear-spectra*2 gear-sweep*2" SCENE=inline.toml static modes sweep
+plans "its ring-down needs bodies alone" "gear-impact*1 gear-plot*1" SCENE=inline.toml impact
+make_ SCENE=inline.toml sweep; plans "its branch, drawn over both sweeps" "gear-orbit*1 gear-plot*1" SCENE=inline.toml branches
+make_ SCENE=inline.toml impact branches; plans "and both are up to date then" "" SCENE=inline.toml impact branches
+sed '/^\[operation\]/,$d' inline.toml > still.toml; refuses "a sweep of a system without speeds is rejected" 'speeds [operation]' SCENE=still.toml sweep
+refuses "statics of a system reject rigid gears" 'static SCENE=train.toml rigid' SCENE=train.toml static
+refuses "stages of pairs reject a system" 'sound SCENE=inline.toml system' SCENE=inline.toml sound AT=1000
+refuses "another torque than that of its drives" 'out/three-in-line/T70/static.h5 drives out/three-in-line/T60' out/three-in-line/T70/static.h5
+plans "its artifacts are targets, as those of pairs" "gear-static*1 gear-sweep*1" out/three-in-line/T60/static.h5 out/three-in-line/T60/up/sweep.h5
+for renamed in static:static sweep:sweep ringdown:impact branch:branches; do
+  refuses "system-${renamed%:*} names the target of every scene" "system-${renamed%:*} ${renamed#*:} SCENE" SCENE=inline.toml "system-${renamed%:*}"
+done
 refuses "modes reject a pair" 'pair modes systems' SCENE=data/scenes/nasa28.toml modes
 refuses "a scene that does not exist is named" 'data/scenes/nowhere.toml' out/nowhere/T1/static.h5
 refuses "a missing SCENE is named" 'SCENE=nowhere.toml file' SCENE=nowhere.toml sweep

@@ -1,6 +1,6 @@
 // gear-modes: natural frequencies and mode shapes of a system of gears and carriers.
 //
-// Reads   params (the system as laid out: bodies, bearings, meshes, what is held) or, of elastic gears, system_static.h5
+// Reads   params (the system as laid out: bodies, bearings, meshes, what is held) or, of elastic gears, static.h5
 // Writes  modes.h5   natural frequencies, types, shapes, where the energy of each mode is; under /VTKHDF the gears with what each mode
 //                    moves them by, for ParaView (modes.hdf is a link to it)
 // Equations: K v = w^2 M v, meshes frozen, at their mean stiffness (common/system/natural_modes.h)
@@ -24,14 +24,14 @@ void body(int argc, char** argv) {
                          "gear-modes"};
   std::string params, statics, output;
   whine::Option of_params = options.add(
-      "--params", params, "of rigid gears: stage parameters of the scene, out/<scene>/params/system.toml");
-  options.add("--static", statics, "of elastic gears: system_static.h5, whose stiffness and masses are taken")
+      "--params", params, "of rigid gears: stage parameters of the scene, out/<scene>/params/modes.toml");
+  options.add("--static", statics, "of elastic gears: static.h5, whose stiffness and masses are taken")
       .excludes(of_params);
   options.add("--output", output, "modes.h5 to write").required();
   options.footer(
       "Examples:\n"
-      "  gear-modes --params out/lin-parker-planetary/params/system.toml --output modes.h5\n"
-      "  gear-modes --static out/three-in-line/system_static.h5 --output modes.h5");
+      "  gear-modes --params out/lin-parker-planetary/params/modes.toml --output modes.h5\n"
+      "  gear-modes --static out/three-in-line/T60/static.h5 --output modes.h5");
   options.parse(argc, argv);
 
   if (params.empty() && statics.empty())

@@ -1,40 +1,50 @@
-// gear-orbit: the branch of periodic orbits of the pair over the mesh frequency, stable or not, and where it turns.
+// gear-orbit: the branch of periodic orbits of gears over the mesh frequency, stable or not, and where it turns.
 //
-// Reads   params (that of sweeps: damping, inertia, speeds, fidelity, time), body.h5 of both gears, static.h5 of the torque,
-//         static.h5 of the reference torque (mean stiffness of the dampers)
+// Reads   params (those of sweeps: damping, inertia, speeds, fidelity, time; of a train meshes and layout, too), body.h5 of every
+//         gear; of a pair static.h5 of the torque and of the reference torque (mean stiffness of the dampers)
 // Writes  branch.h5   along the branch: mesh frequency, RMS, mean and harmonics of the transmission error, Floquet multipliers,
-//                     stability; folds, period doublings, tori, and where contacts begin to come or go
+//                     stability; folds, period doublings, tori, and where contacts begin to come or go; of a train forces and contact
+//                     loss of each mesh, forces on bearings
 // Equations: y = P(y; f) over one mesh period, by Newton's method with the exact tangent of P; pseudo-arclength continuation.
 //            A sweep jumps where the branch folds.
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/error.h"
-#include "base/progress.h"
 #include "base/tool.h"
 #include "io/artifacts.h"
+#include "io/compatibility.h"
 #include "io/pair_inputs.h"
-#include "io/provenance.h"
-#include "io/scene.h"
+#include "io/stage_command.h"
+#include "io/system_scene.h"
 #include "results/branch.h"
+#include "results/system_branch.h"
 #include "signal/jump_words.h"
 #include "studies/pair_branch.h"
+#include "studies/system_branch.h"
 
 namespace {
+using namespace whine;
+
+// from: lowest speed of the scene, Hz.
+template <class Branch>
+void finish(const StageCommand& stage, const Provenance& made, const Branch& result, const std::string& at,
+            double from) {
+  write(stage.output(), result, made);
+  log_line("gear-orbit: ", at, result.mesh_frequency.size(), " orbits, ",
+           result.mesh_frequency.size() - result.stable.sum(), " of them unstable",
+           ", folds: ", jump_words(result.fold_frequency, result.fold_width), " -> ", stage.output());
+  constexpr double kRoundOff = 1e-9;
+  if (result.mesh_frequency.minCoeff() > from * (1 + kRoundOff))
+    log_line("gear-orbit: warning: the branch does not reach the lowest speed: ", result.end);
+}
 
 void body(int argc, char** argv) {
-  whine::Options options{"Branch of periodic orbits over the mesh frequency, stable or not, with its folds",
-                         "gear-orbit"};
-  std::string params, statics, reference, output;
-  std::vector<std::string> bodies;
+  Options options{"Branch of periodic orbits over the mesh frequency, stable or not, with its folds",
+                  "gear-orbit"};
+  StageCommand stage(options, "sweep.toml", StageCommand::Reads::bodies_and_rest);
   std::string way;
-  whine::BranchPlan plan;
-  options.add("--params", params, "stage parameters of the scene: out/<scene>/params/sweep.toml").required();
-  options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
-  options.add("--static", statics, "static.h5 of the torque to run").required();
-  options.add("--reference-static", reference, "static.h5 whose mean stiffness sets the bearing dampers")
-      .required();
+  BranchPlan plan;
   options
       .add(
           "--from-sweep", way,
@@ -45,39 +55,31 @@ void body(int argc, char** argv) {
               "1, 2 or 4: beyond period doublings follow orbits of up to so many mesh periods (default: 1)");
   options.add("--tolerance", plan.tolerance,
               "relative change of the state over an orbit, 1e-12 to 1e-3 (default: 1e-9)");
-  options.add("--output", output, "branch.h5 to write").required();
+  stage.add_output("branch.h5").required();
   options.footer(
-      "Example:\n"
-      "  gear-orbit --params out/parker2000/params/sweep.toml --body pinion=out/parker2000/pinion/body.h5 --body wheel=out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5 --reference-static out/parker2000/T100/static.h5 --output branch.h5");
+      "Examples:\n"
+      "  gear-orbit --params out/parker2000/params/sweep.toml --body pinion=out/parker2000/pinion/body.h5 --body wheel=out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5 --reference-static out/parker2000/T100/static.h5 --output branch.h5\n"
+      "  gear-orbit --params out/three-in-line/params/sweep.toml --body pinion=out/three-in-line/pinion/body.h5 --body idler=out/three-in-line/idler/body.h5 --body wheel=out/three-in-line/wheel/body.h5 --output train.h5");
   options.parse(argc, argv);
   if (way.empty() != (plan.at == 0))
-    whine::fail(whine::Failure::usage,
-                "--from-sweep and --at go together: the sweep and the speed of its motion");
-  if (!way.empty()) plan.sweep = whine::choice_of<whine::Direction>(way);
+    fail(Failure::usage, "--from-sweep and --at go together: the sweep and the speed of its motion");
+  if (!way.empty()) plan.sweep = choice_of<Direction>(way);
 
-  const whine::NamedFiles files("--body", bodies);
-  const whine::Provenance provenance = whine::made_by(
-      argc, argv,
-      files.and_inputs({"params=" + params, "static=" + statics, "reference_static=" + reference}));
-  whine::SweepParameters settings = whine::read_sweep_parameters(params);
-  const auto [pair, at_torque, at_reference] = whine::read_pair_inputs(files, statics, reference, settings);
+  const bool train = stage.of_train();
+  const Provenance made = stage.made_by(argc, argv);
+  if (train) {
+    const SystemSweepParameters settings = read_system_sweep_parameters(stage.params());
+    const std::vector<ReducedBody> gears = read_bodies(stage.bodies(), settings);
+    const SystemBranchResult result = system_branch(settings, gears, StepsDone("gear-orbit"), plan);
+    return finish(stage, made, result, "", settings.frequency_from);
+  }
+  SweepParameters settings = read_sweep_parameters(stage.params());
+  const auto [pair, at_torque, at_reference] =
+      read_pair_inputs(stage.bodies(), stage.statics(), stage.reference(), settings);
   const auto& [driver, driven] = pair;
-
-  std::optional<whine::Progress> progress;
-  const whine::BranchResult result = whine::pair_branch(
-      driver, driven, at_torque, at_reference.mean_stiffness, settings,
-      [&](long done, long total, const std::string& note) {
-        if (!progress) progress.emplace("gear-orbit", total);
-        progress->update(done, note);
-      },
-      plan);
-  whine::write(output, result, provenance);
-  whine::log_line("gear-orbit: ", result.torque, " N m, ", result.mesh_frequency.size(), " orbits, ",
-                  result.mesh_frequency.size() - result.stable.sum(), " of them unstable",
-                  ", folds: ", whine::jump_words(result.fold_frequency, result.fold_width), " -> ", output);
-  constexpr double kRoundOff = 1e-9;
-  if (result.mesh_frequency.minCoeff() > settings.frequency_from * (1 + kRoundOff))
-    whine::log_line("gear-orbit: warning: the branch does not reach the lowest speed: ", result.end);
+  const BranchResult result = pair_branch(driver, driven, at_torque, at_reference.mean_stiffness, settings,
+                                          StepsDone("gear-orbit"), plan);
+  finish(stage, made, result, text(result.torque, " N m, "), settings.frequency_from);
 }
 
 }  // namespace

@@ -2,12 +2,12 @@
 //
 // Reads      static.h5 (their order is that of the torques), impact.h5 and response.h5 of one scene, error_budget.h5; figures that
 //            gear-plot has drawn, as .png; params/title.txt in the folder of the scene, if there is one
-//            of a system of several meshes: modes.h5 and, of elastic gears, system_static.h5 and response.h5
+//            of a system of several meshes: modes.h5 and, of elastic gears, static.h5 and response.h5
 // Writes     --output: the page; results.tsv beside it, the numbers of its first table; with --teeth the page alone
 // Equations  none
 // Example    gear-report --output report/index.html out/parker2000/T100/static.h5
 //              out/parker2000/T100/{up,down}/response.h5 out/parker2000/report/fig12.png
-//            gear-report --output report/index.html out/three-in-line/system_static.h5 out/three-in-line/modes.h5
+//            gear-report --output report/index.html out/three-in-line/T60/static.h5 out/three-in-line/modes.h5
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -36,7 +36,7 @@ void body(int argc, char** argv) {
   options.footer(
       "Examples:\n"
       "  gear-report --output report/index.html out/parker2000/T150/static.h5 out/parker2000/T150/up/response.h5 out/parker2000/T150/down/response.h5\n"
-      "  gear-report --output report/index.html out/three-in-line/system_static.h5 out/three-in-line/modes.h5");
+      "  gear-report --output report/index.html out/three-in-line/T60/static.h5 out/three-in-line/modes.h5");
   options.parse(argc, argv);
 
   const auto publish_both = [&](const std::string& page, const std::string& table) {

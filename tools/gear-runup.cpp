@@ -6,19 +6,16 @@
 // Writes  runup.h5    transmission errors, mesh and bearing forces, tooth loads over time, and per mesh period RMS, largest
 //         tooth load and loss of contact of each mesh; written as it comes
 // Equations: those of gear-sweep; mesh frequency f(t) = from + a t, a = rate / 60 x mesh periods in a revolution of the input
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "base/error.h"
-#include "base/progress.h"
 #include "base/tool.h"
 #include "io/artifacts.h"
 #include "io/compatibility.h"
 #include "io/pair_inputs.h"
-#include "io/provenance.h"
 #include "io/runup_file.h"
 #include "io/scene.h"
+#include "io/stage_command.h"
 #include "io/system_scene.h"
 #include "studies/runup.h"
 
@@ -65,16 +62,8 @@ void complete_ramp(SpeedRamp& ramp, const Settings& scene, const std::string& wa
 
 void body(int argc, char** argv) {
   Options options{"Motion of a pair or a train while its speed changes with time", "gear-runup"};
-  std::string params, statics, reference, output;
-  std::vector<std::string> bodies;
+  StageCommand stage(options, "sweep.toml", StageCommand::Reads::bodies_and_rest);
   RunupSettings wanted;
-  options.add("--params", params, "stage parameters of the scene: out/<scene>/params/sweep.toml").required();
-  options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
-  Option at_torque = options.add("--static", statics, "static.h5 of the torque to run, of a pair");
-  Option at_reference = options.add("--reference-static", reference,
-                                    "static.h5 whose mean stiffness sets the bearing dampers of a pair");
-  at_torque.needs(at_reference);
-  at_reference.needs(at_torque);
   options
       .add("--rate", wanted.ramp.rate,
            "rpm/s by which the speed of the driver, of a train of its input, changes, above 0")
@@ -85,7 +74,7 @@ void body(int argc, char** argv) {
   options.add("--direction", way, "up or down; with --from and --to it must be theirs")
       .one_of({"up", "down"});
   options.add("--sample-rate", wanted.sample_rate, "Hz of the samples").show_default();
-  options.add("--output", output, "runup.h5 to write").required();
+  stage.add_output("runup.h5").required();
   options.footer(
       "Example:\n"
       "  gear-runup --params out/parker2000/params/sweep.toml --body pinion=out/parker2000/pinion/body.h5 --body wheel=out/parker2000/wheel/body.h5 --static out/parker2000/T150/static.h5 --reference-static out/parker2000/T100/static.h5 --rate 1000 --output runup.h5");
@@ -93,35 +82,24 @@ void body(int argc, char** argv) {
   if (!(wanted.sample_rate >= 1000 && wanted.sample_rate <= 1e6))
     fail(Failure::usage, "--sample-rate ", wanted.sample_rate, ": 1000 to 1000000 Hz");
 
-  const bool pair = !statics.empty();
-  const NamedFiles files("--body", bodies);
-  RunupFileWithNotes file(
-      output,
-      made_by(argc, argv,
-              files.and_inputs(pair ? std::vector<std::string>{"params=" + params, "static=" + statics,
-                                                               "reference_static=" + reference}
-                                    : std::vector<std::string>{"params=" + params})));
-  std::optional<Progress> progress;
-  const auto report = [&](long done, long total, const std::string& note) {
-    if (!progress) progress.emplace(text("gear-runup ", way), total);
-    progress->update(done, note);
-  };
+  const bool of_train = stage.of_train();
+  RunupFileWithNotes file(stage.output(), stage.made_by(argc, argv));
+  const StepsDone report(text("gear-runup ", way));
   std::string operating_point;
-  if (pair) {
-    SweepParameters settings = read_sweep_parameters(params);
-    const PairInputs inputs = read_pair_inputs(files, statics, reference, settings);
+  if (of_train) {
+    const SystemSweepParameters settings = read_system_sweep_parameters(stage.params());
+    complete_ramp(wanted.ramp, settings, way);
+    runup(settings, read_bodies(stage.bodies(), settings), wanted, file, report);
+  } else {
+    SweepParameters settings = read_sweep_parameters(stage.params());
+    const PairInputs inputs = read_pair_inputs(stage.bodies(), stage.statics(), stage.reference(), settings);
     complete_ramp(wanted.ramp, settings, way);
     operating_point = text(inputs.at_torque.torque, " N m, ");
     runup(inputs.body[0], inputs.body[1], inputs.at_torque, inputs.at_reference.mean_stiffness, settings,
           wanted, file, report);
-  } else {
-    const SystemSweepParameters settings = read_system_sweep_parameters(params);
-    complete_ramp(wanted.ramp, settings, way);
-    runup(settings, read_bodies(files, settings), wanted, file, report);
   }
-  progress.reset();
-  log_line("gear-runup: ", operating_point, wanted.ramp.from, " to ", wanted.ramp.to, " Hz at ", wanted.ramp.rate,
-           " rpm/s -> ", output);
+  log_line("gear-runup: ", operating_point, wanted.ramp.from, " to ", wanted.ramp.to, " Hz at ",
+           wanted.ramp.rate, " rpm/s -> ", stage.output());
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 // Reads      a scene (TOML)
 // Writes     <out>/<scene>/params/{static,impact,sweep,map,lumped,lumped_map}.toml
 //                                                        stage parameters in SI, replaced only if they change
-//            <out>/<scene>/params/system.toml            of systems of rigid gears; system_{static,sweep}.toml: elastic ones
+//                                                        of trains static.toml, with speeds sweep.toml, impact.toml; of rigid gears modes.toml
 //            <out>/<scene>/params/{title,scene}.txt      what figures call it; path of the scene, from the working folder
 //            <out>/bodies/<hash>/body.toml               one per distinct gear
 //            <out>/<scene>/<gear> -> ../bodies/<hash>    relative links
@@ -38,31 +38,27 @@ void tell_lines(const std::vector<std::string>& lines) {
 
 // A system (several meshes, carriers or drives): its stage parameters and its fragment.
 void cut_system(const std::string& path, const std::string& stem, const std::string& folder,
-                const SceneGoals& goals, const std::string& output) {
+                const std::vector<std::string>& goals, const std::string& output) {
   const SystemScene scene = read_system_scene(path);
   const System layout = layout_in(scene, path);
   check_goals(goals, abilities(scene, layout), path);
   const std::string home = folder + "/" + stem;
-  if (scene.rigid()) {
+  if (scene.rigid())
     rigid_system(layout);
-    record_scene(home, path);
-    publish_if_changed(home + "/params/system.toml", system_parameters(layout));
-  } else {
+  else
     check_scene(scene, layout, path);
-    record_scene(home, path);
-    for (const auto& [name, words] : elastic_parameters(scene, layout))
-      publish_if_changed(home + "/params/" + name, words);
-  }
+  record_scene(home, path);
+  for (const auto& [name, words] : stage_parameters_of(scene, layout))
+    publish_if_changed(home + "/params/" + name, words);
   publish_if_changed(home + "/params/title.txt", visible(scene.title) + "\n");
-  publish(output,
-          system_fragment(path, stem, publish_bodies(home, folder, body_parameters_of(scene)),
-                          layout.meshes.size() > scene.meshes.size(), scene.operation.frequency_to > 0));
+  publish(output, system_fragment(scene, layout, path, stem,
+                                  publish_bodies(home, folder, body_parameters_of(scene))));
   tell_lines(scene_lines(scene, layout, path));
   log_line("gear-scene: ", path, ": ", layout.bodies.size(), " bodies, ", layout.meshes.size(), " meshes");
 }
 
 void cut_pair(const std::string& path, const std::string& stem, const std::string& folder,
-              const SceneGoals& goals, const std::string& ids, const std::string& output) {
+              const std::vector<std::string>& goals, const std::string& ids, const std::string& output) {
   const Scene scene = read_scene(path);  // 1. The whole scene is checked before anything is written.
   check_scene(scene, path);
   check_goals(goals, abilities(scene), path);
@@ -93,8 +89,7 @@ void cut_pair(const std::string& path, const std::string& stem, const std::strin
 
 void body(int argc, char** argv) {
   std::string path, output, variant, ids, goals, folder = "out";
-  std::vector<std::string> changes, given;
-  SceneGoals of_scene;
+  std::vector<std::string> changes, given, of_scene;
   bool keys = false;
   whine::Options options{"Checks a scene and writes what each stage needs of it", "gear-scene"};
   Option scene_option = options.add("--scene", path, "scene file (TOML)");
@@ -111,9 +106,8 @@ void body(int argc, char** argv) {
       options.add("--goals", goals,
                   "goals of make, with a blank between: prints what is wrong with them and with --given");
   options.add("--given", given, "NAME=value, a variable of make, any number of times").needs(goals_option);
-  options.add("--of-pairs", of_scene.of_pairs,
-              "a goal that needs a pair, any number of times: rejected if the scene has not what it needs");
-  options.add("--of-systems", of_scene.of_systems, "the same, a goal that needs a system");
+  options.add("--goal", of_scene,
+              "a goal of make, any number of times: rejected if the scene cannot reach it");
   scene_option.excludes(keys_option).excludes(goals_option);
   output_option.needs(scene_option).excludes(variant_option);
   variant_option.needs(scene_option).needs(set_option);

@@ -56,10 +56,10 @@ inline constexpr std::tuple kArtifactKinds{
     ArtifactKind<VariantResult>{"variant", 3, "ab12....h5", ""},
     ArtifactKind<StudyResult>{"study", 3, "study.h5", ""},
     ArtifactKind<ModesResult>{"modes", 1, "modes.h5", "modes"},
-    ArtifactKind<SystemStaticResult>{"system_static", 2, "system_static.h5", "system_static"},
-    ArtifactKind<SystemSweepResult>{"system_sweep", 4, "system_sweep.h5", "system_sweep"},
-    ArtifactKind<SystemImpactResult>{"system_impact", 1, "system_impact.h5", "system_impact"},
-    ArtifactKind<SystemBranchResult>{"system_branch", 3, "system_branch.h5", "system_branch"},
+    ArtifactKind<SystemStaticResult>{"system_static", 2, "static.h5 of a train", "static"},
+    ArtifactKind<SystemSweepResult>{"system_sweep", 4, "sweep.h5 of a train", "sweep"},
+    ArtifactKind<SystemImpactResult>{"system_impact", 1, "impact.h5 of a train", "impact"},
+    ArtifactKind<SystemBranchResult>{"system_branch", 3, "branch.h5 of a train", "branch"},
     ArtifactKind<ReadingsResult>{"readings", 1, "readings.h5", ""}};
 
 template <class Artifact>

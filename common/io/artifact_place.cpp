@@ -1,5 +1,6 @@
 #include "io/artifact_place.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <sstream>
@@ -8,6 +9,7 @@
 #include "base/error.h"
 #include "base/tool.h"
 #include "io/artifact_kinds.h"
+#include "io/make_request.h"
 
 namespace whine {
 namespace {
@@ -51,19 +53,19 @@ std::string output_of(const std::string& command) {
   return rest.substr(0, rest.find(end));
 }
 
-// Schema that a file of this name has, "" for other names.
-std::string schema_named(const PathParts& place) {
+// Schemas that a file of this name may have, none of other names.
+std::vector<std::string> schemas_named(const PathParts& place) {
   const std::string& name = place.back();
   const std::string stem = name.substr(0, name.rfind('.'));
-  if (place[1] == "studies") return stem == "study" ? "whine/study" : "whine/variant";
-  std::string schema;
+  if (place[1] == "studies") return {stem == "study" ? "whine/study" : "whine/variant"};
+  std::vector<std::string> schemas;
   for_each_kind([&](const auto& kind) {
     std::istringstream stems(kind.stems);
     for (std::string own; stems >> own;)
       if (own.back() == '*' ? stem.starts_with(own.substr(0, own.size() - 1)) : stem == own)
-        schema = kind.schema();
+        schemas.push_back(kind.schema());
   });
-  return schema;
+  return schemas;
 }
 
 // A torque as the name of its folder has it.
@@ -73,7 +75,7 @@ std::string short_torque(double torque) {
   return word;
 }
 
-// Of what lies in out/<scene>/T<torque>/..., or, of a system, in out/<scene>/<up or down>.
+// Of what lies in out/<scene>/T<torque>/...
 std::string wrong_operation(const PathParts& place, const Origin& origin) {
   if (place.size() < 4) return "";
   const bool of_torque = place[2].size() > 1 && place[2][0] == 'T';
@@ -98,8 +100,9 @@ std::string misplaced(const std::string& path, const Origin& origin) {
   const std::string place = place_below_out(path);
   if (place.empty()) return "";
   const PathParts parts = parts_of(place);
-  if (const std::string schema = schema_named(parts); !schema.empty() && schema != origin.schema)
-    return text("is '", origin.schema, "', but its name is that of '", schema, "'");
+  if (const auto schemas = schemas_named(parts);
+      !schemas.empty() && std::find(schemas.begin(), schemas.end(), origin.schema) == schemas.end())
+    return text("is '", origin.schema, "', but its name is that of '", joined_by("' or '", schemas), "'");
   if (const std::string wrong = wrong_operation(parts, origin); !wrong.empty()) return wrong;
 
   // Bodies and variants are called by their stage parameters.

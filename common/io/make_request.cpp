@@ -123,7 +123,17 @@ std::string meant(const std::string& word, const Words& known) {
   return near.empty() || near.front() != word.front() ? "" : " did you mean " + near + "?";
 }
 
+// Targets that trains once had of their own.
+constexpr std::pair<const char*, const char*> kRenamed[] = {{"system-static", "static"},
+                                                            {"system-sweep", "sweep"},
+                                                            {"system-ringdown", "impact"},
+                                                            {"system-branch", "branches"}};
+
 void check_target(const std::string& goal, const Words& known) {
+  for (const auto& [before, now] : kRenamed)
+    if (goal == before)
+      fail(Failure::input, goal, ": it is called ", now, " for every scene: make SCENE=path/to/train.toml ",
+           now);
   const bool scene = goal.ends_with(".toml");
   if (goal.find('/') != std::string::npos || goal == "FORCE" || listed_in(known, goal) ||
       (present(goal) && !scene))

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/tool.h"
 #include "io/compatibility.h"
+#include "io/make_request.h"
 #include "io/publish.h"
 #include "io/scene_goals.h"
 #include "io/variant.h"
@@ -51,37 +52,65 @@ std::string checked_scene_stem(const std::string& path) {
   return stem;
 }
 
-std::string system_fragment(const std::string& path, const std::string& stem, const BodyHashes& bodies,
-                            bool planets, bool moves) {
-  std::ostringstream out;
-  out << "# Written by gear-scene from " << in_comment(recorded_path(path)) << "\nSCENE_" << stem
-      << "_SYSTEM := " << (bodies.empty() ? "rigid" : "elastic") << "\nSCENE_" << stem
-      << "_PLANETS := " << (planets ? "yes" : "no") << "\n";
-  if (bodies.empty()) return out.str();
-  if (moves) out << "SCENE_" << stem << "_SYSTEM_MOVES := yes\n";
-  out << "SCENE_" << stem << "_SYSTEM_GEARS :=";
-  for (const auto& [gear, hash] : bodies) out << " " << gear;
-  out << "\n";
-  for (const auto& [gear, hash] : bodies)
-    out << "SCENE_" << stem << "_BODY_" << gear << " := " << hash << "\n";
-  out << "BODIES +=";
-  for (const auto& hash : different(bodies)) out << " " << hash;
-  out << "\n";
-  return out.str();
+double input_torque(const System& layout) {
+  double first = 0;
+  for (const System::Drive& drive : layout.drives) {
+    if (drive.kind != System::DriveKind::torque) continue;
+    if (drive.torque > 0) return drive.torque;
+    if (first == 0) first = -drive.torque;
+  }
+  return first;
+}
+
+namespace {
+
+// Lines "SCENE_<stem>_<key> := <value>".
+class Fragment {
+ public:
+  Fragment(const std::string& path, const std::string& stem) : stem_(stem) {
+    out_ << "# Written by gear-scene from " << in_comment(recorded_path(path)) << "\n";
+  }
+  template <class Value>
+  void operator()(const std::string& key, const Value& value) {
+    out_ << "SCENE_" << stem_ << "_" << key << " := " << value << "\n";
+  }
+  void yes_or_no(const std::string& key, bool value) { (*this)(key, value ? "yes" : "no"); }
+  // What there is of elastic gears, beside DRIVER and DRIVEN of a pair.
+  void gears(const BodyHashes& bodies, const std::vector<double>& torques) {
+    std::ostringstream names, values;
+    for (const auto& [gear, hash] : bodies) {
+      names << (names.view().empty() ? "" : " ") << gear;
+      (*this)("BODY_" + gear, hash);
+    }
+    for (const double torque : torques) values << (values.view().empty() ? "" : " ") << torque;  // as by %g
+    (*this)("GEARS", names.str());
+    (*this)("TORQUES", values.str());
+    (*this)("REFERENCE_TORQUE", torques.front());
+    out_ << "BODIES += " << joined_by(" ", different(bodies)) << "\n";
+  }
+  std::string words() const { return out_.str(); }
+
+ private:
+  std::string stem_;
+  std::ostringstream out_;
+};
+
+}  // namespace
+
+std::string system_fragment(const SystemScene& scene, const System& layout, const std::string& path,
+                            const std::string& stem, const BodyHashes& bodies) {
+  const SceneAbilities able = abilities(scene, layout);
+  Fragment out(path, stem);
+  out("KIND", able.elastic ? "train" : "rigid");
+  out.yes_or_no("PLANETS", able.planets);
+  if (!able.elastic) return out.words();
+  out.gears(bodies, {input_torque(layout)});
+  out.yes_or_no("MOVES", able.moves);
+  return out.words();
 }
 
 std::string scene_fragment(const Scene& scene, const std::string& path, const std::string& stem,
                            const BodyHashes& bodies) {
-  const auto name = [&](const std::string& key) { return "SCENE_" + stem + "_" + key; };
-  std::ostringstream out;
-  out << "# Written by gear-scene from " << in_comment(recorded_path(path)) << "\n" << name("GEARS") << " :=";
-  for (const auto& [gear, hash] : bodies) out << " " << gear;
-  out << "\n" << name("DRIVER") << " := " << scene.mesh.gear[0] << "\n";
-  out << name("DRIVEN") << " := " << scene.mesh.gear[1] << "\n";
-  for (const auto& [gear, hash] : bodies) out << name("BODY_" + gear) << " := " << hash << "\n";
-  out << name("TORQUES") << " :=";
-  for (double torque : scene.operation.torques) out << " " << torque;
-  out << "\n" << name("REFERENCE_TORQUE") << " := " << scene.operation.torques.front() << "\n";
   const SceneAbilities able = abilities(scene);
   const bool differ = able.teeth_differ, cracked = able.cracked;
   bool modified = false;
@@ -89,19 +118,18 @@ std::string scene_fragment(const Scene& scene, const std::string& path, const st
     modified |= scene.gear(gear).modification != FlankModification{};
   const bool rings_down = scene.fidelity.contact == ContactModel::strips &&
                           scene.fidelity.body != BodyModel::full && !differ && !cracked;
-  out << name("RINGS_DOWN") << " := " << (rings_down ? "yes" : "no") << "\n";
-  out << name("TEETH") << " := "
-      << (differ    ? "differ"
-          : cracked ? ""
-                    : "alike")
-      << (cracked ? " cracked" : "") << "\n";
-  out << name("MODIFIED") << " := " << (modified ? "yes" : "no") << "\n";
-  out << name("FRICTION") << " := " << (scene.mesh.friction.acts() ? "yes" : "no") << "\n";
-  out << name("BEARINGS") << " := " << (scene.mesh.on_bearings() ? "elastic" : "rigid") << "\n";
-  out << "BODIES +=";
-  for (const auto& hash : different(bodies)) out << " " << hash;
-  out << "\n";
-  return out.str();
+  Fragment out(path, stem);
+  out("KIND", "pair");
+  out.gears(bodies, scene.operation.torques);
+  out("DRIVER", scene.mesh.gear[0]);
+  out("DRIVEN", scene.mesh.gear[1]);
+  out.yes_or_no("MOVES", true);
+  out.yes_or_no("RINGS_DOWN", rings_down);
+  out("TEETH", std::string(differ ? "differ" : cracked ? "" : "alike") + (cracked ? " cracked" : ""));
+  out.yes_or_no("MODIFIED", modified);
+  out.yes_or_no("FRICTION", scene.mesh.friction.acts());
+  out("BEARINGS", scene.mesh.on_bearings() ? "elastic" : "rigid");
+  return out.words();
 }
 
 }  // namespace whine

@@ -1,9 +1,56 @@
 #include "io/scene_goals.h"
 
+#include <algorithm>
+#include <array>
+
 #include "base/error.h"
 #include "io/make_request.h"
 
 namespace whine {
+namespace {
+
+// What a system must have for a goal; goals that do not stand here are of pairs alone.
+enum class Needs { nothing, elastic_gears, speeds, planets };
+struct SystemGoal {
+  const char* name;
+  Needs needs;
+  bool of_pairs;
+};
+constexpr std::array kSystemGoals{
+    SystemGoal{"report", Needs::nothing, true},       SystemGoal{"mesh", Needs::elastic_gears, true},
+    SystemGoal{"reduce", Needs::elastic_gears, true}, SystemGoal{"static", Needs::elastic_gears, true},
+    SystemGoal{"sweep", Needs::speeds, true},         SystemGoal{"impact", Needs::speeds, true},
+    SystemGoal{"branches", Needs::speeds, true},      SystemGoal{"order-cuts", Needs::speeds, true},
+    SystemGoal{"runup", Needs::speeds, true},         SystemGoal{"sound", Needs::speeds, true},
+    SystemGoal{"load-sharing", Needs::planets, true}, SystemGoal{"modes", Needs::nothing, false},
+    SystemGoal{"mode-shapes", Needs::nothing, false}};
+
+bool has(const SceneAbilities& system, Needs needs) {
+  return needs == Needs::nothing ||
+         (system.elastic &&
+          (needs == Needs::elastic_gears || (needs == Needs::speeds ? system.moves : system.planets)));
+}
+
+// "report, or of it static ..."
+std::string of_system(const SceneAbilities& system) {
+  std::string out;
+  for (const SystemGoal& goal : kSystemGoals)
+    if (has(system, goal.needs))
+      out += text(out.empty() ? "" : out == kSystemGoals.front().name ? ", or of it " : " ", goal.name);
+  return out;
+}
+
+void check_teeth(const SceneAbilities& pair, const std::string& which) {
+  if (!pair.teeth_differ && !pair.cracked) return;
+  fail(Failure::input, "teeth: ", which, " has teeth that ", pair.teeth_differ ? "differ" : "are cracked",
+       ", and root stress, load sharing and error budget are of intact, equal teeth; for it there is: make ",
+       which, " ",
+       !pair.cracked       ? "tooth-loads sidebands"
+       : pair.teeth_differ ? "fig01"
+                           : "crack");
+}
+
+}  // namespace
 
 SceneAbilities abilities(const Scene& scene) {
   SceneAbilities out;
@@ -21,53 +68,33 @@ SceneAbilities abilities(const SystemScene& scene, const System& layout) {
           .moves = scene.operation.frequency_to > 0};
 }
 
-void check_goals(const SceneGoals& goals, const SceneAbilities& scene, const std::string& path) {
+void check_goals(const std::vector<std::string>& goals, const SceneAbilities& scene,
+                 const std::string& path) {
   const std::string which = "SCENE=" + path;
-  if (scene.pair) {
-    if (!goals.of_systems.empty()) {
-      const std::string& goal = goals.of_systems.front();
-      fail(Failure::input, which, ": it is a pair; ",
-           goal.starts_with("mode") ? std::string("modes are") : goal + " is",
-           " of systems, scenes of several meshes, carriers or drives");
-    }
-    if (listed_in(goals.of_pairs, "teeth") && (scene.teeth_differ || scene.cracked))
-      fail(
-          Failure::input, "teeth: ", which, " has teeth that ", scene.teeth_differ ? "differ" : "are cracked",
-          ", and root stress, load sharing and error budget are of intact, equal teeth; for it there is: make ",
-          which, " ",
-          !scene.cracked       ? "tooth-loads sidebands"
-          : scene.teeth_differ ? "fig01"
-                               : "crack");
-    return;
-  }
-  for (const std::string& goal : goals.of_systems) {
-    if (goal.starts_with("mode")) continue;
-    if (!scene.elastic)
-      fail(Failure::input, which, ": its gears are rigid; ", goal,
-           " needs elastic ones, for it there is: make ", which, " modes");
-    if (goal != "system-static" && !scene.moves)
-      fail(
-          Failure::input, which,
-          ": it says no speeds; write [operation] with mesh_frequency_Hz = { from = 500, to = 5000, step = 50 } into it");
-  }
-  for (const std::string& goal : goals.of_pairs) {
-    const bool in_motion = scene.elastic && scene.moves;
-    if (goal == "report" || (goal == "load-sharing" && scene.elastic && scene.planets) ||
-        (goal == "order-cuts" && in_motion))
+  for (const std::string& goal : goals) {
+    const auto* const known = std::find_if(kSystemGoals.begin(), kSystemGoals.end(),
+                                           [&](const SystemGoal& own) { return goal == own.name; });
+    if (scene.pair) {
+      if (known != kSystemGoals.end() && !known->of_pairs)
+        fail(Failure::input, goal, ": ", which,
+             " is a pair, and natural modes are of systems, scenes of several meshes, carriers or drives");
+      if (goal == "teeth") check_teeth(scene, which);
       continue;
-    if (goal == "load-sharing")
-      fail(Failure::input, "load-sharing: ", which,
-           scene.elastic ? " has no planets that share a load"
-                         : " has rigid gears, of which there are natural modes alone",
-           ", use make ", which, " report");
+    }
     if (goal == "compare")
       fail(
           Failure::input, "SCENES: ", path,
           " is a system of several meshes, and compare sets pairs side by side; `make SCENE=... report` of each makes their own pages");
-    fail(Failure::input, goal, ": ", which,
-         " is a system of several meshes, carriers or drives; for it there is: make ", which,
-         " report, or of it ", scene.elastic ? "system-static " : "",
-         in_motion ? "system-sweep system-ringdown system-branch order-cuts " : "", "modes");
+    const char* const lacks =
+        known == kSystemGoals.end() ? "a system of several meshes, carriers or drives"
+        : has(scene, known->needs)  ? ""
+        : !scene.elastic            ? "of rigid gears, which have natural modes alone"
+        : known->needs == Needs::planets
+            ? "without planets that share a load"
+            : "without speeds, [operation] with mesh_frequency_Hz = { from = 500, to = 5000, step = 50 }";
+    if (*lacks)
+      fail(Failure::input, goal, ": ", which, " is ", lacks, "; for it there is: make ", which, " ",
+           of_system(scene));
   }
 }
 

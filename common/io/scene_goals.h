@@ -9,9 +9,6 @@
 
 namespace whine {
 
-struct SceneGoals {
-  std::vector<std::string> of_pairs, of_systems;  // goals that are of one alone
-};
 struct SceneAbilities {
   bool pair = true;
   bool teeth_differ = false, cracked = false;            // of a pair
@@ -20,7 +17,7 @@ struct SceneAbilities {
 SceneAbilities abilities(const Scene& scene);
 SceneAbilities abilities(const SystemScene& scene, const System& layout);
 
-// path: as SCENE gives it. Error(input) names the goal and what there is instead.
-void check_goals(const SceneGoals& goals, const SceneAbilities& scene, const std::string& path);
+// path: as SCENE gives it. Error(input) names the first goal that the scene cannot reach, and what there is instead.
+void check_goals(const std::vector<std::string>& goals, const SceneAbilities& scene, const std::string& path);
 
 }  // namespace whine

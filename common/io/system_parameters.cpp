@@ -15,9 +15,10 @@
 namespace whine {
 namespace {
 
-constexpr StageFile kSystemModes{"params/system.toml", "the modes of a system"},
-    kSystemStatic{"params/system_static.toml", "the statics of a system"},
-    kSystemSweep{"params/system_sweep.toml", "a sweep of a system"};
+constexpr StageFile kSystemModes{"params/modes.toml", "the modes of a system"},
+    kSystemStatic{"params/static.toml", "the statics of a system"},
+    kSystemSweep{"params/sweep.toml", "a sweep of a system"},
+    kSystemImpact{"params/impact.toml", "the ring-down of a system"};
 
 }  // namespace
 
@@ -163,8 +164,8 @@ void walk_gears(StageParameters& s, SystemStaticParameters& p) {
   }
 }
 
-// moving: `p` itself, if it is of a sweep.
-void walk(StageParameters& s, SystemStaticParameters& p, SystemSweepParameters* moving) {
+// moving: `p` itself, if it is of a motion; speeds: of one over speeds.
+void walk(StageParameters& s, SystemStaticParameters& p, SystemSweepParameters* moving, bool speeds) {
   const bool reads = s.source();
   if (reads) {  // by their names sections are called
     walk(s, p.layout);
@@ -184,9 +185,11 @@ void walk(StageParameters& s, SystemStaticParameters& p, SystemSweepParameters* 
   for (size_t b = 0; b < p.errors.size(); ++b)
     if (const std::string label = "error_" + p.layout.bodies[b].name; s.has(label, p.has_errors(b)))
       s(keys(p.errors[b]).labelled(label));
-  if (moving)
-    s(keys(moving->damping)
-          .append(speeds_key(moving->frequency_from, moving->frequency_to, moving->frequency_step)));
+  if (moving) {
+    KeyList own = keys(moving->damping);
+    if (speeds) own.append(speeds_key(moving->frequency_from, moving->frequency_to, moving->frequency_step));
+    s(own);
+  }
   s(level_keys(p.fidelity, p.contact, moving ? &moving->time : nullptr));
   if (!reads) s.words("bodies", p.body);
   walk_gears(s, p);
@@ -195,42 +198,64 @@ void walk(StageParameters& s, SystemStaticParameters& p, SystemSweepParameters* 
 
 }  // namespace
 
+namespace {
+
+std::string system_motion_text(SystemSweepParameters p, const StageFile& file, bool speeds) {
+  StageParameters out(file);
+  walk(out, p, &p, speeds);
+  return out.text();
+}
+
+SystemSweepParameters read_system_motion(const std::string& path, const StageFile& file, bool speeds) {
+  const Source source = stage_source(path, file);
+  StageParameters in(source);
+  SystemSweepParameters out;
+  walk(in, out, &out, speeds);
+  return out;
+}
+
+}  // namespace
+
 std::string system_static_parameters(const SystemStaticParameters& p) {
   SystemStaticParameters copy = p;
   StageParameters out(kSystemStatic);
-  walk(out, copy, nullptr);
+  walk(out, copy, nullptr, false);
   return out.text();
 }
 
 std::string system_sweep_parameters(const SystemSweepParameters& p) {
-  SystemSweepParameters copy = p;
-  StageParameters out(kSystemSweep);
-  walk(out, copy, &copy);
-  return out.text();
+  return system_motion_text(p, kSystemSweep, true);
+}
+
+std::string system_impact_parameters(const SystemSweepParameters& p) {
+  return system_motion_text(p, kSystemImpact, false);
 }
 
 SystemStaticParameters read_system_static_parameters(const std::string& path) {
   const Source source = stage_source(path, kSystemStatic);
   StageParameters in(source);
   SystemStaticParameters out;
-  walk(in, out, nullptr);
+  walk(in, out, nullptr, false);
   return out;
 }
 
 SystemSweepParameters read_system_sweep_parameters(const std::string& path) {
-  const Source source = stage_source(path, kSystemSweep);
-  StageParameters in(source);
-  SystemSweepParameters out;
-  walk(in, out, &out);
-  return out;
+  return read_system_motion(path, kSystemSweep, true);
 }
 
-std::vector<std::pair<std::string, std::string>> elastic_parameters(const SystemScene& scene,
-                                                                    const System& layout) {
+SystemSweepParameters read_system_impact_parameters(const std::string& path) {
+  return read_system_motion(path, kSystemImpact, false);
+}
+
+std::vector<std::pair<std::string, std::string>> stage_parameters_of(const SystemScene& scene,
+                                                                     const System& layout) {
+  if (scene.rigid()) return {{"modes.toml", system_parameters(layout)}};
   std::vector<std::pair<std::string, std::string>> out{
-      {"system_static.toml", system_static_parameters(static_parameters_of(scene, layout))}};
-  if (scene.operation.frequency_to > 0)
-    out.emplace_back("system_sweep.toml", system_sweep_parameters(sweep_parameters_of(scene, layout)));
+      {"static.toml", system_static_parameters(static_parameters_of(scene, layout))}};
+  if (scene.operation.frequency_to == 0) return out;
+  const SystemSweepParameters moving = sweep_parameters_of(scene, layout);
+  out.emplace_back("sweep.toml", system_sweep_parameters(moving));
+  out.emplace_back("impact.toml", system_impact_parameters(moving));
   return out;
 }
 
@@ -238,10 +263,8 @@ std::string system_parameters_for(const std::string& scene, const std::string& p
   const SystemScene read = read_system_scene(scene);
   const std::filesystem::path place(path);
   const std::string name = place.filename().string();
-  if (name == "system.toml" && read.rigid()) return system_parameters(layout_in(read, scene));
-  if (!read.rigid())
-    for (const auto& [own, words] : elastic_parameters(read, layout_in(read, scene)))
-      if (name == own) return words;
+  for (const auto& [own, words] : stage_parameters_of(read, layout_in(read, scene)))
+    if (name == own) return words;
   const std::string folder = place.parent_path().filename().string();
   for (const auto& [gear, settings] : body_parameters_of(read))
     if (name == "body.toml" && (folder == body_hash(settings) || folder == gear)) return settings;

@@ -266,7 +266,7 @@ std::vector<std::string> motion_remarks(const SystemScene& scene) {
       scene.fidelity.body != BodyModel::quasi_static)
     out.push_back(text(
         "warning: rayleigh_stiffness_s = ", scene.damping.rayleigh_stiffness,
-        ", the default, is for the gears of P2000; `make SCENE=path/to/scene.toml system-ringdown` shows the damping ratios that it gives these, write your own into [damping]"));
+        ", the default, is for the gears of P2000; `make SCENE=path/to/scene.toml impact` shows the damping ratios that it gives these, write your own into [damping]"));
   return out;
 }
 

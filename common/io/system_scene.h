@@ -40,10 +40,13 @@ SystemStaticParameters read_system_static_parameters(const std::string& path);
 SystemSweepParameters sweep_parameters_of(const SystemScene& scene, const System& layout);
 std::string system_sweep_parameters(const SystemSweepParameters& parameters);
 SystemSweepParameters read_system_sweep_parameters(const std::string& path);
+// Of its ring-down: the same without speeds, which are 0 when read.
+std::string system_impact_parameters(const SystemSweepParameters& parameters);
+SystemSweepParameters read_system_impact_parameters(const std::string& path);
 
-// Names and texts of the stage parameters of an elastic system: of its statics and, with [operation], of its sweeps.
-std::vector<std::pair<std::string, std::string>> elastic_parameters(const SystemScene& scene,
-                                                                    const System& layout);
+// Names and texts of all stage parameters: of rigid gears of the modes, else of the statics and, with [operation], of the motions.
+std::vector<std::pair<std::string, std::string>> stage_parameters_of(const SystemScene& scene,
+                                                                     const System& layout);
 
 // The stage parameters that the scene gives now for the path of earlier ones; empty if none of it stand there.
 std::string system_parameters_for(const std::string& scene, const std::string& path);

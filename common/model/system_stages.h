@@ -8,7 +8,7 @@
 
 namespace whine {
 
-// For gear-system-static; `contact.positions` is resolved (never 0), `fidelity` holds the contact level only.
+// For gear-static; `contact.positions` is resolved (never 0), `fidelity` holds the contact level only.
 struct SystemStaticParameters {
   System layout;                   // with its carriers
   std::vector<std::string> gear;   // [body] the [gear.<name>] that it is; "" of a carrier
@@ -44,7 +44,7 @@ struct SystemStaticParameters {
   }
 };
 
-// For gear-system-sweep; `fidelity` holds the level of the bodies as well. Contact in motion is of lines.
+// For gear-sweep, gear-impact and gear-orbit; `fidelity` holds the level of the bodies as well. Contact in motion is of lines.
 struct SystemSweepParameters : SystemStaticParameters {
   Damping damping;
   double frequency_from = 0, frequency_to = 0, frequency_step = 0;  // mesh frequency, Hz

@@ -227,7 +227,7 @@ Figure draw_runup(const Paths& inputs, const Frequencies&) {
     if (is_a("whine/runup", path))
       runs.push_back(read<RunupResult>(path));
     else
-      sweeps.push_back(read_pair_response(path));
+      sweeps.push_back(read<ResponseResult>(path));
   }
   if (runs.size() != 1) fail(Failure::usage, "runup needs one runup.h5; ", runs.size(), " given");
   return runup_figure(runs[0], sweeps);
@@ -358,20 +358,20 @@ Drawings drawings_of_systems() {
         "modes.h5", 1, 0,
         [](const Paths& in, const Frequencies&) { return campbell_figure(read<ModesResult>(in[0])); }}},
       {"system-static",
-       {"a system at rest: transmission errors, forces of meshes, forces on bearings", "system_static.h5", 1,
-        0,
+       {"a system at rest: transmission errors, forces of meshes, forces on bearings",
+        "static.h5 of a system", 1, 0,
         [](const Paths& in, const Frequencies&) {
           return system_static_figure(read<SystemStaticResult>(in[0]));
         }}},
       {"system-load-sharing",
        {"how the planets of a system share the load over the mesh period, and the loads of its tooth pairs",
-        "system_static.h5", 1, 0,
+        "static.h5 of a system", 1, 0,
         [](const Paths& in, const Frequencies&) {
           return system_load_sharing_figure(read<SystemStaticResult>(in[0]));
         }}},
       {"system",
        {"a system as it stands: gears at their places, teeth in mesh, senses of rotation",
-        "system_static.h5, or of rigid gears modes.h5", 1, 0,
+        "static.h5 of a system, or of rigid gears modes.h5", 1, 0,
         [](const Paths& in, const Frequencies&) {
           return is_a("whine/modes", in[0]) ? system_picture(read<ModesResult>(in[0]))
                                             : system_picture(read<SystemStaticResult>(in[0]));
@@ -383,14 +383,14 @@ Drawings drawings_of_systems() {
           return system_sweep_figure(read_all(in, read<ResponseResult>));
         }}},
       {"system-ringdown",
-       {"damping ratios and natural frequencies of the modes of a system by ring-down", "system_impact.h5", 1,
-        0,
+       {"damping ratios and natural frequencies of the modes of a system by ring-down",
+        "impact.h5 of a system", 1, 0,
         [](const Paths& in, const Frequencies&) {
           return system_impact_figure(read<SystemImpactResult>(in[0]));
         }}},
       {"system-branch",
        {"the branch of periodic motions of a system, stable and unstable, over its sweeps",
-        "system_branch.h5, and response.h5 of the same system if you like", 0, 0,
+        "branch.h5 of a system, and response.h5 of the same system if you like", 0, 0,
         [](const Paths& in, const Frequencies&) {
           const Paths sweeps(in.begin() + 1, in.end());
           return system_branch_figure(read<SystemBranchResult>(in[0]),

@@ -97,7 +97,7 @@ SystemReport read_system_report(const std::vector<std::string>& paths) {
     const bool rest = schema == "whine/system_static";
     if (!rest && schema != "whine/modes")
       fail(Failure::usage, path, ": is ", schema,
-           "; the report of a system is made of system_static.h5, modes.h5 and response.h5");
+           "; the report of a system is made of static.h5, modes.h5 and response.h5");
     if (rest ? report.rest.has_value() : report.modes.has_value())
       fail(Failure::usage, path, ": a second ", schema, "; give one of each");
     if (rest)

@@ -17,7 +17,7 @@ ReportContent read_report_content(const std::vector<std::string>& paths);
 // Whether one of the files is an artifact of a system of several meshes.
 bool is_of_system(const std::vector<std::string>& paths);
 
-// The same of a system: system_static.h5 and modes.h5, or of rigid gears modes.h5 alone, and figures. Throws as above, and
+// The same of a system: static.h5 and modes.h5, or of rigid gears modes.h5 alone, and figures. Throws as above, and
 // Error(usage) for an artifact that is given twice.
 SystemReport read_system_report(const std::vector<std::string>& paths);
 

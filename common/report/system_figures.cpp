@@ -284,7 +284,7 @@ Figure system_load_sharing_figure(const SystemStaticResult& a) {
   if (sharing.empty())
     fail(
         Failure::input,
-        "figure: no [[mesh]] of the system stands for those of several planets, so none shares its load with another; system-static has the forces of all meshes");
+        "figure: no [[mesh]] of the system stands for those of several planets, so none shares its load with another; make static draws the forces of all meshes");
   Figure figure;
   figure.title = "Load sharing among planets, at rest";
   figure.notes = in_lines(bodies_words(a.settings.layout, a.torque.colwise().mean().transpose()));

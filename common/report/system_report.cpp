@@ -92,7 +92,7 @@ struct ExplainedSystemFigure {
   std::function<std::string(const SystemReport&)> words;
 };
 
-// A figure of another stage is a row here, its words above, and its name in pipelines/systems.mk.
+// A figure of another stage is a row here, its words above, and its name in report_shows of pipelines/figures.mk.
 const std::vector<ExplainedSystemFigure>& explained_system_figures() {
   static const std::vector<ExplainedSystemFigure> all{
       {"system", "gears", "The system", of_picture},
@@ -153,18 +153,16 @@ std::string system_introduction(const SystemReport& r) {
 void require_sweeps(const SystemReport& r) {
   if (r.sweeps.empty()) return;
   if (!r.rest)
-    fail(Failure::input,
-         "report: response.h5 is given without the system_static.h5 of its scene; give it, too");
+    fail(Failure::input, "report: response.h5 is given without the static.h5 of its scene; give it, too");
   for (size_t i = 0; i < r.sweeps.size(); ++i) {
     const ResponseResult& a = r.sweeps[i];
     const System& layout = a.train.layout;
     if (!one_system(layout, r.rest->settings.layout))
-      fail(Failure::input,
-           "report: response.h5 and system_static.h5 are of two systems; give artifacts of one scene");
+      fail(Failure::input, "report: response.h5 and static.h5 are of two systems; give artifacts of one scene");
     if (a.hunting_periods != r.rest->hunting_periods)
       fail(Failure::input, "report: the same teeth meet again after ", a.hunting_periods,
            " mesh periods in response.h5 and after ", r.rest->hunting_periods,
-           " in system_static.h5; give artifacts of one scene");
+           " in static.h5; give artifacts of one scene");
     for (size_t j = 0; j < i; ++j)
       if (r.sweeps[j].direction == a.direction)
         fail(Failure::input, "report: two sweeps in the direction '", name_of(a.direction),
@@ -175,7 +173,7 @@ void require_sweeps(const SystemReport& r) {
       if (layout.held(static_cast<int>(b)) || std::abs(moving - resting) <= 1e-9 * std::abs(resting))
         continue;
       fail(Failure::input, "report: the torque on '", layout.bodies[b].name, "' is ", moving,
-           " N m in response.h5 and ", resting, " N m in system_static.h5; give artifacts of one scene");
+           " N m in response.h5 and ", resting, " N m in static.h5; give artifacts of one scene");
     }
   }
 }
@@ -184,8 +182,7 @@ void require_whole_system(const SystemReport& r) {
   if (!r.modes)
     fail(Failure::input, "report: no modes.h5 given; the report of a system needs that of its scene");
   if (r.rest && !one_system(r.rest->settings.layout, r.modes->layout))
-    fail(Failure::input,
-         "report: system_static.h5 and modes.h5 are of two systems; give artifacts of one scene");
+    fail(Failure::input, "report: static.h5 and modes.h5 are of two systems; give artifacts of one scene");
   require_sweeps(r);
   const std::vector<std::string> known = system_report_figures();
   for (size_t i = 0; i < r.pictures.size(); ++i) {

@@ -9,13 +9,13 @@
 
 namespace whine {
 
-// system_branch.h5: periodic orbits along their branch, stable or not, points in the order of its arc
+// branch.h5 of a system: periodic orbits along their branch, stable or not, points in the order of its arc
 struct SystemBranchResult {
   SystemSweepParameters settings;  // with the inertias and masses that were used
   Eigen::VectorXd torque;          // (body) N m of its drive; 0 where none gives a torque
   double axis_frequency = 0;       // Hz, see axis_frequency()
   Eigen::VectorXd mesh_frequency;  // (point) Hz
-  // As in system_sweep.h5: (point, mesh)
+  // As in sweep.h5 of a system: (point, mesh)
   MatrixRM dte_rms, dte_mean;                // m
   MatrixRM mesh_force_max, tooth_force_max;  // N
   MatrixRM separation_fraction;              // 1

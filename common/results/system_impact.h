@@ -7,7 +7,7 @@
 
 namespace whine {
 
-// system_impact.h5. Modes by rising undamped frequency at each phase: two that are near may change places between phases.
+// impact.h5 of a system. Modes by rising undamped frequency at each phase: two that are near may change places between phases.
 struct SystemImpactResult {
   SystemSweepParameters
       settings;               // with the inertias and masses that were used; speeds and time steps are not

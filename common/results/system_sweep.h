@@ -30,7 +30,7 @@ inline constexpr std::array<SystemEnergyLine, 11> kSystemEnergyLines{
 
 inline constexpr int kThroughputLine = 10;
 
-// system_sweep.h5: rows in the order in which they were computed.
+// sweep.h5 of a system: rows in the order in which they were computed.
 struct SystemSweepResult {
   SystemSweepParameters settings;  // with the inertias and masses that were used
   Direction direction = Direction::up;

@@ -329,7 +329,8 @@ TEST_CASE("modes.h5 whose bodies stand on nothing, or whose meshes join none, is
   CHECK(natural_modes(read<ModesResult>("elastic.h5").layout).shape == good.shape);
 }
 
-TEST_CASE("system_static.h5 without a pair, of a gear that there is not, or drawn as another, is rejected") {
+TEST_CASE(
+    "static.h5 of a train without a pair, of a gear that there is not, or drawn as another, is rejected") {
   OwnFolder folder;
   const auto rejects = [](const auto& spoil, const std::vector<Field>& fields) {
     SystemStaticResult a = small_system();

@@ -25,28 +25,29 @@ namespace fs = std::filesystem;
 TEST_CASE("artifacts of systems belong to their scene and, sweeps, to their direction, whoever wrote them") {
   OwnFolder folder;
   const auto write_sweep = [](std::string output) {
-    publish("out/a/params/system_sweep.toml", "of = 'a'\n");
-    char name[] = "gear-system-sweep", option[] = "--output";
+    publish("out/a/params/sweep.toml", "of = 'a'\n");
+    char name[] = "gear-sweep", option[] = "--output";
     char* arguments[] = {name, option, output.data(), nullptr};
     write("sweep.h5", small_sweep(small_system(), Direction::down),
-          made_by(3, arguments, {"params=out/a/params/system_sweep.toml"}));
+          made_by(3, arguments, {"params=out/a/params/sweep.toml"}));
     return read_origin("sweep.h5");
   };
   // Made where it lies, and made by hand under another name and moved: its own parameters tell.
-  for (const char* output : {"out/a/down/system_sweep.h5", "sweep.h5"}) {
+  for (const char* output : {"out/a/T60/down/sweep.h5", "sweep.h5"}) {
     const Origin down = write_sweep(output);
-    CHECK(misplaced("out/a/down/system_sweep.h5", down).empty());
-    CHECK(names(misplaced("out/a/up/system_sweep.h5", down), {"sweep down", "in up"}));
-    CHECK(names(misplaced("out/b/down/system_sweep.h5", down), {"out/a/params/system_sweep.toml", "out/b"}));
-    CHECK(names(misplaced("out/a/system_branch.h5", down), {"whine/system_branch"}));
+    CHECK(misplaced("out/a/T60/down/sweep.h5", down).empty());
+    CHECK(names(misplaced("out/a/T60/up/sweep.h5", down), {"sweep down", "in up"}));
+    CHECK(names(misplaced("out/b/T60/down/sweep.h5", down), {"out/a/params/sweep.toml", "out/b"}));
+    CHECK(names(misplaced("out/a/T60/branch.h5", down), {"whine/branch", "whine/system_branch"}));
   }
-  // What has another name than its schema.
-  write("system_static.h5", small_system(), kMade);
-  CHECK(misplaced("out/train/system_static.h5", read_origin("system_static.h5")).empty());
-  CHECK(names(misplaced("out/train/static.h5", read_origin("system_static.h5")), {"whine/static"}));
+  // A name is of pairs and of trains, and of nothing else.
+  write("static.h5", small_system(), kMade);
+  CHECK(misplaced("out/train/T60/static.h5", read_origin("static.h5")).empty());
   Origin of_pair;
   of_pair.schema = "whine/static";
-  CHECK(names(misplaced("out/train/system_static.h5", of_pair), {"whine/system_static"}));
+  CHECK(misplaced("out/pair/T60/static.h5", of_pair).empty());
+  of_pair.schema = "whine/impact";
+  CHECK(names(misplaced("out/train/T60/static.h5", of_pair), {"whine/static", "whine/system_static"}));
 }
 
 TEST_CASE("bodies are given by the names of their gears, in any order, one for each") {

@@ -98,6 +98,13 @@ TEST_CASE("variables of the environment are judged like those of the command lin
 
 TEST_CASE("targets and variables that do not exist get the one that is spelt alike") {
   const Project project;
+  constexpr std::pair<const char*, const char*> kFormerTargets[] = {{"system-static", "static"},
+                                                                    {"system-sweep", "sweep"},
+                                                                    {"system-ringdown", "impact"},
+                                                                    {"system-branch", "branches"}};
+  for (const auto& [before, now] : kFormerTargets)
+    CHECK(
+        begins(project.said(before), text(before, ": it is called ", now, " for every scene: make SCENE=")));
   CHECK(begins(project.said("raport"),
                "raport: there is no such target; did you mean report? `make help` lists them"));
   CHECK(begins(project.said("xyzzyq"), "xyzzyq: there is no such target; `make help` lists them"));
@@ -200,32 +207,38 @@ TEST_CASE("files of scenes, studies and models are there, can be read to the end
 }
 
 TEST_CASE("goals that a scene cannot reach name what there is of it") {
-  const auto said = [](const SceneGoals& goals, const SceneAbilities& scene) {
+  const auto said = [](const std::vector<std::string>& goals, const SceneAbilities& scene) {
     return message_of_input([&] { check_goals(goals, scene, "my.toml"); });
   };
-  CHECK(said({.of_pairs = {"teeth", "report"}, .of_systems = {}}, {}) == "");
-  CHECK(begins(said({.of_pairs = {}, .of_systems = {"modes"}}, {}),
-               "SCENE=my.toml: it is a pair; modes are of systems"));
-  CHECK(begins(said({.of_pairs = {}, .of_systems = {"system-sweep"}}, {}),
-               "SCENE=my.toml: it is a pair; system-sweep is of systems"));
-  CHECK(begins(said({.of_pairs = {"teeth"}, .of_systems = {}}, {.teeth_differ = true}),
-               "teeth: SCENE=my.toml has teeth that differ, "));
-  CHECK(said({.of_pairs = {"teeth"}, .of_systems = {}}, {.cracked = true})
-            .ends_with("make SCENE=my.toml crack"));
+  CHECK(said({"teeth", "report", "sweep"}, {}) == "");
+  CHECK(begins(said({"report", "modes"}, {}),
+               "modes: SCENE=my.toml is a pair, and natural modes are of systems"));
+  CHECK(begins(said({"teeth"}, {.teeth_differ = true}), "teeth: SCENE=my.toml has teeth that differ, "));
+  CHECK(said({"teeth"}, {.cracked = true}).ends_with("make SCENE=my.toml crack"));
 
   const SceneAbilities rigid{.pair = false}, elastic{.pair = false, .elastic = true},
       train{.pair = false, .elastic = true, .planets = true, .moves = true};
-  CHECK(said({.of_pairs = {"report", "load-sharing"}, .of_systems = {"modes", "system-sweep"}}, train) == "");
-  CHECK(begins(said({.of_pairs = {"load-sharing"}, .of_systems = {}}, rigid),
-               "load-sharing: SCENE=my.toml has rigid gears"));
-  CHECK(begins(said({.of_pairs = {"load-sharing"}, .of_systems = {}}, elastic),
-               "load-sharing: SCENE=my.toml has no planets"));
-  CHECK(begins(said({.of_pairs = {}, .of_systems = {"system-static"}}, rigid),
-               "SCENE=my.toml: its gears are rigid; system-static needs elastic ones"));
-  CHECK(begins(said({.of_pairs = {}, .of_systems = {"system-branch"}}, elastic),
-               "SCENE=my.toml: it says no speeds; write [operation]"));
-  CHECK(begins(said({.of_pairs = {"compare"}, .of_systems = {}}, train),
-               "SCENES: my.toml is a system of several meshes"));
-  CHECK(said({.of_pairs = {"static"}, .of_systems = {}}, train)
-            .ends_with("or of it system-static system-sweep system-ringdown system-branch order-cuts modes"));
+  const std::vector<std::string> all{"report",       "mesh",   "reduce",     "static",
+                                     "sweep",        "impact", "branches",   "order-cuts",
+                                     "load-sharing", "modes",  "mode-shapes"};
+  CHECK(said(all, train) == "");
+  CHECK(said({"report", "modes", "mode-shapes"}, rigid) == "");
+  CHECK(begins(said({"load-sharing"}, rigid), "load-sharing: SCENE=my.toml is of rigid gears"));
+  CHECK(begins(said({"load-sharing"}, elastic), "load-sharing: SCENE=my.toml is without planets"));
+  CHECK(
+      said({"modes", "static"}, rigid) ==
+      "static: SCENE=my.toml is of rigid gears, which have natural modes alone; for it there is: make SCENE=my.toml report, or of it modes mode-shapes");
+  for (const char* goal : {"sweep", "impact", "branches", "order-cuts"})
+    CHECK(
+        begins(said({goal}, elastic),
+               std::string(goal) + ": SCENE=my.toml is without speeds, [operation] with mesh_frequency_Hz"));
+  CHECK(begins(said({"compare"}, train), "SCENES: my.toml is a system of several meshes"));
+  for (const char* goal : {"sound", "teeth", "fig05", "lumped", "runup"}) {
+    CHECK(begins(said({"static", goal}, train),
+                 std::string(goal) + ": SCENE=my.toml is a system of several meshes, carriers or drives; "));
+    CHECK(
+        said({goal}, train)
+            .ends_with(
+                "report, or of it mesh reduce static sweep impact branches order-cuts load-sharing modes mode-shapes"));
+  }
 }

@@ -171,7 +171,7 @@ TEST_CASE(
   CHECK(names(said(r, [](SystemReport& c) { c.pictures.push_back(c.pictures[0]); }), {"given", "twice"}));
   CHECK(names(said(r, [](SystemReport& c) { c.modes = natural_modes(layout_of(planetary_train(4))); }),
               {"systems"}));
-  CHECK(names(said(r, [](SystemReport& c) { c.rest.reset(); }), {"system_static.h5"}));
+  CHECK(names(said(r, [](SystemReport& c) { c.rest.reset(); }), {"static.h5"}));
   CHECK(names(said(r, [](SystemReport& c) { c.sweeps[1] = c.sweeps[0]; }), {"up"}));
   CHECK(names(said(r, [](SystemReport& c) { c.sweeps[1].drive[0] = 401; }), {"sun", 401}));
 }

@@ -393,8 +393,8 @@ void write_train(RexsReader& reader, const RexsTrain& train, RexsScene& scene) {
   }
   write_drives(train, out);
   out.section("[damping]");
-  out.assumed("rayleigh_mass_per_s", "damping.", "200.0", "make system-ringdown shows the damping ratios");
-  out.assumed("rayleigh_stiffness_s", "damping.", "2.0e-6", "make system-ringdown shows the damping ratios");
+  out.assumed("rayleigh_mass_per_s", "damping.", "200.0", "make impact shows the damping ratios");
+  out.assumed("rayleigh_stiffness_s", "damping.", "2.0e-6", "make impact shows the damping ratios");
   out.section("[operation]");
   write_speeds(train.mesh_frequency, out);
   scene.ignored.insert(scene.ignored.end(), train.remarks.begin(), train.remarks.end());

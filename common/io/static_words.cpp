@@ -1,0 +1,35 @@
+#include "io/static_words.h"
+
+#include <cmath>
+#include <sstream>
+
+namespace whine {
+
+std::vector<std::string> change_words(const std::string& where, const StaticDifference& change, int strips) {
+  if (change.positions == 0) return {};
+  std::ostringstream out;
+  out << strips << " strips change, " << where << " (" << change.positions
+      << " positions): transmission error by " << change.error_largest * 100 << " % at most, "
+      << change.error_rms * 100 << " % RMS; pair loads by " << change.load_largest * 100 << " % at most, "
+      << change.load_rms * 100 << " % RMS of the load";
+  return {out.str()};
+}
+
+std::vector<std::string> root_stress_words(const ErrorBudgetResult& errors) {
+  std::vector<std::string> lines;
+  const RootConvergence root = convergence(errors.root);
+  for (int g = 0; g < kSides && root.order.rows() > 0; ++g) {
+    std::ostringstream out;
+    out << "largest root stress of " << errors.mesh.gear[static_cast<size_t>(g)] << " changes by ";
+    for (Eigen::Index k = 0; k < root.change.rows(); ++k)
+      out << (k > 0 ? ", " : "") << std::round(1e5 * root.change(k, g)) / 1e3 + 0.0;
+    out << " % each time the elements on the root are halved";
+    const double order = resolved_order(root, root.order.rows() - 1, g);
+    if (std::isfinite(order) && order > 0) out << "; order at last " << std::round(10 * order) / 10;
+    if (std::isfinite(order) && order <= 0) out << "; the last changes do not shrink";
+    lines.push_back(out.str());
+  }
+  return lines;
+}
+
+}  // namespace whine

@@ -1,0 +1,18 @@
+// What gear-static says beside its summary line.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "results/error_budget.h"
+#include "studies/error_budget.h"
+
+namespace whine {
+
+// What so many strips change at the positions that `where` names; none without such positions.
+std::vector<std::string> change_words(const std::string& where, const StaticDifference& change, int strips);
+
+// Of each gear: what each halving of the elements on the root changes, and the order at last where the changes show one. None
+// without three levels of elements.
+std::vector<std::string> root_stress_words(const ErrorBudgetResult& errors);
+
+}  // namespace whine
