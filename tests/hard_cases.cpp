@@ -20,6 +20,7 @@
 #include "dynamics/dynamics.h"
 #include "dynamics/fixed_phase_motion.h"
 #include "dynamics/newmark.h"
+#include "lumped_wave.h"
 #include "paper_pair.h"
 #include "signal/spectrum.h"
 #include "solid/elements.h"
@@ -672,12 +673,7 @@ void meissner(Table& table) {
     return half * half > det ? std::abs(half) + std::sqrt(half * half - det) : std::sqrt(det);
   };
   // Below and above of a band lies det = 1, |multiplier| = 1.
-  const double edge[5][2] = {{5549.5652, 6016.2142},
-                             {2794.6650, 2976.3335},
-                             {1883.4157, 1958.1047},
-                             {1430.0199, 1450.5070},
-                             {1149.5595, 1155.9831}},
-               closes[5] = {0.04041, 0.03151, 0.01945, 0.00711, 0.00279};
+  const auto& edge = kTongue;
   for (int band = 0; band < 5; ++band) {
     const double middle = 0.5 * (edge[band][0] + edge[band][1]), width = edge[band][1] - edge[band][0];
     double ends[2];
@@ -700,7 +696,7 @@ void meissner(Table& table) {
         largest = std::max(largest, growth(edge[band][0] + width * j / 2000, ratio));
       (largest > 1 ? unstable : stable) = ratio;
     }
-    table.absolute("damping ratio that closes it", closes[band], stable, 6e-6);
+    table.absolute("damping ratio that closes it", kTongueCloses[band], stable, 6e-6);
   }
 }
 

@@ -1,5 +1,9 @@
 // Errors that differ from tooth to tooth.
 #pragma once
+#include <complex>
+#include <numbers>
+#include <vector>
+
 #include "model/gear.h"
 
 namespace whine {
@@ -23,6 +27,15 @@ inline ToothErrors mixed(int teeth) {
   errors.eccentricity = 4 * um;
   errors.eccentric_tooth = 3.5;
   return errors;
+}
+
+// m: the wave of one revolution of places around a gear, its amplitude times their number.
+inline std::complex<double> wave_of(const std::vector<double>& places) {
+  const auto number = static_cast<double>(places.size());
+  std::complex<double> sum = 0;
+  for (size_t i = 0; i < places.size(); ++i)
+    sum += places[i] * std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(i) / number);
+  return sum;
 }
 
 }  // namespace whine

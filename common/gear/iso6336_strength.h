@@ -1,5 +1,5 @@
-// What a tooth carries by closed formulas: ISO 6336-2 and -3 (2006), method B, for external spur gears, the dynamic factor of
-// ISO 6336-1, method B, and the loss factor of Niemann and Winter, to set beside computed stresses, forces and losses.
+// What a tooth carries by closed formulas: ISO 6336-2 and -3 (2006), method B, for external spur gears, and the loss factor of
+// Niemann and Winter, to set beside computed stresses and losses.
 //
 // Root of the rack (ISO 6336-3, section 6), load at the outer point of single pair contact, lengths in modules:
 //   x_E  = x - A / (2 m tan alpha)                    generating shift, A the thinning of the tooth at the pitch circle
@@ -42,23 +42,6 @@ double iso_6336_root_stress(const GearPair& pair, int g, double tangential_force
 // material: of driver and driven gear. tangential_force: N, F_t.
 double iso_6336_flank_pressure(const GearPair& pair, const std::array<Material, 2>& material,
                                double tangential_force);
-
-// K_v of ISO 6336-1:2006, section 6.5, with N the mesh frequency over the resonance of the reduced mass m_red on c_gamma_alpha:
-//   N <= N_S          1 + N (C_v1 B_p + C_v2 B_f + C_v3 B_k)
-//   N_S < N <= 1.15   1 + C_v1 B_p + C_v2 B_f + C_v4 B_k
-//   N >= 1.5          C_v5 B_p + C_v6 B_f + C_v7,              linear between 1.15 and 1.5
-//   B_p = c' f_pb / (F_t / b),  B_f = c' f_f / (F_t / b),  B_k = |1 - c' C_a / (F_t / b)|,   K_A = 1
-// N_S = 0.85, or 0.5 + 0.35 sqrt(F_t / b / (100 N/mm)) below that load.
-struct IsoDynamics {
-  double contact_ratio = 0;      // eps_gamma, of spur gears eps_alpha
-  double line_load = 0;          // N m-1: F_t / b
-  double single_stiffness = 0;   // N m-1 per m: c'
-  double pitch_deviation = 0;    // m: f_pb, effective
-  double profile_deviation = 0;  // m: f_f, effective
-  double relief = 0;             // m: C_a, design value or by running-in
-};
-// ratio: N, >= 0. Throws Error(input) for a contact ratio below 1, a load or a stiffness that is not above 0.
-double iso_6336_dynamic_factor(const IsoDynamics& gears, double ratio);
 
 // H_V of Ohlendorf, rigid teeth, two pairs share the load evenly:
 //   H_V = pi (u + 1) / (z_1 u) (1 - eps_alpha + eps_1^2 + eps_2^2)

@@ -289,6 +289,10 @@ void require_range(const h5::Reader& file, const std::string& name, const Range&
 // Names both shapes if they differ.
 h5::Shape required_shape(const h5::Reader& file, const std::string& name,
                          const std::vector<Eigen::Index>& wanted) {
+  if (!file.has(name))
+    file.reject(text("has no dataset ", name, ": it is schema version ",
+                     file.int_attribute("/", "schema_version"),
+                     " as another state of the program wrote it, or damaged"));
   const h5::Shape shape = file.shape(name);
   bool same = shape.size() == wanted.size();
   for (std::size_t i = 0; same && i < shape.size(); ++i)

@@ -17,7 +17,7 @@
 namespace whine {
 namespace {
 
-constexpr const char* kUnsteady = "unsteady_";  // answers that count them begin so
+constexpr const char* kUnsteady = "unsteady_";  // quantities that count them begin so
 
 bool holds(const std::string& path, const std::string& bytes) {
   std::error_code code;
@@ -147,7 +147,7 @@ GatheredStudy gather_study(const std::string& path) {
     for (size_t i = 0; i < column.size(); ++i)
       study.quantity(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(i)) =
           variant.quantity[column[i]];
-    // Counted whether or not the study asks for it: the other answers of such a speed are those of a motion that goes on
+    // Counted whether or not the study asks for it: the other quantities of such a speed are those of a motion that goes on
     // changing.
     for (size_t i = 0; i < kinds.size(); ++i)
       if (kinds[i].name.starts_with(kUnsteady))

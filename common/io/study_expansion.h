@@ -35,7 +35,7 @@ struct GatheredStudy {
   long unsteady = 0;                  // variants with speeds at which no periodic motion was found
 };
 
-// The answers of the variants of a plan, which lie beside it. path: plan.toml. Throws Error(input) for a variant of another
+// The quantities of the variants of a plan, which lie beside it. path: plan.toml. Throws Error(input) for a variant of another
 // stage, and for one that was rejected unless the study marks errors.
 GatheredStudy gather_study(const std::string& path);
 

@@ -12,6 +12,7 @@
 #include "io/summary_lines.h"
 #include "signal/jump_words.h"
 #include "signal/no_root_stress.h"
+#include "signal/rms.h"
 
 namespace whine {
 namespace {
@@ -247,10 +248,9 @@ void show(SummaryLines& lines, const SweepResult& a) {
   show_bearings(lines, a.mesh);
   if (a.mesh_frequency.size() > 0) {
     Eigen::Index worst = 0;
-    const Eigen::VectorXd rms =
-        ((a.transmission_error.colwise() - a.transmission_error.rowwise().mean()).rowwise().squaredNorm() /
-         static_cast<double>(std::max<Eigen::Index>(a.transmission_error.cols(), 1)))
-            .cwiseSqrt();
+    Eigen::VectorXd rms(a.mesh_frequency.size());
+    for (Eigen::Index f = 0; f < rms.size(); ++f)
+      rms[f] = oscillating_rms({Eigen::VectorXd(a.transmission_error.row(f))});
     const double peak = rms.maxCoeff(&worst);
     add(lines, "largest DTE", peak * 1e6, " µm RMS at ", a.mesh_frequency[worst], " Hz");
     add(lines, "steady state", a.periods.sum(), " periods run, largest residual ", a.residual.maxCoeff(),

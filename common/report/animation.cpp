@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "gear/pair.h"
 #include "report/wireframe.h"
+#include "signal/rms.h"
 
 namespace whine {
 
@@ -108,7 +109,7 @@ struct ShownMotion {
 ShownMotion motion_of(const SweepResult& s, double mesh_frequency) {
   const auto oscillation = [&s](Index row) {
     const Eigen::VectorXd x = s.transmission_error.row(row);
-    return std::sqrt((x.array() - x.mean()).square().mean());
+    return oscillating_rms({x});
   };
   Index row = 0;
   for (Index i = 0; i < s.mesh_frequency.size(); ++i)

@@ -57,7 +57,9 @@ std::string rgb(int colour) {
 std::string looks(const PanelCurve& c, bool line, bool marks) {
   std::string words = line && marks ? "linespoints" : line ? "lines" : "points";
   words += text(" lt 1 lw ", number(line ? c.width : std::min(c.width, 2.0)), " ",
-                c.rgb > 0 ? "lc rgb variable" : rgb(c.colour));
+                c.heat > 0  ? "lc palette"
+                : c.rgb > 0 ? "lc rgb variable"
+                            : rgb(c.colour));
   if (line) words += dash(c.dash);
   if (marks) words += text(" pt ", c.marks > 0 ? "variable" : std::to_string(c.mark), " ps ", number(c.size));
   return words;
@@ -125,6 +127,18 @@ std::string shape(const PanelCurve& c, const Using& of, const PanelPlace& place,
                   number(c.fill), c.box[0] > 0 ? " border rgb '#ffffff' " : " noborder ", rgb(c.colour));
     case PanelStyle::ranges:
       return text("using ", of.x, ":", of.y, ":", of.box(place), " with ", filled);
+    case PanelStyle::cells:
+      return text("using ", of.x, ":", of.y, ":(", number(0.5 * c.width), "):(", number(0.5 * c.size), ")",
+                  c.heat > 0 ? text(":", c.heat) : "", " with boxxyerror fs solid 1 noborder ",
+                  c.heat > 0 ? "lc palette" : rgb(c.colour));
+    case PanelStyle::arrows: {
+      const auto change = [&](size_t k) {
+        return text("(", of.edge(place, k + 1), " - ", of.edge(place, k), ")");
+      };
+      return text("using ", of.edge(place, 0), ":", of.edge(place, 2), ":", change(0), ":", change(2),
+                  " with vectors ", c.size > 0 ? "head filled size screen 0.008, 24 fixed" : "nohead",
+                  filled.substr(filled.find(' ')));
+    }
     case PanelStyle::image:
       return text("using ", of.x, ":", of.y,
                   ":(column(3) > colour_from ? column(3) : NaN) with image pixels");
@@ -145,13 +159,13 @@ void add_curve(const Figure& figure, const Panel& panel, const PanelCurve& c, co
                             : c.style == PanelStyle::ranges
                                 ? text("xyerrorbars lt 1 lw ", number(c.width), " pt ", c.mark, " ps ",
                                        number(c.size), " ", rgb(c.colour))
-                                : looks(c, line || (stems && !marks), marks);
+                                : looks(c, line || c.style == PanelStyle::arrows || (stems && !marks), marks);
   bool drawn = false;
   if (!c.block.empty())
     for (const auto& row : block_of(figure, c.block).rows) drawn = drawn || holds(c, row);
   if (drawn) {
     const std::string data = "tsv index " + script.word("[" + c.block + "]") + " ",
-                      colours = c.rgb > 0 ? text(":", c.rgb) : "",
+                      colours = c.rgb + c.heat > 0 ? text(":", c.rgb + c.heat) : "",
                       kinds = c.marks > 0 ? text(":", c.marks) : "";
     const Using of(panel, c);
     if (const std::string own = shape(c, of, place, keyed); !own.empty())
@@ -267,6 +281,11 @@ void add_axes(const Panel& panel, const PanelPlace& place, Script& script) {
     script.add("unset x2tics");
   }
   if (!panel.colours) return script.add("unset colorbox");
+  // White is no colour of marks.
+  const bool marks = std::any_of(panel.curves.begin(), panel.curves.end(), [](const PanelCurve& c) {
+    return c.heat > 0 && c.style == PanelStyle::points;
+  });
+  script.add(marks ? "eval(of_marks)" : "eval(of_areas)");
   script.add(text("colour_from = ", number(panel.colours->from), "; set cbrange [colour_from:",
                   number(panel.colours->to), "]; set colorbox user origin screen ",
                   number((place.right + 16) / pixels::kWidth), ", screen 1 - ", number(place.bottom),

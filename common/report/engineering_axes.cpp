@@ -55,12 +55,6 @@ const Shaft& shaft_of(const std::string& wanted, const Figure& figure) {
        "; there are ", known, roles);
 }
 
-// Words beside a curve whose Hz are those of its axis, by how their names begin.
-bool names_speeds(const std::string& word) {
-  constexpr std::array kWords{"jump_labels_", "title_b", "above_", "loss_", "caption"};
-  return std::any_of(kWords.begin(), kWords.end(), [&](const char* s) { return word.starts_with(s); });
-}
-
 // "at 5600 Hz" as "at 13440 rpm (5600 Hz)"; lists in rpm alone: "rising 5757, falling 5529 Hz" as "rising 13817, falling 13270 rpm".
 std::string speeds_in_rpm(const std::string& words, double scale) {
   static const std::regex kSpeeds(
@@ -98,8 +92,7 @@ void in_rpm(const Shaft& shaft, Figure& figure) {
     }
   for (auto& [name, value] : figure.numbers)
     if (is_speed(name)) value *= scale;
-  for (auto& [name, words] : figure.words)
-    if (names_speeds(name)) words = speeds_in_rpm(words, scale);
+  for (std::string& words : figure.captions) words = speeds_in_rpm(words, scale);
   constexpr std::string_view against = "against mesh frequency";
   if (const size_t at = figure.title.find(against); at != std::string::npos)
     figure.title.replace(at, against.size(), "against the speed of " + shaft.gear);
@@ -108,6 +101,13 @@ void in_rpm(const Shaft& shaft, Figure& figure) {
     panel.heading = speeds_in_rpm(panel.heading, scale);
     for (PanelCurve& curve : panel.curves) curve.label = speeds_in_rpm(curve.label, scale);
     for (PanelRule& rule : panel.rules) rule.label = speeds_in_rpm(rule.label, scale);
+    if (panel.y.speed) {
+      panel.y.label = label;
+      panel.y.from *= scale;
+      panel.y.to *= scale;
+      for (PanelCurve& curve : panel.curves)
+        if (curve.style == PanelStyle::cells) curve.size *= scale;
+    }
     if (!panel.x.speed) continue;
     // The axis above has the unit that the one below had.
     if (panel.top) panel.top->label = panel.x.label, panel.top_factor = 1 / scale;

@@ -85,6 +85,74 @@ double difference(const ResponseResult& up, const ResponseResult& down) {
   return most > 0 ? off / most : std::numeric_limits<double>::infinity();
 }
 
+// Over roll angle and speed; grey lines stand at the ends of the line of action.
+Panel map_panel(const ResponseResult& r, const GearPair& pair, double largest) {
+  const Index last = r.pair_phase.size() - 1, speeds = r.mesh_frequency.size();
+  const Eigen::VectorXd roll =
+      r.pair_phase.unaryExpr([&](double phase) { return nominal_roll(pair, phase); });
+  // Between places side by side; beyond the line of action some may be left out.
+  const double step = last > 0 ? (roll.tail(last) - roll.head(last)).minCoeff() : 1;
+  const double tall =
+      speeds > 1 ? std::abs(r.mesh_frequency[1] - r.mesh_frequency[0]) : 0.2 * r.mesh_frequency[0];
+  PanelCurve edges{.block = text("map ", r.direction),
+                   .x = 7,
+                   .y = 4,
+                   .style = PanelStyle::cells,
+                   .colour = kGrey,
+                   .width = 1.06 * step,
+                   .size = 1.06 * tall,
+                   .where = 6};
+  PanelCurve inside = edges;
+  inside.where = inside.heat = 5;
+  return {
+      .heading = text("speed ", r.direction == Direction::up ? "rising" : "falling"),
+      .x = {.label = "Roll angle of " + without_markup(r.mesh.gear[0]) + " (deg)",
+            .from = roll[0] - 0.53 * step,
+            .to = roll[last] + 0.53 * step},
+      .y = {.label = "Mesh frequency (Hz)", .speed = true},
+      .curves = {edges, inside},
+      .rules = {{.at = nominal_roll(pair, pair.path_start() / pair.base_pitch()), .colour = kDark, .dash = 1},
+                {.at = nominal_roll(pair, pair.path_end() / pair.base_pitch()), .colour = kDark, .dash = 1}},
+      .key = PanelKey::none,
+      .height = 420,
+      .wide = true,
+      .colours = PanelAxis{.label = "Pressure (MPa)", .from = 0, .to = largest > 0 ? largest : 1}};
+}
+
+Panel over_speed(const ResponseResult& r, const std::string& heading, const std::string& label) {
+  return {.heading = heading,
+          .x = {.label = "Mesh frequency (Hz)", .speed = true},
+          .y = {.label = label, .from_zero = true},
+          .rules = {{.at = r.natural_frequency, .label = "f_n"}},
+          .key = PanelKey::below};
+}
+
+Panel pressure_panel(const ResponseResult& r, double at_rest) {
+  Panel panel = over_speed(r, "largest inside the flanks", "Largest pressure (MPa)");
+  panel.curves = {
+      {.block = "speed up", .label = "rising", .width = 2.6, .where = 2},
+      {.block = "speed down", .colour = kVermilion, .label = "falling", .width = 1.8, .dash = 3, .where = 2}};
+  if (at_rest > 0)
+    panel.rules.push_back(
+        {.axis = 'y', .at = at_rest, .label = "at rest", .colour = kDark, .dash = 4, .in_key = true});
+  return panel;
+}
+
+// Of driver and driven gear, the second drawn over the first.
+Panel edge_panel(const ResponseResult& r) {
+  Panel panel = over_speed(r, "load of a pair over a tip edge", "Load over a tip edge (N)");
+  for (const bool up : {true, false})
+    for (int g = 0; g < kSides; ++g)
+      panel.curves.push_back({.block = up ? "speed up" : "speed down",
+                              .y = g + 3,
+                              .colour = curve_colour(static_cast<size_t>(g)),
+                              .label = up ? "edge of " + without_markup(short_name(r.mesh.gear[g])) : "",
+                              .width = g == 0 ? 3.6 : 1.6,
+                              .dash = up ? 1 : 3});
+  panel.curves.push_back({.colour = kDark, .label = "dashed: falling", .dash = 3});
+  return panel;
+}
+
 }  // namespace
 
 Figure flank_pressure_figure(const StaticResult& s, const std::vector<ResponseResult>& given) {
@@ -95,7 +163,6 @@ Figure flank_pressure_figure(const StaticResult& s, const std::vector<ResponseRe
   const bool both = difference(up, down) > kAlike;
   Figure figure;
   figure.title = "Flank pressure (MPa) and loads over tip edges (N), " + torque_words(s.torque);
-  figure.height = both ? 1200 : 900;
   figure.shafts = shafts_of(s);
   const FlankPressure& rest = s.flank_pressure;
   const GearPair pair(s);
@@ -114,33 +181,13 @@ Figure flank_pressure_figure(const StaticResult& s, const std::vector<ResponseRe
            both ? "d" : "c", "); white: no load is sustained; grey lines: ends of the line of action"),
       both ? "the map of falling speed differs from that of rising speed"
            : "falling speed has the same map within 1 % of the largest pressure"};
-  for (const std::string& note : all)
-    for (std::string& line : in_lines(note)) figure.notes.push_back(std::move(line));
-  add_lines(figure.notes.size(), figure);
-  constexpr int kLine = 24, kUsual = 3;
-  figure.height += kLine * std::max(0, static_cast<int>(figure.notes.size()) - kUsual);
-  const Eigen::VectorXd roll =
-      up.pair_phase.unaryExpr([&](double phase) { return nominal_roll(pair, phase); });
-  const Index last = roll.size() - 1;
-  // Between places side by side; beyond the line of action some may be left out.
-  const double step = last > 0 ? (roll.tail(last) - roll.head(last)).minCoeff() : 1;
-  figure.words.emplace_back("labels", quoted_labels({s.mesh.gear[0], s.mesh.gear[1]}));
-  figure.numbers = {
-      {"both", both ? 1.0 : 0.0},
-      {"roll_from", roll[0]},
-      {"roll_to", roll[last]},
-      {"roll_step", step},
-      {"path_from", nominal_roll(pair, pair.path_start() / pair.base_pitch())},
-      {"path_to", nominal_roll(pair, pair.path_end() / pair.base_pitch())},
-      {"speed_step",
-       up.mesh_frequency.size() > 1 ? std::abs(up.mesh_frequency[1] - up.mesh_frequency[0]) : 0},
-      {"pressure_max", largest > 0 ? largest * kInMegapascals : 1},
-      {"pressure_rest", rest.smooth * kInMegapascals},
-      {"edge_max", edge},
-      {"frequency_from", up.mesh_frequency.minCoeff()},
-      {"frequency_to", up.mesh_frequency.maxCoeff()},
-      {"notes", static_cast<double>(figure.notes.size())},
-      {"natural_frequency", up.natural_frequency}};
+  for (const std::string& note : all) figure.notes.push_back(note);
+  figure.captions = figure.notes;
+  figure.columns = 2;
+  for (const ResponseResult* r : {&up, &down})
+    if (r == &up || both) figure.panels.push_back(map_panel(*r, pair, largest * kInMegapascals));
+  figure.panels.push_back(pressure_panel(up, rest.smooth * kInMegapascals));
+  figure.panels.push_back(edge_panel(up));
   return figure;
 }
 

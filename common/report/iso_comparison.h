@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "gear/dynamic_factor.h"
 #include "gear/iso6336_strength.h"
 #include "results/response.h"
 #include "results/static.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "report/figure_words.h"
 #include "signal/jump_words.h"
 
@@ -37,9 +38,42 @@ Figure multiplier_figure(const BranchResult& b) {
                                 " before the fold, ", fixed(b.fold_multiplier(i, 1), 5), " after it"));
   figure.notes.push_back(text(n, " orbits, ", n - b.stable.sum(), " unstable; ", b.flip_frequency.size(),
                               " period doublings, ", b.torus_frequency.size(), " tori"));
-  figure.numbers = {{"largest", largest}, {"notes", static_cast<double>(figure.notes.size())}};
-  add_lines(figure.notes.size(), figure);
-  figure.height = 900 + 24 * static_cast<int>(figure.notes.size());
+  FigureBlock circle{"unit circle", {"real", "imaginary"}, {}};
+  circle.drawing = true;
+  for (int i = 0; i <= 180; ++i) circle.rows.push_back({std::cos(kPi * i / 90), std::sin(kPi * i / 90)});
+  figure.blocks.push_back(std::move(circle));
+  figure.captions = figure.notes;
+  const double reach = 1.05 * std::max(largest, 1.05);
+  const PanelAxis part{.label = "Real part", .from = -reach, .to = reach};
+  Panel plane_panel{.x = part, .y = part, .key = PanelKey::none, .height = 560, .square = true};
+  plane_panel.y.label = "Imaginary part";
+  plane_panel.colours = {
+      .label = "Mesh frequency (Hz)", .from = b.mesh_frequency.minCoeff(), .to = b.mesh_frequency.maxCoeff()};
+  plane_panel.curves = {{.block = "unit circle", .colour = kDark, .width = 2}};
+  Panel modulus_panel{.x = {.label = "Mesh frequency (Hz)"},
+                      .y = {.label = "Largest modulus", .from = 0, .to = 1.15 * reach},
+                      .curves = {{.block = "modulus", .colour = kLight, .width = 1.2}},
+                      .rules = {{'y', 1, "", kDark, 1}},
+                      .key = PanelKey::below,
+                      .height = 560};
+  for (const bool stable : {true, false}) {
+    PanelCurve marks{.block = "multipliers",
+                     .style = PanelStyle::points,
+                     .mark = stable ? 7 : 6,
+                     .size = stable ? 0.9 : 1.4,
+                     .where = 4,
+                     .is = stable ? 1 : 0,
+                     .heat = 3};
+    plane_panel.curves.push_back(marks);
+    marks.block = "modulus";
+    marks.where = 3;
+    marks.heat = 0;
+    marks.colour = stable ? kBlue : kVermilion;
+    marks.label = stable ? "stable" : "unstable";
+    modulus_panel.curves.push_back(marks);
+  }
+  figure.panels = {std::move(plane_panel), std::move(modulus_panel)};
+  figure.columns = 2;
   return figure;
 }
 

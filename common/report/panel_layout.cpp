@@ -57,13 +57,13 @@ void widen(const Figure& figure, const PanelCurve& c, bool along_x, AxisRange& r
   };
   const FigureBlock& block = block_of(figure, c.block);
   const auto most = static_cast<size_t>(
-      std::max({c.x, c.y, c.where, c.rgb, c.marks, c.box[0], c.box[1], c.box[2], c.box[3]}));
+      std::max({c.x, c.y, c.where, c.rgb, c.marks, c.heat, c.box[0], c.box[1], c.box[2], c.box[3]}));
   if (c.x < 1 || c.y < 1 || c.where < 0 || block.columns.size() < most)
     fail(Failure::numerical, "figure: the block ", c.block, " has ", block.columns.size(),
          " columns, a curve is of ", most);
   for (const auto& row : block.rows) {
     if (!holds(c, row)) continue;
-    if (c.style == PanelStyle::boxes || c.style == PanelStyle::ranges) {
+    if (c.style == PanelStyle::boxes || c.style == PanelStyle::ranges || c.style == PanelStyle::arrows) {
       for (const size_t end : {0, 1})
         if (const int column = c.box[end + (along_x ? 0 : 2)]; column > 0)
           take(row[static_cast<size_t>(column - 1)]);
@@ -75,10 +75,13 @@ void widen(const Figure& figure, const PanelCurve& c, bool along_x, AxisRange& r
       continue;
     }
     const bool lies = c.style == PanelStyle::rows;
-    const double half = c.style == PanelStyle::bars || lies ? 0.5 * c.width : 0;
+    const bool cells = c.style == PanelStyle::cells;
+    const double half = c.style == PanelStyle::bars || lies || cells ? 0.5 * c.width : 0;
     const double across = x + c.shift;
     if (along_x != lies) {
       take(across - half), take(across + half);
+    } else if (cells) {
+      take(y - 0.5 * c.size), take(y + 0.5 * c.size);
     } else {
       take(y);
       if (lies || c.style == PanelStyle::bars || c.style == PanelStyle::stems) take(0);
@@ -211,7 +214,7 @@ void set_frames(const Figure& figure, std::vector<PanelPlace>& places) {
     } else {
       p.left = before[p.column];
       for (size_t c = 0; c < p.column; ++c) p.left += before[c] + frame + after[c];
-      p.right = p.left + frame;
+      p.right = p.left + (panel.square ? std::min<double>(frame, panel.height) : frame);
     }
     if (!panel.bare) continue;
     const double unit = std::max(p.x.span() / (p.right - p.left), p.y.span() / panel.height);

@@ -13,7 +13,7 @@ namespace pixels {
 inline constexpr double kWidth = 1600, kPoint = 4.0 / 3, kAxisLetter = 18 * kPoint, kNameLetter = 13 * kPoint,
                         kLetter = 14 * kPoint, kLine = 26;
 inline constexpr double kFrameTop = 16, kNumbersBelow = 50, kLabelBelow = 38, kNumbersAbove = 48,
-                        kLabelAbove = 34, kLabelBeside = 46, kColourBox = 130;
+                        kLabelAbove = 34, kLabelBeside = 46, kColourBox = 164;
 }  // namespace pixels
 
 // Of an axis; upside down where a y axis has names.

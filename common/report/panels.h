@@ -44,6 +44,8 @@ enum class PanelStyle {
   spans,   // shaded from column x to column y over all of the panel
   boxes,   // rectangles over `box`
   ranges,  // points with bars over `box`
+  cells,   // rectangles about x and y, `width` by `size` in units of the axes
+  arrows,  // from and to columns of `box`; size 0: lines without a head
   image    // pixels at x and y in the colours of column 3, on the axis Panel::colours
 };
 
@@ -67,6 +69,7 @@ struct PanelCurve {
   std::array<int, 4> box = {};    // columns: x from, x to, y from, y to; 0: to the edge of the panel
   double fill = 1;                // of boxes, 0 to 1
   int rgb = 0, marks = 0;         // columns of colours and of marks; 0: all have `colour`, `mark`
+  int heat = 0;  // column of points and cells in the colours of Panel::colours; 0: all have `colour`
 };
 
 // A straight line across a panel: at a value of x or of y.
@@ -85,8 +88,8 @@ struct PanelAxis {
   double decades =
       6;  // most that an automatic logarithmic axis shows; below a given `from` curves stand on it
   bool from_zero = false;  // an automatic one begins at 0
-  bool speed = false;      // mesh frequency in Hz, which engineering_axes can turn into rpm
-  bool level = false;      // amplitudes in µm that it can turn into dB
+  bool speed = false;  // mesh frequency in Hz, which engineering_axes can turn into rpm; of y without rules
+  bool level = false;  // amplitudes in µm that it can turn into dB
   std::vector<std::string> names =
       {};  // at 1, 2, ... in place of numbers, from the left or from the top; lines apart by '\n'
 };
@@ -110,9 +113,10 @@ struct Panel {
   PanelKey key = PanelKey::right;
   int height = 360;                       // pixels of its frame; of panels side by side the largest counts
   bool bare = false;                      // without axes, of one scale in x and y
+  bool square = false;                    // its frame
   bool wide = false;                      // over all columns
   bool letter = true;                     // (a) before its heading
-  std::optional<PanelAxis> colours = {};  // of an image
+  std::optional<PanelAxis> colours = {};  // of an image, of `heat`
   std::vector<PanelWords> words = {};
 };
 

@@ -1,16 +1,14 @@
 #include "report/response_figures.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "base/error.h"
 #include "gear/pair.h"
 #include "io/summary.h"
 #include "report/figure_words.h"
-#include "report/text_width.h"
+#include "report/response_panels.h"
 #include "signal/jump_cause.h"
 #include "signal/response.h"
 
@@ -125,19 +123,6 @@ std::string beyond_words(const ChoicePanel<ResponseResult>& panel) {
   return each.empty() ? "" : "beyond the backlash, where back flanks would touch, " + each;
 }
 
-// What the axes of a panel have to hold.
-struct Extent {
-  double rms = 0, mean_high = -std::numeric_limits<double>::infinity(), mean_low = -mean_high;  // m
-  bool lost = false;                                                                            // contact
-
-  void add(const ResponseResult& r) {
-    rms = std::max(rms, r.dte_rms.maxCoeff());
-    mean_high = std::max(mean_high, r.dte_mean.maxCoeff());
-    mean_low = std::min(mean_low, r.dte_mean.minCoeff());
-    lost |= r.separation_fraction.maxCoeff() > 0;
-  }
-};
-
 // "rising 1326.41 Hz: fold at 1326.46; ..." of both sweeps beside their branch; "" without a jump.
 std::string cause_words(const ChoicePanel<ResponseResult>::Curve& curve, const BranchResult& branch) {
   std::string words;
@@ -152,15 +137,12 @@ std::string cause_words(const ChoicePanel<ResponseResult>::Curve& curve, const B
   return words;
 }
 
-// One torque or flank of a panel, number c from 1: both directions, the branch beside them, its natural frequency. "150 N m:
-// jumps rising 2645, falling 1819 Hz"
-std::string add_curve(Figure& figure, const std::string& letter, size_t c, const std::string& label,
+// One torque or flank of a panel: both directions, the branch beside them, its natural frequency. "150 N m: jumps rising 2645,
+// falling 1819 Hz"
+std::string add_curve(Figure& figure, const std::string& letter, const std::string& label,
                       const ChoicePanel<ResponseResult>::Curve& curve, const CaptionSources& background,
-                      bool backlash, Extent& extent) {
-  const auto number = [&](const std::string& name, double value) {
-    figure.numbers.emplace_back(text(name, "_", letter, "_", c), value);
-  };
-  const std::string name = letter + " " + label + " ";
+                      bool backlash, ResponsePanels& p) {
+  const std::string& name = p.names.emplace_back(letter + " " + label + " ");
   std::string found;
   for (const ResponseResult* r : {curve.up, curve.down}) {
     figure.blocks.push_back(
@@ -168,79 +150,57 @@ std::string add_curve(Figure& figure, const std::string& letter, size_t c, const
     figure.blocks.push_back(jump_block(text(name, "jumps ", r->direction), *r));
     const std::string at = listed_jumps(figure.blocks.back());
     if (!at.empty()) found += (found.empty() ? " " : ", ") + way_word(*r) + at;
-    number(text("jumps_", r->direction), static_cast<double>(r->jump_frequency.size()));
-    extent.add(*r);
+    p.peak = std::max(p.peak, r->dte_rms.maxCoeff() * kMicro);
+    p.lost |= r->separation_fraction.maxCoeff() > 0;
+    p.jumps |= r->jump_frequency.size() > 0;
   }
-  if (const BranchResult* branch = branch_of(*curve.up, background)) {
-    for (const bool stable : {true, false}) {
-      const std::string kind = stable ? "stable" : "unstable";
-      figure.blocks.push_back(orbit_block(name + kind, *branch, stable));
-      number(kind, static_cast<double>(figure.blocks.back().rows.size()));
-    }
+  const BranchResult* branch = branch_of(*curve.up, background);
+  if (branch) {
+    p.branches = true;
+    for (const bool stable : {true, false})
+      figure.blocks.push_back(orbit_block(name + (stable ? "stable" : "unstable"), *branch, stable));
     figure.blocks.push_back(fold_block(name + "folds", *branch));
-    number("folds", static_cast<double>(branch->fold_frequency.size()));
-    extent.rms = std::max(extent.rms, branch->dte_rms.maxCoeff());
+    p.peak = std::max(p.peak, branch->dte_rms.maxCoeff() * kMicro);
     const std::string causes = cause_words(curve, *branch);
     if (!causes.empty()) figure.notes.push_back("(" + letter + ") " + label + ", jumps " + causes);
   }
-  number("natural_frequency", curve.up->natural_frequency);
+  draw_response(branch != nullptr, p);
   return label + (found.empty() ? ": no jump" : ": jumps" + found + " Hz");
 }
 
-constexpr double kCaptionWidth = 91;  // 1460 pixels of letters of 16
-
-// Lines below all panels, with their letter if it is not "", "caption1", "caption2", ...; their number is that of the words that begin with `kind`.
-void add_caption(Figure& figure, const std::string& kind, const std::string& letter,
-                 const std::string& words) {
-  if (words.empty()) return;
-  size_t number = 0;
-  for (const auto& [name, value] : figure.words) number += name.starts_with(kind) ? 1 : 0;
-  bool first = true;
-  for (const std::string& line : broken_lines(words, kCaptionWidth)) {
-    figure.words.emplace_back(text(kind, ++number),
-                              first && !letter.empty() ? "{/:Bold (" + letter + ")} " + line : line);
-    first = false;
-  }
-}
-
 void add_panel(Figure& figure, const std::string& letter, const ChoicePanel<ResponseResult>& panel,
-               const CaptionSources& background, bool backlash, bool alone) {
+               const CaptionSources& background, bool backlash, bool alone, bool mean) {
   const auto& curves = panel.curves;
   if (curves.size() > kMostCurves)
     fail(Failure::input, "figure: ", curves.size(), " torques of the same choices given; ", kMostCurves,
          " curves can be told apart");
-  std::string labels, jumps, found_jumps;
-  Extent extent;
-  for (size_t c = 0; c < curves.size(); ++c) {
-    const std::string label = curve_label(panel, *curves[c].up);
-    const std::string words =
-        add_curve(figure, letter, c + 1, label, curves[c], background, backlash, extent);
-    labels += "'" + label + "' ";
-    jumps += "'" + words + "' ";
-    found_jumps += (c ? "; " : "") + words;
-  }
   const std::string beyond = beyond_words(panel), operating = operating_words(panel, background),
                     loss = loss_words(panel) + (beyond.empty() ? "" : "; " + beyond);
-  figure.notes.push_back("(" + letter + ") " + (panel.scene.empty() ? "" : panel.scene + "; ") + operating +
-                         "; " + panel.choices);
-  figure.notes.push_back("(" + letter + ") " + found_jumps + "; " + loss);
-  // Above the panel its operating point, in one line; below all panels the rest of it, its scene, its choices.
-  const std::vector<std::string> above = broken_lines(without_markup(operating), kCaptionWidth);
-  std::string rest;
-  for (size_t i = 1; i < above.size(); ++i) rest += (i > 1 ? " " : "") + above[i];
-  for (const std::string& words : {without_markup(panel.scene), rest, without_markup(panel.choices)})
-    add_caption(figure, "caption", alone ? "" : letter, words);
-  add_caption(figure, "loss_caption", alone ? "" : letter, loss);
-  for (const auto& [name, value] :
-       {std::pair{"above_", above[0]}, {"loss_", loss}, {"labels_", labels}, {"jump_labels_", jumps}})
-    figure.words.emplace_back(name + letter, value);
-  for (const auto& [name, value] : {std::pair{"curves_", static_cast<double>(curves.size())},
-                                    {"rms_max_", extent.rms * kMicro},
-                                    {"mean_max_", extent.mean_high * kMicro},
-                                    {"mean_min_", extent.mean_low * kMicro},
-                                    {"contact_lost_", extent.lost ? 1.0 : 0.0},
-                                    {"beyond_backlash_", beyond.empty() ? 0.0 : 1.0}})
-    figure.numbers.emplace_back(name + letter, value);
+  ResponsePanels p = empty_panels(curves.size(), curves[0].up->mesh_frequency.size(), alone && !mean);
+  p.beyond = !beyond.empty();
+  std::vector<std::string> labels;
+  std::vector<double> natural_frequency;
+  labels.reserve(curves.size());
+  natural_frequency.reserve(curves.size());
+  std::string jumps;
+  for (const auto& curve : curves) {
+    labels.push_back(
+        add_curve(figure, letter, curve_label(panel, *curve.up), curve, background, backlash, p));
+    natural_frequency.push_back(curve.up->natural_frequency);
+    jumps += (jumps.empty() ? "" : "; ") + labels.back();
+  }
+  finish(labels, natural_frequency, p);
+  p.rms.heading = without_markup(operating) + (p.alone ? "\n" + without_markup(jumps) : "");
+  figure.panels.push_back(std::move(p.rms));
+  if (mean) figure.panels.push_back(std::move(p.mean));
+  const std::string before = "(" + letter + ") ";
+  figure.notes.push_back(before + (panel.scene.empty() ? "" : panel.scene + "; ") + operating + "; " +
+                         panel.choices);
+  figure.notes.push_back(before + jumps + "; " + loss);
+  for (const std::string& words : {panel.scene, panel.choices, mean ? loss : ""})
+    if (!words.empty())
+      figure.captions.push_back((alone ? "" : "{/:Bold " + before.substr(0, 3) + "} ") +
+                                without_markup(words));
 }
 
 // Whether the other sweep has the motion of a row.
@@ -310,7 +270,8 @@ std::string loss_both_ways(const ResponseResult& up, const ResponseResult& down)
   return "rising " + rising + ", falling " + falling + (falling == "nowhere" ? "" : " Hz");
 }
 
-Figure response_figure(const std::vector<ResponseResult>& sweeps, const CaptionSources& background) {
+Figure response_figure(const std::vector<ResponseResult>& sweeps, const CaptionSources& background,
+                       bool mean) {
   if (sweeps.empty())
     fail(Failure::input, "figure: no response.h5 given; an up and a down sweep are the least");
   const std::vector<ChoicePanel<ResponseResult>> panels = panels_of(sweeps, background);
@@ -331,27 +292,10 @@ Figure response_figure(const std::vector<ResponseResult>& sweeps, const CaptionS
       (any_elastic && any_lumped ? "; one degree of freedom: " : "") +
       (any_lumped ? "natural frequency of the mass on the mean stiffness" : ""));
   figure.shafts = shafts_of_all(sweeps);
-  figure.height = panels.size() == 1 ? 1010 : 240 + 610 * static_cast<int>(panels.size());
+  figure.captions = figure.notes;
+  figure.columns = mean ? 2 : 1;
   for (size_t p = 0; p < panels.size(); ++p)
-    add_panel(figure, letter_of(p), panels[p], background, any_elastic, panels.size() == 1);
-  double from = std::numeric_limits<double>::infinity(), to = 0;
-  Eigen::Index speeds = 0;
-  for (const auto& r : sweeps) {
-    from = std::min(from, r.mesh_frequency.minCoeff());
-    to = std::max(to, r.mesh_frequency.maxCoeff());
-    speeds = std::max(speeds, r.mesh_frequency.size());
-  }
-  std::array<double, 2> captions{};  // of all figures, and those of contact loss
-  constexpr std::array kCaptions{"caption", "loss_caption"};
-  for (size_t k = 0; k < captions.size(); ++k)
-    for (const auto& [name, value] : figure.words) captions[k] += name.starts_with(kCaptions[k]) ? 1 : 0;
-  figure.height += 24 * static_cast<int>(captions[0] + captions[1]);
-  figure.numbers.insert(figure.numbers.end(), {{"captions", captions[0]},
-                                               {"loss_captions", captions[1]},
-                                               {"speeds", static_cast<double>(speeds)},
-                                               {"panels", static_cast<double>(panels.size())},
-                                               {"frequency_from", from},
-                                               {"frequency_to", to}});
+    add_panel(figure, letter_of(p), panels[p], background, any_elastic, panels.size() == 1, mean);
   return figure;
 }
 

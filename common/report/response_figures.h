@@ -4,11 +4,12 @@
 
 namespace whine {
 
-// RMS and mean of the DTE against mesh frequency for both directions of the sweep, with jumps. A panel for each set of
+// RMS of the DTE and, if wanted, its mean beside it, against mesh frequency for both directions of the sweep, with jumps. A panel for each set of
 // choices (damping, corner rule, fidelity, model) in the order in which they come, a curve for each torque (ascending) and
 // each modification of the flanks. With branches the orbits that no sweep finds, unstable ones, and the folds at which
 // branches turn. Throws Error(input) unless every sweep up has one sweep down of the same torque and choices.
-Figure response_figure(const std::vector<ResponseResult>& sweeps, const CaptionSources& background = {});
+Figure response_figure(const std::vector<ResponseResult>& sweeps, const CaptionSources& background = {},
+                       bool mean = false);
 
 // Force of each gear on its elastic bearing against mesh frequency for both directions of the sweep: RMS of what of it
 // oscillates, and the largest. Throws Error(input) for gears on rigid bearings, for sweeps of two torques or sets of choices,

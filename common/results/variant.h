@@ -1,4 +1,4 @@
-// What one variant of a study answers.
+// The quantities of one variant of a study.
 #pragma once
 #include <Eigen/Core>
 #include <string>

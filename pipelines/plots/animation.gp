@@ -8,8 +8,8 @@ lift = room(2)
 stats tsv index "[frames]" using 1 nooutput name "place"
 array at[int(frames)]; array error[int(frames)]; array force[int(frames)]
 stats tsv index "[frames]" using (at[int($0) + 1] = $1, error[int($0) + 1] = $2, force[int($0) + 1] = $3, $1) nooutput
-colour(pair) = pair == 0 ? "#0072b2" : (pair == 1 ? "#d55e00" : (pair == -1 ? "#009e73" : "#7f7f7f"))
-shade = losses > 0 ? 'tsv index "[contact lost]" using (0.5 * ($1 + $2)):(top):1:2:(bottom):(top) with boxxyerror fs solid 1 noborder lc rgb "#f3d9a8" notitle, ' : ''
+colour(pair) = colour[pair == 0 ? 1 : pair == 1 ? 2 : pair == -1 ? 3 : 8]
+shade = losses > 0 ? 'tsv index "[contact lost]" using (0.5 * ($1 + $2)):(top):1:2:(bottom):(top) with boxxyerror fs solid 1 noborder lc rgb colour[10] notitle, ' : ''
 do for [frame = int(first_frame):int(last_frame)] {
   now = at[frame + 1]
   name = sprintf("%03d", frame)
@@ -28,7 +28,7 @@ do for [frame = int(first_frame):int(last_frame)] {
   long = 0.5 * half_window / largest_force
   plot tsv index "[" . name . " driven]" using 1:2 with filledcurves closed fc rgb "#e3e6ea" fs solid 1 noborder notitle, \
        tsv index "[" . name . " driver]" using 1:2 with filledcurves closed fc rgb "#d3deeb" fs solid 1 noborder notitle, \
-       tsv index "[" . name . " driven]" using 1:2 with lines lw 2 lc rgb "#444444" notitle, \
+       tsv index "[" . name . " driven]" using 1:2 with lines lw 2 lc rgb colour[6] notitle, \
        tsv index "[" . name . " driver]" using 1:2 with lines lw 2 lc rgb "#2f4f77" notitle, \
        for [p = int(first_pair):int(first_pair + pairs) - 1] tsv index "[" . name . " force]" \
          using ($4 == p && $3 > 0 ? $1 : NaN):2:($3 * long * along_x):($3 * long * along_y) with vectors head filled size screen 0.01, 18 lw 5 lc rgb colour(p) notitle

@@ -13,6 +13,10 @@ set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 # two more greys
 array colour[12] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#444444", "#000000", "#9a9a9a", "#7f9fbf", "#f3d9a8", "#707070", "#d0d0d0"]
 
+# of images and cells; of marks, whose lowest is not white
+of_areas = 'set palette defined (0 "#ffffff", 0.15 "#e8eef4", 0.4 "#9fc4de", 0.65 "#3a7fbb", 0.82 "#5b2a86", 1 "#c8201e")'
+of_marks = 'set palette defined (0 "#1f4e9c", 0.5 "#1a9d8f", 1 "#e6a817")'
+
 # the step of numbers of an axis: 1, 2 or 5 times a power of ten and not below x > 0
 step_of(x) = 10 ** floor(log10(x)) * (x / 10 ** floor(log10(x)) > 5 ? 10 : x / 10 ** floor(log10(x)) > 2 ? 5 : x / 10 ** floor(log10(x)) > 1 ? 2 : 1)
 

@@ -5,7 +5,7 @@ load plots . "/common.gp"
 unset grid
 lift = room(3)
 
-driver_line = "#0072b2"
+driver_line = colour[1]
 driven_line = "#b3401a"
 driver_fill = "#e9f0fa"
 driven_fill = "#fbeee6"

@@ -5,7 +5,7 @@ load plots . "/common.gp"
 unset grid
 lift = room(3)
 
-driver_line = "#0072b2"
+driver_line = colour[1]
 driven_line = "#b3401a"
 driver_fill = "#f4f7fc"
 driven_fill = "#fdf7f2"
@@ -87,8 +87,8 @@ set yrange [0 : 1.4 * peak]
 set y2range [0 : *]
 set label 1 "{/:Bold (c)} under load: a strip carries pressure or is apart"
 set key at screen 0.74, screen 0.012 + lift center bottom vertical maxrows 2 opaque
-plot tsv index "[candidate pairs]" using (0.5 * ($4 + $5)):8:($5 - $4) with boxes fs solid 0.6 border lc rgb "#7f9fbf" fc rgb "#c9d9ee" title "pressure on a strip", \
+plot tsv index "[candidate pairs]" using (0.5 * ($4 + $5)):8:($5 - $4) with boxes fs solid 0.6 border lc rgb colour[9] fc rgb "#c9d9ee" title "pressure on a strip", \
   tsv index "[Hertz]" using 1:2 with lines lt 1 lw 2 dt (10, 5) lc rgb "black" title "Hertz, same force", \
-  tsv index "[candidate pairs]" using 1:7 axes x1y2 with points pt 6 ps 1.4 lw 2 lc rgb "#009e73" title "separation (right)"
+  tsv index "[candidate pairs]" using 1:7 axes x1y2 with points pt 6 ps 1.4 lw 2 lc rgb colour[3] title "separation (right)"
 eval(below)
 unset multiplot

@@ -6,7 +6,6 @@ unset grid
 set datafile separator whitespace
 lift = room(2)
 
-array colour[7] = ["#444444", "#c8201e", "#1f4e9c", "#1a7f37", "#8a4fbf", "#b06a00", "#0a7c86"]
 rows = moving > 0 ? 2 : 1
 step = largest > 120 ? 20 : largest > 60 ? 10 : largest > 25 ? 5 : largest > 12 ? 2 : largest > 5 ? 1 : largest > 2 ? 0.5 : 0.2
 set contour base
@@ -55,7 +54,7 @@ set xrange [0:*]
 set yrange [0:*]
 set key top left Left reverse samplen 2.5 spacing 1.2 font ",14"
 set arrow 1 from design_torque, graph 0 to design_torque, graph 1 nohead back lw 1.4 dt (8, 6) lc rgb "#808080"
-plot for [i = 1:curves] tsv index "[cusp]" using 1:i + 1 with lines lw 2.8 lc rgb colour[i] title word(labels, i)
+plot for [i = 1:curves] tsv index "[cusp]" using 1:i + 1 with lines lw 2.8 lc rgb colour[i == 7 ? 7 : (i + 4) % 6 + 1] title word(labels, i)
 
 if (moving > 0) {
   unset arrow

@@ -9,7 +9,7 @@ set datafile separator whitespace
 two_colour = "#e8998d"
 lost_colour = "#f6dfa4"
 kept_colour = "#e3edf7"
-line_colour = "#0072b2"
+line_colour = colour[1]
 
 # The largest tooth load between the middles of the cells, torque on a logarithmic scale. kN
 if (lines > 0) {

@@ -2,8 +2,6 @@
 # Variables from the program: tsv, heading, height, note1, ..., notes, panels, panel1, ...: commands that draw each.
 load plots . "/common.gp"
 lift = room(notes)
-# of images
-set palette defined (0 "#ffffff", 0.15 "#e8eef4", 0.4 "#9fc4de", 0.65 "#3a7fbb", 0.82 "#5b2a86", 1 "#c8201e")
 set style textbox opaque noborder margins 0.4, 0.2
 
 set multiplot title heading offset 0, -0.4

@@ -13,7 +13,7 @@ unset key
 set size ratio -1
 x_of(pixels) = pixels / 1600.0
 y_of(pixels) = 1 - pixels / height
-central_line = "#0072b2"
+central_line = colour[1]
 planet_line = "#b3401a"
 lines_of(name, w, colour) = value("has_" . name) == 1 ? sprintf(', tsv index "[%s]" using 1:2 with lines lt 1 lw %g lc rgb "%s"', name, w, colour) : ""
 area_of(name, colour) = value("has_" . name) == 1 ? sprintf(', tsv index "[%s]" using 1:2 with filledcurves closed fc rgb "%s"', name, colour) : ""
@@ -31,7 +31,7 @@ set xrange [left : right]
 set yrange [low : high]
 set xlabel "x (mm)" offset 0, 0.4
 set ylabel "y (mm)" offset 0.6, 0
-set style arrow 1 head filled size screen 0.011, 22, 60 fixed lt 1 lw 3 lc rgb "#444444"
+set style arrow 1 head filled size screen 0.011, 22, 60 fixed lt 1 lw 3 lc rgb colour[6]
 do for [n = 1:int(labels)] {
   set label n value(sprintf("label%d", n)) at value(sprintf("label_x%d", n)), value(sprintf("label_y%d", n)) center offset 0, 0.3 front noenhanced font ",13"
 }

@@ -14,7 +14,7 @@ low = log10(unit) - 3
 half_tall = 0.5 * (speed_step > 0 ? speed_step : span)
 # As wide as its order moves with a step, so that a ray is a band.
 half_wide(order) = order * half_tall / speed_scale > 0.004 * frequency_end ? order * half_tall / speed_scale : 0.004 * frequency_end
-set palette defined (0 "#f4f1ea", 0.25 "#c9dcea", 0.5 "#6aaed6", 0.75 "#2166ac", 0.9 "#7a1f5c", 1 "#c8201e")
+eval(of_areas)
 
 set multiplot title heading offset 0, -0.4
 # of a row of panels

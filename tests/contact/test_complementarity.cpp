@@ -21,6 +21,7 @@
 #include "peer/window_problem.h"
 #include "refusal.h"
 #include "relative.h"
+#include "solved_strips.h"
 
 using namespace whine;
 using Eigen::MatrixXd;
@@ -28,19 +29,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-struct Solved {
-  VectorXd p, d;
-  Certificate certificate;
-  ActiveSet active;
-};
 Solved solve(const MatrixXd& a, const VectorXd& e, std::vector<int> start = {}) {
-  Solved s;
-  s.p.resize(e.size());
-  s.d.resize(e.size());
-  s.active.strips = std::move(start);
-  ComplementaritySolver solver(Singular::shift);
-  s.certificate = solver.solve(a, e, s.active, s.p, s.d);
-  return s;
+  return solved(a, e, std::move(start), Singular::shift);
 }
 
 // max over i of |min(d_i, p_i A_ii)| / max |e|, from scratch

@@ -16,6 +16,7 @@
 #include "paper_pair.h"
 #include "refusal.h"
 #include "relative.h"
+#include "solved_strips.h"
 
 using namespace whine;
 using Eigen::MatrixXd;
@@ -26,21 +27,6 @@ constexpr double kPi = std::numbers::pi;
 
 Material strain_steel() {
   return {207e9, 0.3, 7600, false};
-}
-
-struct Solved {
-  VectorXd p, d;
-  Certificate certificate;
-  ActiveSet active;
-};
-Solved solve(const MatrixXd& a, const VectorXd& e, std::vector<int> start = {}) {
-  Solved s;
-  s.p.resize(e.size());
-  s.d.resize(e.size());
-  s.active.strips = std::move(start);
-  ComplementaritySolver solver;
-  s.certificate = solver.solve(a, e, s.active, s.p, s.d);
-  return s;
 }
 
 // m N-1: inward displacement of the point at x (m) from the middle of a strip |x| <= half_width (m) that carries a unit
@@ -110,7 +96,7 @@ TEST_CASE("Hertz line contact: 12 to 50 strips across, any place of the grid") {
       // integral g = asinh(l) - ... less the constant between a Hertz load's and a line load's depth point.
       const double c = surface.coefficient(), depth = 1e-3, line = 0.5 / 0.7;
       const double approach = 2 * c * force * (std::log(2 * depth / a_hertz) + 0.5 - line);
-      const Solved s = solve(a, gap.array() - approach);
+      const Solved s = solved(a, gap.array() - approach);
       const double sum = s.p.sum();
       least = std::min(least, sum);
       largest = std::max(largest, sum);
@@ -158,7 +144,7 @@ TEST_CASE(
       const double growth = 1 + k / (32 * 6.0), half_width = a0 * growth, force = force0 * growth * growth;
       const double approach =
           2 * surface.coefficient() * force * (std::log(2 * depth / half_width) + 0.5 - line);
-      errors.push_back(solve(a, gap.array() - approach).p.sum() / force - 1);
+      errors.push_back(solved(a, gap.array() - approach).p.sum() / force - 1);
     }
     mean = Eigen::Map<VectorXd>(errors.data(), 33).mean();
     return std::sqrt((Eigen::Map<VectorXd>(errors.data(), 33).array() - mean).square().mean());
@@ -242,7 +228,7 @@ TEST_CASE(
   const PairStrips s = zone(10.0);
   const MatrixXd a = half_plane_compliance(s, surface, surface, 20e-3);
   const double exact = 1e-6 / (2 * surface.line(0.25 * (high - low), 20e-3));
-  CHECK(solve(a, VectorXd::Constant(32, -1e-6)).p.sum() == relative(exact, 1e-3));
+  CHECK(solved(a, VectorXd::Constant(32, -1e-6)).p.sum() == relative(exact, 1e-3));
   for (int i = 0; i < 32; ++i)
     for (int j = 0; j < 32; ++j) {
       const double one =
@@ -294,7 +280,7 @@ StripsSolution strips_solution(double from, double to, int n, double slope, doub
     e[i] = slope * x + 0.5 * x * x / kRadius - approach;
     for (int j = 0; j < n; ++j) a(i, j) = 2 * under_strip(surface, (i - j) * h, 0.5 * h, depth);
   }
-  const VectorXd p = solve(a, e).p;
+  const VectorXd p = solved(a, e).p;
   const VectorXd x = VectorXd::LinSpaced(n, from + 0.5 * h, to - 0.5 * h);
   return {p.sum(), p.dot(x) / p.sum()};
 }

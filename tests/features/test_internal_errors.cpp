@@ -218,15 +218,8 @@ TEST_CASE(
   many.rim_outer_radius = 1;
   ToothErrors drawn;
   drawn.iso_class = 6;
-  const auto wave = [](const std::vector<double>& places) {
-    std::complex<double> sum = 0;
-    for (size_t i = 0; i < places.size(); ++i)
-      sum +=
-          places[i] * std::polar(1.0, -2 * kPi * static_cast<double>(i) / static_cast<double>(places.size()));
-    return sum;
-  };
-  CHECK(std::arg(wave(tooth_deviations(many, drawn, FlankSide::trailing).cumulative_pitch) /
-                 wave(tooth_deviations(many, drawn).cumulative_pitch)) ==
+  CHECK(std::arg(wave_of(tooth_deviations(many, drawn, FlankSide::trailing).cumulative_pitch) /
+                 wave_of(tooth_deviations(many, drawn).cumulative_pitch)) ==
         relative(-2 * many.pressure_angle, 0.1));
 }
 

@@ -159,15 +159,8 @@ TEST_CASE(
   const ToothDeviations leading = tooth_deviations(design, errors),
                         trailing = tooth_deviations(design, errors, FlankSide::trailing);
   CHECK(leading.profile_slope != trailing.profile_slope);
-  const auto wave = [](const std::vector<double>& places) {
-    std::complex<double> sum = 0;
-    for (size_t i = 0; i < places.size(); ++i)
-      sum +=
-          places[i] * std::polar(1.0, -2 * kPi * static_cast<double>(i) / static_cast<double>(places.size()));
-    return sum;
-  };
   // Of 400 teeth scatter moves the wave by little.
-  CHECK(std::arg(wave(trailing.cumulative_pitch) / wave(leading.cumulative_pitch)) ==
+  CHECK(std::arg(wave_of(trailing.cumulative_pitch) / wave_of(leading.cumulative_pitch)) ==
         relative(2 * design.pressure_angle, 0.1));
   const FlankTolerances limit = iso_1328_tolerances(design, 6);
   const auto [least, largest] =

@@ -67,7 +67,7 @@ TEST_CASE("what is no regular file is rejected and not waited for") {
     CHECK(refused([&] { read_bytes(name, "look elsewhere"); }, Failure::io,
                   {name, "regular", "look elsewhere"}));
   }
-  CHECK(names(message_of([] { read_bytes("."); }), {"folder"}));
+  CHECK(refused([] { read_bytes(".", "look elsewhere"); }, Failure::io, {".", "folder", "look elsewhere"}));
   fs::create_symlink("x.txt", "link");
   publish("x.txt", "whole");
   CHECK(read_bytes("link") == "whole");
@@ -91,7 +91,7 @@ TEST_CASE("writing is all or nothing: a failure leaves the earlier file and no r
     setrlimit(RLIMIT_FSIZE, &before);
     std::signal(SIGXFSZ, handler);
     CHECK(full.kind == Failure::io);
-    CHECK(names(full.message, {"out/a/x.txt"}));
+    CHECK(names(full.message, {"out/a/x.txt", "File too large"}));
     CHECK(artifact == Failure::io);
   }
   SUBCASE("a folder in the place of the file") {

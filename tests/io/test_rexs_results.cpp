@@ -171,15 +171,16 @@ TEST_CASE("REXS: results of another pair, of no stage, or that are no numbers ar
   CHECK(said("12", kPair) == "");
   CHECK(names(said("12", changed([](RexsPair& p) { p.teeth[1] = 46; })),
               {30, 45, "2.5", "94.5", 20, "0.25", "0.05", 46}));
-  CHECK(names(said("12", changed([](RexsPair& p) { p.module[1] = 2e-3; })), {"results"}));
-  CHECK(names(said("12", changed([](RexsPair& p) { p.centre_distance = 94.6e-3; })), {"94.6", "mm"}));
+  CHECK(names(said("12", changed([](RexsPair& p) { p.module[1] = 2e-3; })),
+              {"2.5 and 2 mm", "2.5 mm", "results"}));
+  CHECK(names(said("12", changed([](RexsPair& p) { p.centre_distance = 94.6e-3; })), {"94.5 mm", "94.6 mm"}));
   // The same teeth of the same module at the same distance, with the sum of the shifts shared otherwise.
   CHECK(names(said("12", changed([](RexsPair& p) { p.profile_shift = {0.15, 0.15}; })), {"0.15", "profile"}));
   CHECK(names(said("12", changed([](RexsPair& p) {
                      p.pressure_angle = {kAngle * 1.125, kAngle * 1.125};
                    })),
               {"22.5", "pressure"}));
-  CHECK(names(said("", kPair), {"--stage"}));
+  CHECK(names(said("", kPair), {"m.rexs", "--stage"}));
   CHECK(names(said("Ninth", kPair), {"Ninth"}));
   CHECK(names(said("60", kPair), {"center_distance"}));
   const std::string archive = folder.zipped("m.rexsz", {{"m.rexs", xml(box)}});

@@ -11,9 +11,11 @@
 #include <vector>
 
 #include "base/error.h"
+#include "figure_block.h"
 #include "lumped/oscillator.h"
 #include "lumped/stiffness.h"
 #include "lumped/sweep.h"
+#include "lumped_wave.h"
 #include "paper_pair.h"
 #include "refusal.h"
 #include "relative.h"
@@ -109,12 +111,7 @@ TEST_CASE("lumped: trace of the exact monodromy meets 2 at the bounds of Meissne
     any.integrate(y, &m);
     return m;
   };
-  const double edge[5][2] = {{5549.5652, 6016.2142},
-                             {2794.6650, 2976.3335},
-                             {1883.4157, 1958.1047},
-                             {1430.0199, 1450.5070},
-                             {1149.5595, 1155.9831}},
-               closes[5] = {0.04041, 0.03151, 0.01945, 0.00711, 0.00279};
+  const auto& edge = kTongue;
   for (int band = 0; band < 5; ++band) {
     const double width = edge[band][1] - edge[band][0];
     for (int side = 0; side < 2; ++side) {
@@ -139,7 +136,7 @@ TEST_CASE("lumped: trace of the exact monodromy meets 2 at the bounds of Meissne
       }
       (largest > 1 ? unstable : stable) = ratio;
     }
-    CHECK(stable == relative(closes[band], 6e-6 / closes[band]));
+    CHECK(stable == relative(kTongueCloses[band], 6e-6 / kTongueCloses[band]));
   }
 }
 
@@ -582,16 +579,13 @@ TEST_CASE("lumped: figures hold the numbers of their sweeps") {
   CHECK(!contains(forces.notes[0], "dashed"));
   CHECK(contains(forces.notes[0], "rectangular stiffness, 294.0 to 516.7"));
   CHECK(contains(forces.notes[1], "jump at 2525.3 Hz"));
-  for (const auto& [name, value] : forces.words) {
-    if (name == "labels_a")
-      CHECK(
-          value ==
-          "'2200 Hz, ratio 1.758, before its jump at 2172 Hz' '2200 Hz, ratio 1.758, before its jump at 2525 Hz' ");
-    if (name == "labels_b")
-      CHECK(
-          value ==
-          "'2150 Hz, ratio 1.758, after its jump at 2172 Hz' '2150 Hz, ratio 1.758, before its jump at 2525 Hz' ");
-  }
+  REQUIRE(forces.panels.size() == 2);
+  const char* const labels[2][2] = {{"2200 Hz, ratio 1.758, before its jump at 2172 Hz",
+                                     "2200 Hz, ratio 1.758, before its jump at 2525 Hz"},
+                                    {"2150 Hz, ratio 1.758, after its jump at 2172 Hz",
+                                     "2150 Hz, ratio 1.758, before its jump at 2525 Hz"}};
+  for (size_t panel : {0, 1})
+    for (const char* label : labels[panel]) CHECK(has_label(forces.panels[panel], label));
 
   const CaptionSources captions{{}, {sweeps[0].lumped, sweeps[1].lumped}, {}};
   const Figure curves = response_figure(responses, captions);

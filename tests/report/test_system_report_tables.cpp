@@ -170,9 +170,10 @@ TEST_CASE(
   CHECK(names(said(r, [](SystemReport& c) { c.pictures.push_back({"fig07", "png"}); }), {"fig07"}));
   CHECK(names(said(r, [](SystemReport& c) { c.pictures.push_back(c.pictures[0]); }), {"given", "twice"}));
   CHECK(names(said(r, [](SystemReport& c) { c.modes = natural_modes(layout_of(planetary_train(4))); }),
-              {"systems"}));
-  CHECK(names(said(r, [](SystemReport& c) { c.rest.reset(); }), {"static.h5"}));
-  CHECK(names(said(r, [](SystemReport& c) { c.sweeps[1] = c.sweeps[0]; }), {"up"}));
+              {"static.h5", "modes.h5", "two systems"}));
+  CHECK(names(said(r, [](SystemReport& c) { c.rest.reset(); }),
+              {"response.h5", "without", "static.h5"}));
+  CHECK(names(said(r, [](SystemReport& c) { c.sweeps[1] = c.sweeps[0]; }), {"two", "up", "one"}));
   CHECK(names(said(r, [](SystemReport& c) { c.sweeps[1].drive[0] = 401; }), {"sun", 401}));
 }
 
