@@ -31,79 +31,54 @@ rejected() {
   else ok "$claim"; fi
 }
 
-# --- a coarse scene through the chain
+# --- coarse scenes through the flow of make, in a copy of the tree; what a stage is called with its artifact says
 coarse='s/^element_mm = [^ ]*/element_mm = 1.5/; s/^modes = [^ ]*/modes = 21/; s/^element_order = [^ ]*/element_order = 1/; s/^torque_Nm = .*/torque_Nm = [100]/
   s/^mesh_frequency_Hz = .*/mesh_frequency_Hz = { from = 2000, to = 2100, step = 50 }/'
+scenes=$(dirname "$scene_of_paper")
 sed "$coarse" "$scene_of_paper" > scene.toml
-stage_scene=("$bin/gear-scene" --scene scene.toml --output scene.mk --out out)
-stage_mesh=("$bin/gear-mesh" --params out/scene/pinion/body.toml --output out/scene/pinion/mesh.h5)
-stage_reduce=("$bin/gear-reduce" --params out/scene/pinion/body.toml --mesh out/scene/pinion/mesh.h5 --output out/scene/pinion/body.h5)
-pair=(--body pinion=out/scene/pinion/body.h5 --body wheel=out/scene/wheel/body.h5)
-static() { echo "$bin/gear-static --params out/$1/params/static.toml ${pair[*]} --torque $2 --output out/$1/T$2/static.h5"; }
-sweep() { echo "$bin/gear-sweep --params out/$1/params/sweep.toml ${pair[*]} --static out/scene/T100/static.h5 \
-  --reference-static out/scene/T100/static.h5 --direction $2 --output out/$1/T100/$2/sweep.h5"; }
-measured_pair="${pair[*]} --static out/scene/T100/static.h5 --reference-static out/scene/T100/static.h5"
-stage_impact=("$bin/gear-impact" --params out/scene/params/impact.toml $measured_pair --output out/scene/T100/impact.h5)
-stage_spectra=("$bin/gear-spectra" --input out/scene/T100/up/sweep.h5 --output out/scene/T100/up/response.h5)
-stage_orbit=("$bin/gear-orbit" --params out/scene/params/sweep.toml $measured_pair --output out/scene/T100/branch.h5)
-stage_runup=("$bin/gear-runup" --params out/scene/params/sweep.toml $measured_pair --rate 5000 --output out/scene/T100/up/runup_5000.h5)
-stage_folds=("$bin/gear-folds" --params out/scene/params/sweep.toml --static-params out/scene/params/static.toml "${pair[@]}" --torque 100
-  --over torque --first 100 --values 90,110 --from 2000 --to 2100 --output out/scene/T100/fold_curves_torque.h5)
-sed 's/^title = .*/title = "A planetary train"/' "$(dirname "$scene_of_paper")/lin-parker-planetary.toml" > scene-train.toml
-stage_train=("$bin/gear-scene" --scene scene-train.toml --output scene-train.mk --out out)
-stage_modes=("$bin/gear-modes" --params out/scene-train/params/modes.toml --output out/scene-train/modes.h5)
-stage_modes_plot=("$bin/gear-plot" modes --plots "$plots" --output modes out/scene-train/modes.h5)
-sed 's/from = 1000, to = 5000, step = 50/from = 2000, to = 2100, step = 100/; s/^element_mm = .*/element_mm = 1.5\nelement_order = 1\npositions = 8\nsteps_per_period = 64/' "$(dirname "$scene_of_paper")/three-in-line.toml" > scene-inline.toml
+sed 's/^title = .*/title = "A planetary train"/' "$scenes/lin-parker-planetary.toml" > scene-train.toml
+sed 's/from = 1000, to = 5000, step = 50/from = 2000, to = 2100, step = 100/; s/^element_mm = .*/element_mm = 1.5\nelement_order = 1\npositions = 8\nsteps_per_period = 64/' "$scenes/three-in-line.toml" > scene-inline.toml
 printf '[gear.idler.modification]\ncrowning_um = 5\n[fidelity]\nmodes = 15\ncontact = "line"\n' >> scene-inline.toml
-stage_inline=("$bin/gear-scene" --scene scene-inline.toml --output scene-inline.mk --out out)
-inline_bodies() {
-  for gear in pinion idler wheel; do
-    "$bin/gear-mesh" --params out/scene-inline/$gear/body.toml --output out/scene-inline/$gear/mesh.h5 &&
-      "$bin/gear-reduce" --params out/scene-inline/$gear/body.toml --mesh out/scene-inline/$gear/mesh.h5 --output out/scene-inline/$gear/body.h5 || return 1
-  done
+artifacts=(out/scene/pinion/{mesh,body}.h5 out/scene/T100/{static,impact,branch,fold_curves_torque,loaded_0.25}.h5 out/scene/T100/up/{runup_5000,sweep,response}.h5 out/scene/T100/pairs/up/sweep.h5
+  out/scene-train/modes.h5 out/scene-inline/{modes,T60/static,T60/impact,T60/branch,T60/up/sweep,T60/up/response}.h5)
+# $1 scene, others: what make is given beside the artifacts of that scene
+made() { (cd tree && make_ SCENE="$1.toml" "${@:2}" $(printf '%s\n' "${artifacts[@]}" | grep "^out/$1/")); }
+flow() {
+  rm -rf tree/out out
+  made scene FOLD_TORQUES='90 110' out/scene/T100/down/sweep.h5 && made scene-train report && made scene-inline report branches impact &&
+    cp -a tree/out .
 }
-stage_system=("$bin/gear-static" --params out/scene-inline/params/static.toml --body pinion=out/scene-inline/pinion/body.h5
-  --body idler=out/scene-inline/idler/body.h5 --body wheel=out/scene-inline/wheel/body.h5 --output out/scene-inline/T60/static.h5)
-stage_system_sweep=("$bin/gear-sweep" --params out/scene-inline/params/sweep.toml --body pinion=out/scene-inline/pinion/body.h5
-  --body idler=out/scene-inline/idler/body.h5 --body wheel=out/scene-inline/wheel/body.h5 --direction up --output out/scene-inline/T60/up/sweep.h5)
-stage_system_response=("$bin/gear-spectra" --input out/scene-inline/T60/up/sweep.h5 --output out/scene-inline/T60/up/response.h5)
-stage_system_sweep_plot=("$bin/gear-plot" system-sweep --plots "$plots" --output system-sweep out/scene-inline/T60/up/response.h5)
-inline_bodies_given=(--body pinion=out/scene-inline/pinion/body.h5 --body idler=out/scene-inline/idler/body.h5 --body wheel=out/scene-inline/wheel/body.h5)
-stage_system_impact=("$bin/gear-impact" --params out/scene-inline/params/impact.toml "${inline_bodies_given[@]}" --modes 3 --phases 2 --output out/scene-inline/T60/impact.h5)
-stage_system_orbit=("$bin/gear-orbit" --params out/scene-inline/params/sweep.toml "${inline_bodies_given[@]}" --output out/scene-inline/T60/branch.h5)
-stage_ringdown_plot=("$bin/gear-plot" system-ringdown --plots "$plots" --output system-ringdown out/scene-inline/T60/impact.h5)
-stage_system_branch_plot=("$bin/gear-plot" system-branch --plots "$plots" --output system-branch out/scene-inline/T60/branch.h5 out/scene-inline/T60/up/response.h5)
-stage_elastic_modes=("$bin/gear-modes" --static out/scene-inline/T60/static.h5 --output out/scene-inline/modes.h5)
-stage_system_plot=("$bin/gear-plot" system-static --plots "$plots" --output system out/scene-inline/T60/static.h5)
-stage_picture=("$bin/gear-plot" system --plots "$plots" --output system-picture out/scene-inline/T60/static.h5)
-stage_rigid_picture=("$bin/gear-plot" system --plots "$plots" --output system-rigid out/scene-train/modes.h5)
-stage_campbell=("$bin/gear-plot" campbell --plots "$plots" --output campbell out/scene-inline/modes.h5)
-lumped() { echo "$bin/gear-lumped --model $1 --static out/scene/T100/static.h5 --params out/scene/params/lumped.toml --direction up \
-  --output out/scene/T100/$1/up/sweep.h5"; }
-stage_map=("$bin/gear-jump-map" --params out/scene/params/map.toml --static-params out/scene/params/static.toml "${pair[@]}" --torque 100
-  --contact line --corner-contact false --damping-ratio 0.05,0.1 --from 2700 --to 2900 --step 100 --loads-at 2800 --output out/scene/T100/jump_map_false.h5)
-stage_plot=("$bin/gear-plot" fig12 --plots "$plots" --output fig12 out/scene/T100/static.h5)
-stage_loaded=("$bin/gear-loaded" --static out/scene/T100/static.h5 "${pair[@]}" --mesh pinion=out/scene/pinion/mesh.h5
-  --mesh wheel=out/scene/wheel/mesh.h5 --mesh-phase 0.25 --output out/scene/T100/loaded_0.25.h5)
-chain() {
-  "${stage_scene[@]}" && mkdir -p out/scene/T100/up out/scene/T100/down && "${stage_mesh[@]}" && "${stage_reduce[@]}" &&
-    $(static scene 100) && "${stage_impact[@]}" && "${stage_orbit[@]}" && "${stage_folds[@]}" && "${stage_runup[@]}" && $(sweep scene up) && $(sweep scene down) && $(lumped pairs) && "${stage_spectra[@]}" && "${stage_map[@]}" && "${stage_loaded[@]}" && "${stage_plot[@]}" &&
-    "${stage_train[@]}" && "${stage_modes[@]}" && "${stage_modes_plot[@]}" &&
-    "${stage_inline[@]}" && inline_bodies && "${stage_system[@]}" && mkdir -p out/scene-inline/T60/up && "${stage_system_sweep[@]}" && "${stage_system_response[@]}" && "${stage_system_sweep_plot[@]}" && "${stage_system_impact[@]}" && "${stage_system_orbit[@]}" && "${stage_ringdown_plot[@]}" && "${stage_system_branch_plot[@]}" && "${stage_elastic_modes[@]}" && "${stage_system_plot[@]}" && "${stage_campbell[@]}" &&
-    "${stage_picture[@]}" && "${stage_rigid_picture[@]}" && "$bin/gear-report" --output system-page/index.html out/scene-inline/T60/static.h5 out/scene-inline/modes.h5 out/scene-inline/T60/up/response.h5 system-sweep.png
-}
-if chain > log 2>&1; then ok "a coarse scene runs from end to end"; else
-  wrong "a coarse scene runs from end to end" "$(tail -n 1 log)"
+log=$work/log
+(cd "$top" && copy_of_tree "$work/tree") && cp scene*.toml tree
+if flow; then ok "coarse scenes run from end to end"; else
+  wrong "coarse scenes run from end to end" "$(tail -n 1 log)"
   exit 1
 fi
-rm -f log
-first=$(contents); rm -rf out fig12.* fig12-* modes.* system.* system-* campbell.* campbell-*
-chain > /dev/null 2>&1
-if [ "$(contents)" = "$first" ]; then ok "two runs give identical bytes"; else
-  wrong "two runs give identical bytes" "$(diff <(echo "$first") <(contents) | sed -n 's/^> [0-9a-f]* *//p' | tr '\n' ' ')"; fi
+first=$(cd out && contents)
+if flow && [ "$(cd out && contents)" = "$first" ]; then ok "two runs give identical bytes"; else
+  wrong "two runs give identical bytes" "$(diff <(echo "$first") <(cd tree && contents) | sed -n 's/^> [0-9a-f]* *//p' | tr '\n' ' ')"; fi
+rm -r tree log
+command_of() { "$bin/gear-inspect" "$1" | sed -n "s|^ *made by [^:]*: |$bin/|p"; }
+scene_command="$bin/gear-scene --scene scene.toml --output scene.mk --out out"
+up_sweep=$(command_of out/scene/T100/up/sweep.h5)
+sweep() { echo "${up_sweep//up/$2}"; }
+of_pairs=$(command_of out/scene/T100/pairs/up/sweep.h5)
+lumped() { sed "s|--model pairs|--model $1|; s|T100/pairs/|T100/${1%% *}/|; s|--mass [^ ]* ||" <<< "$of_pairs"; }
+read -ra stage_reduce <<< "$(command_of out/scene/pinion/body.h5)"
+read -ra stage_impact <<< "$(command_of out/scene/T100/impact.h5)"
+read -ra stage_system <<< "$(command_of out/scene-inline/T60/static.h5)"
+read -ra stage_system_sweep <<< "$(command_of out/scene-inline/T60/up/sweep.h5)"
+read -ra stage_orbit <<< "$(command_of out/scene/T100/branch.h5)"
+pair=(--body pinion=out/scene/pinion/body.h5 --body wheel=out/scene/wheel/body.h5)
+measured_pair="${pair[*]} --static out/scene/T100/static.h5 --reference-static out/scene/T100/static.h5"
+stage_spectra="$(command_of out/scene/T100/up/response.h5)"
+stage_map=("$bin/gear-jump-map" --params out/scene/params/map.toml --static-params out/scene/params/static.toml "${pair[@]}" --torque 100
+  --contact line --corner-contact false --damping-ratio 0.05,0.1 --from 2700 --to 2900 --step 100 --loads-at 2800 --output out/scene/T100/jump_map_false.h5)
+artifacts+=(out/scene/T100/jump_map_false.h5)
+"${stage_map[@]}" > said 2>&1 || wrong "a map of jumps" "$(tail -n 1 said)"
 if found=$(grep -l -r -F "$work" out); [ -z "$found" ]; then ok "no artifact holds a path of the machine"; else
   wrong "no artifact holds a path of the machine" "$found"; fi
-for artifact in out/scene/pinion/mesh.h5 out/scene/pinion/body.h5 out/scene/T100/static.h5 out/scene/T100/impact.h5 out/scene/T100/branch.h5 out/scene/T100/fold_curves_torque.h5 out/scene/T100/up/runup_5000.h5 out/scene/T100/up/sweep.h5 out/scene/T100/pairs/up/sweep.h5 out/scene/T100/up/response.h5 out/scene/T100/jump_map_false.h5 out/scene/T100/loaded_0.25.h5 out/scene-train/modes.h5 out/scene-inline/T60/static.h5 out/scene-inline/T60/up/sweep.h5 out/scene-inline/T60/impact.h5 out/scene-inline/T60/branch.h5 out/scene-inline/modes.h5; do
+for artifact in "${artifacts[@]}"; do
   if "$bin/gear-inspect" $artifact > said 2>&1 && [ -s said ]; then ok "gear-inspect ${artifact##*/}"; else
     wrong "gear-inspect ${artifact##*/}" "$(head -n 1 said)"; fi
   if ! command -v h5ls > /dev/null; then echo "skipped: units of ${artifact##*/} (h5ls is not installed)"; continue; fi
@@ -128,8 +103,8 @@ sed "$coarse; s/^torque_Nm = .*/torque_Nm = [100, 150]/; s/from = 2000, to = 210
 cp "$(dirname "$scene_of_paper")/lin-parker-planetary.toml" examples/data/scenes/
 # A system of elastic gears, in whose folder examples look.
 cp scene-inline.toml examples/data/scenes/three-in-line.toml
-in_line=("${stage_inline[@]/scene-inline.toml/data/scenes/three-in-line.toml}")
-(cd examples && "${in_line[@]}" && cp -r ../out/bodies/. out/bodies/ && "${stage_system[@]//scene-inline/three-in-line}" && "${stage_elastic_modes[@]//scene-inline/three-in-line}") > /dev/null 2>&1 || wrong "a system for the examples" "it is not made"
+in_line() { command_of "out/scene-inline/$1" | sed 's/scene-inline/three-in-line/g'; }
+(cd examples && "$bin/gear-scene" --scene data/scenes/three-in-line.toml --output three-in-line.mk --out out && cp -r ../out/bodies/. out/bodies/ && $(cd ..; in_line T60/static.h5) && $(cd ..; in_line modes.h5)) > /dev/null 2>&1 || wrong "a system for the examples" "it is not made"
 flow="scene mesh reduce static impact sweep spectra lumped harris jump-map loaded animate plot inspect scorecard report study variant"
 examples_of() { "$bin/$1" --help | sed '1,/^Examples\{0,1\}:$/d; s/^ *//; /^$/d'; }
 run_example() { (cd examples && eval "timeout 120 $bin/$1") > said 2>&1 < /dev/null; }
@@ -182,21 +157,24 @@ else echo "skipped: VTK reads mesh, mode shapes and loaded gears (make deps-vtk 
 rm -rf examples
 
 # --- the command line
-declare -A whole=([gear-scene]="${stage_scene[*]}" [gear-mesh]="${stage_mesh[*]}" [gear-reduce]="${stage_reduce[*]}"
-  [gear-static]="$(static scene 100)" [gear-impact]="${stage_impact[*]}" [gear-sweep]="$(sweep scene up)" [gear-orbit]="${stage_orbit[*]}" [gear-folds]="${stage_folds[*]}" [gear-runup]="${stage_runup[*]}" [gear-lumped]="$(lumped pairs)" [gear-spectra]="${stage_spectra[*]}"
-  [gear-jump-map]="${stage_map[*]}" [gear-plot]="${stage_plot[*]}" [gear-scorecard]="$bin/gear-scorecard --printed $claims --output x out/scene/T100/static.h5"
+declare -A whole=([gear-scene]="$scene_command" [gear-jump-map]="${stage_map[*]}" [gear-plot]="$bin/gear-plot fig12 --plots $plots --output fig12 out/scene/T100/static.h5"
+  [gear-scorecard]="$bin/gear-scorecard --printed $claims --output x out/scene/T100/static.h5"
   [gear-report]="$bin/gear-report out/scene/T100/static.h5 --output x"
   [gear-inspect]="gear-inspect out/scene/T100/static.h5"
   [gear-sound]="$bin/gear-sound --sweep out/scene/T100/up/sweep.h5 --mesh-frequency 2000 --output x"
   [gear-compare]="$bin/gear-compare out/scene/T100/static.h5 --output x"
   [gear-export]="$bin/gear-export --model $scene_of_paper out/scene/T100/static.h5 --output x.rexs"
   [gear-import]="$bin/gear-import --input $scene_of_paper --output x.toml"
-  [gear-loaded]="${stage_loaded[*]}" [gear-modes]="${stage_modes[*]}"
   [gear-animate]="$bin/gear-animate --mesh pinion=out/scene/pinion/mesh.h5 --mesh wheel=out/scene/wheel/mesh.h5 --plots $plots --sweep out/scene/T100/up/sweep.h5 --output x"
   [gear-study]="$bin/gear-study --study scene.toml --output study.mk"
   [gear-reading]="$bin/gear-reading --printed $claims --plan scene.toml --output x"
   [gear-variant]="$bin/gear-variant --params out/scene/params/static.toml --body pinion=out/scene/pinion/body.h5 --body wheel=out/scene/pinion/body.h5 --output x"
   [gear-harris]="gear-harris --static-params out/scene/params/static.toml --body pinion=out/scene/pinion/body.h5 --body wheel=out/scene/pinion/body.h5 --design-torque 100 --output x")
+for artifact in "${artifacts[@]}"; do
+  made_by=$(command_of "$artifact")
+  program=${made_by%% *}
+  whole[${program##*/}]=$made_by
+done
 for program in "$bin"/gear-*; do
   name=$(basename "$program")
   "$program" --help > said 2>&1 && grep -q -- --help said && ok "$name --help" || wrong "$name --help" "$(head -n 1 said)"
@@ -226,7 +204,7 @@ rejected "teeth without sweeps" 3 'teeth response.h5 up 100' "$bin/gear-report" 
 rejected "one design has nothing to be compared with" 3 'compare 1 two' "$bin/gear-compare" out/scene/T100/static.h5 --output x.html
 rejected "a figure that is not against speed has no axis in rpm" 2 'speed pair' "$bin/gear-plot" fig12 --axis rpm:driver --plots "$plots" --output x out/scene/T100/static.h5
 rm out/scene/linked.h5
-rejected "a map without a damping" 3 'no case' $(sed 's/--damping-ratio [^ ]* //' <<< "${stage_map[*]}")
+rejected "a map without a damping" 3 'no case damping ratios' $(sed 's/--damping-ratio [^ ]* //' <<< "${stage_map[*]}")
 rejected "a map with a damping ratio that is no number" 2 "--damping-ratio much" "${stage_map[@]/0.05,0.1/much}"
 rejected "a map with a corner rule that is none" 2 "--corner-contact sometimes" "${stage_map[@]/false/sometimes}"
 rejected "a map with an angle beyond a right one" 2 '--corner-contact 91 0 90' "${stage_map[@]/false/91}"
@@ -234,8 +212,8 @@ rejected "a map whose loads are wanted outside its speeds" 3 '2400 2700' "${stag
 "$bin/gear-scene" --scene scene.toml --set bore_radius_mm=35 --set corner_contact=false --variant scene_variant.toml > said 2>&1
 [ "$(grep -c -E '^(bore_radius_mm = 35|corner_contact = false)$' scene_variant.toml)" = 2 ] && ok "gear-scene --set writes a variant" ||
   wrong "gear-scene --set writes a variant" "$(head -n 1 said)"
-rejected "a change of a key that no scene has" 2 "bore_radius_mm" "$bin/gear-scene" --scene scene.toml --set bore_radius=35 --variant scene_x.toml
-rejected "a change without a variant to write" 2 'variant' "$bin/gear-scene" --scene scene.toml --set bore_radius_mm=35
+rejected "a change of a key that no scene has" 2 "--set bore_radius bore_radius_mm" "$bin/gear-scene" --scene scene.toml --set bore_radius=35 --variant scene_x.toml
+rejected "a change without a variant to write" 2 '--set --variant' "$bin/gear-scene" --scene scene.toml --set bore_radius_mm=35
 "$bin/gear-scene" --scene scene.toml --set bore_radius_mm=90 --variant scene_wide.toml > said 2>&1
 rejected "a variant that cannot be" 3 'scene_wide.toml:* bore_radius_mm 90' "$bin/gear-scene" --scene scene_wide.toml --output wide.mk --out out
 "$bin/gear-plot" jump-map --plots "$plots" --output map out/scene/T100/jump_map_false.h5 > said 2>&1 && grep -q 'no corner contact' map.svg &&
@@ -260,7 +238,7 @@ rejected "a map of the same torque and rule twice" 3 'two 100' "$bin/gear-plot" 
 rejected "the sensitivity to nothing" 3 'one variant' "$bin/gear-plot" sensitivity --plots "$plots" --output map out/scene/T100/jump_map_false.h5
 
 # --- an option in front of the list of inputs takes one word, as make gives it
-$(sed 's/ up / down /; s|/up/|/down/|g' <<< "${stage_spectra[*]}") > /dev/null 2>&1
+$(sed 's/ up / down /; s|/up/|/down/|g' <<< "$stage_spectra") > /dev/null 2>&1
 if "$bin/gear-plot" order-cuts --plots "$plots" --output levels --db 1e-6 out/scene/T100/up/response.h5 out/scene/T100/down/response.h5 > said 2>&1 &&
   grep -q 're 1 µm' levels.tsv; then ok "order cuts in dB"; else wrong "order cuts in dB" "$(tail -n 1 said)"; fi
 rm -f levels.*; rm -f out/scene/T100/down/response.h5
@@ -297,7 +275,7 @@ rejected "a run-up and a sweep as one sound" 2 '--sweep --runup' "${sound[@]}" -
 rejected "a sound of nothing" 2 '--sweep --mesh-frequency 0 --runup' "$bin/gear-sound" --output heard
 rejected "a sound of a run-up that is a sweep" 3 'sweep.h5' "$bin/gear-sound" --runup out/scene/T100/up/sweep.h5 --output heard
 rm -f low.csv heard.*
-rejected "a direction that is none" 2 sideways $(sweep scene up) --direction sideways
+rejected "a direction that is none" 2 '--direction sideways' $(sweep scene up) --direction sideways
 ring_down=("${stage_impact[@]::${#stage_impact[@]}-2}")
 "${ring_down[@]}" --calibrate 0.05 --contact-state one > said 2> /dev/null
 eta=$(sed -n 's/^rayleigh_stiffness_s = \([^ ]*\)  # damping ratio 0.05 .* one, .* undamped_depth_mm 0.5.*/\1/p' said)
@@ -307,7 +285,7 @@ if grep -q 'one [0-9.]* Hz 5.000 %' said; then ok "the eta that gear-impact prin
   wrong "the eta that gear-impact prints gives the damping ratio that was asked for" "$(head -n 1 said)"; fi
 rm -f calibrated.*
 rejected "a ring-down without --output or --calibrate" 2 '--output --calibrate' "${ring_down[@]}"
-rejected "a ring-down with both" 2 'calibrate' "${stage_impact[@]}" --calibrate 0.05
+rejected "a ring-down with both" 2 '--output --calibrate' "${stage_impact[@]}" --calibrate 0.05
 rejected "a torque step above a half" 3 'step 0.6' "${stage_impact[@]}" --torque-step 0.6
 rejected "a ring-down so large that contact comes and goes" 1 'exponentials decay' "${stage_impact[@]}" --torque-step 0.5
 rejected "a damping ratio that no eta gives" 3 '0.9 largest' "${ring_down[@]}" --calibrate 0.9
@@ -330,7 +308,7 @@ if "${budget[@]}" > said 2>&1 && grep -q -E '^gear-static: largest root stress o
   wrong "gear-static --error-budget, with the other choices apart, and its figure" "$(head -n 1 said)"; fi
 rm -f budget.*
 rejected "the next model level of the last one" 3 'last level' "${at_torque[@]}" 100 --next-level
-rejected "a ring-down with one line per pair" 3 'ring-downs' \
+rejected "a ring-down with one line per pair" 3 'contact line [fidelity] ring-downs strips' \
   $(sed 's|out/scene/params|line|; s|out/scene/T100/static|line/static|g' <<< "${stage_impact[*]}")
 rejected "a sweep on a static result of another contact" 3 'contact line strips' \
   $(sweep scene up | sed 's|--static out/scene/T100|--static line|')
@@ -344,7 +322,7 @@ sed -i 's/^body = .*/body = "relaxed"/' line/sweep.toml
 if ${line_sweep//out\/scene\/T100/line} --next-level > said 2>&1 && grep -q 'contact = "line" against "strips" at 3 speeds' said &&
   grep -q 'body = "relaxed" against "modal": jumps none against none' said; then ok "gear-sweep --next-level"; else
   wrong "gear-sweep --next-level" "$(head -n 1 said)"; fi
-rejected "a branch from a sweep's motion without its speed" 2 'together' "${stage_orbit[@]}" --from-sweep up
+rejected "a branch from a sweep's motion without its speed" 2 '--from-sweep --at together' "${stage_orbit[@]}" --from-sweep up
 rejected "a branch from a speed outside the scene's" 3 '900 mesh_frequency_Hz 2000' "${stage_orbit[@]}" --from-sweep up --at 900
 # One program, pairs and trains: options that one of them alone has.
 rejected "a torque for a train" 2 '--torque train drives' "${stage_system[@]}" --torque 60
@@ -363,7 +341,7 @@ rejected "jumps located to nothing" 3 'jumps -1' $(sweep scene up) --jump-width 
 rejected "the next model level of a sweep on the last ones" 3 'contact strips body full last' \
   $(sweep scene up | sed 's|out/scene/params|full|') --next-level
 rejected "every mode from a body with some" 3 'every mode modes' $(sweep scene up | sed 's|out/scene/params|full|')
-rejected "a ring-down with every mode" 3 'body full ring-downs' "${stage_impact[@]//out\/scene\/params/full}"
+rejected "a ring-down with every mode" 3 'body full [fidelity] ring-downs modal' "${stage_impact[@]//out\/scene\/params/full}"
 rm -rf line full
 for range in 'from = 3000.0, to = 2000.0, step = 50.0' 'from = 2000.0, to = 3000.0, step = 0.0'; do
   mkdir -p bad; sed "s/from = .*/$range }/" out/scene/params/sweep.toml > bad/sweep.toml
@@ -424,20 +402,20 @@ lumped_map=("$bin/gear-lumped" --map --model secant --damper contact --static ou
 if "${lumped_map[@]}" > said 2>&1 && "$bin/gear-inspect" lumped_map.h5 > said 2>&1 && grep -q 'secant-contact' said &&
   "$bin/gear-plot" jump-map-lumped --plots "$plots" --output map lumped_map.h5 > said 2>&1 && grep -q 'secant, damper in contact' map.svg; then
   ok "gear-lumped --map, and its figure"; else wrong "gear-lumped --map, and its figure" "$(tail -n 1 said)"; fi
-rejected "a map of lumped models without one" 3 'artifacts' "$bin/gear-plot" jump-map-lumped --plots "$plots" --output map out/scene/T100/jump_map_false.h5
-rejected "a direction for a map" 2 '--map' "${lumped_map[@]}" --direction up
-rejected "neither a direction nor a map" 2 '--direction' $(lumped pairs | sed 's/--direction up//')
+rejected "a map of lumped models without one" 3 'lumped artifacts one' "$bin/gear-plot" jump-map-lumped --plots "$plots" --output map out/scene/T100/jump_map_false.h5
+rejected "a direction for a map" 2 '--direction sweep --map' "${lumped_map[@]}" --direction up
+rejected "neither a direction nor a map" 2 '--direction sweep --map' $(lumped pairs | sed 's/--direction up//')
 rejected "two damping ratios for one sweep" 2 '2 --map' $(lumped pairs) --damping-ratio 0.05,0.1
 rejected "loads at a speed of a sweep" 2 '--loads-at --map' $(lumped pairs) --loads-at 2400
 rejected "a map with a step of zero" 2 'step 0' "${lumped_map[@]/#100/0}"
 rejected "a map of an undamped model" 3 'damping 0' "${lumped_map[@]/#0.05,0.1/0}"
 rm -f lumped_map.h5 map.*
-rejected "a lumped model that is none" 2 'cubic' $(lumped pairs) --model cubic
+rejected "a lumped model that is none" 2 '--model cubic' $(lumped pairs) --model cubic
 rejected "a lumped sweep without speeds" 2 '--params --from --to --step' $(lumped pairs | sed 's/--params [^ ]*//')
-rejected "a lumped sweep with half a range" 2 'together' $(lumped pairs) --from 1000
+rejected "a lumped sweep with half a range" 2 '--from --to --step together' $(lumped pairs) --from 1000
 rejected "a lumped sweep with no speed in its range" 3 '2000 1000' $(lumped pairs) --from 2000 --to 1000 --step 10
-rejected "levels without their duty" 2 'together' $(lumped rectangular) --levels 1e8,2e8
-rejected "levels of another model" 2 'secant' $(lumped secant) "${levels[@]}"
+rejected "levels without their duty" 2 '--levels --duty together' $(lumped rectangular) --levels 1e8,2e8
+rejected "levels of another model" 2 '--levels --duty rectangular secant' $(lumped secant) "${levels[@]}"
 rejected "a level that is not above 0" 3 'level -1' $(lumped rectangular) --levels=-1,2e8 --duty 0.5
 rejected "a level that no tooth has" 3 'level 0.001 4*' $(lumped rectangular) --levels 1e-3,2e8 --duty 0.5
 rejected "levels in the wrong order" 3 'second 100000000 first' $(lumped rectangular) --levels 2e8,1e8 --duty 0.5
@@ -449,7 +427,7 @@ rejected "the parameters of another stage" 3 'out/scene/params/static.toml stati
 rejected "stage parameters that are not there" 4 'nowhere.toml make out/<scene>/params/lumped.toml' $(lumped pairs | sed 's|out/scene/params/lumped.toml|nowhere.toml|')
 rejected "an artifact that is not there, where make makes none" 4 'nowhere/static.h5 below out/' $(lumped pairs | sed 's|out/scene/T100/static.h5|nowhere/static.h5|')
 rejected "a level that is no number" 2 "--levels many" $(lumped rectangular) --levels 1e8,many --duty 0.5
-rejected "one level" 2 'two numbers' $(lumped rectangular) --levels 1e8 --duty 0.5
+rejected "one level" 2 '--levels 1e8 two numbers' $(lumped rectangular) --levels 1e8 --duty 0.5
 for duty in 0 1 1.5; do rejected "a duty of $duty" 3 "duty $duty" $(lumped rectangular) --levels 1e8,2e8 --duty $duty; done
 rejected "a damping ratio in per cent" 3 'ratio 8' $(lumped pairs) --damping-ratio 8
 rejected "a mass of zero" 3 'mass 0' $(lumped pairs) --mass 0
@@ -569,7 +547,7 @@ rejected "a lumped model with friction" 3 "friction" "$bin/gear-lumped" --model 
   --params out/scene/params/sweep.toml --direction up --output lumped.h5
 rejected "losses of a pair without friction" 3 '[friction]' "$bin/gear-plot" efficiency --plots "$plots" --output losses \
   out/scene/T100/static.h5 out/scene/T100/up/response.h5 out/scene/T100/up/response.h5
-rejected "a figure of a crack without one" 3 "crack" "$bin/gear-plot" crack --plots "$plots" --output crack out/scene/T100/static.h5
+rejected "a figure of a crack without one" 3 "[gear.<name>.crack]" "$bin/gear-plot" crack --plots "$plots" --output crack out/scene/T100/static.h5
 rm -rf said crack.* cracked.mk "$(readlink -f $cracked/pinion)" $cracked
 
 # --- artifacts: cut off, of another kind, of another version, not there

@@ -160,6 +160,17 @@ std::vector<std::string> key_of(const Panel& panel) {
   return labels;
 }
 
+// Pixels: gnuplot makes the columns of a key as wide as digits in place of the longest label, and draws none that begin outside the picture.
+double columns_of_key(const Panel& panel) {
+  constexpr double kDigit = 0.64;
+  std::ptrdiff_t longest = 0;
+  for (const std::string& label : key_of(panel))
+    longest = std::max(longest, std::count_if(label.begin(), label.end(), [](char c) {
+                         return (static_cast<unsigned char>(c) & 0xc0) != 0x80;  // one for each character
+                       }));
+  return kDigit * static_cast<double>(longest) * pixels::kLetter + kSample;
+}
+
 bool has_letter(const Panel& panel) {
   return panel.letter && !panel.bare && !panel.curves.empty();
 }
@@ -266,7 +277,8 @@ void set_below(const Figure& figure, size_t index, size_t first, size_t end, Pan
   for (size_t i = first; i < end; ++i)
     alone = alone && (i == index || figure.panels[i].key == PanelKey::none);
   p.key_middle = alone ? 0.5 * pixels::kWidth : 0.5 * (p.left + p.right);
-  const double across = ((alone ? pixels::kWidth : p.right - p.left) - 2 * kEdge) / (p.key_width + 30);
+  const double width = std::max(p.key_width, columns_of_key(panel));
+  const double across = ((alone ? pixels::kWidth : p.right - p.left) - 2 * kEdge) / (width + 30);
   p.key_columns = std::clamp(std::floor(across), 1.0, labels);
   p.key_rows = std::ceil(labels / p.key_columns);
   p.below += 12 + p.key_rows * 1.2 * pixels::kLetter * 1.25;

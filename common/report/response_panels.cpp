@@ -81,11 +81,11 @@ void draw_branch(const ResponsePanels& p, size_t c, const Quantity& q, Panel& pa
                             .size = 2.2});
 }
 
-// Speeds at which the teeth part during the period, in a strip below 0.
+// Speeds at which the teeth part during the period, in a strip below 0, narrower than a step of the axis.
 void draw_losses(ResponsePanels& p) {
-  constexpr double kRow = 0.016;
+  const double rows = 2 * static_cast<double>(p.names.size()) + 1, high = std::min(0.016, 0.1 / rows);
   p.rms.y.to = 1.1 * (p.peak > 0 ? p.peak : 1);
-  p.rms.y.from = p.lost ? -kRow * (2 * static_cast<double>(p.names.size()) + 1) * p.rms.y.to : 0;
+  p.rms.y.from = p.lost ? -high * rows * p.rms.y.to : 0;
   if (!p.lost) return;
   p.rms.rules.push_back({.axis = 'y', .at = 0, .colour = kBlack, .dash = 1});
   double row = 0.8;
@@ -97,7 +97,7 @@ void draw_losses(ResponsePanels& p) {
                               .mark = 5,
                               .size = 0.6,
                               .where = 4,
-                              .at = -kRow * row++ * p.rms.y.to});
+                              .at = -high * row++ * p.rms.y.to});
 }
 
 // What marks and lines mean. labels: of the curves
