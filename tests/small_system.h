@@ -85,7 +85,7 @@ inline whine::SystemSweepResult small_sweep(const whine::SystemStaticResult& res
     *x = Eigen::Vector2d(1e-6, value *= 0.9);
   a.energy = MatrixRM::Constant(2, static_cast<Eigen::Index>(kSystemEnergyLines.size()), -1.0 / 7);
   a.least_gap = -1e-15;
-  a.remarks = left_out_of_carriers(a);
+  a.remarks = remarks_on_carriers(a);
   return a;
 }
 

@@ -3,7 +3,8 @@
 // Reads   params (the system as laid out: bodies, bearings, meshes, what is held) or, of elastic gears, static.h5
 // Writes  modes.h5   natural frequencies, types, shapes, where the energy of each mode is; under /VTKHDF the gears with what each mode
 //                    moves them by, for ParaView (modes.hdf is a link to it)
-// Equations: K v = w^2 M v, meshes frozen, at their mean stiffness (common/system/natural_modes.h)
+// Equations: K v = w^2 M v, meshes frozen, at their mean stiffness (common/system/natural_modes.h); over the speed of a carrier that turns
+//            with its Coriolis and centrifugal terms (common/system/turning_modes.h)
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "results/system_static.h"
 #include "system/mode_view.h"
 #include "system/natural_modes.h"
+#include "system/turning_modes.h"
 
 namespace {
 
@@ -41,6 +43,7 @@ void body(int argc, char** argv) {
   whine::ModesResult result;
   if (statics.empty()) {
     result = whine::natural_modes(whine::read_system_parameters(params));
+    whine::add_turning_frequencies(result, {});
     whine::add_mode_view(result, std::vector<const whine::GearDesign*>(result.layout.bodies.size(), nullptr));
   } else {
     const whine::SystemStaticResult rest = whine::read<whine::SystemStaticResult>(statics);

@@ -103,6 +103,7 @@ class Builder {
       fail(Failure::input, "integrator = \"newmark\" in [fidelity] is for pairs; systems have \"exact\"");
     const auto bodies = static_cast<int>(system_.layout.bodies.size());
     out_.inertia = inertias(system_);
+    out_.mass = VectorXd::Zero(bodies);
     out_.body.resize(static_cast<size_t>(bodies));
     add_rotations();
     for (int b = 0; b < static_cast<int>(system_.body.size()); ++b) add_body(b);
@@ -263,7 +264,7 @@ class Builder {
     const ReducedBody& body = system_.body[static_cast<size_t>(b)]->body();
     const System::Body& at = placed_body(system_, b);
     const Bearing& bearing = at.bearing;
-    const double own_mass = mass_on_bearing(system_, b);
+    const double own_mass = out_.mass[b] = mass_on_bearing(system_, b);
     const auto k = static_cast<Index>(rows.size());
     MatrixXd mass = MatrixXd::Identity(k + 2, k + 2), stiffness = MatrixXd::Zero(k + 2, k + 2);
     mass.diagonal().head<2>().setConstant(own_mass);
@@ -374,8 +375,16 @@ class Builder {
     for (int b = 0; b < static_cast<int>(system_.body.size()); ++b)
       if (placed_body(system_, b).on == carrier) group.member.emplace_back().body = b;
     group.member.emplace_back().body = carrier;
+    out_.mass[carrier] =
+        placed_body(system_, carrier).bearing.elastic() ? placed_body(system_, carrier).bearing.mass : 0;
     for (size_t i = 0; i < group.member.size(); ++i) {
-      SystemCoordinates::Share& share = out_.body[static_cast<size_t>(group.member[i].body)];
+      const int b = group.member[i].body;
+      if (b != carrier) {
+        out_.mass[b] = mass_on_bearing(system_, b);
+        if (placed_body(system_, carrier).bearing.elastic() && !placed_body(system_, b).bearing.elastic())
+          out_.mass[carrier] -= out_.mass[b];
+      }
+      SystemCoordinates::Share& share = out_.body[static_cast<size_t>(b)];
       share.group = static_cast<int>(out_.group.size());
       share.member = static_cast<int>(i);
     }

@@ -12,7 +12,7 @@
 //     M0 = sum m_b X_b^T X_b + (I / r^2) U^T U + modes + G_b^T X_b,   K0 = sum k_b D_b^T D_b + diag(w^2)
 //   is diagonalised at once; without its null vector, the rigid rotation of the carrier.
 // - All other modes turn with their gear; doublets turn back by a tooth at the end of a mesh period.
-// Coriolis and centrifugal terms are left out: they vanish where the carrier does not turn; README.md says how large they are where it turns.
+// Coriolis and centrifugal forces of a frame that turns with its carrier couple these coordinates: dynamics/turning_frame.h.
 #pragma once
 #include <Eigen/Core>
 #include <vector>
@@ -26,6 +26,7 @@ struct SystemMotion {
   Damping damping;
   Fidelity fidelity;
   double axis_frequency = 0;  // rad s-1, see axis_frequency()
+  double frame_turns = 0;     // 1: revolutions of the frame in a mesh period, see frame_turns(); 0: at rest
 };
 
 // rad s-1: the highest natural frequency of the rigid train on its mean stiffnesses (mesh, mesh; N m-1, without bearings), to which
@@ -69,6 +70,8 @@ struct SystemCoordinates {
   Eigen::MatrixXd rolling;   // (body, null vector) m: r theta, 1 at most; what is projected out
   Eigen::VectorXd
       inertia;  // (body) kg m2: of its rigid rotation, of a carrier with the masses of its planets
+  Eigen::VectorXd
+      mass;  // (body) kg: of hubs that move; of a carrier without planets on rigid pins, which have their own
   std::vector<Share> body;
   std::vector<Group> group;
   bool rigid_pins = false;     // of a carrier that may move

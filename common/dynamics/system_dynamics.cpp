@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "base/dense.h"
@@ -103,27 +104,64 @@ void SystemDynamics::set_speed(double mesh_frequency, int steps) {
   mesh_frequency_ = mesh_frequency;
   steps_ = steps;
   stride_ = finest / steps;
+  frame_ =
+      TurningFrame(system_.layout, coordinates_, 2 * std::numbers::pi * mesh_frequency * motion_.frame_turns);
   propagate_by(1 / (mesh_frequency * steps));
   for (int i = 0; i <= steps_; ++i) close(positions_[static_cast<size_t>(i) * static_cast<size_t>(stride_)]);
   forces_.setZero(steps_ + 1, slots());
 }
 
-// Elastic coordinates follow their force, z = (torque - h p) / w^2, so that they are compliances; rotations carry the load.
+// Elastic coordinates follow their force, z = (torque - h p) / w^2, so that they are compliances; rotations carry the load. Of a frame
+// that turns its forces are those of the z before, repeated.
 SystemEquilibrium SystemDynamics::equilibrium_at(int i, VectorXd* z) {
+  SystemEquilibrium out = equilibrium_under({}, i, z);
+  if (!frame_.turns()) return out;
+  constexpr int kMost = 100;
+  constexpr double kReached = 1e-13, kEnough = 1e-10;  // change of the forces, of the largest
+  VectorXd own, force, next = frame_.constant();
+  double before = std::numeric_limits<double>::infinity();
+  for (int n = 0; n < kMost; ++n) {
+    force = next;
+    try {
+      out = equilibrium_under(force, i, &own);
+    } catch (const Error&) {
+      break;
+    }
+    next = frame_.force(own);
+    const double change = (next - force).cwiseAbs().maxCoeff() / next.cwiseAbs().maxCoeff();
+    if (change < kReached || (change < kEnough && !(change < 0.5 * before))) {
+      if (z) *z = own;
+      return out;
+    }
+    before = change;
+  }
+  fail(
+      Failure::input, "at ", mesh_frequency_, " Hz the carrier turns at ",
+      frame_.omega() * 30 / std::numbers::pi,
+      " rpm, where centrifugal forces grow faster than what holds the bodies; stiffen the softest [[bearing]], or stay below this speed");
+}
+
+// frame: (motion) N, forces of the frame.
+SystemEquilibrium SystemDynamics::equilibrium_under(const VectorXd& frame, int i, VectorXd* z) {
   const Position& position = positions_[static_cast<size_t>(i)];
   SystemPosition at = positioned(i);
-  VectorXd flexibility = coordinates_.frequency.cwiseAbs2().cwiseInverse();
+  VectorXd flexibility = coordinates_.frequency.cwiseAbs2().cwiseInverse(), torque = coordinates_.torque,
+           further;
+  if (frame.size() > 0) {
+    frame_.add(frame, torque);
+    further = frame_.on_carriers(frame, coordinates_.inertia.size());
+  }
   flexibility.head(coordinates_.rigid).setZero();
   const MatrixXd compliance =
       position.instantaneous_compliance + position.relaxed + modal_compliance(position, flexibility);
-  const VectorXd by_torque = flexibility.cwiseProduct(coordinates_.torque);
+  const VectorXd by_torque = flexibility.cwiseProduct(torque);
   for (int k = 0; k < position.size(); ++k) at.gap[k] -= moved(position, k, by_torque);
   ComplementaritySolver solver;
   const SystemEquilibrium out =
-      equilibrium(system_, at, compliance, VectorXd::Zero(coordinates_.inertia.size()), solver);
+      equilibrium(system_, at, compliance, VectorXd::Zero(coordinates_.inertia.size()), solver, further);
   require_range(position, out.p);
   if (!z) return out;
-  *z = coordinates_.torque;
+  *z = torque;
   for (int k = 0; k < position.size(); ++k) push(position, k, out.p[k], *z);
   *z = z->cwiseProduct(flexibility);
   // x_b = r_b theta_b; unit modal mass, so the shares of a rotation are its own shape times the inertias.
@@ -159,11 +197,17 @@ void SystemDynamics::record_bearings(int sample, Period& period) const {
   for (int b = 0; b < static_cast<int>(period.bearing_force.size()); ++b) {  // planets before carriers
     const System::Body& body = system_.layout.bodies[static_cast<size_t>(b)];
     auto force = period.bearing_force[static_cast<size_t>(b)].col(sample);
-    if (body.bearing.elastic())
-      force = body.bearing.stiffness * coordinates_.bearing_deflection(b, z_) +
-              body.bearing.damping * coordinates_.bearing_deflection(b, v_);
-    else if (coordinates_.on_rigid_pin(b))
+    if (body.bearing.elastic()) {
+      const Vec2 moved = coordinates_.bearing_deflection(b, z_);
+      force = body.bearing.stiffness * moved + body.bearing.damping * coordinates_.bearing_deflection(b, v_);
+      if (frame_.turns() && body.on == System::kGround)
+        force += body.bearing.damping * frame_.omega() * Vec2(-moved.y(), moved.x());
+    } else if (coordinates_.on_rigid_pin(b)) {
       force -= coordinates_.momentum_rate(b, rate_);
+      if (frame_.turns())
+        force -=
+            frame_.inertia_force(b, coordinates_.translation_of(b, z_), coordinates_.translation_of(b, v_));
+    }
     if (body.on != System::kGround) period.bearing_force[static_cast<size_t>(body.on)].col(sample) += force;
   }
 }
@@ -268,6 +312,7 @@ bool SystemDynamics::integrate_fixed(int i, State& state, double seconds, int st
                                      const std::function<void(const VectorXd&, const VectorXd&)>& watch) {
   Position& position = positions_[static_cast<size_t>(i)];
   steps_ = 0;
+  frame_ = {};
   propagate_by(seconds);
   close(position);
   take(state, position);

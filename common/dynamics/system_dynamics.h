@@ -7,7 +7,8 @@
 //   d_k = e_k - h_k z + W_k F + sum_l A_kl p_l + law_k(p_k) >= 0, p >= 0, p . d = 0 at the end of each step (Eq. 18)
 // W_k = S_k V C_b, C_b = V^T R V between all flanks of a body that may touch, of whatever mesh; R is the flexibility of the body less
 // that of its kept modes. A is what V leaves out of R (1e-4 of it), instantaneous as Hertz's law relative to the undamped depth is.
-// Steps are exact for a mean force and for relaxed loads that are linear in the step.
+// Steps are exact for a mean force and for relaxed loads that are linear in the step. Where the frame turns, the forces of
+// turning_frame.h come in addition, at rest too.
 //
 // Pairs of a mesh are numbered by the mesh period of the system: a pair that is number i in one is i + 1 in the next. At the end
 // of a mesh period relaxed loads move on by one tooth, and doublets that turn with their gear turn back by one. A slot is
@@ -30,6 +31,7 @@
 #include "dynamics/system_contact.h"
 #include "dynamics/system_coordinates.h"
 #include "dynamics/system_energy.h"
+#include "dynamics/turning_frame.h"
 #include "gear/layout.h"
 #include "system/system_statics.h"
 
@@ -54,10 +56,10 @@ class SystemDynamics {
     Eigen::MatrixXd mesh_deflection;      // (mesh, step) m: what flanks close by, motion of the hubs included
     Eigen::MatrixXd mesh_force;           // (mesh, step) N: torque on the driving body over its base radius
     Eigen::MatrixXd largest_tooth_force;  // (mesh, step) N
-    // [body] (xy, step) N, of the body on what carries it: k x + c x' of an elastic bearing; of a planet on a rigid pin of a carrier
-    // that moves F = sum of the contact forces - (P' + mu P), P = m X' + G^T q' its momentum in the frame of the carrier and mu the
-    // damping by mass; on other rigid axes the sum of the contact forces, without the inertia of the body's own modes. Of a carrier
-    // on a rigid axis the sum of those of its planets.
+    // [body] (xy, step) N, of the body on what carries it: k x + c x' of an elastic bearing, on the ground k x + c (x' + Omega J x); of
+    // a planet on a rigid pin of a carrier that moves F = sum of the contact forces - (P' + mu P), P = m X' + G^T q' its momentum in the
+    // frame of the carrier and mu the damping by mass, less the inertia forces of the frame; on other rigid axes the sum of the contact
+    // forces, without the inertia of the body's own modes. Of a carrier on a rigid axis the sum of those of its planets.
     std::vector<Eigen::Matrix2Xd> bearing_force;
     // (body, step) N m, in the body's sense: what balances its contact forces. Of a held body its mean over a periodic motion is
     // that of the torque that holds it, the inertia of the body's own modes being 0 in the mean.
@@ -72,7 +74,8 @@ class SystemDynamics {
   void set_positions(const std::vector<double>& corner_gap, int steps);
   // mesh frequency: Hz; steps per period must divide those of the positions.
   void set_speed(double mesh_frequency, int steps);
-  // Static equilibrium at phase i / positions of the first mesh period, at rest. The same forces as those of SystemStatics.
+  // Static equilibrium at phase i / positions of the first mesh period: in the frame as it turns at the speed that is set, at rest before
+  // one is. There the same forces as those of SystemStatics. Throws Error(input) if bearings do not hold their bodies in the frame.
   State rest(int i = 0);
   // Forces (slot) of equilibrium at phase i / positions; statics of this model.
   Eigen::VectorXd rest_forces(int i);
@@ -98,6 +101,7 @@ class SystemDynamics {
   int steps() const { return steps_; }
   int hunting_periods() const { return hunting_; }  // see hunting_periods() of the system
   double mesh_frequency() const { return mesh_frequency_; }
+  const TurningFrame& frame() const { return frame_; }  // at the speed that is set
   int most_contacts() const { return most_contacts_; }
   const Eigen::VectorXd& mean_load() const { return load_of_mesh_; }  // (mesh) N
   // (step + 1, slot) N: forces at the ends of the steps of the period integrated last, in its names; row 0: at its start.
@@ -228,6 +232,7 @@ class SystemDynamics {
   void read_gaps(const Position& position);
   void solve(Position& position);
   void push_all(const Position& position);
+  Eigen::VectorXd close_frame(const Eigen::VectorXd& without);
   void load_all(const Position& position);
   void find_live();
   void keep_live();
@@ -250,6 +255,7 @@ class SystemDynamics {
   }
   Position& at(int step) { return positions_[static_cast<size_t>(step) * static_cast<size_t>(stride_)]; }
   SystemEquilibrium equilibrium_at(int i, Eigen::VectorXd* z);
+  SystemEquilibrium equilibrium_under(const Eigen::VectorXd& frame, int i, Eigen::VectorXd* z);
 
   const SystemModel& system_;
   SystemMotion motion_;
@@ -278,6 +284,7 @@ class SystemDynamics {
   std::pmr::vector<double> stream_{&huge_pages()};
 
   double mesh_frequency_ = 0, step_ = 0;
+  TurningFrame frame_;
   int steps_ = 0, stride_ = 1;
   // (coordinate, then zeros for whole lanes of the last part), see Propagator; bv is a12.
   Eigen::VectorXd a11_, a12_, a21_, a22_, bq_, torque_;

@@ -6,12 +6,16 @@ namespace whine {
 
 // J, summed over the steps of a period. Every line is computed by itself, none as what is left of the others:
 //   d(kinetic + modal + residual + local) + modal_damping + bearing_damping + relaxation_damping
-//     = drive + rolling + switching + cutting + dropped - averaging.
+//     = drive + rolling + centrifugal + dragging + switching + cutting + dropped - averaging.
 struct SystemEnergyBalance {
   // Changes of what is stored: motion; kept modes and bearings; residual flexibility; Hertz's laws and all that is instantaneous.
   double kinetic = 0, modal = 0, residual = 0, local = 0;
-  Eigen::VectorXd drive;            // (body) work of its torque on the vibration
-  Eigen::VectorXd rolling;          // (mesh) of the prescribed rolling
+  Eigen::VectorXd drive;    // (body) work of its torque on the vibration
+  Eigen::VectorXd rolling;  // (mesh) of the prescribed rolling
+  // Of the frame where it turns: of centrifugal forces, the change of their potential; (body) of dampers on the ground, which see it go by.
+  // Coriolis forces do no work.
+  double centrifugal = 0;
+  Eigen::VectorXd dragging;
   double modal_damping = 0;         // Rayleigh's, and the dampers of the axes
   Eigen::VectorXd bearing_damping;  // (body)
   double relaxation_damping = 0;

@@ -17,7 +17,7 @@ SystemEnergyRecord::SystemEnergyRecord(const SystemDynamics& dynamics, SystemEne
   if (!balance) return;
   const Index bodies = of_.coordinates_.inertia.size();
   *balance = {};
-  for (VectorXd* x : {&balance->drive, &balance->bearing_damping}) x->setZero(bodies);
+  for (VectorXd* x : {&balance->drive, &balance->bearing_damping, &balance->dragging}) x->setZero(bodies);
   for (VectorXd* x : {&balance->rolling, &balance->switching, &balance->cutting}) x->setZero(of_.meshes());
   // v = a22 v0 + bv (mean force - w^2 z0) within a step, and load - relaxed = a (load0 - relaxed0) + b (load1 - load0).
   const Index n = of_.coordinates_.size();
@@ -62,7 +62,8 @@ void SystemEnergyRecord::fill(Instant& now, const SystemDynamics::Position& posi
   const int n = position.size();
   now.position = &position;
   now.z = of_.z_.head(of_.coordinates_.size());
-  now.v = of_.v_.head(of_.coordinates_.size());
+  now.v = now.start = of_.v_.head(of_.coordinates_.size());
+  if (of_.frame_.turns()) of_.frame_.turn(now.start);
   now.force = of_.force_.head(of_.coordinates_.size());
   now.relaxed = of_.relaxed_;
   now.load = of_.load_;
@@ -130,7 +131,8 @@ double SystemEnergyRecord::modes(const Instant& a, const Instant& b) {
   const double kinetic = 0.5 * (b.v.squaredNorm() - a.v.squaredNorm()),
                modal = 0.5 * (w2 * (b.z.array().square() - a.z.array().square())).sum();
   const auto push = 0.5 * (a.force.array() + b.force.array()) - w2 * a.z.array();
-  const VectorXd squared = speed_.array() * a.v.array().square() + 2 * mixed_.array() * a.v.array() * push +
+  const auto start = a.start.array();
+  const VectorXd squared = speed_.array() * start.square() + 2 * mixed_.array() * start * push +
                            push_.array() * push.square();  // integrals of v^2
   const double damping = (c.damping - c.of_bearing).dot(squared);
   double bearing = 0, drive = 0;
@@ -155,7 +157,14 @@ double SystemEnergyRecord::modes(const Instant& a, const Instant& b) {
   balance_->modal += modal;
   balance_->modal_damping += damping;
   balance_->throughput += std::abs(drive);
-  return kinetic + modal + damping + bearing - drive;
+  double frame = 0;
+  if (of_.frame_.turns()) {
+    const TurningFrame::Work work = of_.frame_.work(a.z, b.z);
+    balance_->centrifugal += work.centrifugal;
+    balance_->dragging.head(work.dragging.size()) += work.dragging;
+    frame = work.centrifugal + work.dragging.sum();
+  }
+  return kinetic + modal + damping + bearing - drive - frame;
 }
 
 // Relaxed loads F: energy F C F / 2, dissipation eta F' C F', loads linear in the step.

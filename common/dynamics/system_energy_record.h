@@ -19,6 +19,7 @@ class SystemEnergyRecord {
   struct Instant {
     const SystemDynamics::Position* position = nullptr;
     Eigen::VectorXd z, v, force, relaxed, load;
+    Eigen::VectorXd start;                   // v as the next step propagates it, turned by Coriolis forces
     Eigen::VectorXd field, moved;            // C relaxed and C load in the slots of `rows`
     std::vector<SystemDynamics::Live> rows;  // [mesh]
     std::vector<SystemDynamics::Live> live;  // [mesh] outside which relaxed and load are 0

@@ -105,13 +105,28 @@ MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
   };
   const auto a11 = of.a11_.head(n), a12 = of.a12_.head(n), a21 = of.a21_.head(n), a22 = of.a22_.head(n),
              bq = of.bq_.head(n);
+  const TurningFrame& frame = of.frame_;
+  const bool turns = frame.turns();
+  const auto close = [&](const MatrixXd& without) {
+    const MatrixXd own = frame.closing(without), half = 0.5 * own;
+    frame.add(half, bq, z);
+    frame.add(half, a12, v);
+    return own;
+  };
+  MatrixXd of_frame, before;
   spread(of.at(0));
+  if (turns) frame.add(frame.stiffness() * frame.motions(z), force);
   for (int i = 1; i <= steps_; ++i) {
     const SystemDynamics::Position& position = of.at(i);
+    if (turns) frame.turn(v);
     const MatrixXd old = z;
     z = a11.asDiagonal() * old + a12.asDiagonal() * v + (0.5 * bq).asDiagonal() * force;
     v = (a21.asDiagonal() * old + a22.asDiagonal() * v + (0.5 * a12).asDiagonal() * force).eval();
     relaxed = of.relaxed_step_.decay * relaxed + of.relaxed_step_.from_old * load;
+    if (turns) {
+      of_frame = close(frame.motions(z));
+      before = frame.motions(z);
+    }
     std::vector<Index> active;
     for (int k = 0; k < position.size(); ++k)
       if (of.forces()(i, position.contact[static_cast<size_t>(k)].slot) > 0) active.push_back(k);
@@ -142,6 +157,11 @@ MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
     spread(position);
     z += (0.5 * bq).asDiagonal() * force;
     v += (0.5 * a12).asDiagonal() * force;
+    if (turns) {
+      of_frame += close(frame.motions(z) - before);
+      frame.add(of_frame, force);
+      frame.turn(v);
+    }
     relaxed += of.relaxed_step_.from_new * load;
   }
   MatrixXd out(directions.rows(), many);

@@ -57,6 +57,10 @@ void SystemDynamics::propagate_by(double seconds) {
     a11_[i] = a.a11, a12_[i] = a.a12, a21_[i] = a.a21, a22_[i] = a.a22, bq_[i] = a.bq;
   }
   torque_.head(n) = coordinates_.torque;
+  if (frame_.turns()) {
+    frame_.set_step(step_, bq_.head(n));
+    frame_.add(frame_.constant(), torque_.head(n));
+  }
   relaxed_step_ = relaxation_step(relaxation_, step_);
   for (VectorXd* x : {&relaxed_, &load_}) x->setZero(relaxed_size());
   for (VectorXd* x : {&p_of_slot_, &remembered_}) x->setZero(slots());
@@ -68,6 +72,13 @@ void SystemDynamics::close(Position& position) const {
   position.compliance.topRows(position.size()) = position.instantaneous_compliance +
                                                  relaxed_step_.from_new * position.relaxed +
                                                  modal_compliance(position, 0.5 * bq_);
+  if (frame_.turns()) {
+    const Index n = coordinates_.size();
+    MatrixXd rows(n, position.size());
+    for (int k = 0; k < position.size(); ++k)
+      rows.col(k) = bq_.head(n).cwiseProduct(participation(position, k));
+    position.compliance.topRows(position.size()) += frame_.compliance(frame_.motions(rows));
+  }
   position.followed.forget();
 }
 
@@ -84,6 +95,7 @@ void SystemDynamics::take(const State& state, const Position& position) {
   force_ = torque_;
   for (int k = 0; k < position.size(); ++k)
     if (p_[k] != 0) push(position, k, p_[k], force_);
+  if (frame_.turns()) frame_.add(frame_.stiffness() * frame_.motions(z_.head(n)), force_.head(n));
   load_.setZero();
   load(position, p_, load_);
   find_live();
@@ -269,16 +281,38 @@ void SystemDynamics::drop(int m, const Live& before, const Live& now) {
   }
 }
 
+// Forces of the frame at the end of a step, of coordinates that lack them: what they move. Result: (motion) N.
+VectorXd SystemDynamics::close_frame(const VectorXd& without) {
+  const Index n = coordinates_.size();
+  const VectorXd force = frame_.closing(without), half = 0.5 * force;
+  frame_.add(half, bq_.head(n), z_.head(n));
+  frame_.add(half, a12_.head(n), v_.head(n));  // bv = a12
+  return force;
+}
+
 void SystemDynamics::step(Position& position) {
+  const Index n = coordinates_.size();
+  const bool turns = frame_.turns();
+  if (turns) frame_.turn(v_.head(n));
   propagate();
+  VectorXd of_frame, before;
+  if (turns) {
+    of_frame = close_frame(frame_.motions(z_.head(n)));
+    before = frame_.motions(z_.head(n));
+  }
   read_gaps(position);
   solve(position);
   push_all(position);
+  if (turns) {
+    of_frame += close_frame(frame_.motions(z_.head(n)) - before);
+    frame_.add(of_frame, force_.head(n));
+    frame_.turn(v_.head(n));
+  }
   load_all(position);
   if (coordinates_.rigid_pins) {
-    const Index n = coordinates_.size();
     rate_ = force_.head(n).array() - coordinates_.frequency.array().square() * z_.head(n).array() -
             (coordinates_.damping.array() - motion_.damping.rayleigh_mass) * v_.head(n).array();
+    if (turns) frame_.add(-frame_.coriolis(v_.head(n)), rate_);
   }
 }
 

@@ -469,6 +469,30 @@ TrainSpeeds train_speeds(const System& system) {
   return out;
 }
 
+double frame_turns(const System& system) {
+  int carrier = System::kGround;
+  for (int b = 0; b < static_cast<int>(system.bodies.size()); ++b)
+    if (system.bodies[static_cast<size_t>(b)].kind == System::BodyKind::carrier) {
+      if (carrier != System::kGround) return 0;
+      carrier = b;
+    }
+  if (carrier == System::kGround || system.held(carrier)) return 0;
+  const System::Body& own = system.bodies[static_cast<size_t>(carrier)];
+  int still = -1;
+  for (int b = 0; b < static_cast<int>(system.bodies.size()); ++b) {
+    const System::Body& body = system.bodies[static_cast<size_t>(b)];
+    if (body.on != System::kGround) continue;
+    if (std::hypot(body.centre[0] - own.centre[0], body.centre[1] - own.centre[1]) > 1e-6 * own.radius)
+      return 0;
+    if (!system.held(b)) continue;
+    if (still >= 0) return 0;
+    still = b;
+  }
+  if (still < 0 || held_by_planets(system, carrier) != still) return 0;
+  const System::Body& at_rest = system.bodies[static_cast<size_t>(still)];
+  return -static_cast<double>(at_rest.sense) / at_rest.teeth;
+}
+
 double working_radius(const System& system, int body) {
   const double radius = system.bodies[static_cast<size_t>(body)].radius;
   for (const System::Mesh& mesh : system.meshes)

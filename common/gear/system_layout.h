@@ -56,6 +56,11 @@ struct TrainSpeeds {
 // would have to turn at two speeds.
 TrainSpeeds train_speeds(const System& system);
 
+// 1: revolutions of the frame of the layout in a mesh period, counter-clockwise positive: of the one carrier of a train on one axis,
+// which is free, and one gear that meshes with its planets is held. 0 of other trains, also where the speed does not follow from
+// what is held, or axes on the ground would go round with the frame.
+double frame_turns(const System& system);
+
 // m: working pitch radius in the first mesh of a gear; of a carrier, and of a gear without a mesh, System::Body::radius.
 double working_radius(const System& system, int body);
 

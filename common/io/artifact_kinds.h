@@ -55,9 +55,9 @@ inline constexpr std::tuple kArtifactKinds{
     ArtifactKind<HarrisMapResult>{"harris_map", 1, "harris_map.h5", "harris_*"},
     ArtifactKind<VariantResult>{"variant", 3, "ab12....h5", ""},
     ArtifactKind<StudyResult>{"study", 3, "study.h5", ""},
-    ArtifactKind<ModesResult>{"modes", 1, "modes.h5", "modes"},
-    ArtifactKind<SystemStaticResult>{"system_static", 2, "static.h5 of a train", "static"},
-    ArtifactKind<SystemSweepResult>{"system_sweep", 4, "sweep.h5 of a train", "sweep"},
+    ArtifactKind<ModesResult>{"modes", 2, "modes.h5", "modes"},
+    ArtifactKind<SystemStaticResult>{"system_static", 3, "static.h5 of a train", "static"},
+    ArtifactKind<SystemSweepResult>{"system_sweep", 5, "sweep.h5 of a train", "sweep"},
     ArtifactKind<SystemImpactResult>{"system_impact", 1, "impact.h5 of a train", "impact"},
     ArtifactKind<SystemBranchResult>{"system_branch", 3, "branch.h5 of a train", "branch"},
     ArtifactKind<ReadingsResult>{"readings", 1, "readings.h5", ""}};

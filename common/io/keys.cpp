@@ -55,7 +55,7 @@ bool of_systems(const Key& key) {
 
 bool of_pairs(const Key& key) {
   const std::string section(key.section);
-  return section == "crack" || section == "friction" || (section == "operation" && key.called("torque_Nm"));
+  return section == "crack" || (section == "operation" && key.called("torque_Nm"));
 }
 
 namespace {

@@ -39,6 +39,14 @@ void describe(Codec& c, ModesResult& a) {
     c(a.frozen_frequency, "/frozen_frequency", "Hz", kFrequency, "mesh_phase mode",
       "natural frequencies with the contact of each phase, ascending; those of /natural_frequency have the mean stiffness");
   }
+  if (c.optional("/turning_frequency", a.turning_frequency.size() > 0)) {
+    c(a.frame_turns, "/carrier_turns", "1", {-1, 1}, "",
+      "revolutions of the carrier in a mesh period, counter-clockwise positive");
+    c(a.turning_mesh_frequency, "/mesh_frequency", "Hz", kFrequency, "mesh_frequency",
+      "mesh frequencies of /turning_frequency");
+    c(a.turning_frequency, "/turning_frequency", "Hz", kFrequency, "mesh_frequency mode",
+      "natural frequencies in the frame of the carrier as it turns, with Coriolis and centrifugal terms, ascending");
+  }
   c.picture({a.view.point, a.view.cell, {}, {}, a.view.line, a.view.point_data, a.view.cell_data});
   if (!c.in()) return;
   if (static_cast<Eigen::Index>(a.type.size()) != a.natural_frequency.size())

@@ -376,6 +376,8 @@ void read_mesh_section(const Source& source, Scene& scene) {
   }
 }
 
+}  // namespace
+
 void read_friction(const Source& source, Friction& friction) {
   const toml::table* table = source.section("friction");
   if (!table) return;
@@ -398,8 +400,6 @@ void read_friction(const Source& source, Friction& friction) {
       reader.reject_key(key, " must be given and above 0: law = \"schlenk\" requires it");
   }
 }
-
-}  // namespace
 
 bool is_system(const Source& source) {
   const toml::table& root = source.root();

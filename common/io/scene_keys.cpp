@@ -169,7 +169,7 @@ SystemKeys scene_keys_of(const SystemStaticResult& a, const SystemSweepParameter
   for (size_t i = 0; !of.empty() && i < of.front().size(); ++i) {
     const Key& key = of.front()[i].key;
     const std::string section(key.section);
-    if (section == "mesh" || of_pairs(key)) continue;
+    if (section == "mesh" || section == "friction" || of_pairs(key)) continue;
     SystemKeys::Row row{section, key.name, {}, key.meaning};
     row.value.reserve(of.size());
     for (const std::vector<GearRow>& gear : of) {
@@ -184,6 +184,9 @@ SystemKeys scene_keys_of(const SystemStaticResult& a, const SystemSweepParameter
                                   [](const std::string& value) { return !value.empty(); });
     if (said) out.rows.push_back(row);
   }
+  if (Friction friction = a.settings.friction(); friction.acts())
+    for (const Key& key : keys(friction))
+      out.rows.push_back({"friction", key.name, {in_scene_unit(key)}, key.meaning});
   for (GearMeshSpec mesh : a.settings.mesh)
     for (const Key& key : keys(mesh).section("mesh").without({"driver", "driven"}))
       out.rows.push_back(

@@ -25,6 +25,9 @@ void read_levels(
     const Source& source, const KeyList& keys,
     const std::function<void(const SectionReader&)>& check = [](auto&&...) {});
 
+// [friction], which may be left out.
+void read_friction(const Source& source, Friction& friction);
+
 // "; did you mean 'pinion'?" or what there is.
 std::string advice_for(const std::string& word, const std::vector<std::string>& known);
 

@@ -176,6 +176,10 @@ void walk(StageParameters& s, SystemStaticParameters& p, SystemSweepParameters* 
     if (reads) p.mesh.emplace_back();
     s(keys(p.mesh[m]).section("mesh").all().labelled(text("mesh_", m)));
   }
+  if (Friction friction = p.friction(); s.has("friction", friction.acts())) {
+    s(keys(friction));
+    p.set_friction(friction);
+  }
   for (const auto& [gear, hash] : p.body) {
     FlankModification own = p.modification(gear);
     if (!s.has("modification_" + gear, own != FlankModification{})) continue;

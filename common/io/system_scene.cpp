@@ -123,6 +123,22 @@ void take_bearings(const Source& source, SystemScene& scene) {
                 });
 }
 
+// [friction] is that of all meshes.
+void take_friction(const Source& source, SystemScene& scene) {
+  const toml::node* node = source.root().get("friction");
+  if (!node) return;
+  if (scene.rigid())
+    source.reject(*node,
+                  "[friction] belongs to elastic gears, and those of this scene are rigid; take it out");
+  if (source.root().get("operation"))
+    source.reject(
+        *node, "[friction] of a system is computed at rest alone so far, and [operation] asks for motions; ",
+        "take one of the two sections out");
+  Friction friction;
+  read_friction(source, friction);
+  for (SystemScene::Mesh& mesh : scene.meshes) mesh.spec.friction = friction;
+}
+
 void take_drives(const Source& source, SystemScene& scene) {
   for (const toml::table* table : source.list("drive")) {
     SystemScene::Drive& drive = scene.drives.emplace_back();
@@ -213,12 +229,8 @@ SystemScene read_system_scene(const std::string& path) {
     source.reject("holds stage parameters, which gear-scene wrote from a scene; give the scene itself");
   require_one_train(source);
   const SectionReader top(source, source.root(), "", "");
-  if (const toml::node* node = source.root().get("friction"))
-    source.reject(
-        *node,
-        "[friction] stands in a scene of a system (several meshes, carriers or drives), whose meshes have no friction so far; take the section out");
-  top.reject_unknown({"gear", "material", "bearing", "mesh", "carrier", "drive", "damping", "operation",
-                      "fidelity", "discretisation"});
+  top.reject_unknown({"gear", "material", "bearing", "mesh", "carrier", "drive", "friction", "damping",
+                      "operation", "fidelity", "discretisation"});
   for (const char* name : {"gear", "mesh"})
     if (!source.root().get(name))
       source.reject("the scene of a system lacks ",
@@ -234,6 +246,7 @@ SystemScene read_system_scene(const std::string& path) {
   take_module(keys(scene.damping), largest);
   take_carriers(source, scene);
   take_meshes(source, scene);
+  take_friction(source, scene);
   take_bearings(source, scene);
   take_drives(source, scene);
   return scene;

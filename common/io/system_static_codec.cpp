@@ -39,9 +39,14 @@ void describe_settings(Codec& c, SystemStaticResult& a) {
     a.drawing.resize(gears.size());
     for (const std::string& name : gears) s.body.emplace_back(name, "");
   }
-  // Modifications are written gear by gear, errors body by body.
+  // Modifications are written gear by gear, errors body by body, friction, which is that of all meshes, once.
   for (size_t m = 0; m < s.mesh.size(); ++m)
     c.parameters("mesh_" + std::to_string(m), keys(s.mesh[m]).section("mesh"));
+  Friction friction = s.friction();
+  if (!c.lists() && c.optional("/parameters/friction/law", friction.acts())) {
+    c.parameters("friction", keys(friction));
+    if (c.in()) s.set_friction(friction);
+  }
   for (size_t g = 0; g < gears.size(); ++g) {
     describe_gear(c, "gear_" + gears[g], a.drawing[g]);
     describe_modification(c, gears[g], s);
@@ -88,6 +93,17 @@ void describe_loads(Codec& c, SystemStaticResult& a) {
     "frozen stiffness between the approaches of the meshes, without bearings");
 }
 
+// Left out of flanks without friction.
+void describe_friction(Codec& c, SystemStaticResult& a) {
+  if (!c.lists() && !a.settings.friction().acts()) return;
+  c(a.friction_coefficient, "/friction_coefficient", "1", {0, 0.3}, "mesh_number", "coefficient of friction");
+  c(a.friction_work, "/friction_work", "J", {0, 1e12}, "mesh_phase mesh_number",
+    "work that friction takes in a mesh period with the forces of this phase",
+    "sum of mu s F v, v the sliding per mesh period");
+  c(a.efficiency, "/efficiency", "1", {-1e6, 1}, "body_number",
+    "power out over power in, from the mean torques, while this member is at rest; of a train without carriers the same for all, of planets 0");
+}
+
 // What figures and pages take for granted: one phase, mesh and pair at least, and of each gear the drawing with its teeth.
 void require_whole(const Codec& c, const SystemStaticResult& a) {
   const auto reject = [&](const auto&... words) { c.in()->reject(text(words...)); };
@@ -122,6 +138,7 @@ void describe(Codec& c, SystemStaticResult& a) {
     "profile contact ratio of the unloaded gears");
   describe_motions(c, a);
   describe_loads(c, a);
+  describe_friction(c, a);
   c(a.least_gap, "/certificate/least_gap", "m", kLength, "mesh_phase", "least gap of a strip without force",
     "d >= 0 where p = 0 (with Eq. 18, 20)");
   c(a.least_force, "/certificate/least_force", "N", kForce, "mesh_phase", "least force of a strip in contact",

@@ -30,6 +30,11 @@ struct SystemStaticParameters {
     for (const auto& [name, hash] : body) out.push_back(name);
     return out;
   }
+  // Of all meshes.
+  Friction friction() const { return mesh.empty() ? Friction{} : mesh[0].friction; }
+  void set_friction(const Friction& friction) {
+    for (GearMeshSpec& pair : mesh) pair.friction = friction;
+  }
   // Of a gear's flanks, which all its meshes have alike.
   FlankModification modification(const std::string& of) const {
     for (const GearMeshSpec& pair : mesh)

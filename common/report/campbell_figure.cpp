@@ -11,6 +11,19 @@ using Eigen::Index;
 
 namespace {
 
+// Where harmonic l of the mesh frequency meets mode i, as the carrier turns.
+void meet(const ModesResult& a, Index i, int l, FigureBlock& crossings) {
+  for (Index n = 1; n < a.turning_mesh_frequency.size(); ++n) {
+    const auto above = [&](Index at) {
+      return a.turning_frequency(at, i) - l * a.turning_mesh_frequency[at];
+    };
+    if (!(above(n - 1) > 0) || above(n) > 0) continue;
+    const double share = above(n - 1) / (above(n - 1) - above(n)),
+                 at = (1 - share) * a.turning_mesh_frequency[n - 1] + share * a.turning_mesh_frequency[n];
+    crossings.rows.push_back({static_cast<double>(i + 1), static_cast<double>(l), at, l * at});
+  }
+}
+
 Panel campbell_panel(const ModesResult& a, const FigureBlock& modes, double top) {
   Panel panel{.x = {.label = "Mesh frequency (Hz)", .from = 0, .to = top, .speed = true},
               .y = {.label = "Frequency (Hz)", .from = 0, .to = top},
@@ -34,6 +47,8 @@ Panel campbell_panel(const ModesResult& a, const FigureBlock& modes, double top)
       if (row[4] == static_cast<double>(static_cast<int>(type)))
         panel.rules.push_back({'y', row[1], "", colour, 1});
   }
+  if (a.turning_frequency.size() > 0)
+    panel.curves.push_back({.block = "turning", .colour = kDark, .label = "carrier turning", .width = 1.2});
   panel.curves.push_back(
       {.block = "harmonics", .colour = kGrey, .label = "harmonics", .width = 1.2, .dash = 2});
   panel.curves.push_back({.block = "crossings",
@@ -74,8 +89,12 @@ Figure campbell_figure(const ModesResult& a) {
     modes.rows.push_back({number, f, bands ? a.frozen_frequency.col(i).minCoeff() : f,
                           bands ? a.frozen_frequency.col(i).maxCoeff() : f,
                           static_cast<double>(static_cast<int>(a.type[static_cast<size_t>(i)]))});
-    for (int l = 1; l <= kCampbellHarmonics; ++l)
-      crossings.rows.push_back({number, static_cast<double>(l), f / l, f});
+    for (int l = 1; l <= kCampbellHarmonics; ++l) {
+      if (a.turning_frequency.size() > 0)
+        meet(a, i, l, crossings);
+      else
+        crossings.rows.push_back({number, static_cast<double>(l), f / l, f});
+    }
   }
   if (modes.rows.empty())
     fail(Failure::input, "figure: all motions of the system are free; there is no natural frequency");
@@ -84,6 +103,16 @@ Figure campbell_figure(const ModesResult& a) {
   for (int l = 1; l <= kCampbellHarmonics; ++l)
     rays.rows.insert(rays.rows.end(), {{0, 0}, {top / l, top}, {}});
   figure.blocks = {modes, crossings, rays};
+  if (a.turning_frequency.size() > 0) {
+    FigureBlock turning{"turning", {"mesh_frequency [Hz]", "natural_frequency [Hz]"}, {}, "", "", true};
+    for (Index i = 0; i < a.turning_frequency.cols(); ++i) {
+      if (a.turning_frequency.col(i).isZero(0)) continue;
+      for (Index n = 0; n < a.turning_mesh_frequency.size(); ++n)
+        turning.rows.push_back({a.turning_mesh_frequency[n], a.turning_frequency(n, i)});
+      turning.rows.emplace_back();
+    }
+    figure.blocks.push_back(turning);
+  }
   figure.panels = {campbell_panel(a, modes, top)};
   figure.notes.push_back(
       text(a.layout.bodies.size(), " bodies, ", a.layout.meshes.size(), " meshes; ",
@@ -95,9 +124,11 @@ Figure campbell_figure(const ModesResult& a) {
              "from planet to planet, which parts near frequencies"));
   const bool planets = std::any_of(a.layout.bodies.begin(), a.layout.bodies.end(),
                                    [](const System::Body& body) { return body.on != System::kGround; });
-  figure.notes.push_back(
-      text("points: mesh frequencies at which a harmonic of the meshes meets a natural frequency",
-           planets ? "; in the frame of the carrier, without Coriolis terms" : ""));
+  figure.notes.push_back(text(
+      "points: mesh frequencies at which a harmonic of the meshes meets a natural frequency",
+      !planets                         ? ""
+      : a.turning_frequency.size() > 0 ? "; in the frame of the carrier, with Coriolis and centrifugal terms"
+                                       : "; in the frame of the carrier, without Coriolis terms"));
   add_shafts(a.layout, figure);
   return figure;
 }

@@ -83,8 +83,8 @@ const std::vector<GuideRow>& rows_of_modes_and_motion() {
        "Less excitation (relief, phases), more torque, other speeds."},
       {"system-sweep", "Forces on bearings and pins in motion",
        "The largest force, and the RMS of the oscillating part, over the speeds.",
-       text("As the forces at rest, and the dampers of the bearings in the scene. Of a carrier that ",
-            "turns, centrifugal and Coriolis forces come in addition."),
+       text("As the forces at rest, and the dampers of the bearings in the scene. Where a carrier turns, ",
+            "remarks say how large centrifugal and Coriolis forces are, and whether they are in them."),
        "They are the input of a housing model; /body/name/bearing_force of sweep.h5 has their time histories."},
   };
   return rows;

@@ -475,7 +475,15 @@ void remark_modes(const ModesResult& a, std::vector<Remark>& out) {
     out.push_back(remark(
         false,
         "elastic modes of the gear bodies themselves are left out; frequencies near or above the lowest of a body (eigenfrequency in its body.h5) are not to be trusted"));
-  if (has_planets(a.layout))
+  if (a.turning_frequency.size() > 0)
+    out.push_back(remark(
+        false,
+        "frequencies and shapes are those of a carrier at rest; Coriolis and centrifugal terms shift the former by up to ",
+        shown((a.turning_frequency.bottomRows<1>() - a.turning_frequency.topRows<1>()).cwiseAbs().maxCoeff(),
+              3),
+        " Hz at a mesh frequency of ", shown(a.turning_mesh_frequency.tail<1>()[0], 4),
+        " Hz, in proportion to speed: Campbell diagram"));
+  else if (has_planets(a.layout))
     out.push_back(remark(
         false, "Coriolis and centrifugal terms of a turning carrier are left out, of the relative size ",
         "2 times its speed over the natural frequency"));

@@ -36,6 +36,11 @@ struct ModesResult {
   Eigen::VectorXd mesh_phase;  // (phase) 1
   MatrixRM frozen_frequency;   // (phase, mode) Hz
 
+  // Where the frame turns with its carrier, else none: natural frequencies over speed, ascending.
+  double frame_turns = 0;                  // 1: revolutions in a mesh period, counter-clockwise positive
+  Eigen::VectorXd turning_mesh_frequency;  // (mesh_frequency) Hz
+  MatrixRM turning_frequency;              // (mesh_frequency, mode) Hz
+
   System layout;
 
   // for looking; written, never read: gears as quadrilaterals between their teeth and the circle on which they are held, carriers as

@@ -34,6 +34,11 @@ struct SystemStaticResult {
   std::vector<MatrixRM> mesh_stiffness;  // [phase] (mesh, mesh) N m-1, see SystemStatics::mesh_stiffness()
   // Certificate of each solution: (phase) m, N and 1
   Eigen::VectorXd least_gap, least_force, torque_residual;
+  // Of flanks with friction, else none: (mesh) 1; (phase, mesh) J that friction takes in a mesh period at the position; (body) 1: power
+  // out over power in while the body is at rest, 0 of planets; of trains without a carrier all are that of the train
+  Eigen::VectorXd friction_coefficient;
+  MatrixRM friction_work;
+  Eigen::VectorXd efficiency;
   MatrixRM transmission_error_harmonic;  // (harmonic, mesh) m; the first row is the mean
   MatrixRM
       transmission_error_order;  // (order, mesh) m: of the hunting frequency; empty where teeth are alike

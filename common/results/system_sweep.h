@@ -15,10 +15,11 @@ namespace whine {
 struct SystemEnergyLine {
   const char *name, *meaning;
 };
-inline constexpr std::array<SystemEnergyLine, 11> kSystemEnergyLines{
+inline constexpr std::array<SystemEnergyLine, 12> kSystemEnergyLines{
     {{"storage", "change of all that is stored"},
      {"drive", "work of the constant torques on the vibration"},
      {"rolling", "work of the prescribed rolling"},
+     {"frame", "work of centrifugal forces, and of dampers on the ground by the turning of the frame"},
      {"modal_damping", "taken by the Rayleigh dampers of the kept coordinates and the dampers of the axes"},
      {"bearing_damping", "taken by the dampers of bearings and pins"},
      {"relaxation_damping", "taken by the Rayleigh damping of the residual flexibility"},
@@ -28,7 +29,7 @@ inline constexpr std::array<SystemEnergyLine, 11> kSystemEnergyLines{
      {"dropped", "taken out with the relaxed loads of teeth that are no longer followed"},
      {"throughput", "sum of the sizes of the works of drives and rolling over the steps"}}};
 
-inline constexpr int kThroughputLine = 10;
+inline constexpr int kThroughputLine = 11;
 
 // sweep.h5 of a system: rows in the order in which they were computed.
 struct SystemSweepResult {
@@ -59,7 +60,7 @@ struct SystemSweepResult {
   MatrixRM bearing_damping;               // (speed, body) J
   Eigen::VectorXd drift_force;            // (speed) N
   double least_gap = 0, least_force = 0;  // m, N: worst certificate
-  std::vector<Remark> remarks;            // what is left out where a carrier turns
+  std::vector<Remark> remarks;            // on a carrier that turns
 };
 
 }  // namespace whine

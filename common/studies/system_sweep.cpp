@@ -190,7 +190,8 @@ class TrainSweepRig {
 
   static void take(const SystemEnergyBalance& e, Motion& motion) {
     Eigen::RowVectorXd lines(motion.energy.size());
-    lines << e.kinetic + e.modal + e.residual + e.local, e.drive.sum(), e.rolling.sum(), e.modal_damping,
+    lines << e.kinetic + e.modal + e.residual + e.local, e.drive.sum(), e.rolling.sum(),
+        e.centrifugal + e.dragging.sum(), e.modal_damping,
         e.bearing_damping.sum(), e.relaxation_damping, e.switching.sum(), e.cutting.sum(), e.averaging,
         e.dropped, e.throughput;
     motion.energy += lines;
@@ -303,7 +304,7 @@ SystemSweepResult system_sweep(const SystemSweepParameters& settings, const std:
   sweep.run(speeds, report, [&](long i, TrainMotion&& motion) { return store(std::move(motion), i, out); });
   fill_rows(out);
   store_jumps(sweep.jumps(jump_width, nullptr, report), out.jump_frequency, out.jump_width);
-  out.remarks = left_out_of_carriers(out);
+  out.remarks = remarks_on_carriers(out, bodies);
   return out;
 }
 

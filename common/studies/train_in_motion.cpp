@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/model_range.h"
 #include "gear/layout.h"
+#include "gear/system_layout.h"
 #include "system/system_rest.h"
 
 namespace whine {
@@ -36,6 +37,7 @@ void require_like_teeth(const SystemStaticParameters& settings, const std::strin
 TrainInMotion::TrainInMotion(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
                              int positions)
     : system_(elastic_system(settings, bodies)), settings_(settings), positions_(positions) {
+  for (const GearMeshSpec& mesh : settings.mesh) require_no_friction(mesh, "a system in motion");
   take_masses(settings, bodies, system_.layout);
   const auto meshes = static_cast<Index>(system_.mesh.size());
   stiffness_ = MatrixXd::Zero(meshes, meshes);
@@ -55,6 +57,7 @@ TrainInMotion::TrainInMotion(const SystemSweepParameters& settings, const std::v
   motion_.fidelity = settings.fidelity;
   motion_.fidelity.contact = ContactModel::line;
   motion_.axis_frequency = axis_frequency(system_, stiffness_);
+  motion_.frame_turns = frame_turns(system_.layout);
   dynamics_ = placed();
 }
 

@@ -1,7 +1,8 @@
-// How large the forces are that systems in motion leave out where a carrier turns.
+// How large the inertia forces of a turning carrier are, and what of them systems in motion leave out.
 #pragma once
 #include <vector>
 
+#include "results/reduced_body.h"
 #include "results/system_sweep.h"
 
 namespace whine {
@@ -19,13 +20,21 @@ struct TurningCarrier {
   double mesh_force = 0;  // N: largest mean force of the meshes of its planets at that speed
   double coriolis =
       0;  // 1: 2 Omega over 2 pi f, by which motion at the mesh frequency is changed; 2 / z at any speed
+  bool in_motion =
+      false;  // both are in the motions of the sweep, see frame_turns(); false: they are left out
+  // Of elastic modes they are left out: 1, the largest 2 |Omega_b| / w over the lowest mode of each gear b, with its speed and frequency;
+  // number of the body, and Hz. Without bodies 0.
+  double elastic = 0, elastic_frequency = 0;
+  int elastic_body = -1;
   double relative_force() const { return mesh_force > 0 ? centrifugal_force / mesh_force : 0; }
 };
 
-// Carriers whose planets mesh with a held gear, or that turn. Planets without a mass count as weightless.
-std::vector<TurningCarrier> turning_carriers(const SystemSweepResult& sweep);
+// Carriers whose planets mesh with a held gear, or that turn. Planets without a mass count as weightless. bodies: of settings.body, or none.
+std::vector<TurningCarrier> turning_carriers(const SystemSweepResult& sweep,
+                                             const std::vector<ReducedBody>& bodies = {});
 
 // The same in words.
-std::vector<Remark> left_out_of_carriers(const SystemSweepResult& sweep);
+std::vector<Remark> remarks_on_carriers(const SystemSweepResult& sweep,
+                                        const std::vector<ReducedBody>& bodies = {});
 
 }  // namespace whine

@@ -277,15 +277,17 @@ Freedoms freedoms_of(const SystemModel& system, const SystemPosition& position) 
 
 SystemEquilibrium equilibrium(const SystemModel& system, const SystemPosition& position,
                               const MatrixXd& compliance, const VectorXd& start,
-                              ComplementaritySolver& solver) {
-  const Freedoms of = freedoms_of(system, position);
+                              ComplementaritySolver& solver, const VectorXd& further) {
+  Freedoms of = freedoms_of(system, position);
+  for (Index i = 0; further.size() > 0 && i < of.turns(); ++i)
+    of.force[i] += further[of.body[static_cast<size_t>(i)]];
   const MatrixXd &displacement = of.displacement, &load = of.load;
   const VectorXd &force = of.force, &spring = of.spring;
   const Index freedoms = force.size(), turns = of.turns();
   VectorXd x = VectorXd::Zero(freedoms);
   for (Index i = 0; i < turns; ++i) x[i] = start[of.body[static_cast<size_t>(i)]];
   const MatrixXd friction = friction_compliance(system, position);
-  Contact contact(position, compliance, friction, system.friction > 0, solver);
+  Contact contact(position, compliance, friction, system.slides(), solver);
   SystemEquilibrium out;
   out.x = VectorXd::Zero(static_cast<Index>(system.layout.bodies.size()));
   out.p = VectorXd::Zero(position.strips());
@@ -314,6 +316,9 @@ SystemEquilibrium equilibrium(const SystemModel& system, const SystemPosition& p
 
   const double scale = mesh_loads(system).maxCoeff();
   MatrixXd rolls = without_rolling(closing_of(system.layout)(of.body, Eigen::all));
+  if (rolls.size() > 0 && system.slides())
+    fail(Failure::input, "the train can roll as a whole, and with [friction] its torques are not balanced: ",
+         "hold the body where power leaves it by a [[drive]] with kind = \"held\", in place of its torque");
   if (rolls.size() > 0 && turns < freedoms) {
     const MatrixXd turning = rolls;
     rolls = MatrixXd::Identity(freedoms, freedoms);

@@ -10,6 +10,7 @@
 #include "base/dense.h"
 #include "base/error.h"
 #include "base/units.h"
+#include "system/turning_modes.h"
 
 namespace whine {
 
@@ -320,6 +321,7 @@ ModesResult elastic_modes(const SystemStaticResult& at_rest) {
   mean /= static_cast<double>(at_rest.mesh_stiffness.size());
   ModesResult out = natural_modes(at_rest.settings.layout, mean);
   take_types(natural_modes(at_rest.settings.layout, of_alike_planets(at_rest.settings, mean)), out);
+  add_turning_frequencies(out, mean);
   out.mesh_phase = at_rest.mesh_phase;
   out.frozen_frequency.resize(out.mesh_phase.size(), out.natural_frequency.size());
   for (Index i = 0; i < out.mesh_phase.size(); ++i)

@@ -108,7 +108,8 @@ RigidSystem rigid_system(const System& layout, const MatrixXd& mesh_stiffness) {
   take_freedoms(out);
   take_springs(out, mesh_stiffness.size() > 0);
   const Index n = out.rotation[0].cols();
-  out.mass = out.stiffness = MatrixXd::Zero(n, n);
+  out.mass = out.stiffness = out.gyroscopic = out.centrifugal = MatrixXd::Zero(n, n);
+  const Eigen::Matrix2d quarter_turn{{0, -1}, {1, 0}};
   for (size_t b = 0; b < layout.bodies.size(); ++b) {
     const System::Body& body = layout.bodies[b];
     if (!layout.held_rigidly(static_cast<int>(b))) {
@@ -116,7 +117,17 @@ RigidSystem rigid_system(const System& layout, const MatrixXd& mesh_stiffness) {
       out.mass += body.inertia / (body.radius * body.radius) * out.rotation[b].transpose() * out.rotation[b];
     }
     if (body.bearing.elastic()) require(body.bearing.mass, "a mass", body.name);
-    out.mass += body.bearing.mass * out.translation[b].transpose() * out.translation[b];
+    const MatrixXd& moved = out.translation[b];
+    out.mass += body.bearing.mass * moved.transpose() * moved;
+    out.gyroscopic += body.bearing.mass * moved.transpose() * quarter_turn * moved;
+    if (body.on == System::kGround) {
+      out.centrifugal += body.bearing.mass * moved.transpose() * moved;
+      continue;
+    }
+    const auto c = static_cast<size_t>(body.on);
+    const MatrixXd round = pin_direction(layout, body) * out.rotation[c], from_pin = moved - round,
+                   shifted = out.translation[c].transpose() * round;
+    out.centrifugal += body.bearing.mass * (from_pin.transpose() * from_pin + shifted + shifted.transpose());
   }
   out.stiffness = out.closing.transpose() * out.mesh_stiffness * out.closing;
   for (const RigidSystem::Spring& spring : out.springs)

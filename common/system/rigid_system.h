@@ -7,8 +7,11 @@
 //   M = sum m X_b^T X_b + (I / r^2) U_b^T U_b,   K = R^T K_mesh R + sum k row^T row over bearings and drives that hold,
 // R the closing rows, K_mesh diagonal but where elastic bodies join meshes.
 // The closing row is the one by which the strips of elastic gears move (ContactMap). Where a body has no elastic bearing, X_b is
-// that of what carries it. Frame: that of the carrier, at rest; Coriolis and centrifugal terms are left out, of relative size
-// 2 Omega_c / w.
+// that of what carries it. Frame: that of the carrier. Where it turns at Omega (rad s-1, counter-clockwise), with J = [[0, -1], [1, 0]],
+//   M q" + 2 Omega G q' + (K - Omega^2 N) q = 0,   G = sum m X_b^T J X_b,
+//   N = sum m X_b^T X_b,   of a planet at P:   m (Y^T Y + X_c^T d U_c + U_c^T d^T X_c),   Y = X_b - d U_c,   d = e_z x (P - C) / r,
+// by |X_c + R(theta) (P - C + y)|^2: a planet that goes round with its carrier comes no farther out. Springs to the ground are alike in all
+// directions, so that they are the same in the frame.
 #pragma once
 #include <Eigen/Core>
 #include <vector>
@@ -27,9 +30,10 @@ struct RigidSystem {
   };
   std::vector<Eigen::MatrixXd> rotation, translation;  // [body] U (1, freedom), X (xy, freedom)
   std::vector<Spring> springs;
-  Eigen::MatrixXd closing;          // (mesh, freedom) 1: rows of the springs of the meshes
-  Eigen::MatrixXd mesh_stiffness;   // (mesh, mesh) N m-1
-  Eigen::MatrixXd mass, stiffness;  // (freedom, freedom) kg, N m-1
+  Eigen::MatrixXd closing;                  // (mesh, freedom) 1: rows of the springs of the meshes
+  Eigen::MatrixXd mesh_stiffness;           // (mesh, mesh) N m-1
+  Eigen::MatrixXd mass, stiffness;          // (freedom, freedom) kg, N m-1
+  Eigen::MatrixXd gyroscopic, centrifugal;  // (freedom, freedom) kg: G, N
 
   Eigen::Index freedoms() const { return mass.rows(); }
 };

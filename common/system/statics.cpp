@@ -33,19 +33,20 @@ SystemModel loaded_system(const ReducedBody& driver, const ReducedBody& driven, 
                           double torque) {
   SystemModel system(driver, driven, mesh);
   system.layout.drives.push_back({0, System::DriveKind::torque, torque});
-  system.friction = system.mesh[0].coefficient_of_friction(torque, mesh.friction.static_frequency);
+  if (mesh.friction.acts())
+    system.friction = {system.mesh[0].coefficient_of_friction(torque, mesh.friction.static_frequency)};
   return system;
 }
 
 // What friction takes at a position, and its moments about the axes.
 void store_friction(const SystemModel& system, const SystemSolution& solution, const SystemPosition& position,
                     int row, StaticResult& result) {
-  if (!(system.friction > 0)) return;
+  if (!system.slides()) return;
   for (VectorXd* v : {&result.friction_loss, &result.friction_moment[0], &result.friction_moment[1]})
     (*v)[row] = 0;
   for (const ContactSegment& segment : position.segment) {
     const double force =
-        system.friction * solution.equilibrium.p.segment(segment.first_strip, segment.strips).sum();
+        system.friction[0] * solution.equilibrium.p.segment(segment.first_strip, segment.strips).sum();
     result.friction_loss[row] += force * segment.sliding.loss();
     for (size_t s = 0; s < kSides; ++s)
       result.friction_moment[s][row] += force * segment.sliding.direction * segment.sliding.lever[s];
@@ -87,8 +88,7 @@ std::string solve_period(const SystemModel& system, const std::vector<CandidateZ
       result.stiffness_tangent[i] = 1 / (1 / result.stiffness_tangent[i] - 1 / bearing.stiffness);
     }
     // With friction forces do not act along what they are read along, and bearings are not in series with the mesh.
-    if (system.friction > 0 && model.on_bearings())
-      result.stiffness_tangent[i] = statics.mesh_stiffness()(0, 0);
+    if (system.slides() && model.on_bearings()) result.stiffness_tangent[i] = statics.mesh_stiffness()(0, 0);
     store_friction(system, solution, statics.position(), i, result);
     result.torque_residual = std::max(result.torque_residual, e.residual);
     result.friction_coupling = std::max(result.friction_coupling, e.certificate.coupling);
@@ -175,8 +175,8 @@ StaticResult static_transmission(const ReducedBody& driver, const ReducedBody& d
   for (VectorXd* v : {&result.mesh_phase, &result.transmission_error, &result.unloaded_error,
                       &result.stiffness_secant, &result.stiffness_tangent})
     v->resize(positions * result.hunting_periods);
-  result.friction_coefficient = system.friction;
-  if (system.friction > 0)
+  if (system.slides()) result.friction_coefficient = system.friction[0];
+  if (system.slides())
     for (VectorXd* v : {&result.friction_loss, &result.friction_moment[0], &result.friction_moment[1]})
       v->resize(positions * result.hunting_periods);
   for (size_t b = 0; b < system.body.size(); ++b)
@@ -205,7 +205,7 @@ StaticResult static_transmission(const ReducedBody& driver, const ReducedBody& d
   store_root_stress(model, result);
   result.loss_factor =
       loss_factor(model.kinematics, result.pair, result.mesh_phase, result.tooth_load, torque);
-  if (system.friction > 0) result.efficiency = 1 - result.friction_loss.mean() / torque;
+  if (system.slides()) result.efficiency = 1 - result.friction_loss.mean() / torque;
   result.backlash_margin =
       driver.design.tooth_thinning + driven.design.tooth_thinning > 0
           ? model.kinematics.backlash() +

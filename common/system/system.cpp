@@ -96,20 +96,36 @@ int hunting_periods(const SystemModel& system) {
 
 namespace {
 
-// L = D + mu s T: moments about the axes and forces across the normal.
+// tau of gear/friction.h per unit of mu s in the frame of the system, of which the frame of a mesh may be the mirror image.
+Vec2 across(const SystemModel& system, const ContactSegment& segment) {
+  const int mirrored = system.mesh[static_cast<size_t>(segment.mesh)].layout.side[0].sense;
+  return mirrored * Vec2(-segment.normal.y(), segment.normal.x());
+}
+double share_of_friction(const SystemModel& system, const ContactSegment& segment) {
+  return system.friction[static_cast<size_t>(segment.mesh)] * segment.sliding.direction;
+}
+
+// L = D + mu s T: moments about the axes and forces across the normal, of a planet's on its carrier, too.
 void add_friction(const SystemModel& system, SystemPosition& position) {
   for (const ContactSegment& segment : position.segment) {
     const GearMeshModel& model = system.mesh[static_cast<size_t>(segment.mesh)];
-    const double share = system.friction * segment.sliding.direction;
+    const double share = share_of_friction(system, segment);
     const auto own = Eigen::seqN(segment.first_strip, segment.strips);
-    const Vec2 across(-segment.normal.y(), segment.normal.x());
+    const Vec2 tau = across(system, segment);
     for (int s = 0; s < kSides; ++s) {
       const auto side = static_cast<size_t>(s);
       const int b = model.layout.side[side].body;
       position.load.rotation.col(b)(own).array() +=
           closing_sign(s) * share * segment.sliding.lever[side] / model.kinematics.gear(s).base_radius();
-      MatrixXd& rows = position.load.translation[static_cast<size_t>(b)];
-      if (rows.size() > 0) rows(own, Eigen::all).rowwise() += closing_sign(s) * share * across.transpose();
+      const auto push = [&](MatrixXd& rows) {
+        if (rows.size() > 0) rows(own, Eigen::all).rowwise() += closing_sign(s) * share * tau.transpose();
+      };
+      push(position.load.translation[static_cast<size_t>(b)]);
+      const System::Body& body = system.layout.bodies[static_cast<size_t>(b)];
+      if (body.on == System::kGround) continue;
+      push(position.load.translation[static_cast<size_t>(body.on)]);
+      position.load.rotation.col(body.on)(own).array() +=
+          closing_sign(s) * share * tau.dot(pin_direction(system.layout, body));
     }
   }
 }
@@ -155,7 +171,7 @@ SystemPosition join(const SystemModel& system, double phase, int period,
       segment.gap = strips.contact.gap;
       segment.normal = model.outward_in_system(0, strips.contact);
       segment.lever = strips.contact.lever;
-      if (system.friction > 0)
+      if (system.slides())
         segment.sliding = sliding_of(model.kinematics, strips.contact, model.friction.smoothing);
       segment.width = model.face_width();
       segment.first_strip = first + position.first_strip[j];
@@ -179,7 +195,7 @@ SystemPosition join(const SystemModel& system, double phase, int period,
   }
   out.displacement = map;
   out.load = std::move(map);
-  if (system.friction > 0) add_friction(system, out);
+  if (system.slides()) add_friction(system, out);
   return out;
 }
 
@@ -257,9 +273,9 @@ MatrixXd contact_compliance(const SystemModel& system, const SystemPosition& pos
 
 MatrixXd friction_compliance(const SystemModel& system, const SystemPosition& position) {
   MatrixXd out;
-  for (size_t b = 0; system.friction > 0 && b < system.layout.bodies.size(); ++b) {
+  for (size_t b = 0; system.slides() && b < system.layout.bodies.size(); ++b) {
     const Bearing& bearing = system.layout.bodies[b].bearing;
-    if (!bearing.elastic()) continue;
+    if (!bearing.elastic() || system.floats(static_cast<int>(b))) continue;
     const MatrixXd &read = position.displacement.translation[b], &pushed = position.load.translation[b];
     if (out.size() == 0) out.setZero(position.strips(), position.strips());
     out += read * (pushed - read).transpose() / bearing.stiffness;
@@ -293,9 +309,8 @@ namespace {
 
 // From the first side's flank to the second's: the direction of a contact's force per normal force, friction included.
 Vec2 pressing(const SystemModel& system, const ContactSegment& segment) {
-  if (!(system.friction > 0)) return segment.normal;
-  return segment.normal +
-         system.friction * segment.sliding.direction * Vec2(-segment.normal.y(), segment.normal.x());
+  if (!system.slides()) return segment.normal;
+  return segment.normal + share_of_friction(system, segment) * across(system, segment);
 }
 
 }  // namespace

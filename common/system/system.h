@@ -21,7 +21,7 @@ namespace whine {
 
 struct SystemModel {
   System layout;                        // gears before carriers
-  double friction = 0;                  // 1: coefficient of friction of the only mesh
+  std::vector<double> friction;         // [mesh] 1: coefficients of friction; empty: none acts
   std::vector<SideGears::Shared> body;  // the gears in their whole width
   std::vector<GearMeshModel> mesh;
 
@@ -33,6 +33,7 @@ struct SystemModel {
   SystemModel(const System& layout, const std::vector<ReducedBody>& bodies,
               const std::vector<GearMeshSpec>& specs);
 
+  bool slides() const { return !friction.empty(); }
   double base_radius(int b) const;  // m; of a carrier the radius of its pins
   // Whether body b of several meshes is on a bearing so soft that the compliance of its teeth would be lost to round-off beside it: the
   // translations of its hub are then freedoms of the equilibrium, and no part of A.
@@ -128,10 +129,10 @@ struct SystemEquilibrium {
 // Free bodies: those that no drive holds, one at least; start: (body) m, a solution nearby; 0: not known. With one free body it is
 // the monotone search of equilibrium(); with more Newton's method with a line search on the convex energy whose gradient L^T p - f is,
 // to 1e-12, or to 1e-10 where round-off allows no more. laws: of lines, else empty. Throws Error(numerical) with the residual if that
-// is not reached.
+// is not reached. further: (body) N on x beside those of the drives; empty: none.
 SystemEquilibrium equilibrium(const SystemModel& system, const SystemPosition& position,
                               const Eigen::MatrixXd& compliance, const Eigen::VectorXd& start,
-                              ComplementaritySolver& solver);
+                              ComplementaritySolver& solver, const Eigen::VectorXd& further = {});
 
 // N, in the frame of the system: what body b presses its bearing with, elastic or rigid; the sum of its contact forces, of a carrier
 // that of its planets.

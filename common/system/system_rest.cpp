@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/format.h"
+#include "gear/friction.h"
 #include "gear/system_layout.h"
 #include "gear/tooth_errors.h"
 #include "signal/spectrum.h"
@@ -47,7 +49,38 @@ SystemModel elastic_system(const SystemStaticParameters& settings, const std::ve
       if (const auto b = static_cast<size_t>(layout.meshes[m].side[s].body); settings.has_errors(b))
         specs.back().errors[s] = settings.errors[b];
   }
-  return {layout, of_body, specs};
+  SystemModel out(layout, of_body, specs);
+  take_friction(out);
+  return out;
+}
+
+void take_friction(SystemModel& system) {
+  const auto acts = [](const GearMeshModel& mesh) { return mesh.friction.acts(); };
+  system.friction.clear();
+  if (std::none_of(system.mesh.begin(), system.mesh.end(), acts)) return;
+  const Eigen::VectorXd load = mesh_loads(system);
+  for (size_t m = 0; m < system.mesh.size(); ++m) {
+    const GearMeshModel& mesh = system.mesh[m];
+    const double torque = load[static_cast<Index>(m)] * mesh.kinematics.gear(0).base_radius();
+    system.friction.push_back(
+        torque > 0 ? mesh.coefficient_of_friction(torque, mesh.friction.static_frequency) : 0);
+  }
+}
+
+double efficiency_at_rest(const System& layout, const Eigen::VectorXd& torque, int at_rest) {
+  const auto turns = [&](int b) {  // in a mesh period, counter-clockwise, in the frame of the layout
+    const System::Body& body = layout.bodies[static_cast<size_t>(b)];
+    return body.teeth > 0 ? static_cast<double>(body.sense) / body.teeth : 0;
+  };
+  const double still = at_rest < 0 ? 0 : turns(at_rest);
+  double in = 0, out = 0;
+  for (int b = 0; b < static_cast<int>(layout.bodies.size()); ++b) {
+    const System::Body& body = layout.bodies[static_cast<size_t>(b)];
+    if (body.on != System::kGround) continue;
+    const double work = torque[b] * body.sense * (turns(b) - still);
+    (work > 0 ? in : out) += work;
+  }
+  return in > 0 ? -out / in : 0;
 }
 
 void take_masses(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies,
@@ -141,10 +174,49 @@ void take_phase(const SystemModel& system, const SystemSolution& at, Index row, 
           at.bearing_force[b].transpose() / bearing.stiffness;
   }
   out.mesh_stiffness[static_cast<size_t>(row)] = at.mesh_stiffness;
+  for (size_t m = 0; m < system.friction.size(); ++m)
+    out.friction_work(row, static_cast<Index>(m)) = at.friction_work[m];
   out.least_gap[row] = at.equilibrium.certificate.least_gap;
   out.least_force[row] = at.equilibrium.certificate.least_force;
   out.torque_residual[row] = at.equilibrium.residual;
   take_balance(system, at, row, out);
+}
+
+// With each member of the train at rest, from the mean torques on its drives.
+void take_efficiency(SystemStaticResult& out) {
+  const System& layout = out.settings.layout;
+  const auto bodies = static_cast<int>(layout.bodies.size());
+  const Eigen::VectorXd torque = out.torque.colwise().mean().transpose();
+  const bool planetary =
+      std::any_of(layout.bodies.begin(), layout.bodies.end(),
+                  [](const System::Body& body) { return body.kind == System::BodyKind::carrier; });
+  out.efficiency.setZero(bodies);
+  for (int b = 0; b < bodies; ++b)
+    if (layout.bodies[static_cast<size_t>(b)].on == System::kGround)
+      out.efficiency[b] = efficiency_at_rest(layout, torque, planetary ? b : -1);
+}
+
+// What friction takes, mesh by mesh of the scene, and the efficiencies.
+Remark remark_on_friction(const SystemStaticResult& a) {
+  const System& layout = a.settings.layout;
+  std::vector<double> work(a.settings.mesh.size(), 0.0);
+  for (Index m = 0; m < a.friction_work.cols(); ++m)
+    work[static_cast<size_t>(a.settings.section[static_cast<size_t>(m)])] += a.friction_work.col(m).mean();
+  const double all = a.friction_work.rowwise().sum().mean();
+  std::string shares, efficiencies;
+  for (size_t m = 0; m < work.size(); ++m)
+    shares += text(m == 0 ? "" : ", ", a.settings.mesh[m].gear[0], "-", a.settings.mesh[m].gear[1], " ",
+                   fixed(all > 0 ? work[m] / all * 100 : 0, 1), " %");
+  const bool planetary = std::any_of(layout.bodies.begin(), layout.bodies.end(),
+                                     [](const auto& body) { return body.kind == System::BodyKind::carrier; });
+  for (size_t b = 0; b < (planetary ? layout.bodies.size() : 1); ++b)
+    if (layout.bodies[b].on == System::kGround)
+      efficiencies +=
+          text(efficiencies.empty() ? "" : ", ", fixed(a.efficiency[static_cast<Index>(b)] * 100, 3), " %",
+               planetary ? text(" while ", layout.bodies[b].name, " is at rest") : std::string());
+  return remark(false, "friction, ", in_words(a.settings.friction()), ", takes ", shown(all, 4),
+                " J a mesh period (", shares, "): efficiency ", efficiencies,
+                ". It acts by its moments and forces on the hubs and bends no teeth");
 }
 
 void take_harmonics(SystemStaticResult& out) {
@@ -250,13 +322,19 @@ SystemStaticResult system_at_rest(const SystemStaticParameters& settings,
   out.translation.assign(solutions.size(), MatrixRM::Zero(all, 2));
   out.bearing_force = out.translation;
   out.mesh_stiffness.assign(solutions.size(), MatrixRM::Zero(meshes, meshes));
+  if (system.slides()) {
+    out.friction_coefficient = Eigen::Map<const Eigen::VectorXd>(system.friction.data(), meshes);
+    out.friction_work = MatrixRM::Zero(phases, meshes);
+  }
   for (Index i = 0; i < phases; ++i) {
     out.mesh_phase[i] = static_cast<double>(i) / static_cast<double>(settings.contact.positions);
     take_phase(system, solutions[static_cast<size_t>(i)], i, out);
   }
   take_pairs(solutions, meshes, out);
   take_harmonics(out);
+  if (system.slides()) take_efficiency(out);
   out.remarks = drawing_remarks(out);
+  if (system.slides()) out.remarks.push_back(remark_on_friction(out));
   return out;
 }
 

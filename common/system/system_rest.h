@@ -18,8 +18,15 @@ void check_at_rest(const SystemScene& scene, const System& layout);
 // Mesh periods after which the same teeth meet, as hunting_periods() of the system.
 int hunting_periods(const SystemStaticParameters& settings);
 
-// The system that the settings describe; bodies: [gear] of settings.body.
+// The system that the settings describe, with friction as its meshes have it; bodies: [gear] of settings.body.
 SystemModel elastic_system(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies);
+
+// Coefficients of friction of its meshes under the loads of its drives, as they say.
+void take_friction(SystemModel& system);
+
+// 1: power out over power in of bodies on the ground under their torques (body; N m in their own sense), while body `at_rest` is at rest
+// and the frame of the layout turns by that; -1: at rest in this frame. 0 where no power goes in.
+double efficiency_at_rest(const System& layout, const Eigen::VectorXd& torque, int at_rest);
 
 // Inertias and masses as the gears are drawn, where the scene does not say them.
 void take_masses(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies,

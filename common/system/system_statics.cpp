@@ -247,6 +247,14 @@ const SystemSolution& SystemStatics::solve(double phase, int period, const Vecto
     solution.next_corner_gap.push_back(position.mesh[m].next_corner_gap);
     solution.lost_corner_gap.push_back(position.mesh[m].lost_corner_gap);
   }
+  solution.friction_work.assign(position.mesh.size(), 0);
+  for (const ContactSegment& segment : position.segment) {
+    if (!system_.slides()) break;
+    const auto m = static_cast<size_t>(segment.mesh);
+    const double force = solution.equilibrium.p.segment(segment.first_strip, segment.strips).sum(),
+                 turned = 2 * std::numbers::pi / system_.mesh[m].kinematics.gear(0).design().teeth;
+    solution.friction_work[m] += system_.friction[m] * force * segment.sliding.loss() * turned;
+  }
   require_small(solution);
   lines_ ? take_lines(solution) : take_strips(solution);
   solution_ = std::move(solution);

@@ -20,6 +20,8 @@ struct SystemSolution {
   std::vector<Vec2> bearing_force;  // [body] N, see bearing_force(); of rigid bearings, too
   std::vector<double> mesh_force,
       driven_force;  // [mesh] N: torque on the first side over its base radius, on the second
+  std::vector<double>
+      friction_work;  // [mesh] J: that friction takes in a mesh period at this position; 0 without
   std::vector<double> transmission_error, deflection;    // [mesh] m; see mesh_deflection
   std::vector<double> next_corner_gap, lost_corner_gap;  // [mesh] m, see PairsInReach
   bool leaves_zone = false;                              // a wider range may do

@@ -292,7 +292,7 @@ TEST_CASE(
     settings.mesh.bearing = {Bearing{60e6}, Bearing{40e6}};
     SystemModel system(coarse_body(), coarse_body(), settings.mesh);
     system.layout.drives.push_back({0, System::DriveKind::torque, 300});
-    system.friction = 0.2;
+    system.friction = {0.2};
     SystemStatics statics(system, contact, static_zones(system, 8, 1, 1.6));
     double moved = 0;  // m: largest by what friction adds
     for (double phase = 0; phase < 1; phase += 0.0625) {

@@ -109,7 +109,7 @@ TEST_CASE(
       SystemModel system(body_of(gears->driver), body_of(gears->driven),
                          settings_of(*gears, kFriction, contact, false).mesh);
       system.layout.drives.push_back({0, System::DriveKind::torque, kTorque});
-      system.friction = kFriction;
+      system.friction = {kFriction};
       SystemStatics statics(system, contact, static_zones(system, 8, 1, 1.6));
       const GearPair& pair = system.mesh[0].kinematics;
       const double ratio = static_cast<double>(gears->driver.teeth) / gears->driven.teeth;

@@ -391,10 +391,12 @@ TEST_CASE(
   CHECK(turns[0].centrifugal_force == relative(mass * radius * speed * speed, 1e-12));
   CHECK(turns[0].mesh_force == 2000);
   CHECK(turns[0].coriolis == relative(0.02, 1e-12));
+  CHECK(turns[0].in_motion);
   // Held, as the frame; by the sun; none of its gears.
   const auto frame = of({{"sun", kTorque, kTrainTorque, 0}, {"ring", kHeld, 0, 0}, {"carrier", kHeld, 0, 0}});
   REQUIRE(frame.size() == 1);
   CHECK(!frame[0].turns);
+  CHECK(!frame[0].in_motion);
   CHECK(frame[0].centrifugal_force == turns[0].centrifugal_force);
   CHECK(of({{"sun", kHeld, 0, 0}, {"ring", kTorque, -kOfRing, 0}, {"carrier", kTorque, -kOfCarrier, 0}})[0]
             .speed == relative(speed * 100 / 26, 1e-12));

@@ -242,11 +242,9 @@ TEST_CASE("elastic systems: what their rest needs is checked with its line befor
 TEST_CASE(
     "keys that the table marks as those of pairs are rejected in a system, by the reader that knows them") {
   const std::string table = scene_key_table();
-  for (const char* section : {"[friction]", "[gear.<name>.crack]"}) {
-    const size_t at = table.find(std::string("| `") + section + "`");
-    REQUIRE(at != std::string::npos);
-    CHECK(contains(table.substr(at, table.find('\n', at) - at), "of pairs alone: "));
-  }
+  const size_t at = table.find("| `[gear.<name>.crack]`");
+  REQUIRE(at != std::string::npos);
+  CHECK(contains(table.substr(at, table.find('\n', at) - at), "of pairs alone: "));
   std::ifstream elastic("data/scenes/three-in-line.toml");
   std::ostringstream whole;
   whole << elastic.rdbuf();
@@ -256,7 +254,19 @@ TEST_CASE(
     return message_of([&] { read_system_scene(path); });
   };
   CHECK(said("").empty());
-  CHECK(names(said("[friction]\ncoefficient = 0.05\n"), {"section", "take"}));
+  // Friction acts at rest alone, in all meshes.
+  CHECK(names(said("[friction]\ncoefficient = 0.05\n"), {"[operation]", "take"}));
+  std::string still = whole.str();
+  const size_t from = still.find("\n[operation]"), to = still.find("\n[", from + 1);
+  REQUIRE(from != std::string::npos);
+  still.erase(from, to == std::string::npos ? to : to - from);
+  const std::string path = file.path(still + "\n[friction]\ncoefficient = 0.05\n");
+  const SystemScene scene = read_system_scene(path);
+  for (const SystemScene::Mesh& mesh : scene.meshes) CHECK(mesh.spec.friction.coefficient == 0.05);
+  const SystemStaticParameters settings = static_parameters_of(scene, layout_in(scene, path));
+  const std::string stage = file.path(system_static_parameters(settings));
+  for (const GearMeshSpec& mesh : read_system_static_parameters(stage).mesh)
+    CHECK(mesh.friction.coefficient == 0.05);
   CHECK(said("[gear.idler.error]\neccentricity_um = 5\n").empty());
   CHECK(names(said("[gear.idler.crack]\ndepth_mm = 0.5\n"), {"compute", "gears"}));
   CHECK(names(said("[gear.idler.error]\nprofile_slope_um = [1.0, 2.0]\n"), {60, "teeth"}));
