@@ -73,17 +73,22 @@ inputs_system-sweep = $(call both_ways,$1,$(firstword $2),response)
 inputs_system-ringdown = out/$1/T$(firstword $2)/impact.h5
 inputs_system-branch = out/$1/T$(firstword $2)/branch.h5 $(inputs_system-sweep)
 inputs_table1 = $(foreach t,$2,out/$1/T$t/impact.h5)
+# Figures of a scene are called by what they show, those of P2000 by their numbers there: `make SCENE=own.toml fig12` is out/own/report/transmission-error.
+shown_names := fig01:finite-elements fig03:contact-zone fig05:response fig05-branches:response-branches fig07:responses-by-torque fig07-branches:responses-by-torque-branches \
+  fig12:transmission-error fig13:mesh-stiffness fig14:lumped-rectangular fig14-elastic:rms-and-mean fig16:lumped-by-torque
+shown_as = $(if $(SCENE),$(call paired,$1,$(shown_names)),$1)
 # Those that are made from what another one is made from, and those that are drawn as another one.
 same_inputs := fig07-600:fig07 fig09:fig08 fig10:fig08 fig11:fig08 fig13:fig12 load-sharing:fig12 tooth-loads:fig08 fig14-elastic:fig07 relief-jumps:fig05 \
   flank-pressure:root-stress runup-down:runup-up histories:fig08 history-loads:fig08
 same_drawing := fig07:fig05 fig07-600:fig05 fig05-branches:fig05 fig07-branches:fig05 fig09:fig08 fig11:fig10 fig14:fig16 fig14-elastic:fig16 profile-chart:profile \
   relief-jumps:fig05 root-stress-branches:root-stress histories:fig08 history-loads:fig10 runup-up:runup runup-down:runup
 paired = $(or $(patsubst $1:%,%,$(filter $1:%,$2)),$1)
-drawn_as = $(call paired,$1,$(same_drawing))
+numbered = $(or $(patsubst %:$1,%,$(filter %:$1,$(shown_names))),$1)
+drawn_as = $(call paired,$(call numbered,$1),$(same_drawing))
 # Figures of panels have no template of their own.
 template = $(or $(wildcard pipelines/plots/$1.gp),pipelines/plots/panels.gp)
 # $(call inputs,figure,scenes,torques)
-inputs = $(call inputs_$(call paired,$1,$(same_inputs)),$2,$3)
+inputs = $(call inputs_$(call paired,$(call numbered,$1),$(same_inputs)),$2,$3)
 
 
 # Mesh frequencies in Hz: P2000's, its upper and lower branch, or time histories at one of the sweep's, figures of their own for each.
@@ -130,7 +135,7 @@ figure_folder := $(if $(SCENE),out/$(basename $(notdir $(SCENE)))/report,out/fig
 # AXIS=rpm:pinion: the speed of a gear, of a train also of its carrier, in place of the mesh frequency; DB=1e-6: RMS of the DTE and of its orders in dB re this length in m.
 AXIS ?=
 DB ?=
-speed_figures := fig05 fig07 fig05-branches fig07-branches fig07-600 fig14 fig14-elastic fig16 relief-jumps waterfall order-cuts tooth-loads bearing-forces efficiency root-stress root-stress-branches flank-pressure compare-motion runup-up runup-down campbell system-sweep system-branch
+speed_figures := $(foreach f,fig05 fig05-branches fig07 fig07-branches fig14 fig14-elastic fig16,$(call paired,$f,$(shown_names))) fig05 fig07 fig05-branches fig07-branches fig07-600 fig14 fig14-elastic fig16 relief-jumps waterfall order-cuts tooth-loads bearing-forces efficiency root-stress root-stress-branches flank-pressure compare-motion runup-up runup-down campbell system-sweep system-branch
 level_figures := order-cuts compare-motion runup-up runup-down system-sweep system-branch
 # A figure that would not take them is not drawn without them; `modes` draws the Campbell diagram, too, and `sweep` and `branches` draw those
 # of trains.
@@ -148,7 +153,7 @@ figure_of = $(or $(strip $(foreach f,histories history-loads compare-rest compar
   $(if $(filter runup-%,$(notdir $1)),runup-$(WAY)),$(patsubst harris-dynamic,harris-map,$(patsubst %-fine,%,$(notdir $1))))
 scene_of_figure = $(patsubst %/report/,%,$(filter %/report/,$(dir $1)))
 inputs_of_figure = $(if $(filter compare/%,$1),$(call inputs,$2,$(compared),$(compared_torque)),$(if $(filter histories history-loads runup-%,$2),$(call inputs,$2,$(own_scene),$(TORQUE)),\
-  $(if $3,$(if $(if $(call is_pair,$3),$(filter-out system% modes campbell,$2),$(filter $2,$(system_figures))),$(call inputs,$2,$3,$(SCENE_$3_TORQUES))),$(call inputs_of_paper,$2))))
+  $(if $3,$(if $(if $(call is_pair,$3),$(filter-out system-% modes campbell,$2),$(filter $2,$(system_figures))),$(call inputs,$2,$3,$(SCENE_$3_TORQUES))),$(call inputs_of_paper,$2))))
 # Load sharing of a pair is among its teeth, of a train among its planets.
 drawing = $(call drawn_as,$(if $(filter $3,$(systems)),$(patsubst load-sharing,system-load-sharing,$2),$2))
 fragments = $(foreach s,$(or $3,$(if $(filter compare/%,$1),$(compared))),$(B)/scenes/$s.mk)
@@ -215,10 +220,10 @@ BRANCHES ?= no
 system_shows = system $(if $2,system-static) $(if $(and $2,$(filter yes,$(SCENE_$1_PLANETS))),load-sharing) modes campbell $(if $(filter yes,$(SCENE_$1_MOVES)),system-sweep order-cuts)
 system_artifacts = $(if $2,$(inputs_system-static)) out/$1/modes.h5 $(if $(filter yes,$(SCENE_$1_MOVES)),$(inputs_system-sweep))
 system_figures := system system-static load-sharing modes campbell system-sweep order-cuts system-ringdown system-branch
-report_shows = fig01 $(if $(filter yes,$(SCENE_$1_MODIFIED)),profile-chart) \
-  $(if $(call teeth,$1,alike),fig12 fig13 load-sharing error-budget) \
-  $(if $(call teeth,$1,cracked),$(if $(call teeth,$1,differ),,crack),fig07 \
-  $(if $(call teeth,$1,alike),$(if $(filter yes,$(BRANCHES)),fig05-branches multipliers)) order-cuts waterfall tooth-loads $(if $(call teeth,$1,alike),root-stress) \
+report_shows = system finite-elements $(if $(filter yes,$(SCENE_$1_MODIFIED)),profile-chart) \
+  $(if $(call teeth,$1,alike),transmission-error mesh-stiffness load-sharing error-budget) \
+  $(if $(call teeth,$1,cracked),$(if $(call teeth,$1,differ),,crack),responses-by-torque \
+  $(if $(call teeth,$1,alike),$(if $(filter yes,$(BRANCHES)),response-branches multipliers)) order-cuts waterfall tooth-loads $(if $(call teeth,$1,alike),root-stress) \
   $(if $(filter yes,$(SCENE_$1_FRICTION)),efficiency) $(if $(filter elastic,$(SCENE_$1_BEARINGS)),bearing-forces) $(if $(call teeth,$1,differ),sidebands))
 report_artifacts = $(foreach t,$2,out/$1/T$t/static.h5) $(call impacts,$1,$2) \
   $(if $(call teeth,$1,cracked),,$(call both_ways,$1,$2,response)) $(if $(call teeth,$1,alike),out/$1/T$(firstword $2)/error_budget.h5)
@@ -247,10 +252,10 @@ report: out/$$(own_scene)/report/index.html ## figures, tables and one HTML page
 	$(call stands,report: open $< in a browser; results.tsv beside it holds its numbers)
 export: $(if $(filter export,$(goals)),$$(export_file)) ## results of SCENE as custom attributes of a copy of the REXS model that it was imported from: MODEL=stage.rexs STAGE=12 (id or name; where it has several)
 	$(call stands,export: $(export_file))
-$(figures): %: $(foreach e,tsv svg png,$(figure_folder)/%.$e)
+$(figures): %: $$(foreach e,tsv svg png,$(figure_folder)/$$(call shown_as,$$*).$$e)
 teeth: $(teeth_page) ## what the teeth of a pair suffer, on one page, out/figures/teeth/index.html (SCENE: out/<scene>/teeth/index.html): root stress, flank pressure, dynamic factors, losses beside ISO 6336, 150 N m (SCENE: its first torque); BRANCHES=yes
 	$(call stands,teeth: open $< in a browser)
-figures: $(if $(SCENE),$(report_figures),$(paper_figures)) $(figure_folder)/table1.txt ## all figures and tables of the paper that are there so far, or all of SCENE
+figures: $(if $(SCENE),$(foreach f,$(report_figures),$(call shown_as,$f)),$(paper_figures)) $(figure_folder)/table1.txt ## all figures and tables of the paper that are there so far, or all of SCENE
 table1: $(figure_folder)/table1.txt ## natural frequencies by ring-down at 100, 200 and 300 N m beside those of the paper (SCENE: its torques)
 	@cat $<
 scorecard: out/figures/scorecard.txt ## every number and statement of the paper, its value in three scenes of its pair, whether it agrees

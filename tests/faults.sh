@@ -90,7 +90,7 @@ fi
 
 # --- kills: make and all that it runs, at a moment of the run that is left when a stage has yet to be done
 stages=("out/bodies/*/mesh.h5" "out/bodies/*/body.h5" "$at/static.h5" "$at/impact.h5" "$at/down/sweep.h5" "$at/pairs/up/sweep.h5"
-  "$at/down/response.h5" "out/own/report/fig12.*")
+  "$at/down/response.h5" "out/own/report/transmission-error.*")
 [ -n "$short" ] || stages+=("$at/loaded_0.25.h5" "out/studies/few/variants/*/*.h5" "out/studies/few/study.h5")
 declare -A lasts
 for stage in "${stages[@]}"; do

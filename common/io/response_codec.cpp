@@ -63,6 +63,9 @@ void describe_loads(Codec& c, ResponseResult& a) {
   c(a.tooth_load_max, "/tooth_load_max", "N", kLoad, kOfMesh, "largest normal force of one tooth pair");
   c(a.mesh_force_max, "/mesh_force_max", "N", kLoad, kOfMesh,
     "largest normal force of all pairs together; of trains largest torque on the driving body over its base radius");
+  if (c.optional("/mesh_force_harmonic", !a.mesh_force_harmonic.empty()))
+    c(a.mesh_force_harmonic, "/mesh_force_harmonic", "N", kLoad, "mesh_frequency harmonic mesh",
+      "amplitude of the harmonics 1, 2, ... of the mesh frequency in the mesh force");
   if (c.optional("/load_share_max", a.load_share_max.size() > 0))
     c(a.load_share_max, "/load_share_max", "1", kShare, kOfMesh,
       "largest share, at one instant, of the meshes that come from one [[mesh]]: of planets the load sharing; left out where no [[mesh]] has several");
@@ -72,6 +75,10 @@ void describe_loads(Codec& c, ResponseResult& a) {
     c(a.bearing_force_rms, "/bearing_force_rms", "N", kLoad, kOfBody,
       "RMS of the oscillating part of that force, x and y together");
   }
+  if (c.optional("/bearing_force_harmonic", !a.bearing_force_harmonic.empty()))
+    c(a.bearing_force_harmonic, "/bearing_force_harmonic", "N", kLoad, "mesh_frequency harmonic body",
+      "amplitude of the harmonics 1, 2, ... of the mesh frequency in the force on the bearing, x and y together",
+      "sqrt(x^2 + y^2)");
   if (c.optional("/root_stress_max", a.root_stress_max.size() > 0)) {
     c(a.root_stress_max, "/root_stress_max", "Pa", kStress, kOfBody,
       "largest tangential stress along the roots beside the loaded flanks, quasi-static in the tooth loads: the inertia of the body adds none; 0 of a body of which it is not known");

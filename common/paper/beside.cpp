@@ -1,6 +1,7 @@
 #include "paper/beside.h"
 
 #include <cmath>
+#include <map>
 
 #include "base/error.h"
 
@@ -54,9 +55,20 @@ void name_figures_of_paper(ReportContent& content) {
   if (content.statics.empty()) return;  // which the report rejects
   const StaticResult& pair = content.statics[0];
   if (!teeth_of_paper(pair.gear[0].design) || !teeth_of_paper(pair.gear[1].design)) return;
+  // Figures of a scene are called by what they show.
+  static const std::map<std::string, std::string> alike{{"finite-elements", "fig01"},
+                                                        {"contact-zone", "fig03"},
+                                                        {"response", "fig05"},
+                                                        {"response-branches", "fig05"},
+                                                        {"responses-by-torque", "fig07"},
+                                                        {"responses-by-torque-branches", "fig07"},
+                                                        {"transmission-error", "fig12"},
+                                                        {"mesh-stiffness", "fig13"},
+                                                        {"rms-and-mean", "fig14-elastic"}};
   for (ReportPicture& picture : content.pictures)
-    if (const std::string figure = paper_figure(picture.name); !figure.empty())
-      picture.printed = figure + " of P2000 " + (figure.starts_with("Figures") ? "show" : "shows");
+    if (const auto found = alike.find(picture.name); found != alike.end())
+      if (const std::string figure = paper_figure(found->second); !figure.empty())
+        picture.printed = figure + " of P2000 " + (figure.starts_with("Figures") ? "show" : "shows");
 }
 
 }  // namespace whine

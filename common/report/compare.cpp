@@ -10,6 +10,7 @@
 #include "report/html.h"
 #include "report/report_geometry.h"
 #include "report/report_page.h"
+#include "report/report_remarks.h"
 #include "report/report_results.h"
 #include "report/report_tables.h"
 

@@ -376,10 +376,11 @@ Drawings drawings_of_systems() {
         }}},
       {"system",
        {"a system as it stands: gears at their places, teeth in mesh, senses of rotation",
-        "static.h5 of a system, or of rigid gears modes.h5", 1, 0,
+        "static.h5, of rigid gears modes.h5", 1, 0,
         [](const Paths& in, const Frequencies&) {
-          return is_a("whine/modes", in[0]) ? system_picture(read<ModesResult>(in[0]))
-                                            : system_picture(read<SystemStaticResult>(in[0]));
+          return is_a("whine/modes", in[0])    ? system_picture(read<ModesResult>(in[0]))
+                 : is_a("whine/static", in[0]) ? system_picture(read<StaticResult>(in[0]))
+                                               : system_picture(read<SystemStaticResult>(in[0]));
         }}},
       {"system-sweep",
        {"a system over its speeds: vibration and contact loss of meshes, forces on bearings",

@@ -18,6 +18,13 @@ bool is_number(const std::string& cell) {
 
 }  // namespace
 
+std::string with_breaks(const std::string& words) {
+  const size_t end = words.find('\n');
+  return end == std::string::npos
+             ? escaped(words)
+             : escaped(words.substr(0, end)) + "<br>" + with_breaks(words.substr(end + 1));
+}
+
 std::string escaped(const std::string& words) {
   std::string out;
   for (const char c : visible(words)) {
@@ -53,12 +60,13 @@ std::string table(const std::string& caption, const std::vector<std::string>& he
   const std::string classes =
       kind + (kind.empty() || head.size() < kBroad ? "" : " ") + (head.size() < kBroad ? "" : "broad");
   std::string out = "<div class=\"wide\"><table" + (classes.empty() ? "" : " class=\"" + classes + "\"") +
-                    ">\n<caption>" + escaped(caption) + "</caption>\n<thead><tr>";
+                    ">\n" + (caption.empty() ? "" : tagged("caption", escaped(caption)) + "\n") +
+                    "<thead><tr>";
   for (size_t c = 0; c < head.size(); ++c) out += tagged("th" + open[c], escaped(head[c]));
   out += "</tr></thead>\n<tbody>\n";
   for (const auto& row : rows) {
     out += "<tr>";
-    for (size_t c = 0; c < head.size(); ++c) out += tagged("td" + open[c], escaped(row[c]));
+    for (size_t c = 0; c < head.size(); ++c) out += tagged("td" + open[c], with_breaks(row[c]));
     out += "</tr>\n";
   }
   return out + "</tbody></table></div>\n";

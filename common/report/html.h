@@ -12,12 +12,15 @@ inline constexpr const char* kNoValue = "–";  // a cell that has none
 // Words without marks.
 std::string escaped(const std::string& words);
 
+// The same with a break at each '\n'.
+std::string with_breaks(const std::string& words);
+
 // "<p>inside</p>" of the tag "p"; tags may have attributes. `inside` stands as it is.
 std::string tagged(const std::string& tag, const std::string& inside);
 
 std::string paragraph(const std::string& words);
 
-// Cells are words, not marks; a column of numbers stands to the right. kind: classes of the table.
+// Cells are words, not marks, '\n' a break in them; a column of numbers stands to the right. kind: classes of the table. caption: "" none.
 std::string table(const std::string& caption, const std::vector<std::string>& head, const Rows& rows,
                   const std::string& kind = "");
 

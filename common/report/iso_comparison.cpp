@@ -74,4 +74,19 @@ IsoComparison iso_comparison(const StaticResult& s, const std::array<double, kSi
   return out;
 }
 
+DynamicFactorPeak largest_dynamic_factor(const StaticResult& s, const ResponseResult& r) {
+  const Eigen::VectorXd force =
+      r.mesh_force_sustained.size() > 0 ? r.mesh_force_sustained.col(0) : r.mesh_force_max.col(0);
+  DynamicFactorPeak out;
+  out.factor = force.maxCoeff(&out.row) * ToothGeometry(s.gear[0].design).base_radius() / s.torque;
+  if (!(r.inertia[0] > 0 && r.inertia[1] > 0)) {
+    out.why_none = "the inertias are not known";
+    return out;
+  }
+  const IsoComparison iso = iso_comparison(s, r.inertia);
+  out.standard = iso.dynamic_factor(r.mesh_frequency[out.row]);
+  if (!out.standard) out.why_none = iso.why;
+  return out;
+}
+
 }  // namespace whine

@@ -7,10 +7,13 @@
 #include "gear/pair.h"
 #include "report/figures.h"
 #include "report/html.h"
+#include "report/opening.h"
 #include "report/report_figures.h"
 #include "report/report_geometry.h"
 #include "report/report_guide.h"
+#include "report/report_opening.h"
 #include "report/report_page.h"
+#include "report/report_remarks.h"
 #include "report/report_results.h"
 #include "report/report_tables.h"
 
@@ -61,12 +64,16 @@ std::string report_tsv(const ReportContent& c) {
   std::string out = "# " + c.scene + "\ntorque [N m]\tquantity\tvalue\tunit\tremark\n";
   for (const GeometryNumber& g : pair_geometry(c.statics[0]))
     out += text("\t", g.quantity, "\t", g.value, "\t", g.unit, "\t\n");
-  for (const ReportNumber& r : report_numbers(c)) {
+  const auto add = [&](const ReportNumber& r, const std::string& quantity, const std::string& unit,
+                       const std::string& value) {
     // A column that holds numbers alone is read as numbers: words stand in the remark.
-    const bool words = r.value.find_first_not_of("+-.0123456789e") != std::string::npos;
-    const std::string remark = text(words ? r.value : "", words && !r.remark.empty() ? "; " : "", r.remark);
-    out += text(shown(r.torque, 6), "\t", r.quantity, "\t", words ? "" : r.value, "\t", r.unit, "\t", remark,
-                "\n");
+    const bool words = value.find_first_not_of("+-.0123456789e") != std::string::npos;
+    const std::string remark = text(words ? value : "", words && !r.remark.empty() ? "; " : "", r.remark);
+    out += text(shown(r.torque, 6), "\t", quantity, "\t", words ? "" : value, "\t", unit, "\t", remark, "\n");
+  };
+  for (const ReportNumber& r : report_numbers(c)) {
+    add(r, r.quantity, r.unit, r.value);
+    if (!r.rpm.empty() && r.rpm != r.value) add(r, r.quantity + ", as rotation of the driver", "rpm", r.rpm);
   }
   return out;
 }
@@ -77,11 +84,11 @@ std::string report_html(const ReportContent& c) {
   const auto add = [&](const char* id, const char* heading, const std::string& inside) {
     if (!inside.empty()) sections.push_back({id, heading, inside});
   };
-  add("results", "Results", introduction(c) + results_table(c));
+  add("results", "Results", introduction(c) + results_tables(c));
   add("remarks", "Warnings and remarks", remarks_list(c));
   add("guide", "What the numbers mean", guide_to_numbers(c));
   add("gears", "The gears", gears_table(c) + figures_of(c, "gears"));
-  add("rest", "At rest", stiffness_tables(c) + figures_of(c, "rest"));
+  add("rest", "At rest", stiffness_tables(c) + class_table(c) + figures_of(c, "rest"));
   add("frequencies", "Natural frequencies and damping",
       c.impacts.empty() ? "" : natural_frequencies_table(c));
   add("motion", "In motion", figures_of(c, "motion"));
@@ -89,7 +96,7 @@ std::string report_html(const ReportContent& c) {
   add("parameters", "Parameters", parameters_table(c));
   add("provenance", "Provenance", provenance_table(c.sources));
 
-  return report_page(c.scene, sections);
+  return report_page(c.scene, opening_html(opening_lines(c), figures_of(c, "opening")), sections);
 }
 
 }  // namespace whine

@@ -12,6 +12,7 @@
 #include "io/summary.h"
 #include "report/figures.h"
 #include "signal/response.h"
+#include "signal/spectrum.h"
 
 namespace whine {
 
@@ -53,6 +54,11 @@ void require_one_pair(const ReportContent& c) {
   if (c.budget) take(*c.budget, "the error_budget.h5");
 }
 
+TurningMember driver_of(const ReportContent& c) {
+  if (c.statics.empty()) return {};
+  return {c.statics[0].mesh.gear[0], 1.0 / c.statics[0].gear[0].design.teeth};
+}
+
 double static_force(const StaticResult& s) {
   return s.torque / ToothGeometry(s.gear[0].design).base_radius();
 }
@@ -61,15 +67,34 @@ double peak_to_peak(const Eigen::VectorXd& v) {
   return v.maxCoeff() - v.minCoeff();
 }
 
+double first_order_of_force(const MatrixRM& force, int periods) {
+  if (resolved_harmonics(force.rows(), 1, periods) < 1) return 0;
+  return std::hypot(harmonics(force.col(0), 1, periods).amplitude[0],
+                    harmonics(force.col(1), 1, periods).amplitude[0]);
+}
+
+Eigen::VectorXd first_order_of(const std::vector<MatrixRM>& harmonic, Index column) {
+  Eigen::VectorXd out(static_cast<Index>(harmonic.size()));
+  for (size_t f = 0; f < harmonic.size(); ++f) {
+    if (harmonic[f].rows() == 0 || column >= harmonic[f].cols()) return {};
+    out[static_cast<Index>(f)] = harmonic[f](0, column);
+  }
+  return out;
+}
+
+std::string decibels(double amplitude) {
+  return fixed(20 * std::log10(amplitude / std::numbers::sqrt2), 1);
+}
+
 std::string hertz(double f) {
   return fixed(f, 0);
 }
 
-std::string jumps_of(const ResponseResult& r) {
+std::string jumps_of(const ResponseResult& r, double scale) {
   std::vector<double> jumps(r.jump_frequency.begin(), r.jump_frequency.end());
   std::sort(jumps.begin(), jumps.end());
   std::string out;
-  for (const double f : jumps) out += (out.empty() ? "" : ", ") + hertz(f);
+  for (const double f : jumps) out += (out.empty() ? "" : ", ") + hertz(f * scale);
   return out.empty() ? "none" : out;
 }
 
@@ -93,14 +118,18 @@ std::string significant(double value, int digits) {
 }
 
 std::vector<Index> resonances(const ResponseResult& r) {
+  return resonances(r.mesh_frequency, r.dte_rms.col(0));
+}
+
+std::vector<Index> resonances(const Eigen::VectorXd& mesh_frequency, const Eigen::VectorXd& dte_rms) {
   constexpr double kHigher = 1.2;
   constexpr size_t kMost = 5;
-  const Index n = r.mesh_frequency.size();
+  const Index n = mesh_frequency.size();
   std::vector<Index> order(static_cast<size_t>(n)), peaks;
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
-            [&](Index a, Index b) { return r.mesh_frequency[a] < r.mesh_frequency[b]; });
-  const auto rms = [&](Index k) { return r.dte_rms(order[static_cast<size_t>(k)], 0); };
+            [&](Index a, Index b) { return mesh_frequency[a] < mesh_frequency[b]; });
+  const auto rms = [&](Index k) { return dte_rms[order[static_cast<size_t>(k)]]; };
   // Least RMS on the way to a higher one, or to the end of the sweep.
   const auto foot = [&](Index k, Index step) {
     double least = rms(k);

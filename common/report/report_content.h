@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "io/provenance.h"
+#include "report/speed_words.h"
 #include "results/error_budget.h"
 #include "results/impact.h"
 #include "results/response.h"
@@ -14,7 +15,7 @@ namespace whine {
 
 // A figure as gear-plot draws it; its name says what it shows.
 struct ReportPicture {
-  std::string name;   // file name without extension: "fig12"
+  std::string name;   // file name without extension: "transmission-error"
   std::string bytes;  // of a PNG
   std::string printed =
       {};  // what a publication shows of the same gears, "Figure 7 of P2000 shows"; "": nothing
@@ -46,16 +47,28 @@ const ImpactResult* impact_of(const ReportContent& c, double torque);
 // direction).
 void require_one_pair(const ReportContent& c);
 
+// Whose rotation stands beside mesh frequencies; of content without statics one whose rotation is not known.
+TurningMember driver_of(const ReportContent& c);
+
 double static_force(const StaticResult& s);  // N: T / r_b
 double peak_to_peak(const Eigen::VectorXd& v);
 
-std::string way_words(const ResponseResult& s);             // "speed rising"
-std::string hertz(double f);                                // whole Hz
-std::string jumps_of(const ResponseResult& r);              // "1819, 2645", "none"
+// N: amplitude of the first order of a force (phase, xy) that repeats after these mesh periods, x and y together.
+double first_order_of_force(const MatrixRM& force, int periods = 1);
+std::string decibels(double amplitude);  // of the RMS of a harmonic of this amplitude, re 1
+
+// N, over speed: first order of the force of a mesh or on the bearing of a body; empty where it is not known.
+Eigen::VectorXd first_order_of(const std::vector<MatrixRM>& harmonic, Eigen::Index column);
+
+std::string way_words(const ResponseResult& s);  // "speed rising"
+std::string hertz(double f);                     // whole Hz
+// "1819, 2645", "none": Hz, or times a scale what they are in rpm.
+std::string jumps_of(const ResponseResult& r, double scale = 1);
 std::string listed(const std::vector<std::string>& words);  // "a, b and c"
 std::string significant(double value, int digits);  // with all of its digits: 1.400 where shown() has 1.4
 
 // Speeds (rows) at which the RMS of a response has a peak: higher than its surroundings by a fifth, ascending in frequency;
 // the ends of the sweep are none.
 std::vector<Eigen::Index> resonances(const ResponseResult& response);
+std::vector<Eigen::Index> resonances(const Eigen::VectorXd& mesh_frequency, const Eigen::VectorXd& rms);
 }  // namespace whine

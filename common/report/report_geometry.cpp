@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "base/error.h"
+#include "gear/drawing_quantities.h"
 #include "gear/pair.h"
 #include "gear/path_points.h"
 #include "report/figures.h"
@@ -25,7 +27,8 @@ std::vector<GeometryNumber> pair_geometry(const StaticResult& s) {
   add("base pitch", "mm", millimetres(pair.base_pitch()));
   add("path of contact, length", "mm", millimetres(pair.path_end() - pair.path_start()));
   add("path of contact before the pitch point", "mm", millimetres(-pair.path_start()));
-  add("backlash along the line of action", "mm", millimetres(pair.backlash()));
+  add("normal backlash, along the line of action", "mm", millimetres(pair.backlash()));
+  add("circumferential backlash", "mm", millimetres(circumferential_backlash(pair)));
   const auto points = path_points(pair);
   for (int g = 0; g < kSides; ++g) {
     const ToothGeometry& gear = pair.gear(g);
@@ -48,6 +51,18 @@ std::vector<GeometryNumber> pair_geometry(const StaticResult& s) {
       add("path of contact lost to undercut" + of, "mm", millimetres(pair.path_lost(g)));
     }
     add("tooth thickness at the tip" + of, "mm", millimetres(gear.thickness_at_radius(gear.tip_radius())));
+    add("tooth thickness at the reference circle" + of, "mm", millimetres(reference_thickness(gear)));
+    if (const std::optional<Span> span = span_measurement(gear)) {
+      add("teeth in the span" + of, "1", std::to_string(span->teeth));
+      add("span over these teeth" + of, "mm", millimetres(span->length));
+    }
+    add("tip clearance" + of, "mm", millimetres(tip_clearance_to_root(pair, g)));
+    add("root clearance" + of, "mm", millimetres(tip_clearance_to_root(pair, 1 - g)));
+    for (const auto& [what, at_point] :
+         {std::pair{"where a pair comes into contact", 0}, std::pair{"where it leaves", 4}})
+      if (const auto sliding =
+              specific_sliding(pair, points[static_cast<size_t>(at_point)].path)[static_cast<size_t>(g)])
+        add(text("specific sliding ", what, of), "1", fixed(*sliding, 4));
   }
   return out;
 }

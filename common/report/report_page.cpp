@@ -8,7 +8,8 @@
 
 namespace whine {
 
-std::string report_page(const std::string& scene, const std::vector<ReportSection>& sections) {
+std::string report_page(const std::string& scene, const std::string& opening,
+                        const std::vector<ReportSection>& sections) {
   const size_t colon = scene.find(": ");
   const std::string file = scene.substr(0, colon),
                     title = colon == std::string::npos ? scene : scene.substr(colon + 2);
@@ -21,7 +22,8 @@ std::string report_page(const std::string& scene, const std::vector<ReportSectio
   return html::page(
       title,
       "<p class=\"scene\">Gear whine report of the scene <code>" + html::escaped(file) + "</code></p>\n",
-      "<nav aria-label=\"Contents\"><ol>\n" + contents + "</ol></nav>\n" + inside);
+      "<section id=\"opening\" aria-label=\"In short\">\n" + opening +
+          "</section>\n<nav aria-label=\"Contents\"><ol>\n" + contents + "</ol></nav>\n" + inside);
 }
 
 std::string picture_html(const ReportPicture& picture, const std::string& title, const std::string& words,
@@ -35,13 +37,14 @@ std::string picture_html(const ReportPicture& picture, const std::string& title,
                       words + " <span class=\"files\">" + files + "</span>");
 }
 
-std::string remark_items(const std::string& where, const std::vector<Remark>& remarks) {
+std::string remark_items(const std::string& where, const std::vector<Remark>& remarks,
+                         const TurningMember& member) {
   constexpr size_t kMost = 12;  // of one artifact
   std::string out;
   for (size_t i = 0; i < std::min(remarks.size(), kMost); ++i)
     out += html::tagged(remarks[i].warning ? "li class=\"warning\"" : "li",
                         (remarks[i].warning ? "<strong>Warning.</strong> " : "") +
-                            html::escaped(where + ": " + remarks[i].words) + ".") +
+                            html::escaped(where + ": " + with_rpm(member, remarks[i].words)) + ".") +
            "\n";
   if (remarks.size() > kMost)
     out += html::tagged("li", html::escaped(text(where, ": ", remarks.size() - kMost, " more of these."))) +

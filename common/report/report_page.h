@@ -11,15 +11,17 @@ struct ReportSection {
   std::string id, heading, inside;  // inside: marks
 };
 
-// A whole document with a list of contents. scene: "file: title".
-std::string report_page(const std::string& scene, const std::vector<ReportSection>& sections);
+// A whole document: opening (marks), a list of contents, sections. scene: "file: title".
+std::string report_page(const std::string& scene, const std::string& opening,
+                        const std::vector<ReportSection>& sections);
 
 // A figure with links to its files. words: marks; folder: of the figures, from the page, with its slash.
 std::string picture_html(const ReportPicture& picture, const std::string& title, const std::string& words,
                          const std::string& folder = "");
 
-// Items of a list, at most a dozen of one place; the list with what stands above it.
-std::string remark_items(const std::string& where, const std::vector<Remark>& remarks);
+// Items of a list, at most a dozen of one place, speeds with the rotation of `member`; the list with what stands above it.
+std::string remark_items(const std::string& where, const std::vector<Remark>& remarks,
+                         const TurningMember& member);
 std::string remark_list(const std::string& items, bool warned);
 
 // A row of "What the numbers mean".

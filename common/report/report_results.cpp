@@ -1,11 +1,15 @@
 #include "report/report_results.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "base/error.h"
+#include "gear/friction.h"
 #include "gear/hertz.h"
 #include "report/figures.h"
 #include "report/html.h"
+#include "report/iso_comparison.h"
 #include "report/response_figures.h"
 
 namespace whine {
@@ -19,26 +23,74 @@ const std::string kNominalPressure =
     "nominal contact pressure of the largest tooth load (Hertz, at the pitch point)";
 constexpr const char* kBeyond = "beyond the backlash";
 
-// Adds numbers of one torque to a list.
+constexpr const char* kExcitation = "Excitation, at rest";
+constexpr const char* kNatural = "Natural frequencies and damping";
+constexpr const char* kSpeeds = "Speeds";
+constexpr const char* kVibration = "Vibration";
+constexpr const char* kLoads = "Loads";
+constexpr const char* kBearings = "Forces on the bearings";
+constexpr const char* kStress = "Stress";
+constexpr const char* kLosses = "Losses";
+// In the order of the page.
+constexpr std::array kGroups{kExcitation, kNatural, kSpeeds, kVibration, kLoads, kBearings, kStress, kLosses};
+
+// Adds numbers of one torque to a group.
 struct Adder {
-  double torque;  // N m
+  double torque;         // N m
+  double rpm_per_hertz;  // of the driver
   Numbers& out;
+  const char* group = "";
+  std::string way = "";
+
   void operator()(const std::string& quantity, const std::string& unit, const std::string& value,
                   const std::string& remark = "") const {
-    out.push_back({torque, quantity, unit, value, remark});
+    out.push_back({group, torque, quantity + way, unit, value, remark, way});
+  }
+  void speed(const std::string& quantity, double mesh_frequency, const std::string& remark = "") const {
+    (*this)(quantity, "Hz", hertz(mesh_frequency), remark);
+    out.back().rpm = fixed(mesh_frequency * rpm_per_hertz, 0);
+  }
+  // words(scale): of the speeds, which are mesh frequencies times a scale.
+  void speeds(const std::string& quantity, const auto& words) const {
+    (*this)(quantity, "Hz", words(1.0));
+    out.back().rpm = words(rpm_per_hertz);
   }
 };
 
-void add_statics(const StaticResult& s, const Adder& add) {
-  add("mean mesh stiffness", "N/µm", fixed(s.mean_stiffness * 1e-6, 1));
-  add("the same per face width", "N/(mm µm)", fixed(s.mean_stiffness * 1e-6 / (s.face_width() * kMilli), 2));
+void add_excitation(const StaticResult& s, Adder add) {
+  add.group = kExcitation;
   add("static transmission error, mean", "µm", significant(s.transmission_error.mean() * kMicro, 4));
   add("static transmission error, peak to peak", "µm",
       significant(peak_to_peak(s.transmission_error) * kMicro, 4));
   for (Index n = 1; n <= std::min<Index>(3, s.transmission_error_harmonic.size() - 1); ++n)
     add(text("static transmission error, harmonic ", n), "µm",
         significant(s.transmission_error_harmonic[n] * kMicro, 3));
+  add("mean mesh stiffness", "N/µm", fixed(s.mean_stiffness * kMega, 1));
+  add("mean mesh stiffness per mm of face width", "N/µm",
+      fixed(s.mean_stiffness * kMega / (s.face_width() * kMilli), 2));
+  if (s.stiffness_harmonic.size() > 1)
+    add("first harmonic of the mesh stiffness over its mean", "%",
+        fixed(s.stiffness_harmonic[1] / s.stiffness_harmonic[0] * kPercent, 2));
+}
+
+void add_loads_at_rest(const StaticResult& s, Adder add) {
+  add.group = kLoads;
   add("static tooth load, largest", "N", fixed(s.tooth_load.maxCoeff(), 0));
+  add("load of one pair alone, T / r_b", "N", fixed(static_force(s), 0));
+}
+
+void add_bearings_at_rest(const StaticResult& s, Adder add) {
+  add.group = kBearings;
+  for (size_t g = 0; g < kSides; ++g) {
+    if (s.bearing_force[g].size() == 0 || s.hunting_periods > 1) continue;
+    const std::string of = "static force on the bearing of " + s.mesh.gear[g] + ", first order";
+    const double amplitude = first_order_of_force(s.bearing_force[g]);
+    add(of, "N", significant(amplitude, 3));
+  }
+}
+
+void add_stress_at_rest(const StaticResult& s, Adder add) {
+  add.group = kStress;
   add(text("static: ", kNominalPressure), "MPa",
       fixed(hertz_contact(s, s.tooth_load.maxCoeff()).pressure * 1e-6, 0));
   const FlankPressure& pressure = s.flank_pressure;
@@ -49,6 +101,10 @@ void add_statics(const StaticResult& s, const Adder& add) {
   for (int g = 0; g < s.root_stress_max.size(); ++g)
     add("static root stress of " + s.mesh.gear[g] + ", largest", "MPa",
         fixed(s.root_stress_max[g] * 1e-6, 1));
+}
+
+void add_losses(const StaticResult& s, Adder add) {
+  add.group = kLosses;
   add("loss factor H_V at rest (power lost over power carried and coefficient of friction)", "1",
       fixed(s.loss_factor, 4));
   if (s.friction_loss.size() > 0) {
@@ -57,53 +113,195 @@ void add_statics(const StaticResult& s, const Adder& add) {
   }
 }
 
-void add_ring_down(const ImpactResult& a, const Adder& add) {
+void add_ring_down(const ImpactResult& a, Adder add) {
+  add.group = kNatural;
   for (size_t i = 0; i < a.contact_state.size(); ++i) {
     const Index at = static_cast<Index>(i);
     const std::string state =
         at < a.state_phase.size()
             ? name_of(a.contact_state[i]) + (a.contact_state[i] == ContactState::one ? " pair" : " pairs")
             : "mean over the period";
-    add("natural frequency by ring-down, " + state, "Hz", hertz(a.natural_frequency[at]));
+    add.speed("natural frequency by ring-down, " + state, a.natural_frequency[at]);
     add("damping ratio by ring-down, " + state, "%", fixed(a.damping_ratio[at] * kPercent, 2));
   }
 }
 
-void add_motion(const StaticResult& s, const ResponseResult& r, const Adder& add) {
-  const std::string way = r.direction == Direction::up ? ", speed rising" : ", speed falling";
-  Index at = 0;
-  const double rms = r.dte_rms.col(0).maxCoeff(&at);
-  std::string beyond = beyond_backlash(r, at) ? kBeyond : "";
-  add("largest RMS of the dynamic transmission error" + way, "µm", significant(rms * kMicro, 3), beyond);
-  add("mesh frequency of that RMS" + way, "Hz", hertz(r.mesh_frequency[at]), beyond);
-  const double load = r.tooth_load_max.col(0).maxCoeff(&at);
-  beyond = beyond_backlash(r, at) ? kBeyond : "";
-  add("largest tooth load" + way, "N", fixed(load, 0), beyond);
-  add("mesh frequency of that tooth load" + way, "Hz", hertz(r.mesh_frequency[at]), beyond);
-  add("largest tooth load over T / r_b" + way, "1", fixed(load / static_force(s), 2), beyond);
-  add(kNominalPressure + way, "MPa", fixed(hertz_contact(s, load).pressure * 1e-6, 0), beyond);
-  for (int g = 0; g < s.root_stress_max.size(); ++g)
-    if (known_of(r.root_stress_max, g)) {
-      const std::string of = "root stress of " + s.mesh.gear[g] + " (sustained for 1/64 of a mesh period)";
-      const double stress = r.root_stress_sustained.col(g).maxCoeff(&at);
-      beyond = beyond_backlash(r, at) ? kBeyond : "";
-      add("largest " + of + way, "MPa", fixed(stress * 1e-6, 1), beyond);
-      add("largest " + of + " over that at rest" + way, "1", fixed(stress / s.root_stress_max[g], 2), beyond);
+// Values over speed of a gear; empty where they are not known.
+Eigen::VectorXd of_gear(const MatrixRM& values, size_t gear) {
+  const auto column = static_cast<Index>(gear);
+  return known_of(values, column) ? Eigen::VectorXd(values.col(column)) : Eigen::VectorXd();
+}
+
+// What a response says of one direction, each group in a function of its own.
+class InMotion {
+ public:
+  InMotion(const StaticResult& s, const ResponseResult& r, Adder add) : s_(s), r_(r), add_(add) {
+    add_.way = r.direction == Direction::up ? ", speed rising" : ", speed falling";
+  }
+
+  void speeds() {
+    add_.group = kSpeeds;
+    add_.speeds("resonances: peaks of the vibration", [&](double scale) {
+      std::string list;
+      for (const Index i : resonances(r_))
+        list += (list.empty() ? "" : ", ") + fixed(r_.mesh_frequency[i] * scale, 0);
+      return list.empty() ? std::string("none") : list;
+    });
+    add_.speeds("jumps", [&](double scale) { return jumps_of(r_, scale); });
+    add_.speeds("contact lost", [&](double scale) { return loss_ranges(r_, scale); });
+    if (!speeds_beyond_backlash({&r_}).empty())
+      add_.speeds("motion beyond the backlash",
+                  [&](double scale) { return speeds_beyond_backlash({&r_}, scale); });
+  }
+
+  void vibration() {
+    add_.group = kVibration;
+    Index at = 0;
+    const double rms = r_.dte_rms.col(0).maxCoeff(&at);
+    add_("largest RMS of the dynamic transmission error", "µm", significant(rms * kMicro, 3), star(at));
+    add_.speed("mesh frequency of that RMS", r_.mesh_frequency[at], star(at));
+    const double first = first_order_of(r_.dte_harmonic, 0).maxCoeff(&at);
+    add_("largest first order of the dynamic transmission error", "µm", significant(first * kMicro, 3),
+         star(at));
+    add_.speed("mesh frequency of that order", r_.mesh_frequency[at], star(at));
+  }
+
+  void loads() {
+    add_.group = kLoads;
+    Index at = 0;
+    const double load = r_.tooth_load_max.col(0).maxCoeff(&at);
+    add_("largest tooth load", "N", fixed(load, 0), star(at));
+    add_.speed("mesh frequency of that tooth load", r_.mesh_frequency[at], star(at));
+    add_("largest tooth load over T / r_b", "1", fixed(load / static_force(s_), 2), star(at));
+    const DynamicFactorPeak peak = largest_dynamic_factor(s_, r_);
+    add_("dynamic factor: largest mesh force over T / r_b", "1", fixed(peak.factor, 2), star(peak.row));
+    add_.speed("mesh frequency of that factor", r_.mesh_frequency[peak.row], star(peak.row));
+    if (peak.standard) add_("K_v of ISO 6336-1, method B, at that speed", "1", fixed(*peak.standard, 2));
+    if (const Eigen::VectorXd first = first_order_of(r_.mesh_force_harmonic, 0); first.size() > 0) {
+      const double most = first.maxCoeff(&at);
+      add_("largest first order of the mesh force", "N", fixed(most, 0), star(at));
+      if (most > 0) add_("level of the RMS of that order", "dB re 1 N", decibels(most), star(at));
+      add_.speed("mesh frequency of that order of the force", r_.mesh_frequency[at], star(at));
     }
-  for (int g = 0; g < kSides; ++g)
-    if (known_of(r.bearing_force_max, g)) {
-      const std::string of = "force on the bearing of " + s.mesh.gear[g];
-      const double force = r.bearing_force_rms.col(g).maxCoeff(&at);
-      beyond = beyond_backlash(r, at) ? kBeyond : "";
-      add("largest RMS of the oscillating " + of + way, "N", fixed(force, 0), beyond);
-      add("mesh frequency of that RMS, " + s.mesh.gear[g] + way, "Hz", hertz(r.mesh_frequency[at]), beyond);
-      add("largest " + of + way, "N", fixed(r.bearing_force_max.col(g).maxCoeff(&at), 0),
-          beyond_backlash(r, at) ? kBeyond : "");
+  }
+
+  void bearings() {
+    add_.group = kBearings;
+    for (size_t g = 0; g < kSides; ++g) {
+      const Eigen::VectorXd rms = of_gear(r_.bearing_force_rms, g),
+                            largest = of_gear(r_.bearing_force_max, g);
+      if (rms.size() == 0) continue;
+      Index at = 0;
+      const std::string of = "force on the bearing of " + s_.mesh.gear[g];
+      const double force = rms.maxCoeff(&at);
+      add_("largest RMS of the oscillating " + of, "N", fixed(force, 0), star(at));
+      add_.speed("mesh frequency of that RMS, " + s_.mesh.gear[g], r_.mesh_frequency[at], star(at));
+      const double most = largest.maxCoeff(&at);
+      add_("largest " + of, "N", fixed(most, 0), star(at));
+      if (const Eigen::VectorXd first = first_order_of(r_.bearing_force_harmonic, static_cast<Index>(g));
+          first.size() > 0) {
+        const double order = first.maxCoeff(&at);
+        add_("largest first order of the " + of, "N", fixed(order, 0), star(at));
+        if (order > 0)
+          add_("level of the RMS of that order, " + s_.mesh.gear[g], "dB re 1 N", decibels(order), star(at));
+      }
     }
-  add("jumps" + way, "Hz", jumps_of(r));
-  add("contact lost" + way, "Hz", loss_ranges(r));
-  if (const std::string speeds = speeds_beyond_backlash({&r}); !speeds.empty())
-    add("motion beyond the backlash" + way, "Hz", speeds);
+  }
+
+  void stress() {
+    add_.group = kStress;
+    Index at = 0;
+    const double load = r_.tooth_load_max.col(0).maxCoeff(&at);
+    add_(kNominalPressure, "MPa", fixed(hertz_contact(s_, load).pressure * 1e-6, 0), star(at));
+    for (int g = 0; g < s_.root_stress_max.size(); ++g)
+      if (const Eigen::VectorXd sustained = of_gear(r_.root_stress_sustained, static_cast<size_t>(g));
+          sustained.size() > 0) {
+        const std::string of = "root stress of " + s_.mesh.gear[g] + " (sustained for 1/64 of a mesh period)";
+        const double stress = sustained.maxCoeff(&at);
+        add_("largest " + of, "MPa", fixed(stress * 1e-6, 1), star(at));
+        add_("largest " + of + " over that at rest", "1", fixed(stress / s_.root_stress_max[g], 2), star(at));
+      }
+  }
+
+ private:
+  std::string star(Index row) const { return beyond_backlash(r_, row) ? kBeyond : ""; }
+
+  const StaticResult& s_;
+  const ResponseResult& r_;
+  Adder add_;
+};
+
+void add_motion(const StaticResult& s, const std::vector<const ResponseResult*>& sweeps, Adder add) {
+  if (sweeps.empty()) return;
+  const ResponseResult& first = *sweeps.front();
+  const GearPair pair(s);
+  add.group = kSpeeds;
+  for (const auto& [what, f] : {std::pair{"lowest", first.mesh_frequency.minCoeff()},
+                                std::pair{"highest", first.mesh_frequency.maxCoeff()}}) {
+    add.speed(text("mesh frequency, ", what), f);
+    add(text("pitch-line speed, ", what), "m/s", fixed(pitch_line_speed(pair, f), 1));
+  }
+  add.speed("natural frequency f_n, contact frozen, mean over the period", first.natural_frequency);
+  using Group = void (InMotion::*)();
+  for (const Group group :
+       {&InMotion::speeds, &InMotion::vibration, &InMotion::loads, &InMotion::bearings, &InMotion::stress})
+    for (const ResponseResult* sweep : sweeps) {
+      InMotion motion(s, *sweep, add);
+      (motion.*group)();
+    }
+}
+
+// A row of a table: its numbers by torque and direction.
+struct ResultRow {
+  std::string group, label, unit;
+  bool speeds = false;                                      // with a line in rpm
+  std::array<bool, 2> way{};                                // rising, falling
+  std::vector<std::array<const ReportNumber*, 3>> numbers;  // [torque] of neither, rising, falling
+};
+
+size_t way_of(const ReportNumber& n) {
+  return n.way.empty() ? 0 : n.way.ends_with("rising") ? 1 : 2;
+}
+
+std::vector<ResultRow> rows_of(const Numbers& results, const std::vector<StaticResult>& statics) {
+  std::vector<ResultRow> rows;
+  for (const ReportNumber& n : results) {
+    const std::string label = n.quantity.substr(0, n.quantity.size() - n.way.size());
+    auto row = std::find_if(rows.begin(), rows.end(),
+                            [&](const ResultRow& r) { return r.label == label && r.group == n.group; });
+    if (row == rows.end()) {
+      rows.push_back({n.group, label, n.unit, false, {}, {}});
+      rows.back().numbers.resize(statics.size());
+      row = rows.end() - 1;
+    }
+    row->speeds = row->speeds || !n.rpm.empty();
+    if (const size_t way = way_of(n); way > 0) row->way[way - 1] = true;
+    for (size_t t = 0; t < statics.size(); ++t)
+      if (statics[t].torque == n.torque) row->numbers[t][way_of(n)] = &n;
+  }
+  return rows;
+}
+
+// Both directions of a sweep in one cell, "2640 / 2580"; in rpm, too, in a line of its own.
+std::string cell_of(const std::array<const ReportNumber*, 3>& numbers) {
+  std::string words, rpm;
+  const auto add = [](std::string& line, const std::string& word) {
+    if (!word.empty() && line != word) line += (line.empty() ? "" : " / ") + word;
+  };
+  for (const ReportNumber* n : numbers) {
+    if (!n) continue;
+    const std::string star = n->remark.empty() ? "" : " *";
+    add(words, n->value + star);
+    if (!n->rpm.empty()) add(rpm, n->rpm + star);
+  }
+  return words + (rpm.empty() || rpm == words ? "" : "\n" + rpm);
+}
+
+std::string way_words(const ResultRow& row) {
+  return row.way[0] && row.way[1] ? ", rising / falling"
+         : row.way[0]             ? ", speed rising"
+         : row.way[1]             ? ", speed falling"
+                                  : "";
 }
 
 }  // namespace
@@ -111,40 +309,44 @@ void add_motion(const StaticResult& s, const ResponseResult& r, const Adder& add
 std::vector<ReportNumber> report_numbers(const ReportContent& c) {
   Numbers out;
   for (const StaticResult& s : c.statics) {
-    const Adder add{s.torque, out};
-    add_statics(s, add);
+    const Adder add{s.torque, 60.0 / s.gear[0].design.teeth, out};
+    std::vector<const ResponseResult*> sweeps;
+    for (const Direction direction : {Direction::up, Direction::down})
+      if (const ResponseResult* sweep = sweep_of(c, s.torque, direction)) sweeps.push_back(sweep);
+    add_excitation(s, add);
     if (const ImpactResult* a = impact_of(c, s.torque)) add_ring_down(*a, add);
-    const ResponseResult *up = sweep_of(c, s.torque, Direction::up),
-                         *down = sweep_of(c, s.torque, Direction::down);
-    for (const ResponseResult* sweep : {up, down})
-      if (sweep) add_motion(s, *sweep, add);
+    add_loads_at_rest(s, add);
+    add_bearings_at_rest(s, add);
+    add_stress_at_rest(s, add);
+    add_motion(s, sweeps, add);
+    add_losses(s, add);
   }
   return out;
 }
 
-std::string results_table(const ReportContent& c) {
+std::string results_tables(const ReportContent& c) {
   const Numbers results = report_numbers(c);
+  const std::vector<ResultRow> rows = rows_of(results, c.statics);
   std::vector<std::string> head{"", "unit"};
   for (const auto& s : c.statics) head.push_back(torque_words(s.torque));
-  html::Rows rows;
-  bool remarked = false;
-  for (const ReportNumber& result : results) {
-    auto row = std::find_if(rows.begin(), rows.end(), [&](const auto& r) { return r[0] == result.quantity; });
-    if (row == rows.end()) {
-      rows.push_back({result.quantity, result.unit == "1" ? "–" : result.unit});
-      rows.back().resize(head.size());
-      row = rows.end() - 1;
+  std::string out = html::paragraph(
+      text("By torque on the driver",
+           c.sweeps.empty() ? "" : "; speeds as mesh frequency and, below, as rotation of ",
+           c.sweeps.empty() ? "" : c.statics[0].mesh.gear[0], "; results.tsv holds the same numbers."));
+  for (const char* group : kGroups) {
+    html::Rows cells;
+    for (const ResultRow& row : rows) {
+      if (row.group != group) continue;
+      cells.push_back({row.label + way_words(row),
+                       text(row.unit == "1" ? html::kNoValue : row.unit, row.speeds ? "\nrpm" : "")});
+      for (const auto& numbers : row.numbers) cells.back().push_back(cell_of(numbers));
     }
-    for (size_t t = 0; t < c.statics.size(); ++t)
-      if (c.statics[t].torque == result.torque)
-        (*row)[t + 2] = result.value + (result.remark.empty() ? "" : " *");
-    remarked = remarked || !result.remark.empty();
+    if (!cells.empty()) out += html::tagged("h3", group) + "\n" + html::table("", head, cells, "results");
   }
-  return html::table("Results by torque on the driver; results.tsv holds the same numbers.", head, rows) +
-         (remarked
-              ? html::paragraph(
-                    "* At this speed the motion is larger than the backlash: back flanks would touch, which is not modelled, so the number is not to be trusted.")
-              : "");
+  if (std::any_of(results.begin(), results.end(), [](const ReportNumber& n) { return !n.remark.empty(); }))
+    out += html::paragraph(
+        "* At this speed the motion is larger than the backlash: back flanks would touch, which is not modelled, so the number is not to be trusted.");
+  return out;
 }
 
 }  // namespace whine

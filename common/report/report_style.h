@@ -12,6 +12,9 @@ main, header, footer { max-width: 66rem; margin: 0 auto; padding: 0 1.25rem; }
 header { padding-top: 2rem; border-bottom: 2px solid var(--ink); }
 h1 { font-size: 1.6rem; line-height: 1.25; margin: 0 0 .3rem; }
 h2 { font-size: 1.25rem; margin: 2.6rem 0 .8rem; border-bottom: 1px solid var(--line); padding-bottom: .2rem; }
+h3 { font-size: 1rem; margin: 1.4rem 0 .2rem; }
+.opening { padding-left: 1.4rem; max-width: 60rem; } .opening li { margin: .35rem 0; }
+table.results { margin-top: .2rem; } table.results td:first-child { max-width: 30rem; }
 .scene { color: var(--soft); margin: 0 0 1rem; }
 nav ol { columns: 2; padding-left: 1.4rem; margin: 1rem 0; }
 a { color: var(--link); }
@@ -40,7 +43,7 @@ footer { color: var(--soft); font-size: .85rem; padding-bottom: 3rem; }
 @media print {
   :root { --ink: #000000; --soft: #444444; --paper: #ffffff; --line: #bbbbbb; --mark: #b42318; --link: #000000; }
   body { font-size: 10pt; } main, header, footer { max-width: none; padding: 0; }
-  figure, tr { break-inside: avoid; } h2 { break-after: avoid; } .files { display: none; } .wide { overflow: visible; }
+  figure, tr { break-inside: avoid; } h2, h3 { break-after: avoid; } .files { display: none; } .wide { overflow: visible; }
   table, table.small, table.broad { font-size: 7.5pt; } table.broad { font-size: 6.5pt; } th, td { padding-right: .4rem; }
   .number, td:first-child { min-width: 0; } td:nth-child(2) { white-space: normal; } table.code td { font-size: 5.5pt; min-width: 4rem; }
 }

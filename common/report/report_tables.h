@@ -1,4 +1,4 @@
-// The tables of a report, and its list of remarks, as HTML.
+// The tables of a report as HTML.
 #pragma once
 #include "report/report_content.h"
 
@@ -6,10 +6,11 @@ namespace whine {
 
 std::string gears_table(const ReportContent& c);
 std::string stiffness_tables(const ReportContent& c);
+// What classes of ISO 1328-1 may add to the peak-to-peak transmission error; of gears outside of its formulas why not.
+std::string class_table(const ReportContent& c);
 std::string natural_frequencies_table(const ReportContent& c);
 std::string budget_table(const ErrorBudgetResult& b);
 // Values of driver and driven gear side by side, of what is no gear's in the first column.
 std::string parameters_table(const ReportContent& c);
-std::string remarks_list(const ReportContent& c);
 
 }  // namespace whine

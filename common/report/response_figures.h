@@ -16,8 +16,8 @@ Figure response_figure(const std::vector<ResponseResult>& sweeps, const CaptionS
 // else as response_figure.
 Figure bearing_force_figure(const std::vector<ResponseResult>& sweeps, const CaptionSources& background = {});
 
-// Ranges of neighbouring speeds at which a sweep loses contact, in Hz: "2820 to 2980, 3100", or "nowhere".
-std::string loss_ranges(const ResponseResult& sweep);
+// Ranges of neighbouring speeds at which a sweep loses contact, in Hz times a scale: "2820 to 2980, 3100", or "nowhere".
+std::string loss_ranges(const ResponseResult& sweep, double scale = 1);
 
 // "rising 2820 to 2980, falling 2600 to 2980 Hz", as jumps are said; "" where neither sweep loses contact.
 std::string loss_both_ways(const ResponseResult& up, const ResponseResult& down);

@@ -45,7 +45,7 @@ WordTable iso_table(const StaticResult& s) {
            : s.gear[0].design.internal || s.gear[1].design.internal
                ? "; of the internal gear it makes a rack."
                : "; profile shifts or contact ratio lie outside what its formula is for."),
-      {"", "N/(mm µm)", "bodies not twisting", "ISO 6336-1 B"},
+      {"", "N/µm per mm of face width", "bodies not twisting", "ISO 6336-1 B"},
       {{"c', one pair, largest", per_width(split.single), per_width(split.single_teeth()),
         iso(by_iso.single)},
        {"c_γα, mean over the period", per_width(s.mean_stiffness), per_width(split.mean_teeth()),

@@ -38,11 +38,11 @@ bool beyond_backlash(const ResponseResult& r, Eigen::Index row) {
   return row < r.backlash_left.size() && r.backlash_left[row] <= 0;
 }
 
-std::string speeds_beyond_backlash(std::initializer_list<const ResponseResult*> sweeps) {
+std::string speeds_beyond_backlash(std::initializer_list<const ResponseResult*> sweeps, double scale) {
   std::map<double, bool> beyond;
   for (const ResponseResult* r : sweeps)
     for (Eigen::Index i = 0; i < r->mesh_frequency.size(); ++i)
-      beyond[r->mesh_frequency[i]] |= beyond_backlash(*r, i);
+      beyond[r->mesh_frequency[i] * scale] |= beyond_backlash(*r, i);
   return speed_ranges(beyond);
 }
 

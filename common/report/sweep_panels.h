@@ -31,8 +31,8 @@ struct ChoicePanel {
 
 // Whether the motion at a row of the sweep goes beyond the backlash, so that back flanks would touch.
 bool beyond_backlash(const ResponseResult& r, Eigen::Index row);
-// All such speeds of these sweeps, "2400 to 2600, 3100" (Hz); "" if there are none.
-std::string speeds_beyond_backlash(std::initializer_list<const ResponseResult*> sweeps);
+// All such speeds of these sweeps, "2400 to 2600, 3100" (Hz times a scale); "" if there are none.
+std::string speeds_beyond_backlash(std::initializer_list<const ResponseResult*> sweeps, double scale = 1);
 
 // Functions on Sweep are there for ResponseResult and SweepResult.
 

@@ -1,6 +1,7 @@
 #include "report/system_motion_tables.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -9,6 +10,7 @@
 #include "gear/layout.h"
 #include "report/figures.h"
 #include "report/html.h"
+#include "report/system_opening.h"
 
 namespace whine {
 namespace {
@@ -33,6 +35,23 @@ Peak peak_of(const ResponseResult& a, const MatrixRM& values, size_t column) {
 
 std::string way_words_of(const ResponseResult& a) {
   return text("speed ", a.direction == Direction::up ? "rising" : "falling");
+}
+
+// "1600\n3556 rpm": Hz, and below the rotation of a member; a list likewise.
+std::string speed_cell(const TurningMember& member, const std::string& speeds) {
+  const std::string with = with_rpm(member, speeds + " Hz"), hertz_and = speeds + " Hz (";
+  return with.starts_with(hertz_and)
+             ? text(speeds, "\n", with.substr(hertz_and.size(), with.size() - hertz_and.size() - 1))
+             : speeds;
+}
+
+// The largest first order over the speeds: N, and the level of its RMS; no value where artifacts do not have it.
+std::array<std::string, 2> order_cells(const std::vector<MatrixRM>& harmonic, size_t column) {
+  const Eigen::VectorXd first = first_order_of(harmonic, static_cast<Index>(column));
+  const double most = first.size() > 0 ? first.maxCoeff() : 0;
+  constexpr double kNothing = 1e-3;  // N
+  if (!(most > kNothing)) return {first.size() > 0 ? "0" : html::kNoValue, html::kNoValue};
+  return {fixed(most, 1), decibels(most)};
 }
 
 // Rows of a sweep by speed.
@@ -69,6 +88,8 @@ std::string factor_words(const SystemReport& r, size_t m, const Peak& force) {
 }
 
 std::string meshes_table(const SystemReport& r) {
+  const TurningMember driver = driving_member(r);
+  const auto at = [&](const Peak& peak) { return speed_cell(driver, shown(peak.at, 6)); };
   html::Rows rows;
   for (const ResponseResult& a : r.sweeps)
     for (size_t m = 0; m < a.train.layout.meshes.size(); ++m) {
@@ -77,38 +98,49 @@ std::string meshes_table(const SystemReport& r) {
                  loss = peak_of(a, a.separation_fraction, m);
       const std::string factor = factor_words(r, m, force);
       rows.push_back({mesh_name(a.train.layout, m), way_words_of(a), significant(error.value * kMicro, 4),
-                      shown(error.at, 6), fixed(force.value, 0), shown(force.at, 6),
-                      factor.empty() ? "–" : factor, fixed(tooth.value, 0),
+                      at(error), fixed(force.value, 0), at(force), factor.empty() ? "–" : factor,
+                      fixed(tooth.value, 0),
                       r.rest && shares_load(*r.rest, m) ? fixed(share.value * kPercent, 1) : "–",
-                      fixed(loss.value * kPercent, 1), loss.value > 0 ? shown(loss.at, 6) : "–"});
+                      fixed(loss.value * kPercent, 1), loss.value > 0 ? at(loss) : "–"});
+      for (const std::string& cell : order_cells(a.mesh_force_harmonic, m)) rows.back().push_back(cell);
     }
   return html::table(
       text("The meshes in motion: the largest value over the speeds, and the mesh frequency at which it ",
-           "is. RMS: of the oscillating part of the transmission error (DTE). Dynamic factor: largest ",
+           "is, with the rotation of ", driver.name,
+           ". RMS: of the oscillating part of the transmission error (DTE). Dynamic factor: largest ",
            "mesh force over the mean force at rest. Share: at one instant, of the load of the meshes of ",
            "one [[mesh]]. Contact loss: time in which no pair of teeth touches."),
       {"mesh", "sweep", "RMS of the DTE (µm)", "at (Hz)", "mesh force (N)", "at (Hz)", "dynamic factor",
-       "tooth load (N)", "share (%)", "contact loss (%)", "at (Hz)"},
+       "tooth load (N)", "share (%)", "contact loss (%)", "at (Hz)", "first order of the force (N)",
+       "dB re 1 N"},
       rows, "small");
 }
 
 std::string bodies_table(const SystemReport& r) {
+  const TurningMember driver = driving_member(r);
   html::Rows rows;
   for (const ResponseResult& a : r.sweeps)
     for (size_t b = 0; b < a.train.layout.bodies.size(); ++b) {
       const System::Body& body = a.train.layout.bodies[b];
       const Peak most = peak_of(a, a.bearing_force_max, b), rms = peak_of(a, a.bearing_force_rms, b);
       rows.push_back({text(body.name, body.on != System::kGround ? " (pin)" : ""), way_words_of(a),
-                      fixed(most.value, 1), shown(most.at, 6), fixed(rms.value, 1), shown(rms.at, 6)});
+                      fixed(most.value, 1), speed_cell(driver, shown(most.at, 6)), fixed(rms.value, 1),
+                      speed_cell(driver, shown(rms.at, 6))});
+      for (const std::string& cell : order_cells(a.bearing_force_harmonic, b)) rows.back().push_back(cell);
     }
   return html::table(
       text("Forces on bearings and pins in motion: the largest value over the speeds, and the mesh ",
            "frequency at which it is. RMS: of the oscillating part. On a rigid axis: the sum of the ",
            "contact forces."),
-      {"body", "sweep", "largest force (N)", "at (Hz)", "RMS (N)", "at (Hz)"}, rows);
+      {"body", "sweep", "largest force (N)", "at (Hz)", "RMS (N)", "at (Hz)", "first order (N)", "dB re 1 N"},
+      rows);
 }
 
 std::string sweeps_table(const SystemReport& r) {
+  const TurningMember driver = driving_member(r);
+  const auto at = [&](const std::string& speeds) {
+    return speeds.empty() ? "none" : speed_cell(driver, speeds);
+  };
   html::Rows rows;
   for (const ResponseResult& a : r.sweeps) {
     const std::string loss =
@@ -116,12 +148,12 @@ std::string sweeps_table(const SystemReport& r) {
     const std::string open = speeds_where(a, [&](Index i) { return a.period_multiple[i] == 0; });
     const std::string several =
         speeds_where(a, [&](Index i) { return a.period_multiple[i] > a.hunting_periods; });
-    rows.push_back({way_words_of(a),
-                    text(a.mesh_frequency.size(), ", ", shown(a.mesh_frequency.minCoeff(), 6), " to ",
-                         shown(a.mesh_frequency.maxCoeff(), 6)),
-                    loss.empty() ? "none" : loss, open.empty() ? "none" : open,
-                    several.empty() ? "none" : several, text(a.periods.maxCoeff()),
-                    shown(a.energy_imbalance.maxCoeff(), 2)});
+    rows.push_back(
+        {way_words_of(a),
+         text(a.mesh_frequency.size(), ": ",
+              at(shown(a.mesh_frequency.minCoeff(), 6) + " to " + shown(a.mesh_frequency.maxCoeff(), 6))),
+         at(loss), at(open), at(several), text(a.periods.maxCoeff()),
+         shown(a.energy_imbalance.maxCoeff(), 2)});
   }
   return html::table(
       text("The sweeps. Each speed starts with the motion of the one before it. Energy imbalance: ",
@@ -191,6 +223,13 @@ std::vector<SystemNumber> motion_numbers(const SystemReport& r) {
       out.push_back(
           {part, text(what, ", ", way), unit, value, text("at ", shown(peak.at, 6), " Hz of the mesh")});
     };
+    const auto add_order = [&](const std::string& part, const std::string& what,
+                               const std::vector<MatrixRM>& harmonic, size_t column) {
+      const auto cells = order_cells(harmonic, column);
+      if (cells[0] != html::kNoValue) out.push_back({part, text(what, ", ", way), "N", cells[0], ""});
+      if (cells[1] != html::kNoValue)
+        out.push_back({part, text(what, ", level of its RMS, ", way), "dB re 1 N", cells[1], ""});
+    };
     for (size_t m = 0; m < s.meshes.size(); ++m) {
       const std::string name = mesh_name(s, m);
       const Peak error = peak_of(a, a.dte_rms, m), force = peak_of(a, a.mesh_force_max, m),
@@ -198,6 +237,7 @@ std::vector<SystemNumber> motion_numbers(const SystemReport& r) {
                  loss = peak_of(a, a.separation_fraction, m);
       add(name, "RMS of the dynamic transmission error, largest", "µm", significant(error.value * kMicro, 4),
           error);
+      add_order(name, "mesh force in motion, first order, largest", a.mesh_force_harmonic, m);
       add(name, "mesh force in motion, largest", "N", fixed(force.value, 1), force);
       if (const std::string factor = factor_words(r, m, force); !factor.empty())
         add(name, "dynamic factor, largest", "1", factor, force);
@@ -208,6 +248,8 @@ std::vector<SystemNumber> motion_numbers(const SystemReport& r) {
     }
     for (size_t b = 0; b < s.bodies.size(); ++b) {
       const Peak most = peak_of(a, a.bearing_force_max, b), rms = peak_of(a, a.bearing_force_rms, b);
+      add_order(s.bodies[b].name, "force on the bearing in motion, first order, largest",
+                a.bearing_force_harmonic, b);
       add(s.bodies[b].name, "force on the bearing in motion, largest", "N", fixed(most.value, 1), most);
       add(s.bodies[b].name, "force on the bearing in motion, RMS of the oscillating part, largest", "N",
           fixed(rms.value, 2), rms);

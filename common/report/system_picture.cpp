@@ -237,7 +237,7 @@ void place_panels(const Box& e, size_t close_ups, Figure& figure) {
                    kTallest = 3 * kClose + 2 * kGap;
   constexpr int kLine = 24;
   const double aspect = (e.right - e.left) / (e.high - e.low);
-  const bool beside = aspect < 1.5;
+  const bool beside = aspect < 1.5 || close_ups == 1;
   // A tall train is bounded by the height of the three close-ups beside it.
   const double width = close_ups == 0 ? std::min(1300.0, 940 * aspect)
                        : beside       ? std::min(910.0, kTallest * aspect)
@@ -294,7 +294,7 @@ std::vector<bool> second_colours(const System& s) {
 Figure picture_of(Train t, const Eigen::VectorXd& torque) {
   t.second = second_colours(t.layout);
   Figure figure;
-  figure.title = "A system of gears";
+  figure.title = t.layout.bodies.size() > 2 ? "A system of gears" : "The gears";
   Blocks blocks;
   for (int b = 0; b < static_cast<int>(t.layout.bodies.size()); ++b)
     if (body_of(t.layout, b).kind == System::BodyKind::carrier)
@@ -323,6 +323,31 @@ Figure picture_of(Train t, const Eigen::VectorXd& torque) {
   return figure;
 }
 
+// Side by side, at mesh phase 0: placed() has the driven gear above or, of a ring, below.
+System layout_of_pair(const GearPairParameters& a, const GearPair& pair) {
+  System s;
+  System::Mesh mesh;
+  for (int g = 0; g < kSides; ++g) {
+    const Placement at = placed(pair, g);
+    System::Body body;
+    body.name = a.mesh.gear[g];
+    body.teeth = pair.gear(g).design().teeth;
+    body.sense = g == 0 || pair.internal() ? 1 : -1;
+    body.angle = at.angle - 0.5 * kPi;
+    body.centre = {at.centre.y(), -at.centre.x()};
+    body.radius = pair.gear(g).base_radius();
+    body.bearing = a.mesh.bearing[g];
+    s.bodies.push_back(body);
+    mesh.side[static_cast<size_t>(g)].body = g;
+    mesh.side[static_cast<size_t>(g)].sense = body.sense;
+  }
+  mesh.centre_distance = pair.centre_distance();
+  mesh.pressure_angle = pair.working_pressure_angle();
+  mesh.ring_drives = pair.ring() == 0;
+  s.meshes.push_back(mesh);
+  return s;
+}
+
 }  // namespace
 
 std::string bodies_words(const System& s, const Eigen::VectorXd& torque) {
@@ -349,6 +374,13 @@ Figure system_picture(const SystemStaticResult& a) {
   const SystemStaticParameters& settings = a.settings;
   return picture_of({settings.layout, designs_of(a), settings.section},
                     a.torque.colwise().mean().transpose());
+}
+
+Figure system_picture(const StaticResult& a) {
+  const GearPair pair(a);
+  const System layout = layout_of_pair(a, pair);
+  const Eigen::Vector2d torque(a.torque, -a.torque * pair.gear(1).base_radius() / pair.gear(0).base_radius());
+  return picture_of({layout, {&a.gear[0].design, &a.gear[1].design}, {0}}, torque);
 }
 
 Figure system_picture(const ModesResult& a) {

@@ -10,6 +10,7 @@ namespace whine {
 // gears, of which teeth, base circles and meshes are known, have the working pitch circle of each mesh with a tick at each tooth.
 // Lengths in mm. Throws Error(input) for a system without gears.
 Figure system_picture(const SystemStaticResult& at_rest);
+Figure system_picture(const StaticResult& pair);
 Figure system_picture(const ModesResult& modes);
 
 // "sun (27 teeth) 400.0 N m, ring (99 teeth) -1466.7 N m held": bodies on the ground, torques that are not 0. torque: (body) N m,

@@ -9,9 +9,11 @@
 #include "report/figures.h"
 #include "report/html.h"
 #include "report/one_system.h"
+#include "report/opening.h"
 #include "report/report_page.h"
 #include "report/system_figures.h"
 #include "report/system_motion_tables.h"
+#include "report/system_opening.h"
 #include "report/system_picture.h"
 #include "report/system_report_guide.h"
 #include "report/system_report_tables.h"
@@ -95,7 +97,7 @@ struct ExplainedSystemFigure {
 // A figure of another stage is a row here, its words above, and its name in report_shows of pipelines/figures.mk.
 const std::vector<ExplainedSystemFigure>& explained_system_figures() {
   static const std::vector<ExplainedSystemFigure> all{
-      {"system", "gears", "The system", of_picture},
+      {"system", "opening", "The system", of_picture},
       {"system-static", "rest", "The system at rest", of_rest},
       {"load-sharing", "rest", "Load sharing among planets", of_sharing},
       {"modes", "modes", "Natural modes", of_modes},
@@ -111,7 +113,7 @@ std::string figures_in(const SystemReport& r, const std::string& section) {
   for (const ExplainedSystemFigure& kind : explained_system_figures())
     for (const ReportPicture& picture : r.pictures)
       if (section == kind.section && picture.name == kind.name)
-        out += picture_html(picture, kind.title, html::escaped(kind.words(r)));
+        out += picture_html(picture, kind.title, html::escaped(with_rpm(driving_member(r), kind.words(r))));
   return out;
 }
 
@@ -147,7 +149,7 @@ std::string system_introduction(const SystemReport& r) {
   out +=
       text(" Static transmission errors are up to ", significant(most * kMicro, 3), " µm from peak to peak.");
   if (!r.sweeps.empty()) out += " " + motion_words(r);
-  return html::paragraph(out);
+  return html::paragraph(with_rpm(driving_member(r), out));
 }
 
 void require_sweeps(const SystemReport& r) {
@@ -227,7 +229,7 @@ std::string system_report_html(const SystemReport& r) {
   const auto add = [&](const char* id, const char* heading, const std::string& inside) {
     if (!inside.empty()) sections.push_back({id, heading, inside});
   };
-  add("results", "Results", system_introduction(r) + figures_in(r, "gears"));
+  add("results", "Results", system_introduction(r));
   add("remarks", "Warnings and remarks", system_remarks(r));
   add("guide", "What the numbers mean", system_guide(r));
   add("gears", "Gears and bodies", gear_tables(r));
@@ -237,7 +239,7 @@ std::string system_report_html(const SystemReport& r) {
   add("motion", "In motion", motion_tables(r) + figures_in(r, "motion"));
   add("parameters", "Parameters", settings_table(r));
   add("provenance", "Provenance", provenance_table(r.sources));
-  return report_page(r.scene, sections);
+  return report_page(r.scene, opening_html(opening_lines(r), figures_in(r, "opening")), sections);
 }
 
 }  // namespace whine

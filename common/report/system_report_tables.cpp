@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "base/error.h"
 #include "base/units.h"
+#include "gear/drawing_quantities.h"
 #include "gear/layout.h"
 #include "gear/pair.h"
 #include "gear/system_layout.h"
@@ -16,6 +18,7 @@
 #include "report/report_page.h"
 #include "report/system_figures.h"
 #include "report/system_motion_tables.h"
+#include "report/system_opening.h"
 
 namespace whine {
 
@@ -72,6 +75,7 @@ double mean_stiffness(const SystemStaticResult& a, size_t m) {
 
 struct Force {
   double mean_x, mean_y, mean, most, rms;  // N; rms: of the oscillating part
+  double first;                            // N: first order of the mesh frequency
 };
 
 Force force_of(const SystemStaticResult& a, size_t b) {
@@ -86,8 +90,18 @@ Force force_of(const SystemStaticResult& a, size_t b) {
   for (const MatrixRM& at : a.bearing_force)
     f.rms += (std::pow(at(row, 0) - f.mean_x, 2) + std::pow(at(row, 1) - f.mean_y, 2)) / n;
   f.rms = std::sqrt(f.rms);
+  MatrixRM over_period(static_cast<Index>(a.bearing_force.size()), 2);
+  for (size_t i = 0; i < a.bearing_force.size(); ++i)
+    over_period.row(static_cast<Index>(i)) = a.bearing_force[i].row(row);
+  f.first = first_order_of_force(over_period, a.hunting_periods);
   f.mean = std::hypot(f.mean_x, f.mean_y);
   return f;
+}
+
+// Of what is left of a first order that cancels there is no level.
+std::string level_words(double amplitude) {
+  constexpr double kNothing = 1e-3;  // N
+  return amplitude > kNothing ? decibels(amplitude) : html::kNoValue;
 }
 
 // A carrier does not turn in its own frame.
@@ -156,6 +170,9 @@ void add_rest(const SystemReport& r, std::vector<SystemNumber>& out) {
     out.push_back({name, "force on the bearing, mean", "N", plain(f.mean, 1), ""});
     out.push_back({name, "force on the bearing, largest", "N", plain(f.most, 1), ""});
     out.push_back({name, "force on the bearing, RMS of the oscillating part", "N", plain(f.rms, 2), ""});
+    out.push_back({name, "force on the bearing, first order", "N", plain(f.first, 2), ""});
+    if (const std::string level = level_words(f.first); level != html::kNoValue)
+      out.push_back({name, "force on the bearing, first order, level of its RMS", "dB re 1 N", level, ""});
   }
 }
 
@@ -209,6 +226,12 @@ std::string drawings_table(const SystemStaticResult& a) {
     all("undercut: how far the rack reaches beyond the base circle's tangent point", "mm",
         [&](G g) { return mm(std::max(0.0, g.undercut())); });
   all("tooth thickness at the tip", "mm", [&](G g) { return mm(g.thickness_at_radius(g.tip_radius())); });
+  all("tooth thickness at the reference circle (transverse and normal)", "mm",
+      [&](G g) { return mm(reference_thickness(g)); });
+  all("span W_k over k teeth", "mm", [&](G g) {
+    const std::optional<Span> span = span_measurement(g);
+    return span ? text(mm(span->length), ", k = ", span->teeth) : html::kNoValue;
+  });
   all("face width", "mm", [](G g) { return shown(g.design().face_width * kMilli, 6); });
   all("diameter on which it is held rigidly (bore, of a ring its rim)", "mm",
       [&](G g) { return mm(2 * g.design().clamped_radius()); });
@@ -275,6 +298,15 @@ std::string mesh_tables(const SystemReport& r) {
     const GearPair pair = pair_of(a, m);
     geometry.back().push_back(fixed(a.contact_ratio[c], 3));
     geometry.back().push_back(fixed(pair.backlash() * kMilli, 4));
+    geometry.back().push_back(text(fixed(tip_clearance_to_root(pair, 0) * kMilli, 3), " / ",
+                                   fixed(tip_clearance_to_root(pair, 1) * kMilli, 3)));
+    for (const double path : {pair.path_start(), pair.path_end()}) {
+      const auto sliding = specific_sliding(pair, path);
+      const auto cell = [](const std::optional<double>& value) {
+        return value ? fixed(*value, 2) : html::kNoValue;
+      };
+      geometry.back().push_back(cell(sliding[0]) + " / " + cell(sliding[1]));
+    }
     rest.push_back({mesh_name(s, m), fixed(a.mesh_force.col(c).mean(), 0)});
     if (shared) {
       const bool own = shares_load(a, m);
@@ -290,7 +322,9 @@ std::string mesh_tables(const SystemReport& r) {
   }
   std::vector<std::string> head{"mesh", "centre distance (mm)", "working pressure angle (deg)", "mesh phase"};
   if (r.rest)
-    head.insert(head.end(), {"contact ratio", "backlash along the line of action (mm)"});
+    head.insert(head.end(), {"contact ratio", "normal backlash, along the line of action (mm)",
+                             "tip clearance, driving / driven (mm)", "specific sliding where a pair comes",
+                             "where it leaves"});
   else
     head.emplace_back("stiffness (N/µm)");
   std::string out = html::table(text("The meshes, the driving side first. Mesh phase: the part of a ",
@@ -323,20 +357,23 @@ std::string force_table(const SystemReport& r) {
     const auto column = a.torque.col(static_cast<Index>(b));
     rows.push_back({s.bodies[b].name, held_words(r, b), plain(column.mean(), 2),
                     plain(peak_to_peak(column), 2), bearing_words(s.bodies[b]), plain(f.mean_x, 1),
-                    plain(f.mean_y, 1), plain(f.most, 1), plain(f.rms, 2)});
+                    plain(f.mean_y, 1), plain(f.most, 1), plain(f.rms, 2), plain(f.first, 2),
+                    level_words(f.first)});
   }
   return html::table(
       text("Torques, in the sense in which each body turns, and forces on bearings and pins over the ",
            "mesh period; on a rigid axis the sum of the contact forces. RMS: of the oscillating part, ",
            "which acts on the housing."),
       {"body", "rotation", "mean torque (N m)", "its peak to peak (N m)", "bearing (N/µm)",
-       "mean force x (N)", "mean force y (N)", "largest force (N)", "RMS (N)"},
+       "mean force x (N)", "mean force y (N)", "largest force (N)", "RMS (N)", "first order (N)",
+       "its level (dB re 1 N)"},
       rows);
 }
 
 std::string modes_table(const SystemReport& r) {
   if (!r.modes) return "";
   const ModesResult& a = *r.modes;
+  const TurningMember driver = driving_member(r);
   const bool bands = a.frozen_frequency.size() > 0;
   html::Rows rows;
   for (Index i = 0; i < a.natural_frequency.size(); ++i) {
@@ -344,7 +381,8 @@ std::string modes_table(const SystemReport& r) {
     Index most = 0;
     const double share = a.kinetic_energy.row(i).maxCoeff(&most);
     rows.push_back(
-        {text(i + 1), shown(f, 6), f == 0 ? "free motion" : name_of(a.type[static_cast<size_t>(i)]),
+        {text(i + 1), shown(f, 6), driver.turns > 0 ? fixed(driver.rpm(f), 0) : html::kNoValue,
+         f == 0 ? "free motion" : name_of(a.type[static_cast<size_t>(i)]),
          f == 0 ? "–" : fixed(a.mesh_energy.row(i).sum() * kPercent, 1),
          f == 0 ? "–" : fixed(a.bearing_energy.row(i).sum() * kPercent, 1),
          text(a.layout.bodies[static_cast<size_t>(most)].name, ", ", fixed(share * kPercent, 0), " %")});
@@ -355,6 +393,7 @@ std::string modes_table(const SystemReport& r) {
   }
   std::vector<std::string> head{"mode",
                                 "natural frequency (Hz)",
+                                "met by order 1 at (rpm of " + driver.name + ")",
                                 "type",
                                 "energy in the meshes (%)",
                                 "energy in bearings and holds (%)",
@@ -494,8 +533,9 @@ void remark_modes(const ModesResult& a, std::vector<Remark>& out) {
 std::string system_remarks(const SystemReport& r) {
   std::string items;
   bool warned = false;
+  const TurningMember driver = driving_member(r);
   const auto add = [&](const char* where, const std::vector<Remark>& remarks) {
-    items += remark_items(where, remarks);
+    items += remark_items(where, remarks, driver);
     for (const Remark& one : remarks) warned = warned || one.warning;
   };
   std::vector<Remark> rest, modes;

@@ -14,6 +14,7 @@
 #include "report/iso_comparison.h"
 #include "report/report_figures.h"
 #include "report/report_page.h"
+#include "report/report_remarks.h"
 #include "report/report_tables.h"
 #include "signal/no_root_stress.h"
 

@@ -32,7 +32,8 @@ struct ResponseResult : MotionParameters {
   // [speed] (order 1.., mesh) m, amplitude of the harmonics of the hunting frequency, up to those above; empty if it is the mesh
   // frequency
   std::vector<MatrixRM> dte_order;
-  MatrixRM tooth_load_max, mesh_force_max;  // (speed, mesh) N
+  MatrixRM tooth_load_max, mesh_force_max;    // (speed, mesh) N
+  std::vector<MatrixRM> mesh_force_harmonic;  // [speed] (harmonic 1.., mesh) N, amplitude
   // (speed, mesh) 1: largest share, at one instant, of the meshes that come from one [[mesh]]; empty unless one has several
   MatrixRM load_share_max;
   MatrixRM separation_fraction;     // (speed, mesh) share of the period without force
@@ -40,6 +41,8 @@ struct ResponseResult : MotionParameters {
   // (speed, body) N: largest force on its bearing, and RMS of what of it oscillates; 0 of the gears of a pair on rigid bearings,
   // empty if both are
   MatrixRM bearing_force_max, bearing_force_rms;
+  // [speed] (harmonic 1.., body) N: amplitude of that force, x and y together, the root of the sum of their squares
+  std::vector<MatrixRM> bearing_force_harmonic;
   // (speed, body) Pa: largest root stress, as in the sweep; 0 of gears whose root stress is not known, empty if it is of none:
   // of lumped models and trains. So are the next ones.
   MatrixRM root_stress_max;

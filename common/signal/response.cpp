@@ -167,8 +167,15 @@ void size_meshes(Index samples, Index speeds, Index meshes, ResponseResult& r) {
                       &r.separations_per_period})
     x->resize(speeds, meshes);
   r.dte_harmonic.assign(static_cast<size_t>(speeds), MatrixRM(count, meshes));
+  r.mesh_force_harmonic = r.dte_harmonic;
   if (r.hunting_periods > 1)
     r.dte_order.assign(static_cast<size_t>(speeds), MatrixRM(count * r.hunting_periods, meshes));
+}
+
+void size_bearings(Index bodies, ResponseResult& r) {
+  for (MatrixRM* x : {&r.bearing_force_max, &r.bearing_force_rms})
+    x->setZero(r.mesh_frequency.size(), bodies);
+  r.bearing_force_harmonic.assign(r.dte_harmonic.size(), MatrixRM::Zero(r.dte_harmonic[0].rows(), bodies));
 }
 
 // Of a mesh at a speed, over `periods` mesh periods after which its motion repeats.
@@ -180,6 +187,7 @@ void add_mesh(const Samples& transmission_error, const Samples& force, int perio
   r.dte_rms(f, m) = dte.rms;
   r.dte_mean(f, m) = dte.mean;
   r.dte_harmonic[at].col(m) = dte.amplitude;
+  r.mesh_force_harmonic[at].col(m) = harmonics(force, count, periods).amplitude;
   if (r.hunting_periods > 1)
     r.dte_order[at].col(m) =
         harmonics(transmission_error, count * r.hunting_periods, periods / r.hunting_periods).amplitude;
@@ -190,7 +198,13 @@ void add_mesh(const Samples& transmission_error, const Samples& force, int perio
 }
 
 // force: (sample, xy) over the same periods.
-void add_bearing(const Eigen::Ref<const MatrixRM>& force, Index f, Index body, ResponseResult& r) {
+void add_bearing(const Eigen::Ref<const MatrixRM>& force, int periods, Index f, Index body,
+                 ResponseResult& r) {
+  MatrixRM& amplitude = r.bearing_force_harmonic[static_cast<size_t>(f)];
+  const auto count = static_cast<int>(amplitude.rows());
+  const VectorXd x = harmonics(force.col(0), count, periods).amplitude,
+                 y = harmonics(force.col(1), count, periods).amplitude;
+  amplitude.col(body) = (x.array().square() + y.array().square()).sqrt();
   r.bearing_force_max(f, body) = force.rowwise().norm().maxCoeff();
   r.bearing_force_rms(f, body) = oscillating_vector_rms(force);
 }
@@ -265,8 +279,7 @@ ResponseResult response(const SweepResult& s) {
   r.natural_frequency = s.natural_frequency;
   r.backlash_left = s.backlash_left;
   size_meshes(per_period, speeds, 1, r);
-  if (!s.bearing_force[0].empty() || !s.bearing_force[1].empty())
-    for (MatrixRM* x : {&r.bearing_force_max, &r.bearing_force_rms}) x->setZero(speeds, kSides);
+  if (!s.bearing_force[0].empty() || !s.bearing_force[1].empty()) size_bearings(kSides, r);
   add_root_stress(s, r);
   for (Index f = 0; f < speeds; ++f) {
     // What one orbit fills of its row; a motion that is not periodic fills it all.
@@ -278,7 +291,8 @@ ResponseResult response(const SweepResult& s) {
     r.tooth_load_max(f, 0) = s.tooth_load[static_cast<size_t>(f)].maxCoeff();
     for (size_t g = 0; g < kSides; ++g)
       if (!s.bearing_force[g].empty())
-        add_bearing(s.bearing_force[g][static_cast<size_t>(f)].topRows(samples), f, static_cast<Index>(g), r);
+        add_bearing(s.bearing_force[g][static_cast<size_t>(f)].topRows(samples), periods, f,
+                    static_cast<Index>(g), r);
   }
   return r;
 }
@@ -296,7 +310,7 @@ ResponseResult response(const SystemSweepResult& s) {
   for (Index m = 0; m < meshes; ++m) r.mesh_names.push_back(mesh_name(layout, static_cast<size_t>(m)));
   for (const System::Body& body : layout.bodies) r.body_names.push_back(body.name);
   size_meshes(per_period, speeds, meshes, r);
-  for (MatrixRM* x : {&r.bearing_force_max, &r.bearing_force_rms}) x->setZero(speeds, bodies);
+  size_bearings(bodies, r);
   // Of the meshes of one [[mesh]].
   const std::set<int> sections(s.settings.section.begin(), s.settings.section.end());
   if (static_cast<Index>(sections.size()) < meshes) r.load_share_max.setZero(speeds, meshes);
@@ -311,7 +325,8 @@ ResponseResult response(const SystemSweepResult& s) {
     }
     if (r.load_share_max.size() > 0) add_load_share(s, s.mesh_force[at], f, r);
     for (Index b = 0; b < bodies; ++b)
-      add_bearing(s.bearing_force[static_cast<size_t>(b)][at].topRows(samples), f, b, r);
+      add_bearing(s.bearing_force[static_cast<size_t>(b)][at].topRows(samples),
+                  static_cast<int>(samples / per_period), f, b, r);
   }
   return r;
 }

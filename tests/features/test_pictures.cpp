@@ -17,6 +17,7 @@
 #include "report/response_figures.h"
 #include "report/root_stress_figure.h"
 #include "report/static_figures.h"
+#include "report/system_picture.h"
 
 using namespace whine;
 using namespace whine::pictures;
@@ -30,6 +31,7 @@ TEST_CASE("pictures of a pair at rest: no text is cut or lies on other text, one
     check(mesh_stiffness_figure(six_at_rest(count)), "fig13");
     check(load_sharing_figure(six_at_rest(count)), "load-sharing");
   }
+  check(system_picture(at_rest(9999)), "system");
 }
 
 TEST_CASE("pictures of responses over speed: no text is cut or lies on other text, one torque and six") {

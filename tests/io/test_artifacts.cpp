@@ -74,6 +74,7 @@ std::vector<Bytes> not_described(const Artifact& a) {
   if constexpr (requires { a.design; }) out.push_back(bytes_of(a.design));
   if constexpr (requires { a.discretisation; }) out.push_back(bytes_of(a.discretisation));
   if constexpr (requires { a.settings; }) out.push_back(bytes_of(a.settings));
+  if constexpr (requires { a.train; }) out.push_back(bytes_of(a.train));
   if constexpr (requires { a.plan; }) out.push_back(bytes_of(a.plan));
   if constexpr (requires { a.view; }) out.push_back(bytes_of(a.view));
   if constexpr (requires { a.slit_node; }) out.push_back(bytes_of(a.slit_node));

@@ -23,6 +23,7 @@
 #include "report/report.h"
 #include "report/report_figures.h"
 #include "report/report_guide.h"
+#include "report/report_remarks.h"
 #include "report/report_tables.h"
 #include "report/static_figures.h"
 #include "report/system_report_guide.h"
@@ -220,7 +221,7 @@ TEST_CASE("report: numbers of the artifacts, words that are no marks, figures on
   content.statics = {statics_of_paper(150), statics_of_paper(100)};
   content.sweeps = {response(some_sweep(Direction::up)), response(some_sweep(Direction::down))};
   content.sweeps[0].remarks = {remark(true, "back flanks < touch")};
-  content.pictures = {{"fig12", "\x89PNG"}};
+  content.pictures = {{"transmission-error", "\x89PNG"}};
   const std::string page = report_html(content);
   const auto holds = [&](const std::string& words) { return contains(page, words); };
   CHECK(holds("<title>&lt;Gears&gt; &amp; &quot;teeth&quot;</title>"));
@@ -232,10 +233,40 @@ TEST_CASE("report: numbers of the artifacts, words that are no marks, figures on
   CHECK(holds(">100 N m</th>"));
   CHECK(page.find(">150 N m</th>") < page.find(">100 N m</th>"));
   CHECK(report_html(content) == page);
+  // The page opens with the picture and five lines, which stand before the list of contents.
+  const size_t opening = page.find("<section id=\"opening\""), contents = page.find("<nav aria-label");
+  REQUIRE(opening < contents);
+  const std::string first = page.substr(opening, contents - opening);
+  CHECK(contains(first, "At 150 N m the transmission error swings from peak to peak by " +
+                            significant(peak_to_peak(content.statics[0].transmission_error) * 1e6, 3) +
+                            " µm"));
+  CHECK(contains(first, "(2900 Hz)"));
+  CHECK(contains(first,
+                 "From 1200 to 1560 rpm (1000 to 1300 Hz) teeth do not part, with speed rising or falling."));
+  CHECK(contains(first,
+                 "The mesh force reaches 0.06 times its mean at rest, at 1560 rpm (1300 Hz), where K_v"));
+  // Groups of a dozen rows at most, each below its heading.
+  size_t groups = 0;
+  for (size_t at = page.find("<h3>"); at != std::string::npos; at = page.find("<h3>", at + 1), ++groups) {
+    const std::string table = page.substr(at, page.find("</table>", at) - at);
+    size_t rows = 0;
+    for (size_t row = table.find("<tr>"); row != std::string::npos; row = table.find("<tr>", row + 1)) ++rows;
+    CHECK(rows > 1);
+    CHECK(rows <= 13);  // with the line of names
+  }
+  CHECK(groups == 6);
+  CHECK(holds(
+      "mesh frequency of that tooth load, rising / falling</td><td>Hz<br>rpm</td><td class=\"number\">1300 / 1000<br>1560 / 1200</td>"));
 
   const std::string table = report_tsv(content);
   CHECK(contains(table, "150\tlargest tooth load, speed rising\t130\tN\t\n"));
   CHECK(!contains(table, "100\tlargest tooth load"));
+  CHECK(contains(
+      table,
+      "150\tmesh frequency of that tooth load, speed rising\t1300\tHz\t\n"
+      "150\tmesh frequency of that tooth load, speed rising, as rotation of the driver\t1560\trpm\t\n"));
+  // Loads jump by 5 N in the second of two periods at 1100 Hz alone: no order of the mesh frequency.
+  CHECK(contains(table, "150\tlargest first order of the mesh force, speed rising\t"));
   CHECK(contains(table, "150\tcontact lost, speed rising\t\tHz\tnowhere\n"));
   CHECK(contains(table, "150\tcontact lost, speed falling\t\tHz\tnowhere\n"));
 
@@ -340,7 +371,7 @@ TEST_CASE(
   ReportContent content;
   content.impacts.resize(1);
   content.sweeps.resize(1);
-  content.pictures = {{"fig05-branches", "\x89PNG"}};
+  content.pictures = {{"response-branches", "\x89PNG"}};
   SystemReport system;
   system.rest.emplace();
   system.pictures = {{"system-static", "\x89PNG"}};
@@ -406,13 +437,19 @@ TEST_CASE("results: one line of names, geometry without a torque, as many cells 
   CHECK(value("working pitch diameter, pinion (driver)") == 150);
   CHECK(value("tip diameter, wheel (driven)") == 156);
   CHECK(value("root diameter, wheel (driven)") == 142.5);
+  CHECK(value("tooth thickness at the reference circle, wheel (driven)") == 4.7124);
+  CHECK(value("teeth in the span, pinion (driver)") == 6);
+  CHECK(value("span over these teeth, pinion (driver)") == 50.811);  // 3 x 16.9370 mm of handbooks
+  CHECK(value("tip clearance, pinion (driver)") == 0.75);
+  CHECK(value("root clearance, wheel (driven)") == 0.75);
+  CHECK(value("specific sliding where a pair comes into contact, pinion (driver)") == -0.8691);
 }
 
 TEST_CASE("report: numbers of motions beyond the backlash are marked, with the speeds") {
   ReportContent content;
   content.scene = "pair: gears";
   content.statics = {statics_of_paper(150)};
-  content.pictures = {{"fig07", "\x89PNG"}};
+  content.pictures = {{"responses-by-torque", "\x89PNG"}};
   SweepResult up = some_sweep(Direction::up), down = some_sweep(Direction::down);
   // The half order at the second speed swings farthest back.
   up.backlash_margin = -1e-7;
@@ -437,11 +474,11 @@ TEST_CASE("report: numbers of motions beyond the backlash are marked, with the s
   CHECK(contains(table, "150\tmotion beyond the backlash, speed rising\t1100\tHz\t\n"));
   CHECK(contains(table, "150\tlargest tooth load, speed rising\t130\tN\t\n"));  // at 1300 Hz
   CHECK(!contains(table, "motion beyond the backlash, speed falling"));
-  CHECK(contains(page, ">1100 *</td>"));
-  CHECK(contains(page, "not modelled: 150 N m, speed rising: 1100 Hz."));  // below fig07
+  CHECK(contains(page, ">1100 * / 1200<br>1320 * / 1440</td>"));
+  CHECK(contains(page, "not modelled: 150 N m, speed rising: 1100 Hz (1320 rpm)."));  // below the responses
   CHECK(contains(page, "what Figure 7 of P2000 shows"));
   for (ResponseResult& s : content.sweeps) s.backlash_left.setConstant(1e-6);
-  CHECK(!contains(report_html(content), " *</td>"));
+  CHECK(!contains(report_html(content), "1100 *"));
 }
 
 TEST_CASE("an energy balance that does not close is warned of, with its speed and its size") {
@@ -500,8 +537,9 @@ TEST_CASE(
   other.jump_frequency *= 1.1;
   const std::string both = report_html(two), words = "a sweep may leave a branch before its end";
   CHECK(both.find(words) == both.rfind(words));
-  CHECK(contains(both,
-                 "the motion jumps at " + fixed(jump, 0) + " and " + fixed(1.1 * jump, 0) + " Hz, where"));
+  CHECK(contains(both, "the motion jumps at " + fixed(jump, 0) + " and " + fixed(1.1 * jump, 0) + " Hz (" +
+                           fixed(1.2 * std::round(jump), 0) + " and " +
+                           fixed(1.2 * std::round(1.1 * jump), 0) + " rpm), where"));
   swept.mesh_frequency = jump + (speeds.array() - speeds.mean()) * 0.015 * jump / step;
   CHECK(!contains(report_html(content), "a sweep may leave a branch"));
   swept.mesh_frequency = speeds;

@@ -195,11 +195,19 @@ TEST_CASE(
        "planet2\tforce on the bearing in motion, largest, speed rising\t777.5\tN\tat 2000 Hz of the mesh\n",
        "speed rising\tspeeds whose motion is not periodic\t1\t1\t1000\n"})
     CHECK_MESSAGE(contains(table, row), row);
-  for (const char* words :
-       {"the motion does not repeat at 1 of 2 speeds (1000 Hz)", "teeth part at 2000 Hz (sun-planet2)",
-        "rising and falling speed lead to different motions at 2000 Hz",
-        "The largest vibration is an RMS of 3.00 µm of sun-planet2 at 2000 Hz, speed rising",
-        "for up to 25.0 % of the time"})
+  for (
+      const char* words :
+      {"the motion does not repeat at 1 of 2 speeds (1000 Hz (2222 rpm))",
+       "teeth part at 2000 Hz (4444 rpm) (sun-planet2)",
+       "rising and falling speed lead to different motions at 2000 Hz (4444 rpm)",
+       "The largest vibration is an RMS of 3.00 µm of sun-planet2 at 2000 Hz (4444 rpm), speed rising",
+       "for up to 25.0 % of the time",
+       // The opening: of the meshes of each [[mesh]] together.
+       "At 400 N m on sun the transmission error swings from peak to peak by 1.00 to 3.00 µm of sun-planet",
+       "From 2222 to 4444 rpm (1000 to 2000 Hz) teeth part (sun-planet): with speed rising at 4444 rpm (2000 Hz). A drive "
+       "that starts from rest gets there at 4444 rpm (2000 Hz).",
+       "The mesh force reaches 2.00 times its mean at rest in sun-planet, at 4444 rpm (2000 Hz)",
+       "Keep the speed of sun out of 4444 rpm (2000 Hz), where teeth part."})
     CHECK_MESSAGE(contains(page, words), words);
   r.sweeps[0].energy_imbalance[1] = 1e-3;
   CHECK(contains(system_report_html(r), "0.001 of the energy that goes through is not accounted for"));

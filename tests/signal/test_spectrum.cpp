@@ -215,6 +215,29 @@ TEST_CASE(
   CHECK(wide.separations_per_period(0, 0) == narrow.separations_per_period(0, 0));
 }
 
+TEST_CASE("response: first orders of the mesh force and of the force on a bearing, x and y together") {
+  SweepResult s = small_sweep();
+  const int samples = static_cast<int>(s.mesh_force.cols()), steps = s.time.steps_per_period;
+  s.bearing_force[1].clear();
+  for (Eigen::Index f = 0; f < s.mesh_force.rows(); ++f) {
+    MatrixRM bearing(samples, 2);
+    for (int t = 0; t < samples; ++t) {
+      const double phase = 2 * std::numbers::pi * t / steps;
+      s.mesh_force(f, t) = 1000 + 30 * std::cos(phase + 0.3) + 5 * std::cos(2 * phase);
+      bearing(t, 0) = 100 + 3 * std::cos(phase);
+      bearing(t, 1) = 4 * std::sin(phase + 1);
+    }
+    s.bearing_force[1].push_back(bearing);
+  }
+  const ResponseResult r = response(s);
+  for (size_t f = 0; f < 2; ++f) {
+    CHECK(r.mesh_force_harmonic[f](0, 0) == relative(30, 1e-12));
+    CHECK(r.mesh_force_harmonic[f](1, 0) == relative(5, 1e-12));
+    CHECK(r.bearing_force_harmonic[f](0, 1) == relative(5, 1e-12));  // 3, 4
+    CHECK(r.bearing_force_harmonic[f](0, 0) == 0);                   // on a rigid bearing
+  }
+}
+
 TEST_CASE("response: a motion that is not periodic counts with all that is stored of it") {
   SweepResult s = small_sweep();
   s.period_multiple[1] = 0;
