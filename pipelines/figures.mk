@@ -255,7 +255,7 @@ export: $(if $(filter export,$(goals)),$$(export_file)) ## results of SCENE as c
 $(figures): %: $$(foreach e,tsv svg png,$(figure_folder)/$$(call shown_as,$$*).$$e)
 teeth: $(teeth_page) ## what the teeth of a pair suffer, on one page, out/figures/teeth/index.html (SCENE: out/<scene>/teeth/index.html): root stress, flank pressure, dynamic factors, losses beside ISO 6336, 150 N m (SCENE: its first torque); BRANCHES=yes
 	$(call stands,teeth: open $< in a browser)
-figures: $(if $(SCENE),$(foreach f,$(report_figures),$(call shown_as,$f)),$(paper_figures)) $(figure_folder)/table1.txt ## all figures and tables of the paper that are there so far, or all of SCENE
+figures: $(if $(SCENE),$(report_figures),$(paper_figures)) $(figure_folder)/table1.txt ## all figures and tables of the paper that are there so far, or all of SCENE
 table1: $(figure_folder)/table1.txt ## natural frequencies by ring-down at 100, 200 and 300 N m beside those of the paper (SCENE: its torques)
 	@cat $<
 scorecard: out/figures/scorecard.txt ## every number and statement of the paper, its value in three scenes of its pair, whether it agrees

@@ -173,7 +173,7 @@ declare -A whole=([gear-scene]="$scene_command" [gear-jump-map]="${stage_map[*]}
 for artifact in "${artifacts[@]}"; do
   made_by=$(command_of "$artifact")
   program=${made_by%% *}
-  whole[${program##*/}]=$made_by
+  [ -n "${whole[${program##*/}]:-}" ] || whole[${program##*/}]=$made_by  # of a program of pairs and trains the pair's
 done
 for program in "$bin"/gear-*; do
   name=$(basename "$program")

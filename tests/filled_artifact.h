@@ -67,10 +67,9 @@ class Filling : public whine::ArtifactReader {
   Filling(Optional optional, Turns& turn, Words& words) : optional_(optional), turn_(turn), words_(words) {}
 
   bool has(const std::string& name) const override {
-    // A train has friction nowhere, and sections of gears that its meshes name, which these words do not.
+    // A train has sections of gears that its meshes name, which these words do not.
     const bool train = given_.contains("/body/is_carrier");
-    for (const char* pair :
-         {"/parameters/friction/", "/parameters/driver_", "/parameters/driven_", "/parameters/modification_"})
+    for (const char* pair : {"/parameters/driver_", "/parameters/driven_", "/parameters/modification_"})
       if (train && name.starts_with(pair)) return false;
     const bool excludes = name == "/parameters/fidelity/model" || name == "/layout/body/name" ||
                           name.find("_rim/") != std::string::npos;

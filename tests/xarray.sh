@@ -43,7 +43,9 @@ for kind, (group, name, axes, coordinates) in expected.items():
     path = kind + ".h5"
     try:
         with h5netcdf.File(path, "r") as file:
-            found = [g for g in groups(file) if not g.startswith("/VTKHDF")]
+            # Below an axis called body h5netcdf takes the word /parameters/fidelity/body for its coordinate.
+            named = "body" in file.dimensions
+            found = [g for g in groups(file) if not g.startswith("/VTKHDF") and not (named and g == "/parameters/fidelity")]
         for each in found:
             with xarray.open_dataset(path, engine="h5netcdf", group=each) as data:
                 data.load()

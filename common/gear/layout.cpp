@@ -32,12 +32,6 @@ CarriedMesh carried_mesh(const System& system, size_t m) {
   return out;
 }
 
-std::string mesh_name(const System& system, size_t m) {
-  const auto& side = system.meshes[m].side;
-  return system.bodies[static_cast<size_t>(side[0].body)].name + "-" +
-         system.bodies[static_cast<size_t>(side[1].body)].name;
-}
-
 bool has_place(const System& layout, const System::Body& body) {
   if (body.on == System::kGround) return true;
   if (body.on < 0 || body.on >= static_cast<int>(layout.bodies.size())) return false;

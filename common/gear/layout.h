@@ -26,9 +26,6 @@ struct CarriedMesh {
 };
 CarriedMesh carried_mesh(const System& system, size_t m);
 
-// "sun-planet1": a mesh by its bodies.
-std::string mesh_name(const System& system, size_t m);
-
 // Whether the axis of a body is on the ground, or on a carrier whose axis is on the ground. A carrier on a carrier, or on
 // itself, is not in the model.
 bool has_place(const System& layout, const System::Body& body);

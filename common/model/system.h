@@ -78,6 +78,13 @@ struct System {
   }
 };
 
+// "sun-planet1": a mesh by its bodies.
+inline std::string mesh_name(const System& system, size_t m) {
+  const auto& side = system.meshes[m].side;
+  return system.bodies[static_cast<size_t>(side[0].body)].name + "-" +
+         system.bodies[static_cast<size_t>(side[1].body)].name;
+}
+
 template <>
 inline constexpr const char* kWordsOf<System::DriveKind> = "torque held free";
 

@@ -160,7 +160,8 @@ void require_sweeps(const SystemReport& r) {
     const ResponseResult& a = r.sweeps[i];
     const System& layout = a.train.layout;
     if (!one_system(layout, r.rest->settings.layout))
-      fail(Failure::input, "report: response.h5 and static.h5 are of two systems; give artifacts of one scene");
+      fail(Failure::input,
+           "report: response.h5 and static.h5 are of two systems; give artifacts of one scene");
     if (a.hunting_periods != r.rest->hunting_periods)
       fail(Failure::input, "report: the same teeth meet again after ", a.hunting_periods,
            " mesh periods in response.h5 and after ", r.rest->hunting_periods,

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "gear/layout.h"
 #include "signal/branches.h"
 #include "signal/jumps.h"
 #include "signal/rms.h"

@@ -197,8 +197,8 @@ class Runner {
       rms[m] = std::sqrt(squares / steps);
     }
     put(Eigen::Vector2d(start, clock_.frequency(start)));
-    for (const auto& x : {std::cref(rms), std::cref(mean), std::cref(period.tooth_load_max),
-                          std::cref(period.separation)})
+    for (const auto& x :
+         {std::cref(rms), std::cref(mean), std::cref(period.tooth_load_max), std::cref(period.separation)})
       put(x);
     if (head_.root_stress) put(period.root_stress);
   }

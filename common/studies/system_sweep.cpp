@@ -191,9 +191,8 @@ class TrainSweepRig {
   static void take(const SystemEnergyBalance& e, Motion& motion) {
     Eigen::RowVectorXd lines(motion.energy.size());
     lines << e.kinetic + e.modal + e.residual + e.local, e.drive.sum(), e.rolling.sum(),
-        e.centrifugal + e.dragging.sum(), e.modal_damping,
-        e.bearing_damping.sum(), e.relaxation_damping, e.switching.sum(), e.cutting.sum(), e.averaging,
-        e.dropped, e.throughput;
+        e.centrifugal + e.dragging.sum(), e.modal_damping, e.bearing_damping.sum(), e.relaxation_damping,
+        e.switching.sum(), e.cutting.sum(), e.averaging, e.dropped, e.throughput;
     motion.energy += lines;
     motion.rolling += e.rolling;
     motion.bearing_damping.head(e.bearing_damping.size()) += e.bearing_damping;
