@@ -256,7 +256,7 @@ for value in nan inf -inf; do
   rejected "a sound of $value as full scale" 2 "--full-scale $value" "${sound[@]}" "--full-scale=$value"
 done
 rejected "a sound at a speed that no sweep has" 3 '2001 2000' "${sound[@]/#2000/2001}"
-rejected "a force on a bearing that is rigid" 2 'pinion:x <gear>:x <gear>:y' "${sound[@]}" --bearing pinion:x
+rejected "a force on a bearing that is rigid" 2 'pinion:x <body>:x <body>:y' "${sound[@]}" --bearing pinion:x
 printf 'frequency_Hz,magnitude,phase_deg\n1,1,0\n2,1,0\n' > low.csv
 rejected "a sound of which a transfer function leaves nothing" 3 'up 24000 transfer' "${sound[@]}" --transfer low.csv
 rejected "two such sounds" 3 'up heard' "${sound[@]}" --sweep out/scene/T100/down/sweep.h5 --transfer low.csv

@@ -67,9 +67,12 @@ VectorXcd MonodromyMatrix::multipliers() const {
 MonodromyMatrix slow_tangent(int size, const MonodromyMatrix& nearby, const VectorXd& also, double tolerance,
                              const std::function<MatrixXd(const MatrixXd&)>& times) {
   MonodromyMatrix t;
-  if (size <= kWholeState) {
+  const auto take_all = [&] {
     t.basis = MatrixXd::Identity(size, size);
     t.image = times(t.basis);
+  };
+  if (size <= kWholeState) {
+    take_all();
     return t;
   }
   constexpr int kMost = 60, kWidenings = 4;
@@ -81,7 +84,11 @@ MonodromyMatrix slow_tangent(int size, const MonodromyMatrix& nearby, const Vect
     // The cut may go through multipliers of one modulus, as a gear's double modes have them: there no number of iterations settles
     // it, but it does behind them.
     if (i == kMost) {
-      if (widenings++ == kWidenings || count == size) break;
+      // Damping by mass gives all modes one modulus: nothing is behind them.
+      if (widenings++ == kWidenings || count == size) {
+        take_all();
+        return t;
+      }
       count = std::min<Index>(count + kSlowDirections, size);
       t.basis = orthonormal(also, t.image, size, count);
       i = waited = 0;
@@ -105,9 +112,6 @@ MonodromyMatrix slow_tangent(int size, const MonodromyMatrix& nearby, const Vect
     }
     t.basis = orthonormal(also, t.image, size, count);
   }
-  fail(Failure::numerical, "the directions of the largest multipliers were not found in ", kMost,
-       " iterations of a subspace of ", count, " directions, the last of ", kWidenings + 1,
-       " tried: residual ", residual);
 }
 
 }  // namespace whine

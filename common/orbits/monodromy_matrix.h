@@ -21,8 +21,8 @@ struct MonodromyMatrix {
 };
 
 // From the directions of a tangent nearby, or from none, until the residual of the largest multipliers' eigenvectors is below
-// `tolerance`; as many directions as leave no multiplier above 0.2 out. times(directions): the tangent times directions. also:
-// (size) a direction that V shall hold as well; empty: none. Throws Error(numerical) if the iteration does not converge.
+// `tolerance`; as many directions as leave no multiplier above 0.2 out, and all where these do not stand apart from the rest. times(directions): the
+// tangent times directions. also: (size) a direction that V shall hold as well; empty: none.
 MonodromyMatrix slow_tangent(int size, const MonodromyMatrix& nearby, const Eigen::VectorXd& also,
                              double tolerance,
                              const std::function<Eigen::MatrixXd(const Eigen::MatrixXd& directions)>& times);

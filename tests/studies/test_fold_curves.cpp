@@ -270,6 +270,25 @@ TEST_CASE(
   CHECK(std::abs(multipliers[kKept - 1]) == relative(0.95 - 0.05 * (kKept - 2), 1e-6));
 }
 
+TEST_CASE(
+    "slow tangent: where all multipliers have one modulus, as damping by mass gives them, all directions are kept") {
+  constexpr int kSize = 120;
+  MatrixXd turns = MatrixXd::Zero(kSize, kSize), shear = MatrixXd::Identity(kSize, kSize);
+  for (int i = 0; i < kSize; i += 2) {
+    const double angle = 0.3 + 0.7 * i;
+    turns.block(i, i, 2, 2) << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+    for (int j = i + 2; j < kSize; ++j) shear(i, j) = 0.3 * std::sin(1.7 * i + 0.4 * j) / (1 + j - i);
+  }
+  const MatrixXd tangent = 0.8 * shear * turns * shear.inverse();
+  const MonodromyMatrix t = slow_tangent(
+      kSize, {}, {}, 1e-8, [&](const MatrixXd& directions) { return MatrixXd(tangent * directions); });
+  CHECK(t.whole());
+  CHECK((t.matrix() - tangent).norm() < 1e-12 * tangent.norm());
+  const Eigen::VectorXcd multipliers = t.multipliers();
+  CHECK(std::abs(multipliers[0]) == relative(0.8, 1e-9));
+  CHECK(std::abs(multipliers[kSize - 1]) == relative(0.8, 1e-9));
+}
+
 // Independent of the curve: the whole branch at each torque, from rest.
 TEST_CASE("fold curves: of an elastic pair over torque they are the folds of its branch at each torque") {
   const ReducedBody& body = paper_body();
