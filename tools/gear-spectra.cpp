@@ -1,6 +1,6 @@
 // gear-spectra: what a speed sweep says, as numbers of a frequency response.
 //
-// Reads      sweep.h5, or system_sweep.h5 of a train: transmission error and loads over the last mesh period(s) of each speed
+// Reads      sweep.h5 of a pair or a train: transmission error and loads over the last mesh period(s) of each speed
 // Writes     response.h5    per speed, of each mesh and body: mean and RMS of the oscillating DTE, harmonics of the mesh
 //                           frequency, largest loads, root stress and flank pressure, separations; the sweep's jumps
 // Equations  x: transmission error of a mesh; mean = <x>, rms^2 = <(x - mean)^2>,
@@ -20,7 +20,7 @@ namespace {
 void body(int argc, char** argv) {
   whine::Options options{"Mean, RMS, harmonics, loads and separations of a speed sweep", "gear-spectra"};
   std::string input, output;
-  options.add("--input", input, "sweep.h5 or system_sweep.h5").required();
+  options.add("--input", input, "sweep.h5").required();
   options.add("--output", output, "response.h5 to write").required();
   options.footer(
       "Example:\n"

@@ -75,6 +75,39 @@ MatrixXd SystemPeriodMap::tangent() {
   return tangent_times(MatrixXd::Identity(size(), size()));
 }
 
+// Changes of the contact forces (slot, direction) at the end of step i, of coordinates and relaxed loads without them.
+void SystemPeriodMap::solve_contacts(int i, const MatrixXd& z, const MatrixXd& relaxed, MatrixXd& p) const {
+  const SystemDynamics& of = dynamics_;
+  const SystemDynamics::Position& position = of.at(i);
+  std::vector<Index> active;
+  for (int k = 0; k < position.size(); ++k)
+    if (of.forces()(i, position.contact[static_cast<size_t>(k)].slot) > 0) active.push_back(k);
+  MatrixXd tangent = position.compliance(active, active), e(static_cast<Index>(active.size()), z.cols());
+  for (size_t a = 0; a < active.size(); ++a) {
+    const auto k = static_cast<int>(active[a]);
+    const SystemDynamics::Contact& contact = position.contact[static_cast<size_t>(k)];
+    const auto row = static_cast<Index>(a);
+    tangent(row, row) += position.law[static_cast<size_t>(k)].at(of.forces()(i, contact.slot)).slope;
+    e.row(row).setZero();
+    of.each_part(position, k, [&](Index first, const auto& h) {
+      e.row(row) -= h.transpose() * z.middleRows(first, h.size());
+    });
+    for (size_t s = 0; s < 2; ++s) {
+      const auto b = static_cast<size_t>(contact.body[s]);
+      for (int at = of.relaxed_first_[b], slot = 0; at < of.relaxed_first_[b + 1];
+           at += SystemDynamics::kFields, ++slot)
+        e.row(row) += of.reading(position, contact, s, slot).transpose() *
+                      relaxed.middleRows<SystemDynamics::kFields>(at);
+    }
+  }
+  p.setZero();
+  if (!active.empty()) {
+    const MatrixXd forces = -tangent.llt().solve(e);
+    for (size_t a = 0; a < active.size(); ++a)
+      p.row(position.contact[static_cast<size_t>(active[a])].slot) = forces.row(static_cast<Index>(a));
+  }
+}
+
 // The equations of SystemDynamics::step, linear in what moves.
 MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
   if (!applied_)
@@ -127,33 +160,7 @@ MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
       of_frame = close(frame.motions(z));
       before = frame.motions(z);
     }
-    std::vector<Index> active;
-    for (int k = 0; k < position.size(); ++k)
-      if (of.forces()(i, position.contact[static_cast<size_t>(k)].slot) > 0) active.push_back(k);
-    MatrixXd tangent = position.compliance(active, active), e(static_cast<Index>(active.size()), many);
-    for (size_t a = 0; a < active.size(); ++a) {
-      const auto k = static_cast<int>(active[a]);
-      const SystemDynamics::Contact& contact = position.contact[static_cast<size_t>(k)];
-      const auto row = static_cast<Index>(a);
-      tangent(row, row) += position.law[static_cast<size_t>(k)].at(of.forces()(i, contact.slot)).slope;
-      e.row(row).setZero();
-      of.each_part(position, k, [&](Index first, const auto& h) {
-        e.row(row) -= h.transpose() * z.middleRows(first, h.size());
-      });
-      for (size_t s = 0; s < 2; ++s) {
-        const auto b = static_cast<size_t>(contact.body[s]);
-        for (int at = of.relaxed_first_[b], slot = 0; at < of.relaxed_first_[b + 1];
-             at += SystemDynamics::kFields, ++slot)
-          e.row(row) += of.reading(position, contact, s, slot).transpose() *
-                        relaxed.middleRows<SystemDynamics::kFields>(at);
-      }
-    }
-    p.setZero();
-    if (!active.empty()) {
-      const MatrixXd forces = -tangent.llt().solve(e);
-      for (size_t a = 0; a < active.size(); ++a)
-        p.row(position.contact[static_cast<size_t>(active[a])].slot) = forces.row(static_cast<Index>(a));
-    }
+    solve_contacts(i, z, relaxed, p);
     spread(position);
     z += (0.5 * bq).asDiagonal() * force;
     v += (0.5 * a12).asDiagonal() * force;

@@ -46,6 +46,8 @@ class SystemPeriodMap : public PeriodMap {
   const SystemDynamics::Period& period() const { return period_; }
 
  private:
+  void solve_contacts(int i, const Eigen::MatrixXd& z, const Eigen::MatrixXd& relaxed,
+                      Eigen::MatrixXd& p) const;
   SystemDynamics& dynamics_;
   int steps_;
   bool left_zone_ = false, left_last_ = false, applied_ = false;
