@@ -173,6 +173,6 @@ done
 # The probe itself: a picture that is cut off and one from elsewhere do not pass.
 sed '0,/base64,/s|base64,.\{200\}|base64,AAAA|; s|</main>|<img alt="far" src="http://localhost/x.png"></main>|' out/nasa/report/index.html > broken.html
 told=$(shown broken.html)
-grep -q '^picture fig01 0 0' <<< "$told" && grep -q '^refused http://localhost/x.png' <<< "$told" && ok "the probe finds a damaged picture and a load from elsewhere" ||
+grep -q '^picture system 0 0' <<< "$told" && grep -q '^refused http://localhost/x.png' <<< "$told" && ok "the probe finds a damaged picture and a load from elsewhere" ||
   wrong "the probe finds a damaged picture and a load from elsewhere" "$(tr '\n' '|' <<< "$told")"
 cd "$top" || exit 1
