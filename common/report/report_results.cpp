@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "gear/friction.h"
@@ -135,7 +136,7 @@ Eigen::VectorXd of_gear(const MatrixRM& values, size_t gear) {
 // What a response says of one direction, each group in a function of its own.
 class InMotion {
  public:
-  InMotion(const StaticResult& s, const ResponseResult& r, Adder add) : s_(s), r_(r), add_(add) {
+  InMotion(const StaticResult& s, const ResponseResult& r, Adder add) : s_(s), r_(r), add_(std::move(add)) {
     add_.way = r.direction == Direction::up ? ", speed rising" : ", speed falling";
   }
 

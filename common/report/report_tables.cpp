@@ -44,6 +44,46 @@ std::string bearing_frequencies_table(const ReportContent& c) {
       {"torque (N m)", "loaded tooth pairs", "frequencies (Hz)"}, rows);
 }
 
+// Where the gears meet: clearances, ends of the contact, sliding.
+void add_meeting_rows(const GearPair& pair, html::Rows& rows) {
+  rows.push_back({"tip clearance, to the root circle of the mate", "mm",
+                  fixed(tip_clearance_to_root(pair, 0) * kMilli, 3),
+                  fixed(tip_clearance_to_root(pair, 1) * kMilli, 3)});
+  rows.push_back({"root clearance, to the tip circle of the mate", "mm",
+                  fixed(tip_clearance_to_root(pair, 1) * kMilli, 3),
+                  fixed(tip_clearance_to_root(pair, 0) * kMilli, 3)});
+  const auto points = path_points(pair);
+  const auto diameter = [&](const std::string& what, size_t driver, size_t driven) {
+    rows.push_back({what, "mm", fixed(points[driver].diameter[0] * kMilli, 3),
+                    fixed(points[driven].diameter[1] * kMilli, 3)});
+  };
+  diameter("diameter where the active profile starts (SAP)", 0, 4);
+  diameter("diameter at B, from where one pair carries alone", 1, 1);
+  diameter("diameter at D, up to where it does", 3, 3);
+  for (const auto& [what, at] : {std::pair{"specific sliding where a pair comes into contact", 0},
+                                 std::pair{"specific sliding where it leaves", 4}}) {
+    const auto sliding = specific_sliding(pair, points[static_cast<size_t>(at)].path);
+    const auto cell = [](const std::optional<double>& value) {
+      return value ? fixed(*value, 3) : html::kNoValue;
+    };
+    rows.push_back({what, "–", cell(sliding[0]), cell(sliding[1])});
+  }
+}
+
+void add_bearing_rows(const GearMeshSpec& mesh, html::Rows& rows) {
+  if (!mesh.on_bearings()) return;
+  const auto of_bearing = [&](const char* what, const char* unit, double scale, double Bearing::*number,
+                              const char* none) {
+    const auto value = [&](const Bearing& b) {
+      return !b.elastic() ? "rigid" : b.*number == 0 ? none : shown(b.*number * scale, 5);
+    };
+    rows.push_back({what, unit, value(mesh.bearing[0]), value(mesh.bearing[1])});
+  };
+  of_bearing("radial stiffness of the bearing", "N/µm", 1e-6, &Bearing::stiffness, "0");
+  of_bearing("radial damping of the bearing", "N s/m", 1, &Bearing::damping, "0");
+  of_bearing("mass on the bearing", "kg", 1, &Bearing::mass, "as drawn");
+}
+
 }  // namespace
 
 std::string gears_table(const ReportContent& c) {
@@ -81,28 +121,7 @@ std::string gears_table(const ReportContent& c) {
     const std::optional<Span> span = span_measurement(g);
     return span ? text(fixed(span->length * kMilli, 3), ", k = ", span->teeth) : html::kNoValue;
   });
-  rows.push_back({"tip clearance, to the root circle of the mate", "mm",
-                  fixed(tip_clearance_to_root(pair, 0) * kMilli, 3),
-                  fixed(tip_clearance_to_root(pair, 1) * kMilli, 3)});
-  rows.push_back({"root clearance, to the tip circle of the mate", "mm",
-                  fixed(tip_clearance_to_root(pair, 1) * kMilli, 3),
-                  fixed(tip_clearance_to_root(pair, 0) * kMilli, 3)});
-  const auto points = path_points(pair);
-  const auto diameter = [&](const std::string& what, size_t driver, size_t driven) {
-    rows.push_back({what, "mm", fixed(points[driver].diameter[0] * kMilli, 3),
-                    fixed(points[driven].diameter[1] * kMilli, 3)});
-  };
-  diameter("diameter where the active profile starts (SAP)", 0, 4);
-  diameter("diameter at B, from where one pair carries alone", 1, 1);
-  diameter("diameter at D, up to where it does", 3, 3);
-  for (const auto& [what, at] : {std::pair{"specific sliding where a pair comes into contact", 0},
-                                 std::pair{"specific sliding where it leaves", 4}}) {
-    const auto sliding = specific_sliding(pair, points[static_cast<size_t>(at)].path);
-    const auto cell = [](const std::optional<double>& value) {
-      return value ? fixed(*value, 3) : html::kNoValue;
-    };
-    rows.push_back({what, "–", cell(sliding[0]), cell(sliding[1])});
-  }
+  add_meeting_rows(pair, rows);
   both("face width", "mm", [](G g) { return shown(g.design().face_width * kMilli, 6); });
   rows.push_back({"inertia of the body as drawn, bore to tip, without fillets", "kg m²",
                   shown(least_body_inertia(pair.gear(0), s.gear[0].material), 3),
@@ -117,18 +136,7 @@ std::string gears_table(const ReportContent& c) {
     rows.push_back({"inertia in motion, with all that turns with the gear", "kg m²", total(0), total(1)});
   }
   rows.push_back({"flanks", "", in_words(s.mesh.modification[0]), in_words(s.mesh.modification[1])});
-  if (s.mesh.on_bearings()) {
-    const auto of_bearing = [&](const char* what, const char* unit, double scale, double Bearing::*number,
-                                const char* none) {
-      const auto value = [&](const Bearing& b) {
-        return !b.elastic() ? "rigid" : b.*number == 0 ? none : shown(b.*number * scale, 5);
-      };
-      rows.push_back({what, unit, value(s.mesh.bearing[0]), value(s.mesh.bearing[1])});
-    };
-    of_bearing("radial stiffness of the bearing", "N/µm", 1e-6, &Bearing::stiffness, "0");
-    of_bearing("radial damping of the bearing", "N s/m", 1, &Bearing::damping, "0");
-    of_bearing("mass on the bearing", "kg", 1, &Bearing::mass, "as drawn");
-  }
+  add_bearing_rows(s.mesh, rows);
   return html::table(text("The gears: ", s.mesh.gear[0], " drives ", s.mesh.gear[1], "."),
                      {"", "unit", s.mesh.gear[0] + " (driver)", s.mesh.gear[1] + " (driven)"}, rows) +
          html::table(
