@@ -124,8 +124,9 @@ SystemEquilibrium SystemDynamics::equilibrium_at(int i, VectorXd* z) {
     force = next;
     try {
       out = equilibrium_under(force, i, &own);
-    } catch (const Error&) {
-      break;
+    } catch (const Error& error) {
+      if (error.kind() != Failure::numerical) throw;
+      break;  // forces that have grown this far
     }
     next = frame_.force(own);
     const double change = (next - force).cwiseAbs().maxCoeff() / next.cwiseAbs().maxCoeff();

@@ -30,7 +30,8 @@ class RunupMotion {
   virtual ~RunupMotion() = default;
   // All of the head that the motion decides; returns the largest |pair| that may touch, -1: loads of pairs are not recorded.
   virtual int begin(RunupResult& head) = 0;
-  // The periodic motion at the start into which it settles from rest. Nothing: false; throws ModelRangeError.
+  // Goes to the periodic motion at a speed (Hz) into which it settles from rest; false if that does not repeat. Throws ModelRangeError
+  // where contact leaves all that is looked at.
   virtual bool settle(double mesh_frequency, int steps) = 0;
   // One mesh period, number k, at a speed (Hz) which is a new one (`fresh`) or that of the period before. Throws Error(numerical).
   virtual const RunupPeriod& integrate(long k, double mesh_frequency, int steps, bool fresh) = 0;
