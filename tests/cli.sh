@@ -403,7 +403,7 @@ if "${lumped_map[@]}" > said 2>&1 && "$bin/gear-inspect" lumped_map.h5 > said 2>
   "$bin/gear-plot" jump-map-lumped --plots "$plots" --output map lumped_map.h5 > said 2>&1 && grep -q 'secant, damper in contact' map.svg; then
   ok "gear-lumped --map, and its figure"; else wrong "gear-lumped --map, and its figure" "$(tail -n 1 said)"; fi
 rejected "a map of lumped models without one" 3 'lumped artifacts one' "$bin/gear-plot" jump-map-lumped --plots "$plots" --output map out/scene/T100/jump_map_false.h5
-rejected "a direction for a map" 2 '--direction sweep --map' "${lumped_map[@]}" --direction up
+rejected "a direction for a map" 2 '--direction --map' "${lumped_map[@]}" --direction up
 rejected "neither a direction nor a map" 2 '--direction sweep --map' $(lumped pairs | sed 's/--direction up//')
 rejected "two damping ratios for one sweep" 2 '2 --map' $(lumped pairs) --damping-ratio 0.05,0.1
 rejected "loads at a speed of a sweep" 2 '--loads-at --map' $(lumped pairs) --loads-at 2400
@@ -414,7 +414,7 @@ rejected "a lumped model that is none" 2 '--model cubic' $(lumped pairs) --model
 rejected "a lumped sweep without speeds" 2 '--params --from --to --step' $(lumped pairs | sed 's/--params [^ ]*//')
 rejected "a lumped sweep with half a range" 2 '--from --to --step together' $(lumped pairs) --from 1000
 rejected "a lumped sweep with no speed in its range" 3 '2000 1000' $(lumped pairs) --from 2000 --to 1000 --step 10
-rejected "levels without their duty" 2 '--levels --duty together' $(lumped rectangular) --levels 1e8,2e8
+rejected "levels without their duty" 2 '--levels --duty' $(lumped rectangular) --levels 1e8,2e8
 rejected "levels of another model" 2 '--levels --duty rectangular secant' $(lumped secant) "${levels[@]}"
 rejected "a level that is not above 0" 3 'level -1' $(lumped rectangular) --levels=-1,2e8 --duty 0.5
 rejected "a level that no tooth has" 3 'level 0.001 4*' $(lumped rectangular) --levels 1e-3,2e8 --duty 0.5
@@ -427,7 +427,7 @@ rejected "the parameters of another stage" 3 'out/scene/params/static.toml stati
 rejected "stage parameters that are not there" 4 'nowhere.toml make out/<scene>/params/lumped.toml' $(lumped pairs | sed 's|out/scene/params/lumped.toml|nowhere.toml|')
 rejected "an artifact that is not there, where make makes none" 4 'nowhere/static.h5 below out/' $(lumped pairs | sed 's|out/scene/T100/static.h5|nowhere/static.h5|')
 rejected "a level that is no number" 2 "--levels many" $(lumped rectangular) --levels 1e8,many --duty 0.5
-rejected "one level" 2 '--levels 1e8 two numbers' $(lumped rectangular) --levels 1e8 --duty 0.5
+rejected "one level" 2 '--levels 100000000 two numbers' $(lumped rectangular) --levels 1e8 --duty 0.5
 for duty in 0 1 1.5; do rejected "a duty of $duty" 3 "duty $duty" $(lumped rectangular) --levels 1e8,2e8 --duty $duty; done
 rejected "a damping ratio in per cent" 3 'ratio 8' $(lumped pairs) --damping-ratio 8
 rejected "a mass of zero" 3 'mass 0' $(lumped pairs) --mass 0

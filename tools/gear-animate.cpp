@@ -5,6 +5,7 @@
 // Writes     <output>.tsv, <output>.gif, and <output>-001.png .., a picture for each frame; each whole or not at all
 // Equations  none: the motion is the sweep's, deflections are K x = f under its tooth loads
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,11 +28,12 @@ namespace {
 void body(int argc, char** argv) {
   whine::Options options{"Animation of a steady motion over its mesh period", "gear-animate"};
   std::vector<std::string> meshes;
-  std::string sweep, output, plots = "pipelines/plots", frequency;
+  std::string sweep, output, plots = "pipelines/plots";
+  std::optional<double> speed;
   int frames = 48;
   options.add("--mesh", meshes, "mesh.h5 of a gear as <gear>=<path>, once for each").required();
   options.add("--sweep", sweep, "sweep.h5 of an elastic pair, up or down").required();
-  options.add("--mesh-frequency", frequency,
+  options.add("--mesh-frequency", speed,
               "speed in Hz, one of the sweep's; default: the one with the largest RMS");
   options.add("--frames", frames, "number of pictures").show_default();
   options.add("--plots", plots, "folder of the gnuplot templates").show_default();
@@ -41,15 +43,14 @@ void body(int argc, char** argv) {
       "  gear-animate --mesh pinion=out/parker2000/pinion/mesh.h5 --mesh wheel=out/parker2000/wheel/mesh.h5 --sweep out/parker2000/T150/down/sweep.h5 --frames 4 --output animation");
   options.parse(argc, argv);
 
-  const double speed = frequency.empty() ? 0 : whine::number_option("--mesh-frequency", frequency);
-  if (!frequency.empty() && !(speed > 0))
-    whine::fail(whine::Failure::usage, "--mesh-frequency ", speed, ": it is in Hz, above 0");
+  if (speed && !(*speed > 0))
+    whine::fail(whine::Failure::usage, "--mesh-frequency ", *speed, ": it is in Hz, above 0");
   const whine::NamedFiles files("--mesh", meshes);
   const whine::SweepResult motion = whine::read<whine::SweepResult>(sweep);
   const std::vector<std::string> paths = files.of(motion.mesh);
   whine::Figure figure = whine::animation_figure(whine::read<whine::SectorGrid>(paths[0]),
                                                  whine::read<whine::SectorGrid>(paths[1]), motion,
-                                                 whine::tooth_bending, speed, frames);
+                                                 whine::tooth_bending, speed.value_or(0), frames);
   const std::string scene = whine::scene_words(sweep);
   if (!scene.empty()) figure.scenes = {scene};
   for (const std::string& path : {paths[0], paths[1], sweep}) whine::require_fresh(path);

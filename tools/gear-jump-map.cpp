@@ -9,6 +9,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -23,51 +24,44 @@
 #include "studies/jump_map.h"
 
 namespace {
+using namespace whine;
 
-std::vector<double> numbers(const std::string& name, const std::vector<std::string>& words) {
-  std::vector<double> values;
-  values.reserve(words.size());
-  for (const std::string& word : words) values.push_back(whine::number_option(name, word));
-  return values;
-}
-
-double above_zero(const std::string& name, const std::string& word) {
-  const double value = whine::number_option(name, word);
-  if (!(value > 0)) whine::fail(whine::Failure::usage, name, " is ", value, " Hz; it must be above 0");
-  return value;
-}
-
-whine::CornerRule corner_rule(const std::string& word) {
+CornerRule corner_rule(const std::string& word) {
   if (word == "true" || word == "false") return {word == "true", std::numeric_limits<double>::infinity()};
-  const double degrees = whine::number_option("--corner-contact", word);
+  const double degrees = number_option("--corner-contact", word);
   if (!(degrees >= 0 && degrees <= 90))
-    whine::fail(whine::Failure::usage, "--corner-contact is ", degrees,
-                "; it must be true, false or an angle from 0 to 90 degrees");
+    fail(Failure::usage, "--corner-contact is ", degrees,
+         "; it must be true, false or an angle from 0 to 90 degrees");
   return {true, degrees * std::numbers::pi / 180};
 }
 
 void body(int argc, char** argv) {
-  whine::Options options{"Jumps, contact loss and tooth loads of the primary resonance against damping",
-                         "gear-jump-map"};
-  whine::JumpMapPlan plan;
-  std::string params, static_params, output, torque_word, corner, contact, from, to, at,
-      step = whine::text(plan.step);
-  std::vector<std::string> bodies, ratios, factors;
+  Options options{"Jumps, contact loss and tooth loads of the primary resonance against damping",
+                  "gear-jump-map"};
+  JumpMapPlan plan;
+  std::string params, static_params, output, corner, contact;
+  std::vector<std::string> bodies;
+  std::optional<double> from, to, at;
+  double torque = 0;
   options.add("--params", params, "stage parameters of the scene: out/<scene>/params/map.toml").required();
   options
       .add("--static-params", static_params, "stage parameters of the scene: out/<scene>/params/static.toml")
       .required();
   options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
-  options.add("--torque", torque_word, "torque on the driver in N m, above 0").required();
+  options.add("--torque", torque, "torque on the driver in N m, above 0").required();
   options.add("--corner-contact", corner, "true, false or degrees, instead of the scene's");
   options.add("--contact", contact, "line or strips, instead of the scene's").one_of({"line", "strips"});
-  options.add("--damping-ratio", ratios, "ratios with two pairs in contact, to find the eta of Eq. 21 for")
+  options
+      .add("--damping-ratio", plan.damping_ratio,
+           "ratios with two pairs in contact, to find the eta of Eq. 21 for")
       .separated_by(',');
-  options.add("--rayleigh-stiffness", factors, "etas of Eq. 21 in s, as they are; cases before the ratios")
+  options
+      .add("--rayleigh-stiffness", plan.rayleigh_stiffness,
+           "etas of Eq. 21 in s, as they are; cases before the ratios")
       .separated_by(',');
   options.add("--from", from, "least speed in Hz (default: 0.57 of the rigid gears' frequency)");
   options.add("--to", to, "largest speed in Hz (default: 1.2 of it)");
-  options.add("--step", step, "step of the speeds in Hz").show_default();
+  options.add("--step", plan.step, "step of the speeds in Hz").show_default();
   options.add("--loads-at", at, "speed in Hz whose tooth loads are stored apart; speeds fall on it");
   options.add("--output", output, "jump_map.h5 to write").required();
   options.footer(
@@ -75,41 +69,32 @@ void body(int argc, char** argv) {
       "  gear-jump-map --params out/parker2000/params/map.toml --static-params out/parker2000/params/static.toml --body pinion=out/parker2000/pinion/body.h5 --body wheel=out/parker2000/wheel/body.h5 --torque 150 --corner-contact false --damping-ratio 0.05,0.07 --loads-at 2400 --output jump_map.h5");
   options.parse(argc, argv);
 
-  plan.damping_ratio = numbers("--damping-ratio", ratios);
-  plan.rayleigh_stiffness = numbers("--rayleigh-stiffness", factors);
-  plan.step = above_zero("--step", step);
-  if (!from.empty()) plan.from = above_zero("--from", from);
-  if (!to.empty()) plan.to = above_zero("--to", to);
-  if (!at.empty()) plan.load_frequency = above_zero("--loads-at", at);
-  const double torque = whine::number_option("--torque", torque_word);
-  const whine::NamedFiles files("--body", bodies);
-  const whine::Provenance provenance =
-      whine::made_by(argc, argv, files.and_inputs({"params=" + params, "static_params=" + static_params}));
-  whine::SweepParameters settings = whine::read_map_parameters(params);
-  whine::StaticParameters statics = whine::read_static_parameters(static_params);
+  for (const auto& [name, value] :
+       {std::pair{"--step", std::optional(plan.step)}, {"--from", from}, {"--to", to}, {"--loads-at", at}})
+    if (value && !(*value > 0)) fail(Failure::usage, name, " is ", *value, " Hz; it must be above 0");
+  plan.from = from.value_or(plan.from);
+  plan.to = to.value_or(plan.to);
+  plan.load_frequency = at.value_or(plan.load_frequency);
+  const NamedFiles files("--body", bodies);
+  const Provenance provenance =
+      made_by(argc, argv, files.and_inputs({"params=" + params, "static_params=" + static_params}));
+  SweepParameters settings = read_map_parameters(params);
+  StaticParameters statics = read_static_parameters(static_params);
   if (!corner.empty()) statics.mesh.corner = corner_rule(corner);
   if (!contact.empty())
-    statics.fidelity.contact = settings.fidelity.contact =
-        whine::choice_of<whine::ContactModel>(contact).value();
-  const auto [first, second] = whine::read_bodies(files, statics);
-  whine::as_drawn(settings, {first.inertia, second.inertia});
+    statics.fidelity.contact = settings.fidelity.contact = choice_of<ContactModel>(contact).value();
+  const auto [first, second] = read_bodies(files, statics);
+  as_drawn(settings, {first.inertia, second.inertia});
 
-  std::optional<whine::Progress> progress;
-  const whine::JumpMapResult result = whine::jump_map(first, second, statics, torque, settings, plan,
-                                                      [&](long done, long total, const std::string& note) {
-                                                        if (!progress)
-                                                          progress.emplace("gear-jump-map", total);
-                                                        progress->update(done, note);
-                                                      });
-  progress.reset();
-  whine::write(output, result, provenance);
-  whine::log_line("gear-jump-map: ", torque, " N m, ", result.two_branches.sum(), " of ",
-                  result.two_branches.size(), " dampings with two branches, ",
-                  (result.loss_to.array() > 0).count(), " with contact loss -> ", output);
+  const JumpMapResult result =
+      jump_map(first, second, statics, torque, settings, plan, StepsDone("gear-jump-map"));
+  write(output, result, provenance);
+  log_line("gear-jump-map: ", torque, " N m, ", result.two_branches.sum(), " of ", result.two_branches.size(),
+           " dampings with two branches, ", (result.loss_to.array() > 0).count(), " with contact loss -> ",
+           output);
   if (result.unsteady.sum() > 0)
-    whine::log_line("gear-jump-map: warning: no steady motion at ", result.unsteady.sum(), " speeds of ",
-                    2 * result.two_branches.size() * result.mesh_frequency.size(),
-                    "; their last periods are taken");
+    log_line("gear-jump-map: warning: no steady motion at ", result.unsteady.sum(), " speeds of ",
+             2 * result.two_branches.size() * result.mesh_frequency.size(), "; their last periods are taken");
 }
 
 }  // namespace

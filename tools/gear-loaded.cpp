@@ -29,14 +29,15 @@ namespace {
 void body(int argc, char** argv) {
   whine::Options options{"Loaded and deformed gears at one mesh position, with contact pressure and stresses",
                          "gear-loaded"};
-  std::string statics_path, output, phase_word;
+  std::string statics_path, output;
+  double position = 0;
   std::vector<std::string> bodies, meshes;
   options.add("--static", statics_path, "static.h5 of the pair at the torque").required();
   options.add("--body", bodies, "body.h5 of a gear as <gear>=<path>, once for each").required();
   options.add("--mesh", meshes, "mesh.h5 of a gear in the same way").required();
   options
       .add(
-          "--mesh-phase", phase_word,
+          "--mesh-phase", position,
           "mesh phase, from 0 (reference pair at the pitch point) up to, not including, 1; with teeth that differ up to their hunting period")
       .required();
   options.add("--output", output, "loaded_<phase>.h5 to write").required();
@@ -44,7 +45,6 @@ void body(int argc, char** argv) {
       "Example:\n  gear-loaded --static out/parker2000/T150/static.h5 --body pinion=out/parker2000/pinion/body.h5 --body wheel=out/parker2000/wheel/body.h5 --mesh pinion=out/parker2000/pinion/mesh.h5 --mesh wheel=out/parker2000/wheel/mesh.h5 --mesh-phase 0.25 --output loaded.h5");
   options.parse(argc, argv);
 
-  const double position = whine::number_option("--mesh-phase", phase_word);
   const whine::NamedFiles body_files("--body", bodies), mesh_files("--mesh", meshes);
   const whine::Provenance provenance =
       whine::made_by(argc, argv, mesh_files.and_inputs(body_files.and_inputs({"static=" + statics_path})));

@@ -1,9 +1,9 @@
 #include "base/options.h"
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <type_traits>
 
 #include "base/error.h"
@@ -46,11 +46,47 @@ void require_output_apart(const CLI::App& app) {
   }
 }
 
-// For CLI11: what is wrong with a word that an option takes for a number; empty: nothing, or it is none. "nan" and "inf" are
-// numbers to CLI11, and pass every comparison with a limit that is not written for them.
-std::string not_finite(const std::string& word) {
-  double value = 0;
-  return CLI::detail::lexical_cast(word, value) && !std::isfinite(value) ? word + " is no finite number" : "";
+// CLI11 itself reads "nan", "inf" and hexadecimal digits, and rounds twice, by way of long double.
+void set(double& target, const std::string& name, const CLI::results_t& words) {
+  target = number_option(name, words.back());
+}
+
+void set(std::optional<double>& target, const std::string& name, const CLI::results_t& words) {
+  target = number_option(name, words.back());
+}
+
+void set(std::vector<double>& target, const std::string& name, const CLI::results_t& words) {
+  target.clear();
+  target.reserve(words.size());
+  for (const std::string& word : words) target.push_back(number_option(name, word));
+}
+
+std::string in_words(double value) {
+  return text(value);
+}
+
+std::string in_words(const std::optional<double>& value) {
+  return value ? text(*value) : "";
+}
+
+std::string in_words(const std::vector<double>& values) {
+  std::string words;
+  for (const double value : values) words += text(words.empty() ? "" : ",", value);
+  return words;
+}
+
+template <class Target>
+CLI::Option* add_numbers(CLI::App& app, const std::string& name, Target& target, const std::string& help) {
+  return app
+      .add_option(
+          name,
+          [&target, name](const CLI::results_t& words) {
+            set(target, name, words);
+            return true;
+          },
+          help, false, [&target] { return in_words(target); })
+      ->type_name("FLOAT")
+      ->expected(1, std::is_same_v<Target, std::vector<double>> ? CLI::detail::expected_max_vector_size : 1);
 }
 
 }  // namespace
@@ -67,6 +103,11 @@ Option& Option::show_default() {
 
 Option& Option::one_of(const std::vector<std::string>& words) {
   option_->check(CLI::IsMember(words));
+  return *this;
+}
+
+Option& Option::within(int from, int to) {
+  option_->check(CLI::Range(from, to));
   return *this;
 }
 
@@ -96,9 +137,13 @@ Options::~Options() = default;
 
 template <class Target>
 Option Options::add(const std::string& name, Target& target, const std::string& help) {
-  CLI::Option* option = app_->add_option(name, target, help);
-  if constexpr (std::is_same_v<Target, double> || std::is_same_v<Target, std::vector<double>>)
-    option->check(not_finite);
+  CLI::Option* option = [&] {
+    if constexpr (std::is_same_v<Target, double> || std::is_same_v<Target, std::optional<double>> ||
+                  std::is_same_v<Target, std::vector<double>>)
+      return add_numbers(*app_, name, target, help);
+    else
+      return app_->add_option(name, target, help);
+  }();
   // Of a list, too: a second word would be taken from the list of inputs behind it.
   if (!option->get_positional()) option->allow_extra_args(false);
   return Option(option);
@@ -106,6 +151,7 @@ Option Options::add(const std::string& name, Target& target, const std::string& 
 
 template Option Options::add(const std::string&, std::string&, const std::string&);
 template Option Options::add(const std::string&, double&, const std::string&);
+template Option Options::add(const std::string&, std::optional<double>&, const std::string&);
 template Option Options::add(const std::string&, int&, const std::string&);
 template Option Options::add(const std::string&, std::vector<std::string>&, const std::string&);
 template Option Options::add(const std::string&, std::vector<double>&, const std::string&);

@@ -7,6 +7,7 @@
 //   options.parse(argc, argv);
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ class Option {
   Option& show_default();
   // Any other word is an error, which names these.
   Option& one_of(const std::vector<std::string>& words);
+  // Of an int: any other number is an error, which names these.
+  Option& within(int from, int to);
   // Several values in one word, as in --speeds 1200,1350.
   Option& separated_by(char delimiter);
   // The other option must be given, or must not be given.
@@ -48,7 +51,8 @@ class Options {
   Options& operator=(const Options&) = delete;
 
   // An option "--name" or a positional "name" that sets target, which must outlive parse(). Target is a std::string, double,
-  // int or a vector of strings or doubles; a word that does not convert is an error of parse(). A positional vector takes all words
+  // std::optional<double>, int or a vector of strings or doubles; a word that does not convert is an error of parse(). Doubles are
+  // decimal and finite (number_option() of base/tool.h). A positional vector takes all words
   // that are left, a "--name" one word each time that it is given.
   template <class Target>
   Option add(const std::string& name, Target& target, const std::string& help);

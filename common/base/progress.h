@@ -3,6 +3,7 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace whine {
 
@@ -42,6 +43,20 @@ class StepsShown {
   friend void report_step(const std::string& what, long done, long total);
   std::string label_, what_;
   std::unique_ptr<Progress> progress_;
+};
+
+// Shows a computation that calls it after each step, from the first call on.
+class StepsDone {
+ public:
+  explicit StepsDone(std::string label) : label_(std::move(label)) {}
+  void operator()(long done, long total, const std::string& note = "") {
+    if (!progress_) progress_ = std::make_shared<Progress>(label_, total);
+    progress_->update(done, note);
+  }
+
+ private:
+  std::string label_;
+  std::shared_ptr<Progress> progress_;
 };
 
 }  // namespace whine

@@ -50,18 +50,4 @@ class StageCommand {
   std::vector<std::string> bodies_;
 };
 
-// Shows a computation that calls it after each step, from the first call on.
-class StepsDone {
- public:
-  explicit StepsDone(std::string label) : label_(std::move(label)) {}
-  void operator()(long done, long total, const std::string& note = "") {
-    if (!progress_) progress_ = std::make_shared<Progress>(label_, total);
-    progress_->update(done, note);
-  }
-
- private:
-  std::string label_;
-  std::shared_ptr<Progress> progress_;
-};
-
 }  // namespace whine
