@@ -3,7 +3,8 @@
 // Reads      params     stage parameters of a scene: gear, material, number of modes
 //            mesh.h5    geometry; rejected unless it is of the gear of the stage parameters
 // Writes     body.h5    eigenfrequencies with the hub fixed, mode shapes and compliance on the flank, inertia
-//                       coupling, and what the crack of a tooth adds to the compliance, if the gear has one
+//                       coupling, and what the crack of a tooth adds to the compliance, if the gear has one; with
+//                       width_degree also flexibility between polynomials over the face width
 // Equations  K u = omega^2 M u and M_fr of Eq. 3-6, sector by sector in the harmonics of cyclic symmetry;
 //            flexibility K x = f with the half-plane solution of the line load subtracted in the tooth, or matched
 //            at a depth
@@ -54,6 +55,9 @@ void body(int argc, char** argv) {
                       ? whine::text(" at ", settings.discretisation.matching_depth * 1e3, " mm")
                       : "",
                   ", asymmetry of the flexibility ", result.asymmetry, " -> ", output);
+  if (const whine::WidthTables& width = result.width; width.degree > 0)
+    whine::log_line("gear-reduce: polynomials of degree ", width.degree, " over the face width of ",
+                    width.face_width * 1e3, " mm");
   if (settings.design.crack.depth > 0)
     whine::log_line("gear-reduce: the crack in tooth ", settings.design.crack.tooth, " adds up to ",
                     result.crack_compliance.maxCoeff() * 1e9, " µm/kN to ",

@@ -66,6 +66,27 @@ void describe_root_stress(Codec& c, ReducedBody& a) {
   }
 }
 
+void describe_width(Codec& c, ReducedBody& a) {
+  WidthDiscretisation& settings = a.discretisation.width;
+  KeyList list;
+  list.append_group(keys(settings), settings.acts(), "width");
+  c.parameters("width", list);
+  if (!c.lists() && !settings.acts()) return;
+  WidthTables& w = a.width;
+  const Eigen::Index points = a.flank_position.size(), all = settings.degree + 1;
+  if (!c.out()) {
+    w.degree = settings.degree;
+    w.face_width = a.design.face_width;
+    w.flank_position = a.flank_position;
+  }
+  c(w.helix, "/width/helix", "m-1", kLength, "",
+    "turn (rad) of the section per length along the axis, of a right-hand gear above 0");
+  for (const char* axis : {"width_position", "loaded_width_position"}) c.axis(axis, points * all);
+  c(w.flexibility, "/width/flexibility", "m2 N-1", kFlexibility,
+    "width_offset width_position loaded_width_position",
+    "inward normal displacement per normal force on a unit of face width, between Legendre polynomials over the width at the points of the flank table, of the teeth from the loaded one on counter-clockwise; of the loaded tooth less the plane flexibility");
+}
+
 }  // namespace
 
 void describe(Codec& c, ReducedBody& a) {
@@ -93,6 +114,7 @@ void describe(Codec& c, ReducedBody& a) {
     "flank_mode of the other flank of tooth 0");
   describe_compliance(c, a);
   describe_root_stress(c, a);
+  describe_width(c, a);
   c.picture({a.vtk_point, a.vtk_cell, a.vtk_point_data, {}, {}, {}, {}, false});
 }
 

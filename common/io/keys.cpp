@@ -36,6 +36,7 @@ const KeyList& scene_keys() {
                                 keys(v.scene.operation),
                                 keys(v.scene.fidelity),
                                 keys(v.scene.body),
+                                keys(v.scene.body.width),
                                 keys(v.scene.contact),
                                 keys(v.scene.time),
                                 equivalent_mass_key(v.gear.equivalent_mass),
@@ -55,7 +56,8 @@ bool of_systems(const Key& key) {
 
 bool of_pairs(const Key& key) {
   const std::string section(key.section);
-  return section == "crack" || (section == "operation" && key.called("torque_Nm"));
+  return section == "crack" || (section == "operation" && key.called("torque_Nm")) ||
+         key.called("width_degree") || key.called("section_element_mm");
 }
 
 namespace {

@@ -462,6 +462,7 @@ Scene scene_from(const Source& source) {
                           .append(keys(scene.operation))
                           .append(keys(scene.fidelity))
                           .append(keys(scene.body))
+                          .append(keys(scene.body.width))
                           .append(keys(scene.contact))
                           .append(keys(scene.time)));
   const toml::node* depth = source.root().at_path("discretisation.matching_depth_mm").node();

@@ -30,7 +30,10 @@ std::string body_parameters(const Scene& scene, const std::string& gear) {
 namespace {
 
 void walk(StageParameters& s, BodyParameters& p) {
-  s(keys(p.design).append(keys(p.material)).append(keys(p.discretisation)));
+  WidthDiscretisation& width = p.discretisation.width;
+  KeyList all = keys(p.design).append(keys(p.material)).append(keys(p.discretisation));
+  all.append_group(keys(width), width.acts(), "width");
+  s(all);
 }
 
 }  // namespace
@@ -38,6 +41,7 @@ void walk(StageParameters& s, BodyParameters& p) {
 std::string body_parameters(const BodyParameters& chosen) {
   BodyParameters p = chosen;  // keys point at what may be changed
   take_module(keys(p.discretisation), p.design.module);
+  if (p.discretisation.width.acts()) take_module(keys(p.discretisation.width), p.design.module);
   StageParameters out(kBody);
   walk(out, p);
   return out.text();

@@ -106,6 +106,10 @@ void show(SummaryLines& lines, const ReducedBody& a) {
       a.eigenfrequency.size() > 8 ? ", ..." : "");
   add(lines, "near field", near_field(a.discretisation));
   add(lines, "flank table", a.flank_position.size(), " points, tooth offsets 0 to ", a.offsets);
+  if (const WidthTables& width = a.width; width.degree > 0)
+    add(lines, "face width", "polynomials of degree ", width.degree, " over ", width.face_width * 1e3,
+        " mm, section of elements of ", a.discretisation.width.section_size * 1e3, " mm, tooth offsets 0 to ",
+        static_cast<int>(width.flexibility.size()) - 1);
   add(lines, "asymmetry", a.asymmetry,
       " relative, made symmetric; flexibility that the modes leave out, least ", a.least_eigenvalue * 1e6,
       " µm/N (round-off of the log of the contact below 0)");

@@ -153,7 +153,8 @@ KeyList keys(GearMeshSpec& mesh);
 KeyList keys(Damping& damping);
 KeyList keys(Operation& operation);
 KeyList keys(Fidelity& fidelity);
-KeyList keys(BodyDiscretisation& body);
+KeyList keys(BodyDiscretisation& body);  // of the plane body
+KeyList keys(WidthDiscretisation& width);
 KeyList keys(ContactDiscretisation& contact);
 KeyList keys(TimeDiscretisation& time);
 KeyList keys(SystemScene::Mesh& mesh);  // what a mesh of a system has beside `spec`

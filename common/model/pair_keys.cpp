@@ -88,6 +88,13 @@ KeyList keys(BodyDiscretisation& b) {
   return k;
 }
 
+KeyList keys(WidthDiscretisation& w) {
+  KeyList k("discretisation");
+  k.add(&w.degree, "width_degree", kNone, "0", {1, 24, false, "a body of degree 0 is the plane one; 0 stands for that", true}, "degree of the polynomials over the face width by which a body has a third dimension, its material in plane strain; 0: a plane body. 8 hold smooth loads to 0.1 % up to a width of 10 modules, 12 up to 15, beyond them 0.8 widths in modules");
+  k.add(&w.section_size, "section_element_mm", kMillimetre, "module / 3", {0, 100, true}, "element size of the section that the third dimension is computed on, apart from element_mm: it hardly changes the result; of width_degree alone");
+  return k;
+}
+
 KeyList keys(ContactDiscretisation& c) {
   KeyList k("discretisation");
   k.add(&c.strips, "strips", kNone, "8", {3, 1001}, "pressure strips across the contact width at the mean load; a candidate zone holds whole fours of them");

@@ -17,6 +17,14 @@ enum class NearField { subtraction, matching };
 template <>
 inline constexpr const char* kWordsOf<NearField> = "subtraction matching";
 
+// Of the third dimension of a body; see solid/width_body.h.
+struct WidthDiscretisation {
+  int degree = 0;           // of the polynomials over the face width; 0: a plane body
+  double section_size = 0;  // m: elements of the section
+
+  bool acts() const { return degree > 0; }
+};
+
 // Discretisation of a body: what gear-mesh and gear-reduce need beside the gear itself.
 struct BodyDiscretisation {
   double element_size = 0;  // m on the flank
@@ -24,6 +32,7 @@ struct BodyDiscretisation {
   int modes = 61;           // elastic modes of the whole gear, or kAllModes; doublets are never cut
   NearField near_field = NearField::subtraction;
   double matching_depth = 1e-3;  // m below the flank; without meaning to subtraction
+  WidthDiscretisation width = {};
 };
 
 // Off the line of action a tip edge may touch a flank.

@@ -7,6 +7,7 @@
 
 #include "base/matrix.h"
 #include "model/stages.h"
+#include "results/width_tables.h"
 
 namespace whine {
 
@@ -51,6 +52,7 @@ struct ReducedBody : BodyParameters {
   // (tooth root, tooth flank) Pa N-1, or empty: what the crack adds to it along the driving flank's root, between the teeth of
   // crack_compliance
   MatrixRM crack_root_stress;
+  WidthTables width;            // empty unless discretisation.width acts
   double asymmetry = 0;         // relative, before symmetrisation
   double least_eigenvalue = 0;  // m N-1 of the compliance of all offsets less the stored modes
   // for looking: the whole gear with mode shapes and the displacement under a unit force at mid flank; written, never

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -55,6 +56,16 @@ Eigen::MatrixX2d element_nodes(const MatrixRM& position, const MatrixRMi& elemen
   Eigen::MatrixX2d nodes(element_node.cols(), 2);
   for (Eigen::Index k = 0; k < element_node.cols(); ++k) nodes.row(k) = position.row(element_node(e, k));
   return nodes;
+}
+
+// Stress (xx, yy, zz, xy, yz, zx) from strain, shear as engineering strain. (6, 6) Pa
+Eigen::Matrix<double, 6, 6> solid_elasticity(const Material& material) {
+  const double nu = material.poisson_ratio, shear = material.youngs_modulus / (2 * (1 + nu)),
+               lame = 2 * shear * nu / (1 - 2 * nu);
+  Eigen::Matrix<double, 6, 6> c = Eigen::Matrix<double, 6, 6>::Zero();
+  c.topLeftCorner<3, 3>().setConstant(lame);
+  c.diagonal() << Eigen::Vector3d::Constant(lame + 2 * shear), Eigen::Vector3d::Constant(shear);
+  return c;
 }
 
 }  // namespace
@@ -165,6 +176,64 @@ Eigen::MatrixXd element_mass(const Eigen::MatrixX2d& nodes, double density, doub
       }
   }
   return m;
+}
+
+SectionStiffness section_stiffness(const Eigen::MatrixX2d& nodes, const Material& material, double helix) {
+  const Quadrature& q = quadrature(static_cast<int>(nodes.rows()));
+  const Eigen::Matrix<double, 6, 6> c = solid_elasticity(material);
+  const Eigen::Index n = nodes.rows();
+  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(3 * n, 3 * n);
+  SectionStiffness k{zero, zero, zero};
+  Eigen::MatrixXd b0 = Eigen::MatrixXd::Zero(6, 3 * n), bz = b0;
+  for (size_t g = 0; g < q.shape.size(); ++g) {
+    const Eigen::Matrix2d j = jacobian(q.shape[g], nodes);
+    const double weight = q.weight[g] * checked_determinant(j, nodes);
+    const Eigen::VectorXd& value = q.shape[g].value;
+    const Eigen::MatrixX2d slope = q.shape[g].slope * j.inverse().transpose();
+    const Eigen::Vector2d at = nodes.transpose() * value;
+    for (Eigen::Index a = 0; a < n; ++a) {
+      const double x = slope(a, 0), y = slope(a, 1), turn = helix * (at.y() * x - at.x() * y);
+      b0.middleCols<3>(3 * a) << x, 0, 0, 0, y, 0, 0, 0, turn, y, x, 0, helix * value[a], turn, y, turn,
+          -helix * value[a], x;
+      bz(2, 3 * a + 2) = bz(4, 3 * a + 1) = bz(5, 3 * a) = value[a];
+    }
+    const Eigen::MatrixXd c0 = weight * c * b0, cz = weight * c * bz;
+    k.k00.noalias() += b0.transpose() * c0;
+    k.k01.noalias() += b0.transpose() * cz;
+    k.k11.noalias() += bz.transpose() * cz;
+  }
+  k.k00 = (0.5 * (k.k00 + k.k00.transpose())).eval();
+  k.k11 = (0.5 * (k.k11 + k.k11.transpose())).eval();
+  return k;
+}
+
+SectionSystem assemble_section(const MatrixRM& node_position, const MatrixRMi& element_node,
+                               const Material& material, double helix, const Eigen::VectorXi& number,
+                               int count) {
+  const Eigen::Index n = 3 * element_node.cols();
+  std::array<std::vector<Eigen::Triplet<double>>, 4> entries;
+  for (auto& list : entries) list.reserve(static_cast<size_t>(element_node.rows() * n * n));
+  for (Eigen::Index e = 0; e < element_node.rows(); ++e) {
+    const SectionStiffness k =
+        section_stiffness(element_nodes(node_position, element_node, e), material, helix);
+    for (Eigen::Index a = 0; a < n; ++a)
+      for (Eigen::Index b = 0; b < n; ++b) {
+        const int row = number[element_node(e, a / 3)], column = number[element_node(e, b / 3)];
+        if (row < 0 || column < 0) continue;
+        const int r = 3 * row + static_cast<int>(a % 3), s = 3 * column + static_cast<int>(b % 3);
+        entries[0].emplace_back(r, s, k.k00(a, b));
+        entries[1].emplace_back(r, s, k.k01(a, b));
+        entries[2].emplace_back(r, s, k.k01(b, a));
+        entries[3].emplace_back(r, s, k.k11(a, b));
+      }
+  }
+  SectionSystem system;
+  SparseReal* const sums[] = {&system.k00, &system.k01, &system.k10, &system.k11};
+  for (size_t i = 0; i < entries.size(); ++i) {
+    sums[i]->resize(3 * count, 3 * count);
+    sums[i]->setFromTriplets(entries[i].begin(), entries[i].end());
+  }
+  return system;
 }
 
 double least_jacobian(const MatrixRM& node_position, const MatrixRMi& element_node) {

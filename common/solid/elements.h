@@ -50,6 +50,25 @@ Eigen::Vector3d element_strain(const Eigen::MatrixX2d& nodes, const Eigen::Matri
 Eigen::MatrixXd element_stiffness(const Eigen::MatrixX2d& nodes, const Material& material, double thickness);
 Eigen::MatrixXd element_mass(const Eigen::MatrixX2d& nodes, double density, double thickness);
 
+// Stiffness of a prism whose section turns with z by helix z about the origin, counter-clockwise: displacements are sums over j of N_n(x, y)
+// f_j(z) U_ncj, x, y and the components in axes that turn with the section. With D_t N = helix (y N,x - x N,y) the strain (xx, yy, zz, xy,
+// yz, zx) is sum_j (f_j B0 + f_j' Bz) U_j, so that
+//   K_ij = int f_i f_j K00 + int f_i f_j' K01 + int f_i' f_j K01^T + int f_i' f_j' K11,   K00 = int B0^T C B0 dA,   K01, K11 with Bz.
+struct SectionStiffness {
+  Eigen::MatrixXd k00, k01, k11;  // (3 node, 3 node), unknowns x y z of each node: Pa, Pa m, Pa m2
+};
+// nodes: (4 or 9, 2) m; helix: rad m-1. The plane state of the material has no meaning to it. Throws Error(numerical) where the Jacobian is
+// not positive.
+SectionStiffness section_stiffness(const Eigen::MatrixX2d& nodes, const Material& material, double helix);
+
+// The same of all elements, one pattern for all three and K01^T. number: (node) 0 .. count - 1, its place among the unknowns, or -1: held.
+struct SectionSystem {
+  SparseReal k00, k01, k10, k11;  // (3 count, 3 count); k10: K01^T
+};
+SectionSystem assemble_section(const MatrixRM& node_position, const MatrixRMi& element_node,
+                               const Material& material, double helix, const Eigen::VectorXi& number,
+                               int count);
+
 // Least Jacobian determinant over corners and Gauss points of all elements, over the element's mean. 1; > 0
 // is needed.
 double least_jacobian(const MatrixRM& node_position, const MatrixRMi& element_node);

@@ -17,6 +17,7 @@
 #include "solid/rim_support.h"
 #include "solid/root_stress.h"
 #include "solid/sector.h"
+#include "solid/width_body.h"
 
 namespace whine {
 namespace {
@@ -73,6 +74,10 @@ void check_options(const SectorGrid& mesh, const Material& material, int modes) 
     fail(Failure::input, "youngs_modulus_GPa = ", material.youngs_modulus * 1e-9,
          ", poisson_ratio = ", material.poisson_ratio, ", density_kgm3 = ", material.density,
          ": modulus and density must be above 0, the ratio between -1 and 0.5");
+  if (mesh.discretisation.width.acts() && material.plane_stress)
+    fail(
+        Failure::input, "width_degree = ", mesh.discretisation.width.degree,
+        " of a body in plane stress: what the face width adds is the difference to plane strain; set plane = \"strain\" in [gear.<name>.material]");
   if (matching && !(depth > 0)) fail(Failure::input, "matching_depth_mm = ", depth * 1e3, " is not above 0");
 }
 
@@ -408,6 +413,12 @@ ReducedBody reduce(const SectorGrid& mesh, const Material& material, int modes, 
     TeethTables crack = crack_tables(mesh, material, xi, body.offsets);
     body.crack_compliance = std::move(crack.compliance);
     body.crack_root_stress = std::move(crack.root_stress);
+  }
+  if (const WidthDiscretisation& width = mesh.discretisation.width; width.acts()) {
+    GearDesign intact = mesh.design;
+    intact.crack = {};
+    const SectorGrid section = make_sector_mesh(intact, {.element_size = width.section_size});
+    body.width = make_width_tables(section, material, 0, width.degree, xi, body.offsets);
   }
   body.least_eigenvalue =
       least_eigenvalue(r, harmonics.flexibility, kept, body.compliance[0].cwiseAbs().maxCoeff());

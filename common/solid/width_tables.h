@@ -1,0 +1,45 @@
+// Coupling over the face width from the tables of a body: interpolation along the flank, and completion beyond the degree.
+//
+// The inward displacement of the flank under the line load q on the same tooth is
+//   u(xi, z) = plane tables and half-plane, slice by slice + sum_ij P_i(z) dC_ij(xi, xi') q_j
+//              + c(xi, xi') (q(z) - sum_j P_j(z) q_j),     q_j = integral of P_j q,
+// c = (dC_PP + dC_P-1,P-1) / 2: what of q lies above degree P is not to be left to the tooth of each slice alone, which would
+// be 2.5 to 6 times too soft. The plane tables are those in plane strain (m N-1 times their face width: m2 N-1). Neighbouring teeth have
+// C_ij itself, without a plane table and without completion.
+#pragma once
+#include "results/width_tables.h"
+#include "solid/flank_table.h"
+
+namespace whine {
+
+class WidthKernel {
+ public:
+  // Throws Error(input) where the tables are not of this tooth.
+  WidthKernel(const ToothGeometry& tooth, WidthTables tables);
+
+  int degree() const { return tables_.degree; }
+  const WidthTables& tables() const { return tables_; }
+  // Largest |tooth_offset| of the tables.
+  int offsets() const { return static_cast<int>(tables_.flexibility.size()) - 1; }
+
+  // (P + 1, P + 1) m2 N-1: of reading i at roll angle xi_read under load j at xi_load (rad), on the tooth `tooth_offset` counter-clockwise
+  // of the loaded one: dC_ij for 0, C_ij for neighbours. Throws Error(input) beyond offsets().
+  Eigen::MatrixXd coupling(double xi_read, double xi_load, int tooth_offset) const;
+  // m2 N-1: c at two roll angles of the same tooth.
+  double completion(double xi_read, double xi_load) const;
+
+  // (flank degree + 1) m^-1/2: load on or reading of the point (xi, z) as functional of the tables, z in m.
+  Eigen::VectorXd point(double xi, double z) const;
+  // m N-1: displacement of the points of `read` on the tooth `tooth_offset` counter-clockwise under unit forces at those of `load` (columns:
+  // point()), read^T C load. Offset 0: of dC_ij - delta_ij c, to which completion(xi, xi) times the force per face width of a point itself
+  // has to be added.
+  Eigen::MatrixXd between(const Eigen::MatrixXd& read, const Eigen::MatrixXd& load, int tooth_offset) const;
+
+ private:
+  WidthTables tables_;
+  FlankTable flank_;
+  MatrixRM completion_;  // (flank, flank) m2 N-1
+  MatrixRM completed_;   // (flank degree + 1, flank degree + 1) m2 N-1: dC_ij - delta_ij c
+};
+
+}  // namespace whine
