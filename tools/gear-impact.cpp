@@ -46,6 +46,9 @@ void print_calibration(const ImpactResult& a, double ratio, ContactState state) 
             << ", body " << a.fidelity.body << "; in all: " << states(a) << "\n";
 }
 
+constexpr const char* kWithoutFriction =
+    "gear-impact: [friction] is left out: teeth do not slide at a fixed mesh phase";
+
 void impact_of_train(const StageCommand& stage, const Provenance& made, const SystemImpactPlan& plan) {
   const SystemSweepParameters settings = read_system_impact_parameters(stage.params());
   const std::vector<ReducedBody> gears = read_bodies(stage.bodies(), settings);
@@ -55,6 +58,7 @@ void impact_of_train(const StageCommand& stage, const Provenance& made, const Sy
   log_line("gear-impact: ", result.mesh_phase.size(), " phases, ", result.damping_ratio.cols(),
            " modes, the lowest at ", lowest.minCoeff(), " to ", lowest.maxCoeff(), " Hz with ",
            ratio.minCoeff() * 100, " to ", ratio.maxCoeff() * 100, " % -> ", stage.output());
+  if (settings.friction().acts()) log_line(kWithoutFriction);
   constexpr double kUnresolved = 1e-4;  // a ratio is then off by some of its digits
   if (const auto rough = (result.fit_residual.array() > kUnresolved).count(); rough > 0)
     log_line(
@@ -79,8 +83,7 @@ void impact_of_pair(const StageCommand& stage, const Provenance& made, const Imp
                                      StepsDone("gear-impact"));
   write(stage.output(), result, made);
   log_line("gear-impact: ", result.torque, " N m, loaded pairs: ", states(result), " -> ", stage.output());
-  if (result.mesh.friction.acts())
-    log_line("gear-impact: [friction] is left out: teeth do not slide at a fixed mesh phase");
+  if (result.mesh.friction.acts()) log_line(kWithoutFriction);
   for (const Remark& remark : setup_remarks(at_torque, result.inertia, result.damping, result.fidelity))
     log_line("gear-impact: warning: ", remark.words);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/friction.h"
 #include "contact/line_contact.h"
 
 namespace whine {
@@ -87,7 +88,7 @@ bool FollowedContact::linearise(const MatrixXd& c, std::span<const HertzLine> la
   return linear_ = invert();
 }
 
-// Gauss and Jordan in place, without a choice of pivots, which positive definite matrices do not need.
+// Gauss and Jordan in place, without a choice of pivots, which matrices with a positive definite symmetric part do not need.
 bool FollowedContact::invert() {
   const int apart = stride();
   double* m = inverse_.data();
@@ -190,7 +191,7 @@ bool FollowedContact::look_at_others(const MatrixXd& c, std::span<const HertzLin
 }
 
 Certificate FollowedContact::solve(const MatrixXd& c, std::span<const HertzLine> law, const VectorXd& e,
-                                   Eigen::Ref<VectorXd> force, VectorXd& d) {
+                                   Eigen::Ref<VectorXd> force, VectorXd& d, const MatrixXd& friction) {
   const auto n = static_cast<Eigen::Index>(law.size());
   if (count_ < 0 && n <= kMostContacts) take(force);
   Work work;
@@ -223,7 +224,19 @@ Certificate FollowedContact::solve(const MatrixXd& c, std::span<const HertzLine>
     }
     return certificate;
   }
-  const Certificate certificate = solve_line_contact(c.topRows(n), law, e.head(n), force, d.head(n));
+  const auto symmetric = [&](const Eigen::Ref<const MatrixXd>& still, const Eigen::Ref<const VectorXd>& gap) {
+    return solve_line_contact(still, law, gap, force, d.head(n));
+  };
+  VectorXd shift;
+  if (friction.size() > 0) shift = friction * force;
+  const Certificate certificate =
+      friction.size() == 0 ? symmetric(c.topRows(n), e.head(n))
+                           : solve_with_friction(
+                                 shift, e.cwiseAbs().maxCoeff(),
+                                 [&](const VectorXd& by) {
+                                   return symmetric(c.topRows(n) - friction, e.head(n) + by);
+                                 },
+                                 [&] { return VectorXd(friction * force); });
   if (n <= kMostContacts) take(force);
   return certificate;
 }

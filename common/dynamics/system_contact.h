@@ -5,7 +5,8 @@
 // T^-1 of `at` and take the change D of the laws' slopes in to the first order, T^-1 - T^-1 D T^-1; what this leaves of d is
 // D T^-1 D T^-1 r, the laws' curvature leaves at most C change^2 / (2 F) (hertz_line.h). A solution is accepted where both are below
 // the round-off of each pair's terms. Pairs that come or go change the set, at most four times; what is not solved then is left to
-// solve_line_contact(). The solution is unique, so the start decides on round-off alone.
+// solve_line_contact(). The solution is unique, so the start decides on round-off alone. With friction C is not symmetric: the tangent
+// is inverted as it is, and what is left to solve_line_contact() goes by solve_with_friction().
 #pragma once
 #include <Eigen/Core>
 #include <span>
@@ -29,9 +30,11 @@ class FollowedContact {
   void restart() { count_ = -1; }
 
   // c: (pair in whole lanes, pair) m N-1, zero below the pairs; e, d: (pair in whole lanes) m; force: (pair) N, a guess where nothing
-  // is known, and the result. Throws as solve_line_contact().
+  // is known, and the result. friction: (pair, pair) what of c is of friction, empty without. Throws as solve_line_contact() and
+  // solve_with_friction().
   Certificate solve(const Eigen::MatrixXd& c, std::span<const HertzLine> law, const Eigen::VectorXd& e,
-                    Eigen::Ref<Eigen::VectorXd> force, Eigen::VectorXd& d);
+                    Eigen::Ref<Eigen::VectorXd> force, Eigen::VectorXd& d,
+                    const Eigen::MatrixXd& friction = {});
 
  private:
   struct Work;

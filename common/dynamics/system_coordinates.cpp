@@ -99,8 +99,6 @@ class Builder {
            "\" in [fidelity]: systems in motion have \"quasi-static\", \"relaxed\" or \"modal\"");
     if (fidelity.contact != ContactModel::line)
       fail(Failure::input, "contact = \"", fidelity.contact, "\" in motion: systems have \"line\"");
-    if (fidelity.integrator != Integrator::exact)
-      fail(Failure::input, "integrator = \"newmark\" in [fidelity] is for pairs; systems have \"exact\"");
     const auto bodies = static_cast<int>(system_.layout.bodies.size());
     out_.inertia = inertias(system_);
     out_.mass = VectorXd::Zero(bodies);

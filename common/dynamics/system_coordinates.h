@@ -27,6 +27,10 @@ struct SystemMotion {
   Fidelity fidelity;
   double axis_frequency = 0;  // rad s-1, see axis_frequency()
   double frame_turns = 0;     // 1: revolutions of the frame in a mesh period, see frame_turns(); 0: at rest
+  // With friction, of a train that can roll as a whole: the body whose torque follows from the losses (-1: none), and (mesh) N m by how
+  // much it rises, in its own sense, per coefficient of friction of each mesh.
+  int output = -1;
+  Eigen::VectorXd loss;
 };
 
 // rad s-1: the highest natural frequency of the rigid train on its mean stiffnesses (mesh, mesh; N m-1, without bearings), to which
@@ -92,6 +96,17 @@ struct SystemCoordinates {
     const Group& joint = group[static_cast<size_t>(own.group)];
     return joint.carrier == b ? out + joint.hub.dot(z.segment(joint.first, joint.count)) : out;
   }
+  // (coordinate) rad per unit, in its own sense.
+  Eigen::VectorXd turning(int b) const {
+    const Share& own = body[static_cast<size_t>(b)];
+    Eigen::VectorXd out = Eigen::VectorXd::Zero(size());
+    out.head(rigid) = rotation.row(b).transpose();
+    out.segment(own.first, own.torsional) = own.hub;
+    if (own.group >= 0)
+      if (const Group& joint = group[static_cast<size_t>(own.group)]; joint.carrier == b)
+        out.segment(joint.first, joint.count) = joint.hub;
+    return out;
+  }
   // m, of its hub; velocity likewise.
   Vec2 translation_of(int b, const Eigen::VectorXd& z) const {
     const Share& own = body[static_cast<size_t>(b)];
@@ -140,7 +155,7 @@ struct SystemCoordinates {
   }
 };
 
-// Throws Error(input) for body = "full", "rigid", contact other than "line", Newmark's method, a gear without a mode that a freedom
+// Throws Error(input) for body = "full", "rigid", contact other than "line", a gear without a mode that a freedom
 // needs, and inertias and masses below those of the body, of a carrier below those of planets on rigid pins; Error(numerical) if modes
 // cannot be found.
 SystemCoordinates coordinates_of(const SystemModel& system, const SystemMotion& motion);

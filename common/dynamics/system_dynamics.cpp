@@ -24,7 +24,12 @@ SystemDynamics::SystemDynamics(const SystemModel& system, const SystemMotion& mo
       coordinates_(coordinates_of(system, motion)),
       depth_(motion.damping.undamped_depth),
       relaxation_(motion.fidelity.body == BodyModel::quasi_static ? 0 : motion.damping.rayleigh_stiffness),
-      hunting_(whine::hunting_periods(system)) {
+      hunting_(whine::hunting_periods(system)),
+      sliding_(std::any_of(system.mesh.begin(), system.mesh.end(),
+                           [](const GearMeshModel& mesh) { return mesh.friction.acts(); })),
+      friction_(VectorXd::Zero(static_cast<Index>(system.mesh.size()))) {
+  if (system.slides())
+    fail(Failure::numerical, "a system in motion takes its coefficients of friction from the speed; clear those of rest");
   if (!(motion.axis_frequency > 0))
     fail(Failure::input, "the axis frequency is ", motion.axis_frequency,
          " rad/s; give that of axis_frequency()");
@@ -39,9 +44,10 @@ SystemDynamics::SystemDynamics(const SystemModel& system, const SystemMotion& mo
   shifted_.setZero(2, turned_.size());
 }
 
-double SystemDynamics::moved(const Position& position, int k, const VectorXd& z) const {
+double SystemDynamics::moved(const Position& position, int k, const VectorXd& z, Place of) const {
   double out = 0;
-  each_part(position, k, [&](Index first, const auto& h) { out += h.dot(z.segment(first, h.size())); });
+  each_part(
+      position, k, [&](Index first, const auto& h) { out += h.dot(z.segment(first, h.size())); }, of);
   return out;
 }
 
@@ -61,8 +67,9 @@ void SystemDynamics::require_range(const Position& position, const Eigen::Ref<co
 }
 
 // y -= h force
-void SystemDynamics::push(const Position& position, int k, double force, VectorXd& y) const {
-  each_part(position, k, [&](Index first, const auto& h) { y.segment(first, h.size()) -= force * h; });
+void SystemDynamics::push(const Position& position, int k, double force, VectorXd& y, Place of) const {
+  each_part(
+      position, k, [&](Index first, const auto& h) { y.segment(first, h.size()) -= force * h; }, of);
 }
 
 // fields += V S p
@@ -74,21 +81,26 @@ void SystemDynamics::load(const Position& position, const VectorXd& p, VectorXd&
   }
 }
 
-VectorXd SystemDynamics::participation(const Position& position, int k) const {
+VectorXd SystemDynamics::participation(const Position& position, int k, Place of) const {
   VectorXd out = VectorXd::Zero(coordinates_.size());
-  push(position, k, -1, out);
+  push(position, k, -1, out, of);
   return out;
 }
 
-// (contact, contact) h diag(weight) h^T
-MatrixXd SystemDynamics::modal_compliance(const Position& position, const VectorXd& weight) const {
+// (contact, contact) h diag(weight) h^T, on the right the rows that are pushed.
+MatrixXd SystemDynamics::modal_compliance(const Position& position, const VectorXd& weight,
+                                          Place pushed) const {
   MatrixXd out = MatrixXd::Zero(position.size(), position.size());
   for (size_t p = 0; p < part_.size(); ++p) {
     const Rows& rows = position.rows[p];
     const Part& part = part_[p];
-    const Eigen::Map<const MatrixXd, 0, Eigen::OuterStride<>> h(
-        stream_.data() + rows.row, part.count, rows.contacts(), Eigen::OuterStride<>(part.length()));
-    const MatrixXd own = h.transpose() * weight.segment(part.first, part.count).asDiagonal() * h;
+    const auto of = [&](Place place) {
+      return Eigen::Map<const MatrixXd, 0, Eigen::OuterStride<>>(stream_.data() + rows.*place, part.count,
+                                                                 rows.contacts(),
+                                                                 Eigen::OuterStride<>(part.length()));
+    };
+    const MatrixXd own = of(&Rows::row).transpose() *
+                         weight.segment(part.first, part.count).asDiagonal() * of(pushed);
     for (int k = 0; k < rows.contacts(); ++k)
       for (int l = 0; l < rows.contacts(); ++l)
         out(position.order.data()[rows.begin + k], position.order.data()[rows.begin + l]) += own(k, l);
@@ -106,6 +118,7 @@ void SystemDynamics::set_speed(double mesh_frequency, int steps) {
   stride_ = finest / steps;
   frame_ =
       TurningFrame(system_.layout, coordinates_, 2 * std::numbers::pi * mesh_frequency * motion_.frame_turns);
+  set_friction(friction_at(mesh_frequency));
   propagate_by(1 / (mesh_frequency * steps));
   for (int i = 0; i <= steps_; ++i) close(positions_[static_cast<size_t>(i) * static_cast<size_t>(stride_)]);
   forces_.setZero(steps_ + 1, slots());
@@ -225,21 +238,27 @@ bool SystemDynamics::record(const Position& position, int sample, Period& period
     period.mesh_force(contact.mesh, sample) += contact.lever[0] * p_[k];
     period.largest_tooth_force(contact.mesh, sample) =
         std::max(period.largest_tooth_force(contact.mesh, sample), p_[k]);
-    period.drift += p_[k] * position.drift.col(k);
+    const double friction = friction_of(contact);
+    period.drift += p_[k] * (position.drift.col(k) + friction * position.drift_slide.col(k));
+    const Vec2 pressing = contact.normal + friction * contact.across;
     for (size_t s = 0; s < 2; ++s) {
       const auto b = static_cast<size_t>(contact.body[s]);
-      period.bearing_force[b].col(sample) -= closing_sign(static_cast<int>(s)) * p_[k] * contact.normal;
-      period.contact_torque(contact.body[s], sample) += contact.lever[s] * radius_[b] * p_[k];
+      period.bearing_force[b].col(sample) -= closing_sign(static_cast<int>(s)) * p_[k] * pressing;
+      period.contact_torque(contact.body[s], sample) += lever(contact, s) * radius_[b] * p_[k];
     }
     if (const int carrier = carried_[static_cast<size_t>(contact.mesh)].carrier; carrier >= 0)
-      period.contact_torque(carrier, sample) +=
-          contact.carrier_lever * radius_[static_cast<size_t>(carrier)] * p_[k];
+      period.contact_torque(carrier, sample) += (contact.carrier_lever + friction * contact.carrier_slide) *
+                                                radius_[static_cast<size_t>(carrier)] * p_[k];
   }
+  if (slides() && motion_.output >= 0)  // torques of the drives alone are in balance
+    period.drift -= motion_.loss.dot(friction_) / radius_[static_cast<size_t>(motion_.output)] *
+                    coordinates_.rolling.row(motion_.output).transpose();
   for (Index c = 0; c < period.drift.size(); ++c)
     period.drift_force = std::max(period.drift_force, std::abs(period.drift[c]));
   record_bearings(sample, period);
   period.least_gap = std::min(period.least_gap, certificate_.least_gap);
   period.least_force = std::min(period.least_force, certificate_.least_force);
+  period.friction_coupling = std::max(period.friction_coupling, certificate_.coupling);
   for (int b = 0; b < static_cast<int>(radius_.size()); ++b) {
     turned_[b] = radius_[static_cast<size_t>(b)] * coordinates_.rotation_of(b, z_);
     shifted_.col(b) = coordinates_.translation_of(b, z_);
@@ -275,7 +294,7 @@ void SystemDynamics::resize(Period& period, int steps) const {
   period.bearing_force.resize(system_.layout.bodies.size());
   for (Eigen::Matrix2Xd& x : period.bearing_force) x.resize(2, steps);
   period.drift.resize(coordinates_.rolling.cols());
-  period.drift_force = period.least_gap = period.least_force = 0;
+  period.drift_force = period.least_gap = period.least_force = period.friction_coupling = 0;
 }
 
 bool SystemDynamics::integrate(State& state, Period& period, SystemEnergyBalance* balance) {
@@ -314,6 +333,7 @@ bool SystemDynamics::integrate_fixed(int i, State& state, double seconds, int st
   Position& position = positions_[static_cast<size_t>(i)];
   steps_ = 0;
   frame_ = {};
+  set_friction(VectorXd::Zero(meshes()));  // nothing slides at a fixed phase
   propagate_by(seconds);
   close(position);
   take(state, position);

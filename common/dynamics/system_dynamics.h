@@ -7,7 +7,10 @@
 //   d_k = e_k - h_k z + W_k F + sum_l A_kl p_l + law_k(p_k) >= 0, p >= 0, p . d = 0 at the end of each step (Eq. 18)
 // W_k = S_k V C_b, C_b = V^T R V between all flanks of a body that may touch, of whatever mesh; R is the flexibility of the body less
 // that of its kept modes. A is what V leaves out of R (1e-4 of it), instantaneous as Hertz's law relative to the undamped depth is.
-// Steps are exact for a mean force and for relaxed loads that are linear in the step. Where the frame turns, the forces of
+// Steps are exact for a mean force and for relaxed loads that are linear in the step; with Newmark's method (Eq. 8) the mean force is that
+// of both ends as well. With friction forces act along L_k = h_k + mu s T_k (gear/friction.h) on the rotations and translations of hubs
+// in place of h_k; mu of each mesh is that of the speed, s and T those of the nominal kinematics. The matrix of a step's contact,
+// A + h (bq / 2) L^T, is then not symmetric; Newton's method takes it as it is. rest() is without friction. Where the frame turns, the forces of
 // turning_frame.h come in addition, at rest too.
 //
 // Pairs of a mesh are numbered by the mesh period of the system: a pair that is number i in one is i + 1 in the next. At the end
@@ -41,7 +44,8 @@ class SystemDynamics {
  public:
   static constexpr int kFields = 12;  // of a flank, as of pairs
 
-  // Throws as coordinates_of() and hunting_periods(), and Error(input) without a positive axis_frequency.
+  // Throws as coordinates_of() and hunting_periods(), and Error(input) without a positive axis_frequency. What `system` says of friction at
+  // rest has to be cleared: coefficients are those of the speed, of [friction] of the meshes.
   SystemDynamics(const SystemModel& system, const SystemMotion& motion);
 
   struct State {
@@ -54,7 +58,7 @@ class SystemDynamics {
   struct Period {
     Eigen::MatrixXd transmission_error;   // (mesh, step) m: of rotations
     Eigen::MatrixXd mesh_deflection;      // (mesh, step) m: what flanks close by, motion of the hubs included
-    Eigen::MatrixXd mesh_force;           // (mesh, step) N: torque on the driving body over its base radius
+    Eigen::MatrixXd mesh_force;           // (mesh, step) N: torque of normal forces on the driving body over its base radius
     Eigen::MatrixXd largest_tooth_force;  // (mesh, step) N
     // [body] (xy, step) N, of the body on what carries it: k x + c x' of an elastic bearing, on the ground k x + c (x' + Omega J x); of
     // a planet on a rigid pin of a carrier that moves F = sum of the contact forces - (P' + mu P), P = m X' + G^T q' its momentum in the
@@ -67,6 +71,7 @@ class SystemDynamics {
     Eigen::VectorXd drift;                  // (null vector) N: of the last sample
     double drift_force = 0;                 // N: largest force that must be supplied to hold the mean speed
     double least_gap = 0, least_force = 0;  // m, N: worst of the steps' certificates
+    double friction_coupling = 0;           // m: of their certificates, largest
   };
 
   // corner_gap: [mesh] m, tip edges that are farther off are left out; steps: positions of a mesh period. Throws Error(input)
@@ -102,6 +107,10 @@ class SystemDynamics {
   int hunting_periods() const { return hunting_; }  // see hunting_periods() of the system
   double mesh_frequency() const { return mesh_frequency_; }
   const TurningFrame& frame() const { return frame_; }  // at the speed that is set
+  const Eigen::VectorXd& friction() const { return friction_; }  // (mesh) 1: coefficients at the speed that is set
+  double torque(int b) const {  // N m, in its own sense: with friction the output's follows from the losses
+    return system_.layout.torque(b) + (b == motion_.output ? motion_.loss.dot(friction_) : 0.0);
+  }
   int most_contacts() const { return most_contacts_; }
   const Eigen::VectorXd& mean_load() const { return load_of_mesh_; }  // (mesh) N
   // (step + 1, slot) N: forces at the ends of the steps of the period integrated last, in its names; row 0: at its start.
@@ -135,6 +144,11 @@ class SystemDynamics {
     std::array<double, 2> lever{};  // [side] closing per r theta of its body
     Vec2 normal = Vec2::Zero();     // from the first side's flank to the second's
     double carrier_lever = 0;       // closing per r theta of the carrier that carries one of the bodies
+    // Of friction, per mu: what it adds to these levers, s tau, and the work per angle of the first side (m rad-1)
+    std::array<double, 2> slide{};
+    double carrier_slide = 0;
+    Vec2 across = Vec2::Zero();
+    double loss = 0;
     std::array<int, 4> part{};      // rotations, those of both sides' bodies, a group or -1
     std::array<int, 4> in_part{};   // number among the contacts of the part
   };
@@ -151,6 +165,8 @@ class SystemDynamics {
   struct Rows {
     int begin = 0, end = 0;
     size_t row = 0;      // (contact, coordinate in whole lanes): h
+    size_t push = 0;     // as row: L, with friction
+    size_t slide = 0;    // as row: s T, with friction
     size_t field = 0;    // of a body: (contact, field): V^T S^T
     size_t reading = 0;  // of a body: (slot of the body, contact, field) m N-1: W^T
     int contacts() const { return end - begin; }
@@ -165,7 +181,8 @@ class SystemDynamics {
     std::vector<int> order;      // contacts of all parts, one part after the other
     Eigen::MatrixXd instantaneous_compliance, relaxed;  // (contact, contact) m N-1: A, and W V S
     Eigen::MatrixXd compliance;  // (contact in whole lanes, contact) m N-1: of a step at the speed
-    Eigen::MatrixXd drift;       // (null vector, contact): of forces
+    Eigen::MatrixXd friction;    // (contact, contact) m N-1: what friction adds to it, not symmetric; empty without
+    Eigen::MatrixXd drift, drift_slide;      // (null vector, contact): of normal forces; of friction per mu
     std::vector<double> next_gap, lost_gap;  // (mesh) m, see PairsInReach
     FollowedContact followed;
     int size() const { return static_cast<int>(contact.size()); }
@@ -185,24 +202,37 @@ class SystemDynamics {
   void relate(Position& position, const SystemPosition& at) const;
   Eigen::MatrixXd residual(int b, const ElasticGear& gear, const ToothFlank& read,
                            const ToothFlank& loaded) const;
-  Eigen::MatrixXd modal_compliance(const Position& position, const Eigen::VectorXd& weight) const;
-  Eigen::VectorXd participation(const Position& position,
-                                int k) const;  // (coordinate) h of contact k, in full
+  void put_slide(const ContactSegment& segment, const Contact& contact, Position& position);
+  // Rows that forces act through, for coefficients of friction (mesh).
+  void set_friction(const Eigen::VectorXd& coefficient);
+  Eigen::VectorXd friction_at(double mesh_frequency) const;
+  bool slides() const { return friction_.size() > 0 && friction_.maxCoeff() > 0; }
+  double friction_of(const Contact& contact) const { return friction_[contact.mesh]; }
+  double lever(const Contact& contact, size_t side) const {  // of forces
+    return contact.lever[side] + friction_of(contact) * contact.slide[side];
+  }
+  using Place = size_t Rows::*;
+  Place pushing() const { return slides() ? &Rows::push : &Rows::row; }
+  Eigen::MatrixXd modal_compliance(const Position& position, const Eigen::VectorXd& weight,
+                                   Place pushed = &Rows::row) const;
+  // (coordinate) h of contact k, in full, or another row of it
+  Eigen::VectorXd participation(const Position& position, int k, Place of = &Rows::row) const;
   using Row = Eigen::Map<const Eigen::VectorXd>;
   using FieldRow = Eigen::Map<const Eigen::Matrix<double, kFields, 1>>;
-  size_t row_place(const Position& position, const Contact& contact, size_t which) const {
+  size_t row_place(const Position& position, const Contact& contact, size_t which,
+                   Place of = &Rows::row) const {
     const auto p = static_cast<size_t>(contact.part[which]);
-    return position.rows[p].row + static_cast<size_t>(contact.in_part[which] * part_[p].length());
+    return position.rows[p].*of + static_cast<size_t>(contact.in_part[which] * part_[p].length());
   }
-  // visit(first, h): h of contact k by what coordinates it moves, from number `first` on.
+  // visit(first, h): h of contact k, or another row of it, by what coordinates it moves, from number `first` on.
   template <class Visit>
-  void each_part(const Position& position, int k, const Visit& visit) const {
+  void each_part(const Position& position, int k, const Visit& visit, Place of = &Rows::row) const {
     const Contact& contact = position.contact[static_cast<size_t>(k)];
     for (size_t which = 0; which < 4; ++which) {
       if (contact.part[which] < 0) continue;
       const Part& part = part_[static_cast<size_t>(contact.part[which])];
       visit(static_cast<Eigen::Index>(part.first),
-            Row(&stream_[row_place(position, contact, which)], part.count));
+            Row(&stream_[row_place(position, contact, which, of)], part.count));
     }
   }
   const Rows& rows_of(const Position& position, const Contact& contact, size_t side) const {
@@ -220,8 +250,8 @@ class SystemDynamics {
         &stream_[rows.reading +
                  static_cast<size_t>((slot * rows.contacts() + contact.in_part[1 + side]) * kFields)]);
   }
-  double moved(const Position& position, int k, const Eigen::VectorXd& z) const;
-  void push(const Position& position, int k, double force, Eigen::VectorXd& y) const;
+  double moved(const Position& position, int k, const Eigen::VectorXd& z, Place of = &Rows::row) const;
+  void push(const Position& position, int k, double force, Eigen::VectorXd& y, Place of = &Rows::row) const;
   void load(const Position& position, const Eigen::VectorXd& p, Eigen::VectorXd& fields) const;
   void propagate_by(double seconds);
   void close(Position& position) const;
@@ -269,6 +299,8 @@ class SystemDynamics {
       positions_;  // (step + 1): the last one is the first one in the names of the period before
   std::vector<double> corner_gap_;  // [mesh] m
   int hunting_ = 1;
+  bool sliding_;              // [friction] of a mesh acts
+  Eigen::VectorXd friction_;  // (mesh) 1, at the speed that is set
   std::vector<int> hunting_place_;   // (position + 1) of its gaps in each mesh period's part of hunting_gap_
   std::vector<double> hunting_gap_;  // m: (mesh period, contact of all positions), of teeth that differ
   int first_ = 0, last_ = 0;         // pairs that may touch

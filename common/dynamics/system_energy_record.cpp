@@ -1,8 +1,11 @@
 #include "dynamics/system_energy_record.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "base/dense.h"
 #include "contact/lanes.h"
 #include "dynamics/step_work.h"
 
@@ -10,6 +13,7 @@ namespace whine {
 
 using namespace step_work;
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 SystemEnergyRecord::SystemEnergyRecord(const SystemDynamics& dynamics, SystemEnergyBalance* balance)
@@ -18,7 +22,9 @@ SystemEnergyRecord::SystemEnergyRecord(const SystemDynamics& dynamics, SystemEne
   const Index bodies = of_.coordinates_.inertia.size();
   *balance = {};
   for (VectorXd* x : {&balance->drive, &balance->bearing_damping, &balance->dragging}) x->setZero(bodies);
-  for (VectorXd* x : {&balance->rolling, &balance->switching, &balance->cutting}) x->setZero(of_.meshes());
+  for (VectorXd* x : {&balance->rolling, &balance->switching, &balance->cutting, &balance->friction})
+    x->setZero(of_.meshes());
+  if (of_.slides()) find_pivots();
   // v = a22 v0 + bv (mean force - w^2 z0) within a step, and load - relaxed = a (load0 - relaxed0) + b (load1 - load0).
   const Index n = of_.coordinates_.size();
   for (VectorXd* x : {&speed_, &mixed_, &push_}) x->setZero(n);
@@ -47,6 +53,12 @@ SystemEnergyRecord::SystemEnergyRecord(const SystemDynamics& dynamics, SystemEne
       late_decay_ += weight * t / step * decay / eta;
       late_growth_ += weight * t / step * growth / eta;
     });
+}
+
+// rad s-1, in the frame of the system.
+double SystemEnergyRecord::turning_speed(int gear) const {
+  return 2 * std::numbers::pi * of_.mesh_frequency_ /
+         of_.system_.layout.bodies[static_cast<size_t>(gear)].teeth;
 }
 
 double SystemEnergyRecord::field_at(const SystemDynamics::Position& position, int k,
@@ -79,6 +91,7 @@ void SystemEnergyRecord::fill(Instant& now, const SystemDynamics::Position& posi
   }
   displace(now, wanted);
   now.p = of_.p_.head(n);
+  if (of_.slides()) fill_friction(now);
   now.local = position.instantaneous_compliance * now.p;
   now.stored = 0.5 * now.p.dot(now.local);
   now.d.resize(n);
@@ -132,8 +145,11 @@ double SystemEnergyRecord::modes(const Instant& a, const Instant& b) {
                modal = 0.5 * (w2 * (b.z.array().square() - a.z.array().square())).sum();
   const auto push = 0.5 * (a.force.array() + b.force.array()) - w2 * a.z.array();
   const auto start = a.start.array();
-  const VectorXd squared = speed_.array() * start.square() + 2 * mixed_.array() * start * push +
-                           push_.array() * push.square();  // integrals of v^2
+  // Integrals of v^2; Newmark's own velocity is the mean one.
+  const VectorXd squared = of_.motion_.fidelity.integrator == Integrator::newmark
+                               ? VectorXd((b.z - a.z).array().square() / of_.step_)
+                               : VectorXd(speed_.array() * start.square() + 2 * mixed_.array() * start * push +
+                                          push_.array() * push.square());
   const double damping = (c.damping - c.of_bearing).dot(squared);
   double bearing = 0, drive = 0;
   for (Index n = 0; n < balance_->drive.size(); ++n) {
@@ -148,7 +164,7 @@ double SystemEnergyRecord::modes(const Instant& a, const Instant& b) {
     bearing += taken;
     const int body = static_cast<int>(n);
     const double work =
-        of_.system_.layout.torque(body) * (c.rotation_of(body, b.z) - c.rotation_of(body, a.z));
+        of_.torque(body) * (c.rotation_of(body, b.z) - c.rotation_of(body, a.z));
     if (of_.system_.layout.held(body)) continue;
     balance_->drive[n] += work;
     drive += work;
@@ -244,6 +260,76 @@ double SystemEnergyRecord::contact(const Instant& a, const Instant& b) {
   return all;
 }
 
+// Gears whose D the others follow from: D is along I times the rollings.
+void SystemEnergyRecord::find_pivots() {
+  const SystemCoordinates& c = of_.coordinates_;
+  const Index rollings = c.rolling.cols();
+  holding_.setZero(c.inertia.size(), rollings);
+  if (rollings == 0) return;
+  MatrixXd along(c.inertia.size(), rollings);
+  for (Index b = 0; b < along.rows(); ++b)
+    along.row(b) = c.inertia[b] / of_.radius_[static_cast<size_t>(b)] * c.rolling.row(b);
+  const auto gears = static_cast<Index>(of_.system_.body.size());
+  const Eigen::ColPivHouseholderQR<MatrixXd> order(along.topRows(gears).transpose());
+  MatrixXd chosen(rollings, rollings);
+  pivot_.reserve(static_cast<size_t>(rollings));
+  for (Index i = 0; i < rollings; ++i) {
+    pivot_.push_back(order.colsPermutation().indices()[i]);
+    chosen.row(i) = along.row(pivot_.back());
+  }
+  holding_ = along * lu_solve(chosen, MatrixXd::Identity(rollings, rollings));
+}
+
+void SystemEnergyRecord::fill_friction(Instant& now) const {
+  const SystemCoordinates& c = of_.coordinates_;
+  now.normal = now.slide = VectorXd::Zero(c.inertia.size());
+  now.sliding.setZero(of_.meshes());
+  for (int k = 0; k < now.position->size(); ++k) {
+    const SystemDynamics::Contact& contact = now.position->contact[static_cast<size_t>(k)];
+    const double slid = of_.friction_of(contact) * now.p[k];
+    for (size_t s = 0; s < 2; ++s) {
+      const double radius = of_.radius_[static_cast<size_t>(contact.body[s])];
+      now.normal[contact.body[s]] += now.p[k] * contact.lever[s] * radius;
+      now.slide[contact.body[s]] += slid * contact.slide[s] * radius;
+    }
+    now.sliding[contact.mesh] += slid * contact.loss * turning_speed(contact.body[0]);
+  }
+  const VectorXd taken = now.v.head(c.rigid) + c.damping.head(c.rigid).cwiseProduct(now.z.head(c.rigid));
+  now.momentum = c.inertia.cwiseProduct(c.rotation * taken);
+}
+
+// What friction takes, less the work of the prescribed rolling against it.
+double SystemEnergyRecord::friction(const Instant& a, const Instant& b) {
+  const double step = of_.step_;
+  VectorXd taken = 0.5 * step * (a.sliding + b.sliding);
+  for (const Instant* at : {&a, &b})
+    for (int k = 0; k < at->position->size(); ++k) {
+      const SystemDynamics::Contact& contact = at->position->contact[static_cast<size_t>(k)];
+      if (at->p[k] == 0) continue;
+      taken[contact.mesh] += 0.5 * of_.friction_of(contact) * at->p[k] *
+                             of_.moved(*at->position, k, b.z - a.z, &SystemDynamics::Rows::slide);
+    }
+  const VectorXd slide = 0.5 * step * (a.slide + b.slide), normal = 0.5 * step * (a.normal + b.normal),
+                 momentum = b.momentum - a.momentum;
+  VectorXd held(static_cast<Index>(pivot_.size()));
+  for (Index i = 0; i < held.size(); ++i) {
+    const Index body = pivot_[static_cast<size_t>(i)];
+    held[i] = momentum[body] + normal[body] + slide[body] - step * of_.torque(static_cast<int>(body));
+  }
+  const VectorXd holding = holding_ * held;
+  double rolling = 0;
+  for (int body = 0; body < static_cast<int>(of_.system_.body.size()); ++body) {
+    const double against = of_.system_.layout.held(body)
+                               ? slide[body]
+                               : step * of_.torque(body) + holding[body] - normal[body] - momentum[body];
+    rolling += turning_speed(body) * against;
+  }
+  balance_->friction += taken;
+  balance_->friction_rolling += rolling;
+  balance_->throughput += std::abs(rolling);
+  return taken.sum() - rolling;
+}
+
 void SystemEnergyRecord::step(const SystemDynamics::Position& position) {
   std::swap(before_, now_);
   fill(now_, position);
@@ -253,6 +339,7 @@ void SystemEnergyRecord::step(const SystemDynamics::Position& position) {
   const double local = now_.stored - before_.stored;
   balance_->local += local;
   sum_ += local;
+  if (of_.slides()) sum_ += friction(before_, now_);
   first_step_ = false;
   balance_->imbalance = std::max(balance_->imbalance, std::abs(sum_));
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/dense.h"
 #include "base/error.h"
 #include "base/model_range.h"
 #include "base/progress.h"
@@ -102,7 +103,7 @@ void SystemPeriodMap::solve_contacts(int i, const MatrixXd& z, const MatrixXd& r
   }
   p.setZero();
   if (!active.empty()) {
-    const MatrixXd forces = -tangent.llt().solve(e);
+    const MatrixXd forces = of.slides() ? MatrixXd(-lu_solve(tangent, e)) : MatrixXd(-tangent.llt().solve(e));
     for (size_t a = 0; a < active.size(); ++a)
       p.row(position.contact[static_cast<size_t>(active[a])].slot) = forces.row(static_cast<Index>(a));
   }
@@ -128,9 +129,10 @@ MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
     for (int k = 0; k < position.size(); ++k) {
       const SystemDynamics::Contact& contact = position.contact[static_cast<size_t>(k)];
       if (p.row(contact.slot).isZero(0)) continue;
-      of.each_part(position, k, [&](Index first, const auto& h) {
-        force.middleRows(first, h.size()) -= h * p.row(contact.slot);
-      });
+      of.each_part(
+          position, k,
+          [&](Index first, const auto& h) { force.middleRows(first, h.size()) -= h * p.row(contact.slot); },
+          of.pushing());
       for (size_t s = 0; s < 2; ++s)
         load.middleRows<SystemDynamics::kFields>(contact.load_at[s]) +=
             of.field(position, contact, s) * p.row(contact.slot);

@@ -157,6 +157,7 @@ void SystemDynamics::list_parts() {
 
 // Of stream_, at most: one row in each part of a contact and what relaxed loads of its bodies move it by.
 double SystemDynamics::numbers(const std::vector<SystemPosition>& placed) const {
+  const double rows = sliding_ ? 3 : 1;  // of each contact
   double most_group = 0, out = 0;
   for (size_t p = 1 + system_.body.size(); p < part_.size(); ++p)
     most_group = std::max<double>(most_group, part_[p].length());
@@ -164,9 +165,9 @@ double SystemDynamics::numbers(const std::vector<SystemPosition>& placed) const 
     for (const ContactSegment& segment : at.segment)
       for (const System::Side& side : system_.layout.meshes[static_cast<size_t>(segment.mesh)].side) {
         const auto b = static_cast<size_t>(side.body);
-        out += part_[1 + b].length() + kFields + relaxed_first_[b + 1] - relaxed_first_[b];
+        out += rows * part_[1 + b].length() + kFields + relaxed_first_[b + 1] - relaxed_first_[b];
       }
-    out += static_cast<double>(at.segment.size()) * (part_[0].length() + most_group);
+    out += static_cast<double>(at.segment.size()) * rows * (part_[0].length() + most_group);
   };
   for (const SystemPosition& at : placed) count(at);
   count(placed[0]);
@@ -204,6 +205,17 @@ void SystemDynamics::put_contacts(const SystemPosition& at, int shift, Position&
     }
     if (const CarriedMesh& on = carried_[m]; on.carrier >= 0)
       contact.carrier_lever = at.displacement.rotation(k, on.carrier);
+    if (!system_.mesh[m].friction.acts()) continue;
+    contact.across = segment.sliding.direction * across(system_, segment);
+    contact.loss = segment.sliding.loss();
+    for (size_t s = 0; s < 2; ++s)
+      contact.slide[s] = closing_sign(static_cast<int>(s)) * segment.sliding.direction *
+                         segment.sliding.lever[s] / radius_[static_cast<size_t>(contact.body[s])];
+    if (const CarriedMesh& on = carried_[m]; on.carrier >= 0)
+      contact.carrier_slide =
+          closing_sign(on.side) *
+          contact.across.dot(pin_direction(
+              system_.layout, system_.layout.bodies[static_cast<size_t>(contact.body[static_cast<size_t>(on.side)])]));
   }
   position.rows.resize(part_.size());
   for (size_t p = 0; p < part_.size(); ++p) {
@@ -221,13 +233,77 @@ void SystemDynamics::put_contacts(const SystemPosition& at, int shift, Position&
 }
 
 void SystemDynamics::put_rows(Position& position) {
-  for (size_t p = 0; p < part_.size(); ++p)
-    position.rows[p].row = place(position.rows[p].contacts() * part_[p].length());
+  for (size_t p = 0; p < part_.size(); ++p) {
+    Rows& rows = position.rows[p];
+    const int size = rows.contacts() * part_[p].length();
+    rows.row = place(size);
+    if (!sliding_) continue;
+    rows.push = place(size);
+    rows.slide = place(size);
+  }
   for (size_t b = 0; b < system_.body.size(); ++b) {
     Rows& rows = position.rows[1 + b];
     rows.field = place(rows.contacts() * kFields);
     rows.reading = place(rows.contacts() * (relaxed_first_[b + 1] - relaxed_first_[b]));
   }
+}
+
+// What friction moves of the coordinates, per mu: s T. Elastic modes have none of it but the motions of their hubs.
+void SystemDynamics::put_slide(const ContactSegment& segment, const Contact& contact, Position& position) {
+  const auto k = static_cast<Index>(&contact - position.contact.data());
+  const auto row = [&](size_t which) {
+    return Eigen::Map<VectorXd>(&stream_[row_place(position, contact, which, &Rows::slide)],
+                                part_[static_cast<size_t>(contact.part[which])].count);
+  };
+  auto rigid = row(0);
+  for (size_t s = 0; s < 2; ++s) {
+    const int b = contact.body[s];
+    const SystemCoordinates::Share& share = coordinates_.body[static_cast<size_t>(b)];
+    const double arm = contact.slide[s] * radius_[static_cast<size_t>(b)];
+    const Vec2 along = closing_sign(static_cast<int>(s)) * contact.across;
+    rigid += arm * coordinates_.rotation.row(b).transpose();
+    position.drift_slide.col(k) += contact.slide[s] * coordinates_.rolling.row(b).transpose();
+    auto elastic = row(1 + s);
+    elastic.head(share.torsional) = arm * share.hub;
+    if (share.swaying > 0)
+      elastic.segment(share.torsional, share.swaying) = share.shift.transpose() * along;
+    if (share.group < 0) continue;
+    const SystemCoordinates::Group& group = coordinates_.group[static_cast<size_t>(share.group)];
+    row(3) = group.member[static_cast<size_t>(share.member)].shift.transpose() * along;
+  }
+  if (const CarriedMesh& on = carried_[static_cast<size_t>(segment.mesh)]; on.carrier >= 0) {
+    rigid += contact.carrier_slide * radius_[static_cast<size_t>(on.carrier)] *
+             coordinates_.rotation.row(on.carrier).transpose();
+    position.drift_slide.col(k) += contact.carrier_slide * coordinates_.rolling.row(on.carrier).transpose();
+  }
+}
+
+VectorXd SystemDynamics::friction_at(double mesh_frequency) const {
+  VectorXd out = VectorXd::Zero(meshes());
+  const VectorXd load = sliding_ ? mesh_loads(system_) : out;
+  for (int m = 0; m < meshes(); ++m) {
+    const GearMeshModel& mesh = system_.mesh[static_cast<size_t>(m)];
+    if (load[m] > 0)
+      out[m] = mesh.coefficient_of_friction(load[m] * mesh.kinematics.gear(0).base_radius(), mesh_frequency);
+  }
+  return out;
+}
+
+void SystemDynamics::set_friction(const VectorXd& coefficient) {
+  if (coefficient == friction_) return;
+  friction_ = coefficient;
+  for (Position& position : positions_)
+    for (size_t p = 0; p < part_.size(); ++p) {
+      const Rows& rows = position.rows[p];
+      const int length = part_[p].length();
+      for (int c = 0; c < rows.contacts(); ++c) {
+        const double share = friction_of(position.contact[static_cast<size_t>(
+            position.order[static_cast<size_t>(rows.begin + c)])]);
+        for (int i = c * length; i < (c + 1) * length; i += kLanes)
+          lanes(&stream_[rows.push] + i) =
+              lanes(&stream_[rows.row] + i) + share * lanes(&stream_[rows.slide] + i);
+      }
+    }
 }
 
 // shift: 1 at the end of the mesh period, whose teeth are then one further than where `at` has them.
@@ -236,7 +312,7 @@ SystemDynamics::Position SystemDynamics::filled(const SystemPosition& at, int sh
   const auto n = static_cast<Index>(at.segment.size());
   const double phase = at.phase + shift;
   out.gap = at.gap;
-  out.drift = MatrixXd::Zero(coordinates_.rolling.cols(), n);
+  out.drift = out.drift_slide = MatrixXd::Zero(coordinates_.rolling.cols(), n);
   for (const MeshPosition& mesh : at.mesh) {
     out.law.insert(out.law.end(), mesh.law.begin(), mesh.law.end());
     for (const PairStrips& pair : mesh.pairs) out.facing.push_back(pair.contact.x_max - pair.contact.x_min);
@@ -287,6 +363,7 @@ SystemDynamics::Position SystemDynamics::filled(const SystemPosition& at, int sh
                coordinates_.rotation.row(on.carrier).transpose();
       out.drift.col(k) += contact.carrier_lever * coordinates_.rolling.row(on.carrier).transpose();
     }
+    if (sliding_) put_slide(segment, contact, out);
   }
   relate(out, at);
   out.compliance = MatrixXd::Zero(padded(static_cast<int>(n)), n);
@@ -368,6 +445,7 @@ void SystemDynamics::put_gap(int position, int period) {
 
 void SystemDynamics::set_positions(const std::vector<double>& corner_gap, int steps) {
   corner_gap_ = corner_gap;
+  friction_.setZero(meshes());
   positions_.assign(static_cast<size_t>(steps) + 1, {});
   std::vector<SystemPosition> placed;
   placed.reserve(static_cast<size_t>(steps));
@@ -383,7 +461,7 @@ void SystemDynamics::set_positions(const std::vector<double>& corner_gap, int st
          " are allowed; lower min_sample_rate_kHz or modes, or raise the lowest speed");
   log_memory(text("the positions of ", steps, " steps of a mesh period"), memory);
   stream_.clear();
-  stream_.reserve(static_cast<size_t>(in_stream) + 8 * part_.size() * static_cast<size_t>(steps + 1));
+  stream_.reserve(static_cast<size_t>(in_stream) + 16 * part_.size() * static_cast<size_t>(steps + 1));
   couple();
   for (int i = 0; i < steps; ++i) {
     report_step("mesh positions", i, steps);

@@ -51,12 +51,16 @@ void subtract_all_rows(const double* rows, int length, const double* z, double* 
 void SystemDynamics::propagate_by(double seconds) {
   step_ = seconds;
   const Index n = coordinates_.size(), whole = n + 2 * kLanes;
+  const auto propagator =
+      motion_.fidelity.integrator == Integrator::newmark ? newmark_propagator : exact_propagator;
   for (VectorXd* x : {&a11_, &a12_, &a21_, &a22_, &bq_, &torque_, &z_, &v_, &force_}) x->setZero(whole);
   for (Index i = 0; i < n; ++i) {
-    const Propagator a = exact_propagator(coordinates_.frequency[i], coordinates_.damping[i], step_);
+    const Propagator a = propagator(coordinates_.frequency[i], coordinates_.damping[i], step_);
     a11_[i] = a.a11, a12_[i] = a.a12, a21_[i] = a.a21, a22_[i] = a.a22, bq_[i] = a.bq;
   }
   torque_.head(n) = coordinates_.torque;
+  if (slides() && motion_.output >= 0)
+    torque_.head(n) += motion_.loss.dot(friction_) * coordinates_.turning(motion_.output);
   if (frame_.turns()) {
     frame_.set_step(step_, bq_.head(n));
     frame_.add(frame_.constant(), torque_.head(n));
@@ -69,15 +73,28 @@ void SystemDynamics::propagate_by(double seconds) {
 
 // Compliance of the contacts at the end of a step.
 void SystemDynamics::close(Position& position) const {
-  position.compliance.topRows(position.size()) = position.instantaneous_compliance +
-                                                 relaxed_step_.from_new * position.relaxed +
-                                                 modal_compliance(position, 0.5 * bq_);
-  if (frame_.turns()) {
+  auto whole = position.compliance.topRows(position.size());
+  whole = position.instantaneous_compliance + relaxed_step_.from_new * position.relaxed +
+          modal_compliance(position, 0.5 * bq_);
+  const auto in_frame = [&](Place of) {
     const Index n = coordinates_.size();
     MatrixXd rows(n, position.size());
     for (int k = 0; k < position.size(); ++k)
-      rows.col(k) = bq_.head(n).cwiseProduct(participation(position, k));
-    position.compliance.topRows(position.size()) += frame_.compliance(frame_.motions(rows));
+      rows.col(k) = bq_.head(n).cwiseProduct(participation(position, k, of));
+    return frame_.motions(rows);
+  };
+  if (frame_.turns()) {
+    const MatrixXd read = in_frame(&Rows::row);
+    whole += frame_.compliance(read, read);
+  }
+  position.friction.resize(0, 0);
+  if (slides()) {
+    position.friction = modal_compliance(position, 0.5 * bq_, &Rows::slide);
+    if (frame_.turns())
+      position.friction += frame_.compliance(in_frame(&Rows::row), in_frame(&Rows::slide));
+    for (int k = 0; k < position.size(); ++k)
+      position.friction.col(k) *= friction_of(position.contact[static_cast<size_t>(k)]);
+    whole += position.friction;
   }
   position.followed.forget();
 }
@@ -94,7 +111,7 @@ void SystemDynamics::take(const State& state, const Position& position) {
   for (int k = 0; k < position.size(); ++k) p_[k] = state.p[position.contact[static_cast<size_t>(k)].slot];
   force_ = torque_;
   for (int k = 0; k < position.size(); ++k)
-    if (p_[k] != 0) push(position, k, p_[k], force_);
+    if (p_[k] != 0) push(position, k, p_[k], force_, pushing());
   if (frame_.turns()) frame_.add(frame_.stiffness() * frame_.motions(z_.head(n)), force_.head(n));
   load_.setZero();
   load(position, p_, load_);
@@ -187,7 +204,7 @@ void SystemDynamics::read_gaps(const Position& position) {
 void SystemDynamics::solve(Position& position) {
   const int n = position.size();
   for (int k = 0; k < n; ++k) p_[k] = p_of_slot_[position.contact[static_cast<size_t>(k)].slot];
-  certificate_ = position.followed.solve(position.compliance, position.law, e_, p_.head(n), d_);
+  certificate_ = position.followed.solve(position.compliance, position.law, e_, p_.head(n), d_, position.friction);
   p_of_slot_.setZero();
   for (int k = 0; k < n; ++k) p_of_slot_[position.contact[static_cast<size_t>(k)].slot] = p_[k];
 }
@@ -197,6 +214,7 @@ void SystemDynamics::solve(Position& position) {
 void SystemDynamics::push_all(const Position& position) {
   double *z = z_.data(), *v = v_.data(), *force = force_.data();
   const double *torque = torque_.data(), *bq = bq_.data(), *a12 = a12_.data();
+  const Place through = pushing();
   for (size_t p = 0; p < part_.size(); ++p) {
     const Rows& rows = position.rows[p];
     const int length = part_[p].length(), first = part_[p].first;
@@ -211,7 +229,7 @@ void SystemDynamics::push_all(const Position& position) {
     };
     for (int c = 0; c < rows.contacts(); ++c)
       if (const double own = p_[position.order.data()[rows.begin + c]]; own > 0) {
-        row[carrying] = &stream_[rows.row + static_cast<size_t>(c * length)];
+        row[carrying] = &stream_[rows.*through + static_cast<size_t>(c * length)];
         pushed[carrying++] = own;
       }
     int i = 0;

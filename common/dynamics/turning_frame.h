@@ -34,9 +34,10 @@ class TurningFrame {
   // (motion, column): f above, of coordinates without it.
   Eigen::MatrixXd closing(const Eigen::Ref<const Eigen::MatrixXd>& y) const { return closing_ * y; }
   // (contact, contact) m N-1: what closing() adds to the compliance of contacts at the end of a step, for the rows (motion, contact)
-  // W diag(bq) h^T. Its antisymmetric part, of dampers alone and below 1e-9 of the compliance, is left out.
-  Eigen::MatrixXd compliance(const Eigen::MatrixXd& rows) const {
-    return 0.125 * rows.transpose() * (closing_ + closing_.transpose()) * rows;
+  // W diag(bq) h^T that gaps are read by and forces act through. Of closing() the antisymmetric part, of dampers alone and below 1e-9 of
+  // the compliance, is left out.
+  Eigen::MatrixXd compliance(const Eigen::MatrixXd& read, const Eigen::MatrixXd& pushed) const {
+    return 0.125 * read.transpose() * (closing_ + closing_.transpose()) * pushed;
   }
 
   // (motion, column) W z

@@ -493,6 +493,22 @@ double frame_turns(const System& system) {
   return -static_cast<double>(at_rest.sense) / at_rest.teeth;
 }
 
+double ground_turns(const System& system, int b) {
+  const System::Body& body = system.bodies[static_cast<size_t>(b)];
+  return (body.teeth > 0 ? 1.0 / body.teeth : 0.0) + body.sense * frame_turns(system);
+}
+
+int output_of(const System& system) {
+  int out = -1;
+  double most = 0;
+  for (int b = 0; b < static_cast<int>(system.bodies.size()); ++b) {
+    if (system.bodies[static_cast<size_t>(b)].on != System::kGround || system.held(b)) continue;
+    const double given = -system.torque(b) * ground_turns(system, b);
+    if (given > most) most = given, out = b;
+  }
+  return out;
+}
+
 double working_radius(const System& system, int body) {
   const double radius = system.bodies[static_cast<size_t>(body)].radius;
   for (const System::Mesh& mesh : system.meshes)

@@ -60,6 +60,11 @@ TrainSpeeds train_speeds(const System& system);
 // which is free, and one gear that meshes with its planets is held. 0 of other trains, also where the speed does not follow from
 // what is held, or axes on the ground would go round with the frame.
 double frame_turns(const System& system);
+// 1: revolutions of a body on the ground in a mesh period, in its own sense, where the frame turns so.
+double ground_turns(const System& system, int b);
+// The free body on the ground where most power leaves the train by its drive: with friction what it gives follows from the losses.
+// -1: none.
+int output_of(const System& system);
 
 // m: working pitch radius in the first mesh of a gear; of a carrier, and of a gear without a mesh, System::Body::radius.
 double working_radius(const System& system, int body);

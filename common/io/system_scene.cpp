@@ -130,10 +130,6 @@ void take_friction(const Source& source, SystemScene& scene) {
   if (scene.rigid())
     source.reject(*node,
                   "[friction] belongs to elastic gears, and those of this scene are rigid; take it out");
-  if (source.root().get("operation"))
-    source.reject(
-        *node, "[friction] of a system is computed at rest alone so far, and [operation] asks for motions; ",
-        "take one of the two sections out");
   Friction friction;
   read_friction(source, friction);
   for (SystemScene::Mesh& mesh : scene.meshes) mesh.spec.friction = friction;
@@ -163,10 +159,6 @@ void reject_in_motion(const Source& source, const Fidelity& fidelity) {
     reject(
         "body",
         "body = \"full\" in [fidelity]: systems in motion have \"quasi-static\", \"relaxed\" or \"modal\"; write one of these, or take [operation] out");
-  if (fidelity.integrator != Integrator::exact)
-    reject(
-        "integrator", "integrator = \"", fidelity.integrator,
-        "\" in [fidelity] is for pairs: systems in motion have \"exact\"; write that, or take [operation] out");
 }
 
 // [fidelity], [discretisation], [damping] and [operation].

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "base/error.h"
@@ -37,19 +38,21 @@ void require_like_teeth(const SystemStaticParameters& settings, const std::strin
 TrainInMotion::TrainInMotion(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
                              int positions)
     : system_(elastic_system(settings, bodies)), settings_(settings), positions_(positions) {
-  for (const GearMeshSpec& mesh : settings.mesh) require_no_friction(mesh, "a system in motion");
   take_masses(settings, bodies, system_.layout);
   const auto meshes = static_cast<Index>(system_.mesh.size());
   stiffness_ = MatrixXd::Zero(meshes, meshes);
   deflection_.assign(system_.mesh.size(), 0);
+  SystemModel still = system_;
+  motion_.output = hold_output(still);
   const std::vector<SystemSolution> rest = rest_over_period(
-      system_, ContactModel::line, settings.contact.strips,
+      still, ContactModel::line, settings.contact.strips,
       std::clamp(kMostRestPositions / hunting_periods(system_), kFewestRestPositions, kRestPositions));
   for (const SystemSolution& at : rest) {
     stiffness_ += at.mesh_stiffness / static_cast<double>(rest.size());
     for (size_t m = 0; m < system_.mesh.size(); ++m)
       deflection_[m] = std::max(deflection_[m], at.deflection[m]);
   }
+  take_losses(still, rest);
   // A mesh without load has a tenth of the deflection of the most loaded one.
   const double most = *std::max_element(deflection_.begin(), deflection_.end());
   for (double& deflection : deflection_) deflection = std::max(deflection, 0.1 * most);
@@ -59,6 +62,19 @@ TrainInMotion::TrainInMotion(const SystemSweepParameters& settings, const std::v
   motion_.axis_frequency = axis_frequency(system_, stiffness_);
   motion_.frame_turns = frame_turns(system_.layout);
   dynamics_ = placed();
+}
+
+// Losses at rest over the coefficients there, on the body that gives what is left; those in motion go with the speed.
+void TrainInMotion::take_losses(const SystemModel& still, const std::vector<SystemSolution>& rest) {
+  system_.friction.clear();
+  if (motion_.output < 0) return;
+  motion_.loss = Eigen::VectorXd::Zero(static_cast<Index>(still.mesh.size()));
+  const double turned = 2 * std::numbers::pi * ground_turns(system_.layout, motion_.output);  // in a mesh period
+  for (const SystemSolution& at : rest)
+    for (size_t m = 0; m < still.mesh.size(); ++m)
+      if (still.friction[m] > 0)
+        motion_.loss[static_cast<Index>(m)] +=
+            at.friction_work[m] / still.friction[m] / turned / static_cast<double>(rest.size());
 }
 
 std::unique_ptr<SystemDynamics> TrainInMotion::placed() const {

@@ -1,4 +1,5 @@
-// A system of elastic gears made ready for motion: statics for the mean stiffnesses, and tip edges as far as motions need them.
+// A system of elastic gears made ready for motion: statics for the mean stiffnesses and the losses by friction, and tip edges as far as
+// motions need them.
 #pragma once
 #include <Eigen/Core>
 #include <memory>
@@ -34,6 +35,7 @@ class TrainInMotion {
   void widen(const std::vector<SystemDynamics::State*>& states);
 
  private:
+  void take_losses(const SystemModel& still, const std::vector<SystemSolution>& rest);
   std::unique_ptr<SystemDynamics> placed() const;  // with the tip edges that `widenings_` asks for
   SystemModel system_;
   SystemSweepParameters settings_;

@@ -31,6 +31,13 @@ MatrixXd closing_of(const System& layout) {
   return out;
 }
 
+bool can_roll(const System& layout) {
+  constexpr double kNull = 1e-12;  // of the largest: squared approach of a rolling
+  const MatrixXd closing = closing_of(layout)(free_bodies(layout), Eigen::all);
+  const SymmetricEigen eigen = symmetric_eigen(MatrixXd(closing * closing.transpose()));
+  return eigen.values.size() > 0 && !(eigen.values[0] > kNull * eigen.values.tail(1)[0]);
+}
+
 namespace {
 
 // N: T / r.

@@ -15,6 +15,9 @@ std::vector<int> free_bodies(const System& layout);
 // planets' axes.
 Eigen::MatrixXd closing_of(const System& layout);
 
+// Whether the train can turn as a whole with all its meshes closed.
+bool can_roll(const System& layout);
+
 // The balance of torques alone: sum over the meshes of a free body of closing sign times load = T / r.
 struct LoadBalance {
   Eigen::VectorXd load;  // (mesh) N, mean force along the line of action; below 0: pulled

@@ -94,13 +94,14 @@ int hunting_periods(const SystemModel& system) {
   return hunting_periods_of(teeth);
 }
 
-namespace {
-
-// tau of gear/friction.h per unit of mu s in the frame of the system, of which the frame of a mesh may be the mirror image.
+// The frame of a mesh may be the mirror image of that of the system.
 Vec2 across(const SystemModel& system, const ContactSegment& segment) {
   const int mirrored = system.mesh[static_cast<size_t>(segment.mesh)].layout.side[0].sense;
   return mirrored * Vec2(-segment.normal.y(), segment.normal.x());
 }
+
+namespace {
+
 double share_of_friction(const SystemModel& system, const ContactSegment& segment) {
   return system.friction[static_cast<size_t>(segment.mesh)] * segment.sliding.direction;
 }
@@ -171,7 +172,7 @@ SystemPosition join(const SystemModel& system, double phase, int period,
       segment.gap = strips.contact.gap;
       segment.normal = model.outward_in_system(0, strips.contact);
       segment.lever = strips.contact.lever;
-      if (system.slides())
+      if (model.friction.acts())
         segment.sliding = sliding_of(model.kinematics, strips.contact, model.friction.smoothing);
       segment.width = model.face_width();
       segment.first_strip = first + position.first_strip[j];

@@ -54,7 +54,7 @@ struct ContactSegment {
   Vec2 normal = Vec2::Zero();       // from the first side's flank to the second's, in the frame of the system
   std::array<double, 2> lever{};    // [side] m
   double width = 0;                 // m along the face
-  PairSliding sliding;              // of meshes with friction, else 0
+  PairSliding sliding;              // of meshes with [friction], else 0
   int first_strip = 0, strips = 0;  // in the row of all strips
 };
 
@@ -91,6 +91,9 @@ MeshInstant mesh_instant(const SystemModel& system, int m, double phase, int per
 // of the gears that have errors or cracks; 1 if teeth are all alike. In each mesh period every gear turns by one tooth, those on
 // a carrier relative to it. Throws Error(input) above kMostHuntingPeriods.
 int hunting_periods(const SystemModel& system);
+
+// tau of gear/friction.h of a contact per unit of mu s, in the frame of the system: friction pushes the first side's body along -tau.
+Vec2 across(const SystemModel& system, const ContactSegment& segment);
 
 // positions: of each mesh, at its mesh_instant.
 SystemPosition join(const SystemModel& system, double phase, int period, std::vector<MeshPosition> positions);

@@ -67,6 +67,14 @@ void take_friction(SystemModel& system) {
   }
 }
 
+int hold_output(SystemModel& system) {
+  if (!system.slides() || !can_roll(system.layout)) return -1;
+  const int out = output_of(system.layout);
+  for (System::Drive& drive : system.layout.drives)
+    if (drive.body == out) drive.kind = System::DriveKind::held;
+  return out;
+}
+
 double efficiency_at_rest(const System& layout, const Eigen::VectorXd& torque, int at_rest) {
   const auto turns = [&](int b) {  // in a mesh period, counter-clockwise, in the frame of the layout
     const System::Body& body = layout.bodies[static_cast<size_t>(b)];
@@ -125,7 +133,7 @@ void take_pairs(const std::vector<SystemSolution>& solutions, Index meshes, Syst
 
 // Torques on bodies and forces on bearings; those of carriers follow from their planets.
 void take_balance(const SystemModel& system, const SystemSolution& at, Index row, SystemStaticResult& out) {
-  const System& layout = out.settings.layout;
+  const System& layout = system.layout;
   MatrixRM& force = out.bearing_force[static_cast<size_t>(row)];
   for (size_t b = 0; b < system.body.size(); ++b) {
     force.row(static_cast<Index>(b)) = at.bearing_force[b].transpose();
@@ -298,7 +306,8 @@ void require_rows(const SystemModel& system, int periods, int positions) {
 
 SystemStaticResult system_at_rest(const SystemStaticParameters& settings,
                                   const std::vector<ReducedBody>& bodies) {
-  const SystemModel system = elastic_system(settings, bodies);
+  SystemModel system = elastic_system(settings, bodies);
+  hold_output(system);
   const int periods = hunting_periods(system);
   require_rows(system, periods, settings.contact.positions);
   const std::vector<SystemSolution> solutions = rest_over_period(

@@ -23,6 +23,9 @@ SystemModel elastic_system(const SystemStaticParameters& settings, const std::ve
 
 // Coefficients of friction of its meshes under the loads of its drives, as they say.
 void take_friction(SystemModel& system);
+// With friction in a train that can roll as a whole, what leaves the train follows from the losses: holds output_of() in place of its
+// torque. Result: that body; -1: nothing has changed.
+int hold_output(SystemModel& system);
 
 // 1: power out over power in of bodies on the ground under their torques (body; N m in their own sense), while body `at_rest` is at rest
 // and the frame of the layout turns by that; -1: at rest in this frame. 0 where no power goes in.

@@ -47,7 +47,7 @@ double carrying(const Eigen::MatrixXd& forces, int steps) {
   return static_cast<double>((forces.array() > 0).count()) / steps;
 }
 
-// The pair, two gears and a mesh, in the words of trains: what `pair` says of friction is left out.
+// The pair, two gears and a mesh, in the words of trains.
 SystemSweepParameters as_train(const std::array<ReducedBody, kSides>& body, const StaticParameters& statics,
                                const SweepParameters& pair, double torque) {
   SystemScene scene;

@@ -174,7 +174,7 @@ TEST_CASE("a pair told as a train with friction is the pair") {
   }
 }
 
-TEST_CASE("without friction a train has the bits that it had; one that rolls, and motions, are refused") {
+TEST_CASE("without friction a train has the bits that it had; one that rolls is refused until its output is held") {
   const SystemModel none = train_of(0);
   CHECK(!none.slides());
   SystemModel rolls = train(kTeeth, 3, {}, [](SystemScene& scene) {
@@ -185,4 +185,10 @@ TEST_CASE("without friction a train has the bits that it had; one that rolls, an
   });
   take_friction(rolls);
   CHECK(names(message_of([&] { rest_over_period(rolls, ContactModel::line, 8, 1); }), {"roll", "held"}));
+  SystemModel held = rolls;
+  CHECK(hold_output(held) == static_cast<int>(kCarrier));
+  CHECK(rest_over_period(held, ContactModel::line, 8, 1)[0].equilibrium.residual < 1e-9);
+  // What does not roll is as it was.
+  SystemModel still = train_of(kFriction);
+  CHECK(hold_output(still) == -1);
 }

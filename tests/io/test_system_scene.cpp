@@ -228,8 +228,7 @@ TEST_CASE("elastic systems: what their rest needs is checked with its line befor
   // Of its motion, before minutes of work.
   check({{"[damping]", "[fidelity]\nbody = \"full\"\n[damping]"}}, "body = \"full\"",
         {"quasi-static", "systems"});
-  check({{"[damping]", "[fidelity]\nintegrator = \"newmark\"\n[damping]"}},
-        "integrator = ", {"systems", "motion"});
+  check({{"[damping]", "[fidelity]\nintegrator = \"newmark\"\n[damping]"}}, nullptr, {});
   // A ring may float.
   check({{"[[drive]]\ngear = \"ring\"",
           "[[bearing]]\ngear = \"ring\"\nstiffness_N_um = 100\n[[drive]]\ngear = \"ring\""}},
@@ -254,18 +253,15 @@ TEST_CASE(
     return message_of([&] { read_system_scene(path); });
   };
   CHECK(said("").empty());
-  // Friction acts at rest alone, in all meshes.
-  CHECK(names(said("[friction]\ncoefficient = 0.05\n"), {"[operation]", "take"}));
-  std::string still = whole.str();
-  const size_t from = still.find("\n[operation]"), to = still.find("\n[", from + 1);
-  REQUIRE(from != std::string::npos);
-  still.erase(from, to == std::string::npos ? to : to - from);
-  const std::string path = file.path(still + "\n[friction]\ncoefficient = 0.05\n");
+  // Friction acts in all meshes, at rest and in motion.
+  const std::string path = file.path(whole.str() + "\n[friction]\ncoefficient = 0.05\n");
   const SystemScene scene = read_system_scene(path);
-  for (const SystemScene::Mesh& mesh : scene.meshes) CHECK(mesh.spec.friction.coefficient == 0.05);
-  const SystemStaticParameters settings = static_parameters_of(scene, layout_in(scene, path));
-  const std::string stage = file.path(system_static_parameters(settings));
-  for (const GearMeshSpec& mesh : read_system_static_parameters(stage).mesh)
+  const System layout = layout_in(scene, path);
+  const std::string still = file.path(system_static_parameters(static_parameters_of(scene, layout)));
+  for (const GearMeshSpec& mesh : read_system_static_parameters(still).mesh)
+    CHECK(mesh.friction.coefficient == 0.05);
+  const std::string moving = file.path(system_sweep_parameters(sweep_parameters_of(scene, layout)));
+  for (const GearMeshSpec& mesh : read_system_sweep_parameters(moving).mesh)
     CHECK(mesh.friction.coefficient == 0.05);
   CHECK(said("[gear.idler.error]\neccentricity_um = 5\n").empty());
   CHECK(names(said("[gear.idler.crack]\ndepth_mm = 0.5\n"), {"compute", "gears"}));
