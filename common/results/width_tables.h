@@ -17,8 +17,8 @@ struct WidthTables {
   double helix = 0;       // rad m-1: kappa = tan(beta_b) / r_b, turn of the section with z, > 0: right-hand
   Eigen::VectorXd flank_position;  // (flank) rad: roll angle of the table points, ascending
   // [offset] (flank degree + 1, flank degree + 1) m2 N-1: C of the tooth `offset` counter-clockwise of the loaded one; rows: reading, of
-  // each point the polynomials 0 .. P. Offset 0: dC_ij = C_ij - delta_ij C2, C2 the flexibility of degree 0 on the same section
-  // mesh, so that dC is smooth and holds no near field.
+  // each point the polynomials 0 .. P. Offset 0: dC_ij = C_ij - delta_ij share C2, C2 the plane strain flexibility of the transverse
+  // section on the same mesh, so that dC is smooth and holds no near field.
   std::vector<MatrixRM> flexibility;
 };
 

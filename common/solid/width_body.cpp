@@ -14,6 +14,7 @@
 #include "solid/elements.h"
 #include "solid/factor.h"
 #include "solid/flank_loads.h"
+#include "solid/width_tables.h"
 
 namespace whine {
 namespace {
@@ -298,12 +299,16 @@ WidthTables make_width_tables(const SectorGrid& section, const Material& materia
   const SparseReal normal = inward_normal(section, helix, flank_position);
   WidthTables tables{degree, section.design.face_width, helix, flank_position,
                      width_flexibility(section, material, helix, degree, normal, offsets)};
-  const MatrixRM plane = width_flexibility(section, material, helix, 0, normal, 0)[0];
+  const MatrixRM plane =
+      width_flexibility(section, material, 0, 0, inward_normal(section, 0, flank_position), 0)[0];
+  const Eigen::VectorXd share =
+      plane_share(ToothGeometry(section.design).base_radius(), helix, flank_position);
   MatrixRM& own = tables.flexibility[0];
   const Eigen::Index all = degree + 1;
   for (Eigen::Index a = 0; a < plane.rows(); ++a)
     for (Eigen::Index b = 0; b < plane.cols(); ++b)
-      own.block(a * all, b * all, all, all).diagonal().array() -= plane(a, b);
+      own.block(a * all, b * all, all, all).diagonal().array() -=
+          std::sqrt(share[a] * share[b]) * plane(a, b);
   return tables;
 }
 

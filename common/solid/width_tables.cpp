@@ -8,6 +8,10 @@
 
 namespace whine {
 
+Eigen::VectorXd plane_share(double base_radius, double helix, const Eigen::VectorXd& xi) {
+  return (1 + (helix * base_radius) * (helix * base_radius) * (1 + xi.array().square())).rsqrt();
+}
+
 WidthKernel::WidthKernel(const ToothGeometry& tooth, WidthTables tables)
     : tables_(std::move(tables)), flank_(tooth, static_cast<int>(tables_.flank_position.size())) {
   const Eigen::Index points = flank_.size(), all = tables_.degree + 1, size = points * all;

@@ -4,13 +4,19 @@
 //   u(xi, z) = plane tables and half-plane, slice by slice + sum_ij P_i(z) dC_ij(xi, xi') q_j
 //              + c(xi, xi') (q(z) - sum_j P_j(z) q_j),     q_j = integral of P_j q,
 // c = (dC_PP + dC_P-1,P-1) / 2: what of q lies above degree P is not to be left to the tooth of each slice alone, which would
-// be 2.5 to 6 times too soft. The plane tables are those in plane strain (m N-1 times their face width: m2 N-1). Neighbouring teeth have
-// C_ij itself, without a plane table and without completion.
+// be 2.5 to 6 times too soft. The plane tables are those of the transverse section in plane strain (m N-1 times their face
+// width: m2 N-1), of a helical gear times plane_share() of both points. Neighbouring teeth have C_ij itself, without a plane table and
+// without completion.
 #pragma once
 #include "results/width_tables.h"
 #include "solid/flank_table.h"
 
 namespace whine {
+
+// (point) 1: cos beta at the roll angles xi (rad), tan beta = helix r, r = base_radius sqrt(1 + xi^2). A force on a unit of face width lies along so
+// much more of the helix, so the flexibility beside it, and in it the logarithm of the distance, is cos beta times that of the transverse
+// section in plane strain. Between two points: the geometric mean. 1 of a spur gear.
+Eigen::VectorXd plane_share(double base_radius, double helix, const Eigen::VectorXd& xi);
 
 class WidthKernel {
  public:

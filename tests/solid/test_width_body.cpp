@@ -350,6 +350,25 @@ TEST_CASE(
 }
 
 TEST_CASE(
+    "The difference kernel of a helical gear does not depend on the mesh of its section: the plane part counts cos beta") {
+  const GearDesign design = gear(20 * kPi / 180);
+  const ToothGeometry tooth(design);
+  const double pitch = tooth.roll_angle_at_radius(tooth.pitch_radius()),
+               helix = std::tan(20 * kPi / 180) / tooth.pitch_radius();
+  const Eigen::VectorXd at = Eigen::VectorXd::Constant(1, pitch);
+  CHECK(plane_share(tooth.base_radius(), helix, at)[0] == relative(std::cos(20 * kPi / 180), 1e-12));
+  CHECK(plane_share(tooth.base_radius(), 0, at)[0] == 1);
+  std::array<double, 2> whole{}, difference{};
+  for (size_t k = 0; k < 2; ++k) {
+    const SectorGrid mesh = section(design, k ? 0.3 : 1);
+    whole[k] = width_flexibility(mesh, kSteel, helix, 4, inward_normal(mesh, helix, at), 0)[0](4, 4) / kScale;
+    difference[k] = make_width_tables(mesh, kSteel, helix, 4, at, 0).flexibility[0](4, 4) / kScale;
+  }
+  CHECK(std::abs(whole[1] - whole[0]) > 1.5);
+  CHECK(std::abs(difference[1] - difference[0]) < 0.08);  // 0.25 % of the plane part
+}
+
+TEST_CASE(
     "A spur gear of 50 teeth has the printed difference kernel and neighbours, within 0.06 % of the plane flexibility") {
   const GearDesign design = gear(0);
   const ToothGeometry tooth(design);
