@@ -239,7 +239,7 @@ out/%/report/index.html out/%/report/results.tsv: $$(call page_inputs,$$*) out/%
 teeth_shows = root-stress $(if $(filter yes,$(BRANCHES)),root-stress-branches) flank-pressure load-sharing tooth-loads error-budget
 teeth_inputs = $(call report_artifacts,$1,$3) $(patsubst %,$2/%.png,$(teeth_shows))
 teeth_scene = $(patsubst figures,$(paper_scene),$1)
-teeth_needs = $(call teeth_inputs,$2,$(if $(filter figures,$1),out/figures,out/$2/report),$(if $(filter figures,$1),$(call paper_torques,root-stress),$(firstword $(SCENE_$2_TORQUES))))
+teeth_needs = $(if $(filter $2,$(systems)),$(call system_artifacts,$2,$(SCENE_$2_TORQUES)),$(call teeth_inputs,$2,$(if $(filter figures,$1),out/figures,out/$2/report),$(if $(filter figures,$1),$(call paper_torques,root-stress),$(firstword $(SCENE_$2_TORQUES)))))
 out/%/teeth/index.html: $$(call teeth_needs,$$*,$$(call teeth_scene,$$*)) out/$$(call teeth_scene,$$*)/params/title.txt $(B)/scenes/$$(call teeth_scene,$$*).mk $(call id,gear-report) | $(B)/bin/gear-report $(with_deps)
 	$(B)/bin/gear-report --teeth --output $@ $(filter %.h5 %.png,$+)
 teeth_page := out/$(if $(SCENE),$(basename $(notdir $(SCENE))),figures)/teeth/index.html
@@ -253,7 +253,7 @@ report: out/$$(own_scene)/report/index.html ## figures, tables and one HTML page
 export: $(if $(filter export,$(goals)),$$(export_file)) ## results of SCENE as custom attributes of a copy of the REXS model that it was imported from: MODEL=stage.rexs STAGE=12 (id or name; where it has several)
 	$(call stands,export: $(export_file))
 $(figures): %: $$(foreach e,tsv svg png,$(figure_folder)/$$(call shown_as,$$*).$$e)
-teeth: $(teeth_page) ## what the teeth of a pair suffer, on one page, out/figures/teeth/index.html (SCENE: out/<scene>/teeth/index.html): root stress, flank pressure, dynamic factors, losses beside ISO 6336, 150 N m (SCENE: its first torque); BRANCHES=yes
+teeth: $(teeth_page) ## what the teeth suffer, on one page, out/figures/teeth/index.html (SCENE, a train too: out/<scene>/teeth/index.html): root stress, flank pressure, dynamic factors, losses beside ISO 6336, 150 N m (SCENE: its first torque); BRANCHES=yes
 	$(call stands,teeth: open $< in a browser)
 figures: $(if $(SCENE),$(report_figures),$(paper_figures)) $(figure_folder)/table1.txt ## all figures and tables of the paper that are there so far, or all of SCENE
 table1: $(figure_folder)/table1.txt ## natural frequencies by ring-down at 100, 200 and 300 N m beside those of the paper (SCENE: its torques)

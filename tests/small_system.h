@@ -7,10 +7,36 @@
 #include "io/system_scene.h"
 #include "planetary_train.h"
 #include "results/response.h"
-#include "results/system_static.h"
+#include "results/static.h"
 #include "results/system_sweep.h"
 #include "studies/turning_carrier.h"
 #include "system/drawing_remarks.h"
+
+// Mesh m of a train at two phases.
+inline whine::StaticResult small_mesh(const whine::SystemStaticResult& a, size_t m) {
+  using namespace whine;
+  StaticResult mesh;
+  static_cast<GearPairParameters&>(mesh) = mesh_parameters(a, m);
+  mesh.torque = 30.25;
+  mesh.contact_ratio = 1.4 + 0.1 * static_cast<double>(m);
+  mesh.mesh_phase = a.mesh_phase.array() + a.settings.layout.meshes[m].phase;
+  mesh.pair = Eigen::Vector3i(-1, 0, 1);
+  mesh.transmission_error = Eigen::VectorXd::Constant(2, 2.5e-6);
+  mesh.unloaded_error = Eigen::VectorXd::Zero(2);
+  mesh.stiffness_secant = mesh.stiffness_tangent = Eigen::VectorXd::Constant(2, 5e8);
+  mesh.mean_stiffness = 5e8;
+  mesh.tooth_load = MatrixRM::Constant(2, 3, 1000.0 / 3);
+  mesh.contact_pressure = MatrixRM::Constant(2, 3, 1e9 / 3);
+  mesh.contact_half_width = MatrixRM::Constant(2, 3, 1e-4 / 3);
+  mesh.root_stress = {MatrixRM::Constant(2, 3, 1e8 / 3), MatrixRM::Constant(2, 3, 1e8 / 7)};
+  mesh.root_stress_max = Eigen::Vector2d(1e8 / 3, 1e8 / 7);
+  mesh.root_stress_angle = Eigen::Vector2d(0.5, 0.75);
+  mesh.root_stress_phase = Eigen::Vector2d(0.25, 0.125);
+  mesh.flank_pressure.smooth = 1e9 / 3;
+  mesh.transmission_error_harmonic = Eigen::VectorXd::Constant(1, 2.5e-6);
+  mesh.stiffness_harmonic = Eigen::VectorXd::Constant(1, 5e8);
+  return mesh;
+}
 
 // A train at two phases, numbers without meaning.
 inline whine::SystemStaticResult small_system(whine::SystemScene scene = planetary_train(3)) {
@@ -37,21 +63,21 @@ inline whine::SystemStaticResult small_system(whine::SystemScene scene = planeta
     a.drawing.back().design.bore_radius = gear.design.internal ? 0 : 10e-3;
     a.drawing.back().discretisation.element_size = 1e-3;
   }
-  a.contact_ratio = Eigen::VectorXd::LinSpaced(meshes, 1.4, 1.8);
   a.mesh_phase = Eigen::Vector2d(0, 0.5);
   a.rotation = MatrixRM::Constant(2, bodies, 1.25e-6);
   a.torque = MatrixRM::Constant(2, bodies, -12.5);
-  a.transmission_error = a.mesh_deflection = MatrixRM::Constant(2, meshes, 2.5e-6);
+  a.mesh_deflection = MatrixRM::Constant(2, meshes, 2.5e-6);
   a.mesh_force = MatrixRM::Constant(2, meshes, 1000.5);
   a.load_share = MatrixRM::Constant(2, meshes, 1.0 / 3);
-  a.pair = Eigen::Vector3i(-1, 0, 1);
   a.translation.assign(2, MatrixRM::Constant(bodies, 2, 1e-6 / 3));
   a.bearing_force.assign(2, MatrixRM::Constant(bodies, 2, 100.0 / 3));
-  a.tooth_load.assign(2, MatrixRM::Constant(meshes, 3, 1000.0 / 3));
-  a.contact_pressure.assign(2, MatrixRM::Constant(meshes, 3, 1e9 / 3));
   a.mesh_stiffness.assign(2, MatrixRM::Identity(meshes, meshes) * 5e8);
-  a.least_gap = a.least_force = a.torque_residual = Eigen::Vector2d(0, 1e-13);
-  a.transmission_error_harmonic = MatrixRM::Constant(1, meshes, 2.5e-6);
+  a.torque_residual = 1e-13;
+  for (const System::Body& body : settings.layout.bodies) a.body_names.push_back(body.name);
+  for (size_t m = 0; m < settings.layout.meshes.size(); ++m) {
+    a.mesh_names.push_back(mesh_name(settings.layout, m));
+    a.mesh.push_back(small_mesh(a, m));
+  }
   a.remarks = drawing_remarks(a);
   return a;
 }

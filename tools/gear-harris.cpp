@@ -44,7 +44,7 @@ HarrisMapResult computed(const ReducedBody& first, const ReducedBody& second,
   if (!params.empty()) {
     SweepParameters moving = read_sweep_parameters(params);
     as_drawn(moving, {first.inertia, second.inertia});
-    add_dynamics(map, first, second, moving, read<StaticResult>(reference).mean_stiffness, report);
+    add_dynamics(map, first, second, moving, read_pair_statics(reference).mean_stiffness, report);
     progress.reset();
   }
   return map;

@@ -14,7 +14,7 @@
 #include "io/provenance.h"
 #include "io/system_scene.h"
 #include "results/modes.h"
-#include "results/system_static.h"
+#include "results/static.h"
 #include "system/mode_view.h"
 #include "system/natural_modes.h"
 #include "system/turning_modes.h"

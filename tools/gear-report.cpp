@@ -44,8 +44,12 @@ void body(int argc, char** argv) {
         {{(std::filesystem::path(output).parent_path() / "results.tsv").string(), table}, {output, page}});
   };
   if (is_of_system(inputs)) {
-    if (teeth) fail(Failure::input, "--teeth is of pairs; a system of several meshes has its whole report");
     const SystemReport report = read_system_report(inputs);
+    if (teeth) {
+      publish(output, teeth_html(report));
+      log_line("gear-report: teeth of ", report.scene, ": ", report.rest->mesh.size(), " meshes -> ", output);
+      return;
+    }
     const std::string page = system_report_html(report);
     publish_both(page, system_report_tsv(report));
     log_line("gear-report: ", report.scene, ": ", report.modes->layout.bodies.size(), " bodies, ",

@@ -1,8 +1,8 @@
 // gear-static: gears at rest, over one mesh period, or over the hunting period of teeth that differ.
 //
 // Reads   params (stage parameters of a scene: meshes, of a train its layout, contact discretisation), body.h5 of every gear
-// Writes  static.h5   transmission error, loads, harmonics, certificate; of a pair secant and tangent stiffness, load of each pair
-//                     of teeth; of a train load sharing, bearing forces, torques
+// Writes  static.h5   of each mesh transmission error, secant and tangent stiffness, harmonics, load, pressure and root stress of each
+//                     pair of teeth, compliance, losses; of each body bearing force and torque; load sharing; certificate
 // Equations: d = A p + C q + e >= 0, p >= 0, p . d = 0 (Eq. 18) with B p = lambda (Eq. 20), of a train for every body that is not
 // held (common/system/system.h); k = (T / r_b) / STE.
 // Of a pair, with --error-budget: error_budget.h5, the changes of mean stiffness, peak to peak and harmonics by each refinement, and
@@ -23,23 +23,13 @@
 #include "io/system_scene.h"
 #include "results/error_budget.h"
 #include "results/static.h"
-#include "results/system_static.h"
-#include "signal/spectrum.h"
 #include "studies/error_budget.h"
+#include "system/mesh_record.h"
 #include "system/statics.h"
 #include "system/system_rest.h"
 
 namespace {
 using namespace whine;
-
-// periods: mesh periods that the samples are of; those of `base` periods are its harmonics.
-Eigen::VectorXd mean_and_harmonics(const Eigen::VectorXd& samples, int periods, int base) {
-  const int count = resolved_harmonics(samples.size(), 40, periods) * (periods / base);
-  const Harmonics h = harmonics(samples, count, base);
-  Eigen::VectorXd out(count + 1);
-  out << h.mean, h.amplitude;
-  return out;
-}
 
 void tell(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) log_line("gear-static: ", line);
@@ -50,25 +40,71 @@ void tell_remarks(const std::vector<Remark>& remarks) {
     log_line("gear-static: ", remark.warning ? "warning: " : "", remark.words);
 }
 
-void train_at_rest(const StageCommand& stage, const Provenance& made) {
+// Of a pair what the next level of contact would change beside.
+struct AtRest {
+  SystemStaticResult result;
+  std::optional<NextLevel> change;
+};
+
+AtRest pair_results(const StageCommand& stage, double torque, bool next_level) {
+  const StaticParameters settings = read_static_parameters(stage.params());
+  const auto [driver, driven] = read_bodies(stage.bodies(), settings);
+  AtRest out{pair_at_rest(driver, driven, settings, torque), {}};
+  StaticResult& mesh = out.result.mesh[0];
+  if (next_level) out.change = next_contact_level(driver, driven, settings, mesh);
+  add_harmonics(mesh);
+  mesh.reference_contact = reference_contact(driver, driven, mesh);
+  return out;
+}
+
+AtRest train_results(const StageCommand& stage) {
   const SystemStaticParameters settings = read_system_static_parameters(stage.params());
-  const std::vector<ReducedBody> gears = read_bodies(stage.bodies(), settings);
-  std::optional<StepsShown> steps(std::in_place, "gear-static");
-  const SystemStaticResult result = system_at_rest(settings, gears);
-  steps.reset();
-  write(stage.output(), result, made);
-  const auto& te = result.transmission_error_harmonic;
-  double most = 0;
-  for (const MatrixRM& force : result.bearing_force) most = std::max(most, force.rowwise().norm().maxCoeff());
-  if (result.hunting_periods > 1)
-    log_line("gear-static: teeth differ: ", result.hunting_periods,
-             " mesh periods, after which the same ones meet, of ", settings.contact.positions,
+  return {system_at_rest(settings, read_bodies(stage.bodies(), settings)), {}};
+}
+
+std::string range(double least, double most) {
+  return least == most ? text(least) : text(least, " to ", most);
+}
+
+// Of one mesh its transmission error over the period, of several their means.
+void tell(const SystemStaticResult& a, const std::string& output) {
+  double least = 1e30, most = -1e30, soft = 1e30, stiff = 0, force = 0;
+  for (const StaticResult& mesh : a.mesh) {
+    const auto& te = mesh.transmission_error;
+    least = std::min(least, a.of_train() ? te.mean() : te.minCoeff());
+    most = std::max(most, a.of_train() ? te.mean() : te.maxCoeff());
+    soft = std::min(soft, mesh.mean_stiffness);
+    stiff = std::max(stiff, mesh.mean_stiffness);
+  }
+  for (const MatrixRM& at : a.bearing_force) force = std::max(force, at.rowwise().norm().maxCoeff());
+  if (a.of_train() && a.hunting_periods > 1)
+    log_line("gear-static: teeth differ: ", a.hunting_periods,
+             " mesh periods, after which the same ones meet, of ", a.settings.contact.positions,
              " positions each");
-  log_line("gear-static: ", settings.layout.bodies.size(), " bodies, ", te.cols(),
-           " meshes, mean transmission errors ", te.row(0).minCoeff() * 1e6, " to ",
-           te.row(0).maxCoeff() * 1e6, " µm, shares of the load up to ", result.load_share.maxCoeff() * 100,
-           " %, bearing forces up to ", most, " N -> ", stage.output());
-  tell_remarks(result.remarks);
+  const std::string what = a.of_train()
+                               ? text(a.body_names.size(), " bodies, ", a.mesh.size(), " meshes")
+                               : text(a.mesh[0].torque, " N m, contact ratio ", a.mesh[0].contact_ratio);
+  log_line("gear-static: ", what, ", mean stiffness ", range(soft * 1e-6, stiff * 1e-6), " N/µm, ",
+           a.of_train() ? "mean transmission errors " : "transmission error ", least * 1e6, " to ",
+           most * 1e6, " µm",
+           a.of_train() ? text(", shares of the load up to ", a.load_share.maxCoeff() * 100,
+                               " %, bearing forces up to ", force, " N")
+                        : std::string(),
+           " -> ", output);
+}
+
+void at_rest(const StageCommand& stage, const Provenance& made, double torque, bool next_level) {
+  std::optional<StepsShown> steps(std::in_place, "gear-static");
+  const AtRest rest = stage.of_train() ? train_results(stage) : pair_results(stage, torque, next_level);
+  steps.reset();
+  write(stage.output(), rest.result, made);
+  tell(rest.result, stage.output());
+  if (rest.change) {
+    const int strips = rest.result.mesh[0].contact.strips;
+    tell(change_words("where a pair carries load off the line of action", rest.change->corner, strips));
+    tell(change_words("elsewhere", rest.change->elsewhere, strips));
+  }
+  tell_remarks(rest.result.remarks);
 }
 
 void error_budget_of(const StageCommand& stage, const Provenance& made, double torque) {
@@ -84,33 +120,6 @@ void error_budget_of(const StageCommand& stage, const Provenance& made, double t
   tell(root_stress_words(errors));
   if (!errors.choice_missing.empty())
     log_line("gear-static: warning: no other choice to compare with: ", errors.choice_missing);
-}
-
-void pair_at_rest(const StageCommand& stage, const Provenance& made, double torque, bool next_level) {
-  const StaticParameters settings = read_static_parameters(stage.params());
-  const auto [driver, driven] = read_bodies(stage.bodies(), settings);
-  std::optional<StepsShown> steps(std::in_place, "gear-static");
-  StaticResult result = static_transmission(driver, driven, settings, torque);
-  std::optional<NextLevel> change;
-  if (next_level) change = next_contact_level(driver, driven, settings, result);
-  const int periods = result.hunting_periods;
-  result.transmission_error_harmonic = mean_and_harmonics(result.transmission_error, periods, periods);
-  result.stiffness_harmonic = mean_and_harmonics(result.stiffness_secant, periods, periods);
-  if (periods > 1)
-    result.transmission_error_order = mean_and_harmonics(result.transmission_error, periods, 1);
-  result.reference_contact = reference_contact(driver, driven, result);
-  steps.reset();
-  write(stage.output(), result, made);
-  const auto& te = result.transmission_error;
-  log_line("gear-static: ", torque, " N m, contact ratio ", result.contact_ratio, ", mean stiffness ",
-           result.mean_stiffness * 1e-6, " N/µm, transmission error ", te.minCoeff() * 1e6, " to ",
-           te.maxCoeff() * 1e6, " µm -> ", stage.output());
-  if (change) {
-    const int strips = settings.contact.strips;
-    tell(change_words("where a pair carries load off the line of action", change->corner, strips));
-    tell(change_words("elsewhere", change->elsewhere, strips));
-  }
-  tell_remarks(result.remarks);
 }
 
 void body(int argc, char** argv) {
@@ -133,9 +142,8 @@ void body(int argc, char** argv) {
   const bool train = stage.of_train();
   const double torque = train ? 0 : number_option("--torque", torque_word);
   const Provenance made = stage.made_by(argc, argv);
-  if (train) return train_at_rest(stage, made);
   if (budget) return error_budget_of(stage, made, torque);
-  pair_at_rest(stage, made, torque, next_level);
+  at_rest(stage, made, torque, next_level);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@
 #include "results/sweep.h"
 #include "results/system_branch.h"
 #include "results/system_impact.h"
-#include "results/system_static.h"
+#include "results/static.h"
 #include "results/system_sweep.h"
 #include "results/variant.h"
 #include "studies/runup.h"
@@ -42,7 +42,7 @@ struct ArtifactKind {
 inline constexpr std::tuple kArtifactKinds{
     ArtifactKind<SectorGrid>{"mesh", 1, "mesh.h5", "mesh"},
     ArtifactKind<ReducedBody>{"body", 5, "body.h5", "body"},
-    ArtifactKind<StaticResult>{"static", 6, "static.h5", "static"},
+    ArtifactKind<SystemStaticResult>{"static", 7, "static.h5", "static"},
     ArtifactKind<ErrorBudgetResult>{"error_budget", 4, "error_budget.h5", "error_budget"},
     ArtifactKind<LoadedResult>{"loaded", 1, "loaded_<phase>.h5", "loaded_*"},
     ArtifactKind<ImpactResult>{"impact", 1, "impact.h5", "impact"},
@@ -56,7 +56,6 @@ inline constexpr std::tuple kArtifactKinds{
     ArtifactKind<VariantResult>{"variant", 3, "ab12....h5", ""},
     ArtifactKind<StudyResult>{"study", 3, "study.h5", ""},
     ArtifactKind<ModesResult>{"modes", 2, "modes.h5", "modes"},
-    ArtifactKind<SystemStaticResult>{"system_static", 3, "static.h5 of a train", "static"},
     ArtifactKind<SystemSweepResult>{"system_sweep", 5, "sweep.h5 of a train", "sweep"},
     ArtifactKind<SystemImpactResult>{"system_impact", 1, "impact.h5 of a train", "impact"},
     ArtifactKind<SystemBranchResult>{"system_branch", 3, "branch.h5 of a train", "branch"},

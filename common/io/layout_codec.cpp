@@ -108,15 +108,16 @@ void describe_layout(Codec& c, System& s, const LayoutPlace& place) {
     for (System::Side& own : mesh.side) own.sense = s.bodies[static_cast<size_t>(own.body)].sense;
 }
 
-void describe_sections(Codec& c, std::vector<int>& section) {
+void describe_sections(Codec& c, std::vector<int>& section, const LayoutPlace& place) {
   constexpr Range kSection{0, 10000};
   Eigen::VectorXi numbers =
       Eigen::Map<const Eigen::VectorXi>(section.data(), static_cast<Eigen::Index>(section.size()));
-  c(numbers, "/mesh/section", "1", kSection, "mesh_number", "number of the [[mesh]] of the scene");
+  c(numbers, place.group + "/mesh/section", "1", kSection, "mesh" + place.axis_end,
+    "number of the [[mesh]] of the scene");
   if (c.in()) section.assign(numbers.begin(), numbers.end());
 }
 
-void describe_errors(Codec& c, SystemStaticParameters& s) {
+void describe_errors(Codec& c, SystemStaticParameters& s, const LayoutPlace& place) {
   if (c.in()) s.errors.resize(s.layout.bodies.size());
   bool differ = false;
   for (size_t b = 0; !c.lists() && b < s.layout.bodies.size(); ++b) {
@@ -130,10 +131,10 @@ void describe_errors(Codec& c, SystemStaticParameters& s) {
   if (!differ && !c.lists()) return;
   describe_two<MatrixRMi>(
       c,
-      {"/mesh/first_tooth",
+      {place.group + "/mesh/first_tooth",
        "1",
        "where teeth differ: tooth of each side in the reference pair of mesh period 0, counter-clockwise; in mesh period k pair p is that of first_tooth + sense (p - k)",
-       "mesh_number side",
+       "mesh" + place.axis_end + " side",
        {-(1 << 20), 1 << 20}},
       s.layout.meshes, [](System::Mesh& mesh, size_t k) -> int& { return mesh.side[k].first_tooth; });
 }

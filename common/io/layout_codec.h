@@ -21,11 +21,11 @@ struct LayoutPlace {
 // of what is not two gears. Flanks and tooth numbers of the sides are left out.
 void describe_layout(Codec& codec, System& layout, const LayoutPlace& place = {});
 // (mesh) number of its [[mesh]], from 0.
-void describe_sections(Codec& codec, std::vector<int>& section);
+void describe_sections(Codec& codec, std::vector<int>& section, const LayoutPlace& place = {});
 
 // [gear.<name>.error] of the bodies that have some, as parameters, and then the tooth numbers of the sides, by which each pair in
 // contact is one of two teeth.
-void describe_errors(Codec& codec, SystemStaticParameters& settings);
+void describe_errors(Codec& codec, SystemStaticParameters& settings, const LayoutPlace& place = {});
 
 // What no system can be, whoever wrote it: in an item of a list ("body", "mesh", "drive"), from 0, by one of its keys.
 struct LayoutFault {

@@ -4,6 +4,7 @@
 #include "gear/body_inertia.h"
 #include "io/artifacts.h"
 #include "io/compatibility.h"
+#include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "io/scene.h"
 #include "results/static.h"
@@ -23,7 +24,7 @@ void require_same_pair(const std::string& one, const std::string& other) {
 LumpedInputs read_lumped_inputs(const std::string& statics, const std::string& reference,
                                 const std::string& params, bool with_speeds, LumpedOptions& options) {
   LumpedInputs inputs;
-  inputs.at_torque = read<StaticResult>(statics);
+  inputs.at_torque = read_pair_statics(statics);
   const StaticResult& at_torque = inputs.at_torque;
   require_like_teeth(at_torque.mesh, "a lumped model");
   require_rigid_bearings(at_torque.mesh, "a lumped model");
@@ -32,7 +33,7 @@ LumpedInputs read_lumped_inputs(const std::string& statics, const std::string& r
     fail(
         Failure::input, statics, " holds ", at_torque.hunting_periods,
         " mesh periods, because a tooth is cracked: a lumped model takes teeth that are all alike; use a scene without [gear.<name>.crack]");
-  inputs.at_reference = reference.empty() ? at_torque : read<StaticResult>(reference);
+  inputs.at_reference = reference.empty() ? at_torque : read_pair_statics(reference);
   if (params.empty()) {
     if (!reference.empty()) require_same_pair(statics, reference);
     return inputs;

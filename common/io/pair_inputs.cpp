@@ -1,5 +1,7 @@
 #include "io/pair_inputs.h"
 
+#include <utility>
+
 #include "base/error.h"
 #include "gear/body_inertia.h"
 #include "io/artifacts.h"
@@ -31,8 +33,8 @@ PairBodies read_bodies(const NamedFiles& files, const StaticParameters& settings
 PairInputs read_pair_inputs(const NamedFiles& files, const std::string& statics, const std::string& reference,
                             ImpactParameters& settings) {
   PairInputs inputs;
-  inputs.at_torque = read<StaticResult>(statics);
-  inputs.at_reference = read<StaticResult>(reference);
+  inputs.at_torque = read_pair_statics(statics);
+  inputs.at_reference = read_pair_statics(reference);
   const GearMeshSpec& mesh = inputs.at_torque.mesh;
   const std::vector<std::string> paths = files.of(mesh);
   for (size_t g = 0; g < kSides; ++g)
@@ -47,6 +49,14 @@ PairInputs read_pair_inputs(const NamedFiles& files, const std::string& statics,
   inputs.body = read_both(paths);
   as_drawn(settings, {inputs.body[0].inertia, inputs.body[1].inertia});
   return inputs;
+}
+
+StaticResult read_pair_statics(const std::string& path) {
+  SystemStaticResult out = read<SystemStaticResult>(path);
+  if (out.of_train())
+    fail(Failure::input, path, ": is of a train, ", out.mesh.size(),
+         " meshes; give the static.h5 of a pair of gears");
+  return std::move(out.mesh[0]);
 }
 
 ResponseResult read_pair_response(const std::string& path) {

@@ -28,7 +28,8 @@ struct PairInputs {
 PairInputs read_pair_inputs(const NamedFiles& files, const std::string& statics, const std::string& reference,
                             ImpactParameters& settings);
 
-// Throws Error(input) for the response.h5 of a train.
+// Throw Error(input) for files of a train.
+StaticResult read_pair_statics(const std::string& path);
 ResponseResult read_pair_response(const std::string& path);
 
 }  // namespace whine

@@ -22,8 +22,8 @@ constexpr std::array kSystemGoals{
     SystemGoal{"sweep", Needs::speeds, true},         SystemGoal{"impact", Needs::speeds, true},
     SystemGoal{"branches", Needs::speeds, true},      SystemGoal{"order-cuts", Needs::speeds, true},
     SystemGoal{"runup", Needs::speeds, true},         SystemGoal{"sound", Needs::speeds, true},
-    SystemGoal{"load-sharing", Needs::planets, true}, SystemGoal{"modes", Needs::nothing, false},
-    SystemGoal{"mode-shapes", Needs::nothing, false}};
+    SystemGoal{"teeth", Needs::elastic_gears, true},  SystemGoal{"load-sharing", Needs::planets, true},
+    SystemGoal{"modes", Needs::nothing, false},       SystemGoal{"mode-shapes", Needs::nothing, false}};
 
 bool has(const SceneAbilities& system, Needs needs) {
   return needs == Needs::nothing ||

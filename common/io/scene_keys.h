@@ -8,7 +8,7 @@
 #include "results/jump_map.h"
 #include "results/response.h"
 #include "results/static.h"
-#include "results/system_static.h"
+#include "results/static.h"
 
 namespace whine {
 

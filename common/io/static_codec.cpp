@@ -1,170 +1,412 @@
 #include "io/artifacts.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "io/artifact_file.h"
+#include "io/static_source.h"
+#include "io/system_motion_codec.h"
 
 namespace whine {
 namespace {
 
 using namespace ranges;
 
-void describe_curves(Codec& c, StaticResult& a) {
-  const char* const without = a.mesh.on_bearings() ? ", without the bearings" : "";
-  c(a.mesh_phase, "/mesh_phase", "1", kPhase, "mesh_phase",
-    "mesh phase; 0: reference pair at the pitch point, 1: one mesh period");
-  c(a.transmission_error, "/transmission_error", "m", kLength, "mesh_phase",
-    "transmission error along the line of action, positive when the driver is ahead",
-    "r1 theta1 + r2 theta2");
-  c(a.unloaded_error, "/unloaded_transmission_error", "m", kLength, "mesh_phase",
-    "transmission error without load: of what flanks deviate by");
-  c(a.stiffness_secant, "/mesh_stiffness_secant", "N m-1", kSpring, "mesh_phase",
-    text("secant mesh stiffness", without), "(T / r1) / (transmission_error - unloaded_transmission_error)");
-  c(a.stiffness_tangent, "/mesh_stiffness_tangent", "N m-1", kSpring, "mesh_phase",
-    text("tangent mesh stiffness at fixed phase, contact changes included", without),
-    "d(T / r1) / d transmission_error");
-  c(a.pair, "/pair", "1", kPair, "pair", "number of the tooth pair: -1 following, 0 reference, +1 preceding");
-  c(a.tooth_load, "/tooth_load", "N", kForce, "mesh_phase pair", "normal force of each tooth pair");
-  for (int g = 0; g < (c.lists() ? 1 : 2); ++g)
-    if (c.lists() || a.mesh.bearing[g].elastic())
-      c(a.bearing_force[g], of_body(c, a.mesh, g, "bearing_force"), "N", kForce, "mesh_phase xy",
-        "force of the gear on its bearing; x, y: the driven gear stands above the driver, which turns counter-clockwise");
-  c(a.contact_pressure, "/contact_pressure", "Pa", kPressure, "mesh_phase pair",
-    "largest contact pressure of each pair inside its flanks; 0 where nothing touches (tooth_load is 0) and where a tip edge does (tooth_load is not), whose pressure is singular");
-  c(a.contact_half_width, "/contact_half_width", "m", kSize, "mesh_phase pair",
-    "half width of each contact inside the flanks, twice the standard deviation of its pressure");
+constexpr const char* kMeshPhases = "mesh_phase";
+constexpr const char* kPhaseMesh = "mesh_phase mesh";
+constexpr const char* kPhasePair = "mesh_phase mesh pair";
+constexpr const char* kPhaseBody = "mesh_phase body";
+constexpr const char* kSideOf[] = {"driving", "driven"};
+
+// Members of the meshes as datasets with an axis `mesh`. `of` gives the member of a mesh; one that is empty is written as zeros.
+class OverMeshes {
+ public:
+  OverMeshes(Codec& c, SystemStaticResult& a) : c_(c), meshes_(a.mesh) {}
+
+  // (mesh)
+  template <class Of>
+  void numbers(const Dataset& d, const Of& of) {
+    Eigen::VectorXd values(count());
+    for (Eigen::Index m = 0; m < count(); ++m) values[m] = of(at(m));
+    c_.dataset(d, &values);
+    for (Eigen::Index m = 0; c_.in() && m < count(); ++m) of(at(m)) = values[m];
+  }
+  // (phase, mesh) and the like, of vectors; (mesh, side) with across = true
+  template <class Of>
+  void vectors(const Dataset& d, const Of& of, bool across = false) {
+    Eigen::Index rows = 0;
+    for (StaticResult& mesh : meshes_) rows = std::max<Eigen::Index>(rows, of(mesh).size());
+    MatrixRM values = MatrixRM::Zero(rows, count());
+    for (Eigen::Index m = 0; m < count(); ++m)
+      if (of(at(m)).size() > 0) values.col(m) = of(at(m));
+    if (across) values = MatrixRM(values.transpose());
+    c_.dataset(d, &values);
+    if (!c_.in()) return;
+    if (across) values = MatrixRM(values.transpose());
+    for (Eigen::Index m = 0; m < count(); ++m) of(at(m)) = values.col(m);
+  }
+  // (phase, mesh, pair), of matrices (phase, pair)
+  template <class Of>
+  void pairs(const Dataset& d, const Of& of) {
+    Eigen::Index rows = 0, columns = 0;
+    for (StaticResult& mesh : meshes_) {
+      rows = std::max(rows, of(mesh).rows());
+      columns = std::max(columns, of(mesh).cols());
+    }
+    std::vector<MatrixRM> values(static_cast<size_t>(rows), MatrixRM::Zero(count(), columns));
+    for (Eigen::Index m = 0; m < count(); ++m)
+      for (Eigen::Index i = 0; i < of(at(m)).rows(); ++i)
+        values[static_cast<size_t>(i)].row(m) = of(at(m)).row(i);
+    c_.dataset(d, &values);
+    for (Eigen::Index m = 0; c_.in() && m < count() && !values.empty(); ++m) {
+      of(at(m)).resize(static_cast<Eigen::Index>(values.size()), values[0].cols());
+      for (size_t i = 0; i < values.size(); ++i)
+        of(at(m)).row(static_cast<Eigen::Index>(i)) = values[i].row(m);
+    }
+  }
+
+ private:
+  Eigen::Index count() const { return static_cast<Eigen::Index>(meshes_.size()); }
+  StaticResult& at(Eigen::Index m) const { return meshes_[static_cast<size_t>(m)]; }
+  Codec& c_;
+  std::vector<StaticResult>& meshes_;
+};
+
+template <class Has>
+bool any_mesh(const SystemStaticResult& a, const Has& has) {
+  return std::any_of(a.mesh.begin(), a.mesh.end(), has);
 }
 
-void describe_root_stress(Codec& c, StaticResult& a) {
-  const bool there = a.root_stress[0].size() > 0;
-  for (int g = 0; g < (c.lists() ? 1 : 2); ++g)
-    if (c.optional(of_body(c, a.mesh, g, "root_stress"), there))
-      c(a.root_stress[g], of_body(c, a.mesh, g, "root_stress"), "Pa", kStress, "mesh_phase pair",
-        "largest tangential stress along the root beside the loaded flank of each pair's tooth, tension positive",
-        "sum over the pairs of root_stress/per_force of body.h5, and of root_stress/crack, times force");
+void describe_curves(Codec& c, SystemStaticResult& a) {
+  OverMeshes over(c, a);
+  c(a.mesh_phase, "/mesh_phase", "1", kPhase, kMeshPhases,
+    "mesh phase, of trains of the first mesh; 0: reference pair at the pitch point, 1: one mesh period; up to the hunting period where teeth differ");
+  over.vectors(
+      {"/transmission_error", "m",
+       "transmission error along the line of action, positive when the driver is ahead", kPhaseMesh, kLength,
+       "r1 theta1 + r2 theta2"},
+      [](auto& s) -> auto& { return s.transmission_error; });
+  c(a.mesh_deflection, "/mesh_deflection", "m", kLength, kPhaseMesh,
+    "the same without what bearings give way");
+  over.vectors(
+      {"/unloaded_transmission_error", "m", "transmission error without load: of what flanks deviate by",
+       kPhaseMesh, kLength},
+      [](auto& s) -> auto& { return s.unloaded_error; });
+  over.vectors(
+      {"/mesh_stiffness_secant", "N m-1",
+       "secant mesh stiffness, without the bearings; 0 where a mesh of a train carries no load", kPhaseMesh,
+       kSpring, "(T / r1) / (mesh_deflection - unloaded_transmission_error)"},
+      [](auto& s) -> auto& { return s.stiffness_secant; });
+  over.vectors(
+      {"/mesh_stiffness_tangent", "N m-1",
+       "tangent mesh stiffness at fixed phase, without the bearings; of a pair contact changes included, of trains that of frozen contact",
+       kPhaseMesh, kSpring, "d(T / r1) / d mesh_deflection"},
+      [](auto& s) -> auto& { return s.stiffness_tangent; });
+  if (c.optional("/mesh_stiffness", !a.mesh_stiffness.empty()))
+    c(a.mesh_stiffness, "/mesh_stiffness", "N m-1", kSpring, "mesh_phase mesh other_mesh",
+      "of trains: frozen stiffness between the approaches of the meshes, without bearings");
+  over.vectors(
+      {"/transmission_error_harmonic", "m", "mean, then amplitudes of the harmonics of the mesh frequency",
+       "harmonic mesh", kLength},
+      [](auto& s) -> auto& { return s.transmission_error_harmonic; });
+  over.vectors(
+      {"/mesh_stiffness_harmonic", "N m-1", "mean, then amplitudes of the harmonics of the secant stiffness",
+       "harmonic mesh", kSpring},
+      [](auto& s) -> auto& { return s.stiffness_harmonic; });
+  c.numbers("harmonic", 0, "number of the harmonic of the mesh frequency; 0: the mean");
+  describe_hunting(c, a.hunting_periods);
+  const bool orders = any_mesh(a, [](const auto& s) { return s.transmission_error_order.size() > 0; });
+  if (!c.optional("/transmission_error_order", orders)) return;
+  over.vectors(
+      {"/transmission_error_order", "m", "mean, then amplitudes of the harmonics of the hunting frequency",
+       "order mesh", kLength},
+      [](auto& s) -> auto& { return s.transmission_error_order; });
+  c.numbers("order", 0, "number of the harmonic of the hunting frequency; 0: the mean");
+}
+
+void describe_loads(Codec& c, SystemStaticResult& a) {
+  OverMeshes over(c, a);
+  over.numbers(
+      {"/contact_ratio", "1", "profile contact ratio of the unloaded gears", "mesh", {0, 100, true}},
+      [](auto& s) -> auto& { return s.contact_ratio; });
+  over.numbers(
+      {"/mesh_torque", "N m",
+       "torque on the driving gear, of trains by the balance of rigid bodies; 0: no load", "mesh", kMoment},
+      [](auto& s) -> auto& { return s.torque; });
+  c(a.mesh_force, "/mesh_force", "N", kForce, kPhaseMesh, "torque on the driving body over its base radius");
+  c(a.load_share, "/load_share", "1", {0, 1 + 1e-9}, kPhaseMesh,
+    "share of the meshes that come from one [[mesh]]: of planets the load sharing; of a pair 1");
+  Eigen::VectorXi pair = a.mesh.empty() ? Eigen::VectorXi() : a.mesh[0].pair;
+  c(pair, "/pair", "1", kPair, "pair", "number of the tooth pair: -1 following, 0 reference, +1 preceding");
+  for (StaticResult& mesh : a.mesh) mesh.pair = pair;
+  over.pairs(
+      {"/tooth_load", "N", "normal force of each tooth pair", kPhasePair, kForce},
+      [](auto& s) -> auto& { return s.tooth_load; });
+  over.pairs(
+      {"/contact_pressure", "Pa",
+       "largest contact pressure of each pair inside its flanks; 0 where nothing touches (tooth_load is 0) and where a tip edge does (tooth_load is not), whose pressure is singular",
+       kPhasePair, kPressure},
+      [](auto& s) -> auto& { return s.contact_pressure; });
+  over.pairs(
+      {"/contact_half_width", "m",
+       "half width of each contact inside the flanks, twice the standard deviation of its pressure",
+       kPhasePair, kSize},
+      [](auto& s) -> auto& { return s.contact_half_width; });
+}
+
+void describe_bodies(Codec& c, SystemStaticResult& a) {
+  c(a.rotation, "/rotation", "m", kLength, kPhaseBody,
+    "base radius times rotation in the body's sense; 0 of held bodies");
+  c(a.translation, "/translation", "m", kLength, "mesh_phase body xy", "displacement of the hub");
+  c(a.bearing_force, "/bearing_force", "N", kForce, "mesh_phase body xy",
+    "force of a body on its bearing, of a planet on its pin, of a carrier on the ground; of a pair x, y: the driven gear stands above the driver, which turns counter-clockwise");
+  c(a.torque, "/torque", "N m", kMoment, kPhaseBody,
+    "torque of the drive, or of what holds the body, in its sense");
+}
+
+void describe_root_stress(Codec& c, SystemStaticResult& a) {
+  OverMeshes over(c, a);
+  const bool there = any_mesh(a, [](const auto& s) { return s.root_stress_max.size() > 0; });
   if (c.optional("/root_stress_max", there)) {
-    c(a.root_stress_max, "/root_stress_max", "Pa", kStress, "gear",
-      "largest root stress over the mesh cycle, beside the loaded flanks");
-    c(a.root_stress_angle, "/root_stress_angle", "1", kRoll, "gear",
-      "angle (rad) of the root's tangent there against the centre line of the tooth");
-    c(a.root_stress_phase, "/root_stress_phase", "1", kPlace, "gear",
-      "mesh phase of the tooth's pair then, 0 at the pitch point");
-    if (c.optional("/root_stress_tooth", a.root_stress_tooth.size() > 0))
-      c(a.root_stress_tooth, "/root_stress_tooth", "1", kTooth, "gear",
+    for (size_t g = 0; g < kSides; ++g)
+      over.pairs(
+          {text("/root_stress/", kSideOf[g]), "Pa",
+           "largest tangential stress along the root beside the loaded flank of each pair's tooth, tension positive, under the loads of this mesh; 0 of a mesh of which it is not known",
+           kPhasePair, kStress,
+           "sum over the pairs of root_stress/per_force of body.h5, and of root_stress/crack, times force"},
+          [g](auto& s) -> auto& { return s.root_stress[g]; });
+    over.vectors(
+        {"/root_stress_max", "Pa",
+         "largest root stress over the mesh cycle, beside the loaded flanks; 0: not known", "mesh side",
+         kStress},
+        [](auto& s) -> auto& { return s.root_stress_max; }, true);
+    over.vectors(
+        {"/root_stress_angle", "1",
+         "angle (rad) of the root's tangent there against the centre line of the tooth", "mesh side", kRoll},
+        [](auto& s) -> auto& { return s.root_stress_angle; }, true);
+    over.vectors(
+        {"/root_stress_phase", "1", "phase of the tooth's pair then, of its mesh, 0 at the pitch point",
+         "mesh side", kPlace},
+        [](auto& s) -> auto& { return s.root_stress_phase; }, true);
+    const bool teeth = any_mesh(a, [](const auto& s) { return s.root_stress_tooth.size() > 0; });
+    if (c.optional("/root_stress_tooth", teeth)) {
+      MatrixRMi tooth = MatrixRMi::Zero(static_cast<Eigen::Index>(a.mesh.size()), kSides);
+      for (Eigen::Index m = 0; m < tooth.rows(); ++m)
+        if (const auto& own = a.mesh[static_cast<size_t>(m)].root_stress_tooth; own.size() > 0)
+          tooth.row(m) = own.transpose();
+      c(tooth, "/root_stress_tooth", "1", kTooth, "mesh side",
         "number of that tooth, counter-clockwise from tooth 0, where teeth differ or one is cracked");
+      for (Eigen::Index m = 0; c.in() && m < tooth.rows(); ++m)
+        a.mesh[static_cast<size_t>(m)].root_stress_tooth = tooth.row(m).transpose();
+    }
+    for (StaticResult& mesh : a.mesh) {
+      if (!c.in() || mesh.root_stress_max.maxCoeff() > 0) continue;
+      mesh.root_stress = {};
+      mesh.root_stress_max = mesh.root_stress_angle = mesh.root_stress_phase = {};
+      mesh.root_stress_tooth = {};
+    }
   }
-  c(a.loss_factor, "/loss_factor", "1", kPositive, "",
-    "mean power lost by sliding over the power carried, per unit coefficient of friction",
-    "H_V = mean of sum F |sliding per angle| / T");
+  over.numbers(
+      {"/loss_factor", "1",
+       "mean power lost by sliding over the power carried, per unit coefficient of friction", "mesh",
+       kPositive, "H_V = mean of sum F |sliding per angle| / T"},
+      [](auto& s) -> auto& { return s.loss_factor; });
 }
 
 constexpr Range kLost{0, 1e7};  // N m
 
 // Left out of flanks without friction.
-void describe_static_friction(Codec& c, StaticResult& a) {
-  if (!c.lists() && !a.mesh.friction.acts()) return;
-  c(a.friction_coefficient, "/friction_coefficient", "1", kShare, "", "coefficient of friction");
+void describe_static_friction(Codec& c, SystemStaticResult& a) {
+  OverMeshes over(c, a);
+  if (!c.optional("/friction_coefficient",
+                  any_mesh(a, [](const auto& s) { return s.friction_loss.size() > 0; })))
+    return;
+  over.numbers(
+      {"/friction_coefficient", "1", "coefficient of friction", "mesh", kShare},
+      [](auto& s) -> auto& { return s.friction_coefficient; });
   c(a.friction_coupling, "/certificate/friction_coupling", "m", kSize, "",
     "largest change of a gap by what friction of the last forces moves, over all positions",
     "iteration for d = (A + E) p + e, E of friction: E times the last change of p");
-  c(a.friction_loss, "/friction_loss", "N m", kLost, "mesh_phase",
-    "work that friction takes per angle (rad) of the driver", "sum of mu s F (t1 - t2 z1 / z2)");
-  for (int g = 0; g < (c.lists() ? 1 : 2); ++g)
-    c(a.friction_moment[g], of_body(c, a.mesh, g, "friction_moment"), "N m", kMoment, "mesh_phase",
-      "moment of friction about the axis of the gear, positive where it has the sense of the moment of the normal force, which brakes the driver and drives the driven gear",
-      "sum of mu s F t");
-  c(a.efficiency, "/efficiency", "1", {0, 1}, "",
-    "of the mesh at rest: work given by the driven gear over that put into the driver",
-    "1 - mean friction_loss / torque");
+  over.vectors(
+      {"/friction_loss", "N m", "work that friction takes per angle (rad) of the driver", kPhaseMesh, kLost,
+       "sum of mu s F (t1 - t2 z1 / z2)"},
+      [](auto& s) -> auto& { return s.friction_loss; });
+  for (size_t g = 0; g < kSides; ++g)
+    over.vectors(
+        {text("/friction_moment/", kSideOf[g]), "N m",
+         "moment of friction about the axis of the gear, positive where it has the sense of the moment of the normal force, which brakes the driver and drives the driven gear",
+         kPhaseMesh, kMoment, "sum of mu s F t"},
+        [g](auto& s) -> auto& { return s.friction_moment[g]; });
+  over.numbers(
+      {"/mesh_efficiency",
+       "1",
+       "of the mesh at rest: work given by the driven gear over that put into the driver",
+       "mesh",
+       {-1e6, 1},
+       "1 - mean friction_loss / torque"},
+      [](auto& s) -> auto& { return s.efficiency; });
+  if (c.optional("/efficiency", a.efficiency.size() > 0))
+    c(a.efficiency, "/efficiency", "1", {-1e6, 1}, "body",
+      "of trains: power out over power in, from the mean torques, while this member is at rest; of a train without carriers the same for all, of planets 0");
 }
 
 // What follows from the curves.
-void describe_compliance(Codec& c, ComplianceSplit& a) {
-  c(a.whole, "/compliance/mesh", "m N-1", kFlexibility, "", "of the mesh, mean over the period",
-    "1 / mean_stiffness");
-  c(a.body, "/compliance/body", "m N-1", kFlexibility, "gear",
-    "part of it: twist of each gear's body between bore and root circle, all pairs together",
-    "r_b^2 / (4 pi G b) (1 / r_bore^2 - 1 / r_root^2)");
-  c(a.wider_body, "/compliance/body_of_wider_bore", "m N-1", kFlexibility, "gear",
-    "the same with a bore a tenth larger, the root circle at most");
-  c(a.contact, "/compliance/contact", "m N-1", kFlexibility, "",
-    "part of it: Hertz's approach at the pitch point; what is left are the teeth");
-  c(a.single, "/single_pair_stiffness", "N m-1", kSpring, "",
-    "largest secant stiffness of a pair that carries all the load; 0: no pair ever does");
+void describe_compliance(Codec& c, SystemStaticResult& a) {
+  OverMeshes over(c, a);
+  over.numbers(
+      {"/mean_stiffness", "N m-1", "mean of the secant stiffness over a mesh period", "mesh", kStiff},
+      [](auto& s) -> auto& { return s.mean_stiffness; });
+  over.numbers(
+      {"/compliance/mesh", "m N-1", "of the mesh, mean over the period", "mesh", kFlexibility,
+       "1 / mean_stiffness"},
+      [](auto& s) -> auto& { return s.compliance.whole; });
+  over.vectors(
+      {"/compliance/body", "m N-1",
+       "part of it: twist of each gear's body between bore and root circle, all pairs together", "mesh side",
+       kFlexibility, "r_b^2 / (4 pi G b) (1 / r_bore^2 - 1 / r_root^2)"},
+      [](auto& s) -> auto& { return s.compliance.body; }, true);
+  over.vectors(
+      {"/compliance/body_of_wider_bore", "m N-1",
+       "the same with a bore a tenth larger, the root circle at most", "mesh side", kFlexibility},
+      [](auto& s) -> auto& { return s.compliance.wider_body; }, true);
+  over.numbers(
+      {"/compliance/contact", "m N-1",
+       "part of it: Hertz's approach at the pitch point; what is left are the teeth", "mesh", kFlexibility},
+      [](auto& s) -> auto& { return s.compliance.contact; });
+  over.numbers(
+      {"/single_pair_stiffness", "N m-1",
+       "largest secant stiffness of a pair that carries all the load; 0: no pair ever does", "mesh", kSpring},
+      [](auto& s) -> auto& { return s.compliance.single; });
 }
 
-void describe_flank_pressure(Codec& c, FlankPressure& a) {
-  c(a.smooth, "/flank_pressure_max", "Pa", kPressure, "",
-    "largest contact pressure inside the flanks and clear of ridges, where a relief begins; 0: there is none");
-  if (!c.optional("/ridge/cause", !a.ridge.empty())) return;
-  c(a.ridge, "/ridge/cause", "",
-    "what makes a ridge of the flank that contact runs over; pressure has no largest value there");
-  c(a.on_ridge, "/ridge/pressure_of_strips", "Pa", kPressure, "", "what the strips show there");
-  c(a.per_doubling, "/ridge/pressure_per_doubling", "Pa", kPressure, "",
-    "what that grows by with each doubling of the strips");
+void describe_flank_pressure(Codec& c, SystemStaticResult& a) {
+  OverMeshes over(c, a);
+  over.numbers(
+      {"/flank_pressure_max", "Pa",
+       "largest contact pressure inside the flanks and clear of ridges, where a relief begins; 0: there is none",
+       "mesh", kPressure},
+      [](auto& s) -> auto& { return s.flank_pressure.smooth; });
+  if (!c.optional("/ridge/cause", any_mesh(a, [](const auto& s) { return !s.flank_pressure.ridge.empty(); })))
+    return;
+  std::vector<std::string> cause;
+  cause.reserve(a.mesh.size());
+  for (const StaticResult& mesh : a.mesh) cause.push_back(mesh.flank_pressure.ridge);
+  c(cause, "/ridge/cause", "mesh",
+    "what makes a ridge of the flank that contact runs over; pressure has no largest value there; empty: none");
+  for (size_t m = 0; c.in() && m < a.mesh.size(); ++m) a.mesh[m].flank_pressure.ridge = cause[m];
+  over.numbers(
+      {"/ridge/pressure_of_strips", "Pa", "what the strips show there", "mesh", kPressure},
+      [](auto& s) -> auto& { return s.flank_pressure.on_ridge; });
+  over.numbers(
+      {"/ridge/pressure_per_doubling", "Pa", "what that grows by with each doubling of the strips", "mesh",
+       kPressure},
+      [](auto& s) -> auto& { return s.flank_pressure.per_doubling; });
 }
 
-void describe_rectangular_wave(Codec& c, RectangularWave& a) {
+void describe_rectangular_wave(Codec& c, SystemStaticResult& a) {
+  OverMeshes over(c, a);
   const std::string at = "/rectangular_wave/";
-  c(a.low, at + "low", "N m-1", kSpring, "",
-    "secant stiffness in the middle of the zone of fewer pairs in nominal contact");
-  c(a.high, at + "high", "N m-1", kSpring, "", "the same where there is one pair more");
-  c(a.high_begin, at + "high_begin", "1", kSigned, "",
-    "mesh phase at which a pair comes without load, and the zone of more pairs begins");
-  c(a.high_end, at + "high_end", "1", kSigned, "", "mesh phase at which that zone ends");
+  over.numbers(
+      {at + "low", "N m-1", "secant stiffness in the middle of the zone of fewer pairs in nominal contact",
+       "mesh", kSpring},
+      [](auto& s) -> auto& { return s.rectangular_wave.low; });
+  over.numbers(
+      {at + "high", "N m-1", "the same where there is one pair more", "mesh", kSpring},
+      [](auto& s) -> auto& { return s.rectangular_wave.high; });
+  over.numbers(
+      {at + "high_begin", "1",
+       "phase of the mesh at which a pair comes without load, and the zone of more pairs begins", "mesh",
+       kSigned},
+      [](auto& s) -> auto& { return s.rectangular_wave.high_begin; });
+  over.numbers(
+      {at + "high_end", "1", "phase of the mesh at which that zone ends", "mesh", kSigned},
+      [](auto& s) -> auto& { return s.rectangular_wave.high_end; });
 }
 
+// Of pairs.
 void describe_reference_contact(Codec& c, ReferenceContact& a) {
   const std::string at = "/reference_contact/";
   if (!c.optional(at + "border", a.border.size() > 0)) return;
   c(a.border, at + "border", "m", kLength, "strip_border",
-    "borders of the strips of the reference pair at mesh phase 0 along the flank, from the pitch point to the driver's tip");
+    "of a pair: borders of the strips of the reference pair at mesh phase 0 along the flank, from the pitch point to the driver's tip");
   c(a.gap, at + "gap", "m", kLength, "strip", "gap of the unloaded flanks, mean over the strip");
   c(a.force, at + "force", "N", kForce, "strip", "normal force of each strip", "p of Eq. 18");
   c(a.separation, at + "separation", "m", kLength, "strip", "gap of the loaded flanks", "d of Eq. 18");
   c(a.approach, at + "approach", "m", kLength, "", "transmission error at this phase with strips");
 }
 
-}  // namespace
-
-void describe(Codec& c, StaticResult& a) {
-  describe_pair(c, a);
-  describe_torque(c, a.torque);
-  c(a.contact_ratio, "/contact_ratio", "1", {0, 100, true}, "",
-    "profile contact ratio of the unloaded gears");
-  describe_curves(c, a);
-  describe_root_stress(c, a);
-  describe_static_friction(c, a);
-  c(a.transmission_error_harmonic, "/transmission_error_harmonic", "m", kLength, "harmonic",
-    "mean, then amplitudes of the harmonics of the mesh frequency");
-  c(a.stiffness_harmonic, "/mesh_stiffness_harmonic", "N m-1", kSpring, "harmonic",
-    "mean, then amplitudes of the harmonics of the secant stiffness");
-  c.numbers("harmonic", 0, "number of the harmonic of the mesh frequency; 0: the mean");
-  describe_hunting(c, a.hunting_periods);
-  if (c.lists() || (c.in() ? a.hunting_periods > 1 : a.transmission_error_order.size() > 0)) {
-    c(a.transmission_error_order, "/transmission_error_order", "m", kLength, "order",
-      "mean, then amplitudes of the harmonics of the hunting frequency");
-    c.numbers("order", 0, "number of the harmonic of the hunting frequency; 0: the mean");
-  }
-  c(a.mean_stiffness, "/mean_stiffness", "N m-1", kStiff, "",
-    "mean of the secant stiffness over a mesh period");
-  describe_compliance(c, a.compliance);
-  describe_flank_pressure(c, a.flank_pressure);
-  describe_rectangular_wave(c, a.rectangular_wave);
-  describe_reference_contact(c, a.reference_contact);
+void describe_certificate(Codec& c, SystemStaticResult& a) {
   c(a.least_gap, "/certificate/least_gap", "m", kLength, "",
     "least gap of a strip without force, over all positions", "d >= 0 where p = 0 (with Eq. 18, 20)");
   c(a.least_force, "/certificate/least_force", "N", kForce, "",
     "least force of a strip in contact, over all positions", "p >= 0 where d = 0 (with Eq. 18, 20)");
   c(a.torque_residual, "/certificate/torque_residual", "1", kPositive, "",
-    "largest relative residual of the torque, over all positions", "|sum a p - T| / T");
+    "largest unbalance of a free body's rotation over the largest mesh force, over all positions",
+    "|L^T p - T / r|");
+}
+
+// What of each mesh stands in the file once, for all meshes or bodies.
+void share_with_meshes(SystemStaticResult& a) {
+  for (size_t m = 0; m < a.mesh.size(); ++m) {
+    StaticResult& mesh = a.mesh[m];
+    if (a.of_train()) static_cast<GearPairParameters&>(mesh) = mesh_parameters(a, m);
+    mesh.mesh_phase = a.mesh_phase.array() + (a.of_train() ? a.settings.layout.meshes[m].phase : 0);
+    mesh.hunting_periods = a.hunting_periods;
+    mesh.least_gap = a.least_gap;
+    mesh.least_force = a.least_force;
+    mesh.torque_residual = a.torque_residual;
+    mesh.friction_coupling = a.friction_coupling;
+    mesh.backlash_margin = a.backlash_margin;
+  }
+  if (a.of_train()) return;
+  a.mesh[0].remarks = a.remarks;
+  for (size_t g = 0; g < kSides; ++g) {
+    if (!a.mesh[0].mesh.bearing[g].elastic()) continue;
+    a.mesh[0].bearing_force[g].resize(a.mesh_phase.size(), 2);
+    for (Eigen::Index i = 0; i < a.mesh_phase.size(); ++i)
+      a.mesh[0].bearing_force[g].row(i) =
+          a.bearing_force[static_cast<size_t>(i)].row(static_cast<Eigen::Index>(g));
+  }
+}
+
+void require_phases(const Codec& c, const SystemStaticResult& a) {
+  if (a.mesh_phase.size() == 0) c.in()->reject("dataset /mesh_phase holds no phase");
+  if (a.mesh_phase.size() % a.hunting_periods != 0)
+    c.in()->reject(text("dataset /mesh_phase holds ", a.mesh_phase.size(),
+                        " phases, not a multiple of /hunting_periods = ", a.hunting_periods));
+  if (a.mesh[0].pair.size() == 0) c.in()->reject("dataset /pair holds no pair");
+}
+
+}  // namespace
+
+void describe(Codec& c, SystemStaticResult& a) {
+  describe_static_source(c, a);
+  describe_names(c, a.of_train(), a.mesh_names, a.body_names);
+  if (c.in()) a.mesh.resize(a.mesh_names.size());
+  describe_curves(c, a);
+  describe_loads(c, a);
+  describe_bodies(c, a);
+  describe_root_stress(c, a);
+  describe_static_friction(c, a);
+  describe_compliance(c, a);
+  describe_flank_pressure(c, a);
+  describe_rectangular_wave(c, a);
+  if (!a.of_train()) describe_reference_contact(c, a.mesh[0].reference_contact);
+  describe_certificate(c, a);
   describe_backlash(c, a.backlash_margin);
   describe_remarks(c, a.remarks);
+  if (!c.in()) return;
+  require_phases(c, a);
+  share_with_meshes(a);
 }
 
-std::string title(const StaticResult& a) {
-  return "Static transmission error: " + pair_title(a.mesh, a.torque);
+std::string title(const SystemStaticResult& a) {
+  if (a.of_train())
+    return text("Static transmission error of a system: ", a.body_names.size(), " bodies, ",
+                a.mesh_names.size(), " meshes");
+  return "Static transmission error: " + pair_title(a.mesh[0].mesh, a.mesh[0].torque);
 }
 
-template struct ArtifactFile<StaticResult>;
+template struct ArtifactFile<SystemStaticResult>;
 
 }  // namespace whine

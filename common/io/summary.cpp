@@ -115,6 +115,8 @@ void show(SummaryLines& lines, const ReducedBody& a) {
       " µm/N (round-off of the log of the contact below 0)");
 }
 
+}  // namespace
+
 void show(SummaryLines& lines, const StaticResult& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", centre distance ",
       a.mesh.centre_distance * 1e3, " mm");
@@ -158,6 +160,8 @@ void show(SummaryLines& lines, const StaticResult& a) {
       " µm, least force ", a.least_force, " N, torque residual ", a.torque_residual);
   if (!std::isinf(a.backlash_margin)) add(lines, "least backlash", a.backlash_margin * 1e6, " µm");
 }
+
+namespace {
 
 void show(SummaryLines& lines, const LoadedResult& a) {
   add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", mesh phase ", a.mesh_phase);

@@ -25,6 +25,7 @@ static void show_differing_teeth(SummaryLines& lines, const SystemStaticParamete
 }
 
 void show(SummaryLines& lines, const SystemStaticResult& a) {
+  if (!a.of_train()) return show(lines, a.mesh.at(0));
   const System& s = a.settings.layout;
   add(lines, "model", "contact ", a.settings.fidelity.contact, ", ", a.mesh_phase.size() / a.hunting_periods,
       " positions in a mesh period");
@@ -38,13 +39,16 @@ void show(SummaryLines& lines, const SystemStaticResult& a) {
   }
   for (size_t m = 0; m < s.meshes.size(); ++m) {
     const auto column = static_cast<Eigen::Index>(m);
+    const StaticResult& mesh = a.mesh[m];
     add(lines, "mesh", s.bodies[static_cast<size_t>(s.meshes[m].side[0].body)].name, " and ",
         s.bodies[static_cast<size_t>(s.meshes[m].side[1].body)].name, ": transmission error ",
-        a.transmission_error.col(column).minCoeff() * 1e6, " to ",
-        a.transmission_error.col(column).maxCoeff() * 1e6, " µm, share of the load ",
-        a.load_share.col(column).minCoeff() * 100, " to ", a.load_share.col(column).maxCoeff() * 100, " %");
+        mesh.transmission_error.minCoeff() * 1e6, " to ", mesh.transmission_error.maxCoeff() * 1e6,
+        " µm, share of the load ", a.load_share.col(column).minCoeff() * 100, " to ",
+        a.load_share.col(column).maxCoeff() * 100, " %, mean stiffness ", mesh.mean_stiffness * 1e-6,
+        " N/µm (secant), root stress up to ",
+        mesh.root_stress_max.size() > 0 ? mesh.root_stress_max.maxCoeff() * 1e-6 : 0.0, " MPa");
   }
-  add(lines, "residual", a.torque_residual.maxCoeff(), " of the largest mesh force");
+  add(lines, "residual", a.torque_residual, " of the largest mesh force");
 }
 
 void show_model(SummaryLines& lines, const SystemSweepParameters& s) {

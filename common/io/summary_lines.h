@@ -13,7 +13,7 @@
 #include "results/modes.h"
 #include "results/system_branch.h"
 #include "results/system_impact.h"
-#include "results/system_static.h"
+#include "results/static.h"
 #include "results/system_sweep.h"
 
 namespace whine {
@@ -42,6 +42,7 @@ std::string words_of(const ToothErrors& errors);
 // Of artifacts of systems of several meshes.
 void show_model(SummaryLines& lines, const SystemSweepParameters& s);
 void show(SummaryLines& lines, const ModesResult& a);
+void show(SummaryLines& lines, const StaticResult& a);  // of a pair
 void show(SummaryLines& lines, const SystemStaticResult& a);
 void show(SummaryLines& lines, const SystemSweepResult& a);
 void show(SummaryLines& lines, const SystemImpactResult& a);

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "io/artifacts.h"
+#include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "results/impact.h"
 #include "results/response.h"
@@ -114,7 +115,7 @@ struct SceneReader {
     const std::string& path = paths.at(file);
     const std::string kind = file.substr(file.rfind('/') + 1);
     if (kind == "static.h5")
-      require_operation(file, results.statics[file] = whine::read<StaticResult>(path));
+      require_operation(file, results.statics[file] = whine::read_pair_statics(path));
     else if (kind == "impact.h5")
       require_operation(file, results.impacts[file] = whine::read<ImpactResult>(path));
     else if (kind == "sweep.h5")

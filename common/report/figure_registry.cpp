@@ -114,7 +114,7 @@ Figure draw_root_stress(const Paths& inputs, const Frequencies&) {
   std::vector<BranchResult> branches;
   for (const std::string& path : inputs)
     if (is_a("whine/static", path))
-      statics.push_back(read<StaticResult>(path));
+      statics.push_back(read_pair_statics(path));
     else if (is_a("whine/branch", path))
       branches.push_back(read<BranchResult>(path));
     else
@@ -129,7 +129,7 @@ Figure draw_efficiency(const Paths& inputs, const Frequencies&) {
   std::vector<ResponseResult> sweeps;
   for (const std::string& path : inputs)
     if (is_a("whine/static", path))
-      statics.push_back(read<StaticResult>(path));
+      statics.push_back(read_pair_statics(path));
     else
       sweeps.push_back(read_pair_response(path));
   return efficiency_figure(statics, sweeps);
@@ -140,33 +140,33 @@ Drawings drawings_at_rest() {
       {"fig01",
        {"finite element mesh", "mesh.h5 of driver and driven gear, static.h5", 3, 0,
         [](const Paths& in, const Frequencies&) {
-          return mesh_figure(read<SectorGrid>(in[0]), read<SectorGrid>(in[1]), read<StaticResult>(in[2]));
+          return mesh_figure(read<SectorGrid>(in[0]), read<SectorGrid>(in[1]), read_pair_statics(in[2]));
         }}},
       {"fig03",
        {"contact zone: candidate pairs, inner and outer region, pressure", "what fig01 takes", 3, 0,
         [](const Paths& in, const Frequencies&) {
           return contact_zone_figure(read<SectorGrid>(in[0]), read<SectorGrid>(in[1]),
-                                     read<StaticResult>(in[2]));
+                                     read_pair_statics(in[2]));
         }}},
       {"fig12",
        {"static transmission error and its spectrum", "static.h5, one per torque", 0, 0,
         [](const Paths& in, const Frequencies&) {
-          return transmission_error_figure(read_all(in, read<StaticResult>));
+          return transmission_error_figure(read_all(in, read_pair_statics));
         }}},
       {"fig13",
        {"mesh stiffness and its spectrum", "what fig12 takes", 0, 0,
         [](const Paths& in, const Frequencies&) {
-          return mesh_stiffness_figure(read_all(in, read<StaticResult>));
+          return mesh_stiffness_figure(read_all(in, read_pair_statics));
         }}},
       {"load-sharing",
        {"the share of the load that a tooth pair carries on its way through the mesh", "what fig12 takes", 0,
         0,
         [](const Paths& in, const Frequencies&) {
-          return load_sharing_figure(read_all(in, read<StaticResult>));
+          return load_sharing_figure(read_all(in, read_pair_statics));
         }}},
       {"profile",
        {"profile charts of the driving flanks, as an inspection sheet shows them", "static.h5", 1, 0,
-        [](const Paths& in, const Frequencies&) { return profile_figure(read<StaticResult>(in[0])); }}},
+        [](const Paths& in, const Frequencies&) { return profile_figure(read_pair_statics(in[0])); }}},
       {"error-budget",
        {"what refining each discretisation alone changes, and what other choices change", "error_budget.h5",
         1, 0,
@@ -176,7 +176,7 @@ Drawings drawings_at_rest() {
       {"crack",
        {"the mark of a cracked tooth in the static transmission error, its orders, and the root stress of the teeth about it",
         "static.h5 of a pair with a crack", 1, 0,
-        [](const Paths& in, const Frequencies&) { return crack_figure(read<StaticResult>(in[0])); }}},
+        [](const Paths& in, const Frequencies&) { return crack_figure(read_pair_statics(in[0])); }}},
       {"efficiency",
        {"losses and efficiency over speed, moments of friction over a mesh period",
         "static.h5, then response.h5 of the sweeps up and down, of each torque, of a scene with [friction]",
@@ -189,14 +189,14 @@ Drawings drawings_at_rest() {
        {"flank pressure over roll angle and speed, loads over tip edges",
         "static.h5, response.h5 of the sweeps up and down, all of one torque", 3, 0,
         [](const Paths& in, const Frequencies&) {
-          return flank_pressure_figure(read<StaticResult>(in[0]),
+          return flank_pressure_figure(read_pair_statics(in[0]),
                                        {read_pair_response(in[1]), read_pair_response(in[2])});
         }}},
       {"sidebands",
        {"teeth that differ: transmission error over the hunting period, shaft orders and sidebands",
         "static.h5 and response.h5 of one torque", 2, 0,
         [](const Paths& in, const Frequencies&) {
-          return sidebands_figure(read<StaticResult>(in[0]), read_pair_response(in[1]));
+          return sidebands_figure(read_pair_statics(in[0]), read_pair_response(in[1]));
         }}},
   };
 }
@@ -214,7 +214,7 @@ Drawings drawings_of_designs() {
        {"designs at rest: transmission error, mesh stiffness, harmonics",
         "static.h5 of each scene, at one torque", 0, 0,
         [](const Paths& in, const Frequencies&) {
-          return compared_rest_figure(read_designs(in, read<StaticResult>));
+          return compared_rest_figure(read_designs(in, read_pair_statics));
         }}},
       {"compare-motion",
        {"designs in motion: RMS, first order and tooth load against speed",
@@ -378,9 +378,8 @@ Drawings drawings_of_systems() {
        {"a system as it stands: gears at their places, teeth in mesh, senses of rotation",
         "static.h5, of rigid gears modes.h5", 1, 0,
         [](const Paths& in, const Frequencies&) {
-          return is_a("whine/modes", in[0])    ? system_picture(read<ModesResult>(in[0]))
-                 : is_a("whine/static", in[0]) ? system_picture(read<StaticResult>(in[0]))
-                                               : system_picture(read<SystemStaticResult>(in[0]));
+          return is_a("whine/modes", in[0]) ? system_picture(read<ModesResult>(in[0]))
+                                            : system_picture(read<SystemStaticResult>(in[0]));
         }}},
       {"system-sweep",
        {"a system over its speeds: vibration and contact loss of meshes, forces on bearings",

@@ -55,8 +55,10 @@ void take_source(const std::string& path, Content& content) {
 bool is_of_system(const std::vector<std::string>& paths) {
   for (const std::string& path : paths) {
     if (path.ends_with(".png")) continue;
-    const std::string schema = read_origin(path).schema;
-    if (schema == "whine/system_static" || schema == "whine/modes") return true;
+    const Origin origin = read_origin(path);
+    // A train has no torque of its own, its drives have.
+    if (origin.schema == "whine/modes" || (origin.schema == "whine/static" && !origin.has_torque))
+      return true;
   }
   return false;
 }
@@ -94,7 +96,7 @@ SystemReport read_system_report(const std::vector<std::string>& paths) {
       report.sweeps.push_back(read<ResponseResult>(path));
       continue;
     }
-    const bool rest = schema == "whine/system_static";
+    const bool rest = schema == "whine/static";
     if (!rest && schema != "whine/modes")
       fail(Failure::usage, path, ": is ", schema,
            "; the report of a system is made of static.h5, modes.h5 and response.h5");
@@ -123,7 +125,7 @@ ReportContent read_report_content(const std::vector<std::string>& paths) {
     take_source(path, content);
     const std::string& schema = content.sources.back().origin.schema;
     if (schema == "whine/static") {
-      content.statics.push_back(read<StaticResult>(path));
+      content.statics.push_back(read_pair_statics(path));
     } else if (schema == "whine/impact") {
       content.impacts.push_back(read<ImpactResult>(path));
     } else if (schema == "whine/error_budget") {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "gear/layout.h"
 #include "report/figure_words.h"
 #include "report/system_picture.h"
@@ -140,22 +141,47 @@ std::vector<LoadSharing> load_sharing(const SystemStaticResult& a) {
   return out;
 }
 
+namespace {
+
+// MPa, of each body whose roots are known: largest in any of its meshes at each phase.
+std::vector<DrawnCurve> root_stresses(const SystemStaticResult& a) {
+  const System& s = a.settings.layout;
+  std::vector<DrawnCurve> out;
+  for (size_t b = 0; b < s.bodies.size(); ++b) {
+    Eigen::VectorXd most = Eigen::VectorXd::Zero(a.mesh_phase.size());
+    for (size_t m = 0; m < a.mesh.size(); ++m)
+      for (size_t g = 0; g < kSides; ++g)
+        if (const MatrixRM& stress = a.mesh[m].root_stress[g];
+            stress.size() > 0 && s.meshes[m].side[g].body == static_cast<int>(b))
+          most = most.cwiseMax(stress.rowwise().maxCoeff() * kInMegapascals);
+    if (most.maxCoeff() > 0) out.push_back({s.bodies[b].name, most});
+  }
+  return out;
+}
+
+}  // namespace
+
 Figure system_static_figure(const SystemStaticResult& a) {
   const System& s = a.settings.layout;
   Figure figure;
-  figure.title = "A system at rest: transmission errors, mesh forces, bearing forces";
+  figure.title = "A system at rest: transmission errors, stiffnesses, forces, root stresses";
   figure.notes = in_lines(bodies_words(s, a.torque.colwise().mean().transpose()));
   if (const std::string sharing = sharing_words(a); !sharing.empty())
     for (const std::string& line : in_lines(sharing)) figure.notes.push_back(line);
   figure.notes.emplace_back(
       "transmission error along the line of action, with the displacements of the bearings; mesh force: torque on the driving gear over its base radius");
-  figure.notes.emplace_back("bearing force: its magnitude; on a rigid axis the sum of the contact forces");
-  std::vector<DrawnCurve> errors, forces, bearings;
+  figure.notes.emplace_back(
+      "mesh stiffness: secant, mesh force over what it adds to the transmission error, without bearings");
+  figure.notes.emplace_back(
+      "bearing force: its magnitude; on a rigid axis the sum of the contact forces; root stress: the largest beside the loaded flanks of a gear");
+  std::vector<DrawnCurve> errors, stiffnesses, forces, bearings;
   errors.reserve(s.meshes.size());
+  stiffnesses.reserve(s.meshes.size());
   forces.reserve(s.meshes.size());
   bearings.reserve(s.bodies.size());
   for (size_t m = 0; m < s.meshes.size(); ++m) {
-    errors.push_back({mesh_name(s, m), a.transmission_error.col(static_cast<Index>(m)) * kMicro});
+    errors.push_back({mesh_name(s, m), a.mesh[m].transmission_error * kMicro});
+    stiffnesses.push_back({mesh_name(s, m), a.mesh[m].stiffness_secant * kMega});
     forces.push_back({mesh_name(s, m), a.mesh_force.col(static_cast<Index>(m))});
   }
   for (size_t b = 0; b < s.bodies.size(); ++b) {
@@ -165,8 +191,11 @@ Figure system_static_figure(const SystemStaticResult& a) {
     bearings.push_back({s.bodies[b].name + (s.bodies[b].on != System::kGround ? " (pin)" : ""), size});
   }
   add_row(a, "transmission_error", "Transmission error", "Error", "µm", std::move(errors), figure);
+  add_row(a, "mesh_stiffness", "Mesh stiffness", "Stiffness", "N/µm", std::move(stiffnesses), figure);
   add_row(a, "mesh_force", "Mesh force", "Force", "N", std::move(forces), figure);
   add_row(a, "bearing_force", "Bearing force", "Force", "N", std::move(bearings), figure);
+  if (std::vector<DrawnCurve> stresses = root_stresses(a); !stresses.empty())
+    add_row(a, "root_stress", "Root stress", "Stress", "MPa", std::move(stresses), figure);
   figure.columns = 2;
   add_hunting(a, "over which all is drawn; harmonics are those of the mesh frequency", figure);
   return figure;
@@ -178,28 +207,26 @@ namespace {
 // it begins, so that pair p at 1 is pair p + 1 at 0. Between positions of the statics the ends are interpolated. Where teeth differ it is
 // the first whole one, and the next position is that behind its end.
 FigureBlock pair_loads(const SystemStaticResult& a, size_t m, const std::string& table) {
-  const Index n = a.mesh_phase.size(), pairs = a.pair.size();
-  const auto mesh = static_cast<Index>(m);
+  const StaticResult& mesh = a.mesh[m];
+  const Index n = a.mesh_phase.size(), pairs = mesh.pair.size();
   FigureBlock block{table, {text("phase of ", mesh_name(a.settings.layout, m), " [1]")}, {}, table};
   std::vector<Index> loaded;
   for (Index p = 0; p < pairs; ++p) {
-    double most = 0;
-    for (const MatrixRM& load : a.tooth_load) most = std::max(most, load(mesh, p));
-    if (most == 0) continue;
+    if (!(mesh.tooth_load.col(p).maxCoeff() > 0)) continue;
     loaded.push_back(p);
-    block.columns.push_back(text("load of pair ", a.pair[p], " [N]"));
+    block.columns.push_back(text("load of pair ", mesh.pair[p], " [N]"));
   }
   // shift: mesh periods by which the row is moved; a pair is then where the one `shift` before it was.
-  const auto row_of = [&](double phase, size_t at, Index shift) {
+  const auto row_of = [&](double phase, Index at, Index shift) {
     std::vector<double> row{phase + static_cast<double>(shift)};
     row.reserve(loaded.size() + 1);
     for (const Index p : loaded) {
       const Index from = p + shift;
-      row.push_back(from >= 0 && from < pairs ? a.tooth_load[at](mesh, from) : 0);
+      row.push_back(from >= 0 && from < pairs ? mesh.tooth_load(at, from) : 0);
     }
     return row;
   };
-  std::vector<std::pair<double, size_t>> order;
+  std::vector<std::pair<double, Index>> order;
   order.reserve(static_cast<size_t>(n));
   constexpr double kRoundOff = 1e-9;  // a phase that it keeps below 1 is 0
   const double ahead = a.settings.layout.meshes[m].phase;
@@ -207,14 +234,14 @@ FigureBlock pair_loads(const SystemStaticResult& a, size_t m, const std::string&
     const double own = a.mesh_phase[i] + ahead, part = own - std::floor(own),
                  in_period = part > 1 - kRoundOff ? 0 : part;
     if (a.hunting_periods > 1 && std::round(own - in_period) != std::ceil(ahead - kRoundOff)) continue;
-    order.emplace_back(in_period, static_cast<size_t>(i));
+    order.emplace_back(in_period, i);
   }
   if (order.empty())
     fail(Failure::input, "figure: the phases of the system at rest hold no whole mesh period of ",
          mesh_name(a.settings.layout, m), "; compute it again");
   std::sort(order.begin(), order.end());
   const double first = order.front().first, last = order.back().first;
-  const size_t at_first = order.front().second, at_last = order.back().second;
+  const Index at_first = order.front().second, at_last = order.back().second;
   // At `end`, 0 or 1, between the last position before it and the first one behind it.
   const auto end_row = [&](Index end) {
     const std::vector<double> before = row_of(last, at_last, end - 1), behind = row_of(first, at_first, end);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "report/figures.h"
-#include "results/system_static.h"
+#include "results/static.h"
 
 namespace whine {
 

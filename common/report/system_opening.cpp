@@ -49,8 +49,10 @@ std::string train_excitation(const SystemReport& r, const TurningMember& driver)
   for (const AlikeMeshes& section : alike_meshes(a.settings)) {
     MeshExcitation& e = out.emplace_back(MeshExcitation{section.name, {1e30, 0}, {1e30, 0}});
     for (const Index m : section.meshes) {
-      const double swing = peak_to_peak(a.transmission_error.col(m)),
-                   first = a.transmission_error_harmonic.rows() > 1 ? a.transmission_error_harmonic(1, m) : 0;
+      const StaticResult& mesh = a.mesh[static_cast<size_t>(m)];
+      const double swing = peak_to_peak(mesh.transmission_error),
+                   first =
+                       mesh.transmission_error_harmonic.size() > 1 ? mesh.transmission_error_harmonic[1] : 0;
       e.peak_to_peak = {std::min(e.peak_to_peak.least, swing), std::max(e.peak_to_peak.most, swing)};
       e.first_order = {std::min(e.first_order.least, first), std::max(e.first_order.most, first)};
     }
@@ -150,11 +152,9 @@ void add_relief(const SystemStaticResult& a, const AlikeMeshes& section, Advice&
   double edge = 0, load = 0, deflection = 0;
   for (const Index m : section.meshes) {
     deflection = std::max(deflection, a.mesh_deflection.col(m).maxCoeff());
-    for (size_t i = 0; i < a.tooth_load.size(); ++i)
-      for (Index p = 0; p < a.pair.size(); ++p) {
-        load = std::max(load, a.tooth_load[i](m, p));
-        if (a.contact_pressure[i](m, p) == 0) edge = std::max(edge, a.tooth_load[i](m, p));
-      }
+    const StaticResult& mesh = a.mesh[static_cast<size_t>(m)];
+    load = std::max(load, mesh.tooth_load.maxCoeff());
+    edge = std::max(edge, (mesh.contact_pressure.array() == 0).select(mesh.tooth_load, 0.0).maxCoeff());
   }
   if (edge > kSmall * load) out.relief.push_back({section.name, deflection, edge});
 }

@@ -371,6 +371,7 @@ std::string bodies_words(const System& s, const Eigen::VectorXd& torque) {
 }
 
 Figure system_picture(const SystemStaticResult& a) {
+  if (!a.of_train()) return system_picture(a.mesh[0]);
   const SystemStaticParameters& settings = a.settings;
   return picture_of({settings.layout, designs_of(a), settings.section},
                     a.torque.colwise().mean().transpose());

@@ -2,7 +2,7 @@
 #pragma once
 #include "report/figures.h"
 #include "results/modes.h"
-#include "results/system_static.h"
+#include "results/static.h"
 
 namespace whine {
 

@@ -33,15 +33,15 @@ std::string of_rest(const SystemReport& r) {
   if (!r.rest) return "";
   const SystemStaticResult& a = *r.rest;
   std::vector<std::string> parts;
-  parts.reserve(static_cast<size_t>(a.transmission_error.cols()));
-  for (Index m = 0; m < a.transmission_error.cols(); ++m)
-    parts.push_back(text(significant(peak_to_peak(a.transmission_error.col(m)) * kMicro, 3), " µm of ",
-                         mesh_name(a.settings.layout, static_cast<size_t>(m))));
+  parts.reserve(a.mesh.size());
+  for (size_t m = 0; m < a.mesh.size(); ++m)
+    parts.push_back(text(significant(peak_to_peak(a.mesh[m].transmission_error) * kMicro, 3), " µm of ",
+                         a.mesh_names[m]));
   constexpr size_t kMost = 4;
   const size_t all = parts.size();
   parts.resize(std::min(all, kMost));
   return text(
-      "Transmission error of each mesh, its force, and the force on each bearing and pin over a mesh ",
+      "Transmission error of each mesh, its stiffness and force, the force on each bearing and pin, and the root stress of each gear over a mesh ",
       "period, and their harmonics. The transmission error from peak to peak is ", listed(parts),
       all > kMost ? text(" (", all - kMost, " more in the table above)") : "",
       "; its variation excites the whine, and the harmonics of the bearing forces act on the housing.",
@@ -144,8 +144,7 @@ std::string system_introduction(const SystemReport& r) {
   for (const LoadSharing& of : load_sharing(*r.rest))
     out += text(" The load sharing factor of ", of.name, " is ", fixed(of.factor, 3), ".");
   double most = 0;
-  for (Index m = 0; m < r.rest->transmission_error.cols(); ++m)
-    most = std::max(most, peak_to_peak(r.rest->transmission_error.col(m)));
+  for (const StaticResult& mesh : r.rest->mesh) most = std::max(most, peak_to_peak(mesh.transmission_error));
   out +=
       text(" Static transmission errors are up to ", significant(most * kMicro, 3), " µm from peak to peak.");
   if (!r.sweeps.empty()) out += " " + motion_words(r);
@@ -181,6 +180,8 @@ void require_sweeps(const SystemReport& r) {
   }
 }
 
+}  // namespace
+
 void require_whole_system(const SystemReport& r) {
   if (!r.modes)
     fail(Failure::input, "report: no modes.h5 given; the report of a system needs that of its scene");
@@ -197,8 +198,6 @@ void require_whole_system(const SystemReport& r) {
       if (r.pictures[j].name == name) fail(Failure::input, "report: figure ", name, " is given twice");
   }
 }
-
-}  // namespace
 
 const System& layout_of(const SystemReport& r) {
   return r.rest ? r.rest->settings.layout : r.modes->layout;

@@ -10,7 +10,7 @@
 #include "report/report_content.h"
 #include "results/modes.h"
 #include "results/response.h"
-#include "results/system_static.h"
+#include "results/static.h"
 
 namespace whine {
 
@@ -25,6 +25,9 @@ struct SystemReport {
 
 // Throws Error(input) for content without modes, of two systems, of other torques, or with a figure that is not known or given twice.
 std::string system_report_html(const SystemReport& report);
+
+// Throws as system_report_html().
+void require_whole_system(const SystemReport& report);
 
 // Columns part (a mesh, a body, a mode), quantity, value, unit, remark. A '#' line with the scene before the line of names.
 std::string system_report_tsv(const SystemReport& report);

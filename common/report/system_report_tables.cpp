@@ -44,33 +44,22 @@ GearPair pair_of(const SystemStaticResult& a, size_t m) {
   return {design_of(a, mesh.side[0]), design_of(a, mesh.side[1]), mesh.centre_distance};
 }
 
-double largest_load(const std::vector<MatrixRM>& of, size_t m) {
-  double most = 0;
-  for (const MatrixRM& at : of) most = std::max(most, at.row(static_cast<Index>(m)).maxCoeff());
-  return most;
+// N: largest load of a pair of a mesh whose tip edge touches, off the line of action.
+double tip_edge_load(const StaticResult& mesh) {
+  return (mesh.contact_pressure.array() == 0).select(mesh.tooth_load, 0.0).maxCoeff();
 }
 
-// N: largest load of a pair of a mesh whose tip edge touches, off the line of action.
-double tip_edge_load(const SystemStaticResult& a, size_t m) {
-  const auto row = static_cast<Index>(m);
-  double most = 0;
-  for (size_t i = 0; i < a.tooth_load.size(); ++i)
-    for (Index p = 0; p < a.pair.size(); ++p)
-      if (a.contact_pressure[i](row, p) == 0) most = std::max(most, a.tooth_load[i](row, p));
-  return most;
+// MPa, of the driving and the driven gear.
+std::string root_words(const StaticResult& mesh) {
+  const Eigen::VectorXd& stress = mesh.root_stress_max;
+  return stress.size() == 0 ? html::kNoValue
+                            : text(fixed(stress[0] * 1e-6, 0), " / ", fixed(stress[1] * 1e-6, 0));
 }
 
 // µm
-std::string harmonic_words(const SystemStaticResult& a, Index n, Index mesh) {
-  if (n >= a.transmission_error_harmonic.rows()) return "–";
-  return significant(a.transmission_error_harmonic(n, mesh) * kMicro, 3);
-}
-
-double mean_stiffness(const SystemStaticResult& a, size_t m) {
-  const auto at = static_cast<Index>(m);
-  double sum = 0;
-  for (const MatrixRM& k : a.mesh_stiffness) sum += k(at, at);
-  return sum / static_cast<double>(a.mesh_stiffness.size());
+std::string harmonic_words(const StaticResult& mesh, Index n) {
+  if (n >= mesh.transmission_error_harmonic.size()) return "–";
+  return significant(mesh.transmission_error_harmonic[n] * kMicro, 3);
 }
 
 struct Force {
@@ -138,27 +127,34 @@ void add_rest(const SystemReport& r, std::vector<SystemNumber>& out) {
   const System& s = a.settings.layout;
   for (size_t m = 0; m < s.meshes.size(); ++m) {
     const std::string name = mesh_name(s, m);
+    const StaticResult& mesh = a.mesh[m];
     const auto c = static_cast<Index>(m);
     const auto add = [&](const char* quantity, const char* unit, const std::string& value,
                          const std::string& said = "") {
       out.push_back({name, quantity, unit, value, said});
     };
-    add("contact ratio", "1", fixed(a.contact_ratio[c], 3));
+    add("contact ratio", "1", fixed(mesh.contact_ratio, 3));
     add("mesh phase", "1", fixed(s.meshes[m].phase, 4));
-    add("static transmission error, mean", "µm", significant(a.transmission_error.col(c).mean() * kMicro, 4));
+    add("static transmission error, mean", "µm", significant(mesh.transmission_error.mean() * kMicro, 4));
     add("static transmission error, peak to peak", "µm",
-        significant(peak_to_peak(a.transmission_error.col(c)) * kMicro, 3));
-    for (Index n = 1; n <= std::min<Index>(3, a.transmission_error_harmonic.rows() - 1); ++n)
+        significant(peak_to_peak(mesh.transmission_error) * kMicro, 3));
+    for (Index n = 1; n <= std::min<Index>(3, mesh.transmission_error_harmonic.size() - 1); ++n)
       out.push_back(
-          {name, text("static transmission error, harmonic ", n), "µm", harmonic_words(a, n, c), ""});
-    add("mean mesh stiffness, contact frozen", "N/µm", shown(mean_stiffness(a, m) * 1e-6, 5));
+          {name, text("static transmission error, harmonic ", n), "µm", harmonic_words(mesh, n), ""});
+    add("mean mesh stiffness, contact frozen", "N/µm", shown(mesh.stiffness_tangent.mean() * 1e-6, 5));
+    add("mean mesh stiffness, secant", "N/µm", shown(mesh.mean_stiffness * 1e-6, 5));
     add("mesh force, mean", "N", fixed(a.mesh_force.col(c).mean(), 1));
     add("mesh force, largest", "N", fixed(a.mesh_force.col(c).maxCoeff(), 1));
     if (shares_load(a, m))
       add("share of the load, largest", "%", fixed(a.load_share.col(c).maxCoeff() * kPercent, 2));
-    add("static tooth load, largest", "N", fixed(largest_load(a.tooth_load, m), 0));
+    add("static tooth load, largest", "N", fixed(mesh.tooth_load.maxCoeff(), 0));
     add("static contact pressure inside a flank, largest", "MPa",
-        fixed(largest_load(a.contact_pressure, m) * 1e-6, 0));
+        fixed(mesh.contact_pressure.maxCoeff() * 1e-6, 0));
+    for (Index g = 0; g < mesh.root_stress_max.size(); ++g)
+      add(g == 0 ? "static root stress of the driving gear, largest"
+                 : "static root stress of the driven gear, largest",
+          "MPa", fixed(mesh.root_stress_max[g] * 1e-6, 1));
+    if (mesh.loss_factor > 0) add("loss factor H_V", "1", fixed(mesh.loss_factor, 4));
   }
   for (const LoadSharing& of : load_sharing(a))
     out.push_back({of.name, "load sharing factor", "1", fixed(of.factor, 3), ""});
@@ -296,7 +292,8 @@ std::string mesh_tables(const SystemReport& r) {
     }
     const SystemStaticResult& a = *r.rest;
     const GearPair pair = pair_of(a, m);
-    geometry.back().push_back(fixed(a.contact_ratio[c], 3));
+    const StaticResult& mesh_at_rest = a.mesh[m];
+    geometry.back().push_back(fixed(mesh_at_rest.contact_ratio, 3));
     geometry.back().push_back(fixed(pair.backlash() * kMilli, 4));
     geometry.back().push_back(text(fixed(tip_clearance_to_root(pair, 0) * kMilli, 3), " / ",
                                    fixed(tip_clearance_to_root(pair, 1) * kMilli, 3)));
@@ -314,10 +311,12 @@ std::string mesh_tables(const SystemReport& r) {
       rest.back().push_back(own ? fixed(a.load_share.col(c).maxCoeff() * kPercent, 2) : "–");
     }
     for (const std::string& cell :
-         {significant(a.transmission_error.col(c).mean() * kMicro, 4),
-          significant(peak_to_peak(a.transmission_error.col(c)) * kMicro, 3), harmonic_words(a, 1, c),
-          harmonic_words(a, 2, c), shown(mean_stiffness(a, m) * 1e-6, 5),
-          fixed(largest_load(a.tooth_load, m), 0), fixed(largest_load(a.contact_pressure, m) * 1e-6, 0)})
+         {significant(mesh_at_rest.transmission_error.mean() * kMicro, 4),
+          significant(peak_to_peak(mesh_at_rest.transmission_error) * kMicro, 3),
+          harmonic_words(mesh_at_rest, 1), harmonic_words(mesh_at_rest, 2),
+          shown(mesh_at_rest.stiffness_tangent.mean() * 1e-6, 5),
+          fixed(mesh_at_rest.tooth_load.maxCoeff(), 0),
+          fixed(mesh_at_rest.contact_pressure.maxCoeff() * 1e-6, 0), root_words(mesh_at_rest)})
       rest.back().push_back(cell);
   }
   std::vector<std::string> head{"mesh", "centre distance (mm)", "working pressure angle (deg)", "mesh phase"};
@@ -333,9 +332,9 @@ std::string mesh_tables(const SystemReport& r) {
   if (rest.empty()) return out;
   std::vector<std::string> columns{"mesh", "mean force (N)"};
   if (shared) columns.insert(columns.end(), {"mean share (%)", "largest share (%)"});
-  columns.insert(columns.end(),
-                 {"mean STE (µm)", "STE peak to peak (µm)", "harmonic 1 (µm)", "harmonic 2 (µm)",
-                  "stiffness (N/µm)", "largest tooth load (N)", "largest pressure (MPa)"});
+  columns.insert(columns.end(), {"mean STE (µm)", "STE peak to peak (µm)", "harmonic 1 (µm)",
+                                 "harmonic 2 (µm)", "stiffness (N/µm)", "largest tooth load (N)",
+                                 "largest pressure (MPa)", "largest root stress, driving / driven (MPa)"});
   return out +
          html::table(
              text("The meshes at rest over ",
@@ -475,9 +474,9 @@ void remark_rest(const SystemStaticResult& a, std::vector<Remark>& out) {
     double pressure = 0, edge = 0, most = 0;
     for (size_t m = 0; m < s.meshes.size(); ++m) {
       if (a.settings.section[m] != static_cast<int>(k)) continue;
-      pressure = std::max(pressure, largest_load(a.contact_pressure, m));
-      edge = std::max(edge, tip_edge_load(a, m));
-      most = std::max(most, largest_load(a.tooth_load, m));
+      pressure = std::max(pressure, a.mesh[m].contact_pressure.maxCoeff());
+      edge = std::max(edge, tip_edge_load(a.mesh[m]));
+      most = std::max(most, a.mesh[m].tooth_load.maxCoeff());
     }
     if (pressure > kHardenedSteelPressure)
       out.push_back(
@@ -500,8 +499,8 @@ void remark_rest(const SystemStaticResult& a, std::vector<Remark>& out) {
   for (const System::Body& body : s.bodies)
     if (!body.bearing.elastic()) rigid += (rigid.empty() ? "" : ", ") + body.name;
   if (!rigid.empty()) out.push_back(remark(false, "on rigid axes, without motion in x and y: ", rigid));
-  out.push_back(remark(false, "largest unbalance of a torque over the largest mesh force: ",
-                       shown(a.torque_residual.maxCoeff(), 2)));
+  out.push_back(remark(
+      false, "largest unbalance of a torque over the largest mesh force: ", shown(a.torque_residual, 2)));
 }
 
 void remark_modes(const ModesResult& a, std::vector<Remark>& out) {

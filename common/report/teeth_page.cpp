@@ -16,6 +16,7 @@
 #include "report/report_page.h"
 #include "report/report_remarks.h"
 #include "report/report_tables.h"
+#include "report/system_report_tables.h"
 #include "signal/no_root_stress.h"
 
 namespace whine {
@@ -51,10 +52,11 @@ std::string or_dash(const std::optional<double>& value, int decimals, double sca
   return value ? fixed(*value * scale, decimals) : html::kNoValue;
 }
 
-WordTable at_rest(const StaticResult& s, const IsoComparison& iso) {
+// of: "At rest at 150 N m".
+WordTable at_rest(const StaticResult& s, const IsoComparison& iso, const std::string& of) {
   WordTable out{
       text(
-          "At rest at ", torque_words(s.torque),
+          of,
           ", beside ISO 6336, method B. sigma_F0 is of a tooth that carries the whole load at the outer point of single contact; sigma_H0 is at the pitch point."),
       {"", "unit", s.mesh.gear[0] + " (driver)", s.mesh.gear[1] + " (driven)"},
       {}};
@@ -138,7 +140,7 @@ WordTable in_motion(const StaticResult& s, const GearPair& pair, const IsoCompar
 const std::vector<std::string>& limits() {
   static const std::vector<std::string> all{
       text(
-          "Root stress is the tangential stress along the root beside the loaded flank of the teeth that carry load. In motion it is quasi-static in the tooth loads: the inertia of the body adds none."),
+          "Root stress is the tangential stress along the root beside the loaded flank of the teeth that carry load, by the loads of their own mesh; of a gear in several meshes what the others add, on its other flank, is left out. In motion it is quasi-static in the tooth loads: the inertia of the body adds none."),
       text(
           "A tip edge on a flank is a singular contact in this model: it has no largest pressure, so its load is stated, apart from the pressure inside the flanks. Real edges are rounded and wear."),
       text(
@@ -147,6 +149,54 @@ const std::vector<std::string>& limits() {
           "K_v is a factor of forces, of gears without deviations. sigma_F0 and sigma_H0 have no application, face load or dynamic factors: they stand beside values at rest only."),
       text("Losses are per unit coefficient of friction.")};
   return all;
+}
+
+// What ISO 6336 leaves out, or is used beyond.
+std::string range_of(const IsoComparison& iso) {
+  std::string out;
+  if (!iso.beyond.empty())
+    out += " Outside of the range that ISO 6336 gives for its formulas: " + iso.beyond + ".";
+  if (!iso.missing.empty()) out += " Left out: " + iso.missing + " (" + iso.why + ").";
+  return out;
+}
+
+// [mesh] of each [[mesh]] that carries load the one whose roots are stressed most.
+std::vector<size_t> most_stressed(const SystemStaticResult& a) {
+  std::vector<size_t> out;
+  const auto stress = [&](size_t m) {
+    const Eigen::VectorXd& of = a.mesh[m].root_stress_max;
+    return of.size() > 0 ? of.maxCoeff() : 0;
+  };
+  for (size_t k = 0; k < a.settings.mesh.size(); ++k) {
+    std::optional<size_t> most;
+    for (size_t m = 0; m < a.mesh.size(); ++m)
+      if (a.settings.section[m] == static_cast<int>(k) && stress(m) > (most ? stress(*most) : 0)) most = m;
+    if (most) out.push_back(*most);
+  }
+  return out;
+}
+
+WordTable train_in_motion(const SystemReport& r) {
+  WordTable out{
+      "In motion: the largest over all speeds, with the mesh frequency at which it stands, and what it is over its value at rest: over the mean of the mesh force, over the largest load of a pair of teeth. Root stress in motion is not computed for trains; it goes with the loads of the pairs.",
+      {"mesh", "speed", "mesh force (N)", "at (Hz)", "dynamic factor", "load of a pair of teeth (N)",
+       "at (Hz)", "over rest"},
+      {}};
+  for (size_t m = 0; m < r.rest->mesh.size(); ++m)
+    for (const ResponseResult& sweep : r.sweeps) {
+      const auto column = static_cast<Index>(m);
+      out.rows.push_back({r.rest->mesh_names[m], sweep.direction == Direction::up ? "rising" : "falling"});
+      const auto add = [&](const MatrixRM& of, double rest) {
+        Index top = 0;
+        const double most = of.col(column).maxCoeff(&top);
+        for (const std::string& cell : {fixed(most, 0), fixed(sweep.mesh_frequency[top], 0),
+                                        rest > 0 ? fixed(most / rest, 2) : html::kNoValue})
+          out.rows.back().push_back(cell);
+      };
+      add(sweep.mesh_force_max, r.rest->mesh_force.col(column).mean());
+      add(sweep.tooth_load_max, r.rest->mesh[m].tooth_load.maxCoeff());
+    }
+  return out;
 }
 
 std::string as_html(const WordTable& t) {
@@ -170,36 +220,85 @@ std::vector<WordTable> teeth_tables(const ReportContent& c) {
     sweeps[direction == Direction::up ? 0 : 1] = sweep;
   }
   const IsoComparison iso = iso_comparison(s, sweeps[0]->inertia);
-  WordTable rest = at_rest(s, iso);
-  if (!iso.beyond.empty())
-    rest.caption += " Outside of the range that ISO 6336 gives for its formulas: " + iso.beyond + ".";
-  if (!iso.missing.empty()) rest.caption += " Left out: " + iso.missing + " (" + iso.why + ").";
+  WordTable rest = at_rest(s, iso, "At rest at " + torque_words(s.torque));
+  rest.caption += range_of(iso);
   return {rest, in_motion(s, GearPair(s), iso, sweeps)};
 }
 
-std::string teeth_html(const ReportContent& c) {
-  const std::vector<WordTable> tables = teeth_tables(c);
-  const size_t colon = c.scene.find(": ");
-  const std::string file = c.scene.substr(0, colon),
-                    title = colon == std::string::npos ? c.scene : c.scene.substr(colon + 2);
+std::vector<WordTable> teeth_tables(const SystemReport& r) {
+  require_whole_system(r);
+  if (!r.rest) fail(Failure::input, "teeth: no static.h5 given; make static makes it");
+  const std::vector<size_t> meshes = most_stressed(*r.rest);
+  if (meshes.empty()) fail(Failure::input, "teeth: ", why_no_root_stress(r.rest->mesh.at(0)));
+  std::vector<WordTable> out;
+  out.reserve(meshes.size() + 1);
+  for (const size_t m : meshes) {
+    const StaticResult& mesh = r.rest->mesh[m];
+    std::array<double, kSides> inertia{};
+    for (size_t g = 0; g < kSides; ++g)
+      inertia[g] = layout_of(r).bodies[static_cast<size_t>(layout_of(r).meshes[m].side[g].body)].inertia;
+    const IsoComparison iso = iso_comparison(mesh, inertia);
+    out.push_back(at_rest(
+        mesh, iso,
+        text(r.rest->mesh_names[m], " at rest, ", torque_words(mesh.torque), " on ", mesh.mesh.gear[0],
+             ", of the meshes of its [[mesh]] the one with the largest root stress")));
+    out.back().caption += range_of(iso);
+  }
+  if (!r.sweeps.empty()) out.push_back(train_in_motion(r));
+  return out;
+}
+
+namespace {
+
+// scene: "file: title"; words: before its name; of the sections those that hold something.
+std::string teeth_of(const std::string& scene, const std::string& words,
+                     const std::vector<ReportSection>& sections) {
+  const size_t colon = scene.find(": ");
+  const std::string file = scene.substr(0, colon),
+                    title = colon == std::string::npos ? scene : scene.substr(colon + 2);
+  std::string all;
+  for (const auto& [id, heading, inside] : sections)
+    if (!inside.empty())
+      all += text("<section id=\"", id, "\">\n<h2>", heading, "</h2>\n", inside, "</section>\n");
+  return html::page(title,
+                    "<p class=\"scene\">What the teeth suffer " + words + ": scene <code>" +
+                        html::escaped(file) + "</code></p>\n",
+                    all);
+}
+
+std::string list_of_limits() {
   std::string list;
   for (const std::string& limit : limits()) list += html::tagged("li", html::escaped(limit)) + "\n";
-  const auto section = [](const char* id, const char* heading, const std::string& inside) {
-    return inside.empty()
-               ? ""
-               : text("<section id=\"", id, "\">\n<h2>", heading, "</h2>\n", inside, "</section>\n");
-  };
-  return html::page(title,
-                    "<p class=\"scene\">What the teeth suffer at " + torque_words(c.statics[0].torque) +
-                        ": scene <code>" + html::escaped(file) + "</code></p>\n",
-                    section("remarks", "Warnings and remarks", remarks_list(c)) +
-                        section("rest", "At rest", as_html(tables[0]) + figures_of(c, "rest")) +
-                        section("motion", "In motion", as_html(tables[1]) + figures_of(c, "motion")) +
-                        section("errors", "What the errors are",
-                                figures_of(c, "errors") + (c.budget ? budget_table(*c.budget) : "")) +
-                        section("limits", "Limits", html::tagged("ul", "\n" + list)) +
-                        section("gears", "The gears", gears_table(c)) +
-                        section("provenance", "Provenance", provenance_table(c.sources)));
+  return html::tagged("ul", "\n" + list);
+}
+
+}  // namespace
+
+std::string teeth_html(const ReportContent& c) {
+  const std::vector<WordTable> tables = teeth_tables(c);
+  return teeth_of(
+      c.scene, "at " + torque_words(c.statics[0].torque),
+      {{"remarks", "Warnings and remarks", remarks_list(c)},
+       {"rest", "At rest", as_html(tables[0]) + figures_of(c, "rest")},
+       {"motion", "In motion", as_html(tables[1]) + figures_of(c, "motion")},
+       {"errors", "What the errors are", figures_of(c, "errors") + (c.budget ? budget_table(*c.budget) : "")},
+       {"limits", "Limits", list_of_limits()},
+       {"gears", "The gears", gears_table(c)},
+       {"provenance", "Provenance", provenance_table(c.sources)}});
+}
+
+std::string teeth_html(const SystemReport& r) {
+  const std::vector<WordTable> tables = teeth_tables(r);
+  const size_t at_rest = tables.size() - (r.sweeps.empty() ? 0 : 1);
+  std::string rest;
+  for (size_t i = 0; i < at_rest; ++i) rest += as_html(tables[i]);
+  return teeth_of(r.scene, "in each mesh",
+                  {{"remarks", "Warnings and remarks", system_remarks(r)},
+                   {"rest", "At rest", rest + mesh_tables(r)},
+                   {"motion", "In motion", r.sweeps.empty() ? "" : as_html(tables.back())},
+                   {"limits", "Limits", list_of_limits()},
+                   {"gears", "The gears", gear_tables(r)},
+                   {"provenance", "Provenance", provenance_table(r.sources)}});
 }
 
 }  // namespace whine

@@ -1,7 +1,8 @@
-// What the teeth of a pair suffer, on one page: root stress, flank pressure, dynamic factors, losses, beside ISO 6336.
+// What the teeth of a pair or of a train suffer, on one page: root stress, flank pressure, dynamic factors, losses, beside ISO 6336.
 #pragma once
 #include "report/report_content.h"
 #include "report/stiffness_table.h"
+#include "report/system_report.h"
 
 namespace whine {
 
@@ -12,5 +13,10 @@ std::vector<WordTable> teeth_tables(const ReportContent& c);
 // that are given. Throws Error(input) without static.h5, without sweeps up and down at its torque, for cracked teeth and as
 // report_html().
 std::string teeth_html(const ReportContent& c);
+
+// Of a train: of each [[mesh]] the mesh with the largest root stress at rest, beside ISO 6336; of scenes with speeds forces of all meshes
+// in motion. Throws Error(input) without static.h5 and modes.h5 and for bodies without root stress.
+std::vector<WordTable> teeth_tables(const SystemReport& r);
+std::string teeth_html(const SystemReport& r);
 
 }  // namespace whine

@@ -1,15 +1,17 @@
-// A pair at rest over its mesh phase.
+// Gears at rest over a mesh period, of a pair or of a train; where teeth differ, over the hunting period.
 #pragma once
 #include <Eigen/Core>
 #include <array>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "base/matrix.h"
 #include "model/stages.h"
+#include "model/system_stages.h"
 #include "results/remark.h"
 
 namespace whine {
@@ -71,27 +73,29 @@ struct ReferenceContact {
   double approach = 0;         // m: the transmission error
 };
 
-// static.h5
+// One mesh at rest: of a pair its only one. Side 0 is the driving gear, side 1 the driven one.
 struct StaticResult : GearPairParameters {
-  double torque = 0;  // N m on the driver
+  double torque =
+      0;  // N m on the driving gear, of a train the share of this mesh by the balance of rigid bodies; 0: no load
   double contact_ratio = 0;
   int hunting_periods =
       1;  // mesh periods after which the same teeth meet, as far as teeth differ; all are here
-  Eigen::VectorXd mesh_phase;          // (phase) 1, 0 to hunting_periods
+  Eigen::VectorXd mesh_phase;  // (phase) 1, 0 to hunting_periods; of a train plus the phase of the mesh
   Eigen::VectorXd transmission_error;  // (phase) m
   Eigen::VectorXd unloaded_error;      // (phase) m: the same without load, 0 for flanks as they are designed
   // (phase) N m-1, of the mesh without bearings; the secant is the load over what it adds to the transmission error; the
-  // tangent of contact "line" is off by up to 0.6 % where contact comes near a tip edge
+  // tangent of contact "line" is off by up to 0.6 % where contact comes near a tip edge; of a train it is that of frozen contact. 0
+  // where the mesh carries no load
   Eigen::VectorXd stiffness_secant, stiffness_tangent;
   Eigen::VectorXi pair;  // (pair)
   MatrixRM tooth_load;   // (phase, pair) N
-  // [gear] (phase, xy) N: what a gear presses its bearing with; empty for a rigid one. The driver's centre is at the
+  // [gear] (phase, xy) N: what a gear of a pair presses its bearing with; empty for a rigid one and of trains. The driver's centre is at the
   // origin, the driven gear's above it, the driver turns counter-clockwise.
   std::array<MatrixRM, 2> bearing_force;
   // (phase, pair) Pa, m: of contacts that stay inside the flank, 0 elsewhere
   MatrixRM contact_pressure, contact_half_width;
   // [gear] (phase, pair) Pa: largest tangential stress along the root beside the loaded flank of each pair's tooth, tension
-  // positive
+  // positive, under the loads of this mesh
   std::array<MatrixRM, 2> root_stress;
   Eigen::VectorXd root_stress_max;  // (gear) Pa: largest of these
   Eigen::VectorXd
@@ -105,7 +109,11 @@ struct StaticResult : GearPairParameters {
   // where it acts as the normal force does: against the rotation of the driver, with that of the driven gear
   Eigen::VectorXd friction_loss;
   std::array<Eigen::VectorXd, 2> friction_moment;
-  double efficiency = 1;                        // 1 - mean friction_loss / torque
+  double efficiency = 1;  // 1 - mean friction_loss / torque
+  Eigen::VectorXd friction_work()
+      const {  // (phase) J that friction takes in a mesh period with the forces of this phase
+    return friction_loss * (2 * std::numbers::pi / gear[0].design.teeth);
+  }
   Eigen::VectorXd transmission_error_harmonic;  // (harmonic 0..) m: mean, then amplitudes
   Eigen::VectorXd stiffness_harmonic;           // (harmonic 0..) N m-1, of the secant stiffness
   // (order 0..) m: mean, then amplitudes of the harmonics of the hunting frequency, up to those above; empty for teeth that
@@ -124,5 +132,68 @@ struct StaticResult : GearPairParameters {
   double backlash_margin = 0;    // m left on the line of action; infinite backlash is not stored
   std::vector<Remark> remarks;
 };
+
+// static.h5: meshes, bodies and what they have in common. Frame of a train: that of the carriers, which do not turn in it. A pair has one
+// mesh and the bodies driver and driven.
+struct SystemStaticResult {
+  // Of a train; inertias and masses of the layout that the scene leaves out are those of the bodies. Of a pair no bodies.
+  SystemStaticParameters settings;
+  std::vector<BodyParameters> drawing;  // [gear] of settings.body, of a train
+  bool of_train() const { return !settings.layout.bodies.empty(); }
+  std::vector<std::string> mesh_names, body_names;  // "sun-planet1"; bodies
+  std::vector<StaticResult> mesh;
+
+  int hunting_periods = 1;            // mesh periods after which the same teeth meet, as far as teeth differ
+  Eigen::VectorXd mesh_phase;         // (phase) 1, of the first mesh: 0 to the hunting periods
+  MatrixRM rotation;                  // (phase, body) m: r theta in the body's own sense; 0 of held ones
+  std::vector<MatrixRM> translation;  // [phase] (body, xy) m, of its hub
+  MatrixRM mesh_deflection;  // (phase, mesh) m: the transmission error without what bearings give way
+  MatrixRM mesh_force;       // (phase, mesh) N: torque on the driving body over its base radius
+  MatrixRM load_share;       // (phase, mesh) 1: of the meshes of one [[mesh]]
+  std::vector<MatrixRM> bearing_force;  // [phase] (body, xy) N: what a body presses its bearing or pin with
+  MatrixRM torque;  // (phase, body) N m in the body's own sense: drives, and what holds a body
+  // [phase] (mesh, mesh) N m-1, see SystemStatics::mesh_stiffness(); of trains
+  std::vector<MatrixRM> mesh_stiffness;
+  // Certificate: worst over all positions, m, N and 1
+  double least_gap = 0, least_force = 0, torque_residual = 0, friction_coupling = 0;
+  double backlash_margin = std::numeric_limits<double>::infinity();  // m: least of the meshes that have some
+  // Of trains whose flanks have friction, else none: (body) 1: power out over power in while the body is at rest, 0 of planets; of
+  // trains without a carrier all are that of the train
+  Eigen::VectorXd efficiency;
+  std::vector<Remark> remarks;
+};
+
+// Of the gear that a body of a train is; nullptr: of a carrier.
+inline const BodyParameters* drawing_of(const SystemStaticResult& a, int body) {
+  const std::string& gear = a.settings.gear[static_cast<size_t>(body)];
+  for (size_t g = 0; g < a.settings.body.size() && g < a.drawing.size(); ++g)
+    if (a.settings.body[g].first == gear) return &a.drawing[g];
+  return nullptr;
+}
+
+// [body] nullptr: of a carrier.
+inline std::vector<const GearDesign*> designs_of(const SystemStaticResult& a) {
+  std::vector<const GearDesign*> out;
+  out.reserve(a.settings.layout.bodies.size());
+  for (size_t b = 0; b < a.settings.layout.bodies.size(); ++b) {
+    const BodyParameters* drawing = drawing_of(a, static_cast<int>(b));
+    out.push_back(drawing ? &drawing->design : nullptr);
+  }
+  return out;
+}
+
+// What mesh m of a train was computed from, as that of a pair: drawings, [[mesh]], errors of its teeth, centre distance in the layout.
+inline GearPairParameters mesh_parameters(const SystemStaticResult& a, size_t m) {
+  const SystemStaticParameters& s = a.settings;
+  const System::Mesh& mesh = s.layout.meshes[m];
+  GearPairParameters out{{}, s.mesh[static_cast<size_t>(s.section[m])], s.fidelity, s.contact};
+  out.mesh.centre_distance = mesh.centre_distance;
+  for (size_t g = 0; g < kSides; ++g) {
+    const int body = mesh.side[g].body;
+    if (const BodyParameters* drawing = drawing_of(a, body)) out.gear[g] = *drawing;
+    if (s.has_errors(static_cast<size_t>(body))) out.mesh.errors[g] = s.errors[static_cast<size_t>(body)];
+  }
+  return out;
+}
 
 }  // namespace whine

@@ -22,13 +22,9 @@ std::vector<Remark> drawing_remarks(const GearPair& pair, const std::array<std::
 
 std::vector<Remark> drawing_remarks(const SystemStaticResult& system) {
   std::vector<Remark> out;
-  const System& layout = system.settings.layout;
-  for (size_t m = 0; m < layout.meshes.size(); ++m) {
-    const GearMeshSpec& mesh = system.settings.mesh[static_cast<size_t>(system.settings.section[m])];
-    const BodyParameters *first = drawing_of(system, layout.meshes[m].side[0].body),
-                         *second = drawing_of(system, layout.meshes[m].side[1].body);
-    const GearPair pair(first->design, second->design, layout.meshes[m].centre_distance);
-    for (const Remark& of_mesh : drawing_remarks(pair, mesh.gear))
+  for (size_t m = 0; m < system.settings.layout.meshes.size(); ++m) {
+    const GearPairParameters mesh = mesh_parameters(system, m);
+    for (const Remark& of_mesh : drawing_remarks(GearPair(mesh), mesh.mesh.gear))
       if (std::none_of(out.begin(), out.end(), [&](const Remark& r) { return r.words == of_mesh.words; }))
         out.push_back(of_mesh);
   }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "gear/pair.h"
-#include "results/system_static.h"
+#include "results/static.h"
 
 namespace whine {
 

@@ -8,7 +8,7 @@
 // modes, in which the central members are at rest (Lin and Parker 1999). So types and degenerate pairs do not hang on round-off.
 #pragma once
 #include "results/modes.h"
-#include "results/system_static.h"
+#include "results/static.h"
 #include "system/rigid_system.h"
 
 namespace whine {

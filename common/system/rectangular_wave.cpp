@@ -17,8 +17,11 @@ RectangularWave rectangular_wave(const StaticResult& s) {
   wave.high_begin = start - std::floor(start);
   wave.high_end = wave.high_begin + (end - start - few);
   const double middle = 0.5 * (wave.high_begin + wave.high_end);
-  wave.high = at_phase(s.mesh_phase, s.stiffness_secant, middle);
-  wave.low = at_phase(s.mesh_phase, s.stiffness_secant, middle + 0.5);
+  // From the first position on, which is another phase than 0 in a train.
+  const double first = s.mesh_phase[0];
+  const Eigen::VectorXd after = s.mesh_phase.array() - first;
+  wave.high = at_phase(after, s.stiffness_secant, middle - first);
+  wave.low = at_phase(after, s.stiffness_secant, middle + 0.5 - first);
   return wave;
 }
 

@@ -10,12 +10,15 @@
 
 namespace whine {
 
-// The driven hub is held, the driver carries torque (N m, > 0). Fills all of StaticResult but the harmonics and the contact
-// of the reference pair. zone_factor:
-// the strips' candidate zone is this many times as wide as the load alone asks for. The tangent stiffness of contact = "line"
-// is off by 0.6 % at most where half the load would reach a tip edge, because the flank tables are read at one place
-// whatever the pair carries (make_line_position). Throws Error(input) for a torque that is not positive,
+// The driven hub is held, the driver carries torque (N m, > 0). All but the harmonics and the contact of the reference pair.
+// zone_factor: the strips' candidate zone is this many times as wide as the load alone asks for. The tangent stiffness of
+// contact = "line" is off by 0.6 % at most where half the load would reach a tip edge, because the flank tables are read at
+// one place whatever the pair carries (make_line_position). Throws Error(input) for a torque that is not positive,
 // Error(numerical) where no equilibrium within the flanks exists or a tip edge would leave the other's involute.
+SystemStaticResult pair_at_rest(const ReducedBody& driver, const ReducedBody& driven,
+                                const StaticParameters& settings, double torque, double zone_factor = 1);
+
+// Its mesh.
 StaticResult static_transmission(const ReducedBody& driver, const ReducedBody& driven,
                                  const StaticParameters& settings, double torque, double zone_factor = 1);
 

@@ -2,16 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/error.h"
 #include "base/format.h"
 #include "gear/friction.h"
 #include "gear/system_layout.h"
 #include "gear/tooth_errors.h"
-#include "signal/spectrum.h"
 #include "system/drawing_remarks.h"
+#include "system/flank_pressure.h"
+#include "system/mesh_record.h"
 #include "system/near_interference.h"
-#include "system/system_statics.h"
+#include "system/rest_record.h"
 
 namespace whine {
 
@@ -111,85 +113,6 @@ void take_masses(const SystemStaticParameters& settings, const std::vector<Reduc
 
 namespace {
 
-void take_pairs(const std::vector<SystemSolution>& solutions, Index meshes, SystemStaticResult& out) {
-  int lowest = -1, highest = 1;
-  for (const SystemSolution& at : solutions)
-    for (const LoadedSegment& load : at.loads)
-      if (load.force > 0) {
-        lowest = std::min(lowest, load.pair);
-        highest = std::max(highest, load.pair);
-      }
-  out.pair = Eigen::VectorXi::LinSpaced(highest - lowest + 1, lowest, highest);
-  const MatrixRM none = MatrixRM::Zero(meshes, out.pair.size());
-  out.tooth_load.assign(solutions.size(), none);
-  out.contact_pressure = out.tooth_load;
-  for (size_t i = 0; i < solutions.size(); ++i)
-    for (const LoadedSegment& load : solutions[i].loads)
-      if (load.force > 0) {
-        out.tooth_load[i](load.mesh, load.pair - lowest) = load.force;
-        out.contact_pressure[i](load.mesh, load.pair - lowest) = load.patch.pressure;
-      }
-}
-
-// Torques on bodies and forces on bearings; those of carriers follow from their planets.
-void take_balance(const SystemModel& system, const SystemSolution& at, Index row, SystemStaticResult& out) {
-  const System& layout = system.layout;
-  MatrixRM& force = out.bearing_force[static_cast<size_t>(row)];
-  for (size_t b = 0; b < system.body.size(); ++b) {
-    force.row(static_cast<Index>(b)) = at.bearing_force[b].transpose();
-    double moment = 0;  // N, of the contact forces over the base radius
-    for (size_t m = 0; m < system.mesh.size(); ++m)
-      if (const int side = system.side_of(static_cast<int>(b), static_cast<int>(m)); side >= 0)
-        moment += side == 0 ? at.mesh_force[m] : -at.driven_force[m];
-    const int number = static_cast<int>(b);
-    out.torque(row, number) =
-        system.layout.held(number) ? moment * system.base_radius(number) : system.layout.torque(number);
-  }
-  for (size_t c = system.body.size(); c < layout.bodies.size(); ++c)
-    if (const int number = static_cast<int>(c); !layout.held(number))
-      out.torque(row, number) = layout.torque(number);
-  for (size_t b = 0; b < system.body.size(); ++b) {
-    const int on = layout.bodies[b].on;
-    if (on == System::kGround) continue;
-    const System::Body& carrier = layout.bodies[static_cast<size_t>(on)];
-    const double x = layout.bodies[b].centre[0] - carrier.centre[0],
-                 y = layout.bodies[b].centre[1] - carrier.centre[1];
-    const Vec2& pin = at.bearing_force[b];
-    force.row(on) += pin.transpose();
-    if (!layout.held(on)) continue;
-    out.torque(row, on) -= carrier.sense * (x * pin.y() - y * pin.x());
-  }
-}
-
-void take_phase(const SystemModel& system, const SystemSolution& at, Index row, SystemStaticResult& out) {
-  const SystemStaticParameters& settings = out.settings;
-  std::vector<double> carried(settings.mesh.size(), 0.0);
-  for (size_t m = 0; m < system.mesh.size(); ++m)
-    carried[static_cast<size_t>(settings.section[m])] += at.mesh_force[m];
-  for (size_t m = 0; m < system.mesh.size(); ++m) {
-    const auto column = static_cast<Index>(m);
-    const double all = carried[static_cast<size_t>(settings.section[m])];
-    out.transmission_error(row, column) = at.transmission_error[m];
-    out.mesh_deflection(row, column) = at.deflection[m];
-    out.mesh_force(row, column) = at.mesh_force[m];
-    out.load_share(row, column) = all > 0 ? at.mesh_force[m] / all : 0;
-  }
-  for (size_t b = 0; b < system.layout.bodies.size(); ++b) {
-    const auto column = static_cast<Index>(b);
-    out.rotation(row, column) = at.equilibrium.x[column];
-    if (const Bearing& bearing = system.layout.bodies[b].bearing; bearing.elastic())
-      out.translation[static_cast<size_t>(row)].row(column) =
-          at.bearing_force[b].transpose() / bearing.stiffness;
-  }
-  out.mesh_stiffness[static_cast<size_t>(row)] = at.mesh_stiffness;
-  for (size_t m = 0; m < system.friction.size(); ++m)
-    out.friction_work(row, static_cast<Index>(m)) = at.friction_work[m];
-  out.least_gap[row] = at.equilibrium.certificate.least_gap;
-  out.least_force[row] = at.equilibrium.certificate.least_force;
-  out.torque_residual[row] = at.equilibrium.residual;
-  take_balance(system, at, row, out);
-}
-
 // With each member of the train at rest, from the mean torques on its drives.
 void take_efficiency(SystemStaticResult& out) {
   const System& layout = out.settings.layout;
@@ -208,9 +131,12 @@ void take_efficiency(SystemStaticResult& out) {
 Remark remark_on_friction(const SystemStaticResult& a) {
   const System& layout = a.settings.layout;
   std::vector<double> work(a.settings.mesh.size(), 0.0);
-  for (Index m = 0; m < a.friction_work.cols(); ++m)
-    work[static_cast<size_t>(a.settings.section[static_cast<size_t>(m)])] += a.friction_work.col(m).mean();
-  const double all = a.friction_work.rowwise().sum().mean();
+  double all = 0;
+  for (size_t m = 0; m < a.mesh.size(); ++m) {
+    const double own = a.mesh[m].friction_work().mean();
+    work[static_cast<size_t>(a.settings.section[m])] += own;
+    all += own;
+  }
   std::string shares, efficiencies;
   for (size_t m = 0; m < work.size(); ++m)
     shares += text(m == 0 ? "" : ", ", a.settings.mesh[m].gear[0], "-", a.settings.mesh[m].gear[1], " ",
@@ -227,20 +153,17 @@ Remark remark_on_friction(const SystemStaticResult& a) {
                 ". It acts by its moments and forces on the hubs and bends no teeth");
 }
 
-void take_harmonics(SystemStaticResult& out) {
-  constexpr int kMostHarmonics = 40, kMostOrders = 1 << 20;
-  const auto taken = [&](int most, int periods) {
-    const int count = resolved_harmonics(out.mesh_phase.size(), most, periods);
-    MatrixRM amplitude(count + 1, out.transmission_error.cols());
-    for (Index m = 0; m < out.transmission_error.cols(); ++m) {
-      const Harmonics h = harmonics(Eigen::VectorXd(out.transmission_error.col(m)), count, periods);
-      amplitude(0, m) = h.mean;
-      amplitude.col(m).tail(count) = h.amplitude;
-    }
-    return amplitude;
-  };
-  out.transmission_error_harmonic = taken(kMostHarmonics, out.hunting_periods);
-  if (out.hunting_periods > 1) out.transmission_error_order = taken(kMostOrders, 1);
+// Of the drawings, and of the pressure of the first mesh of each [[mesh]].
+std::vector<Remark> remarks_on_train(const SystemStaticResult& a) {
+  std::vector<Remark> out = drawing_remarks(a);
+  const std::vector<int>& section = a.settings.section;
+  for (size_t m = 0; m < a.mesh.size(); ++m) {
+    const auto own = section.begin() + static_cast<Index>(m);
+    if (std::find(section.begin(), own, section[m]) != own) continue;
+    const std::vector<Remark> more = pressure_remarks(a.mesh[m]);
+    out.insert(out.end(), more.begin(), more.end());
+  }
+  return out;
 }
 
 }  // namespace
@@ -284,65 +207,28 @@ void check_at_rest(const SystemScene& scene, const System& layout) {
            "': ", words);
 }
 
-namespace {
-
-// What is kept of each position until the result is written: loads and forces of the strips, and the result itself.
-void require_rows(const SystemModel& system, int periods, int positions) {
-  constexpr double kMostMemory = 4e9;  // bytes
-  const auto meshes = static_cast<double>(system.mesh.size()),
-             bodies = static_cast<double>(system.body.size());
-  constexpr double kOfMesh = 100, kOfBody = 20;  // numbers: strips of its pairs among them; places and forces
-  const double memory = 8.0 * positions * periods * (meshes * (kOfMesh + 2 * meshes) + bodies * kOfBody);
-  if (memory > kMostMemory)
-    fail(Failure::input,
-         periods > 1 ? text("the same teeth meet again after ", periods, " mesh periods; ") : "",
-         static_cast<double>(positions) * periods, " positions of ", system.mesh.size(), " meshes need ",
-         memory * 1e-9, " GB, at most ", kMostMemory * 1e-9,
-         " are allowed; lower positions in [discretisation]",
-         periods > 1 ? ", or give errors to fewer gears" : "");
-}
-
-}  // namespace
-
 SystemStaticResult system_at_rest(const SystemStaticParameters& settings,
                                   const std::vector<ReducedBody>& bodies) {
   SystemModel system = elastic_system(settings, bodies);
   hold_output(system);
-  const int periods = hunting_periods(system);
-  require_rows(system, periods, settings.contact.positions);
-  const std::vector<SystemSolution> solutions = rest_over_period(
-      system, settings.fidelity.contact, settings.contact.strips, settings.contact.positions);
-  const auto phases = static_cast<Index>(solutions.size()),
-             all = static_cast<Index>(settings.layout.bodies.size()),
-             meshes = static_cast<Index>(system.mesh.size());
-  SystemStaticResult out;
+  SystemStaticResult drawn;
+  drawn.settings = settings;
+  drawn.drawing.reserve(settings.body.size());
+  for (const auto& [gear, hash] : settings.body) drawn.drawing.push_back(body_of(settings, bodies, gear));
+  std::vector<GearPairParameters> of;
+  of.reserve(system.mesh.size());
+  for (size_t m = 0; m < system.mesh.size(); ++m) of.push_back(mesh_parameters(drawn, m));
+  SystemStaticResult out = record_rest(system, settings.section, of, 1, true);
   out.settings = settings;
-  out.hunting_periods = periods;
-  for (const auto& [gear, hash] : settings.body) out.drawing.push_back(body_of(settings, bodies, gear));
+  out.drawing = std::move(drawn.drawing);
   take_masses(settings, bodies, out.settings.layout);
-  out.contact_ratio.resize(meshes);
-  for (Index m = 0; m < meshes; ++m)
-    out.contact_ratio[m] = system.mesh[static_cast<size_t>(m)].kinematics.contact_ratio();
-  for (Eigen::VectorXd* list : {&out.mesh_phase, &out.least_gap, &out.least_force, &out.torque_residual})
-    list->setZero(phases);
-  out.rotation = out.torque = MatrixRM::Zero(phases, all);
-  out.transmission_error = out.mesh_deflection = out.mesh_force = out.load_share =
-      MatrixRM::Zero(phases, meshes);
-  out.translation.assign(solutions.size(), MatrixRM::Zero(all, 2));
-  out.bearing_force = out.translation;
-  out.mesh_stiffness.assign(solutions.size(), MatrixRM::Zero(meshes, meshes));
-  if (system.slides()) {
-    out.friction_coefficient = Eigen::Map<const Eigen::VectorXd>(system.friction.data(), meshes);
-    out.friction_work = MatrixRM::Zero(phases, meshes);
+  for (const System::Body& body : settings.layout.bodies) out.body_names.push_back(body.name);
+  for (size_t m = 0; m < out.mesh.size(); ++m) {
+    out.mesh_names.push_back(mesh_name(settings.layout, m));
+    add_harmonics(out.mesh[m]);
   }
-  for (Index i = 0; i < phases; ++i) {
-    out.mesh_phase[i] = static_cast<double>(i) / static_cast<double>(settings.contact.positions);
-    take_phase(system, solutions[static_cast<size_t>(i)], i, out);
-  }
-  take_pairs(solutions, meshes, out);
-  take_harmonics(out);
   if (system.slides()) take_efficiency(out);
-  out.remarks = drawing_remarks(out);
+  out.remarks = remarks_on_train(out);
   if (system.slides()) out.remarks.push_back(remark_on_friction(out));
   return out;
 }

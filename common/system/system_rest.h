@@ -5,7 +5,7 @@
 
 #include "model/system_scene.h"
 #include "results/reduced_body.h"
-#include "results/system_static.h"
+#include "results/static.h"
 #include "system/system.h"
 
 namespace whine {
@@ -36,7 +36,7 @@ void take_masses(const SystemStaticParameters& settings, const std::vector<Reduc
                  System& layout);
 
 // bodies: [gear] of settings.body. Throws Error(input) for torques that are not balanced, more positions than memory holds and what
-// SystemModel and hunting_periods() reject, and what rest_over_period throws.
+// SystemModel and hunting_periods() reject, and what over_period() throws.
 //
 // What holds a carrier, T_c = -sum (P - C) x F over its planets, and its bearing force, sum F, F what a planet presses its pin
 // with, follow from the planets. Where all axes of a train but those of planets are one, sum of sense T over bodies on the

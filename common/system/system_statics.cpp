@@ -118,13 +118,33 @@ std::string outside_zone(const SystemSolution& solution, double phase) {
   return "";
 }
 
-std::vector<SystemSolution> rest_over_period(const SystemModel& system, ContactModel contact, int strips,
-                                             int positions) {
+namespace {
+
+// In words: the zones of the loaded meshes.
+std::string range_words(const std::vector<CandidateZone>& ranges) {
+  const CandidateZone& widest = *std::max_element(
+      ranges.begin(), ranges.end(), [](const auto& a, const auto& b) { return a.half_zone < b.half_zone; });
+  // Beyond, no tip edge is that far from a flank.
+  const bool edges = widest.corner_gap < 1e-3;
+  return text("candidate zone ", widest.half_zone * 1e3, " mm either side",
+              edges ? text(", tip edges up to ", widest.corner_gap * 1e6, " micrometres away") : "");
+}
+
+double largest_torque(const SystemModel& system) {
+  double torque = 0;
+  for (const System::Drive& drive : system.layout.drives) torque = std::max(torque, std::abs(drive.torque));
+  return torque;
+}
+
+}  // namespace
+
+void over_period(const SystemModel& system, ContactModel contact, int strips, int positions, double zone,
+                 const TakeRest& take) {
   const int periods = hunting_periods(system), all = positions * periods;
   double widening = 1;
   for (int attempt = 0;; ++attempt, widening *= kWidening) {
-    SystemStatics statics(system, contact, static_zones(system, strips, 1, widening));
-    std::vector<SystemSolution> out(static_cast<size_t>(all));
+    const std::vector<CandidateZone> ranges = static_zones(system, strips, zone, widening);
+    SystemStatics statics(system, contact, ranges);
     std::string beyond;
     bool widened = true;  // whether a wider range may do
     std::vector<VectorXd> start(static_cast<size_t>(periods),
@@ -135,20 +155,31 @@ std::vector<SystemSolution> rest_over_period(const SystemModel& system, ContactM
       const int period = step % periods, position = step / periods;
       const double phase = static_cast<double>(position) / positions;
       VectorXd& from = start[static_cast<size_t>(period)];
-      if (position == 0 && period > 0) from = start[static_cast<size_t>(period) - 1];
-      SystemSolution& at =
-          out[static_cast<size_t>(period) * static_cast<size_t>(positions) + static_cast<size_t>(position)];
-      at = statics.solve(phase, period, from);
+      const SystemSolution& at = statics.solve(phase, period, from);
       from = at.equilibrium.x;
-      at.mesh_stiffness = statics.mesh_stiffness();
       beyond = outside_zone(at, phase + period);
       widened = at.at_root.empty() || wants_more(at);
+      if (beyond.empty()) take({step, period * positions + position, period, phase}, at, statics);
     }
-    if (beyond.empty()) return out;
+    if (beyond.empty()) return;
     if (attempt == kWidenings || !widened)
-      fail_outside_range(Failure::numerical, "contact leaves the flanks: ", beyond, "; lower the torque",
-                         periods > 1 ? " or the errors of the teeth" : "");
+      fail_outside_range(Failure::numerical, "at ", largest_torque(system),
+                         " N m contact leaves the flanks: ", range_words(ranges), ", and still ", beyond,
+                         "; lower the torque", periods > 1 ? " or the errors of the teeth" : "");
   }
+}
+
+std::vector<SystemSolution> rest_over_period(const SystemModel& system, ContactModel contact, int strips,
+                                             int positions) {
+  std::vector<SystemSolution> out(static_cast<size_t>(positions) *
+                                  static_cast<size_t>(hunting_periods(system)));
+  over_period(system, contact, strips, positions, 1,
+              [&](const RestStep& step, const SystemSolution& solution, const SystemStatics& statics) {
+                SystemSolution& at = out[static_cast<size_t>(step.row)];
+                at = solution;
+                at.mesh_stiffness = statics.mesh_stiffness();
+              });
+  return out;
 }
 
 SystemStatics::SystemStatics(const SystemModel& system, ContactModel contact,
@@ -266,8 +297,7 @@ const SystemSolution& SystemStatics::solve(double phase, int period, const Vecto
 void SystemStatics::require_small(const SystemSolution& solution) const {
   constexpr double kMost = 0.25;  // modules
   const auto& bodies = system_.layout.bodies;
-  double torque = 0;
-  for (const System::Drive& drive : system_.layout.drives) torque = std::max(torque, std::abs(drive.torque));
+  const double torque = largest_torque(system_);
   const bool elastic = std::any_of(bodies.begin(), bodies.end(),
                                    [](const System::Body& body) { return body.bearing.elastic(); });
   const auto require = [&](double moved, const GearMeshModel& mesh, const auto&... what) {

@@ -1,5 +1,6 @@
 // A system at rest: which contact each phase has under the torques of its drives.
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,8 +55,23 @@ std::vector<CandidateZone> static_zones(const SystemModel& system, int strips, d
 // edge would leave the other's involute.
 std::string outside_zone(const SystemSolution& solution, double phase);
 
-// (mesh period, position) over the hunting period of hunting_periods(system) mesh periods, which is one where teeth are alike, from
-// phase 0 on; positions: of a mesh period; strips: across the contact width, of contact "strips". Throws as static_transmission.
+class SystemStatics;
+
+// A position of a walk over the hunting period: how many came before it, row (mesh period after mesh period), mesh period, phase 0 to 1.
+struct RestStep {
+  int step = 0, row = 0, period = 0;
+  double phase = 0;
+};
+// Takes one position: its solution, and the statics that have just solved it.
+using TakeRest = std::function<void(const RestStep&, const SystemSolution&, const SystemStatics&)>;
+
+// Solves the positions of the hunting period of hunting_periods(system) mesh periods, which is one where teeth are alike; all mesh periods
+// at one position, then the next position. Where contact leaves the range it begins again, at step 0, with a wider one. strips: across the
+// contact width, of contact "strips"; zone: as in static_zones(). Throws as static_transmission.
+void over_period(const SystemModel& system, ContactModel contact, int strips, int positions, double zone,
+                 const TakeRest& take);
+
+// (mesh period, position) from phase 0 on, of over_period().
 std::vector<SystemSolution> rest_over_period(const SystemModel& system, ContactModel contact, int strips,
                                              int positions);
 

@@ -30,12 +30,14 @@ TEST_CASE("pictures of trains: no text is cut or lies on other text, eight meshe
   for (SystemScene::Drive& drive : scene.drives) drive.gear += "_of_the_first_stage_01";
   SystemStaticResult rest = small_system(scene);
   // Numbers of five digits, which differ over the mesh period.
-  rest.transmission_error = 23e-6 * (MatrixRM::Random(2, 8).array() + 2);
+  for (StaticResult& mesh : rest.mesh) {
+    mesh.transmission_error = 23e-6 * (Eigen::VectorXd::Random(2).array() + 2);
+    mesh.tooth_load = 12345 * (MatrixRM::Random(2, 3).array() + 2);
+  }
   rest.mesh_force = 12345 * (MatrixRM::Random(2, 8).array() + 2);
   rest.load_share = 0.25 * (0.2 * MatrixRM::Random(2, 8).array() + 1);
-  for (MatrixRM* all :
-       {&rest.tooth_load[0], &rest.tooth_load[1], &rest.bearing_force[0], &rest.bearing_force[1]})
-    *all = 12345 * (MatrixRM::Random(all->rows(), all->cols()).array() + 2);
+  for (MatrixRM& all : rest.bearing_force)
+    all = 12345 * (MatrixRM::Random(all.rows(), all.cols()).array() + 2);
   REQUIRE(rest.settings.layout.meshes.size() == 8);
   check(system_static_figure(rest), "system-static");
   check(system_load_sharing_figure(rest), "system-load-sharing");

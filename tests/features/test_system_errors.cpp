@@ -24,7 +24,7 @@
 #include "refusal.h"
 #include "relative.h"
 #include "report/system_figures.h"
-#include "results/system_static.h"
+#include "results/static.h"
 #include "results/system_sweep.h"
 #include "scene_file.h"
 #include "signal/response.h"
@@ -116,9 +116,9 @@ std::vector<int> loaded_teeth(const SystemStaticResult& a, Index row, size_t m, 
   const int before = static_cast<int>(std::floor(a.mesh_phase[row] + mesh.phase));
   const int teeth = a.settings.layout.bodies[static_cast<size_t>(mesh.side[side].body)].teeth;
   std::vector<int> out;
-  for (Index p = 0; p < a.pair.size(); ++p)
-    if (a.tooth_load[static_cast<size_t>(row)](static_cast<Index>(m), p) > 0) {
-      const int tooth = mesh.side[side].first_tooth + mesh.side[side].sense * (a.pair[p] - before);
+  for (Index p = 0; p < a.mesh[m].pair.size(); ++p)
+    if (a.mesh[m].tooth_load(row, p) > 0) {
+      const int tooth = mesh.side[side].first_tooth + mesh.side[side].sense * (a.mesh[m].pair[p] - before);
       out.push_back(((tooth % teeth) + teeth) % teeth);
     }
   return out;
@@ -189,11 +189,25 @@ TEST_CASE("two gears as a system have the transmission errors of the pair with t
     CHECK(a.hunting_periods == 60);
     REQUIRE(a.mesh_phase.size() == pair.mesh_phase.size());
     CHECK(a.mesh_phase == pair.mesh_phase);
-    CHECK(a.pair == pair.pair);
-    CHECK((a.transmission_error.col(0) - pair.transmission_error).cwiseAbs().maxCoeff() < 1e-17);
+    const StaticResult& mesh = a.mesh[0];
+    CHECK(mesh.pair == pair.pair);
+    CHECK((mesh.transmission_error - pair.transmission_error).cwiseAbs().maxCoeff() < 1e-17);
     for (Index i = 0; i < a.mesh_phase.size(); ++i)
-      CHECK((a.tooth_load[static_cast<size_t>(i)].row(0) - pair.tooth_load.row(i)).norm() <
-            1e-9 * 60 / 30e-3);
+      CHECK((mesh.tooth_load.row(i) - pair.tooth_load.row(i)).norm() < 1e-9 * 60 / 30e-3);
+    // What follows from the loads of a mesh, too.
+    const auto close = [](const auto& one, const auto& other) {
+      return (one - other).norm() <= 1e-8 * other.norm();
+    };
+    CHECK(mesh.unloaded_error == pair.unloaded_error);
+    CHECK(close(mesh.stiffness_secant, pair.stiffness_secant));
+    CHECK(mesh.mean_stiffness == relative(pair.mean_stiffness, 1e-8));
+    CHECK(mesh.loss_factor == relative(pair.loss_factor, 1e-8));
+    REQUIRE(mesh.root_stress_max.size() == kSides);
+    for (size_t g = 0; g < kSides; ++g) CHECK(close(mesh.root_stress[g], pair.root_stress[g]));
+    CHECK(close(mesh.root_stress_max, pair.root_stress_max));
+    CHECK(mesh.flank_pressure.smooth == relative(pair.flank_pressure.smooth, 1e-8));
+    CHECK(close(mesh.compliance.body, pair.compliance.body));
+    CHECK(mesh.rectangular_wave.high == relative(pair.rectangular_wave.high, 1e-8));
   }
 }
 
@@ -254,8 +268,11 @@ TEST_CASE("an idler whose flanks stand all alike ahead is an idler that has turn
     // The first mesh is closed by leading flanks that stand ahead, the second one opened by trailing ones.
     const double turned = ahead * std::cos(20 * kPi / 180);
     for (Index i = 0; i < a.mesh_phase.size(); ++i) {
-      CHECK(std::abs(a.transmission_error(i, 0) - plain.transmission_error(i % 8, 0) + turned) < 1e-12);
-      CHECK(std::abs(a.transmission_error(i, 1) - plain.transmission_error(i % 8, 1) - turned) < 1e-12);
+      const auto changed = [&](size_t m) {
+        return a.mesh[m].transmission_error[i] - plain.mesh[m].transmission_error[i % 8];
+      };
+      CHECK(std::abs(changed(0) + turned) < 1e-12);
+      CHECK(std::abs(changed(1) - turned) < 1e-12);
       CHECK(std::abs(a.rotation(i, 0) - plain.rotation(i % 8, 0)) < 1e-12);
       CHECK((a.mesh_force.row(i) - plain.mesh_force.row(i % 8)).norm() < 1e-6 * plain.mesh_force(0, 0));
     }
@@ -268,21 +285,21 @@ TEST_CASE(
   SystemScene scene = line();
   scene.gears[1].errors = pitch(20, 0, 3 * kMicrometre);
   const SystemStaticResult a = rest_of(scene);
-  const size_t n = plain.tooth_load.size();
+  const Index n = plain.mesh_phase.size();
   std::array<int, 2> met{};
   std::array<double, 2> shift{};
-  for (size_t i = 0; i < a.tooth_load.size(); ++i)
+  for (Index row = 0; row < a.mesh_phase.size(); ++row)
     for (size_t m = 0; m < 2; ++m) {
-      const auto row = static_cast<Index>(i), mesh = static_cast<Index>(m);
+      const auto mesh = static_cast<Index>(m);
       const std::vector<int> teeth = loaded_teeth(a, row, m, m == 0 ? 1 : 0);
       const bool meets = std::find(teeth.begin(), teeth.end(), 0) != teeth.end();
-      const double change = a.tooth_load[i].row(mesh).cwiseAbs().maxCoeff() -
-                            plain.tooth_load[i % n].row(mesh).cwiseAbs().maxCoeff();
+      const double change =
+          a.mesh[m].tooth_load.row(row).maxCoeff() - plain.mesh[m].tooth_load.row(row % n).maxCoeff();
       met[m] += meets;
       if (meets) shift[m] = std::max(shift[m], std::abs(change));
       // Teeth that stand back on the trailing flank may leave the contact, and then are not among those that carry load.
       if (!meets && m == 0) CHECK(std::abs(change) < 1e-5 * plain.mesh_force(0, 0));
-      CHECK(a.mesh_force(row, mesh) == relative(plain.mesh_force(static_cast<Index>(i % n), mesh), 1e-9));
+      CHECK(a.mesh_force(row, mesh) == relative(plain.mesh_force(row % n, mesh), 1e-9));
     }
   // One of 20 teeth, in contact for the contact ratio of a mesh period.
   CHECK(met[0] >= 8);
@@ -412,11 +429,12 @@ TEST_CASE("slow motion of teeth that differ follows their statics over the hunti
     const SystemSweepResult slow = swept(scene);
     REQUIRE(slow.transmission_error[0].rows() == 20 * 256);
     for (Index i = 0; i < rest.mesh_phase.size(); ++i)
-      off[k] = std::max(
-          off[k],
-          (slow.transmission_error[0].row(4 * i) - rest.transmission_error.row(i)).cwiseAbs().maxCoeff());
+      for (size_t m = 0; m < 2; ++m)
+        off[k] = std::max(off[k], std::abs(slow.transmission_error[0](4 * i, static_cast<Index>(m)) -
+                                           rest.mesh[m].transmission_error[i]));
   }
-  const double range = rest.transmission_error.col(0).maxCoeff() - rest.transmission_error.col(0).minCoeff();
+  const VectorXd& error = rest.mesh[0].transmission_error;
+  const double range = error.maxCoeff() - error.minCoeff();
   CHECK(off[0] < 0.005 * range);
   CHECK(off[1] < 0.005 * range);
 }
@@ -444,7 +462,10 @@ TEST_CASE(
   write(h5, rest, Provenance());
   const SystemStaticResult read = whine::read<SystemStaticResult>(h5);
   CHECK(read.hunting_periods == 20);
-  CHECK(read.transmission_error_order == rest.transmission_error_order);
+  CHECK(read.mesh[1].transmission_error_order == rest.mesh[1].transmission_error_order);
+  CHECK(read.mesh[1].mesh.errors[0].profile_slope == rest.settings.errors[1].profile_slope);
+  CHECK(read.mesh[1].mesh_phase == rest.mesh[1].mesh_phase);
+  CHECK(read.mesh[1].root_stress[1] == rest.mesh[1].root_stress[1]);
   CHECK(read.settings.errors[1].profile_slope == rest.settings.errors[1].profile_slope);
   for (size_t m = 0; m < 2; ++m)
     for (size_t s = 0; s < 2; ++s)
@@ -454,9 +475,10 @@ TEST_CASE(
   CHECK(block(figure, "transmission_error").rows.size() == 20 * 8 + 1);
   CHECK(block(figure, "transmission_error").rows.back()[0] == 20);
   CHECK(block(figure, "transmission_error harmonics").rows[0][1] * kMicrometre ==
-        relative(rest.transmission_error_harmonic(1, 0), 1e-9));
+        relative(rest.mesh[0].transmission_error_harmonic[1], 1e-9));
   // Orders of the mesh frequency are its harmonics.
-  CHECK(read.transmission_error_order(20, 0) == relative(read.transmission_error_harmonic(1, 0), 1e-9));
+  CHECK(read.mesh[0].transmission_error_order[20] ==
+        relative(read.mesh[0].transmission_error_harmonic[1], 1e-9));
 
   SystemScene train = planetary_train(3);
   train.fidelity.body = BodyModel::modal;

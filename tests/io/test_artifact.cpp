@@ -13,6 +13,7 @@
 #include "io/artifact.h"
 #include "io/artifacts.h"
 #include "io/h5.h"
+#include "io/pair_inputs.h"
 #include "io/publish.h"
 #include "io/ranges.h"
 #include "own_folder.h"
@@ -47,7 +48,7 @@ Reasoned unread(const Artifact& a, const std::vector<Field>& fields) {
 }
 
 Reasoned unread_static(const std::string& path, Failure kind, const std::vector<Field>& fields) {
-  return refused([&] { read<StaticResult>(path); }, kind, fields);
+  return refused([&] { read_pair_statics(path); }, kind, fields);
 }
 
 }  // namespace
@@ -67,7 +68,7 @@ TEST_CASE("a file that is absent, empty, no HDF5 or cut at any of many places is
   CHECK(unread_static("empty.h5", Failure::io, {"empty.h5", "empty"}));
   publish("text.h5", "not an artifact at all");
   CHECK(unread_static("text.h5", Failure::io, {"text.h5", "HDF5"}));
-  write("out/whole.h5", any<StaticResult>(), kMade);
+  write("out/whole.h5", any<SystemStaticResult>(), kMade);
   const std::string bytes = read_bytes("out/whole.h5");
   for (std::size_t part = 1; part < 32; ++part) {
     publish("out/cut.h5", bytes.substr(0, bytes.size() * part / 32));
@@ -81,7 +82,7 @@ TEST_CASE("an artifact outside the working folder is rejected without a make tar
   const fs::path place = fs::temp_directory_path() / "whine-nowhere" / "x.h5";
   for (const std::string& path : {place.string(), std::string("../whine-nowhere/x.h5")}) {
     CHECK(unread_static(path, Failure::io, {"make it again where it was made"}));
-    CHECK(!contains(message_of([&] { read<StaticResult>(path); }), "make .."));
+    CHECK(!contains(message_of([&] { read_pair_statics(path); }), "make .."));
   }
 }
 
@@ -116,8 +117,8 @@ TEST_CASE(
   SweepResult sweep = any<SweepResult>();
   sweep.pair.conservativeResize(sweep.pair.size() - 1);
   unwritten(sweep, {"pair"});
-  StaticResult broken = any<StaticResult>();
-  broken.transmission_error[1] = std::nan("");
+  SystemStaticResult broken = any<SystemStaticResult>();
+  broken.mesh[0].transmission_error[1] = std::nan("");
   unwritten(broken, {"/transmission_error"});
 
   SectorGrid lost = any<SectorGrid>();
@@ -127,7 +128,7 @@ TEST_CASE(
 
 TEST_CASE("an artifact of another schema or version is rejected with what it is and how to rebuild it") {
   OwnFolder folder;
-  write("out/static.h5", any<StaticResult>(), kMade);
+  write("out/static.h5", any<SystemStaticResult>(), kMade);
   CHECK(refused([] { read<SweepResult>("out/static.h5"); }, Failure::input,
                 {"whine/static", "whine/sweep", "make out/static.h5"}));
   write_like("out/old.h5", [](h5::Writer& file) { put_schema(file, "whine/static", 0); });
@@ -138,7 +139,7 @@ TEST_CASE("an artifact of another schema or version is rejected with what it is 
 
 TEST_CASE("one flipped bit in any byte of an artifact is found, whatever reads it") {
   OwnFolder folder;
-  write("out/static.h5", any<StaticResult>(), kMade);
+  write("out/static.h5", any<SystemStaticResult>(), kMade);
   const std::string whole = read_bytes("out/static.h5");
   std::mt19937 random(8);
   // Bytes of the signature make it no HDF5 file; all others are under the hash.
@@ -152,12 +153,12 @@ TEST_CASE("one flipped bit in any byte of an artifact is found, whatever reads i
     FAIL("the flipped bit in byte " << place << " of " << whole.size() << " was not found");
   }
   publish("out/static.h5", whole);
-  CHECK_NOTHROW(read<StaticResult>("out/static.h5"));
+  CHECK_NOTHROW(read_pair_statics("out/static.h5"));
 }
 
 TEST_CASE("what HDF5 would follow for ever is rejected although the hash is right") {
   OwnFolder folder;
-  write("out/static.h5", any<StaticResult>(), kMade);
+  write("out/static.h5", any<SystemStaticResult>(), kMade);
   const std::string whole = read_bytes("out/static.h5");
   const std::size_t heap = whole.find("GCOL");
   REQUIRE(heap != std::string::npos);
@@ -175,7 +176,7 @@ TEST_CASE("what HDF5 would follow for ever is rejected although the hash is righ
   const std::size_t root = bytes.find("schema_version");
   bytes[root] = 'S';
   publish("out/static.h5", sealed(bytes));
-  CHECK_THROWS_AS(read<StaticResult>("out/static.h5"), Error);
+  CHECK_THROWS_AS(read_pair_statics("out/static.h5"), Error);
 
   // The heap's mark among numbers is no heap.
   const std::string mark = "a GCOL\1 and what follows it by accident";
@@ -273,13 +274,15 @@ TEST_CASE(
        {"near_field", "subtraction", "matching"});
   body([](ReducedBody& a) { a.nodal_diameter[1] = -3; }, {"/nodal_diameter", "-3", 0, 2000});
   const auto statics = [](auto&& spoil, const std::vector<Field>& fields) {
-    StaticResult a = any<StaticResult>();
+    SystemStaticResult a = any<SystemStaticResult>();
     spoil(a);
     CHECK(unread(a, fields));
   };
-  statics([](StaticResult& a) { a.torque = 1e300; }, {"/parameters/operation/torque", "1e+300", 0});
-  statics([](StaticResult& a) { a.mesh.centre_distance = -1; }, {"/parameters/mesh/centre_distance", "-1"});
-  statics([](StaticResult& a) { a.hunting_periods = 1 << 30; }, {"/hunting_periods", 1 << 30, 1});
+  statics([](SystemStaticResult& a) { a.mesh[0].torque = 1e300; },
+          {"/parameters/operation/torque", "1e+300", 0});
+  statics([](SystemStaticResult& a) { a.mesh[0].mesh.centre_distance = -1; },
+          {"/parameters/mesh/centre_distance", "-1"});
+  statics([](SystemStaticResult& a) { a.hunting_periods = 1 << 30; }, {"/hunting_periods", 1 << 30, 1});
   const auto sweep = [](auto&& spoil, const std::vector<Field>& fields) {
     SweepResult a = any<SweepResult>();
     spoil(a);
@@ -289,7 +292,7 @@ TEST_CASE(
   sweep([](SweepResult& a) { a.mesh_frequency[0] = 0; }, {"/mesh_frequency", 0});
   SystemStaticResult rest = small_system();
   rest.settings.layout.bodies[0].radius = 1e-300;
-  CHECK(unread(rest, {"/body/radius", "1e-300", "1e-06", 10}));
+  CHECK(unread(rest, {"/layout/body/radius", "1e-300", "1e-06", 10}));
   SystemSweepResult motion = small_sweep(small_system(), Direction::up);
   motion.residual[0] = 1e300;
   CHECK(unread(motion, {"/residual", "1e+300", 0, "1e+12"}));
@@ -340,12 +343,15 @@ TEST_CASE(
   };
   rejects(
       [](SystemStaticResult& a) {
-        a.pair.resize(0);
-        for (auto* list : {&a.tooth_load, &a.contact_pressure})
-          list->assign(2, MatrixRM(a.contact_ratio.size(), 0));
+        for (StaticResult& mesh : a.mesh) {
+          mesh.pair.resize(0);
+          for (MatrixRM* list : {&mesh.tooth_load, &mesh.contact_pressure, &mesh.contact_half_width,
+                                 &mesh.root_stress[0], &mesh.root_stress[1]})
+            list->resize(2, 0);
+        }
       },
       {"/pair"});
-  rejects([](SystemStaticResult& a) { a.drawing[0].design.teeth += 1; }, {"/body/teeth", 27, 0, 28});
+  rejects([](SystemStaticResult& a) { a.drawing[0].design.teeth += 1; }, {"/layout/body/teeth", 27, 0, 28});
   rejects([](SystemStaticResult& a) { a.settings.gear[1] = "moon"; }, {"moon"});
   const SystemStaticResult a = small_system();
   write("a.h5", a, kMade);

@@ -150,10 +150,10 @@ TEST_CASE("the summary names the key numbers in an engineer's units") {
     for (const auto& [name, words] : summary(path, schema)) all += name + ": " + words + "\n";
     return all;
   };
-  StaticResult a = any<StaticResult>();
-  a.mean_stiffness = 463.5e6;
-  a.transmission_error.setConstant(5e-6);
-  a.transmission_error.head(2) << 4e-6, 6e-6;
+  SystemStaticResult a = any<SystemStaticResult>();
+  a.mesh[0].mean_stiffness = 463.5e6;
+  a.mesh[0].transmission_error.setConstant(5e-6);
+  a.mesh[0].transmission_error.head(2) << 4e-6, 6e-6;
   write("static.h5", a, kMade);
   const std::string statics = words_of("static.h5", "whine/static");
   CHECK(contains(statics, "463.5 N/µm"));

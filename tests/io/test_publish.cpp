@@ -87,7 +87,7 @@ TEST_CASE("writing is all or nothing: a failure leaves the earlier file and no r
     small.rlim_cur = 1000;
     setrlimit(RLIMIT_FSIZE, &small);
     const Refusal full = refusal_of([] { publish("out/a/x.txt", std::string(5000, 'n')); });
-    const Failure artifact = failure_of([] { write("out/a/x.h5", any<StaticResult>(), kMade); });
+    const Failure artifact = failure_of([] { write("out/a/x.h5", any<SystemStaticResult>(), kMade); });
     setrlimit(RLIMIT_FSIZE, &before);
     std::signal(SIGXFSZ, handler);
     CHECK(full.kind == Failure::io);

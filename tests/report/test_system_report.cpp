@@ -205,12 +205,12 @@ TEST_CASE("load sharing: loads of tooth pairs are continuous over a period of th
     a.settings.layout.meshes[0].phase = phase;
     constexpr Index kPhases = 64;
     a.mesh_phase = Eigen::VectorXd::LinSpaced(kPhases + 1, 0, 1).head(kPhases);
-    a.tooth_load.assign(kPhases, MatrixRM::Zero(6, 3));
+    MatrixRM& load = a.mesh[0].tooth_load;
+    load = MatrixRM::Zero(kPhases, 3);
     for (Index i = 0; i < kPhases; ++i) {
       double own = a.mesh_phase[i] + phase;
       own -= std::floor(own);
-      for (Index p = 0; p < 3; ++p)
-        a.tooth_load[static_cast<size_t>(i)](0, p) = load_at(own + static_cast<double>(a.pair[p]));
+      for (Index p = 0; p < 3; ++p) load(i, p) = load_at(own + static_cast<double>(a.mesh[0].pair[p]));
     }
     a.load_share = MatrixRM::Constant(kPhases, 6, 1.0 / 3);
     const Figure figure = system_load_sharing_figure(a);
@@ -222,7 +222,7 @@ TEST_CASE("load sharing: loads of tooth pairs are continuous over a period of th
       const bool end = r == 0 || r + 1 == loads.rows.size();
       if (r > 0) CHECK(loads.rows[r][0] > loads.rows[r - 1][0]);
       for (size_t p = 0; p < 3; ++p) {
-        const double expected = load_at(loads.rows[r][0] + a.pair[static_cast<Index>(p)]);
+        const double expected = load_at(loads.rows[r][0] + a.mesh[0].pair[static_cast<Index>(p)]);
         // At the ends between two positions.
         CHECK(std::abs(loads.rows[r][p + 1] - expected) < (end ? 0.2 : 1e-9));
       }

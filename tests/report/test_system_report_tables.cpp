@@ -21,10 +21,11 @@
 #include "report/system_picture.h"
 #include "report/system_report.h"
 #include "report/system_sweep_figure.h"
+#include "report/teeth_page.h"
 #include "report/text_width.h"
 #include "results/modes.h"
 #include "results/response.h"
-#include "results/system_static.h"
+#include "results/static.h"
 #include "scene_file.h"
 #include "small_system.h"
 #include "system/mode_view.h"
@@ -46,9 +47,11 @@ SystemStaticResult varied(SystemScene scene = planetary_train(3)) {
   SystemStaticResult a = small_system(scene);
   for (Index m = 0; m < a.mesh_force.cols(); ++m) {
     a.mesh_force.col(m).setConstant(1000 + 100 * static_cast<double>(m));
-    a.transmission_error.col(m) << 1e-6, 1e-6 * static_cast<double>(m + 2);
+    StaticResult& mesh = a.mesh[static_cast<size_t>(m)];
+    mesh.transmission_error << 1e-6, 1e-6 * static_cast<double>(m + 2);
+    mesh.tooth_load.setConstant(500 + 10 * static_cast<double>(m));
+    mesh.stiffness_tangent.setConstant(4e8 + 1e6 * static_cast<double>(m));
     for (size_t i = 0; i < 2; ++i) {
-      a.tooth_load[i].row(m).setConstant(500 + 10 * static_cast<double>(m));
       a.mesh_stiffness[i](m, m) = 4e8 + 1e6 * static_cast<double>(m);
     }
   }
@@ -361,6 +364,36 @@ TEST_CASE("types of modes: planets whose mean stiffnesses differ by 2 per cent h
     CHECK(count[ModeType::planet] == 3);
     CHECK(count[ModeType::mixed] == 0);
   }
+}
+
+TEST_CASE("teeth of a train: of each [[mesh]] the worst mesh at rest beside ISO 6336, all meshes in motion") {
+  SystemStaticResult rest = varied();
+  rest.mesh[2].root_stress_max = Eigen::Vector2d(90e6, 45e6);
+  SystemReport r = report_of(rest);
+  const std::vector<WordTable> still = teeth_tables(r);
+  REQUIRE(still.size() == 2);
+  CHECK(contains(still[0].caption, "sun-planet3 at rest"));
+  CHECK(still[0].head[2] == "sun (driver)");
+  CHECK(still[0].rows[0] == std::vector<std::string>{"largest root stress", "MPa", "90.0", "45.0"});
+  CHECK(still[0].rows[6].front() == "root stress over sigma_F0");
+  CHECK(std::stod(still[0].rows[6][2]) > 0);
+  // The ring's mesh: ISO 6336 has no formulas for it.
+  CHECK(contains(still[1].caption, "planet1-ring at rest"));
+  CHECK(contains(still[1].caption, "Left out: Y_F"));
+  r.sweeps = sweeps_of(rest);
+  const std::vector<WordTable> moving = teeth_tables(r);
+  REQUIRE(moving.size() == 3);
+  REQUIRE(moving[2].rows.size() == 12);
+  // The mean force of mesh 1 at rest is 1100 N.
+  CHECK(moving[2].rows[2][0] == "sun-planet2");
+  CHECK(moving[2].rows[2][2] == "2200");
+  CHECK(moving[2].rows[2][4] == "2.00");
+  const std::string page = teeth_html(r);
+  for (const char* id : {"remarks", "rest", "motion", "limits", "gears", "provenance"})
+    CHECK(contains(page, text("<section id=\"", id, "\">")));
+  CHECK_FALSE(has_no_number(page));
+  for (StaticResult& mesh : r.rest->mesh) mesh.root_stress_max.resize(0);
+  CHECK(names(message_of([&] { teeth_tables(r); }), {"teeth", "root stress"}));
 }
 
 TEST_CASE("masses on bearings: one that was read off the page, with four digits, is that of the body") {
