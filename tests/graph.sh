@@ -354,6 +354,7 @@ make_ SCENE=inline.toml report; plans "and it is up to date then" "" SCENE=inlin
 grep -q 'open out/inline/modes.hdf in ParaView' <(make_ SCENE=inline.toml mode-shapes; cat "$log") && ok "mode shapes for ParaView stand beside the modes" || wrong "mode shapes for ParaView stand beside the modes" "$(tail -n 1 "$log")"
 refuses "load sharing needs planets" 'load-sharing SCENE=inline.toml planets make report' SCENE=inline.toml load-sharing
 plans "load sharing of planets: bodies, statics, one figure" "gear-mesh*3 gear-plot*1 gear-reduce*3 gear-static*1" SCENE=data/scenes/oh58-planetary.toml load-sharing
+plans "teeth of a train: statics, modes, both sweeps, a page" "gear-mesh*3 gear-modes*1 gear-reduce*3 gear-report*1 gear-spectra*2 gear-static*1 gear-sweep*2" SCENE=data/scenes/oh58-planetary.toml teeth
 plans "the report of a train with planets" "gear-mesh*3 gear-modes*1 gear-plot*7 gear-reduce*3 gear-report*1 gear-spectra*2 gear-static*1 gear-sweep*2" SCENE=data/scenes/oh58-planetary.toml report
 plans "the report of rigid gears: modes, their figures, the picture" "gear-modes*1 gear-plot*3 gear-report*1" SCENE=train.toml report
 refuses "load sharing needs elastic gears" 'load-sharing SCENE=train.toml rigid make report' SCENE=train.toml load-sharing

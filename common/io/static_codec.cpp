@@ -1,6 +1,8 @@
 #include "io/artifacts.h"
 
 #include <algorithm>
+#include <functional>
+#include <type_traits>
 
 #include "base/error.h"
 #include "io/artifact_file.h"
@@ -11,65 +13,75 @@ namespace whine {
 namespace {
 
 using namespace ranges;
+using Eigen::Index;
 
 constexpr const char* kMeshPhases = "mesh_phase";
 constexpr const char* kPhaseMesh = "mesh_phase mesh";
 constexpr const char* kPhasePair = "mesh_phase mesh pair";
 constexpr const char* kPhaseBody = "mesh_phase body";
+constexpr const char* kMeshSide = "mesh side";
 constexpr const char* kSideOf[] = {"driving", "driven"};
 
-// Members of the meshes as datasets with an axis `mesh`. `of` gives the member of a mesh; one that is empty is written as zeros.
+// Members of the meshes as datasets with an axis `mesh`, the arguments in the order of Codec's: numbers (mesh), vectors (axis, mesh) or
+// (mesh, side), matrices (phase, mesh, pair). of: the member, or what gives a reference to it; one that is empty is written as zeros.
 class OverMeshes {
  public:
-  OverMeshes(Codec& c, SystemStaticResult& a) : c_(c), meshes_(a.mesh) {}
+  OverMeshes(Codec& c, SystemStaticResult& a)
+      : c_(c), meshes_(a.mesh), count_(static_cast<Index>(a.mesh.size())) {}
 
-  // (mesh)
   template <class Of>
-  void numbers(const Dataset& d, const Of& of) {
-    Eigen::VectorXd values(count());
-    for (Eigen::Index m = 0; m < count(); ++m) values[m] = of(at(m));
-    c_.dataset(d, &values);
-    for (Eigen::Index m = 0; c_.in() && m < count(); ++m) of(at(m)) = values[m];
+  void operator()(const Of& of, const std::string& name, const std::string& units, const Range& range,
+                  const std::string& axes, const std::string& meaning, const std::string& equation = "") {
+    const Dataset d{name, units, meaning, axes, range, equation};
+    using Value = std::decay_t<std::invoke_result_t<Of, StaticResult&>>;
+    const auto at = [&](Index m) -> Value& { return std::invoke(of, meshes_[static_cast<size_t>(m)]); };
+    if constexpr (std::is_same_v<Value, double>)
+      numbers(d, at);
+    else if constexpr (std::is_same_v<Value, MatrixRM>)
+      matrices(d, at);
+    else
+      vectors(d, at);
   }
-  // (phase, mesh) and the like, of vectors; (mesh, side) with across = true
-  template <class Of>
-  void vectors(const Dataset& d, const Of& of, bool across = false) {
-    Eigen::Index rows = 0;
-    for (StaticResult& mesh : meshes_) rows = std::max<Eigen::Index>(rows, of(mesh).size());
-    MatrixRM values = MatrixRM::Zero(rows, count());
-    for (Eigen::Index m = 0; m < count(); ++m)
-      if (of(at(m)).size() > 0) values.col(m) = of(at(m));
+
+ private:
+  void numbers(const Dataset& d, const auto& at) {
+    Eigen::VectorXd values(count_);
+    for (Index m = 0; m < count_; ++m) values[m] = at(m);
+    c_.dataset(d, &values);
+    for (Index m = 0; c_.in() && m < count_; ++m) at(m) = values[m];
+  }
+  void vectors(const Dataset& d, const auto& at) {
+    const bool across = d.axes == kMeshSide;
+    Index rows = 0;
+    for (Index m = 0; m < count_; ++m) rows = std::max<Index>(rows, at(m).size());
+    MatrixRM values = MatrixRM::Zero(rows, count_);
+    for (Index m = 0; m < count_; ++m)
+      if (at(m).size() > 0) values.col(m) = at(m);
     if (across) values = MatrixRM(values.transpose());
     c_.dataset(d, &values);
     if (!c_.in()) return;
     if (across) values = MatrixRM(values.transpose());
-    for (Eigen::Index m = 0; m < count(); ++m) of(at(m)) = values.col(m);
+    for (Index m = 0; m < count_; ++m) at(m) = values.col(m);
   }
-  // (phase, mesh, pair), of matrices (phase, pair)
-  template <class Of>
-  void pairs(const Dataset& d, const Of& of) {
-    Eigen::Index rows = 0, columns = 0;
-    for (StaticResult& mesh : meshes_) {
-      rows = std::max(rows, of(mesh).rows());
-      columns = std::max(columns, of(mesh).cols());
+  void matrices(const Dataset& d, const auto& at) {
+    Index rows = 0, columns = 0;
+    for (Index m = 0; m < count_; ++m) {
+      rows = std::max(rows, at(m).rows());
+      columns = std::max(columns, at(m).cols());
     }
-    std::vector<MatrixRM> values(static_cast<size_t>(rows), MatrixRM::Zero(count(), columns));
-    for (Eigen::Index m = 0; m < count(); ++m)
-      for (Eigen::Index i = 0; i < of(at(m)).rows(); ++i)
-        values[static_cast<size_t>(i)].row(m) = of(at(m)).row(i);
+    std::vector<MatrixRM> values(static_cast<size_t>(rows), MatrixRM::Zero(count_, columns));
+    for (Index m = 0; m < count_; ++m)
+      for (Index i = 0; i < at(m).rows(); ++i) values[static_cast<size_t>(i)].row(m) = at(m).row(i);
     c_.dataset(d, &values);
-    for (Eigen::Index m = 0; c_.in() && m < count() && !values.empty(); ++m) {
-      of(at(m)).resize(static_cast<Eigen::Index>(values.size()), values[0].cols());
-      for (size_t i = 0; i < values.size(); ++i)
-        of(at(m)).row(static_cast<Eigen::Index>(i)) = values[i].row(m);
+    for (Index m = 0; c_.in() && m < count_ && !values.empty(); ++m) {
+      at(m).resize(static_cast<Index>(values.size()), values[0].cols());
+      for (size_t i = 0; i < values.size(); ++i) at(m).row(static_cast<Index>(i)) = values[i].row(m);
     }
   }
 
- private:
-  Eigen::Index count() const { return static_cast<Eigen::Index>(meshes_.size()); }
-  StaticResult& at(Eigen::Index m) const { return meshes_[static_cast<size_t>(m)]; }
   Codec& c_;
   std::vector<StaticResult>& meshes_;
+  Index count_;
 };
 
 template <class Has>
@@ -81,77 +93,54 @@ void describe_curves(Codec& c, SystemStaticResult& a) {
   OverMeshes over(c, a);
   c(a.mesh_phase, "/mesh_phase", "1", kPhase, kMeshPhases,
     "mesh phase, of trains of the first mesh; 0: reference pair at the pitch point, 1: one mesh period; up to the hunting period where teeth differ");
-  over.vectors(
-      {"/transmission_error", "m",
-       "transmission error along the line of action, positive when the driver is ahead", kPhaseMesh, kLength,
-       "r1 theta1 + r2 theta2"},
-      [](auto& s) -> auto& { return s.transmission_error; });
+  over(&StaticResult::transmission_error, "/transmission_error", "m", kLength, kPhaseMesh,
+       "transmission error along the line of action, positive when the driver is ahead",
+       "r1 theta1 + r2 theta2");
   c(a.mesh_deflection, "/mesh_deflection", "m", kLength, kPhaseMesh,
     "the same without what bearings give way");
-  over.vectors(
-      {"/unloaded_transmission_error", "m", "transmission error without load: of what flanks deviate by",
-       kPhaseMesh, kLength},
-      [](auto& s) -> auto& { return s.unloaded_error; });
-  over.vectors(
-      {"/mesh_stiffness_secant", "N m-1",
-       "secant mesh stiffness, without the bearings; 0 where a mesh of a train carries no load", kPhaseMesh,
-       kSpring, "(T / r1) / (mesh_deflection - unloaded_transmission_error)"},
-      [](auto& s) -> auto& { return s.stiffness_secant; });
-  over.vectors(
-      {"/mesh_stiffness_tangent", "N m-1",
-       "tangent mesh stiffness at fixed phase, without the bearings; of a pair contact changes included, of trains that of frozen contact",
-       kPhaseMesh, kSpring, "d(T / r1) / d mesh_deflection"},
-      [](auto& s) -> auto& { return s.stiffness_tangent; });
+  over(&StaticResult::unloaded_error, "/unloaded_transmission_error", "m", kLength, kPhaseMesh,
+       "transmission error without load: of what flanks deviate by");
+  over(&StaticResult::stiffness_secant, "/mesh_stiffness_secant", "N m-1", kSpring, kPhaseMesh,
+       "secant mesh stiffness, without the bearings; 0 where a mesh of a train carries no load",
+       "(T / r1) / (mesh_deflection - unloaded_transmission_error)");
+  over(
+      &StaticResult::stiffness_tangent, "/mesh_stiffness_tangent", "N m-1", kSpring, kPhaseMesh,
+      "tangent mesh stiffness at fixed phase, without the bearings; of a pair contact changes included, of trains that of frozen contact",
+      "d(T / r1) / d mesh_deflection");
   if (c.optional("/mesh_stiffness", !a.mesh_stiffness.empty()))
     c(a.mesh_stiffness, "/mesh_stiffness", "N m-1", kSpring, "mesh_phase mesh other_mesh",
       "of trains: frozen stiffness between the approaches of the meshes, without bearings");
-  over.vectors(
-      {"/transmission_error_harmonic", "m", "mean, then amplitudes of the harmonics of the mesh frequency",
-       "harmonic mesh", kLength},
-      [](auto& s) -> auto& { return s.transmission_error_harmonic; });
-  over.vectors(
-      {"/mesh_stiffness_harmonic", "N m-1", "mean, then amplitudes of the harmonics of the secant stiffness",
-       "harmonic mesh", kSpring},
-      [](auto& s) -> auto& { return s.stiffness_harmonic; });
+  over(&StaticResult::transmission_error_harmonic, "/transmission_error_harmonic", "m", kLength,
+       "harmonic mesh", "mean, then amplitudes of the harmonics of the mesh frequency");
+  over(&StaticResult::stiffness_harmonic, "/mesh_stiffness_harmonic", "N m-1", kSpring, "harmonic mesh",
+       "mean, then amplitudes of the harmonics of the secant stiffness");
   c.numbers("harmonic", 0, "number of the harmonic of the mesh frequency; 0: the mean");
   describe_hunting(c, a.hunting_periods);
   const bool orders = any_mesh(a, [](const auto& s) { return s.transmission_error_order.size() > 0; });
   if (!c.optional("/transmission_error_order", orders)) return;
-  over.vectors(
-      {"/transmission_error_order", "m", "mean, then amplitudes of the harmonics of the hunting frequency",
-       "order mesh", kLength},
-      [](auto& s) -> auto& { return s.transmission_error_order; });
+  over(&StaticResult::transmission_error_order, "/transmission_error_order", "m", kLength, "order mesh",
+       "mean, then amplitudes of the harmonics of the hunting frequency");
   c.numbers("order", 0, "number of the harmonic of the hunting frequency; 0: the mean");
 }
 
 void describe_loads(Codec& c, SystemStaticResult& a) {
   OverMeshes over(c, a);
-  over.numbers(
-      {"/contact_ratio", "1", "profile contact ratio of the unloaded gears", "mesh", {0, 100, true}},
-      [](auto& s) -> auto& { return s.contact_ratio; });
-  over.numbers(
-      {"/mesh_torque", "N m",
-       "torque on the driving gear, of trains by the balance of rigid bodies; 0: no load", "mesh", kMoment},
-      [](auto& s) -> auto& { return s.torque; });
+  over(&StaticResult::contact_ratio, "/contact_ratio", "1", {0, 100, true}, "mesh",
+       "profile contact ratio of the unloaded gears");
+  over(&StaticResult::torque, "/mesh_torque", "N m", kMoment, "mesh",
+       "torque on the driving gear, of trains by the balance of rigid bodies; 0: no load");
   c(a.mesh_force, "/mesh_force", "N", kForce, kPhaseMesh, "torque on the driving body over its base radius");
   c(a.load_share, "/load_share", "1", {0, 1 + 1e-9}, kPhaseMesh,
     "share of the meshes that come from one [[mesh]]: of planets the load sharing; of a pair 1");
   Eigen::VectorXi pair = a.mesh.empty() ? Eigen::VectorXi() : a.mesh[0].pair;
   c(pair, "/pair", "1", kPair, "pair", "number of the tooth pair: -1 following, 0 reference, +1 preceding");
   for (StaticResult& mesh : a.mesh) mesh.pair = pair;
-  over.pairs(
-      {"/tooth_load", "N", "normal force of each tooth pair", kPhasePair, kForce},
-      [](auto& s) -> auto& { return s.tooth_load; });
-  over.pairs(
-      {"/contact_pressure", "Pa",
-       "largest contact pressure of each pair inside its flanks; 0 where nothing touches (tooth_load is 0) and where a tip edge does (tooth_load is not), whose pressure is singular",
-       kPhasePair, kPressure},
-      [](auto& s) -> auto& { return s.contact_pressure; });
-  over.pairs(
-      {"/contact_half_width", "m",
-       "half width of each contact inside the flanks, twice the standard deviation of its pressure",
-       kPhasePair, kSize},
-      [](auto& s) -> auto& { return s.contact_half_width; });
+  over(&StaticResult::tooth_load, "/tooth_load", "N", kForce, kPhasePair, "normal force of each tooth pair");
+  over(
+      &StaticResult::contact_pressure, "/contact_pressure", "Pa", kPressure, kPhasePair,
+      "largest contact pressure of each pair inside its flanks; 0 where nothing touches (tooth_load is 0) and where a tip edge does (tooth_load is not), whose pressure is singular");
+  over(&StaticResult::contact_half_width, "/contact_half_width", "m", kSize, kPhasePair,
+       "half width of each contact inside the flanks, twice the standard deviation of its pressure");
 }
 
 void describe_bodies(Codec& c, SystemStaticResult& a) {
@@ -169,34 +158,26 @@ void describe_root_stress(Codec& c, SystemStaticResult& a) {
   const bool there = any_mesh(a, [](const auto& s) { return s.root_stress_max.size() > 0; });
   if (c.optional("/root_stress_max", there)) {
     for (size_t g = 0; g < kSides; ++g)
-      over.pairs(
-          {text("/root_stress/", kSideOf[g]), "Pa",
-           "largest tangential stress along the root beside the loaded flank of each pair's tooth, tension positive, under the loads of this mesh; 0 of a mesh of which it is not known",
-           kPhasePair, kStress,
-           "sum over the pairs of root_stress/per_force of body.h5, and of root_stress/crack, times force"},
-          [g](auto& s) -> auto& { return s.root_stress[g]; });
-    over.vectors(
-        {"/root_stress_max", "Pa",
-         "largest root stress over the mesh cycle, beside the loaded flanks; 0: not known", "mesh side",
-         kStress},
-        [](auto& s) -> auto& { return s.root_stress_max; }, true);
-    over.vectors(
-        {"/root_stress_angle", "1",
-         "angle (rad) of the root's tangent there against the centre line of the tooth", "mesh side", kRoll},
-        [](auto& s) -> auto& { return s.root_stress_angle; }, true);
-    over.vectors(
-        {"/root_stress_phase", "1", "phase of the tooth's pair then, of its mesh, 0 at the pitch point",
-         "mesh side", kPlace},
-        [](auto& s) -> auto& { return s.root_stress_phase; }, true);
+      over(
+          [g](StaticResult & s) -> auto& { return s.root_stress[g]; }, text("/root_stress/", kSideOf[g]),
+          "Pa", kStress, kPhasePair,
+          "largest tangential stress along the root beside the loaded flank of each pair's tooth, tension positive, under the loads of this mesh; 0 of a mesh of which it is not known",
+          "sum over the pairs of root_stress/per_force of body.h5, and of root_stress/crack, times force");
+    over(&StaticResult::root_stress_max, "/root_stress_max", "Pa", kStress, kMeshSide,
+         "largest root stress over the mesh cycle, beside the loaded flanks; 0: not known");
+    over(&StaticResult::root_stress_angle, "/root_stress_angle", "1", kRoll, kMeshSide,
+         "angle (rad) of the root's tangent there against the centre line of the tooth");
+    over(&StaticResult::root_stress_phase, "/root_stress_phase", "1", kPlace, kMeshSide,
+         "phase of the tooth's pair then, of its mesh, 0 at the pitch point");
     const bool teeth = any_mesh(a, [](const auto& s) { return s.root_stress_tooth.size() > 0; });
     if (c.optional("/root_stress_tooth", teeth)) {
-      MatrixRMi tooth = MatrixRMi::Zero(static_cast<Eigen::Index>(a.mesh.size()), kSides);
-      for (Eigen::Index m = 0; m < tooth.rows(); ++m)
+      MatrixRMi tooth = MatrixRMi::Zero(static_cast<Index>(a.mesh.size()), kSides);
+      for (Index m = 0; m < tooth.rows(); ++m)
         if (const auto& own = a.mesh[static_cast<size_t>(m)].root_stress_tooth; own.size() > 0)
           tooth.row(m) = own.transpose();
-      c(tooth, "/root_stress_tooth", "1", kTooth, "mesh side",
+      c(tooth, "/root_stress_tooth", "1", kTooth, kMeshSide,
         "number of that tooth, counter-clockwise from tooth 0, where teeth differ or one is cracked");
-      for (Eigen::Index m = 0; c.in() && m < tooth.rows(); ++m)
+      for (Index m = 0; c.in() && m < tooth.rows(); ++m)
         a.mesh[static_cast<size_t>(m)].root_stress_tooth = tooth.row(m).transpose();
     }
     for (StaticResult& mesh : a.mesh) {
@@ -206,11 +187,9 @@ void describe_root_stress(Codec& c, SystemStaticResult& a) {
       mesh.root_stress_tooth = {};
     }
   }
-  over.numbers(
-      {"/loss_factor", "1",
-       "mean power lost by sliding over the power carried, per unit coefficient of friction", "mesh",
-       kPositive, "H_V = mean of sum F |sliding per angle| / T"},
-      [](auto& s) -> auto& { return s.loss_factor; });
+  over(&StaticResult::loss_factor, "/loss_factor", "1", kPositive, "mesh",
+       "mean power lost by sliding over the power carried, per unit coefficient of friction",
+       "H_V = mean of sum F |sliding per angle| / T");
 }
 
 constexpr Range kLost{0, 1e7};  // N m
@@ -221,30 +200,22 @@ void describe_static_friction(Codec& c, SystemStaticResult& a) {
   if (!c.optional("/friction_coefficient",
                   any_mesh(a, [](const auto& s) { return s.friction_loss.size() > 0; })))
     return;
-  over.numbers(
-      {"/friction_coefficient", "1", "coefficient of friction", "mesh", kShare},
-      [](auto& s) -> auto& { return s.friction_coefficient; });
+  over(&StaticResult::friction_coefficient, "/friction_coefficient", "1", kShare, "mesh",
+       "coefficient of friction");
   c(a.friction_coupling, "/certificate/friction_coupling", "m", kSize, "",
     "largest change of a gap by what friction of the last forces moves, over all positions",
     "iteration for d = (A + E) p + e, E of friction: E times the last change of p");
-  over.vectors(
-      {"/friction_loss", "N m", "work that friction takes per angle (rad) of the driver", kPhaseMesh, kLost,
-       "sum of mu s F (t1 - t2 z1 / z2)"},
-      [](auto& s) -> auto& { return s.friction_loss; });
+  over(&StaticResult::friction_loss, "/friction_loss", "N m", kLost, kPhaseMesh,
+       "work that friction takes per angle (rad) of the driver", "sum of mu s F (t1 - t2 z1 / z2)");
   for (size_t g = 0; g < kSides; ++g)
-    over.vectors(
-        {text("/friction_moment/", kSideOf[g]), "N m",
-         "moment of friction about the axis of the gear, positive where it has the sense of the moment of the normal force, which brakes the driver and drives the driven gear",
-         kPhaseMesh, kMoment, "sum of mu s F t"},
-        [g](auto& s) -> auto& { return s.friction_moment[g]; });
-  over.numbers(
-      {"/mesh_efficiency",
-       "1",
+    over(
+        [g](StaticResult & s) -> auto& { return s.friction_moment[g]; },
+        text("/friction_moment/", kSideOf[g]), "N m", kMoment, kPhaseMesh,
+        "moment of friction about the axis of the gear, positive where it has the sense of the moment of the normal force, which brakes the driver and drives the driven gear",
+        "sum of mu s F t");
+  over(&StaticResult::efficiency, "/mesh_efficiency", "1", {-1e6, 1}, "mesh",
        "of the mesh at rest: work given by the driven gear over that put into the driver",
-       "mesh",
-       {-1e6, 1},
-       "1 - mean friction_loss / torque"},
-      [](auto& s) -> auto& { return s.efficiency; });
+       "1 - mean friction_loss / torque");
   if (c.optional("/efficiency", a.efficiency.size() > 0))
     c(a.efficiency, "/efficiency", "1", {-1e6, 1}, "body",
       "of trains: power out over power in, from the mean torques, while this member is at rest; of a train without carriers the same for all, of planets 0");
@@ -253,39 +224,32 @@ void describe_static_friction(Codec& c, SystemStaticResult& a) {
 // What follows from the curves.
 void describe_compliance(Codec& c, SystemStaticResult& a) {
   OverMeshes over(c, a);
-  over.numbers(
-      {"/mean_stiffness", "N m-1", "mean of the secant stiffness over a mesh period", "mesh", kStiff},
-      [](auto& s) -> auto& { return s.mean_stiffness; });
-  over.numbers(
-      {"/compliance/mesh", "m N-1", "of the mesh, mean over the period", "mesh", kFlexibility,
-       "1 / mean_stiffness"},
-      [](auto& s) -> auto& { return s.compliance.whole; });
-  over.vectors(
-      {"/compliance/body", "m N-1",
-       "part of it: twist of each gear's body between bore and root circle, all pairs together", "mesh side",
-       kFlexibility, "r_b^2 / (4 pi G b) (1 / r_bore^2 - 1 / r_root^2)"},
-      [](auto& s) -> auto& { return s.compliance.body; }, true);
-  over.vectors(
-      {"/compliance/body_of_wider_bore", "m N-1",
-       "the same with a bore a tenth larger, the root circle at most", "mesh side", kFlexibility},
-      [](auto& s) -> auto& { return s.compliance.wider_body; }, true);
-  over.numbers(
-      {"/compliance/contact", "m N-1",
-       "part of it: Hertz's approach at the pitch point; what is left are the teeth", "mesh", kFlexibility},
-      [](auto& s) -> auto& { return s.compliance.contact; });
-  over.numbers(
-      {"/single_pair_stiffness", "N m-1",
-       "largest secant stiffness of a pair that carries all the load; 0: no pair ever does", "mesh", kSpring},
-      [](auto& s) -> auto& { return s.compliance.single; });
+  over(&StaticResult::mean_stiffness, "/mean_stiffness", "N m-1", kStiff, "mesh",
+       "mean of the secant stiffness over a mesh period");
+  over(
+      [](StaticResult & s) -> auto& { return s.compliance.whole; }, "/compliance/mesh", "m N-1", kFlexibility,
+      "mesh", "of the mesh, mean over the period", "1 / mean_stiffness");
+  over(
+      [](StaticResult & s) -> auto& { return s.compliance.body; }, "/compliance/body", "m N-1", kFlexibility,
+      kMeshSide, "part of it: twist of each gear's body between bore and root circle, all pairs together",
+      "r_b^2 / (4 pi G b) (1 / r_bore^2 - 1 / r_root^2)");
+  over(
+      [](StaticResult & s) -> auto& { return s.compliance.wider_body; }, "/compliance/body_of_wider_bore",
+      "m N-1", kFlexibility, kMeshSide, "the same with a bore a tenth larger, the root circle at most");
+  over(
+      [](StaticResult & s) -> auto& { return s.compliance.contact; }, "/compliance/contact", "m N-1",
+      kFlexibility, "mesh", "part of it: Hertz's approach at the pitch point; what is left are the teeth");
+  over(
+      [](StaticResult & s) -> auto& { return s.compliance.single; }, "/single_pair_stiffness", "N m-1",
+      kSpring, "mesh", "largest secant stiffness of a pair that carries all the load; 0: no pair ever does");
 }
 
 void describe_flank_pressure(Codec& c, SystemStaticResult& a) {
   OverMeshes over(c, a);
-  over.numbers(
-      {"/flank_pressure_max", "Pa",
-       "largest contact pressure inside the flanks and clear of ridges, where a relief begins; 0: there is none",
-       "mesh", kPressure},
-      [](auto& s) -> auto& { return s.flank_pressure.smooth; });
+  over(
+      [](StaticResult & s) -> auto& { return s.flank_pressure.smooth; }, "/flank_pressure_max", "Pa",
+      kPressure, "mesh",
+      "largest contact pressure inside the flanks and clear of ridges, where a relief begins; 0: there is none");
   if (!c.optional("/ridge/cause", any_mesh(a, [](const auto& s) { return !s.flank_pressure.ridge.empty(); })))
     return;
   std::vector<std::string> cause;
@@ -294,33 +258,30 @@ void describe_flank_pressure(Codec& c, SystemStaticResult& a) {
   c(cause, "/ridge/cause", "mesh",
     "what makes a ridge of the flank that contact runs over; pressure has no largest value there; empty: none");
   for (size_t m = 0; c.in() && m < a.mesh.size(); ++m) a.mesh[m].flank_pressure.ridge = cause[m];
-  over.numbers(
-      {"/ridge/pressure_of_strips", "Pa", "what the strips show there", "mesh", kPressure},
-      [](auto& s) -> auto& { return s.flank_pressure.on_ridge; });
-  over.numbers(
-      {"/ridge/pressure_per_doubling", "Pa", "what that grows by with each doubling of the strips", "mesh",
-       kPressure},
-      [](auto& s) -> auto& { return s.flank_pressure.per_doubling; });
+  over(
+      [](StaticResult & s) -> auto& { return s.flank_pressure.on_ridge; }, "/ridge/pressure_of_strips", "Pa",
+      kPressure, "mesh", "what the strips show there");
+  over(
+      [](StaticResult & s) -> auto& { return s.flank_pressure.per_doubling; }, "/ridge/pressure_per_doubling",
+      "Pa", kPressure, "mesh", "what that grows by with each doubling of the strips");
 }
 
 void describe_rectangular_wave(Codec& c, SystemStaticResult& a) {
   OverMeshes over(c, a);
   const std::string at = "/rectangular_wave/";
-  over.numbers(
-      {at + "low", "N m-1", "secant stiffness in the middle of the zone of fewer pairs in nominal contact",
-       "mesh", kSpring},
-      [](auto& s) -> auto& { return s.rectangular_wave.low; });
-  over.numbers(
-      {at + "high", "N m-1", "the same where there is one pair more", "mesh", kSpring},
-      [](auto& s) -> auto& { return s.rectangular_wave.high; });
-  over.numbers(
-      {at + "high_begin", "1",
-       "phase of the mesh at which a pair comes without load, and the zone of more pairs begins", "mesh",
-       kSigned},
-      [](auto& s) -> auto& { return s.rectangular_wave.high_begin; });
-  over.numbers(
-      {at + "high_end", "1", "phase of the mesh at which that zone ends", "mesh", kSigned},
-      [](auto& s) -> auto& { return s.rectangular_wave.high_end; });
+  over(
+      [](StaticResult & s) -> auto& { return s.rectangular_wave.low; }, at + "low", "N m-1", kSpring, "mesh",
+      "secant stiffness in the middle of the zone of fewer pairs in nominal contact");
+  over(
+      [](StaticResult & s) -> auto& { return s.rectangular_wave.high; }, at + "high", "N m-1", kSpring,
+      "mesh", "the same where there is one pair more");
+  over(
+      [](StaticResult & s) -> auto& { return s.rectangular_wave.high_begin; }, at + "high_begin", "1",
+      kSigned, "mesh",
+      "phase of the mesh at which a pair comes without load, and the zone of more pairs begins");
+  over(
+      [](StaticResult & s) -> auto& { return s.rectangular_wave.high_end; }, at + "high_end", "1", kSigned,
+      "mesh", "phase of the mesh at which that zone ends");
 }
 
 // Of pairs.
@@ -363,9 +324,8 @@ void share_with_meshes(SystemStaticResult& a) {
   for (size_t g = 0; g < kSides; ++g) {
     if (!a.mesh[0].mesh.bearing[g].elastic()) continue;
     a.mesh[0].bearing_force[g].resize(a.mesh_phase.size(), 2);
-    for (Eigen::Index i = 0; i < a.mesh_phase.size(); ++i)
-      a.mesh[0].bearing_force[g].row(i) =
-          a.bearing_force[static_cast<size_t>(i)].row(static_cast<Eigen::Index>(g));
+    for (Index i = 0; i < a.mesh_phase.size(); ++i)
+      a.mesh[0].bearing_force[g].row(i) = a.bearing_force[static_cast<size_t>(i)].row(static_cast<Index>(g));
   }
 }
 

@@ -40,12 +40,13 @@ struct Adder {
   double torque;         // N m
   double rpm_per_hertz;  // of the driver
   Numbers& out;
+  size_t column = 0;
   const char* group = "";
   std::string way = "";
 
   void operator()(const std::string& quantity, const std::string& unit, const std::string& value,
                   const std::string& remark = "") const {
-    out.push_back({group, torque, quantity + way, unit, value, remark, way});
+    out.push_back({group, torque, quantity + way, unit, value, remark, way, "", column});
   }
   void speed(const std::string& quantity, double mesh_frequency, const std::string& remark = "") const {
     (*this)(quantity, "Hz", hertz(mesh_frequency), remark);
@@ -69,7 +70,7 @@ void add_excitation(const StaticResult& s, Adder add) {
   add("mean mesh stiffness", "N/µm", fixed(s.mean_stiffness * kMega, 1));
   add("mean mesh stiffness per mm of face width", "N/µm",
       fixed(s.mean_stiffness * kMega / (s.face_width() * kMilli), 2));
-  if (s.stiffness_harmonic.size() > 1)
+  if (s.stiffness_harmonic.size() > 1 && s.mean_stiffness > 0)
     add("first harmonic of the mesh stiffness over its mean", "%",
         fixed(s.stiffness_harmonic[1] / s.stiffness_harmonic[0] * kPercent, 2));
 }
@@ -106,8 +107,9 @@ void add_stress_at_rest(const StaticResult& s, Adder add) {
 
 void add_losses(const StaticResult& s, Adder add) {
   add.group = kLosses;
-  add("loss factor H_V at rest (power lost over power carried and coefficient of friction)", "1",
-      fixed(s.loss_factor, 4));
+  if (s.loss_factor > 0)
+    add("loss factor H_V at rest (power lost over power carried and coefficient of friction)", "1",
+        fixed(s.loss_factor, 4));
   if (s.friction_loss.size() > 0) {
     add("coefficient of friction at rest", "1", fixed(s.friction_coefficient, 4));
     add("efficiency at rest (friction between the flanks alone)", "%", fixed(s.efficiency * kPercent, 3));
@@ -257,14 +259,14 @@ struct ResultRow {
   std::string group, label, unit;
   bool speeds = false;                                      // with a line in rpm
   std::array<bool, 2> way{};                                // rising, falling
-  std::vector<std::array<const ReportNumber*, 3>> numbers;  // [torque] of neither, rising, falling
+  std::vector<std::array<const ReportNumber*, 3>> numbers;  // [column] of neither, rising, falling
 };
 
 size_t way_of(const ReportNumber& n) {
   return n.way.empty() ? 0 : n.way.ends_with("rising") ? 1 : 2;
 }
 
-std::vector<ResultRow> rows_of(const Numbers& results, const std::vector<StaticResult>& statics) {
+std::vector<ResultRow> rows_of(const Numbers& results, size_t columns) {
   std::vector<ResultRow> rows;
   for (const ReportNumber& n : results) {
     const std::string label = n.quantity.substr(0, n.quantity.size() - n.way.size());
@@ -272,13 +274,12 @@ std::vector<ResultRow> rows_of(const Numbers& results, const std::vector<StaticR
                             [&](const ResultRow& r) { return r.label == label && r.group == n.group; });
     if (row == rows.end()) {
       rows.push_back({n.group, label, n.unit, false, {}, {}});
-      rows.back().numbers.resize(statics.size());
+      rows.back().numbers.resize(columns);
       row = rows.end() - 1;
     }
     row->speeds = row->speeds || !n.rpm.empty();
     if (const size_t way = way_of(n); way > 0) row->way[way - 1] = true;
-    for (size_t t = 0; t < statics.size(); ++t)
-      if (statics[t].torque == n.torque) row->numbers[t][way_of(n)] = &n;
+    row->numbers[n.column][way_of(n)] = &n;
   }
   return rows;
 }
@@ -307,33 +308,39 @@ std::string way_words(const ResultRow& row) {
 
 }  // namespace
 
+std::vector<ReportNumber> mesh_at_rest(const StaticResult& s, size_t column) {
+  Numbers out;
+  const Adder add{s.torque, 60.0 / s.gear[0].design.teeth, out, column};
+  add_excitation(s, add);
+  add_loads_at_rest(s, add);
+  add_bearings_at_rest(s, add);
+  add_stress_at_rest(s, add);
+  add_losses(s, add);
+  return out;
+}
+
 std::vector<ReportNumber> report_numbers(const ReportContent& c) {
   Numbers out;
-  for (const StaticResult& s : c.statics) {
-    const Adder add{s.torque, 60.0 / s.gear[0].design.teeth, out};
+  for (size_t column = 0; column < c.statics.size(); ++column) {
+    const StaticResult& s = c.statics[column];
+    const Numbers rest = mesh_at_rest(s, column);
+    out.insert(out.end(), rest.begin(), rest.end());
+    const Adder add{s.torque, 60.0 / s.gear[0].design.teeth, out, column};
     std::vector<const ResponseResult*> sweeps;
     for (const Direction direction : {Direction::up, Direction::down})
       if (const ResponseResult* sweep = sweep_of(c, s.torque, direction)) sweeps.push_back(sweep);
-    add_excitation(s, add);
     if (const ImpactResult* a = impact_of(c, s.torque)) add_ring_down(*a, add);
-    add_loads_at_rest(s, add);
-    add_bearings_at_rest(s, add);
-    add_stress_at_rest(s, add);
     add_motion(s, sweeps, add);
-    add_losses(s, add);
   }
   return out;
 }
 
-std::string results_tables(const ReportContent& c) {
-  const Numbers results = report_numbers(c);
-  const std::vector<ResultRow> rows = rows_of(results, c.statics);
+std::string results_tables(const std::vector<ReportNumber>& results,
+                           const std::vector<std::string>& columns) {
+  const std::vector<ResultRow> rows = rows_of(results, columns.size());
   std::vector<std::string> head{"", "unit"};
-  for (const auto& s : c.statics) head.push_back(torque_words(s.torque));
-  std::string out = html::paragraph(
-      text("By torque on the driver",
-           c.sweeps.empty() ? "" : "; speeds as mesh frequency and, below, as rotation of ",
-           c.sweeps.empty() ? "" : c.statics[0].mesh.gear[0], "; results.tsv holds the same numbers."));
+  head.insert(head.end(), columns.begin(), columns.end());
+  std::string out;
   for (const char* group : kGroups) {
     html::Rows cells;
     for (const ResultRow& row : rows) {
@@ -348,6 +355,17 @@ std::string results_tables(const ReportContent& c) {
     out += html::paragraph(
         "* At this speed the motion is larger than the backlash: back flanks would touch, which is not modelled, so the number is not to be trusted.");
   return out;
+}
+
+std::string results_tables(const ReportContent& c) {
+  std::vector<std::string> columns;
+  columns.reserve(c.statics.size());
+  for (const StaticResult& s : c.statics) columns.push_back(torque_words(s.torque));
+  return html::paragraph(text(
+             "By torque on the driver",
+             c.sweeps.empty() ? "" : "; speeds as mesh frequency and, below, as rotation of ",
+             c.sweeps.empty() ? "" : c.statics[0].mesh.gear[0], "; results.tsv holds the same numbers.")) +
+         results_tables(report_numbers(c), columns);
 }
 
 }  // namespace whine

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "base/units.h"
 #include "gear/body_inertia.h"
 #include "gear/drawing_quantities.h"
 #include "gear/pair.h"
@@ -86,43 +87,77 @@ void add_bearing_rows(const GearMeshSpec& mesh, html::Rows& rows) {
 
 }  // namespace
 
+html::Rows drawing_rows(const std::vector<ToothGeometry>& gears) {
+  html::Rows rows;
+  using G = const ToothGeometry&;
+  const auto all = [&](const std::string& what, const std::string& unit, const auto& value) {
+    rows.push_back({what, unit});
+    for (G gear : gears) rows.back().push_back(value(gear));
+  };
+  const auto mm = [](double length) { return fixed(length * kMilli, 3); };
+  const auto degrees = [](double rad) { return fixed(rad * kInDegrees, 3); };
+  if (std::any_of(gears.begin(), gears.end(), [](G g) { return g.internal(); }))
+    all("kind", "–", [](G g) { return std::string(g.internal() ? "internal" : "external"); });
+  all("teeth", "–", [](G g) { return text(g.design().teeth); });
+  all("module", "mm", [](G g) { return shown(g.design().module * kMilli, 7); });
+  all("pressure angle of the rack", "deg",
+      [](G g) { return shown(g.design().pressure_angle * kInDegrees, 6); });
+  all("profile shift", "modules", [](G g) { return shown(g.design().profile_shift, 6); });
+  all("base diameter", "mm", [&](G g) { return mm(2 * g.base_radius()); });
+  all("reference diameter", "mm", [&](G g) { return mm(2 * g.pitch_radius()); });
+  all("tip diameter", "mm", [&](G g) { return mm(2 * g.tip_radius()); });
+  all("root diameter", "mm", [&](G g) { return mm(2 * g.root_radius()); });
+  all("diameter where the involute begins", "mm",
+      [&](G g) { return mm(2 * std::hypot(1.0, g.form_roll_angle()) * g.base_radius()); });
+  if (std::any_of(gears.begin(), gears.end(), [](G g) { return g.undercut() > 0; }))
+    all("undercut: how far the rack reaches beyond the base circle's tangent point", "mm",
+        [&](G g) { return mm(std::max(0.0, g.undercut())); });
+  all("roll angle where the involute begins", "deg", [&](G g) { return degrees(g.form_roll_angle()); });
+  all("roll angle at the tip", "deg", [&](G g) { return degrees(g.tip_roll_angle()); });
+  all("tooth thickness at the tip", "mm", [&](G g) { return mm(g.thickness_at_radius(g.tip_radius())); });
+  all("tooth thickness at the reference circle (transverse and normal)", "mm",
+      [&](G g) { return mm(reference_thickness(g)); });
+  all("span W_k over k teeth", "mm", [&](G g) {
+    const std::optional<Span> span = span_measurement(g);
+    return span ? text(mm(span->length), ", k = ", span->teeth) : html::kNoValue;
+  });
+  all("face width", "mm", [](G g) { return shown(g.design().face_width * kMilli, 6); });
+  all("diameter on which it is held rigidly (bore, of a ring its rim)", "mm",
+      [&](G g) { return mm(2 * g.design().clamped_radius()); });
+  return rows;
+}
+
+html::Rows mesh_rows(const std::vector<GearPair>& meshes) {
+  html::Rows rows;
+  using P = const GearPair&;
+  const auto all = [&](const std::string& what, const std::string& unit, const auto& value) {
+    rows.push_back({what, unit});
+    for (P mesh : meshes) rows.back().push_back(value(mesh));
+  };
+  constexpr double kNoBacklash = 1e-6;  // m: what a centre distance rounded to a micrometre leaves
+  const auto backlash = [](P p, double length) {
+    return std::abs(p.backlash()) < kNoBacklash ? "none" : fixed(length * kMilli, 4);
+  };
+  all("centre distance", "mm", [](P p) { return shown(p.centre_distance() * kMilli, 7); });
+  all("working pressure angle", "deg", [](P p) { return fixed(p.working_pressure_angle() * kInDegrees, 3); });
+  all("base pitch", "mm", [](P p) { return fixed(p.base_pitch() * kMilli, 4); });
+  all("contact ratio", "–", [](P p) { return fixed(p.contact_ratio(), 4); });
+  all("path of contact before the pitch point", "mm", [](P p) { return fixed(-p.path_start() * kMilli, 3); });
+  all("path of contact after it", "mm", [](P p) { return fixed(p.path_end() * kMilli, 3); });
+  all("normal backlash, along the line of action", "mm", [&](P p) { return backlash(p, p.backlash()); });
+  all("circumferential backlash, on the working pitch circles", "mm",
+      [&](P p) { return backlash(p, circumferential_backlash(p)); });
+  return rows;
+}
+
 std::string gears_table(const ReportContent& c) {
   const StaticResult& s = c.statics.front();
-  constexpr double kNoBacklash = 1e-6;  // m: what a centre distance rounded to a micrometre leaves
   const GearPair pair(s);
-  const auto degrees = [](double rad) { return fixed(rad * 180 / std::numbers::pi, 3); };
-  html::Rows rows;
-  const auto both = [&](const std::string& what, const std::string& unit, const auto& value) {
-    rows.push_back({what, unit, value(pair.gear(0)), value(pair.gear(1))});
-  };
-  using G = const ToothGeometry&;
-  both("teeth", "–", [](G g) { return text(g.design().teeth); });
-  both("module", "mm", [](G g) { return shown(g.design().module * kMilli, 6); });
-  both("profile shift", "modules", [](G g) { return shown(g.design().profile_shift, 6); });
-  both("base diameter", "mm", [](G g) { return fixed(2 * g.base_radius() * kMilli, 3); });
-  both("reference diameter", "mm", [](G g) { return fixed(2 * g.pitch_radius() * kMilli, 3); });
-  both("tip diameter", "mm", [](G g) { return fixed(2 * g.tip_radius() * kMilli, 3); });
-  both("root diameter", "mm", [](G g) { return fixed(2 * g.root_radius() * kMilli, 3); });
-  both("diameter where the involute begins", "mm",
-       [](G g) { return fixed(2 * std::hypot(1.0, g.form_roll_angle()) * g.base_radius() * kMilli, 3); });
-  if (pair.gear(0).undercut() > 0 || pair.gear(1).undercut() > 0) {
-    both("undercut: how far the rack reaches beyond the base circle's tangent point", "mm",
-         [](G g) { return fixed(std::max(0.0, g.undercut()) * kMilli, 3); });
+  html::Rows rows = drawing_rows({pair.gear(0), pair.gear(1)});
+  if (pair.gear(0).undercut() > 0 || pair.gear(1).undercut() > 0)
     rows.push_back({"path of contact lost to undercut", "mm", fixed(pair.path_lost(0) * kMilli, 3),
                     fixed(pair.path_lost(1) * kMilli, 3)});
-  }
-  both("roll angle where the involute begins", "deg", [&](G g) { return degrees(g.form_roll_angle()); });
-  both("roll angle at the tip", "deg", [&](G g) { return degrees(g.tip_roll_angle()); });
-  both("tooth thickness at the tip", "mm",
-       [](G g) { return fixed(g.thickness_at_radius(g.tip_radius()) * kMilli, 3); });
-  both("tooth thickness at the reference circle (transverse and normal)", "mm",
-       [](G g) { return fixed(reference_thickness(g) * kMilli, 3); });
-  both("span W_k over k teeth", "mm", [](G g) {
-    const std::optional<Span> span = span_measurement(g);
-    return span ? text(fixed(span->length * kMilli, 3), ", k = ", span->teeth) : html::kNoValue;
-  });
   add_meeting_rows(pair, rows);
-  both("face width", "mm", [](G g) { return shown(g.design().face_width * kMilli, 6); });
   rows.push_back({"inertia of the body as drawn, bore to tip, without fillets", "kg m²",
                   shown(least_body_inertia(pair.gear(0), s.gear[0].material), 3),
                   shown(least_body_inertia(pair.gear(1), s.gear[1].material), 3)});
@@ -137,22 +172,11 @@ std::string gears_table(const ReportContent& c) {
   }
   rows.push_back({"flanks", "", in_words(s.mesh.modification[0]), in_words(s.mesh.modification[1])});
   add_bearing_rows(s.mesh, rows);
+  html::Rows mesh = mesh_rows({pair});
+  mesh.push_back({"tip edges off the line of action", "", corner_words(s.mesh.corner)});
   return html::table(text("The gears: ", s.mesh.gear[0], " drives ", s.mesh.gear[1], "."),
                      {"", "unit", s.mesh.gear[0] + " (driver)", s.mesh.gear[1] + " (driven)"}, rows) +
-         html::table(
-             "Their mesh.", {"", "unit", "value"},
-             {{"centre distance", "mm", shown(pair.centre_distance() * kMilli, 7)},
-              {"working pressure angle", "deg", degrees(pair.working_pressure_angle())},
-              {"base pitch", "mm", fixed(pair.base_pitch() * kMilli, 4)},
-              {"contact ratio", "–", fixed(pair.contact_ratio(), 4)},
-              {"path of contact before the pitch point", "mm", fixed(-pair.path_start() * kMilli, 3)},
-              {"path of contact after it", "mm", fixed(pair.path_end() * kMilli, 3)},
-              {"normal backlash, along the line of action", "mm",
-               std::abs(pair.backlash()) < kNoBacklash ? "none" : fixed(pair.backlash() * kMilli, 4)},
-              {"circumferential backlash, on the working pitch circles", "mm",
-               std::abs(pair.backlash()) < kNoBacklash ? "none"
-                                                       : fixed(circumferential_backlash(pair) * kMilli, 4)},
-              {"tip edges off the line of action", "", corner_words(s.mesh.corner)}});
+         html::table("Their mesh.", {"", "unit", "value"}, mesh);
 }
 
 std::string class_table(const ReportContent& c) {

@@ -1,9 +1,16 @@
 // The tables of a report as HTML.
 #pragma once
+#include <vector>
+
+#include "gear/pair.h"
+#include "report/html.h"
 #include "report/report_content.h"
 
 namespace whine {
 
+// Quantity, unit, and the value of each gear as it is drawn; of each mesh by its drawings.
+html::Rows drawing_rows(const std::vector<ToothGeometry>& gears);
+html::Rows mesh_rows(const std::vector<GearPair>& meshes);
 std::string gears_table(const ReportContent& c);
 std::string stiffness_tables(const ReportContent& c);
 // What classes of ISO 1328-1 may add to the peak-to-peak transmission error; of gears outside of its formulas why not.

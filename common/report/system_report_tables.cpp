@@ -16,6 +16,8 @@
 #include "report/html.h"
 #include "report/one_system.h"
 #include "report/report_page.h"
+#include "report/report_results.h"
+#include "report/report_tables.h"
 #include "report/system_figures.h"
 #include "report/system_motion_tables.h"
 #include "report/system_opening.h"
@@ -31,35 +33,9 @@ namespace {
 
 using Eigen::Index;
 
-const GearDesign& design_of(const SystemStaticResult& a, const System::Side& side) {
-  const BodyParameters* drawing = drawing_of(a, side.body);
-  if (!drawing)
-    fail(Failure::input, "report: no drawing is known of '",
-         a.settings.layout.bodies[static_cast<size_t>(side.body)].name, "', which has a mesh");
-  return drawing->design;
-}
-
-GearPair pair_of(const SystemStaticResult& a, size_t m) {
-  const System::Mesh& mesh = a.settings.layout.meshes[m];
-  return {design_of(a, mesh.side[0]), design_of(a, mesh.side[1]), mesh.centre_distance};
-}
-
 // N: largest load of a pair of a mesh whose tip edge touches, off the line of action.
 double tip_edge_load(const StaticResult& mesh) {
   return (mesh.contact_pressure.array() == 0).select(mesh.tooth_load, 0.0).maxCoeff();
-}
-
-// MPa, of the driving and the driven gear.
-std::string root_words(const StaticResult& mesh) {
-  const Eigen::VectorXd& stress = mesh.root_stress_max;
-  return stress.size() == 0 ? html::kNoValue
-                            : text(fixed(stress[0] * 1e-6, 0), " / ", fixed(stress[1] * 1e-6, 0));
-}
-
-// µm
-std::string harmonic_words(const StaticResult& mesh, Index n) {
-  if (n >= mesh.transmission_error_harmonic.size()) return "–";
-  return significant(mesh.transmission_error_harmonic[n] * kMicro, 3);
 }
 
 struct Force {
@@ -122,40 +98,40 @@ std::string plain(double value, int decimals) {
   return fixed(std::abs(value) < 0.5 * std::pow(10, -decimals) ? 0 : value, decimals);
 }
 
+// A column for each mesh: what it says as that of a pair does, and its place among the others.
+std::vector<ReportNumber> meshes_at_rest(const SystemStaticResult& a) {
+  std::vector<ReportNumber> out;
+  for (size_t m = 0; m < a.mesh.size(); ++m) {
+    const StaticResult& mesh = a.mesh[m];
+    const auto c = static_cast<Index>(m);
+    std::vector<ReportNumber> own = mesh_at_rest(mesh, m);
+    const std::string excitation = own.front().group;
+    const auto add = [&](const std::string& group, const char* quantity, const char* unit,
+                         const std::string& value) {
+      own.push_back({group, mesh.torque, quantity, unit, value, "", "", "", m});
+    };
+    add(excitation, "mean mesh stiffness, contact frozen", "N/µm",
+        shown(mesh.stiffness_tangent.mean() * 1e-6, 5));
+    add("Loads", "mesh force, mean", "N", fixed(a.mesh_force.col(c).mean(), 1));
+    add("Loads", "mesh force, largest", "N", fixed(a.mesh_force.col(c).maxCoeff(), 1));
+    if (shares_load(a, m)) {
+      add("Loads", "share of the load, mean", "%", fixed(a.load_share.col(c).mean() * kPercent, 2));
+      add("Loads", "share of the load, largest", "%", fixed(a.load_share.col(c).maxCoeff() * kPercent, 2));
+    }
+    out.insert(out.end(), own.begin(), own.end());
+  }
+  return out;
+}
+
 void add_rest(const SystemReport& r, std::vector<SystemNumber>& out) {
   const SystemStaticResult& a = *r.rest;
   const System& s = a.settings.layout;
   for (size_t m = 0; m < s.meshes.size(); ++m) {
-    const std::string name = mesh_name(s, m);
-    const StaticResult& mesh = a.mesh[m];
-    const auto c = static_cast<Index>(m);
-    const auto add = [&](const char* quantity, const char* unit, const std::string& value,
-                         const std::string& said = "") {
-      out.push_back({name, quantity, unit, value, said});
-    };
-    add("contact ratio", "1", fixed(mesh.contact_ratio, 3));
-    add("mesh phase", "1", fixed(s.meshes[m].phase, 4));
-    add("static transmission error, mean", "µm", significant(mesh.transmission_error.mean() * kMicro, 4));
-    add("static transmission error, peak to peak", "µm",
-        significant(peak_to_peak(mesh.transmission_error) * kMicro, 3));
-    for (Index n = 1; n <= std::min<Index>(3, mesh.transmission_error_harmonic.size() - 1); ++n)
-      out.push_back(
-          {name, text("static transmission error, harmonic ", n), "µm", harmonic_words(mesh, n), ""});
-    add("mean mesh stiffness, contact frozen", "N/µm", shown(mesh.stiffness_tangent.mean() * 1e-6, 5));
-    add("mean mesh stiffness, secant", "N/µm", shown(mesh.mean_stiffness * 1e-6, 5));
-    add("mesh force, mean", "N", fixed(a.mesh_force.col(c).mean(), 1));
-    add("mesh force, largest", "N", fixed(a.mesh_force.col(c).maxCoeff(), 1));
-    if (shares_load(a, m))
-      add("share of the load, largest", "%", fixed(a.load_share.col(c).maxCoeff() * kPercent, 2));
-    add("static tooth load, largest", "N", fixed(mesh.tooth_load.maxCoeff(), 0));
-    add("static contact pressure inside a flank, largest", "MPa",
-        fixed(mesh.contact_pressure.maxCoeff() * 1e-6, 0));
-    for (Index g = 0; g < mesh.root_stress_max.size(); ++g)
-      add(g == 0 ? "static root stress of the driving gear, largest"
-                 : "static root stress of the driven gear, largest",
-          "MPa", fixed(mesh.root_stress_max[g] * 1e-6, 1));
-    if (mesh.loss_factor > 0) add("loss factor H_V", "1", fixed(mesh.loss_factor, 4));
+    out.push_back({a.mesh_names[m], "contact ratio", "1", fixed(a.mesh[m].contact_ratio, 3), ""});
+    out.push_back({a.mesh_names[m], "mesh phase", "1", fixed(s.meshes[m].phase, 4), ""});
   }
+  for (const ReportNumber& n : meshes_at_rest(a))
+    out.push_back({a.mesh_names[n.column], n.quantity, n.unit, n.value, n.remark});
   for (const LoadSharing& of : load_sharing(a))
     out.push_back({of.name, "load sharing factor", "1", fixed(of.factor, 3), ""});
   for (size_t b = 0; b < s.bodies.size(); ++b) {
@@ -199,40 +175,8 @@ std::string drawings_table(const SystemStaticResult& a) {
     head.push_back(a.settings.body[g].first);
     gears.emplace_back(a.drawing[g].design);
   }
-  html::Rows rows;
-  const auto all = [&](const std::string& what, const std::string& unit, const auto& value) {
-    rows.push_back({what, unit});
-    for (const ToothGeometry& gear : gears) rows.back().push_back(value(gear));
-  };
-  using G = const ToothGeometry&;
-  const auto mm = [](double length) { return fixed(length * kMilli, 3); };
-  all("kind", "–", [](G g) { return std::string(g.internal() ? "internal" : "external"); });
-  all("teeth", "–", [](G g) { return text(g.design().teeth); });
-  all("module", "mm", [](G g) { return shown(g.design().module * kMilli, 7); });
-  all("pressure angle of the rack", "deg",
-      [](G g) { return shown(g.design().pressure_angle * kInDegrees, 6); });
-  all("profile shift", "modules", [](G g) { return shown(g.design().profile_shift, 6); });
-  all("base diameter", "mm", [&](G g) { return mm(2 * g.base_radius()); });
-  all("reference diameter", "mm", [&](G g) { return mm(2 * g.pitch_radius()); });
-  all("tip diameter", "mm", [&](G g) { return mm(2 * g.tip_radius()); });
-  all("root diameter", "mm", [&](G g) { return mm(2 * g.root_radius()); });
-  all("diameter where the involute begins", "mm",
-      [&](G g) { return mm(2 * std::hypot(1.0, g.form_roll_angle()) * g.base_radius()); });
-  if (std::any_of(gears.begin(), gears.end(), [](G g) { return g.undercut() > 0; }))
-    all("undercut: how far the rack reaches beyond the base circle's tangent point", "mm",
-        [&](G g) { return mm(std::max(0.0, g.undercut())); });
-  all("tooth thickness at the tip", "mm", [&](G g) { return mm(g.thickness_at_radius(g.tip_radius())); });
-  all("tooth thickness at the reference circle (transverse and normal)", "mm",
-      [&](G g) { return mm(reference_thickness(g)); });
-  all("span W_k over k teeth", "mm", [&](G g) {
-    const std::optional<Span> span = span_measurement(g);
-    return span ? text(mm(span->length), ", k = ", span->teeth) : html::kNoValue;
-  });
-  all("face width", "mm", [](G g) { return shown(g.design().face_width * kMilli, 6); });
-  all("diameter on which it is held rigidly (bore, of a ring its rim)", "mm",
-      [&](G g) { return mm(2 * g.design().clamped_radius()); });
   return html::table("Geometry of the gears; all keys of the scene stand below, under Parameters.", head,
-                     rows);
+                     drawing_rows(gears));
 }
 
 }  // namespace
@@ -279,71 +223,55 @@ std::string gear_tables(const SystemReport& r) {
 
 std::string mesh_tables(const SystemReport& r) {
   const System& s = layout_of(r);
-  html::Rows geometry, rest;
-  const bool shared = r.rest && !load_sharing(*r.rest).empty();
+  std::vector<std::string> head{"", "unit"};
+  std::vector<GearPair> pairs;
+  pairs.reserve(s.meshes.size());
+  head.reserve(s.meshes.size() + 2);
+  std::vector<std::vector<std::string>> more{{"mesh phase", "mesh periods"}};
+  if (r.rest)
+    more.insert(more.end(), {{"tip clearance, driving / driven", "mm"},
+                             {"specific sliding where a pair comes, driving / driven", "–"},
+                             {"specific sliding where it leaves", "–"}});
+  else
+    more.insert(more.end(),
+                {{"centre distance", "mm"}, {"working pressure angle", "deg"}, {"stiffness", "N/µm"}});
   for (size_t m = 0; m < s.meshes.size(); ++m) {
     const System::Mesh& mesh = s.meshes[m];
-    const auto c = static_cast<Index>(m);
-    geometry.push_back({mesh_name(s, m), fixed(mesh.centre_distance * kMilli, 3),
-                        fixed(mesh.pressure_angle * kInDegrees, 3), fixed(mesh.phase, 4)});
+    head.push_back(mesh_name(s, m));
+    more[0].push_back(fixed(mesh.phase, 4));
     if (!r.rest) {
-      geometry.back().push_back(shown(mesh.stiffness * 1e-6, 5));
+      more[1].push_back(fixed(mesh.centre_distance * kMilli, 3));
+      more[2].push_back(fixed(mesh.pressure_angle * kInDegrees, 3));
+      more[3].push_back(shown(mesh.stiffness * 1e-6, 5));
       continue;
     }
-    const SystemStaticResult& a = *r.rest;
-    const GearPair pair = pair_of(a, m);
-    const StaticResult& mesh_at_rest = a.mesh[m];
-    geometry.back().push_back(fixed(mesh_at_rest.contact_ratio, 3));
-    geometry.back().push_back(fixed(pair.backlash() * kMilli, 4));
-    geometry.back().push_back(text(fixed(tip_clearance_to_root(pair, 0) * kMilli, 3), " / ",
-                                   fixed(tip_clearance_to_root(pair, 1) * kMilli, 3)));
-    for (const double path : {pair.path_start(), pair.path_end()}) {
-      const auto sliding = specific_sliding(pair, path);
+    const GearPair& pair = pairs.emplace_back(r.rest->mesh[m]);
+    more[1].push_back(text(fixed(tip_clearance_to_root(pair, 0) * kMilli, 3), " / ",
+                           fixed(tip_clearance_to_root(pair, 1) * kMilli, 3)));
+    for (const size_t end : {0, 1}) {
+      const auto sliding = specific_sliding(pair, end == 0 ? pair.path_start() : pair.path_end());
       const auto cell = [](const std::optional<double>& value) {
         return value ? fixed(*value, 2) : html::kNoValue;
       };
-      geometry.back().push_back(cell(sliding[0]) + " / " + cell(sliding[1]));
+      more[2 + end].push_back(cell(sliding[0]) + " / " + cell(sliding[1]));
     }
-    rest.push_back({mesh_name(s, m), fixed(a.mesh_force.col(c).mean(), 0)});
-    if (shared) {
-      const bool own = shares_load(a, m);
-      rest.back().push_back(own ? fixed(a.load_share.col(c).mean() * kPercent, 2) : "–");
-      rest.back().push_back(own ? fixed(a.load_share.col(c).maxCoeff() * kPercent, 2) : "–");
-    }
-    for (const std::string& cell :
-         {significant(mesh_at_rest.transmission_error.mean() * kMicro, 4),
-          significant(peak_to_peak(mesh_at_rest.transmission_error) * kMicro, 3),
-          harmonic_words(mesh_at_rest, 1), harmonic_words(mesh_at_rest, 2),
-          shown(mesh_at_rest.stiffness_tangent.mean() * 1e-6, 5),
-          fixed(mesh_at_rest.tooth_load.maxCoeff(), 0),
-          fixed(mesh_at_rest.contact_pressure.maxCoeff() * 1e-6, 0), root_words(mesh_at_rest)})
-      rest.back().push_back(cell);
   }
-  std::vector<std::string> head{"mesh", "centre distance (mm)", "working pressure angle (deg)", "mesh phase"};
-  if (r.rest)
-    head.insert(head.end(), {"contact ratio", "normal backlash, along the line of action (mm)",
-                             "tip clearance, driving / driven (mm)", "specific sliding where a pair comes",
-                             "where it leaves"});
-  else
-    head.emplace_back("stiffness (N/µm)");
-  std::string out = html::table(text("The meshes, the driving side first. Mesh phase: the part of a ",
-                                     "mesh period by which a mesh is ahead of the first one."),
-                                head, geometry);
-  if (rest.empty()) return out;
-  std::vector<std::string> columns{"mesh", "mean force (N)"};
-  if (shared) columns.insert(columns.end(), {"mean share (%)", "largest share (%)"});
-  columns.insert(columns.end(), {"mean STE (µm)", "STE peak to peak (µm)", "harmonic 1 (µm)",
-                                 "harmonic 2 (µm)", "stiffness (N/µm)", "largest tooth load (N)",
-                                 "largest pressure (MPa)", "largest root stress, driving / driven (MPa)"});
+  html::Rows rows = r.rest ? mesh_rows(pairs) : html::Rows();
+  rows.insert(rows.end(), more.begin(), more.end());
+  const std::string out = html::table(text("The meshes, the driving side first. Mesh phase: the part of a ",
+                                           "mesh period by which a mesh is ahead of the first one."),
+                                      head, rows);
+  if (!r.rest) return out;
   return out +
-         html::table(
+         html::paragraph(
              text("The meshes at rest over ",
-                  r.rest->hunting_periods > 1 ? text("the ", r.rest->hunting_periods,
-                                                     " mesh periods after which the same teeth meet.")
-                                              : "the mesh period.",
-                  shared ? " Share: of the load of the meshes of one [[mesh]]." : "",
-                  " STE: static transmission error. Stiffness: mean, contact frozen, without bearings."),
-             columns, rest, "small");
+                  r.rest->hunting_periods > 1
+                      ? text("the ", r.rest->hunting_periods, " mesh periods after which the same teeth meet")
+                      : "the mesh period",
+                  "; results.tsv holds the same numbers.",
+                  load_sharing(*r.rest).empty() ? "" : " Share: of the load of the meshes of one [[mesh]].",
+                  " Root stress of a gear: by the loads of that mesh.")) +
+         results_tables(meshes_at_rest(*r.rest), r.rest->mesh_names);
 }
 
 std::string force_table(const SystemReport& r) {

@@ -52,11 +52,11 @@ std::string or_dash(const std::optional<double>& value, int decimals, double sca
   return value ? fixed(*value * scale, decimals) : html::kNoValue;
 }
 
-// of: "At rest at 150 N m".
-WordTable at_rest(const StaticResult& s, const IsoComparison& iso, const std::string& of) {
+// where: "At rest at 150 N m".
+WordTable at_rest(const StaticResult& s, const IsoComparison& iso, const std::string& where) {
   WordTable out{
       text(
-          of,
+          where,
           ", beside ISO 6336, method B. sigma_F0 is of a tooth that carries the whole load at the outer point of single contact; sigma_H0 is at the pitch point."),
       {"", "unit", s.mesh.gear[0] + " (driver)", s.mesh.gear[1] + " (driven)"},
       {}};

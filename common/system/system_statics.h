@@ -28,7 +28,8 @@ struct SystemSolution {
   bool leaves_zone = false;                              // a wider range may do
   std::string
       at_root;  // body with pressure at the start of its involute, which a wider range does not change; "": none
-  Eigen::MatrixXd mesh_stiffness;  // (mesh, mesh) N m-1, see SystemStatics; of rest_over_period alone
+  Eigen::MatrixXd
+      mesh_stiffness;  // (mesh, mesh) N m-1, see SystemStatics; of rest_over_period() and system_at_rest() alone
 };
 
 // One pair of a position that is loaded.

@@ -131,7 +131,7 @@ TEST_CASE(
         "ring\ttorque, mean\t-1466.60\tN m\theld\n",
         "carrier\ttorque, mean\t-1866.60\tN m\theld (the frame)\n",
         "sun-planet2\tmesh force, mean\t1100.0\tN\t\n",
-        "planet1-ring\tstatic transmission error, peak to peak\t4.00\tµm\t\n",
+        "planet1-ring\tstatic transmission error, peak to peak\t4.000\tµm\t\n",
         "planet3-ring\tmean mesh stiffness, contact frozen\t405\tN/µm\t\n",
         "planet2-ring\tstatic tooth load, largest\t540\tN\t\n",
         "planet1\tforce on the bearing, mean\t60.0\tN\t\n",
