@@ -90,7 +90,7 @@ inline void set_harmonics(StaticResult& s) {
 }
 
 inline double rms(const SweepResult& sweep, int row) {
-  const Eigen::VectorXd te = sweep.transmission_error.row(row);
+  const Eigen::VectorXd te = sweep.transmission_error[static_cast<size_t>(row)].col(0);
   return std::sqrt((te.array() - te.mean()).square().mean());
 }
 

@@ -199,7 +199,9 @@ inline SweepResult sweep_at(double torque, Direction direction) {
   s.mesh_frequency = VectorXd::LinSpaced(speeds, 1000, 9000);
   if (direction == Direction::down) s.mesh_frequency.reverseInPlace();
   s.period_multiple = Eigen::VectorXi::Ones(speeds);
-  s.transmission_error = s.mesh_force = MatrixRM::Zero(speeds, n);
+  s.name_parts();
+  s.transmission_error.assign(speeds, MatrixRM::Zero(n, 1));
+  s.mesh_force = s.transmission_error;
   s.pair = Eigen::Vector3i(-1, 0, 1);
   for (int f = 0; f < speeds; ++f) {
     // At one speed the directions differ.
@@ -208,12 +210,12 @@ inline SweepResult sweep_at(double torque, Direction direction) {
     MatrixRM load = MatrixRM::Zero(n, 3);
     for (int k = 0; k < n; ++k) {
       const double phase = static_cast<double>(k) / n;
-      s.transmission_error(f, k) =
+      s.transmission_error[static_cast<size_t>(f)](k, 0) =
           4e-6 + size * 1e-6 * (std::cos(kTwoPi * phase) + 0.3 * std::cos(2 * kTwoPi * phase));
       for (int j = 0; j < 3; ++j)
         if (const double own = phase + j - 1; std::abs(own) < 0.4)
           load(k, j) = torque / 0.07 * size * (1 + own);
-      s.mesh_force(f, k) = load.row(k).sum();
+      s.mesh_force[static_cast<size_t>(f)](k, 0) = load.row(k).sum();
     }
     s.tooth_load.push_back(load);
   }

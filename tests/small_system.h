@@ -8,7 +8,7 @@
 #include "planetary_train.h"
 #include "results/response.h"
 #include "results/static.h"
-#include "results/system_sweep.h"
+#include "results/sweep.h"
 #include "studies/turning_carrier.h"
 #include "system/drawing_remarks.h"
 
@@ -83,16 +83,15 @@ inline whine::SystemStaticResult small_system(whine::SystemScene scene = planeta
 }
 
 // Of the same torques, at two speeds.
-inline whine::SystemSweepResult small_sweep(const whine::SystemStaticResult& rest,
-                                            whine::Direction direction) {
+inline whine::SweepResult small_sweep(const whine::SystemStaticResult& rest, whine::Direction direction) {
   using namespace whine;
-  SystemSweepResult a;
-  static_cast<SystemStaticParameters&>(a.settings) = rest.settings;
-  a.settings.damping.rayleigh_stiffness = 2e-6;
+  SweepResult a;
+  static_cast<SystemStaticParameters&>(a.train) = rest.settings;
+  a.name_parts();
+  a.train.damping.rayleigh_stiffness = 2e-6;
   a.direction = direction;
-  const auto bodies = static_cast<Eigen::Index>(a.settings.layout.bodies.size()),
-             meshes = static_cast<Eigen::Index>(a.settings.layout.meshes.size());
-  a.torque = rest.torque.colwise().mean().transpose();
+  const Eigen::Index bodies = a.bodies(), meshes = a.meshes();
+  a.drive = rest.torque.colwise().mean().transpose();
   a.axis_frequency = 1e4 / 3;
   a.mesh_frequency = Eigen::Vector2d(2000, 1000);
   double value = 1.0 / 3;
@@ -102,14 +101,15 @@ inline whine::SystemSweepResult small_sweep(const whine::SystemStaticResult& res
   a.transmission_error.assign(2, MatrixRM::Constant(4, meshes, 1e-6 / 3));
   a.mesh_deflection.assign(2, MatrixRM::Constant(4, meshes, 1e-6 / 7));
   a.mesh_force.assign(2, MatrixRM::Constant(4, meshes, 1e3 / 3));
-  a.largest_tooth_load.assign(2, MatrixRM::Constant(4, meshes, 1e3 / 7));
+  a.pair = Eigen::Vector2i(0, 1);
+  a.tooth_load.assign(2, MatrixRM::Constant(4, 2 * meshes, 1e3 / 7));
   a.bearing_force.assign(static_cast<size_t>(bodies),
                          std::vector<MatrixRM>(2, MatrixRM::Constant(4, 2, 1e2 / 3)));
   a.periods = Eigen::Vector2i(20, 30);
   a.period_multiple = Eigen::Vector2i(1, 0);
   for (Eigen::VectorXd* x : {&a.residual, &a.energy_imbalance, &a.drift_force})
     *x = Eigen::Vector2d(1e-6, value *= 0.9);
-  a.energy = MatrixRM::Constant(2, static_cast<Eigen::Index>(kSystemEnergyLines.size()), -1.0 / 7);
+  a.energy = MatrixRM::Constant(2, static_cast<Eigen::Index>(kEnergyLines.size()), -1.0 / 7);
   a.least_gap = -1e-15;
   a.remarks = remarks_on_carriers(a);
   return a;
@@ -119,21 +119,16 @@ inline whine::SystemSweepResult small_sweep(const whine::SystemStaticResult& res
 inline whine::ResponseResult small_response(const whine::SystemStaticResult& rest,
                                             whine::Direction direction) {
   using namespace whine;
-  const SystemSweepResult sweep = small_sweep(rest, direction);
+  const SweepResult sweep = small_sweep(rest, direction);
   ResponseResult r;
-  r.train = sweep.settings;
-  r.drive = sweep.torque;
+  static_cast<MotionSource&>(r) = sweep;
   r.direction = direction;
   r.mesh_frequency = sweep.mesh_frequency;
   r.periods = sweep.periods;
   r.period_multiple = sweep.period_multiple;
   r.energy_imbalance = sweep.energy_imbalance;
   r.remarks = sweep.remarks;
-  const System& layout = r.train.layout;
-  const auto bodies = static_cast<Eigen::Index>(layout.bodies.size()),
-             meshes = static_cast<Eigen::Index>(layout.meshes.size());
-  for (size_t m = 0; m < layout.meshes.size(); ++m) r.mesh_names.push_back(mesh_name(layout, m));
-  for (const System::Body& body : layout.bodies) r.body_names.push_back(body.name);
+  const Eigen::Index bodies = r.bodies(), meshes = r.meshes();
   double value = 1.0 / 3;
   for (MatrixRM* x : {&r.dte_rms, &r.dte_mean, &r.load_share_max, &r.separation_fraction, &r.mesh_force_max,
                       &r.tooth_load_max, &r.separations_per_period})

@@ -30,7 +30,7 @@ expected = {
     "error_budget": ("/choice", "harmonic_change", ("change", "harmonic"), set()),
     "loaded": ("/strip", "roll_angle", ("strip", "gear"), set()),
     "impact": ("/ring_down", "transmission_error", ("mesh_phase", "time"), {"mesh_phase", "time"}),
-    "sweep": ("/", "tooth_load", ("mesh_frequency", "sample", "pair"), {"mesh_frequency", "pair"}),
+    "sweep": ("/", "tooth_load", ("mesh_frequency", "sample", "mesh", "tooth_pair"), {"mesh_frequency", "mesh", "tooth_pair"}),
     "response": ("/", "dte_harmonic", ("mesh_frequency", "harmonic", "mesh"), {"mesh_frequency", "harmonic", "mesh"}),
     "branch": ("/", "floquet_multiplier", ("point", "multiplier", "part"), set()),
     "jump_map": ("/up", "dte_rms", ("case", "mesh_frequency"), set()),

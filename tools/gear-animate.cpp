@@ -13,6 +13,7 @@
 #include "base/tool.h"
 #include "io/artifacts.h"
 #include "io/named_files.h"
+#include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "io/publish.h"
 #include "io/scene_words.h"
@@ -46,7 +47,7 @@ void body(int argc, char** argv) {
   if (speed && !(*speed > 0))
     whine::fail(whine::Failure::usage, "--mesh-frequency ", *speed, ": it is in Hz, above 0");
   const whine::NamedFiles files("--mesh", meshes);
-  const whine::SweepResult motion = whine::read<whine::SweepResult>(sweep);
+  const whine::SweepResult motion = whine::read_pair_sweep(sweep);
   const std::vector<std::string> paths = files.of(motion.mesh);
   whine::Figure figure = whine::animation_figure(whine::read<whine::SectorGrid>(paths[0]),
                                                  whine::read<whine::SectorGrid>(paths[1]), motion,

@@ -12,7 +12,6 @@
 #include "io/provenance.h"
 #include "results/response.h"
 #include "results/sweep.h"
-#include "results/system_sweep.h"
 #include "studies/sweep_response.h"
 
 namespace {
@@ -28,10 +27,7 @@ void body(int argc, char** argv) {
   options.parse(argc, argv);
 
   const whine::Provenance provenance = whine::made_by(argc, argv, {"sweep=" + input});
-  const whine::ResponseResult result =
-      whine::read_origin(input).schema == "whine/system_sweep"
-          ? whine::sweep_response(whine::read<whine::SystemSweepResult>(input))
-          : whine::sweep_response(whine::read<whine::SweepResult>(input));
+  const whine::ResponseResult result = whine::sweep_response(whine::read<whine::SweepResult>(input));
   whine::write(output, result, provenance);
 
   Eigen::Index peak = 0, mesh = 0;

@@ -20,7 +20,6 @@
 #include "io/stage_command.h"
 #include "io/system_scene.h"
 #include "results/sweep.h"
-#include "results/system_sweep.h"
 #include "signal/jump_words.h"
 #include "studies/next_level.h"
 #include "studies/sweep.h"
@@ -55,7 +54,7 @@ void tell_remarks(const std::vector<Remark>& remarks) {
 void sweep_train(const StageCommand& stage, const Provenance& made, Direction direction, double jump_width) {
   const SystemSweepParameters settings = read_system_sweep_parameters(stage.params());
   const std::vector<ReducedBody> gears = read_bodies(stage.bodies(), settings);
-  const SystemSweepResult result =
+  const SweepResult result =
       system_sweep(settings, gears, direction, StepsDone(text("gear-sweep ", direction)), jump_width);
   write(stage.output(), result, made);
   log_line("gear-sweep: ", direction, ", ", result.mesh_frequency.size(), " speeds, ", result.periods.sum(),

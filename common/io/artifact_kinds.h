@@ -20,8 +20,6 @@
 #include "results/sweep.h"
 #include "results/system_branch.h"
 #include "results/system_impact.h"
-#include "results/static.h"
-#include "results/system_sweep.h"
 #include "results/variant.h"
 #include "studies/runup.h"
 
@@ -46,8 +44,8 @@ inline constexpr std::tuple kArtifactKinds{
     ArtifactKind<ErrorBudgetResult>{"error_budget", 4, "error_budget.h5", "error_budget"},
     ArtifactKind<LoadedResult>{"loaded", 1, "loaded_<phase>.h5", "loaded_*"},
     ArtifactKind<ImpactResult>{"impact", 1, "impact.h5", "impact"},
-    ArtifactKind<SweepResult>{"sweep", 7, "sweep.h5", "sweep"},
-    ArtifactKind<ResponseResult>{"response", 9, "response.h5", "response"},
+    ArtifactKind<SweepResult>{"sweep", 8, "sweep.h5", "sweep"},
+    ArtifactKind<ResponseResult>{"response", 10, "response.h5", "response"},
     ArtifactKind<BranchResult>{"branch", 6, "branch.h5", "branch"},
     ArtifactKind<RunupResult>{"runup", 4, "runup_<rate>.h5", "runup_*"},
     ArtifactKind<FoldCurvesResult>{"fold_curves", 1, "fold_curves_*.h5", "fold_curves*"},
@@ -56,7 +54,6 @@ inline constexpr std::tuple kArtifactKinds{
     ArtifactKind<VariantResult>{"variant", 3, "ab12....h5", ""},
     ArtifactKind<StudyResult>{"study", 3, "study.h5", ""},
     ArtifactKind<ModesResult>{"modes", 2, "modes.h5", "modes"},
-    ArtifactKind<SystemSweepResult>{"system_sweep", 5, "sweep.h5 of a train", "sweep"},
     ArtifactKind<SystemImpactResult>{"system_impact", 1, "impact.h5 of a train", "impact"},
     ArtifactKind<SystemBranchResult>{"system_branch", 3, "branch.h5 of a train", "branch"},
     ArtifactKind<ReadingsResult>{"readings", 1, "readings.h5", ""}};

@@ -24,7 +24,9 @@ void describe_points(Codec& c, BranchResult& a) {
         c.optional(of_body(c, a.mesh, g, "root_stress_sustained"), stress.size() > 0)) {
       c(stress, of_body(c, a.mesh, g, "root_stress_sustained"), "Pa", kStress, "point",
         "the same of the tangential stress along the roots beside the loaded flanks, quasi-static in the tooth loads");
-      describe_root_place(c, a.mesh, g, "point", a.root_stress_angle, a.root_stress_phase);
+      const auto gear = static_cast<size_t>(g);
+      describe_root_place(c, of_body(c, a.mesh, g, "root_stress_angle"), a.root_stress_angle[gear],
+                          of_body(c, a.mesh, g, "root_stress_phase"), a.root_stress_phase[gear], "point");
     }
   describe_stability(c, a);
 }

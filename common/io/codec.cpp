@@ -66,6 +66,19 @@ std::vector<Eigen::Index> shape_of(const std::vector<MatrixRM>& values) {
 std::vector<Eigen::Index> shape_of(const std::vector<std::string>& values) {
   return {static_cast<Eigen::Index>(values.size())};
 }
+// Of a dataset with these known lengths: four axes divide the columns of a list of matrices.
+template <class Value>
+std::vector<Eigen::Index> shape_along(const std::vector<Eigen::Index>& known, const Value& value) {
+  std::vector<Eigen::Index> shape = shape_of(value);
+  if constexpr (std::is_same_v<Value, std::vector<MatrixRM>>)
+    if (known.size() == 4 && known[2] > 0) {
+      if (shape[2] % known[2] != 0)
+        fail(Failure::numerical, "a result has ", shape[2], " columns, no multiple of ", known[2]);
+      shape.push_back(shape[2] < 0 ? -1 : shape[2] / known[2]);
+      shape[2] = known[2];
+    }
+  return shape;
+}
 
 // --- writing; shape: what is known of it
 
@@ -83,15 +96,16 @@ void put(ArtifactWriter& out, const Dataset& d, const AxisLengths&, const std::v
 }
 void put(ArtifactWriter& out, const Dataset& d, const AxisLengths& known,
          const std::vector<MatrixRM>& value) {
-  AxisLengths shape = shape_of(value);
+  AxisLengths shape = shape_along(known, value);
   for (std::size_t i = 0; i < shape.size(); ++i)
     if (shape[i] < 0) shape[i] = std::max<Eigen::Index>(0, known[i]);
+  const Eigen::Index columns = shape.size() == 4 ? shape[2] * shape[3] : shape[2];
   std::vector<double> all;
-  all.reserve(static_cast<std::size_t>(shape[0] * shape[1] * shape[2]));
+  all.reserve(static_cast<std::size_t>(shape[0] * shape[1] * columns));
   for (const MatrixRM& rows : value) {
-    if (rows.rows() != shape[1] || rows.cols() != shape[2])
+    if (rows.rows() != shape[1] || rows.cols() != columns)
       fail(Failure::numerical, "result ", d.name, " has parts of ", rows.rows(), " x ", rows.cols(),
-           " and of ", shape[1], " x ", shape[2]);
+           " and of ", shape[1], " x ", columns);
     all.insert(all.end(), rows.data(), rows.data() + rows.size());
   }
   out.file().put(d.name, all.data(), sizes(shape), label(d));
@@ -126,10 +140,12 @@ void take(const ArtifactReader& in, const Dataset& d, const AxisLengths& shape, 
 void take(const ArtifactReader& in, const Dataset& d, const AxisLengths& shape,
           std::vector<MatrixRM>& value) {
   const auto [all, found] = in.doubles(d.name, d.range, shape);
-  const auto rows = static_cast<Eigen::Index>(found[1]), columns = static_cast<Eigen::Index>(found[2]);
+  const std::size_t across = found.size() == 4 ? found[2] * found[3] : found[2];
+  const auto rows = static_cast<Eigen::Index>(found[1]), columns = static_cast<Eigen::Index>(across);
   value.clear();
+  value.reserve(found[0]);
   for (std::size_t i = 0; i < found[0]; ++i)
-    value.push_back(Eigen::Map<const MatrixRM>(all.data() + i * found[1] * found[2], rows, columns));
+    value.push_back(Eigen::Map<const MatrixRM>(all.data() + i * found[1] * across, rows, columns));
 }
 void take(const ArtifactReader& in, const Dataset& d, const AxisLengths& shape,
           std::vector<std::string>& value) {
@@ -175,7 +191,7 @@ void Codec::dataset(const Dataset& d, const Member& member) {
   std::visit(
       [&](auto* value) {
         if (in_) take(*in_, d, known_shape(d.axes), *value);
-        note_shape(d, shape_of(*value));
+        note_shape(d, shape_along(known_shape(d.axes), *value));
         if (out_) put(*out_, d, known_shape(d.axes), *value);
       },
       member);
@@ -343,13 +359,11 @@ void describe_remarks(Codec& c, std::vector<Remark>& remarks) {
     remarks.push_back({warning[static_cast<Eigen::Index>(i)] == 1, words[i]});
 }
 
-void describe_root_place(Codec& c, const GearMeshSpec& mesh, int g, const std::string& axis,
-                         std::array<Eigen::VectorXd, 2>& angle, std::array<Eigen::VectorXd, 2>& phase) {
-  const auto gear = static_cast<size_t>(g);
-  c(angle[gear], of_body(c, mesh, g, "root_stress_angle"), "1", kRoll, axis,
+void describe_root_place(Codec& c, const std::string& angle_name, Eigen::VectorXd& angle,
+                         const std::string& phase_name, Eigen::VectorXd& phase, const std::string& axis) {
+  c(angle, angle_name, "1", kRoll, axis,
     "angle (rad) of the root's tangent against the centre line of the tooth where the stress is largest of what is sustained for 1/64 of a mesh period");
-  c(phase[gear], of_body(c, mesh, g, "root_stress_phase"), "1", kPlace, axis,
-    "mesh phase of the tooth's pair then, 0 at the pitch point");
+  c(phase, phase_name, "1", kPlace, axis, "mesh phase of the tooth's pair then, 0 at the pitch point");
 }
 
 void describe_friction(Codec& c, const GearMeshSpec& mesh, FrictionLosses& friction) {

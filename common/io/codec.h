@@ -41,7 +41,8 @@ struct Dataset {
   std::string equation{};  // where it comes from
 };
 
-// A list of matrices is one dataset with three axes, the first along the list.
+// A list of matrices is one dataset with three axes, the first along the list; or with four, the columns being along the last two, of
+// which the length of the first is known.
 using Member = std::variant<double*, int*, std::string*, Eigen::VectorXd*, Eigen::VectorXi*, Eigen::Vector2d*,
                             MatrixRM*, MatrixRMi*, std::vector<MatrixRM>*, std::vector<std::string>*>;
 
@@ -194,9 +195,9 @@ void describe_remarks(Codec& codec, std::vector<Remark>& remarks);
 void describe_certificate(Codec& codec, double& least_gap, double& least_force, int& fallbacks);
 // Losses of a mesh with friction; nothing of one without, that is of a file without /parameters/friction.
 void describe_friction(Codec& c, const GearMeshSpec& mesh, FrictionLosses& friction);
-// Of gear g, (axis): where the largest root stress of a motion stands.
-void describe_root_place(Codec& c, const GearMeshSpec& mesh, int g, const std::string& axis,
-                         std::array<Eigen::VectorXd, 2>& angle, std::array<Eigen::VectorXd, 2>& phase);
+// Of a gear, (axis): where the largest root stress of a motion stands.
+void describe_root_place(Codec& c, const std::string& angle_name, Eigen::VectorXd& angle,
+                         const std::string& phase_name, Eigen::VectorXd& phase, const std::string& axis);
 // Mesh periods of a hunting period, left out where all teeth are alike: 1.
 void describe_hunting(Codec& codec, int& periods);
 void describe_natural_frequency(Codec& codec, double& frequency);

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "gear/body_inertia.h"
+#include "io/artifact_kinds.h"
 #include "io/artifacts.h"
 #include "io/compatibility.h"
 #include "io/provenance.h"
@@ -18,6 +19,15 @@ PairBodies read_both(const std::vector<std::string>& paths) {
   PairBodies body{read<ReducedBody>(paths[0]), {}};
   body[1] = paths[1] == paths[0] ? body[0] : read<ReducedBody>(paths[1]);
   return body;
+}
+
+template <class Motion>
+Motion read_of_pair(const std::string& path) {
+  Motion out = read<Motion>(path);
+  if (out.of_train())
+    fail(Failure::input, path, ": is of a train, ", out.meshes(), " meshes; give the ",
+         kind_of<Motion>().file, " of a pair of gears");
+  return out;
 }
 
 }  // namespace
@@ -60,11 +70,11 @@ StaticResult read_pair_statics(const std::string& path) {
 }
 
 ResponseResult read_pair_response(const std::string& path) {
-  ResponseResult out = read<ResponseResult>(path);
-  if (out.of_train())
-    fail(Failure::input, path, ": is of a train, ", out.mesh_names.size(),
-         " meshes; give the response.h5 of a pair of gears");
-  return out;
+  return read_of_pair<ResponseResult>(path);
+}
+
+SweepResult read_pair_sweep(const std::string& path) {
+  return read_of_pair<SweepResult>(path);
 }
 
 }  // namespace whine

@@ -7,6 +7,7 @@
 #include "results/reduced_body.h"
 #include "results/response.h"
 #include "results/static.h"
+#include "results/sweep.h"
 
 namespace whine {
 
@@ -31,5 +32,6 @@ PairInputs read_pair_inputs(const NamedFiles& files, const std::string& statics,
 // Throw Error(input) for files of a train.
 StaticResult read_pair_statics(const std::string& path);
 ResponseResult read_pair_response(const std::string& path);
+SweepResult read_pair_sweep(const std::string& path);
 
 }  // namespace whine

@@ -31,20 +31,6 @@ void describe_pressure(Codec& c, ResponseResult& a) {
     "largest load that a pair sustains over the tip edge of the gear for 1/64 of a mesh period; 0: no pair does");
 }
 
-// What it was computed from: /layout of a train, the parameters of two gears of a pair.
-void describe_source(Codec& c, ResponseResult& a) {
-  if (c.optional("/layout/body/name", a.of_train())) {
-    describe_system(c, a.train, a.drive, {"/layout", ""});
-    describe_time_steps(c, a.train.time);
-  }
-  if (a.of_train()) return;
-  describe_pair(c, a);
-  describe_motion(c, a);
-  describe_torque(c, a.torque);
-  describe_model(c, a.model, "finite elements, or the name of a lumped model");
-  describe_natural_frequency(c, a.natural_frequency);
-}
-
 void describe_vibration(Codec& c, ResponseResult& a) {
   c(a.dte_rms, "/dte_rms", "m", kSize, kOfMesh,
     "RMS of the oscillating part of the dynamic transmission error");
@@ -100,6 +86,10 @@ void describe_loads(Codec& c, ResponseResult& a) {
 
 void describe(Codec& c, ResponseResult& a) {
   describe_source(c, a);
+  if (!a.of_train()) {
+    describe_model(c, a.model, "finite elements, or the name of a lumped model");
+    describe_natural_frequency(c, a.natural_frequency);
+  }
   describe_names(c, a.of_train(), a.mesh_names, a.body_names);
   c(a.direction, "/parameters/operation/direction", "", "direction in which the speeds are run through");
   c(a.mesh_frequency, "/mesh_frequency", "Hz", kSpeed, kSpeeds,
@@ -122,7 +112,7 @@ void describe(Codec& c, ResponseResult& a) {
   c(a.period_multiple, "/period_multiple", "1", kMultiple, kSpeeds,
     "mesh periods after which the motion repeats; 0: not periodic within the limit");
   c(a.energy_imbalance, "/energy_imbalance", "1", {-1e300, 1e300}, kSpeeds,
-    "energy not accounted for, relative to what goes through the system");
+    "energy not accounted for, relative to the throughput of the stored periods");
   describe_backlash_left(c, a.backlash_left);
   describe_remarks(c, a.remarks);
   if (c.in() && a.mesh_frequency.size() == 0) c.in()->reject("dataset /mesh_frequency holds no speed");

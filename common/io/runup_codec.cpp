@@ -13,25 +13,14 @@ namespace {
 using namespace ranges;
 using Eigen::Index;
 
-// What it was computed from: /layout of a train, the parameters of two gears of a pair.
-void describe_source(Codec& c, RunupResult& a) {
-  if (c.optional("/layout/body/name", a.of_train())) {
-    describe_system(c, a.train, a.drive, {"/layout", ""});
-    c(a.axis_frequency, "/axis_frequency", "Hz", kFrequency, "",
-      "highest natural frequency of the rigid train on its mean stiffnesses, to which the dampers of the axes refer");
-    describe_time_steps(c, a.train.time);
-  }
-  if (a.of_train()) return;
-  describe_pair(c, a);
-  describe_motion(c, a);
-  describe_bearing_dampers(c, a.mean_stiffness, a.bearing_damper);
-  describe_torque(c, a.torque);
-  describe_natural_frequency(c, a.natural_frequency);
-  c(a.pair, "/pair", "1", kPair, "pair", "number of the tooth pair: -1 following, 0 reference, +1 preceding");
-}
-
 void describe_head(Codec& c, RunupResult& a) {
   describe_source(c, a);
+  if (!a.of_train()) {
+    describe_bearing_dampers(c, a.mean_stiffness, a.bearing_damper);
+    describe_natural_frequency(c, a.natural_frequency);
+    c(a.pair, "/pair", "1", kPair, "pair",
+      "number of the tooth pair: -1 following, 0 reference, +1 preceding");
+  }
   describe_names(c, a.of_train(), a.mesh_names, a.body_names);
   const std::string at = "/parameters/operation/";
   c(a.input, at + "input", "", "body whose rotational speed ramp_rate is of");

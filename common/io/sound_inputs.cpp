@@ -6,12 +6,10 @@
 
 #include "base/error.h"
 #include "base/tool.h"
-#include "gear/layout.h"
 #include "io/artifacts.h"
 #include "io/provenance.h"
 #include "io/publish.h"
 #include "results/sweep.h"
-#include "results/system_sweep.h"
 #include "studies/runup.h"
 
 namespace whine {
@@ -62,26 +60,6 @@ Index speed_row(const std::string& path, const VectorXd& speeds, const Eigen::Ve
   return row;
 }
 
-HeardMotion heard_of_train(const std::string& path, double frequency, const HeardForce& force) {
-  const SystemSweepResult sweep = read<SystemSweepResult>(path);
-  const System& layout = sweep.settings.layout;
-  std::vector<std::string> bodies, meshes;
-  for (const System::Body& body : layout.bodies) bodies.push_back(body.name);
-  for (size_t m = 0; m < layout.meshes.size(); ++m) meshes.push_back(mesh_name(layout, m));
-  const Index row = speed_row(path, sweep.mesh_frequency, sweep.period_multiple, frequency);
-  const auto of = static_cast<size_t>(row);
-  const Index periods = sweep.period_multiple[row];
-  // One motion; behind it the row repeats.
-  const Index samples =
-      std::min<Index>(periods * sweep.settings.time.steps_per_period, sweep.mesh_force[of].rows());
-  const Place at = place_of(path, force, meshes, bodies, [](size_t) { return true; });
-  HeardMotion out{name_of(sweep.direction), sweep.mesh_frequency[row] / static_cast<double>(periods), {}};
-  out.record = at.on_bearing ? VectorXd(sweep.bearing_force[static_cast<size_t>(at.body)][of].col(at.axis))
-                             : VectorXd(sweep.mesh_force[of].col(at.mesh));
-  out.record.conservativeResize(samples);
-  return out;
-}
-
 }  // namespace
 
 void require_sound_inputs(const std::vector<std::string>& paths) {
@@ -96,20 +74,18 @@ void require_sound_inputs(const std::vector<std::string>& paths) {
 }
 
 HeardMotion heard_motion(const std::string& path, double frequency, const HeardForce& force) {
-  if (read_origin(path).schema == "whine/system_sweep") return heard_of_train(path, frequency, force);
   const SweepResult sweep = read<SweepResult>(path);
   const Index row = speed_row(path, sweep.mesh_frequency, sweep.period_multiple, frequency);
-  // One orbit; behind it the row repeats.
-  const Index periods = sweep.period_multiple[row], samples = periods * sweep.time.steps_per_period;
-  const auto& gears = sweep.mesh.gear;
-  const Place at = place_of(path, force, {gears[0] + "-" + gears[1]}, {gears[0], gears[1]},
-                            [&](size_t g) { return !sweep.bearing_force[g].empty(); });
-  HeardMotion out{name_of(sweep.direction), sweep.mesh_frequency[row] / static_cast<double>(periods),
-                  sweep.mesh_force.row(row).head(samples)};
-  if (at.on_bearing)
-    out.record =
-        sweep.bearing_force[static_cast<size_t>(at.body)][static_cast<size_t>(row)].col(at.axis).head(
-            samples);
+  const auto of = static_cast<size_t>(row);
+  // One motion; behind it the row repeats.
+  const Index periods = sweep.period_multiple[row],
+              samples = std::min<Index>(periods * sweep.steps_per_period(), sweep.samples());
+  const Place at = place_of(path, force, sweep.mesh_names, sweep.body_names,
+                            [&](size_t b) { return !sweep.bearing_force[b].empty(); });
+  HeardMotion out{name_of(sweep.direction), sweep.mesh_frequency[row] / static_cast<double>(periods), {}};
+  out.record = at.on_bearing ? VectorXd(sweep.bearing_force[static_cast<size_t>(at.body)][of].col(at.axis))
+                             : VectorXd(sweep.mesh_force[of].col(at.mesh));
+  out.record.conservativeResize(samples);
   return out;
 }
 

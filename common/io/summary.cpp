@@ -232,12 +232,10 @@ void show(SummaryLines& lines, const ImpactResult& a) {
   add(lines, "least mesh force", a.least_mesh_force * 100, " % of the static one");
 }
 
-void show(SummaryLines& lines, const SweepResult& a) {
-  add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", ", a.direction, ", ",
-      range_of(a.mesh_frequency));
+// Which pair moves, by which model.
+void show_pair(SummaryLines& lines, const SweepResult& a) {
   const LumpedParameters& l = a.lumped;
-  const bool lumped = l.cell_end.size() > 0;
-  if (lumped) {
+  if (l.cell_end.size() > 0) {
     add(lines, "model", a.model, ", one degree of freedom, ", l.cell_end.size(), " cells of ",
         l.stiffness.cols(), l.stiffness.cols() == 1 ? " spring" : " springs", ", mean stiffness ",
         a.mean_stiffness * 1e-6, " N/µm, mass ", l.mass, " kg, integrator ", a.fidelity.integrator);
@@ -254,35 +252,52 @@ void show(SummaryLines& lines, const SweepResult& a) {
   show_friction(lines, a.mesh);
   show_errors(lines, a.mesh);
   show_bearings(lines, a.mesh);
-  if (a.mesh_frequency.size() > 0) {
-    Eigen::Index worst = 0;
-    Eigen::VectorXd rms(a.mesh_frequency.size());
-    for (Eigen::Index f = 0; f < rms.size(); ++f)
-      rms[f] = oscillating_rms({Eigen::VectorXd(a.transmission_error.row(f))});
-    const double peak = rms.maxCoeff(&worst);
-    add(lines, "largest DTE", peak * 1e6, " µm RMS at ", a.mesh_frequency[worst], " Hz");
-    add(lines, "steady state", a.periods.sum(), " periods run, largest residual ", a.residual.maxCoeff(),
-        ", energy imbalance ", a.energy_imbalance.cwiseAbs().maxCoeff());
-    if (!lumped) {
-      const auto line = [&a](const char* name) {
-        for (size_t i = 0; i < kEnergyLines.size(); ++i)
-          if (std::string(name) == kEnergyLines[i].name)
-            return Eigen::ArrayXd(a.energy.col(static_cast<Eigen::Index>(i)));
-        return Eigen::ArrayXd();
-      };
-      const Eigen::ArrayXd damped = line("modal_damping") + line("relaxation_damping");
-      add(lines, "energy", "at most ", damped.maxCoeff(),
-          " J damped in the stored periods; of that the scheme's own work, ", "strips that switch ",
-          (line("switching") / damped).abs().maxCoeff() * 100, " %, averaging ",
-          (line("averaging") / damped).abs().maxCoeff() * 100, " %");
-    }
-    const Eigen::Index open = (a.period_multiple.array() == 0).count();
-    if (open > 0) add(lines, "not periodic", open, " of ", a.period_multiple.size(), " speeds");
-    add(lines, "mean speed held by", "at most ", a.drift_force.maxCoeff(), " N from the output");
+}
+
+// Of the mesh that moves most.
+void show_motions(SummaryLines& lines, const SweepResult& a) {
+  double peak = 0;
+  Eigen::Index worst = 0, mesh = 0;
+  for (Eigen::Index f = 0; f < a.mesh_frequency.size(); ++f)
+    for (Eigen::Index m = 0; m < a.meshes(); ++m)
+      if (const double rms = oscillating_rms({a.transmission_error[static_cast<size_t>(f)].col(m)});
+          rms > peak) {
+        peak = rms;
+        worst = f;
+        mesh = m;
+      }
+  add(lines, "largest DTE", peak * 1e6, " µm RMS at ", a.mesh_frequency[worst], " Hz",
+      a.of_train() ? " of " + a.mesh_names[static_cast<size_t>(mesh)] : "");
+  add(lines, "steady state", a.periods.sum(), " periods run, largest residual ", a.residual.maxCoeff(),
+      ", energy imbalance ", a.energy_imbalance.cwiseAbs().maxCoeff());
+  if (a.lumped.cell_end.size() == 0) {
+    const auto line = [&a](const char* name) { return Eigen::ArrayXd(a.energy.col(energy_line(name))); };
+    const Eigen::ArrayXd damped =
+        line("modal_damping") + line("bearing_damping") + line("relaxation_damping");
+    add(lines, "energy", "at most ", damped.maxCoeff(),
+        " J damped in the stored periods; of that the scheme's own work, ", "strips that switch ",
+        (line("switching") / damped).abs().maxCoeff() * 100, " %, averaging ",
+        (line("averaging") / damped).abs().maxCoeff() * 100, " %");
   }
+  const Eigen::Index open = (a.period_multiple.array() == 0).count();
+  if (open > 0) add(lines, "not periodic", open, " of ", a.period_multiple.size(), " speeds");
+  add(lines, "mean speed held by", "at most ", a.drift_force.maxCoeff(), " N from the output");
+}
+
+void show(SummaryLines& lines, const SweepResult& a) {
+  add(lines, "operating point", a.of_train() ? "" : text(a.torque, " N m on ", a.mesh.gear[0], ", "),
+      a.direction, ", ", range_of(a.mesh_frequency));
+  if (a.of_train()) {
+    show_model(lines, a.train);
+    show_differing_teeth(lines, a.train, a.hunting_periods);
+  } else {
+    show_pair(lines, a);
+  }
+  if (a.mesh_frequency.size() > 0) show_motions(lines, a);
   add(lines, "certificate", "least gap ", a.least_gap * 1e6, " µm, least force ", a.least_force, " N, ",
       a.fallbacks, " solutions by Lawson and Hanson");
-  if (!std::isinf(a.backlash_margin)) add(lines, "least backlash", a.backlash_margin * 1e6, " µm");
+  if (!a.of_train() && !std::isinf(a.backlash_margin))
+    add(lines, "least backlash", a.backlash_margin * 1e6, " µm");
   add(lines, "jumps", jump_words(a.jump_frequency, a.jump_width));
 }
 

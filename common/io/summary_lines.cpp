@@ -18,7 +18,7 @@ void show(SummaryLines& lines, const ModesResult& a) {
 }
 
 // Which gears have errors, and after which time the same teeth meet.
-static void show_differing_teeth(SummaryLines& lines, const SystemStaticParameters& s, int periods) {
+void show_differing_teeth(SummaryLines& lines, const SystemStaticParameters& s, int periods) {
   for (size_t b = 0; b < s.layout.bodies.size(); ++b)
     if (s.has_errors(b)) add(lines, s.layout.bodies[b].name + "'s teeth", words_of(s.errors[b]));
   if (periods > 1) add(lines, "hunting period", periods, " mesh periods, after which the same teeth meet");
@@ -55,19 +55,6 @@ void show_model(SummaryLines& lines, const SystemSweepParameters& s) {
   add(lines, "system", s.layout.bodies.size(), " bodies, ", s.layout.meshes.size(), " meshes");
   add(lines, "model", "body ", s.fidelity.body, ", contact ", s.fidelity.contact, ", damping ",
       s.damping.rayleigh_stiffness, " s and ", s.damping.rayleigh_mass, " 1/s");
-}
-
-void show(SummaryLines& lines, const SystemSweepResult& a) {
-  const System& s = a.settings.layout;
-  add(lines, "operating point", a.direction, ", ", range_of(a.mesh_frequency));
-  show_model(lines, a.settings);
-  show_differing_teeth(lines, a.settings, a.hunting_periods);
-  if (a.mesh_frequency.size() == 0) return;
-  double most = 0;
-  for (const MatrixRM& force : a.mesh_force) most = std::max(most, force.maxCoeff());
-  add(lines, "largest mesh force", most, " N; what the sweep says of each mesh: response.h5 (gear-spectra)");
-  add(lines, "not periodic", (a.period_multiple.array() == 0).count(), " speeds");
-  add(lines, "energy imbalance", a.energy_imbalance.cwiseAbs().maxCoeff(), " of the throughput");
 }
 
 void show(SummaryLines& lines, const SystemImpactResult& a) {

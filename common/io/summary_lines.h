@@ -11,10 +11,10 @@
 #include "base/error.h"
 #include "model/gear.h"
 #include "results/modes.h"
+#include "results/static.h"
+#include "results/sweep.h"
 #include "results/system_branch.h"
 #include "results/system_impact.h"
-#include "results/static.h"
-#include "results/system_sweep.h"
 
 namespace whine {
 
@@ -44,7 +44,8 @@ void show_model(SummaryLines& lines, const SystemSweepParameters& s);
 void show(SummaryLines& lines, const ModesResult& a);
 void show(SummaryLines& lines, const StaticResult& a);  // of a pair
 void show(SummaryLines& lines, const SystemStaticResult& a);
-void show(SummaryLines& lines, const SystemSweepResult& a);
+// Which gears have errors, and after how many mesh periods the same teeth meet.
+void show_differing_teeth(SummaryLines& lines, const SystemStaticParameters& s, int periods);
 void show(SummaryLines& lines, const SystemImpactResult& a);
 void show(SummaryLines& lines, const SystemBranchResult& a);
 

@@ -1,12 +1,16 @@
 #include "io/artifacts.h"
 
 #include "base/error.h"
+#include "gear/layout.h"
 #include "io/artifact_file.h"
+#include "io/system_motion_codec.h"
 
 namespace whine {
 namespace {
 
 using namespace ranges;
+
+constexpr const char* kAxis = "mesh_frequency";
 
 // Left out of finite element sweeps, which have no such part.
 void describe_lumped(Codec& c, MotionModel& model, LumpedParameters& a) {
@@ -25,82 +29,125 @@ void describe_lumped(Codec& c, MotionModel& model, LumpedParameters& a) {
   c(a.gap, at + "gap", "m", {-1e9, 1e9}, "cell spring", "transmission error at which a spring touches");
 }
 
-void describe_motions(Codec& c, SweepResult& a, bool lumped) {
-  c(a.mesh_frequency, "/mesh_frequency", "Hz", kSpeed, "mesh_frequency",
-    "mesh frequency, in the order in which they were computed");
-  c(a.transmission_error, "/transmission_error", "m", kLength, "mesh_frequency sample",
-    "dynamic transmission error from phase 0; the first period_multiple mesh periods are one orbit; shorter orbits repeat to fill the row",
+void describe_meshes(Codec& c, SweepResult& a) {
+  const std::string axes = "mesh_frequency sample mesh";
+  c(a.transmission_error, "/transmission_error", "m", kLength, axes,
+    "dynamic transmission error of each mesh from phase 0, positive when the driver is ahead; the first period_multiple mesh periods are one motion, shorter motions repeat to fill the row",
     "r1 theta1 + r2 theta2");
-  c(a.mesh_force, "/mesh_force", "N", kForce, "mesh_frequency sample",
-    "normal force of all tooth pairs together");
-  c(a.pair, "/pair", "1", kPair, "pair", "number of the tooth pair: -1 following, 0 reference, +1 preceding");
-  c(a.tooth_load, "/tooth_load", "N", kForce, "mesh_frequency sample pair",
-    "normal force of each tooth pair");
-  for (int g = 0; g < (c.lists() ? 1 : 2); ++g)
-    if (c.lists() || (a.mesh.bearing[g].elastic() && !lumped))
-      c(a.bearing_force[g], of_body(c, a.mesh, g, "bearing_force"), "N", kForce, "mesh_frequency sample xy",
-        "force of the gear on its bearing; x, y: the driven gear stands above the driver, which turns counter-clockwise");
-  for (int g = 0; g < (c.lists() ? 1 : 2); ++g)
-    if (c.optional(of_body(c, a.mesh, g, "root_stress"), a.root_stress[g].size() > 0)) {
-      c(a.root_stress[g], of_body(c, a.mesh, g, "root_stress"), "Pa", kStress, "mesh_frequency sample",
+  c(a.mesh_force, "/mesh_force", "N", kForce, axes,
+    "normal force of all tooth pairs of the mesh together; of trains torque on the driving body over its base radius");
+  c(a.pair, "/tooth_pair", "1", kPair, "tooth_pair",
+    "number of the tooth pair: -1 following, 0 reference, +1 preceding");
+  c(a.tooth_load, "/tooth_load", "N", kForce, axes + " tooth_pair", "normal force of each tooth pair");
+  if (c.lists() || a.of_train())
+    c(a.mesh_deflection, "/mesh_deflection", "m", kLength, axes,
+      "what the flanks of each mesh close by over the same, the motion of the hubs included; left out of pairs",
+      "sum over both sides of (row on r) r");
+}
+
+void describe_bodies(Codec& c, SweepResult& a, const std::vector<std::string>& names, bool lumped) {
+  a.bearing_force.resize(names.size());
+  for (size_t b = 0; b < names.size(); ++b)
+    if (c.lists() || a.of_train() || (a.mesh.bearing[b].elastic() && !lumped))
+      c(a.bearing_force[b], "/bearing_force/" + names[b], "N", kForce, "mesh_frequency sample xy",
+        text(
+            "force of the body on its bearing or pin over the same; of a train on a rigid axis the sum of its contact forces",
+            c.lists() || (a.of_train() && on_rigid_moving_pin(a.train.layout, static_cast<int>(b)))
+                ? ", on a rigid pin of a carrier that moves less the rate of its momentum"
+                : "",
+            ", of a carrier the sum of its pins; x, y: of a pair the driven gear stands above the driver, which turns counter-clockwise"));
+  if (c.lists() || a.of_train())
+    c(a.holding_torque, "/holding_torque", "N m", kMoment, "mesh_frequency body",
+      "of a train: mean torque that holds the body, in its sense: of a gear against its contact forces, of a carrier against the forces on its pins; 0 of bodies that turn");
+  for (size_t g = 0; g < (c.lists() ? 1 : kSides) && !a.of_train(); ++g)
+    if (c.optional("/root_stress/" + names[g], a.root_stress[g].size() > 0)) {
+      c(a.root_stress[g], "/root_stress/" + names[g], "Pa", kStress, "mesh_frequency sample",
         "largest tangential stress of the teeth that carry load along the root beside the loaded flank, tension positive; quasi-static in the tooth loads: the inertia of the body adds none");
-      describe_root_place(c, a.mesh, g, "mesh_frequency", a.root_stress_angle, a.root_stress_phase);
+      describe_root_place(c, "/root_stress_angle/" + names[g], a.root_stress_angle[g],
+                          "/root_stress_phase/" + names[g], a.root_stress_phase[g], kAxis);
     }
 }
 
-void describe_speed_by_speed(Codec& c, SweepResult& a) {
-  const char* const axis = "mesh_frequency";
-  c(a.periods, "/periods", "1", kNumber, axis, "mesh periods run to steady state");
-  c(a.residual, "/residual", "1", {0, 1e300}, axis, "relative change of the state over the last mesh period");
-  c(a.period_multiple, "/period_multiple", "1", kMultiple, axis,
-    "mesh periods after which the motion repeats; 0: not periodic within the limit");
-  c(a.energy_imbalance, "/energy_imbalance", "1", {-1e300, 1e300}, axis,
-    "energy not accounted for, relative to the input of the stored periods");
+void describe_energy(Codec& c, SweepResult& a) {
+  c(a.energy_imbalance, "/energy_imbalance", "1", {-1e300, 1e300}, kAxis,
+    "energy not accounted for, relative to the throughput of the stored periods");
   constexpr auto kLines = static_cast<Eigen::Index>(kEnergyLines.size());
   if (c.out() && a.energy.cols() != kLines)
     fail(Failure::numerical, "the energy balance has ", a.energy.cols(), " lines instead of ", kLines);
-  for (Eigen::Index i = 0; i < kLines; ++i)
-    c.column({text("/energy/", kEnergyLines[i].name), "J",
-              text(kEnergyLines[i].meaning, ", over the stored periods"), axis, kEnergy},
-             a.energy, i, kLines);
-  describe_friction(c, a.mesh, a.friction);
-  if (c.lists() || a.mesh.friction.acts()) {
-    c(a.friction_rolling, "/energy/friction_rolling", "J", kEnergy, axis,
-      "work of the prescribed rolling against friction, over the stored periods");
-    c(a.friction_work, "/energy/friction", "J", kEnergy, axis, "taken by friction, over the stored periods");
-    c(a.friction_coupling, "/certificate/friction_coupling", "m", kSize, "",
-      "largest change of a gap by what friction of the last forces moves, over all steps",
-      "iteration for d = (A + E) p + e, E of friction: E times the last change of p");
+  for (Eigen::Index i = 0; i < kLines; ++i) {
+    const EnergyLine& line = kEnergyLines[static_cast<size_t>(i)];
+    c.column(
+        {text("/energy/", line.name), "J", text(line.meaning, ", over the stored periods"), kAxis, kEnergy},
+        a.energy, i, kLines);
   }
-  c(a.drift_force, "/drift_force", "N", kForce, axis,
+  if (!c.lists() && !a.of_train()) return;
+  c(a.rolling, "/energy/rolling_of_mesh", "J", kEnergy, "mesh_frequency mesh",
+    "of a train: work of the prescribed rolling of each mesh");
+  c(a.bearing_damping, "/energy/damping_of_bearing", "J", kEnergy, "mesh_frequency body",
+    "of a train: taken by the damper of each bearing or pin");
+}
+
+void describe_speed_by_speed(Codec& c, SweepResult& a) {
+  c(a.periods, "/periods", "1", kNumber, kAxis, "mesh periods run to steady state");
+  c(a.residual, "/residual", "1", {0, 1e300}, kAxis,
+    "relative change of the state over the last mesh period");
+  c(a.period_multiple, "/period_multiple", "1", kMultiple, kAxis,
+    "mesh periods after which the motion repeats; 0: not periodic within the limit");
+  describe_energy(c, a);
+  c(a.drift_force, "/drift_force", "N", kForce, kAxis,
     "largest force that the output must supply to hold the mean speed");
+  describe_certificate(c, a.least_gap, a.least_force, a.fallbacks);
+  describe_hunting(c, a.hunting_periods);
+  c(a.jump_frequency, "/jump_frequency", "Hz", kFrequency, "jump",
+    "middle of the interval in which the response jumps; of trains whose teeth differ jumps are not looked for");
+  c(a.jump_width, "/jump_width", "Hz", kFrequency, "jump",
+    "width of the interval in which the response jumps");
+  describe_remarks(c, a.remarks);
+}
+
+// What pairs alone have, but for their samples; whether the motion is of a lumped model.
+bool describe_source_of_pair(Codec& c, SweepResult& a) {
+  describe_bearing_dampers(c, a.mean_stiffness, a.bearing_damper);
+  describe_natural_frequency(c, a.natural_frequency);
+  const bool lumped = c.optional("/parameters/fidelity/model", a.lumped.cell_end.size() > 0);
+  if (lumped) describe_lumped(c, a.model, a.lumped);
+  return lumped;
 }
 
 }  // namespace
 
 void describe(Codec& c, SweepResult& a) {
-  describe_pair(c, a);
-  describe_motion(c, a);
-  describe_bearing_dampers(c, a.mean_stiffness, a.bearing_damper);
-  const bool lumped = c.optional("/parameters/fidelity/model", a.lumped.cell_end.size() > 0);
-  if (lumped) describe_lumped(c, a.model, a.lumped);
-  describe_torque(c, a.torque);
+  describe_source(c, a);
+  if (c.lists() || a.of_train()) {
+    describe_sections(c, a.train.section, {"/layout", ""});
+    describe_errors(c, a.train, {"/layout", ""});
+  }
+  const bool lumped = !a.of_train() && describe_source_of_pair(c, a);
+  describe_names(c, a.of_train(), a.mesh_names, a.body_names);
   c(a.direction, "/parameters/operation/direction", "", "direction in which the speeds are run through");
-  describe_motions(c, a, lumped);
+  c(a.mesh_frequency, "/mesh_frequency", "Hz", kSpeed, kAxis,
+    "mesh frequency, in the order in which they were computed");
+  describe_meshes(c, a);
+  describe_bodies(c, a, c.lists() ? std::vector<std::string>{"<body>"} : a.body_names, lumped);
   describe_speed_by_speed(c, a);
-  describe_natural_frequency(c, a.natural_frequency);
-  describe_hunting(c, a.hunting_periods);
-  describe_certificate(c, a.least_gap, a.least_force, a.fallbacks);
-  describe_backlash(c, a.backlash_margin);
-  describe_backlash_left(c, a.backlash_left);
-  describe_remarks(c, a.remarks);
-  c(a.jump_frequency, "/jump_frequency", "Hz", kFrequency, "jump",
-    "middle of the interval in which the response jumps");
-  c(a.jump_width, "/jump_width", "Hz", kFrequency, "jump",
-    "width of the interval in which the response jumps");
+  if (!a.of_train()) {
+    describe_friction(c, a.mesh, a.friction);
+    if (c.lists() || a.mesh.friction.acts())
+      c(a.friction_coupling, "/certificate/friction_coupling", "m", kSize, "",
+        "largest change of a gap by what friction of the last forces moves, over all steps",
+        "iteration for d = (A + E) p + e, E of friction: E times the last change of p");
+    describe_backlash(c, a.backlash_margin);
+    describe_backlash_left(c, a.backlash_left);
+  }
+  if (!c.in()) return;
+  if (a.mesh_frequency.size() == 0) c.in()->reject("dataset /mesh_frequency holds no speed");
+  if (a.of_train() && a.train.layout.meshes.empty())
+    c.in()->reject("dataset /layout/mesh/phase holds no mesh");
 }
 
 std::string title(const SweepResult& a) {
+  if (a.of_train())
+    return text("Sweep ", a.direction, " of a system: ", a.bodies(), " bodies, ", a.meshes(), " meshes");
   const bool lumped = a.lumped.cell_end.size() > 0;
   return text("Sweep ", a.direction, lumped ? ", lumped model " + name_of(a.model) : "", ": ",
               pair_title(a.mesh, a.torque));

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/layout_codec.h"
-#include "results/system_sweep.h"
+#include "results/motion_source.h"
 
 namespace whine {
 
@@ -17,6 +17,8 @@ void describe_system(Codec& codec, SystemSweepParameters& settings, Eigen::Vecto
 // The same with axis_frequency: Hz, as axis_frequency() gives it.
 void describe_system_motion(Codec& codec, SystemSweepParameters& settings, Eigen::VectorXd& torque,
                             double& axis_frequency);
+// What pairs and trains in motion were computed from: /layout of a train, the parameters of two gears of a pair.
+void describe_source(Codec& codec, MotionSource& source);
 // /mesh and /body, the coordinates of the axes mesh and body: of a pair one mesh and two bodies, else those of the layout.
 void describe_names(Codec& codec, bool of_train, std::vector<std::string>& meshes,
                     std::vector<std::string>& bodies);

@@ -253,6 +253,7 @@ SweepResult described(const StaticResult& statics, const LumpedParameters& sprin
   a.damping = {};
   a.damping.rayleigh_stiffness = a.damping.bearing_ratio = 0;
   a.torque = statics.torque;
+  a.name_parts();
   // m = I1 I2 / (I1 r2^2 + I2 r1^2) with equal shares.
   for (int g = 0; g < kSides; ++g) a.inertia[g] = 2 * o.mass * std::pow(pair.gear(g).base_radius(), 2);
   a.direction = o.direction;
@@ -275,13 +276,6 @@ double store_motions(const LumpedSpeeds& run, const Eigen::VectorXi& numbers, Sw
   std::size_t longest = 1;
   for (const LumpedOrbit& orbit : run.orbits) longest = std::max(longest, orbit.record.size());
   const auto width = static_cast<Eigen::Index>(longest) * samples;
-  a.transmission_error.resize(count, width);
-  a.mesh_force.resize(count, width);
-  const auto line = [](const std::string& name) {
-    for (std::size_t i = 0; i < kEnergyLines.size(); ++i)
-      if (name == kEnergyLines[i].name) return static_cast<Eigen::Index>(i);
-    fail(Failure::numerical, "the energy balance has no line ", name);
-  };
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < count; ++i) {
     const LumpedOrbit& orbit = run.orbits[i];
@@ -290,15 +284,16 @@ double store_motions(const LumpedSpeeds& run, const Eigen::VectorXi& numbers, Sw
     a.period_multiple[i] = orbit.multiple;
     const LumpedEnergyBalance& l = orbit.energy_balance;
     a.energy_imbalance[i] = l.imbalance() / l.throughput;
-    a.energy(i, line("kinetic")) = l.kinetic;
-    a.energy(i, line("local")) = l.spring;
-    a.energy(i, line("drive")) = l.force;
-    a.energy(i, line("rolling")) = l.switching;
-    a.energy(i, line("modal_damping")) = l.damping;
-    MatrixRM loads = MatrixRM::Zero(width, a.pair.size());
+    a.energy(i, energy_line("kinetic")) = l.kinetic;
+    a.energy(i, energy_line("local")) = l.spring;
+    a.energy(i, energy_line("drive")) = l.force;
+    a.energy(i, energy_line("rolling")) = l.switching;
+    a.energy(i, energy_line("modal_damping")) = l.damping;
+    a.energy(i, energy_line("throughput")) = l.throughput;
+    MatrixRM error(width, 1), loads = MatrixRM::Zero(width, a.pair.size());
     for (std::size_t k = 0; k < longest; ++k) {
       const LumpedRecord& r = orbit.record[k % orbit.record.size()];
-      a.transmission_error.row(i).segment(static_cast<Eigen::Index>(k) * samples, samples) = r.x.transpose();
+      error.col(0).segment(static_cast<Eigen::Index>(k) * samples, samples) = r.x;
       for (Eigen::Index spring = 0, pair = 0; spring < numbers.size(); ++spring) {
         pair += spring > 0 && numbers[spring] != numbers[spring - 1];
         loads.col(pair).segment(static_cast<Eigen::Index>(k) * samples, samples) += r.load.col(spring);
@@ -306,7 +301,8 @@ double store_motions(const LumpedSpeeds& run, const Eigen::VectorXi& numbers, Sw
       least = std::min(least, r.least);
       a.least_gap = std::min(a.least_gap, -r.largest_exit);
     }
-    a.mesh_force.row(i) = loads.rowwise().sum().transpose();
+    a.transmission_error.push_back(std::move(error));
+    a.mesh_force.emplace_back(loads.rowwise().sum());
     a.tooth_load.push_back(std::move(loads));
   }
   return least;

@@ -97,8 +97,8 @@ Finding lumped_loss(const SceneResults& s, double f, bool upper) {
 Finding force_step(const SweepResult& sweep, double f, bool one_pair, bool smooth) {
   Index row;
   (sweep.mesh_frequency.array() - f).abs().minCoeff(&row);
-  const Eigen::VectorXd load =
-      one_pair ? load_of_a_pair(sweep, row) : Eigen::VectorXd(sweep.mesh_force.row(row));
+  const Eigen::VectorXd load = one_pair ? load_of_a_pair(sweep, row)
+                                        : Eigen::VectorXd(sweep.mesh_force[static_cast<size_t>(row)].col(0));
   const Step step = largest_step(load);
   const double change = std::abs(step.after - step.before), share = change / load.maxCoeff();
   return {(share > 0.1 && change > 3 * step.beside) == smooth ? 0.0 : 1.0,

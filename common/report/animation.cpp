@@ -108,7 +108,7 @@ struct ShownMotion {
 // At the mesh frequency, Hz; 0: where the transmission error oscillates most.
 ShownMotion motion_of(const SweepResult& s, double mesh_frequency) {
   const auto oscillation = [&s](Index row) {
-    const Eigen::VectorXd x = s.transmission_error.row(row);
+    const Eigen::VectorXd x = s.transmission_error[static_cast<size_t>(row)].col(0);
     return oscillating_rms({x});
   };
   Index row = 0;
@@ -122,14 +122,13 @@ ShownMotion motion_of(const SweepResult& s, double mesh_frequency) {
     fail(Failure::input, "the sweep holds no speed of ", mesh_frequency, " Hz; the nearest is ", speed,
          " Hz");
   const int periods = std::max(1, s.period_multiple[row]), per_period = s.time.steps_per_period;
-  const Index samples =
-      std::min<Index>(static_cast<Index>(periods) * per_period, s.transmission_error.cols());
+  const Index samples = std::min<Index>(static_cast<Index>(periods) * per_period, s.samples());
   return {speed,
           periods,
           per_period,
           samples,
-          s.transmission_error.row(row).head(samples).transpose(),
-          s.mesh_force.row(row).head(samples).transpose(),
+          s.transmission_error[static_cast<size_t>(row)].col(0).head(samples),
+          s.mesh_force[static_cast<size_t>(row)].col(0).head(samples),
           s.tooth_load[static_cast<size_t>(row)]};
 }
 

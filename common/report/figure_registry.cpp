@@ -76,7 +76,7 @@ Captioned<ResponseResult> read_responses(const Paths& inputs) {
     } else if (is_a("whine/branch", path)) {
       background.branches.push_back(read<BranchResult>(path));
     } else if (is_a("whine/sweep", path)) {
-      const SweepResult sweep = read<SweepResult>(path);
+      const SweepResult sweep = read_pair_sweep(path);
       captions.add(path, response(sweep), sweep.lumped);
     } else {
       captions.add(path, read_pair_response(path), {});
@@ -91,7 +91,7 @@ Captioned<SweepResult> read_sweeps(const Paths& inputs) {
     if (is_a("whine/impact", path)) {
       captions.background.impacts.push_back(read<ImpactResult>(path));
     } else {
-      const SweepResult sweep = read<SweepResult>(path);
+      const SweepResult sweep = read_pair_sweep(path);
       captions.add(path, sweep, sweep.lumped);
     }
   }
@@ -271,15 +271,13 @@ Drawings drawings_of_motions() {
        {"net mesh force of lumped models at one or two speeds", "sweep.h5 of lumped models at one torque", 0,
         2,
         [](const Paths& in, const Frequencies& f) {
-          return mesh_force_figure(read_all(in, read<SweepResult>), f);
+          return mesh_force_figure(read_all(in, read_pair_sweep), f);
         }}},
       {"fig16", {"RMS and mean of the dynamic transmission error", "what fig05 takes", 0, 0, draw_means}},
       {"waterfall",
        {"spectra of the dynamic transmission error against mesh frequency, and its first orders",
         "sweep.h5 of a sweep, or of those up and down of one torque", 0, 0,
-        [](const Paths& in, const Frequencies&) {
-          return waterfall_figure(read_all(in, read<SweepResult>));
-        }}},
+        [](const Paths& in, const Frequencies&) { return waterfall_figure(read_all(in, read_pair_sweep)); }}},
       {"tooth-loads",
        {"tooth loads against mesh frequency, and over the mesh period at the speed with the largest RMS",
         "sweep.h5 of sweeps up and down of one torque; impact.h5 of that torque, for damping ratios", 0, 0,

@@ -23,8 +23,8 @@ struct Motion {
   std::string title;  // which branch of which choices
 
   Eigen::Index per_period() const { return sweep->time.steps_per_period; }
-  Eigen::VectorXd orbit(const MatrixRM& rows) const {
-    return rows.row(row).head(periods * per_period()).transpose();
+  Eigen::VectorXd orbit(const std::vector<MatrixRM>& of_speeds) const {
+    return of_speeds[static_cast<size_t>(row)].col(0).head(periods * per_period());
   }
 };
 
@@ -35,9 +35,8 @@ Motion motion_at(const SweepResult& s, double frequency) {
   if (std::abs(s.mesh_frequency[m.row] - frequency) > 1e-6 * frequency)
     fail(Failure::input, "figure: the sweep ", s.direction, " at ", torque_words(s.torque),
          " holds no speed of ", frequency, " Hz; the nearest is ", s.mesh_frequency[m.row], " Hz");
-  m.periods = s.period_multiple[m.row] > 0
-                  ? s.period_multiple[m.row]
-                  : static_cast<int>(s.transmission_error.cols() / s.time.steps_per_period);
+  m.periods = s.period_multiple[m.row] > 0 ? s.period_multiple[m.row]
+                                           : static_cast<int>(s.samples() / s.time.steps_per_period);
   return m;
 }
 
@@ -500,18 +499,19 @@ Figure mesh_force_figure(const std::vector<SweepResult>& sweeps,
       Eigen::Index row = 0;
       (sweep.mesh_frequency.array() - mesh_frequencies[k]).abs().minCoeff(&row);
       const double f = sweep.mesh_frequency[row];
-      const Eigen::Index samples = sweep.time.steps_per_period, stored = sweep.mesh_force.cols();
+      const Eigen::Index samples = sweep.time.steps_per_period, stored = sweep.samples();
+      const Eigen::VectorXd force = sweep.mesh_force[static_cast<size_t>(row)].col(0),
+                            error = sweep.transmission_error[static_cast<size_t>(row)].col(0);
       FigureBlock block{text(letter_of(k), " ", s + 1),
                         {"time [mesh periods]", "mesh_force [N]", "transmission_error [µm]"},
                         {},
                         "forces",
                         text(shown(f, 6), " Hz, sweep ", s + 1)};
       for (Eigen::Index i = 0; i <= 2 * samples; ++i)
-        block.rows.push_back({static_cast<double>(i) / static_cast<double>(samples),
-                              sweep.mesh_force(row, i % stored),
-                              sweep.transmission_error(row, i % stored) * kMicro});
+        block.rows.push_back({static_cast<double>(i) / static_cast<double>(samples), force[i % stored],
+                              error[i % stored] * kMicro});
       figure.blocks.push_back(block);
-      largest = std::max(largest, sweep.mesh_force.row(row).maxCoeff());
+      largest = std::max(largest, force.maxCoeff());
       // The jump that the sweep comes to next, else the one that it has behind it.
       double next = 0, behind = 0;
       for (double jump : sweep.jump_frequency) {

@@ -5,23 +5,15 @@
 #include <vector>
 
 #include "base/matrix.h"
-#include "model/stages.h"
-#include "model/system_stages.h"
 #include "results/friction_losses.h"
 #include "results/motion_model.h"
+#include "results/motion_source.h"
 #include "results/remark.h"
 
 namespace whine {
 
 // response.h5: what a sweep says, per speed, of each mesh and each body. A pair has one mesh and two bodies, driver and driven.
-struct ResponseResult : MotionParameters {
-  // Of a train its layout, damping, model levels and steps, in place of what MotionParameters say of a pair; of a pair no bodies.
-  SystemSweepParameters train;
-  Eigen::VectorXd drive;  // (body) N m, of a train: torque of its drive; 0 where none gives a torque
-  bool of_train() const { return !train.layout.bodies.empty(); }
-  std::vector<std::string> mesh_names, body_names;  // (mesh) "sun-planet1"; (body)
-
-  double torque = 0;  // N m on the driver of a pair
+struct ResponseResult : MotionSource {
   Direction direction = Direction::up;
   MotionModel model = MotionModel::finite_elements;
   Eigen::VectorXd mesh_frequency;      // (speed) Hz

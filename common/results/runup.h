@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "base/matrix.h"
-#include "model/stages.h"
-#include "model/system_stages.h"
+#include "results/motion_source.h"
 
 namespace whine {
 
@@ -40,16 +39,9 @@ struct RunupPeriods {
 };
 
 // runup.h5
-struct RunupResult : MotionParameters {
-  // Of a train its layout, damping, model levels and steps, in place of what MotionParameters say of a pair; of a pair no bodies.
-  SystemSweepParameters train;
-  Eigen::VectorXd drive;      // (body) N m, of a train: torque of its drive; 0 where none gives a torque
-  double axis_frequency = 0;  // Hz, of a train: see axis_frequency() of dynamics/system_coordinates.h
-  bool of_train() const { return !train.layout.bodies.empty(); }
-  std::vector<std::string> mesh_names, body_names;  // (mesh) "sun-planet1"; (body)
-  std::string input;                                // the body of whose speed ramp.rate is
+struct RunupResult : MotionSource {
+  std::string input;  // the body of whose speed ramp.rate is
 
-  double torque = 0;                               // N m on the driver of a pair
   double mean_stiffness = 0;                       // N m-1 that sets the bearing dampers of a pair
   std::array<double, kSides> bearing_damper = {};  // N m s
   double natural_frequency = 0;                    // Hz, as in sweep.h5, of a pair
@@ -68,7 +60,6 @@ struct RunupResult : MotionParameters {
   double backlash_margin =
       0;  // m left on the line of action; infinite where no backlash is counted, and of trains
 
-  Eigen::Index meshes() const { return static_cast<Eigen::Index>(mesh_names.size()); }
   // Whether samples hold the force of a body on its bearing.
   bool has_bearing(size_t body) const { return of_train() || mesh.bearing[body].elastic(); }
   // Mesh periods since the start, at t (s).

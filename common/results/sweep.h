@@ -1,36 +1,51 @@
-// Motions of a pair over its speeds, of elastic bodies or of a lumped model.
+// Motions of a pair or a train over its speeds, of elastic bodies or of a lumped model of a pair.
 #pragma once
 #include <Eigen/Core>
 #include <array>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/matrix.h"
-#include "model/stages.h"
 #include "results/friction_losses.h"
 #include "results/motion_model.h"
+#include "results/motion_source.h"
 #include "results/remark.h"
 
 namespace whine {
 
-// Lines of a sweep's energy balance: the changes of what is stored and what dampers take equal the works less
-// averaging.
+// Lines of the energy balance of a motion; a line that a kind of motion does not have is 0.
+//   kinetic + modal + residual + local + modal_damping + bearing_damping + relaxation_damping + friction
+//     = drive + rolling + friction_rolling + frame + switching + cutting + dropped - averaging
 struct EnergyLine {
-  const char *name, *meaning;
+  std::string_view name, meaning;
 };
-inline constexpr std::array<EnergyLine, 12> kEnergyLines{
+inline constexpr std::array<EnergyLine, 17> kEnergyLines{
     {{"kinetic", "change of the energy of motion"},
      {"modal", "change of the energy in the springs of the kept modes and of bearings"},
      {"residual", "change of the energy in the residual flexibility"},
-     {"local", "change of the energy in the half-planes and all that is instantaneous"},
+     {"local", "change of the energy in the half-planes, in Hertz's laws and all that is instantaneous"},
      {"drive", "work of the constant torques on the vibration"},
      {"rolling", "work of the prescribed rolling"},
-     {"modal_damping", "taken by the Rayleigh and bearing dampers of the kept coordinates"},
+     {"friction_rolling", "work of the prescribed rolling against friction; 0 without [friction]"},
+     {"frame",
+      "work of centrifugal forces, and of dampers on the ground by the turning of the frame; 0 of a frame that stands still"},
+     {"modal_damping", "taken by the Rayleigh dampers of the kept coordinates and the dampers of the axes"},
+     {"bearing_damping",
+      "taken by the dampers of bearings and pins; of a pair they are in modal_damping, and this is 0"},
      {"relaxation_damping", "taken by the Rayleigh damping of the residual flexibility"},
-     {"switching", "work of the scheme itself where strips open or close within a step"},
+     {"friction", "taken by friction; 0 without [friction]"},
+     {"switching", "work of the scheme itself where strips or teeth part or touch within a step"},
      {"cutting", "work where a corner rule takes out or lets in a pair that carries force"},
      {"averaging", "mean load times change of the relaxed load, less the exact work: of the scheme itself"},
-     {"dropped", "taken out with the relaxed loads of teeth that are no longer followed"}}};
+     {"dropped", "taken out with the relaxed loads of teeth that are no longer followed"},
+     {"throughput", "sum of the sizes of the works of drive and rolling over the steps"}}};
+
+// The column of a line in SweepResult::energy; one past the last for a name that is none.
+constexpr Eigen::Index energy_line(std::string_view name) {
+  size_t line = 0;
+  while (line < kEnergyLines.size() && kEnergyLines[line].name != name) ++line;
+  return static_cast<Eigen::Index>(line);
+}
 
 // What a lumped model (Eq. 23) is made of, in place of elastic bodies: m x'' + c x' + sum_i k_i max(x - g_i, 0) = T / r,
 // k_i and g_i constant in each cell of the mesh period.
@@ -43,27 +58,30 @@ struct LumpedParameters {
   MatrixRM stiffness, gap;   // (cell, spring) N m-1, m; one spring for the whole mesh, or one per tooth pair
 };
 
-// sweep.h5: rows in the order in which they were computed
-struct SweepResult : MotionParameters {
+// sweep.h5: rows in the order in which they were computed. A pair has one mesh and two bodies, driver and driven.
+struct SweepResult : MotionSource {
   // Of a lumped model the fields of the bodies say where its stiffness comes from, and its damping is that of `lumped` alone.
   MotionModel model = MotionModel::finite_elements;
   LumpedParameters lumped;
-  double torque = 0;                               // N m on the driver
-  double mean_stiffness = 0;                       // N m-1 that sets the bearing dampers
+  double mean_stiffness = 0;                       // N m-1 that sets the bearing dampers of a pair
   std::array<double, kSides> bearing_damper = {};  // N m s
-  double natural_frequency = 0;  // Hz: mean over the period with the contact frozen under the static load
-  int hunting_periods = 1;       // mesh periods after which the same teeth meet, as far as teeth differ
+  double natural_frequency =
+      0;  // Hz, of a pair: mean over the period with the contact frozen under the static load
+  int hunting_periods = 1;  // mesh periods after which the same teeth meet, as far as teeth differ
   Direction direction = Direction::up;
   Eigen::VectorXd mesh_frequency;  // (speed) Hz
-  // (speed, sample) m: the first period_multiple mesh periods are one orbit, repeated to fill the row
-  MatrixRM transmission_error;
-  MatrixRM mesh_force;               // (speed, sample) N
-  Eigen::VectorXi pair;              // (pair)
-  std::vector<MatrixRM> tooth_load;  // [speed] (sample, pair) N
-  // [gear][speed] (sample, xy) N: as in static.h5, with the bearing's damper; empty for a rigid bearing
-  std::array<std::vector<MatrixRM>, 2> bearing_force;
+  // [speed] (sample, mesh) m, N. From phase 0: the first period_multiple mesh periods are one motion; shorter ones repeat to fill the
+  // row. Of a motion that is not periodic its last periods. The transmission error is that of rotations; the force of a mesh is that of its
+  // pairs together, of a train the torque on the driving body over its base radius.
+  std::vector<MatrixRM> transmission_error, mesh_force;
+  std::vector<MatrixRM> mesh_deflection;  // the same of a train, with the motion of the hubs; empty of pairs
+  Eigen::VectorXi pair;                   // (tooth_pair) -1 following, 0 reference, +1 preceding
+  std::vector<MatrixRM> tooth_load;       // [speed] (sample, mesh and within it tooth_pair) N
+  // [body][speed] (sample, xy) N: as in static.h5, with the bearing's damper; empty for a rigid bearing of a pair
+  std::vector<std::vector<MatrixRM>> bearing_force = std::vector<std::vector<MatrixRM>>(kSides);
+  MatrixRM holding_torque;  // (speed, body) N m, of a train: mean, of what holds the body; 0 of free ones
   // [gear] (speed, sample) Pa: largest tangential stress of the teeth that carry load, along the root beside the loaded flank,
-  // quasi-static in their loads; empty for lumped models
+  // quasi-static in their loads; empty for lumped models and trains
   std::array<MatrixRM, 2> root_stress;
   // [gear] (speed) where it is largest as it is sustained for 1/64 of a mesh period (sustained_row() of signal/branches.h): rad, of the
   // root's tangent there against the centre line of the tooth; 1, mesh phase of the tooth's pair then, 0 at the pitch point
@@ -72,25 +90,32 @@ struct SweepResult : MotionParameters {
   Eigen::VectorXd residual;  // (speed) relative change of the state over a period at the end
   // (speed) mesh periods of the orbit: hunting_periods unless subharmonic; 0: not periodic within the limit
   Eigen::VectorXi period_multiple;
-  Eigen::VectorXd energy_imbalance;  // (speed) relative to the input energy of the stored periods
-  MatrixRM energy;                   // (speed, line of kEnergyLines) J over the stored periods
+  Eigen::VectorXd
+      energy_imbalance;  // (speed) largest sum of what the lines leave, relative to the throughput
+  MatrixRM energy;       // (speed, line of kEnergyLines) J over the stored periods
+  // Of a train: what of the lines `rolling` and `bearing_damping` is of each mesh, (speed, mesh) J, and body, (speed, body) J
+  MatrixRM rolling, bearing_damping;
   FrictionLosses friction;
-  // (speed) J over the stored periods: work of the prescribed rolling against friction, and all that friction takes; they are kept
-  // beside the works and the dampers of `energy`. Empty without friction.
-  Eigen::VectorXd friction_rolling, friction_work;
   double friction_coupling = 0;  // m, by how much gaps are off for what friction of the last forces moves
   // (speed) N: largest force that the output must supply to hold the mean speed
   Eigen::VectorXd drift_force;
-  Eigen::VectorXd jump_frequency, jump_width;  // (jump) Hz
+  Eigen::VectorXd jump_frequency,
+      jump_width;  // (jump) Hz; of trains whose teeth differ jumps are not looked for
   // certificate: worst over all steps of the stored periods
-  double least_gap = 0;        // m, of strips without force
-  double least_force = 0;      // N, of strips with force
+  double least_gap = 0;        // m, of strips or teeth without force
+  double least_force = 0;      // N, of those with force
   int fallbacks = 0;           // contact solutions that needed Lawson and Hanson's method
-  double backlash_margin = 0;  // m left on the line of action; infinite backlash is not stored
+  double backlash_margin = 0;  // m left on the line of action of a pair; infinite backlash is not stored
   // (speed) m: backlash that the motion leaves, below 0 where back flanks would touch, which is not modelled; infinite where
-  // the scene counts no backlash. Empty for a lumped model, infinite as its file is read.
+  // the scene counts no backlash. Empty for a lumped model and trains, infinite as its file is read.
   Eigen::VectorXd backlash_left;
   std::vector<Remark> remarks;  // none for a lumped model
+
+  Eigen::Index samples() const { return transmission_error.empty() ? 0 : transmission_error[0].rows(); }
+  // Loads (sample, tooth_pair) N of a mesh at a speed.
+  auto loads_of(Eigen::Index speed, Eigen::Index of_mesh) const {
+    return tooth_load[static_cast<size_t>(speed)].middleCols(of_mesh * pair.size(), pair.size());
+  }
 };
 
 }  // namespace whine

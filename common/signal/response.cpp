@@ -14,19 +14,14 @@
 namespace whine {
 namespace {
 
-void require_length(const char* what, Eigen::Index length, Eigen::Index speeds) {
-  if (length != speeds)
+void require_length(const char* what, size_t length, Eigen::Index speeds) {
+  if (static_cast<Eigen::Index>(length) != speeds)
     fail(Failure::input, "sweep: ", what, " has ", length, " rows, mesh_frequency has ", speeds);
 }
 
-template <class Sweep>
-void require_speeds(const Sweep& s) {
-  if (s.mesh_frequency.size() == 0) fail(Failure::input, "sweep: it holds no speed; 1 is the least");
-}
-
-// samples: of a row, steps: of a mesh period.
-template <class Sweep>
-void require_periods(const Sweep& s, Eigen::Index samples, int steps) {
+void require_periods(const SweepResult& s) {
+  const int steps = s.steps_per_period();
+  const Eigen::Index samples = s.samples();
   if (steps < 1 || samples % steps != 0)
     fail(Failure::input, "sweep: ", samples, " samples are no whole number of periods of ", steps, " steps");
   if (s.hunting_periods < 1 || samples / steps % s.hunting_periods != 0)
@@ -40,69 +35,49 @@ void require_periods(const Sweep& s, Eigen::Index samples, int steps) {
            " Hz; 0 is the least, and ", samples, " samples of ", steps, " per period the most");
 }
 
-void require_shapes(const SweepResult& s) {
-  const Eigen::Index speeds = s.mesh_frequency.size();
-  require_speeds(s);
-  require_length("transmission_error", s.transmission_error.rows(), speeds);
-  require_length("mesh_force", s.mesh_force.rows(), speeds);
-  require_length("tooth_load", static_cast<Eigen::Index>(s.tooth_load.size()), speeds);
-  for (const MatrixRM& stress : s.root_stress)
-    if (stress.size() > 0 && (stress.rows() != speeds || stress.cols() != s.transmission_error.cols()))
-      fail(Failure::input, "sweep: root_stress is ", stress.rows(), " x ", stress.cols(), ", expected ",
-           speeds, " x ", s.transmission_error.cols());
-  for (size_t g = 0; g < kSides; ++g)
-    for (const Eigen::VectorXd* place : {&s.root_stress_angle[g], &s.root_stress_phase[g]})
-      if (s.root_stress[g].size() > 0) require_length("the place of the root stress", place->size(), speeds);
-  require_length("period_multiple", s.period_multiple.size(), speeds);
-  if (s.mesh_force.cols() != s.transmission_error.cols())
-    fail(Failure::input, "sweep: mesh_force has ", s.mesh_force.cols(), " samples, transmission_error ",
-         s.transmission_error.cols());
-  require_periods(s, s.transmission_error.cols(), s.time.steps_per_period);
-  for (Eigen::Index f = 0; f < speeds; ++f) {
-    for (const auto& force : s.bearing_force)
-      if (!force.empty() && (static_cast<Eigen::Index>(force.size()) != speeds || force[f].cols() != 2 ||
-                             force[f].rows() != s.transmission_error.cols()))
-        fail(Failure::input, "sweep: bearing_force does not fit ", s.transmission_error.cols(),
-             " samples of ", speeds, " speeds");
-    const MatrixRM& load = s.tooth_load[f];
-    if (load.rows() != s.transmission_error.cols() || load.cols() < 1)
-      fail(Failure::input, "sweep: tooth_load is ", load.rows(), " x ", load.cols(), " at ",
-           s.mesh_frequency[f], " Hz; ", s.transmission_error.cols(),
-           " samples of 1 pair at least are needed");
-    if (!load.allFinite())
-      fail(Failure::input, "sweep: tooth_load is not finite at ", s.mesh_frequency[f], " Hz");
-  }
+// Of the meshes of a train, each of which is of one [[mesh]].
+void require_sections(const SweepResult& s) {
+  const std::vector<int>& section = s.train.section;
+  if (s.meshes() == 0 || section.size() != s.train.layout.meshes.size())
+    fail(Failure::input, "sweep: ", s.meshes(), " meshes, of which ", section.size(),
+         " have a number of their [[mesh]]; 1 is the least, and all need one");
+  if (const int least = *std::min_element(section.begin(), section.end()); least < 0)
+    fail(Failure::input, "sweep: a mesh is of [[mesh]] number ", least, "; 0 is the least");
 }
 
-void require_shapes(const SystemSweepResult& s) {
-  const Eigen::Index speeds = s.mesh_frequency.size(),
-                     meshes = static_cast<Eigen::Index>(s.settings.layout.meshes.size());
-  require_speeds(s);
-  require_length("period_multiple", s.period_multiple.size(), speeds);
-  if (meshes == 0 || s.settings.section.size() != s.settings.layout.meshes.size())
-    fail(Failure::input, "sweep: ", meshes, " meshes, of which ", s.settings.section.size(),
-         " have a number of their [[mesh]]; 1 is the least, and all need one");
-  if (*std::min_element(s.settings.section.begin(), s.settings.section.end()) < 0)
-    fail(Failure::input, "sweep: a mesh is of [[mesh]] number ",
-         *std::min_element(s.settings.section.begin(), s.settings.section.end()), "; 0 is the least");
-  require_length("transmission_error", static_cast<Eigen::Index>(s.transmission_error.size()), speeds);
-  const Eigen::Index samples = s.transmission_error[0].rows();
+void require_shapes(const SweepResult& s) {
+  const Eigen::Index speeds = s.mesh_frequency.size(), samples = s.samples();
+  if (speeds == 0) fail(Failure::input, "sweep: it holds no speed; 1 is the least");
+  require_length("period_multiple", static_cast<size_t>(s.period_multiple.size()), speeds);
+  if (s.of_train()) require_sections(s);
   const auto require_rows = [&](const char* what, const std::vector<MatrixRM>& rows, Eigen::Index columns) {
-    require_length(what, static_cast<Eigen::Index>(rows.size()), speeds);
-    for (const MatrixRM& one : rows)
+    require_length(what, rows.size(), speeds);
+    for (const MatrixRM& one : rows) {
       if (one.rows() != samples || one.cols() != columns)
         fail(Failure::input, "sweep: ", what, " is ", one.rows(), " x ", one.cols(), ", expected ", samples,
              " x ", columns);
+      if (!one.allFinite()) fail(Failure::input, "sweep: ", what, " holds a number that is not finite");
+    }
   };
-  for (const auto& [what, rows] :
-       {std::pair{"transmission_error", &s.transmission_error}, std::pair{"mesh_force", &s.mesh_force},
-        std::pair{"largest_tooth_load", &s.largest_tooth_load}})
-    require_rows(what, *rows, meshes);
-  if (s.bearing_force.size() != s.settings.layout.bodies.size())
+  if (s.pair.size() == 0) fail(Failure::input, "sweep: tooth_load is of no pair; 1 is the least");
+  require_rows("transmission_error", s.transmission_error, s.meshes());
+  require_rows("mesh_force", s.mesh_force, s.meshes());
+  require_rows("tooth_load", s.tooth_load, s.meshes() * s.pair.size());
+  if (static_cast<Eigen::Index>(s.bearing_force.size()) != s.bodies())
     fail(Failure::input, "sweep: bearing_force is of ", s.bearing_force.size(), " bodies, expected ",
-         s.settings.layout.bodies.size());
-  for (const auto& rows : s.bearing_force) require_rows("bearing_force", rows, 2);
-  require_periods(s, samples, s.settings.time.steps_per_period);
+         s.bodies());
+  for (const auto& rows : s.bearing_force)
+    if (s.of_train() || !rows.empty()) require_rows("bearing_force", rows, 2);
+  for (size_t g = 0; g < kSides; ++g) {
+    const MatrixRM& stress = s.root_stress[g];
+    if (stress.size() == 0) continue;
+    if (stress.rows() != speeds || stress.cols() != samples)
+      fail(Failure::input, "sweep: root_stress is ", stress.rows(), " x ", stress.cols(), ", expected ",
+           speeds, " x ", samples);
+    for (const Eigen::VectorXd* place : {&s.root_stress_angle[g], &s.root_stress_phase[g]})
+      require_length("the place of the root stress", static_cast<size_t>(place->size()), speeds);
+  }
+  require_periods(s);
 }
 
 }  // namespace
@@ -208,14 +183,13 @@ void add_bearing(const Eigen::Ref<const MatrixRM>& force, int periods, Index f, 
   r.bearing_force_rms(f, body) = oscillating_vector_rms(force);
 }
 
-// Root stress over speed, and with it the loads that are sustained for 1/64 of a mesh period.
+// Root stress over speed.
 void add_root_stress(const SweepResult& s, ResponseResult& r) {
-  const Index speeds = s.mesh_frequency.size();
   if (s.root_stress[0].size() == 0 && s.root_stress[1].size() == 0) return;
+  const Index speeds = s.mesh_frequency.size();
   for (MatrixRM* x :
        {&r.root_stress_max, &r.root_stress_sustained, &r.root_stress_angle, &r.root_stress_phase})
     x->setZero(speeds, kSides);
-  const int steps = s.time.steps_per_period;
   for (Index g = 0; g < kSides; ++g) {
     const auto gear = static_cast<size_t>(g);
     const MatrixRM& stress = s.root_stress[gear];
@@ -224,20 +198,14 @@ void add_root_stress(const SweepResult& s, ResponseResult& r) {
     r.root_stress_angle.col(g) = s.root_stress_angle[gear];
     r.root_stress_phase.col(g) = s.root_stress_phase[gear];
     for (Index f = 0; f < speeds; ++f)
-      r.root_stress_sustained(f, g) = sustained_load(stress.row(f).transpose(), steps, s.period_multiple[f]);
-  }
-  if (s.root_stress[0].size() == 0) return;
-  for (MatrixRM* x : {&r.tooth_load_sustained, &r.mesh_force_sustained}) x->resize(speeds, 1);
-  for (Index f = 0; f < speeds; ++f) {
-    r.tooth_load_sustained(f, 0) = sustained_load(s.tooth_load[static_cast<size_t>(f)], steps);
-    r.mesh_force_sustained(f, 0) =
-        sustained_load(s.mesh_force.row(f).transpose(), steps, s.period_multiple[f]);
+      r.root_stress_sustained(f, g) =
+          sustained_load(stress.row(f).transpose(), s.steps_per_period(), s.period_multiple[f]);
   }
 }
 
 // Of a train: largest share of each mesh in what those of its [[mesh]] carry together.
-void add_load_share(const SystemSweepResult& s, const MatrixRM& force, Index f, ResponseResult& r) {
-  const std::vector<int>& section = s.settings.section;
+void add_load_share(const SweepResult& s, const MatrixRM& force, Index f, ResponseResult& r) {
+  const std::vector<int>& section = s.train.section;
   VectorXd together(1 + *std::max_element(section.begin(), section.end()));
   for (Index n = 0; n < force.rows(); ++n) {
     together.setZero();
@@ -248,10 +216,26 @@ void add_load_share(const SystemSweepResult& s, const MatrixRM& force, Index f, 
   }
 }
 
-// What pairs and trains have in common.
-template <class Sweep>
-void take_over(const Sweep& s, ResponseResult& r) {
+// Loads of the tooth pairs of a mesh at a speed, and what is sustained of them for 1/64 of a mesh period.
+void add_tooth_loads(const SweepResult& s, Index f, Index m, ResponseResult& r) {
+  const auto loads = s.loads_of(f, m);
+  r.tooth_load_max(f, m) = loads.maxCoeff();
+  if (r.tooth_load_sustained.size() == 0) return;
+  r.tooth_load_sustained(f, m) = sustained_load(loads, s.steps_per_period());
+  r.mesh_force_sustained(f, m) =
+      sustained_load(s.mesh_force[static_cast<size_t>(f)].col(m), s.steps_per_period(), s.period_multiple[f]);
+}
+
+}  // namespace
+
+ResponseResult response(const SweepResult& s) {
+  require_shapes(s);
+  const Index speeds = s.mesh_frequency.size(), per_period = s.steps_per_period(), meshes = s.meshes();
+  ResponseResult r;
+  static_cast<MotionSource&>(r) = s;
+  r.name_parts();
   r.direction = s.direction;
+  r.model = s.model;
   r.mesh_frequency = s.mesh_frequency;
   r.hunting_periods = s.hunting_periods;
   r.jump_frequency = s.jump_frequency;
@@ -260,72 +244,31 @@ void take_over(const Sweep& s, ResponseResult& r) {
   r.period_multiple = s.period_multiple;
   r.energy_imbalance = s.energy_imbalance;
   r.remarks = s.remarks;
-}
-
-}  // namespace
-
-ResponseResult response(const SweepResult& s) {
-  require_shapes(s);
-  const Index speeds = s.mesh_frequency.size();
-  const Index per_period = s.time.steps_per_period;
-  ResponseResult r;
-  take_over(s, r);
-  static_cast<MotionParameters&>(r) = s;
-  r.mesh_names = {s.mesh.gear[0] + "-" + s.mesh.gear[1]};
-  r.body_names = {s.mesh.gear[0], s.mesh.gear[1]};
-  r.torque = s.torque;
-  r.model = s.model;
   r.natural_frequency = s.natural_frequency;
   r.backlash_left = s.backlash_left;
-  size_meshes(per_period, speeds, 1, r);
-  if (!s.bearing_force[0].empty() || !s.bearing_force[1].empty()) size_bearings(kSides, r);
-  add_root_stress(s, r);
-  for (Index f = 0; f < speeds; ++f) {
-    // What one orbit fills of its row; a motion that is not periodic fills it all.
-    const int periods = s.period_multiple[f] > 0 ? s.period_multiple[f]
-                                                 : static_cast<int>(s.transmission_error.cols() / per_period);
-    const Index samples = periods * per_period;
-    add_mesh(s.transmission_error.row(f).head(samples).transpose(),
-             s.mesh_force.row(f).head(samples).transpose(), periods, f, 0, r);
-    r.tooth_load_max(f, 0) = s.tooth_load[static_cast<size_t>(f)].maxCoeff();
-    for (size_t g = 0; g < kSides; ++g)
-      if (!s.bearing_force[g].empty())
-        add_bearing(s.bearing_force[g][static_cast<size_t>(f)].topRows(samples), periods, f,
-                    static_cast<Index>(g), r);
-  }
-  return r;
-}
-
-ResponseResult response(const SystemSweepResult& s) {
-  require_shapes(s);
-  const System& layout = s.settings.layout;
-  const Index speeds = s.mesh_frequency.size(), per_period = s.settings.time.steps_per_period,
-              bodies = static_cast<Index>(layout.bodies.size()),
-              meshes = static_cast<Index>(layout.meshes.size());
-  ResponseResult r;
-  take_over(s, r);
-  r.train = s.settings;
-  r.drive = s.torque;
-  for (Index m = 0; m < meshes; ++m) r.mesh_names.push_back(mesh_name(layout, static_cast<size_t>(m)));
-  for (const System::Body& body : layout.bodies) r.body_names.push_back(body.name);
   size_meshes(per_period, speeds, meshes, r);
-  size_bearings(bodies, r);
+  const auto borne = [](const std::vector<MatrixRM>& force) { return !force.empty(); };
+  if (std::any_of(s.bearing_force.begin(), s.bearing_force.end(), borne)) size_bearings(s.bodies(), r);
+  add_root_stress(s, r);
+  if (s.of_train() || s.root_stress[0].size() > 0)
+    for (MatrixRM* x : {&r.tooth_load_sustained, &r.mesh_force_sustained}) x->resize(speeds, meshes);
   // Of the meshes of one [[mesh]].
-  const std::set<int> sections(s.settings.section.begin(), s.settings.section.end());
-  if (static_cast<Index>(sections.size()) < meshes) r.load_share_max.setZero(speeds, meshes);
+  const std::set<int> sections(s.train.section.begin(), s.train.section.end());
+  if (s.of_train() && static_cast<Index>(sections.size()) < meshes) r.load_share_max.setZero(speeds, meshes);
   for (Index f = 0; f < speeds; ++f) {
     const auto at = static_cast<size_t>(f);
-    const Index stored = s.transmission_error[at].rows(),
-                samples = s.period_multiple[f] > 0 ? s.period_multiple[f] * per_period : stored;
+    // What one motion fills of its row; one that is not periodic fills it all.
+    const Index samples = s.period_multiple[f] > 0 ? s.period_multiple[f] * per_period : s.samples();
+    const auto periods = static_cast<int>(samples / per_period);
     for (Index m = 0; m < meshes; ++m) {
-      add_mesh(s.transmission_error[at].col(m).head(samples), s.mesh_force[at].col(m).head(samples),
-               static_cast<int>(samples / per_period), f, m, r);
-      r.tooth_load_max(f, m) = s.largest_tooth_load[at].col(m).maxCoeff();
+      add_mesh(s.transmission_error[at].col(m).head(samples), s.mesh_force[at].col(m).head(samples), periods,
+               f, m, r);
+      add_tooth_loads(s, f, m, r);
     }
     if (r.load_share_max.size() > 0) add_load_share(s, s.mesh_force[at], f, r);
-    for (Index b = 0; b < bodies; ++b)
-      add_bearing(s.bearing_force[static_cast<size_t>(b)][at].topRows(samples),
-                  static_cast<int>(samples / per_period), f, b, r);
+    for (size_t b = 0; b < s.bearing_force.size(); ++b)
+      if (borne(s.bearing_force[b]))
+        add_bearing(s.bearing_force[b][at].topRows(samples), periods, f, static_cast<Index>(b), r);
   }
   return r;
 }

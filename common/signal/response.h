@@ -2,7 +2,7 @@
 //
 // DTE = r1 theta1 + r2 theta2 on the line of action. dte_rms is the RMS of its oscillating part (the ordinate
 // of the paper's Figs. 4-7), over one orbit, so that subharmonics count; over all stored periods where
-// the motion is not periodic. Of trains the same of each mesh, in their own rotations.
+// the motion is not periodic. Of each mesh, in its own rotations.
 #pragma once
 #include <map>
 #include <string>
@@ -10,7 +10,6 @@
 
 #include "results/response.h"
 #include "results/sweep.h"
-#include "results/system_sweep.h"
 
 namespace whine {
 
@@ -21,7 +20,6 @@ inline constexpr int kResponseHarmonics = 10;
 // which hold the shafts' orders and the sidebands of the mesh frequency. Jumps are the sweep's own: it bisects them. Throws
 // Error(input) for a sweep without speeds, arrays whose lengths disagree, values that are not finite, or negative forces.
 ResponseResult response(const SweepResult& sweep);
-ResponseResult response(const SystemSweepResult& sweep);
 
 // Ranges of neighbouring speeds (Hz) of which something is true: "2820 to 2980, 3100"; "" if it is of none.
 std::string speed_ranges(const std::map<double, bool>& speeds);

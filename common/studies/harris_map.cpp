@@ -452,7 +452,7 @@ void add_dynamics(HarrisMapResult& map, const ReducedBody& driver, const Reduced
           const SweepResult sweep = whine::sweep(driver, driven, rest, bearing_stiffness, settings, direction,
                                                  [](long, long, const std::string&) {});
           for (Eigen::Index f = 0; f < sweep.mesh_frequency.size(); ++f) {
-            const double rms = harmonics(sweep.transmission_error.row(f).transpose(), 0).rms;
+            const double rms = harmonics(sweep.transmission_error[static_cast<size_t>(f)].col(0), 0).rms;
             if (rms <= map.dynamic_rms[s](t, r)) continue;
             map.dynamic_rms[s](t, r) = rms;
             map.worst_frequency[s](t, r) = sweep.mesh_frequency[f];

@@ -334,8 +334,7 @@ void runup(const ReducedBody& driver, const ReducedBody& driven, const StaticRes
   head.time = settings.time;
   head.torque = statics.torque;
   head.mean_stiffness = mean_stiffness;
-  head.body_names = {statics.mesh.gear[0], statics.mesh.gear[1]};
-  head.mesh_names = {statics.mesh.gear[0] + "-" + statics.mesh.gear[1]};
+  head.name_parts();
   head.input = statics.mesh.gear[0];
   const auto [lowest, highest] = std::minmax(wanted.ramp.from, wanted.ramp.to);
   PairRunup motion(model, dynamic_parameters(statics, mean_stiffness, settings, highest), statics, settings,
@@ -352,13 +351,10 @@ void runup(const SystemSweepParameters& settings, const std::vector<ReducedBody>
   const size_t input = input_of(settings.layout, speeds);
   RunupResult head = head_of(wanted, 1 / std::abs(speeds.turns[input]));
   head.time = settings.time;
-  const size_t meshes = settings.layout.meshes.size();
+  head.train = settings;
+  head.name_parts();
   head.drive.setZero(static_cast<Index>(settings.layout.bodies.size()));
-  for (size_t b = 0; b < settings.layout.bodies.size(); ++b) {
-    head.body_names.push_back(settings.layout.bodies[b].name);
-    head.drive[static_cast<Index>(b)] = settings.layout.torque(static_cast<int>(b));
-  }
-  for (size_t m = 0; m < meshes; ++m) head.mesh_names.push_back(mesh_name(settings.layout, m));
+  for (int b = 0; b < head.drive.size(); ++b) head.drive[b] = settings.layout.torque(b);
   head.input = settings.layout.bodies[input].name;
   SystemSweepParameters of_ramp = settings;
   of_ramp.frequency_from = std::min(wanted.ramp.from, wanted.ramp.to);

@@ -207,11 +207,15 @@ namespace {
 // m, (speed): by how little the flanks close along the line of action at least: the transmission error less what elastic
 // bearings give way. Their dampers' forces are taken for those of their springs.
 VectorXd least_closing(const SweepResult& s) {
-  if (!s.mesh.on_bearings()) return s.transmission_error.rowwise().minCoeff();
+  VectorXd least(s.mesh_frequency.size());
+  if (!s.mesh.on_bearings()) {
+    for (Eigen::Index i = 0; i < least.size(); ++i)
+      least[i] = s.transmission_error[static_cast<size_t>(i)].minCoeff();
+    return least;
+  }
   const GearPair gears(s);
-  VectorXd least(s.transmission_error.rows());
   for (Eigen::Index i = 0; i < least.size(); ++i) {
-    VectorXd closing = s.transmission_error.row(i).transpose();
+    VectorXd closing = s.transmission_error[static_cast<size_t>(i)].col(0);
     for (size_t g = 0; g < s.bearing_force.size(); ++g)
       if (!s.bearing_force[g].empty())
         closing += (g == 0 ? 1 : -1) / s.mesh.bearing[g].stiffness *
@@ -320,21 +324,20 @@ void store_orbit(const Orbit& orbit, double mesh_frequency, Eigen::Index row, Sw
   a.period_multiple[row] = orbit.multiple;
   const EnergyBalance& l = orbit.energy_balance;
   a.energy_imbalance[row] = l.imbalance / l.throughput;
-  a.energy.row(row) << l.kinetic, l.modal, l.residual, l.local, l.torque, l.rolling, l.modal_damping,
-      l.relaxation_damping, l.switching, l.cutting, l.averaging, l.dropped;  // kEnergyLines
+  a.energy.row(row) << l.kinetic, l.modal, l.residual, l.local, l.torque, l.rolling, l.friction_rolling, 0,
+      l.modal_damping, 0, l.relaxation_damping, l.friction, l.switching, l.cutting, l.averaging, l.dropped,
+      l.throughput;  // kEnergyLines
   if (a.friction.power.size() == 0) return;
-  a.friction_rolling[row] = l.friction_rolling;
-  a.friction_work[row] = l.friction;
   a.friction.power[row] = l.friction * mesh_frequency / static_cast<double>(orbit.record.size());
   const double turning = 2 * std::numbers::pi * mesh_frequency / a.gear[0].design.teeth;  // rad s-1
   a.friction.efficiency[row] = 1 - a.friction.power[row] / (a.torque * turning);
 }
 
 // The samples of one speed, pairs up to `reach`; its orbit repeats to fill a row of `longest` mesh periods.
-void store_samples(const Orbit& orbit, size_t longest, int reach, Eigen::Index row, SweepResult& a) {
+void store_samples(const Orbit& orbit, size_t longest, int reach, SweepResult& a) {
   const int samples = a.time.steps_per_period;
   const auto width = static_cast<Eigen::Index>(longest) * samples;
-  MatrixRM loads = MatrixRM::Zero(width, 2 * reach + 1);
+  MatrixRM loads = MatrixRM::Zero(width, 2 * reach + 1), error(width, 1), force(width, 1);
   for (size_t g = 0; g < kSides; ++g)
     if (a.mesh.bearing[g].elastic()) a.bearing_force[g].emplace_back(width, 2);
   for (size_t k = 0; k < longest; ++k) {
@@ -343,27 +346,26 @@ void store_samples(const Orbit& orbit, size_t longest, int reach, Eigen::Index r
     const int own_reach = static_cast<int>(period.tooth_pair_load.rows()) / 2;
     for (int n = 0; n < samples; ++n) {
       const Eigen::Index at = static_cast<Eigen::Index>(k) * samples + n;
-      a.transmission_error(row, at) = period.transmission_error[n * stride];
+      error(at, 0) = period.transmission_error[n * stride];
       loads.row(at).segment(reach - own_reach, 2 * own_reach + 1) =
           period.tooth_pair_load.col(n * stride).transpose();
-      a.mesh_force(row, at) = loads.row(at).sum();
+      force(at, 0) = loads.row(at).sum();
       for (size_t g = 0; g < kSides; ++g)
         if (a.mesh.bearing[g].elastic())
           a.bearing_force[g].back().row(at) = period.bearing_force[g].col(n * stride).transpose();
     }
   }
   a.tooth_load.push_back(std::move(loads));
+  a.transmission_error.push_back(std::move(error));
+  a.mesh_force.push_back(std::move(force));
 }
 
 // The motions of all speeds, in rows of one length. m: the least transmission error.
 double store_motions(const std::vector<Orbit>& steady, int reach, SweepResult& a) {
   size_t longest = 1;
   for (const Orbit& orbit : steady) longest = std::max(longest, orbit.record.size());
-  const auto speeds = static_cast<Eigen::Index>(steady.size()),
-             width = static_cast<Eigen::Index>(longest) * a.time.steps_per_period;
+  const auto speeds = static_cast<Eigen::Index>(steady.size());
   a.pair = Eigen::VectorXi::LinSpaced(2 * reach + 1, -reach, reach);
-  a.transmission_error.resize(speeds, width);
-  a.mesh_force.resize(speeds, width);
   a.drift_force = VectorXd::Zero(speeds);
   double least_error = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < speeds; ++i) {
@@ -376,7 +378,7 @@ double store_motions(const std::vector<Orbit>& steady, int reach, SweepResult& a
       a.fallbacks += period.fallbacks;
       a.friction_coupling = std::max(a.friction_coupling, period.friction_coupling);
     }
-    store_samples(orbit, longest, reach, i, a);
+    store_samples(orbit, longest, reach, a);
   }
   return least_error;
 }
@@ -389,11 +391,11 @@ void store_root_stress(const GearMeshModel& model, SweepResult& a) {
   for (int n = 0; n < samples; ++n) phases.push_back(static_cast<double>(n) / samples);
   RootStresses roots(model, phases);
   if (!roots.known()) return;
-  const Eigen::Index width = a.mesh_force.cols();
+  const Eigen::Index width = a.samples();
   for (int g = 0; g < kSides; ++g) {
     const auto gear = static_cast<size_t>(g);
     MatrixRM& out = a.root_stress[gear];
-    out.resize(a.mesh_force.rows(), width);
+    out.resize(a.mesh_frequency.size(), width);
     for (VectorXd* v : {&a.root_stress_angle[gear], &a.root_stress_phase[gear]}) v->resize(out.rows());
     std::vector<RootStress> along(static_cast<size_t>(width));
     for (Eigen::Index row = 0; row < out.rows(); ++row) {
@@ -459,6 +461,7 @@ SweepResult sweep(const ReducedBody& driver, const ReducedBody& driven, const St
   SweepResult result;
   set_motion(result, {driver, driven}, statics, settings);
   result.time = settings.time;
+  result.name_parts();
   result.torque = statics.torque;
   result.mean_stiffness = mean_stiffness;
   for (int g = 0; g < kSides; ++g) result.bearing_damper[g] = rig.dynamics().bearing_damper(g);
@@ -472,8 +475,7 @@ SweepResult sweep(const ReducedBody& driver, const ReducedBody& driven, const St
   for (Eigen::VectorXi* v : {&result.periods, &result.period_multiple}) v->resize(speeds);
   result.energy.resize(speeds, kEnergyLines.size());
   if (model.friction.acts())
-    for (VectorXd* v : {&result.friction.coefficient, &result.friction.power, &result.friction.efficiency,
-                        &result.friction_rolling, &result.friction_work})
+    for (VectorXd* v : {&result.friction.coefficient, &result.friction.power, &result.friction.efficiency})
       v->resize(speeds);
 
   std::vector<Orbit> steady;

@@ -8,14 +8,11 @@ namespace whine {
 
 ResponseResult sweep_response(const SweepResult& sweep) {
   ResponseResult out = response(sweep);
+  if (sweep.of_train()) return out;
   out.loss_factor = loss_factors(sweep);
   add_flank_pressure(sweep, out);
   out.friction = sweep.friction;
   return out;
-}
-
-ResponseResult sweep_response(const SystemSweepResult& sweep) {
-  return response(sweep);
 }
 
 }  // namespace whine

@@ -2,12 +2,10 @@
 #pragma once
 #include "results/response.h"
 #include "results/sweep.h"
-#include "results/system_sweep.h"
 
 namespace whine {
 
 // Throws as response() does. Of lumped models and trains without losses and pressures.
 ResponseResult sweep_response(const SweepResult& sweep);
-ResponseResult sweep_response(const SystemSweepResult& sweep);
 
 }  // namespace whine

@@ -29,10 +29,11 @@ namespace {
 struct TrainMotion {
   Settled settled{0, 0, 0};
   double rms = 0;  // m, over the meshes
-  // Over the recorded periods: (sample, mesh), [body] (sample, xy)
-  MatrixRM transmission_error, mesh_deflection, mesh_force, largest_tooth_load;
+  // Over the recorded periods: (sample, mesh), (sample, mesh and within it tooth_pair) from first_pair on, [body] (sample, xy)
+  MatrixRM transmission_error, mesh_deflection, mesh_force, tooth_load;
+  int first_pair = 0;
   std::vector<MatrixRM> bearing_force;
-  // J: by line of kSystemEnergyLines, mesh, body; N m, by body
+  // J: by line of kEnergyLines, mesh, body; N m, by body
   Eigen::RowVectorXd energy, rolling, bearing_damping, holding_torque;
   double imbalance = 0, drift_force = 0, least_gap = 0, least_force = 0;
 };
@@ -143,21 +144,22 @@ class TrainSweepRig {
     return true;
   }
 
-  void begin(int periods, Motion& motion) const {
+  void begin(int periods, Motion& motion) {
     const Index samples = static_cast<Index>(periods) * settings_.time.steps_per_period,
                 meshes = static_cast<Index>(settings_.layout.meshes.size()),
                 bodies = static_cast<Index>(settings_.layout.bodies.size());
-    for (MatrixRM* x : {&motion.transmission_error, &motion.mesh_deflection, &motion.mesh_force,
-                        &motion.largest_tooth_load})
+    for (MatrixRM* x : {&motion.transmission_error, &motion.mesh_deflection, &motion.mesh_force})
       x->setZero(samples, meshes);
+    motion.tooth_load.setZero(samples, rig_.train().dynamics().slots());
+    motion.first_pair = rig_.train().dynamics().first_pair();
     motion.bearing_force.assign(static_cast<size_t>(bodies), MatrixRM::Zero(samples, 2));
-    motion.energy.setZero(static_cast<Index>(kSystemEnergyLines.size()));
+    motion.energy.setZero(static_cast<Index>(kEnergyLines.size()));
     motion.rolling.setZero(meshes);
     for (Eigen::RowVectorXd* x : {&motion.bearing_damping, &motion.holding_torque}) x->setZero(bodies);
   }
 
   // Of recorded mesh period k. Sample 0 is that of the last period's end.
-  void take_samples(const SystemDynamics::Period& period, int k, Motion& motion) const {
+  void take_samples(const SystemDynamics::Period& period, int k, Motion& motion) {
     const Index samples = settings_.time.steps_per_period, stride = period.mesh_force.cols() / samples;
     const auto put = [&](const auto& of, MatrixRM& rows) {
       for (Index i = 1; i <= samples; ++i)
@@ -166,9 +168,22 @@ class TrainSweepRig {
     put(period.transmission_error, motion.transmission_error);
     put(period.mesh_deflection, motion.mesh_deflection);
     put(period.mesh_force, motion.mesh_force);
-    put(period.largest_tooth_force, motion.largest_tooth_load);
+    take_loads(k, stride, motion);
     for (size_t b = 0; b < period.bearing_force.size(); ++b)
       put(period.bearing_force[b], motion.bearing_force[b]);
+  }
+
+  // At the end of a mesh period the next one begins, in which a pair has a number that is higher by one.
+  void take_loads(int k, Index stride, Motion& motion) {
+    const SystemDynamics& dynamics = rig_.train().dynamics();
+    const Index samples = settings_.time.steps_per_period, pairs = dynamics.tooth_pairs();
+    for (Index i = 1; i <= samples; ++i) {
+      auto row = motion.tooth_load.row((k * samples + i) % motion.tooth_load.rows());
+      row = dynamics.forces().row(i * stride);
+      for (Index m = 0; i == samples && m < dynamics.meshes(); ++m)
+        for (Index pair = pairs - 1; pair >= 0; --pair)
+          row[m * pairs + pair] = pair > 0 ? row[m * pairs + pair - 1] : 0;
+    }
   }
 
   // Mean over the recorded periods of the torques that hold bodies; of a carrier -sum (P - C) x F of its pins, as at rest.
@@ -190,9 +205,9 @@ class TrainSweepRig {
 
   static void take(const SystemEnergyBalance& e, Motion& motion) {
     Eigen::RowVectorXd lines(motion.energy.size());
-    lines << e.kinetic + e.modal + e.residual + e.local, e.drive.sum(), e.rolling.sum(),
-        e.centrifugal + e.dragging.sum(), e.modal_damping, e.bearing_damping.sum(), e.relaxation_damping,
-        e.switching.sum(), e.cutting.sum(), e.averaging, e.dropped, e.throughput;
+    lines << e.kinetic, e.modal, e.residual, e.local, e.drive.sum(), e.rolling.sum(), 0,
+        e.centrifugal + e.dragging.sum(), e.modal_damping, e.bearing_damping.sum(), e.relaxation_damping, 0,
+        e.switching.sum(), e.cutting.sum(), e.averaging, e.dropped, e.throughput;  // kEnergyLines
     motion.energy += lines;
     motion.rolling += e.rolling;
     motion.bearing_damping.head(e.bearing_damping.size()) += e.bearing_damping;
@@ -206,13 +221,12 @@ class TrainSweepRig {
   std::function<std::vector<State*>()> states_ = [] { return std::vector<State*>(); };
 };
 
-// A motion into its row; the note that the sweep reports of it.
-std::string store(TrainMotion&& motion, Index row, SystemSweepResult& out) {
+// A motion into its row, but for the loads of its teeth; the note that the sweep reports of it.
+std::string store(TrainMotion& motion, Index row, SweepResult& out) {
   const auto at = static_cast<size_t>(row);
   out.transmission_error[at] = std::move(motion.transmission_error);
   out.mesh_deflection[at] = std::move(motion.mesh_deflection);
   out.mesh_force[at] = std::move(motion.mesh_force);
-  out.largest_tooth_load[at] = std::move(motion.largest_tooth_load);
   for (size_t b = 0; b < out.bearing_force.size(); ++b)
     out.bearing_force[b][at] = std::move(motion.bearing_force[b]);
   out.energy.row(row) = motion.energy;
@@ -223,7 +237,7 @@ std::string store(TrainMotion&& motion, Index row, SystemSweepResult& out) {
   out.periods[row] = motion.settled.turns * out.hunting_periods;
   out.period_multiple[row] = motion.settled.multiple * out.hunting_periods;
   out.residual[row] = motion.settled.residual;
-  out.energy_imbalance[row] = motion.imbalance / motion.energy[kThroughputLine];
+  out.energy_imbalance[row] = motion.imbalance / motion.energy[energy_line("throughput")];
   out.least_gap = std::min(out.least_gap, motion.least_gap);
   out.least_force = std::min(out.least_force, motion.least_force);
   return text(out.periods[row], " periods",
@@ -234,9 +248,9 @@ std::string store(TrainMotion&& motion, Index row, SystemSweepResult& out) {
 
 // All samples are kept until the sweep is written.
 void require_memory_for(const SystemSweepParameters& settings, int hunting, size_t speeds) {
-  constexpr double kMostMemory = 4e9;  // bytes
+  constexpr double kMostMemory = 4e9;  // bytes; of a mesh three quantities and five pairs in reach
   const double memory = 8.0 * static_cast<double>(speeds) * hunting * settings.time.steps_per_period *
-                        (4.0 * static_cast<double>(settings.layout.meshes.size()) +
+                        (8.0 * static_cast<double>(settings.layout.meshes.size()) +
                          2.0 * static_cast<double>(settings.layout.bodies.size()));
   if (memory > kMostMemory)
     fail(Failure::input,
@@ -247,12 +261,37 @@ void require_memory_for(const SystemSweepParameters& settings, int hunting, size
   log_memory(text("the samples of ", speeds, " speeds"), memory);
 }
 
-}  // namespace
+// What the dynamics of a speed had in reach: loads (sample, mesh and within it pair) and the number of the first pair.
+struct ToothLoads {
+  MatrixRM rows;
+  int first = 0;
+};
 
-namespace {
+// Loads of all speeds on one axis: from the first pair that carries load, the reference pair or before, to the last.
+void store_tooth_loads(std::vector<ToothLoads>&& speeds, SweepResult& out) {
+  const Index meshes = out.meshes();
+  int first = 0, last = 0;
+  for (const ToothLoads& own : speeds)
+    for (Index slot = 0; slot < own.rows.cols(); ++slot)
+      if (const int pair = own.first + static_cast<int>(slot % (own.rows.cols() / meshes));
+          (pair < first || pair > last) && own.rows.col(slot).maxCoeff() > 0) {
+        first = std::min(first, pair);
+        last = std::max(last, pair);
+      }
+  out.pair = Eigen::VectorXi::LinSpaced(last - first + 1, first, last);
+  for (ToothLoads& own : speeds) {
+    const Index pairs = own.rows.cols() / meshes, count = out.pair.size();
+    MatrixRM& loads = out.tooth_load.emplace_back(MatrixRM::Zero(own.rows.rows(), meshes * count));
+    for (Index m = 0; m < meshes; ++m)
+      for (Index p = 0; p < pairs; ++p)
+        if (const Index to = own.first + p - first; to >= 0 && to < count)
+          loads.col(m * count + to) = own.rows.col(m * pairs + p);
+    own.rows.resize(0, 0);
+  }
+}
 
 // Motions of fewer mesh periods than the longest one repeat.
-void fill_rows(SystemSweepResult& a) {
+void fill_rows(SweepResult& a) {
   Index longest = 0;
   for (const MatrixRM& rows : a.transmission_error) longest = std::max(longest, rows.rows());
   const auto fill = [&](std::vector<MatrixRM>& of_speeds) {
@@ -262,16 +301,38 @@ void fill_rows(SystemSweepResult& a) {
       for (Index i = own; i < longest; ++i) rows.row(i) = rows.row(i - own);
     }
   };
-  for (auto* x : {&a.transmission_error, &a.mesh_deflection, &a.mesh_force, &a.largest_tooth_load}) fill(*x);
+  for (auto* x : {&a.transmission_error, &a.mesh_deflection, &a.mesh_force, &a.tooth_load}) fill(*x);
   for (auto& of_body : a.bearing_force) fill(of_body);
+}
+
+// The train of a sweep and rows for its speeds.
+SweepResult empty_sweep(const TrainInMotion& rig, const std::vector<double>& speeds) {
+  SweepResult out;
+  out.train = rig.used();
+  out.name_parts();
+  const auto n = static_cast<Index>(speeds.size());
+  const Index meshes = out.meshes(), bodies = out.bodies();
+  out.drive.setZero(bodies);
+  for (int b = 0; b < bodies; ++b) out.drive[b] = out.train.layout.torque(b);
+  out.axis_frequency = rig.motion().axis_frequency / (2 * std::numbers::pi);
+  out.mesh_frequency = Eigen::Map<const VectorXd>(speeds.data(), n);
+  out.rolling.setZero(n, meshes);
+  for (MatrixRM* x : {&out.bearing_damping, &out.holding_torque}) x->setZero(n, bodies);
+  out.energy.setZero(n, static_cast<Index>(kEnergyLines.size()));
+  for (VectorXd* x : {&out.residual, &out.energy_imbalance, &out.drift_force}) x->setZero(n);
+  out.periods.setZero(n);
+  out.period_multiple.setZero(n);
+  for (auto* x : {&out.transmission_error, &out.mesh_deflection, &out.mesh_force}) x->resize(speeds.size());
+  out.bearing_force.assign(static_cast<size_t>(bodies), std::vector<MatrixRM>(speeds.size()));
+  return out;
 }
 
 }  // namespace
 
-SystemSweepResult system_sweep(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
-                               Direction direction,
-                               const std::function<void(long, long, const std::string&)>& report,
-                               double jump_width) {
+SweepResult system_sweep(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
+                         Direction direction,
+                         const std::function<void(long, long, const std::string&)>& report,
+                         double jump_width) {
   const std::vector<double> speeds =
       swept_speeds(settings.frequency_from, settings.frequency_to, settings.frequency_step, direction);
   require_jump_width(jump_width);
@@ -279,28 +340,17 @@ SystemSweepResult system_sweep(const SystemSweepParameters& settings, const std:
   require_memory_for(settings, whine::hunting_periods(settings), speeds.size());
   report(0, static_cast<long>(speeds.size()), "at rest");
   TrainSweepRig moving(settings, bodies);
-  const TrainInMotion& rig = moving.train();
-  const auto n = static_cast<Index>(speeds.size()), meshes = static_cast<Index>(rig.system().mesh.size()),
-             all = static_cast<Index>(settings.layout.bodies.size());
-  SystemSweepResult out;
-  out.settings = rig.used();
+  SweepResult out = empty_sweep(moving.train(), speeds);
   out.direction = direction;
   out.hunting_periods = moving.single();
-  out.torque.setZero(all);
-  for (int b = 0; b < all; ++b) out.torque[b] = settings.layout.torque(b);
-  out.axis_frequency = rig.motion().axis_frequency / (2 * std::numbers::pi);
-  out.mesh_frequency = Eigen::Map<const VectorXd>(speeds.data(), n);
-  out.rolling.setZero(n, meshes);
-  for (MatrixRM* x : {&out.bearing_damping, &out.holding_torque}) x->setZero(n, all);
-  out.energy.setZero(n, static_cast<Index>(kSystemEnergyLines.size()));
-  for (VectorXd* x : {&out.residual, &out.energy_imbalance, &out.drift_force}) x->setZero(n);
-  out.periods.setZero(n);
-  out.period_multiple.setZero(n);
-  for (auto* x : {&out.transmission_error, &out.mesh_deflection, &out.mesh_force, &out.largest_tooth_load})
-    x->resize(speeds.size());
-  out.bearing_force.assign(settings.layout.bodies.size(), std::vector<MatrixRM>(speeds.size()));
+  std::vector<ToothLoads> loads;
+  loads.reserve(speeds.size());
   SpeedSweep<TrainSweepRig> sweep(moving, settings.time.steady_state);
-  sweep.run(speeds, report, [&](long i, TrainMotion&& motion) { return store(std::move(motion), i, out); });
+  sweep.run(speeds, report, [&](long i, TrainMotion&& motion) {
+    loads.push_back({std::move(motion.tooth_load), motion.first_pair});
+    return store(motion, i, out);
+  });
+  store_tooth_loads(std::move(loads), out);
   fill_rows(out);
   store_jumps(sweep.jumps(jump_width, nullptr, report), out.jump_frequency, out.jump_width);
   out.remarks = remarks_on_carriers(out, bodies);

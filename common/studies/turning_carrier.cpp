@@ -33,9 +33,9 @@ void take_elastic(const SystemStaticParameters& settings, const std::vector<Redu
 
 }  // namespace
 
-std::vector<TurningCarrier> turning_carriers(const SystemSweepResult& sweep,
+std::vector<TurningCarrier> turning_carriers(const SweepResult& sweep,
                                              const std::vector<ReducedBody>& bodies) {
-  const System& layout = sweep.settings.layout;
+  const System& layout = sweep.train.layout;
   std::vector<TurningCarrier> out;
   if (sweep.mesh_frequency.size() == 0) return out;
   Index fastest = 0;
@@ -67,7 +67,7 @@ std::vector<TurningCarrier> turning_carriers(const SystemSweepResult& sweep,
       of.centrifugal_force = mass * own.radius * of.speed * of.speed;
       of.coriolis = 2.0 / teeth;
       of.in_motion = frame_turns(layout) != 0;
-      if (of.in_motion) take_elastic(sweep.settings, bodies, of);
+      if (of.in_motion) take_elastic(sweep.train, bodies, of);
     }
     out.push_back(of);
   }
@@ -117,11 +117,10 @@ Remark remark_on(const System& layout, const TurningCarrier& of) {
 
 }  // namespace
 
-std::vector<Remark> remarks_on_carriers(const SystemSweepResult& sweep,
-                                        const std::vector<ReducedBody>& bodies) {
+std::vector<Remark> remarks_on_carriers(const SweepResult& sweep, const std::vector<ReducedBody>& bodies) {
   std::vector<Remark> out;
   for (const TurningCarrier& of : turning_carriers(sweep, bodies))
-    out.push_back(remark_on(sweep.settings.layout, of));
+    out.push_back(remark_on(sweep.train.layout, of));
   return out;
 }
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "results/reduced_body.h"
-#include "results/system_sweep.h"
+#include "results/sweep.h"
 
 namespace whine {
 
@@ -30,11 +30,11 @@ struct TurningCarrier {
 };
 
 // Carriers whose planets mesh with a held gear, or that turn. Planets without a mass count as weightless. bodies: of settings.body, or none.
-std::vector<TurningCarrier> turning_carriers(const SystemSweepResult& sweep,
+std::vector<TurningCarrier> turning_carriers(const SweepResult& sweep,
                                              const std::vector<ReducedBody>& bodies = {});
 
 // The same in words.
-std::vector<Remark> remarks_on_carriers(const SystemSweepResult& sweep,
+std::vector<Remark> remarks_on_carriers(const SweepResult& sweep,
                                         const std::vector<ReducedBody>& bodies = {});
 
 }  // namespace whine

@@ -80,11 +80,6 @@ TEST_CASE("the energy balance closes to 1e-9 of the input energy over 1e5 steps 
 
 TEST_CASE(
     "stiff damping: the energy balance closes with the relaxed load that is dropped in a line of its own") {
-  const auto line = [](const char* name) {
-    size_t i = 0;
-    while (kEnergyLines[i].name != std::string(name)) ++i;
-    return static_cast<Eigen::Index>(i);
-  };
   for (const auto contact : {ContactModel::strips, ContactModel::line}) {
     StaticParameters statics_parameters = paper_statics(128);
     statics_parameters.contact.strips = 8;
@@ -95,8 +90,8 @@ TEST_CASE(
     settings.damping.rayleigh_stiffness = 1e-4;  // a quarter of the mesh period, the most that is computed
     const SweepResult result = sweep(paper_body(), paper_body(), statics, 463e6, settings, Direction::up,
                                      [](long, long, const std::string&) {});
-    const double input = std::abs(result.energy(0, line("rolling"))),
-                 dropped = result.energy(0, line("dropped"));
+    const double input = std::abs(result.energy(0, energy_line("rolling"))),
+                 dropped = result.energy(0, energy_line("dropped"));
     INFO(contact << ": dropped " << dropped << " J of " << input);
     CHECK(result.period_multiple[0] >= 1);
     CHECK(result.energy_imbalance[0] < 1e-9);

@@ -273,8 +273,8 @@ TEST_CASE(
   CHECK(swept.periods[0] == 3000);
   // Whole periods are stored, each of its own.
   const int samples = settings.time.steps_per_period;
-  REQUIRE(swept.transmission_error.cols() == 8 * samples);
-  const VectorXd row = swept.transmission_error.row(0);
+  REQUIRE(swept.samples() == 8 * samples);
+  const VectorXd row = swept.transmission_error[0].col(0);
   const double size = row.maxCoeff() - row.minCoeff();
   for (int i = 0; i < 8; ++i)
     for (int j = 0; j < i; ++j)

@@ -230,7 +230,7 @@ TEST_CASE(
   for (int g = 0; g < kSides; ++g)
     for (int f = 0; f < 2; ++f) {
       const MatrixRM& force = on.bearing_force[g][f];
-      REQUIRE(force.rows() == on.transmission_error.cols());
+      REQUIRE(force.rows() == on.samples());
       const Eigen::RowVector2d mean = force.colwise().mean();
       const double a = 20 * kPi / 180, sign = g == 0 ? 1 : -1;
       CHECK((mean - sign * load * Eigen::RowVector2d(std::cos(a), -std::sin(a))).norm() < 1e-6 * load);
@@ -248,10 +248,14 @@ TEST_CASE(
   for (const auto level : {BodyModel::rigid, BodyModel::modal}) {
     const SweepResult rigid = swept(level, {});
     const auto off = [&](double factor) {
-      return (swept(level, soft(0, factor)).transmission_error - rigid.transmission_error)
-                 .cwiseAbs()
-                 .maxCoeff() /
-             rigid.transmission_error.cwiseAbs().maxCoeff();
+      const SweepResult soft_axes = swept(level, soft(0, factor));
+      double most = 0, largest = 0;
+      for (size_t f = 0; f < rigid.transmission_error.size(); ++f) {
+        const MatrixRM& error = rigid.transmission_error[f];
+        most = std::max(most, (soft_axes.transmission_error[f] - error).cwiseAbs().maxCoeff());
+        largest = std::max(largest, error.cwiseAbs().maxCoeff());
+      }
+      return most / largest;
     };
     CHECK(off(1e9) < 1e-6);
     CHECK(off(1e5) / off(1e6) == relative(10, 0.1));

@@ -67,7 +67,7 @@ struct Both {
   SweepResult pair_sweep(Direction direction) const {
     return sweep(body(), body(), statics(), statics().mean_stiffness, pair, direction, no_report);
   }
-  SystemSweepResult train_sweep(Direction direction) const {
+  SweepResult train_sweep(Direction direction) const {
     return system_sweep(train, {body(), body()}, direction, no_report);
   }
   BranchResult pair_along(const BranchPlan& plan) const {
@@ -88,7 +88,7 @@ void check_alike(const Eigen::VectorXd& train, const Eigen::VectorXd& pair) {
 TEST_CASE("a pair as a train: the sweep jumps where that of the pair does, and where its branch folds") {
   const Both both(2300, 3000, 5.5e-6);
   const SweepResult pair = both.pair_sweep(Direction::up);
-  const SystemSweepResult train = both.train_sweep(Direction::up);
+  const SweepResult train = both.train_sweep(Direction::up);
   REQUIRE(pair.jump_frequency.size() == 1);
   check_alike(train.jump_frequency, pair.jump_frequency);
   CHECK(train.jump_width[0] == relative(pair.jump_width[0], 1e-9));

@@ -25,7 +25,7 @@
 #include "relative.h"
 #include "report/system_figures.h"
 #include "results/static.h"
-#include "results/system_sweep.h"
+#include "results/sweep.h"
 #include "scene_file.h"
 #include "signal/response.h"
 #include "studies/system_branch.h"
@@ -98,7 +98,7 @@ SystemStaticResult rest_of(const SystemScene& scene) {
   return system_at_rest(static_parameters_of(scene, layout_of(scene)), line_bodies());
 }
 
-SystemSweepResult swept(const SystemScene& scene) {
+SweepResult swept(const SystemScene& scene) {
   return system_sweep(sweep_parameters_of(scene, layout_of(scene)), line_bodies(), Direction::up, no_report);
 }
 
@@ -390,10 +390,10 @@ TEST_CASE(
   scene.operation.frequency_from = scene.operation.frequency_to = 1500;
   scene.operation.frequency_step = 100;
   scene.time.periodicity = 1e-9;
-  const SystemSweepResult plain = swept(scene);
+  const SweepResult plain = swept(scene);
   CHECK(plain.hunting_periods == 1);
   scene.gears[1].errors = pitch(20, 0, 1e-30);
-  const SystemSweepResult a = swept(scene);
+  const SweepResult a = swept(scene);
   CHECK(a.hunting_periods == 20);
   CHECK(a.period_multiple[0] == 20);
   CHECK(a.periods[0] % 20 == 0);
@@ -406,7 +406,7 @@ TEST_CASE(
   CHECK(response(a).dte_rms(0, 1) == relative(response(plain).dte_rms(0, 1), 1e-7));
 
   scene.gears[1].errors = mixed(20);
-  const SystemSweepResult differ = swept(scene);
+  const SweepResult differ = swept(scene);
   CHECK(differ.energy_imbalance.cwiseAbs().maxCoeff() < 1e-9);
   CHECK(differ.least_gap > -1e-13);
   CHECK(response(differ).dte_rms(0, 0) > 1.5 * response(plain).dte_rms(0, 0));
@@ -426,7 +426,7 @@ TEST_CASE("slow motion of teeth that differ follows their statics over the hunti
   std::array<double, 2> off{};
   for (size_t k = 0; k < 2; ++k) {
     scene.operation.frequency_from = scene.operation.frequency_to = k == 0 ? 20 : 10;
-    const SystemSweepResult slow = swept(scene);
+    const SweepResult slow = swept(scene);
     REQUIRE(slow.transmission_error[0].rows() == 20 * 256);
     for (Index i = 0; i < rest.mesh_phase.size(); ++i)
       for (size_t m = 0; m < 2; ++m)

@@ -428,11 +428,11 @@ TEST_CASE("lumped: models from a static result") {
     CHECK(a.period_multiple.minCoeff() == 1);
     CHECK(a.residual.maxCoeff() < 1e-12);
     CHECK(a.energy_imbalance.cwiseAbs().maxCoeff() < 1e-12);
-    CHECK(a.mesh_force.minCoeff() >= 0);
+    for (const MatrixRM& one : a.mesh_force) CHECK(one.minCoeff() >= 0);
     if (model == MotionModel::secant || model == MotionModel::pairs)
       CHECK(a.mean_stiffness == relative(s.mean_stiffness, 1e-4));
     // The mean force over an orbit is the static one: the mass gains nothing and the damper's mean is 0.
-    CHECK(a.mesh_force.row(0).mean() == relative(force, 2e-3));
+    CHECK(a.mesh_force[0].mean() == relative(force, 2e-3));
     const ResponseResult r = response(a);
     CHECK(r.model == model);
     CHECK(r.separation_fraction.maxCoeff() == 0);
@@ -551,7 +551,7 @@ TEST_CASE(
   const SweepResult a = lumped_sweep(s, springs, spring_numbers, o, no_report);
   REQUIRE(a.pair == pair_numbers);
   REQUIRE(a.tooth_load[0].cols() == pairs);
-  CHECK(a.mesh_force.row(0).mean() == relative(force, 2e-3));
+  CHECK(a.mesh_force[0].mean() == relative(force, 2e-3));
 }
 
 TEST_CASE("lumped: figures hold the numbers of their sweeps") {
@@ -574,8 +574,8 @@ TEST_CASE("lumped: figures hold the numbers of their sweeps") {
   REQUIRE(forces.blocks.size() == 4);
   CHECK(forces.blocks[2].name == "a 2");
   CHECK(forces.blocks[2].rows.size() == 257);
-  CHECK(forces.blocks[2].rows[128 + 5][1] == relative(sweeps[1].mesh_force(2, 5), 1e-12));  // 2200 Hz
-  CHECK(forces.blocks[3].rows[5][1] == relative(sweeps[1].mesh_force(1, 5), 1e-12));        // 2150 Hz
+  CHECK(forces.blocks[2].rows[128 + 5][1] == relative(sweeps[1].mesh_force[2](5, 0), 1e-12));  // 2200 Hz
+  CHECK(forces.blocks[3].rows[5][1] == relative(sweeps[1].mesh_force[1](5, 0), 1e-12));        // 2150 Hz
   CHECK(!contains(forces.notes[0], "dashed"));
   CHECK(contains(forces.notes[0], "rectangular stiffness, 294.0 to 516.7"));
   CHECK(contains(forces.notes[1], "jump at 2525.3 Hz"));

@@ -383,15 +383,16 @@ SweepResult some_sweep(Direction direction, double factor, int multiple = 1) {
   s.mesh_frequency = Eigen::Vector2d(1000, 1100);
   if (direction == Direction::down) s.mesh_frequency.reverseInPlace();
   s.period_multiple = Eigen::Vector2i::Constant(multiple);
-  s.transmission_error.resize(2, n * multiple);
-  s.mesh_force.resize(2, n * multiple);
+  s.name_parts();
+  s.transmission_error.assign(2, MatrixRM(n * multiple, 1));
+  s.mesh_force = s.transmission_error;
   s.pair = Eigen::Vector3i(-1, 0, 1);
   for (int f = 0; f < 2; ++f) {
     const double size = direction == Direction::down && s.mesh_frequency[f] == 1000 ? factor : 1.0;
     MatrixRM load(n * multiple, 3);
     for (int k = 0; k < n * multiple; ++k) {
       const double phase = static_cast<double>(k) / n;
-      s.transmission_error(f, k) =
+      s.transmission_error[static_cast<size_t>(f)](k, 0) =
           4e-6 + size * 1e-6 *
                      (std::cos(2 * kPi * phase) + 0.25 * std::sin(4 * kPi * phase) +
                       (multiple > 1 ? 0.5 * std::cos(2 * kPi * phase / multiple) : 0.0));
@@ -399,7 +400,7 @@ SweepResult some_sweep(Direction direction, double factor, int multiple = 1) {
         const double own = phase - std::floor(phase) + j;
         load(k, j + 1) = std::abs(own) < 0.4 ? size * 1000 * (1 + own) : 0.0;
       }
-      s.mesh_force(f, k) = load.row(k).sum();
+      s.mesh_force[static_cast<size_t>(f)](k, 0) = load.row(k).sum();
     }
     s.tooth_load.push_back(load);
   }

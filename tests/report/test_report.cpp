@@ -65,8 +65,9 @@ SweepResult some_sweep(Direction direction, int speeds = 4) {
   if (direction == Direction::down) s.mesh_frequency.reverseInPlace();
   s.pair.resize(1);
   s.pair << 0;
-  s.transmission_error.resize(speeds, 2 * kSteps);
-  s.mesh_force.resize(speeds, 2 * kSteps);
+  s.name_parts();
+  s.transmission_error.assign(static_cast<size_t>(speeds), MatrixRM(2 * kSteps, 1));
+  s.mesh_force = s.transmission_error;
   s.period_multiple = Eigen::VectorXi::Ones(speeds);
   s.period_multiple[1] = 2;
   s.periods = Eigen::VectorXi::Constant(speeds, 10);
@@ -76,10 +77,11 @@ SweepResult some_sweep(Direction direction, int speeds = 4) {
     MatrixRM load(2 * kSteps, 1);
     for (int t = 0; t < 2 * kSteps; ++t) {
       const double phase = 2 * kPi * t / kSteps;
-      s.transmission_error(i, t) = 1e-6 * (5 + 3 * std::cos(phase) + 2 * std::cos(2 * phase + 1));
-      if (i == 1) s.transmission_error(i, t) += 1e-6 * std::cos(0.5 * phase);
+      double& error = s.transmission_error[static_cast<size_t>(i)](t, 0);
+      error = 1e-6 * (5 + 3 * std::cos(phase) + 2 * std::cos(2 * phase + 1));
+      if (i == 1) error += 1e-6 * std::cos(0.5 * phase);
       load(t, 0) = 100 + 10 * i + (i == 1 && t >= kSteps ? 5 : 0);
-      s.mesh_force(i, t) = load(t, 0);
+      s.mesh_force[static_cast<size_t>(i)](t, 0) = load(t, 0);
     }
     s.tooth_load.push_back(load);
   }
@@ -508,7 +510,7 @@ TEST_CASE(
   const double load = s.tooth_load.row(0).maxCoeff(&pair);  // at the pitch point, of one pair alone
   SweepResult sweep = some_sweep(Direction::up);
   for (MatrixRM& loads : sweep.tooth_load) loads.setConstant(load);
-  sweep.mesh_force.setConstant(load);
+  for (MatrixRM& force : sweep.mesh_force) force.setConstant(load);
   content.sweeps = {response(sweep)};
   const std::string
       table = report_tsv(content),

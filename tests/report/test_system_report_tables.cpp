@@ -232,13 +232,13 @@ TEST_CASE(
   a.separation_fraction = MatrixRM::Zero(4, meshes);
   a.energy_imbalance = Eigen::VectorXd::Zero(4);
   a.period_multiple = Eigen::VectorXi::Ones(4);
-  SystemSweepResult sweep;
+  SweepResult sweep;
   sweep.mesh_frequency = a.mesh_frequency;
   sweep.mesh_force.assign(4, MatrixRM::Constant(2, meshes, 1000));
   for (System::Body& body : a.train.layout.bodies)
     if (body.bearing.elastic()) body.bearing.damping = 100;
   const auto said = [&](const std::string& words) {
-    sweep.settings.layout = a.train.layout;
+    sweep.train.layout = a.train.layout;
     a.remarks = remarks_on_carriers(sweep);
     for (const Remark& one : motion_remarks(r))
       if (contains(one.words, words)) return one.warning ? 2 : 1;

@@ -49,22 +49,22 @@ SweepResult small_sweep() {
   s.direction = Direction::down;
   const int n = 64;
   s.mesh_frequency = Eigen::VectorXd{{2000, 1900}};
-  s.transmission_error.resize(2, n);
-  s.mesh_force.resize(2, n);
+  s.transmission_error.assign(2, MatrixRM(n, 1));
+  s.mesh_force = s.transmission_error;
   s.period_multiple = Eigen::VectorXi{{1, 2}};
   s.pair = Eigen::VectorXi{{-1, 0}};
   for (int j = 0; j < n; ++j) {
-    s.transmission_error(0, j) =
+    s.transmission_error[0](j, 0) =
         5e-6 + 2e-6 * std::cos(kTwoPi * 2 * j / n) + 1e-6 * std::sin(kTwoPi * 6 * j / n);
     // Period 2: a subharmonic of 3e-6 beside 4e-6 at the mesh frequency.
-    s.transmission_error(1, j) = 3e-6 * std::cos(kTwoPi * j / n) + 4e-6 * std::cos(kTwoPi * 2 * j / n);
-    s.mesh_force(0, j) = 2000 + j % 32;
-    s.mesh_force(1, j) = j < 8 || j >= 60 ? 0.0 : 3000.0;
+    s.transmission_error[1](j, 0) = 3e-6 * std::cos(kTwoPi * j / n) + 4e-6 * std::cos(kTwoPi * 2 * j / n);
+    s.mesh_force[0](j, 0) = 2000 + j % 32;
+    s.mesh_force[1](j, 0) = j < 8 || j >= 60 ? 0.0 : 3000.0;
   }
   for (int f = 0; f < 2; ++f) {
     MatrixRM load(n, 2);
-    load.col(0) = 0.25 * s.mesh_force.row(f).transpose();
-    load.col(1) = 0.75 * s.mesh_force.row(f).transpose();
+    load.col(0) = 0.25 * s.mesh_force[static_cast<size_t>(f)].col(0);
+    load.col(1) = 0.75 * s.mesh_force[static_cast<size_t>(f)].col(0);
     s.tooth_load.push_back(load);
   }
   s.jump_frequency = Eigen::VectorXd::Constant(1, 1950.0);
@@ -204,8 +204,8 @@ TEST_CASE(
     "response: a fundamental orbit in rows made long by another speed's subharmonic keeps its harmonics") {
   SweepResult s = small_sweep();
   const ResponseResult wide = response(s);
-  s.transmission_error = MatrixRM(s.transmission_error.topLeftCorner(1, 32));
-  s.mesh_force = MatrixRM(s.mesh_force.topLeftCorner(1, 32));
+  s.transmission_error = {MatrixRM(s.transmission_error[0].topRows(32))};
+  s.mesh_force = {MatrixRM(s.mesh_force[0].topRows(32))};
   s.tooth_load = {MatrixRM(s.tooth_load[0].topRows(32))};
   s.mesh_frequency.conservativeResize(1);
   s.period_multiple.conservativeResize(1);
@@ -217,13 +217,13 @@ TEST_CASE(
 
 TEST_CASE("response: first orders of the mesh force and of the force on a bearing, x and y together") {
   SweepResult s = small_sweep();
-  const int samples = static_cast<int>(s.mesh_force.cols()), steps = s.time.steps_per_period;
+  const int samples = static_cast<int>(s.samples()), steps = s.time.steps_per_period;
   s.bearing_force[1].clear();
-  for (Eigen::Index f = 0; f < s.mesh_force.rows(); ++f) {
+  for (MatrixRM& force : s.mesh_force) {
     MatrixRM bearing(samples, 2);
     for (int t = 0; t < samples; ++t) {
       const double phase = 2 * std::numbers::pi * t / steps;
-      s.mesh_force(f, t) = 1000 + 30 * std::cos(phase + 0.3) + 5 * std::cos(2 * phase);
+      force(t, 0) = 1000 + 30 * std::cos(phase + 0.3) + 5 * std::cos(2 * phase);
       bearing(t, 0) = 100 + 3 * std::cos(phase);
       bearing(t, 1) = 4 * std::sin(phase + 1);
     }
@@ -265,14 +265,14 @@ TEST_CASE("response: sweeps whose arrays disagree or hold impossible values are 
     return failure_of([&] { response(s); }) == Failure::input;
   };
   CHECK(rejected([](SweepResult& s) { s.mesh_frequency.resize(0); }));
-  CHECK(rejected([](SweepResult& s) { s.mesh_force.conservativeResize(1, 64); }));
-  CHECK(rejected([](SweepResult& s) { s.mesh_force.conservativeResize(2, 63); }));
+  CHECK(rejected([](SweepResult& s) { s.mesh_force.pop_back(); }));
+  CHECK(rejected([](SweepResult& s) { s.mesh_force[1].conservativeResize(63, 1); }));
   CHECK(rejected([](SweepResult& s) { s.tooth_load.pop_back(); }));
   CHECK(rejected([](SweepResult& s) { s.tooth_load[0](3, 1) = std::numeric_limits<double>::infinity(); }));
   CHECK(rejected([](SweepResult& s) { s.period_multiple[0] = -1; }));
-  CHECK(rejected([](SweepResult& s) { s.mesh_force(0, 5) = -1; }));
+  CHECK(rejected([](SweepResult& s) { s.mesh_force[0](5, 0) = -1; }));
   CHECK(rejected(
-      [](SweepResult& s) { s.transmission_error(1, 5) = std::numeric_limits<double>::quiet_NaN(); }));
+      [](SweepResult& s) { s.transmission_error[1](5, 0) = std::numeric_limits<double>::quiet_NaN(); }));
   CHECK(rejected([](SweepResult& s) { s.jump_width.resize(0); }));
   CHECK(rejected([](SweepResult& s) { s.time.steps_per_period = 0; }));
 }

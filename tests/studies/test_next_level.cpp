@@ -272,8 +272,8 @@ TEST_CASE("what the next model level changes: its sweeps are those of a scene on
   CHECK(none.dte_rms.largest == 0);
   CHECK(none.tooth_load.rms == 0);
   // One row of three twice as far from its mean, no jump: compared.
-  const VectorXd row = here.transmission_error.row(1);
-  there.transmission_error.row(1) = (2 * (row.array() - row.mean()) + row.mean()).transpose();
+  const VectorXd row = here.transmission_error[1].col(0);
+  there.transmission_error[1].col(0) = 2 * (row.array() - row.mean()) + row.mean();
   SweepChange change = sweep_change(here, there);
   CHECK(change.compared == 3);
   CHECK(change.dte_rms.largest == relative(0.5, 1e-9));

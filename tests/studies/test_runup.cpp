@@ -103,7 +103,7 @@ Kept run(double from, double to, double rate, double eta = 7.7e-6, double speed_
 TEST_CASE("a slow run-up shows the motions of the sweep, in its mesh periods and in its samples") {
   const SweepResult periodic =
       sweep(body(), body(), statics(), 463e6, paper_sweep(3350, 3350, 20), Direction::up, no_report);
-  const Harmonics known = harmonics(periodic.transmission_error.row(0).transpose(), 3);
+  const Harmonics known = harmonics(periodic.transmission_error[0].col(0), 3);
   const double mean_load = statics().torque / (75e-3 * std::cos(20 * std::numbers::pi / 180));
   for (const bool up : {true, false}) {
     const Kept here = up ? run(3330, 3370, 100) : run(3370, 3330, 100);

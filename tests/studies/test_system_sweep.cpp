@@ -18,7 +18,7 @@
 #include "planetary_train.h"
 #include "refusal.h"
 #include "relative.h"
-#include "results/system_sweep.h"
+#include "results/sweep.h"
 #include "scene_file.h"
 #include "signal/response.h"
 #include "small_system.h"
@@ -81,14 +81,14 @@ const Train& train() {
   return out;
 }
 
-std::string bytes_of(const SystemSweepResult& a) {
+std::string bytes_of(const SweepResult& a) {
   const SceneFile place;
   const std::string path = place.path("") + ".h5";
   write(path, a, Provenance());
   return read_bytes(path);
 }
 
-SystemSweepResult swept(Direction direction, const SystemSweepParameters& settings = train().settings) {
+SweepResult swept(Direction direction, const SystemSweepParameters& settings = train().settings) {
   return system_sweep(settings, train().bodies, direction, [](auto&&...) {});
 }
 
@@ -106,11 +106,11 @@ SystemSweepParameters damped(double eta, double mu) {
 
 TEST_CASE(
     "sweep of a planetary train: contact is lost, energy closes, both ways meet, two runs are identical") {
-  const SystemSweepResult up = swept(Direction::up), down = swept(Direction::down);
+  const SweepResult up = swept(Direction::up), down = swept(Direction::down);
   REQUIRE(up.mesh_frequency.size() == 4);
   const ResponseResult rising = response(up), falling = response(down);
   CHECK(rising.separation_fraction.maxCoeff() > 0.01);
-  for (const SystemSweepResult* a : {&up, &down}) {
+  for (const SweepResult* a : {&up, &down}) {
     CHECK(a->energy_imbalance.maxCoeff() < 1e-9);
     CHECK(a->least_gap > -1e-12);
     CHECK(a->bearing_damping.leftCols(4).minCoeff() > 0);
@@ -123,15 +123,15 @@ TEST_CASE(
     for (Index m = 0; m < 6; ++m) CHECK(falling.dte_rms(3 - i, m) == relative(rising.dte_rms(i, m), 1e-3));
     // Nothing turns faster and faster: torques on what stands on the ground, drives and what holds.
     double all = 0;
-    for (size_t b = 0; b < up.settings.layout.bodies.size(); ++b)
-      if (const System::Body& body = up.settings.layout.bodies[b]; body.on == System::kGround)
-        all += body.sense * (up.torque[static_cast<Index>(b)] + up.holding_torque(i, static_cast<Index>(b)));
+    for (size_t b = 0; b < up.train.layout.bodies.size(); ++b)
+      if (const System::Body& body = up.train.layout.bodies[b]; body.on == System::kGround)
+        all += body.sense * (up.drive[static_cast<Index>(b)] + up.holding_torque(i, static_cast<Index>(b)));
     CHECK(std::abs(all) < 1e-3 * 300);
     CHECK(std::abs(up.holding_torque(i, 4)) == relative(300.0 * 100 / 26, 1e-3));
     CHECK((up.holding_torque.row(i).segment(1, 3).array() == 0).all());
     // The sun is driven by its torque, in the mean of the vibration, too; sharing is equal in the mean.
     CHECK(up.mesh_force[static_cast<size_t>(i)].leftCols(3).rowwise().sum().mean() ==
-          relative(300 / up.settings.layout.bodies[0].radius, 0.01));
+          relative(300 / up.train.layout.bodies[0].radius, 0.01));
     // Pins and sun and ring: the carrier has the sum of its pins.
     CHECK(up.bearing_force[5][static_cast<size_t>(i)] == up.bearing_force[1][static_cast<size_t>(i)] +
                                                              up.bearing_force[2][static_cast<size_t>(i)] +
@@ -143,11 +143,11 @@ TEST_CASE(
 // By sums over the stored rows, apart from the program's functions.
 TEST_CASE(
     "what a sweep of a train says: each mesh and each body by sums over its rows, read back with its names") {
-  const SystemSweepResult a = swept(Direction::down);
+  const SweepResult a = swept(Direction::down);
   const SceneFile place;
   const std::string path = place.path("") + ".h5", answer = place.path("") + "-response.h5";
   write(path, a, Provenance());
-  write(answer, response(read<SystemSweepResult>(path)), Provenance());
+  write(answer, response(read<SweepResult>(path)), Provenance());
   const ResponseResult r = read<ResponseResult>(answer);
   REQUIRE(r.of_train());
   REQUIRE(r.mesh_names.size() == 6);
@@ -168,7 +168,7 @@ TEST_CASE(
         sum += error(k, m);
         second += error(k, m) * std::polar(1.0, -4 * std::numbers::pi * static_cast<double>(k) / 48);
         most = std::max(most, force(k, m));
-        tooth = std::max(tooth, a.largest_tooth_load[at](k, m));
+        tooth = std::max(tooth, a.loads_of(i, m).row(k).maxCoeff());
         apart += force(k, m) > 0 ? 0 : 1;
         const double all = force.row(k).segment(m < 3 ? 0 : 3, 3).sum();
         if (all > 0) share = std::max(share, force(k, m) / all);
@@ -201,22 +201,21 @@ TEST_CASE(
 }
 
 TEST_CASE("a sweep of a train whose rows do not fit each other is rejected with what does not") {
-  const SystemSweepResult good = small_sweep(small_system(), Direction::up);
+  const SweepResult good = small_sweep(small_system(), Direction::up);
   const auto said = [&](const auto& spoil) {
-    SystemSweepResult a = good;
-    a.settings.time.steps_per_period = 4;
+    SweepResult a = good;
+    a.train.time.steps_per_period = 4;
     spoil(a);
     return message_of_input([&] { response(a); });
   };
-  CHECK(names(said([](SystemSweepResult& a) { a.mesh_frequency.resize(0); }), {"no speed"}));
-  CHECK(names(said([](SystemSweepResult& a) { a.mesh_force.pop_back(); }), {"mesh_force", 1, 2}));
-  CHECK(names(said([](SystemSweepResult& a) { a.largest_tooth_load[1].resize(3, 6); }),
-              {"largest_tooth_load", 3, 4}));
-  CHECK(names(said([](SystemSweepResult& a) { a.bearing_force.pop_back(); }), {"bearing_force", 5, 6}));
-  CHECK(names(said([](SystemSweepResult& a) { a.settings.section.pop_back(); }), {"[[mesh]]", 5, 6}));
-  CHECK(names(said([](SystemSweepResult& a) { a.settings.section[0] = -1; }), {"[[mesh]]", -1}));
-  CHECK(names(said([](SystemSweepResult& a) { a.settings.time.steps_per_period = 3; }), {4, 3}));
-  CHECK(names(said([](SystemSweepResult& a) { a.period_multiple[0] = 2; }), {"period_multiple", 2}));
+  CHECK(names(said([](SweepResult& a) { a.mesh_frequency.resize(0); }), {"no speed"}));
+  CHECK(names(said([](SweepResult& a) { a.mesh_force.pop_back(); }), {"mesh_force", 1, 2}));
+  CHECK(names(said([](SweepResult& a) { a.tooth_load[1].resize(3, 12); }), {"tooth_load", 3, 4}));
+  CHECK(names(said([](SweepResult& a) { a.bearing_force.pop_back(); }), {"bearing_force", 5, 6}));
+  CHECK(names(said([](SweepResult& a) { a.train.section.pop_back(); }), {"[[mesh]]", 5, 6}));
+  CHECK(names(said([](SweepResult& a) { a.train.section[0] = -1; }), {"[[mesh]]", -1}));
+  CHECK(names(said([](SweepResult& a) { a.train.time.steps_per_period = 3; }), {4, 3}));
+  CHECK(names(said([](SweepResult& a) { a.period_multiple[0] = 2; }), {"period_multiple", 2}));
 }
 
 TEST_CASE(

@@ -1,0 +1,55 @@
+#include "io/system_motion_codec.h"
+
+#include "io/codec.h"
+#include "io/keys.h"
+
+namespace whine {
+
+using namespace ranges;
+
+static void describe_axis_frequency(Codec& c, double& frequency) {
+  c(frequency, "/axis_frequency", "Hz", kFrequency, "",
+    "highest natural frequency of the rigid train on its mean stiffnesses, to which the dampers of the axes refer");
+}
+
+void describe_system(Codec& c, SystemSweepParameters& s, Eigen::VectorXd& torque, const LayoutPlace& place) {
+  describe_layout(c, s.layout, place);
+  c(torque, place.group + "/body/torque", "N m", kMoment, "body" + place.axis_end,
+    "torque of the drive in the body's sense; 0 where none gives a torque");
+  c.parameters("fidelity", keys(s.fidelity));
+  c.parameters("damping", keys(s.damping));
+}
+
+void describe_system_motion(Codec& c, SystemSweepParameters& s, Eigen::VectorXd& torque,
+                            double& axis_frequency) {
+  describe_system(c, s, torque);
+  describe_axis_frequency(c, axis_frequency);
+}
+
+void describe_source(Codec& c, MotionSource& a) {
+  if (c.optional("/layout/body/name", a.of_train())) {
+    describe_system(c, a.train, a.drive, {"/layout", ""});
+    describe_axis_frequency(c, a.axis_frequency);
+    describe_time_steps(c, a.train.time);
+  }
+  if (a.of_train()) return;
+  describe_pair(c, a);
+  describe_motion(c, a);
+  describe_torque(c, a.torque);
+}
+
+void describe_names(Codec& c, bool of_train, std::vector<std::string>& meshes,
+                    std::vector<std::string>& bodies) {
+  if (!of_train && !c.lists()) {
+    c.axis("mesh", 1);
+    c.axis("body", kSides);
+  }
+  c(meshes, "/mesh", "mesh", "meshes by the names of their bodies, driving-driven");
+  c(bodies, "/body", "body", "bodies by name; of a pair the driver, then the driven gear");
+}
+
+void describe_time_steps(Codec& c, TimeDiscretisation& time) {
+  c.parameters("discretisation", keys(time));
+}
+
+}  // namespace whine
