@@ -149,7 +149,7 @@ axis_options = $(strip $(if $(AXIS),$(if $(filter $1,$(speed_figures)),--axis '$
 
 # Figures, by the path out/$1 of a file without its ending: out/S/report/fig05, out/figures/histories-1250Hz-T150. Those of a scene depend on its
 # fragment, too, which says its torques: not only on what stands at each.
-figure_of = $(or $(strip $(foreach f,histories history-loads compare-rest compare-motion fold-curves,$(if $(filter $f-%,$(notdir $1)),$f))),\
+figure_of = $(or $(strip $(foreach f,histories history-loads compare-rest compare-motion fold-curves harris-map,$(if $(filter $f-%,$(notdir $1)),$f))),\
   $(if $(filter runup-%,$(notdir $1)),runup-$(WAY)),$(patsubst harris-dynamic,harris-map,$(patsubst %-fine,%,$(notdir $1))))
 scene_of_figure = $(patsubst %/report/,%,$(filter %/report/,$(dir $1)))
 inputs_of_figure = $(if $(filter compare/%,$1),$(call inputs,$2,$(compared),$(compared_torque)),$(if $(filter histories history-loads runup-%,$2),$(call inputs,$2,$(own_scene),$(TORQUE)),\
@@ -219,7 +219,7 @@ teeth = $(filter $2,$(SCENE_$1_TEETH))
 BRANCHES ?= no
 system_shows = system $(if $2,system-static) $(if $(and $2,$(filter yes,$(SCENE_$1_PLANETS))),load-sharing) modes campbell $(if $(filter yes,$(SCENE_$1_MOVES)),system-sweep order-cuts)
 system_artifacts = $(if $2,$(inputs_system-static)) out/$1/modes.h5 $(if $(filter yes,$(SCENE_$1_MOVES)),$(inputs_system-sweep))
-system_figures := system system-static load-sharing modes campbell system-sweep order-cuts system-ringdown system-branch
+system_figures := system system-static load-sharing modes campbell system-sweep order-cuts system-ringdown system-branch harris-map
 report_shows = system finite-elements $(if $(filter yes,$(SCENE_$1_MODIFIED)),profile-chart) \
   $(if $(call teeth,$1,alike),transmission-error mesh-stiffness load-sharing error-budget) \
   $(if $(call teeth,$1,cracked),$(if $(call teeth,$1,differ),,crack),responses-by-torque \

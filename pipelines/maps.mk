@@ -4,7 +4,7 @@
 #                 artifacts of the same schema, by their name: jump_map_secant.h5, jump_map_secant-contact.h5 (damper in contact only)
 #   fold-curves   out/S/T150/fold_curves_damping.h5; FOLDS_OVER=torque, tip_relief: at TORQUE only
 #   sensitivity   out/S-bore35/T150/branches.h5: one per variant (scenes.mk)
-#   harris-map    out/S/harris_map.h5; HARRIS_DYNAMIC=yes: out/S/harris_dynamic.h5, with sweeps at every point of a coarse grid
+#   harris-map    out/S/harris_map.h5; of a train MESH=sun-planet1: out/S/harris_sun-planet1.h5; HARRIS_DYNAMIC=yes: out/S/harris_dynamic.h5, with sweeps at every point of a coarse grid
 #
 # JUMP_MAP=fine, SENSITIVITY=fine: ..._fine.h5 beside them. Torques in N m (of a scene of yours: those that it lists), corner rules as in a
 # scene (none, up to an angle, full), damping ratios with two pairs in contact, steps of the speeds in Hz.
@@ -85,8 +85,17 @@ $(own_pair:%=%/harris_map.h5): $$(call params,static) $$(bodies) $(call id,gear-
 $(own_pair:%=%/harris_dynamic.h5): $$(call params,static) $$(bodies) $(call id,gear-harris) $$(call params,sweep) $$(first_static) $(own_plans)/harris_dynamic | $(B)/bin/gear-harris
 	$(call run,harris) --static-params $< $(by_gear) $(plan_harris_dynamic) --params $(call params,sweep) --reference-static $(first_static) --output $@ $(call landed,harris)
 
+# Of one mesh of a train; the torque is what it carries, unless it is given.
+mapped_mesh := $(if $(and $(filter harris-map,$(goals)),$(filter $(trains),$(own_scene))),$(or $(filter $(MESH),$(SCENE_$(own_scene)_MESHES)),$(if $(SCENE_$(own_scene)_MESHES),\
+  $(error harris-map: MESH=$(MESH): say of which mesh of the train, one of $(SCENE_$(own_scene)_MESHES)))))
+$(if $(mapped_mesh),$(if $(HARRIS_DYNAMIC),$(error HARRIS_DYNAMIC: the map of a mesh of a train is at rest; leave it out)))
+plan_harris_mesh := $(if $(mapped_mesh),--mesh $(mapped_mesh) $(if $(filter command,$(firstword $(origin TORQUE))),--design-torque $(TORQUE)) --check 12 $(HARRIS_OPTIONS))
+$(mapped_mesh:%=out/$(own_scene)/harris_%.h5): $$(call params,static) $$(bodies) $(call id,gear-harris) $(B)/plans/$(own_scene)/harris_mesh | $(B)/bin/gear-harris
+	$(call run,harris) --static-params $< $(by_gear) $(plan_harris_mesh) --output $@ $(call landed,harris)
+plans += $(if $(mapped_mesh),$(B)/plans/$(own_scene)/harris_mesh)
+
 # Their figures: by the rule of all figures, in figures.mk.
-harris_map := harris_$(if $(HARRIS_DYNAMIC),dynamic,map)
+harris_map := harris_$(or $(mapped_mesh),$(if $(HARRIS_DYNAMIC),dynamic,map))
 of_torques = $(1:%=out/$(own_scene)/T%)
 fold_figure := $(figure_folder)/fold-curves$(if $(filter-out damping,$(FOLDS_OVER)),-$(subst _,-,$(FOLDS_OVER)))
 inputs_fold-curves = $(addsuffix /fold_curves_$(FOLDS_OVER).h5,$(call of_torques,$(if $(filter damping,$(FOLDS_OVER)),$(FOLD_CURVE_TORQUES),$(TORQUE))))
@@ -99,7 +108,7 @@ inputs_sensitivity = $(foreach s,$(own_scene) $(variant_scenes),out/$s/T$(TORQUE
 drawn_map = $(foreach f,$1,$(foreach e,tsv svg png,$f.$e))
 dash_fine = $(subst _,-,$(call fineness,$1))
 fold-curves: $(call drawn_map,$(fold_figure)) ## folds of the branches against damping, with their cusps; FOLDS_OVER=torque, tip_relief
-harris-map: $(call drawn_map,$(figure_folder)/$(subst _,-,$(harris_map))) ## peak-to-peak transmission error against torque and tip relief, the optimum for TORQUE, the Harris cusp; HARRIS_DYNAMIC=yes
+harris-map: $(call drawn_map,$(figure_folder)/$(if $(mapped_mesh),harris-map-$(mapped_mesh),$(subst _,-,$(harris_map)))) ## peak-to-peak transmission error against torque and tip relief, the optimum for TORQUE, the Harris cusp; HARRIS_DYNAMIC=yes; of one mesh of a train: MESH=sun-planet1
 jump-map: $(call drawn_map,$(if $(filter no,$(JUMP_MAP_CELLS)),$(fold_figure),$(figure_folder)/jump-map$(call dash_fine,JUMP_MAP) $(if $(JUMP_MAP_MODELS),$(figure_folder)/jump-map-lumped$(call dash_fine,JUMP_MAP)))) ## two branches, contact loss, tooth loads against torque, damping, corner rule, lumped model; JUMP_MAP=fine, JUMP_MAP_CELLS=no
 sensitivity: $(call drawn_map,$(figure_folder)/sensitivity$(call dash_fine,SENSITIVITY)) ## what each input that the paper does not state changes; SENSITIVITY=fine
 

@@ -22,8 +22,8 @@ include $(study_fragments)
 study_variants = $(foreach p,$(STUDY_$1_PAIRS),$(STUDY_$1_$p:%=out/studies/$1/%.h5))
 study_bodies = $(sort $(foreach p,$(STUDY_$1_PAIRS),$(foreach h,$(subst _, ,$p),out/bodies/$h/body.h5)))
 
-# $(call of_variant,study,hash of the driver,hash of the driven gear): the recipe of the rules in the fragment
-of_variant = $(call run,variant) --params $< --body $(word 1,$(STUDY_$1_GEARS))=out/bodies/$2/body.h5 --body $(word 2,$(STUDY_$1_GEARS))=out/bodies/$3/body.h5 \
+# $(call of_variant,study,hashes of the bodies of its gears): the recipe of the rules in the fragment
+of_variant = $(call run,variant) --params $< $(subst :, ,$(join $(patsubst %,--body:%=out/bodies/,$(STUDY_$1_GEARS)),$(patsubst %,%/body.h5,$2))) \
   --plan out/studies/$1/plan.toml $(STUDY_$1_OPTIONS) --output $@ $(call landed,variant)
 $(studies:%=out/studies/%/study.h5): out/studies/%/study.h5: out/studies/%/plan.toml $$(call study_variants,$$*) $(call id,gear-study) | $(B)/bin/gear-study
 	$(B)/bin/gear-study --gather $< --output $@

@@ -32,7 +32,6 @@ inline const std::map<std::string, AnyBlock>& given_values() {
   static const std::map<std::string, AnyBlock> given{
       {"/parameters/study/key",
        Block<std::string>{{"damping.rayleigh_stiffness_s", "fidelity.contact"}, {2}}},
-      {"/parameters/study/quantity", Block<std::string>{{"te_mean", "te_peak_to_peak"}, {2}}},
       {"/parameters/study/plan", Block<std::string>{{"sample"}, {}}},
       {"/natural_frequency", Block<double>{{1000.0 / 3, 2000.0 / 3, 1000}, {3}}},
       {"/mode_type", Block<std::string>{{"mixed train planet"}, {}}},

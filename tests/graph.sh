@@ -182,6 +182,17 @@ grep -q 'gear-plot compare-rest --output out/compare/parker2000+short/compare-re
   ok "designs at another torque" || wrong "designs at another torque" "$(programs)"
 make_ SCENES="$scene a/short.toml" AXIS=rpm:driver DB=1e-6 compare
 expect "other axes draw the one figure against speed again, and the page" "gear-compare*1 gear-plot*1"
+cp data/scenes/three-in-line.toml a/line.toml; cp data/scenes/oh58-planetary.toml a/planets.toml
+make_ -n SCENES='a/line.toml a/planets.toml' compare
+grep -q 'gear-plot compare-rest --output out/compare/line+planets/compare-rest-own out/line/T60/static.h5 out/planets/T400/static.h5' "$log" &&
+  grep -q 'gear-compare .*out/planets/T400/down/response.h5' "$log" && ok "trains side by side, each at its own torque" || wrong "trains side by side, each at its own torque" "$(tail -n 1 "$log")"
+make_ -n SCENES="$scene a/line.toml" compare
+grep -q 'compare-motion .*out/parker2000/T100/up/response.h5 .*out/line/T60/up/response.h5' "$log" && ok "a train beside a pair, which is at the first of its torques" || wrong "a train beside a pair" "$(tail -n 1 "$log")"
+refuses "a torque of trains side by side" 'TORQUE=60 line own' SCENES="$scene a/line.toml" TORQUE=60 compare
+make_ -n SCENE=a/planets.toml MESH=sun-planet2 harris-map
+grep -q 'gear-harris .*--mesh sun-planet2 --check 12 .*--output out/planets/harris_sun-planet2.h5' "$log" && grep -q 'gear-plot harris-map --output out/planets/report/harris-map-sun-planet2 out/planets/harris_sun-planet2.h5' "$log" &&
+  ok "a Harris map of one mesh of a train" || wrong "a Harris map of one mesh of a train" "$(tail -n 1 "$log")"
+refuses "a Harris map of a train without its mesh is told the meshes" 'MESH sun-planet1 planet4-ring' SCENE=a/planets.toml harris-map
 sed 's/^bore_radius_mm = .*/bore_radius_mm = 30/' $scene > b/short.toml
 make_ -n SCENE=a/short.toml SCENES="b/short.toml $scene" report
 grep -q 'gear-scene.*b/short.toml' "$log" && wrong "SCENES leave a report of SCENE alone" "$(grep -m1 b/short.toml "$log")" ||

@@ -140,3 +140,30 @@ if make_ STUDY=restless.toml study; then
   grep -q 'gear-study: warning: 2 variants have speeds at which no periodic motion was found' "$log" && grep -q '^# .*; 2 have speeds that did not settle' out/studies/restless/study.tsv &&
     ok "and the table says which did not settle" || wrong "and the table says which did not settle" "$(head -n 3 out/studies/restless/study.tsv | tr '\n' ' ')"
 else wrong "a study of motions that do not settle" "$(tail -n 1 "$log")"; fi
+
+# --- a study of a train: what it answers beside static.h5 of the same scene
+sed 's/^element_mm = [^ ]*/element_mm = 2.0\npositions = 8/; s/^title = .*/title = "A train"/' data/scenes/three-in-line.toml > train.toml
+cat > loads.toml <<'STUDY'
+scene = "train.toml"
+quantities = ["te_peak_to_peak.idler-wheel", "mesh_force_static.pinion-idler", "bearing_force_static.idler"]
+[set]
+"fidelity.contact" = "line"
+[[vary]]
+key = "drive.pinion.torque_Nm"
+values = [30, 60]
+STUDY
+sed 's/^torque_Nm = 60.0/torque_Nm = 30.0/; s/^\[discretisation\]/[fidelity]\ncontact = "line"\n&/' train.toml > train-30.toml
+if make_ STUDY=loads.toml study && [ -s out/studies/loads/study.png ]; then ok "a study of a train gives a table and a figure"
+else wrong "a study of a train gives a table and a figure" "$(grep -m1 -E 'error|\*\*\*' "$log")"; fi
+[ "$(stages reduce) $(stages variant)" = "3 2" ] && ok "its three gears have a body each, its variants a target each" ||
+  wrong "its three gears have a body each, its variants a target each" "$(stages reduce) $(stages variant)"
+make_ -q STUDY=loads.toml study && ok "the study of a train is up to date then" || wrong "the study of a train is up to date then" "$(make -n STUDY=loads.toml study | head -n 2)"
+if ! command -v h5dump > /dev/null; then echo "skipped: answers of a variant of a train beside those of its statics (h5dump is not installed)"
+elif make_ SCENE=train-30.toml static; then
+  [ "$(stages reduce)" = 0 ] && ok "a train and its study share the bodies" || wrong "a train and its study share the bodies" "$(stages reduce)"
+  file=$(grep -l 'torque = 30.0' out/studies/loads/variants/*/*.toml | head -n 1)
+  number() { h5dump -y -w 0 -m %.17g -d "$1" "$2" | awk '/DATA {/ { on = 1; next } on && /}/ { exit } on' | tr -d ' ,'; }
+  largest=$(number /mesh_force out/train-30/T30/static.h5 | awk 'NR % 2 == 1 && $1 > most { most = $1 } END { printf "%.17g", most }')
+  [ "$(number /quantity/mesh_force_static.pinion-idler "${file%.toml}.h5")" = "$largest" ] && ok "answers of a variant of a train are those of its statics, bit by bit" ||
+    wrong "answers of a variant of a train are those of its statics, bit by bit" "$(number /quantity/mesh_force_static.pinion-idler "${file%.toml}.h5") against $largest"
+else wrong "the statics of the train run" "$(tail -n 1 "$log")"; fi

@@ -1,6 +1,6 @@
 // gear-compare: designs side by side as one HTML page, from their artifacts and the figures that show them on common axes.
 //
-// Reads      static.h5, impact.h5 and response.h5 of two to six scenes, each in the folder of its scene (params/title.txt tells them
+// Reads      static.h5, of pairs impact.h5, and response.h5 of two to six scenes of pairs and trains, each in the folder of its scene (params/title.txt tells them
 //            apart); figures that gear-plot has drawn, as .png
 // Writes     --output: the page; compare.tsv beside it, what differs
 // Equations  change = value / value of the first design - 1
@@ -49,7 +49,13 @@ void body(int argc, char** argv) {
   }
   std::vector<Design> designs;
   designs.reserve(scenes.size());
-  for (const Inputs& scene : scenes) designs.push_back({scene.name, read_report_content(scene.paths)});
+  for (const Inputs& scene : scenes) {
+    Design& design = designs.emplace_back(Design{scene.name});
+    if (is_of_system(scene.paths))
+      design.train = read_system_report(scene.paths);
+    else
+      design.content = read_report_content(scene.paths);
+  }
 
   const std::string page = compare_html(designs, read_report_content(pictures).pictures),
                     table = compare_tsv(designs);

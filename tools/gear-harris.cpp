@@ -1,7 +1,8 @@
 // gear-harris: peak-to-peak transmission error and its first harmonics against torque and tip relief (Harris map).
 //
 // Reads   static-params (stage parameters of a scene: mesh with modifications, contact), body.h5 of both gears; with --dynamic
-//         params (stage parameters: damping, inertia, speeds, time), too
+//         params (stage parameters: damping, inertia, speeds, time), too. Of a train: body.h5 of all gears, and --mesh, of which the two
+//         gears are taken as a pair on rigid bearings under what the mesh carries
 // Writes  harris_map.h5   the map at rest, the optimum for the design torque, its curve over torque (the Harris cusp), and
 //                         what a finer solution of some points differs by; with --dynamic the RMS at the worst speed
 // Equations: as gear-static; with --dynamic as gear-sweep
@@ -17,16 +18,58 @@
 #include "base/tool.h"
 #include "gear/body_inertia.h"
 #include "io/artifacts.h"
+#include "io/compatibility.h"
 #include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "io/scene.h"
+#include "io/system_scene.h"
 #include "results/harris_map.h"
 #include "results/static.h"
 #include "studies/harris_plan.h"
+#include "studies/train_in_motion.h"
+#include "system/load_balance.h"
 
 namespace {
 
 using namespace whine;
+
+// What a map is of: a pair, or one mesh of a train.
+struct MappedPair {
+  StaticParameters settings;
+  std::vector<ReducedBody> body;  // driver, driven
+  double torque = 0;              // N m on the driver, of a train its share; 0: of a pair
+};
+
+// The mesh called `name` ("sun-planet1") of a train. Its teeth are alike.
+MappedPair mesh_of_train(const std::string& params, const std::string& name, const NamedFiles& files) {
+  const SystemStaticParameters train = read_system_static_parameters(params);
+  size_t m = train.layout.meshes.size();
+  std::string known;
+  for (size_t n = 0; n < train.layout.meshes.size(); ++n) {
+    const std::string own = mesh_name(train.layout, n);
+    known += (known.empty() ? "" : ", ") + own;
+    if (own == name) m = n;
+  }
+  if (m == train.layout.meshes.size())
+    fail(Failure::usage, "--mesh ",
+         name.empty() ? "is needed of a train" : name + ": the train has no such mesh", "; there are ",
+         known);
+  require_like_teeth(train, "a Harris map");
+  const System::Mesh& mesh = train.layout.meshes[m];
+  MappedPair out{{train.mesh[static_cast<size_t>(train.section[m])], train.fidelity, train.contact}, {}, 0};
+  const std::vector<ReducedBody> bodies = read_bodies(files, train);
+  for (size_t g = 0; g < kSides; ++g)
+    for (size_t b = 0; b < train.body.size(); ++b)
+      if (train.body[b].first == out.settings.mesh.gear[g]) {
+        out.settings.body[g] = train.body[b].second;
+        out.body.push_back(bodies[b]);
+      }
+  out.settings.mesh.centre_distance = mesh.centre_distance;
+  out.torque = load_balance(train.layout).load[static_cast<Eigen::Index>(m)] *
+               train.layout.bodies[static_cast<size_t>(mesh.side[0].body)].radius;
+  return out;
+}
+
 // The map at rest, checked at so many points; with params (of sweeps) in motion, too. took: s of this processor.
 HarrisMapResult computed(const ReducedBody& first, const ReducedBody& second,
                          const StaticParameters& settings, const HarrisPlan& plan, int checks,
@@ -71,7 +114,7 @@ void body(int argc, char** argv) {
   Options options{"Transmission error against torque and tip relief", "gear-harris"};
   HarrisPlan plan;
   std::string params, static_params, output, torque, relief, start, length, design,
-      points = "0", reference, shape = name_of(plan.shape), relieved = name_of(plan.relieved);
+      points = "0", reference, mesh, shape = name_of(plan.shape), relieved = name_of(plan.relieved);
   std::vector<std::string> bodies;
   bool dynamic = false;
   options
@@ -91,7 +134,11 @@ void body(int argc, char** argv) {
       .excludes(start_option);
   options.add("--shape", shape, "how the relief grows").show_default().one_of({"linear", "parabolic"});
   options.add("--relieved", relieved, "whose tips").show_default().one_of({"driver", "driven", "both"});
-  options.add("--design-torque", design, "torque in N m for which the optimum is sought (default: midway)");
+  options.add(
+      "--design-torque", design,
+      "torque in N m for which the optimum is sought (default: midway; of a train what the mesh carries)");
+  options.add("--mesh", mesh,
+              "of a train: the mesh, sun-planet1 for example; torques are those on its driving gear");
   options.add("--positions", plan.positions, "mesh positions").show_default();
   options.add("--strips", plan.strips, "strips across the contact at the least load of a range of torques")
       .show_default();
@@ -113,18 +160,31 @@ void body(int argc, char** argv) {
   plan.relieved = choice_of<Relieved>(relieved).value();
   if (dynamic && (params.empty() || reference.empty()))
     fail(Failure::usage, "--dynamic needs --params and --reference-static");
-  if (torque.empty() && design.empty()) fail(Failure::usage, "--torque or --design-torque is needed");
+  const NamedFiles files("--body", bodies);
+  const bool train = is_system_scene(static_params);
+  if (train && dynamic) fail(Failure::usage, "--dynamic: the map of a train is at rest; leave it out");
+  if (!train && !mesh.empty()) fail(Failure::usage, "--mesh ", mesh, ": ", static_params, " is of a pair");
+  MappedPair mapped;
+  if (train) {
+    mapped = mesh_of_train(static_params, mesh, files);
+  } else {
+    mapped.settings = read_static_parameters(static_params);
+    for (const ReducedBody& gear : read_bodies(files, mapped.settings)) mapped.body.push_back(gear);
+  }
+  const StaticParameters& settings = mapped.settings;
+  const ReducedBody &first = mapped.body[0], &second = mapped.body[1];
   if (!design.empty()) plan.design_torque = number_option("--design-torque", design);
+  if (design.empty() && train) plan.design_torque = mapped.torque;
+  if (torque.empty() && !(plan.design_torque > 0))
+    fail(Failure::usage,
+         train ? "--torque is needed: the mesh carries no load" : "--torque or --design-torque is needed");
   plan.torque = number_list("--torque", torque);
   if (torque.empty()) plan.torque = default_torques(plan.design_torque);
-  if (design.empty()) plan.design_torque = 0.5 * (plan.torque.front() + plan.torque.back());
+  if (design.empty() && !train) plan.design_torque = 0.5 * (plan.torque.front() + plan.torque.back());
   const double checks = number_option("--check", points);
-  const NamedFiles files("--body", bodies);
   std::vector<std::string> inputs = files.and_inputs({"static_params=" + static_params});
   if (dynamic) inputs.insert(inputs.end(), {"params=" + params, "reference_static=" + reference});
   const Provenance provenance = made_by(argc, argv, std::move(inputs));
-  const StaticParameters settings = read_static_parameters(static_params);
-  const auto [first, second] = read_bodies(files, settings);
   plan.length = relief_lengths(number_list("--start-deg", start), number_list("--length-mm", length), first,
                                second, settings.mesh, plan.relieved);
   for (const double um : number_list("--relief-um", relief)) plan.relief.push_back(um * 1e-6);

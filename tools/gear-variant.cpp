@@ -1,7 +1,7 @@
 // gear-variant: one variant of a study, from the bodies to its response quantities, in one go.
 //
 // Reads   params (stage parameters of the variant: mesh, contact, torque, and of motions damping, inertia, speeds,
-//         fidelity, time), body.h5 of both gears
+//         fidelity, time), body.h5 of all gears of the pair or train
 // Writes  variant.h5    transmission error and stiffness at rest, and of each sweep RMS, loads, contact loss, jumps, as numbers
 // With --mark-outside-model a variant of what no pair can do is an artifact, too, which says why; whatever else fails is an error.
 // Equations: as gear-static, gear-sweep and gear-spectra, whose numbers these are.
@@ -17,6 +17,7 @@
 #include "base/tool.h"
 #include "gear/body_inertia.h"
 #include "io/artifacts.h"
+#include "io/compatibility.h"
 #include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "io/study.h"
@@ -46,7 +47,7 @@ void body(int argc, char** argv) {
   options.add("--output", output, "artifact to write").required();
   options.add("--plan", plan, "plan.toml of the study, so that errors name the variant and its values");
   options.flag("--mark-outside-model", marks,
-               "write why the pair cannot do what the variant asks, instead of failing");
+               "write why the gears cannot do what the variant asks, instead of failing");
   options.footer(
       "Example:\n"
       "  gear-variant --params $(ls out/studies/damping-torque-relief/variants/*/*.toml | head -n 1) --body pinion=out/parker2000/pinion/body.h5 --body wheel=out/parker2000/wheel/body.h5 --output variant.h5");
@@ -55,17 +56,26 @@ void body(int argc, char** argv) {
   const whine::NamedFiles files("--body", bodies);
   const whine::Provenance provenance = whine::made_by(argc, argv, files.and_inputs({"params=" + params}));
   whine::VariantParameters settings = whine::read_variant_parameters(params);
-  const auto [first, second] = whine::read_bodies(files, settings.statics);
-  if (!settings.directions.empty()) whine::as_drawn(settings.motion, {first.inertia, second.inertia});
-  whine::VariantResult result = whine::variant_parameters(first, second, settings);
+  std::vector<whine::ReducedBody> gears;
+  whine::VariantResult result;
+  if (settings.of_train()) {
+    gears = whine::read_bodies(files, settings.train);
+    result = whine::variant_parameters(settings);
+  } else {
+    for (const whine::ReducedBody& gear : whine::read_bodies(files, settings.statics)) gears.push_back(gear);
+    if (!settings.directions.empty()) whine::as_drawn(settings.motion, {gears[0].inertia, gears[1].inertia});
+    result = whine::variant_parameters(gears[0], gears[1], settings);
+  }
   std::vector<whine::Remark> remarks;
   try {
     std::optional<whine::Progress> progress;
+    const auto report = [&](long done, long total, const std::string& note) {
+      if (!progress) progress.emplace("gear-variant", total);
+      progress->update(done, note);
+    };
     const whine::VariantResponse quantities =
-        whine::variant_response(first, second, settings, [&](long done, long total, const std::string& note) {
-          if (!progress) progress.emplace("gear-variant", total);
-          progress->update(done, note);
-        });
+        settings.of_train() ? whine::variant_response(gears, settings, report)
+                            : whine::variant_response(gears[0], gears[1], settings, report);
     result.quantity = quantities.quantity;
     remarks = quantities.remarks;
   } catch (const whine::Error& error) {
@@ -78,8 +88,8 @@ void body(int argc, char** argv) {
   if (!result.rejection.empty())
     whine::log_line("gear-variant: warning: outside the model's range: ", result.rejection, " -> ", output);
   else
-    whine::log_line("gear-variant: ", result.torque, " N m, ", result.quantity.size(),
-                    " response quantities -> ", output);
+    whine::log_line("gear-variant: ", settings.of_train() ? "" : whine::text(result.torque, " N m, "),
+                    result.quantity.size(), " response quantities -> ", output);
   const std::string name = remarks.empty() ? "" : name_in(plan, params);
   for (const whine::Remark& remark : remarks)
     whine::log_line("gear-variant: ", remark.warning ? "warning: " : "", name.empty() ? params + ": " : name,

@@ -261,7 +261,8 @@ bool SystemDynamics::record(const Position& position, int sample, Period& period
   period.friction_coupling = std::max(period.friction_coupling, certificate_.coupling);
   for (int b = 0; b < static_cast<int>(radius_.size()); ++b) {
     turned_[b] = radius_[static_cast<size_t>(b)] * coordinates_.rotation_of(b, z_);
-    shifted_.col(b) = coordinates_.translation_of(b, z_);
+    shifted_.col(b) =
+        coordinates_.translation_of(b, z_) + offset_of(system_.layout.bodies[static_cast<size_t>(b)]);
   }
   bool inside = true;
   for (int m = 0; m < meshes(); ++m) {

@@ -427,7 +427,8 @@ void SystemDynamics::set_hunting_gaps(const std::vector<SystemPosition>& placed)
         const MeshPosition& position = at.mesh[static_cast<size_t>(m)];
         Eigen::Map<VectorXd>(to, position.strips()) =
             flank_gaps(system_.mesh[static_cast<size_t>(m)], position,
-                       mesh_instant(system_, m, at.phase, period).period);
+                       mesh_instant(system_, m, at.phase, period).period) +
+            (at.gap(at.strips_of(m)) - position.gap);  // of position errors
         to += position.strips();
       }
 }

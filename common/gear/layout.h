@@ -18,6 +18,11 @@ Vec2 line_of_action(const System::Mesh& mesh);
 // Displacement of the axis P of a planet per unit u = r theta of its carrier, theta x (P - C) / r: a tangent of the circle of the pins.
 Vec2 pin_direction(const System& system, const System::Body& planet);
 
+// m: position error of the axis of a body.
+inline Vec2 offset_of(const System::Body& body) {
+  return {body.offset[0], body.offset[1]};
+}
+
 // A mesh of a planet moves with its carrier: by how much a unit u of the carrier closes it along the line of action.
 struct CarriedMesh {
   int carrier = -1;  // number of the body; -1: no side of the mesh is on a carrier

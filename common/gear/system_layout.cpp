@@ -68,6 +68,7 @@ class Layout {
       }
     }
     take_carriers();
+    take_pins();
     take_drives();
     return std::move(system_);
   }
@@ -310,6 +311,27 @@ class Layout {
       if (placed(gear.name) < 0 && carrier_of(gear.name) < 0)
         reject("mesh", 0, "[gear.", gear.name,
                "] is in no [[mesh]]; take it out, or give its mesh: ", kOneShaft);
+  }
+
+  void take_pins() {
+    for (size_t p = 0; p < scene_.pins.size(); ++p) {
+      const SystemScene::Pin& pin = scene_.pins[p];
+      std::string planets;
+      for (const System::Body& body : system_.bodies)
+        if (body.on != System::kGround) planets += (planets.empty() ? "" : ", ") + body.name;
+      const int number = placed(pin.planet);
+      if (number < 0 || system_.bodies[static_cast<size_t>(number)].on == System::kGround)
+        reject("pin", p, "'planet' in [[pin]] = '", pin.planet, "' names no planet",
+               planets.empty() ? "; the scene has none" : "; there are " + planets);
+      for (size_t other = 0; other < p; ++other)
+        if (scene_.pins[other].planet == pin.planet)
+          reject("pin", p, "'", pin.planet, "' has a [[pin]] already; give each planet one");
+      System::Body& planet = system_.bodies[static_cast<size_t>(number)];
+      const System::Body& carrier = system_.bodies[static_cast<size_t>(planet.on)];
+      const double x = (planet.centre[0] - carrier.centre[0]) / carrier.radius,
+                   y = (planet.centre[1] - carrier.centre[1]) / carrier.radius;
+      planet.offset = {x * pin.radial - y * pin.tangential, y * pin.radial + x * pin.tangential};
+    }
   }
 
   void take_drives() {

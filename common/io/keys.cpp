@@ -1,6 +1,7 @@
 #include "io/keys.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <set>
 #include <sstream>
@@ -17,6 +18,7 @@ const KeyList& scene_keys() {
     Scene scene;
     SystemScene::Mesh mesh;
     SystemScene::Carrier carrier;
+    SystemScene::Pin pin;
     SystemScene::Drive drive;
   } v;
   static const KeyList list = [] {
@@ -42,6 +44,7 @@ const KeyList& scene_keys() {
                                 equivalent_mass_key(v.gear.equivalent_mass),
                                 keys(v.mesh),
                                 keys(v.carrier),
+                                keys(v.pin),
                                 keys(v.drive)})
       all.append(some);
     return all;
@@ -51,7 +54,8 @@ const KeyList& scene_keys() {
 
 bool of_systems(const Key& key) {
   const std::string section(key.section);
-  return section == "rigid_gear" || section == "train_mesh" || section == "carrier" || section == "drive";
+  return section == "rigid_gear" || section == "train_mesh" || section == "carrier" || section == "pin" ||
+         section == "drive";
 }
 
 bool of_pairs(const Key& key) {
@@ -61,6 +65,11 @@ bool of_pairs(const Key& key) {
 }
 
 namespace {
+
+constexpr std::array kLists{"mesh", "bearing", "carrier", "pin", "drive"};
+bool in_list(const std::string& path) {
+  return std::find(kLists.begin(), kLists.end(), path) != kLists.end();
+}
 
 // "gear.<name>.crack".
 std::string path_of(const Key& key) {
@@ -74,7 +83,7 @@ std::string scene_place_of(const Key& key, const std::string& owner) {
   std::string path = path_of(key);
   if (path.empty()) return key.name;
   if (const auto name = path.find("<name>"); name != std::string::npos) path.replace(name, 6, owner);
-  if (path == "bearing" && !owner.empty()) path += "." + owner;
+  if (in_list(path) && !owner.empty()) path += "." + owner;
   return path + "." + key.name;
 }
 
@@ -82,14 +91,13 @@ std::string scene_place_of(const Key& key, const std::string& owner) {
 
 std::string heading_of(const Key& key) {
   const std::string path = path_of(key);
-  for (const char* list : {"mesh", "bearing", "carrier", "drive"})
-    if (path == list) return "[[" + path + "]]";
+  if (in_list(path)) return "[[" + path + "]]";
   return path.empty() ? "(top)" : "[" + path + "]";
 }
 
 KeyPlace find_key(const std::string& name) {
   std::string owner;
-  for (const char* group : {"gear.", "material.", "bearing."})
+  for (const char* group : {"gear.", "material.", "mesh.", "bearing.", "carrier.", "pin.", "drive."})
     if (name.rfind(group, 0) == 0) {
       const auto from = std::string(group).size(), to = name.find('.', from);
       if (to != std::string::npos) owner = name.substr(from, to - from);

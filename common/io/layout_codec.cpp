@@ -1,5 +1,6 @@
 #include "io/layout_codec.h"
 
+#include <algorithm>
 #include <optional>
 #include <type_traits>
 
@@ -88,6 +89,17 @@ void describe_layout(Codec& c, System& s, const LayoutPlace& place) {
   describe_columns(c, place, "body", s.bodies, {"name", "is_carrier", "teeth", "sense", "stands_on"});
   describe_two<MatrixRM>(c, {place.group + "/body/centre", "m", "place of the axis", body + " xy", kPlace},
                          s.bodies, [](System::Body& body, size_t k) -> double& { return body.centre[k]; });
+  const bool off = std::any_of(s.bodies.begin(), s.bodies.end(), [](const System::Body& own) {
+    return own.offset != std::array{0.0, 0.0};
+  });
+  if (c.optional(place.group + "/body/offset", off))
+    describe_two<MatrixRM>(c,
+                           {place.group + "/body/offset",
+                            "m",
+                            "position error of the axis, left out where there are none",
+                            body + " xy",
+                            {-1e-3, 1e-3}},
+                           s.bodies, [](System::Body& own, size_t k) -> double& { return own.offset[k]; });
   describe_columns(c, place, "body", s.bodies,
                    {"angle", "radius", "inertia", "bearing_mass", "bearing_stiffness", "bearing_damping"});
   describe_holds(c, place, s);

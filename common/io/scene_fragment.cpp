@@ -106,6 +106,9 @@ std::string system_fragment(const SystemScene& scene, const System& layout, cons
   if (!able.elastic) return out.words();
   out.gears(bodies, {input_torque(layout)});
   out.yes_or_no("MOVES", able.moves);
+  std::string meshes;
+  for (size_t m = 0; m < layout.meshes.size(); ++m) meshes += (m > 0 ? " " : "") + mesh_name(layout, m);
+  out("MESHES", meshes);
   return out.words();
 }
 

@@ -16,14 +16,22 @@ struct SystemGoal {
   Needs needs;
   bool of_pairs;
 };
-constexpr std::array kSystemGoals{
-    SystemGoal{"report", Needs::nothing, true},       SystemGoal{"mesh", Needs::elastic_gears, true},
-    SystemGoal{"reduce", Needs::elastic_gears, true}, SystemGoal{"static", Needs::elastic_gears, true},
-    SystemGoal{"sweep", Needs::speeds, true},         SystemGoal{"impact", Needs::speeds, true},
-    SystemGoal{"branches", Needs::speeds, true},      SystemGoal{"order-cuts", Needs::speeds, true},
-    SystemGoal{"runup", Needs::speeds, true},         SystemGoal{"sound", Needs::speeds, true},
-    SystemGoal{"teeth", Needs::elastic_gears, true},  SystemGoal{"load-sharing", Needs::planets, true},
-    SystemGoal{"modes", Needs::nothing, false},       SystemGoal{"mode-shapes", Needs::nothing, false}};
+constexpr std::array kSystemGoals{SystemGoal{"report", Needs::nothing, true},
+                                  SystemGoal{"mesh", Needs::elastic_gears, true},
+                                  SystemGoal{"reduce", Needs::elastic_gears, true},
+                                  SystemGoal{"static", Needs::elastic_gears, true},
+                                  SystemGoal{"sweep", Needs::speeds, true},
+                                  SystemGoal{"impact", Needs::speeds, true},
+                                  SystemGoal{"branches", Needs::speeds, true},
+                                  SystemGoal{"order-cuts", Needs::speeds, true},
+                                  SystemGoal{"runup", Needs::speeds, true},
+                                  SystemGoal{"sound", Needs::speeds, true},
+                                  SystemGoal{"teeth", Needs::elastic_gears, true},
+                                  SystemGoal{"load-sharing", Needs::planets, true},
+                                  SystemGoal{"harris-map", Needs::elastic_gears, true},
+                                  SystemGoal{"compare", Needs::elastic_gears, true},
+                                  SystemGoal{"modes", Needs::nothing, false},
+                                  SystemGoal{"mode-shapes", Needs::nothing, false}};
 
 bool has(const SceneAbilities& system, Needs needs) {
   return needs == Needs::nothing ||
@@ -81,10 +89,6 @@ void check_goals(const std::vector<std::string>& goals, const SceneAbilities& sc
       if (goal == "teeth") check_teeth(scene, which);
       continue;
     }
-    if (goal == "compare")
-      fail(
-          Failure::input, "SCENES: ", path,
-          " is a system of several meshes, and compare sets pairs side by side; `make SCENE=... report` of each makes their own pages");
     const char* const lacks =
         known == kSystemGoals.end() ? "a system of several meshes, carriers or drives"
         : has(scene, known->needs)  ? ""

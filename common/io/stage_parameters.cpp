@@ -9,6 +9,7 @@
 #include "io/section_reader.h"
 #include "io/stage_parameters_text.h"
 #include "io/study.h"
+#include "io/system_scene.h"
 
 namespace whine {
 namespace {
@@ -159,6 +160,11 @@ std::string variant_stage_parameters(const Scene& scene, double torque,
   return out.text();
 }
 
+std::string variant_stage_parameters(const StudyVariant& variant, const std::vector<Direction>& directions) {
+  return variant.train ? system_variant_parameters(*variant.train, variant.layout, directions)
+                       : variant_stage_parameters(variant.scene, variant.torque, directions);
+}
+
 std::string body_hash(const std::string& settings) {
   return sha256(settings).substr(0, 16);
 }
@@ -202,6 +208,7 @@ StaticParameters read_static_parameters(const std::string& path) {
 }
 
 VariantParameters read_variant_parameters(const std::string& path) {
+  if (is_system_scene(path)) return read_system_variant_parameters(path);
   const Source source(path, "a variant's stage parameters are written by: make study STUDY=<name>");
   StageParameters in(source);
   std::vector<double> torques;

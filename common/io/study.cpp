@@ -14,10 +14,12 @@
 
 #include "base/error.h"
 #include "base/key_error.h"
+#include "gear/system_layout.h"
 #include "io/keys.h"
 #include "io/publish.h"
 #include "io/section_reader.h"
 #include "io/suggestion.h"
+#include "io/system_scene.h"
 #include "io/toml.h"
 #include "io/variant.h"
 
@@ -27,7 +29,11 @@ namespace {
 using Words = std::vector<std::string>;
 
 constexpr int kMostPanels = 4;
-constexpr const char* kTorque = "torque_Nm";
+
+// The torque of a pair, which is one of a list in its scene.
+bool is_torque(const Key& key) {
+  return key.section == std::string("operation") && key.called("torque_Nm");
+}
 
 bool among(const std::string& word, const Words& words) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -301,6 +307,20 @@ void read_fixed(const StudyFile& file, const toml::table& table, const std::stri
   }
 }
 
+// Of the scene with [set].
+TrainNames names_in_train(const StudyFile& file, const Study& study) {
+  Words changes;
+  for (const auto& [name, value] : study.fixed) changes.push_back(name + "=" + value);
+  const SystemScene scene = read_system_variant_of(study.scene, scene_variant(study.scene, changes));
+  const toml::node& at = *file.root().get("scene");
+  if (scene.rigid())
+    file.reject(at, study.scene,
+                " is a train of rigid gears, which have natural modes alone; a study is of elastic gears");
+  if (!study.directions.empty() && scene.operation.frequency_to == 0)
+    file.reject(at, study.scene, " has no [operation] with mesh_frequency_Hz, which stage = \"sweep\" needs");
+  return train_names(static_parameters_of(scene, layout_of(scene)));
+}
+
 void read_compared(const StudyFile& file, const toml::node& node, Study& study) {
   if (const toml::array* list = node.as_array())
     for (const toml::node& item : *list)
@@ -392,7 +412,7 @@ VariedKey varied_key(const std::string& name) {
   VariedKey out;
   out.name = name;
   out.whole = std::holds_alternative<int*>(slot);
-  out.number = out.whole || std::holds_alternative<double*>(slot) || std::string(key.name) == kTorque;
+  out.number = out.whole || std::holds_alternative<double*>(slot) || is_torque(key);
   out.units = out.number ? key.unit.si : "1";
   out.meaning = key.meaning;
   const std::string suffix(key.unit.suffix), owner = find_key(name).owner;
@@ -460,7 +480,7 @@ Study read_study(const std::string& path) {
                          study.keys[k].line);
     // A torque of [set] is the one that sets the bearing dampers.
     for (const KeyPlace& other : fixed)
-      if (overlap(place, other) && place.key->name != std::string(kTorque))
+      if (overlap(place, other) && !is_torque(*place.key))
         file.reject_line(key.line, "'", key.name, "' varies and is in [set]; leave one of them out");
     varied.push_back(place);
     study.keys.push_back(key);
@@ -480,8 +500,15 @@ Study read_study(const std::string& path) {
   if (study.variants == 1 && !study.random)
     file.reject(*vary, "the study varies nothing: every key has one value only");
 
+  if (is_system_scene(study.scene)) study.train = names_in_train(file, study);
+  for (size_t k = 0; k < study.keys.size() && !study.train.empty(); ++k)
+    if (is_torque(*varied[k].key))
+      file.reject_line(
+          study.keys[k].line, "'", study.keys[k].name,
+          "' is of pairs: the torques of a train are those of [[drive]]; write key = \"drive.<gear>.torque_Nm\"");
   Words known;
-  for (const ResponseQuantity& kind : response_quantities(study.directions)) known.push_back(kind.name);
+  for (const ResponseQuantity& kind : response_quantities(study.directions, study.train))
+    known.push_back(kind.name);
   study.quantities = file.words(root, "quantities", known, known, "response quantity of this stage");
   read_figure(file, study);
   if (const toml::node* marked = root.get("compare")) read_compared(file, *marked, study);
@@ -527,7 +554,7 @@ StudyVariant study_variant(const Study& study, long index, const std::vector<std
   for (const auto& [name, value] : study.fixed) changes.push_back(name + "=" + value);
   for (size_t k = 0; k < values.size(); ++k) {
     const Key& key = *find_key(study.keys[k].name).key;
-    if (key.name != std::string(kTorque)) {
+    if (!is_torque(key)) {
       changes.push_back(study.keys[k].name + "=" + values[k]);
       continue;
     }
@@ -537,8 +564,14 @@ StudyVariant study_variant(const Study& study, long index, const std::vector<std
            ": the torque must be greater than ", key.limits.least, ", at most ", key.limits.most, " N m");
   }
   try {
-    const Scene scene = read_variant_of(study.scene, scene_variant(study.scene, changes));
-    return {scene, torque > 0 ? torque : scene.operation.torques.front()};
+    const std::string variant = scene_variant(study.scene, changes);
+    if (!study.train.empty()) {
+      SystemScene train = read_system_variant_of(study.scene, variant);
+      System layout = layout_of(train);
+      return {{}, 0, std::move(train), std::move(layout)};
+    }
+    const Scene scene = read_variant_of(study.scene, variant);
+    return {scene, torque > 0 ? torque : scene.operation.torques.front(), std::nullopt, {}};
   } catch (const Error& error) {
     // The line of the key that the error is about, if it varies.
     std::string line;

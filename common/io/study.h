@@ -12,7 +12,8 @@
 //   [set]                                     # values that all variants have instead of the scene's
 //   "fidelity.contact" = "line"
 //   [[vary]]                                  # one for each key that varies
-//   key = "damping.rayleigh_stiffness_s"      # alone in all gears, or by its place, as in variant.h
+//   key = "damping.rayleigh_stiffness_s"      # alone in all gears, or by its place, as in variant.h; of trains also
+//                                             # drive.sun.torque_Nm, pin.planet2.tangential_um, mesh.sun-planet.corner_contact
 //   values = [4.0e-6, 5.5e-6]                 # or from, to with step or count; in a sample also from, to alone (uniform), or
 //                                             # mean, deviation (normal), redrawn outside `least` and `most`
 //   [figure]                                  # default: the first response quantities against the first keys
@@ -20,6 +21,7 @@
 //   keys = ["damping.rayleigh_stiffness_s"]   # one column of panels each, 4 at most
 //   colour = "operation.torque_Nm"
 #pragma once
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,6 +55,7 @@ VariedKey varied_key(const std::string& name);
 // What all of a study's stages know of it.
 struct StudyPlan {
   std::string title, scene;           // scene: its path
+  TrainNames train;                   // what the quantities are of; empty: the scene is a pair
   std::vector<Direction> directions;  // of sweeps; none: the pair at rest
   bool random = false;                // a sample, else a grid
   int seed = 1;
@@ -70,7 +73,7 @@ struct Study : StudyPlan {
   std::vector<long> compared;  // numbers of the two variants to be compared, from 0 on; or none
 };
 
-// Reads and checks a study; opens no other file. Error(input) names file:line, key, value and limit, for an unknown key,
+// Reads and checks a study; of a train also its scene, with [set], whose meshes the quantities are of. Error(input) names file:line, key, value and limit, for an unknown key,
 // section or answer the nearest known one; so for a study that varies nothing, an empty range, a key or a value given twice, a
 // torque that no path can hold, more than kMostVariants variants.
 Study read_study(const std::string& path);
@@ -84,9 +87,11 @@ std::vector<std::string> design_changes(const Study& study, size_t which);
 std::vector<std::string> variant_values(const Study& study, long index);
 
 struct StudyVariant {
-  Scene scene;
+  Scene scene;  // of a pair
   double torque =
-      0;  // N m: the one that varies, else the scene's first, which sets the bearing dampers in any case
+      0;  // N m: the one that varies, else the scene's first, which sets the bearing dampers anyway
+  std::optional<SystemScene> train;
+  System layout;  // of the train
 };
 
 // The scene of variant `index`, whose values these are. Error(input) names study, variant and values, for whatever
@@ -120,6 +125,7 @@ std::string variant_file(const std::string& name);
 // As the stage parameters of scene.h.
 std::string variant_stage_parameters(const Scene& scene, double torque,
                                      const std::vector<Direction>& directions);
+std::string variant_stage_parameters(const StudyVariant& variant, const std::vector<Direction>& directions);
 VariantParameters read_variant_parameters(const std::string& path);
 
 }  // namespace whine

@@ -27,6 +27,12 @@ void describe_plan(Codec& c, StudyPlan& plan) {
   const std::string at = "/parameters/study/";
   c(plan.title, at + "title", "", "what the study is");
   c(plan.scene, at + "scene", "", "scene whose variants these are");
+  if (c.optional(at + "train_mesh", !plan.train.empty())) {
+    c(plan.train.meshes, at + "train_mesh", "train_mesh", "meshes of the train");
+    c(plan.train.bodies, at + "train_body", "train_body", "its bodies");
+    if (c.optional(at + "train_shared", !plan.train.shared.empty()))
+      c(plan.train.shared, at + "train_shared", "train_shared", "its [[mesh]] of several planets");
+  }
   c(plan.directions, at + "directions", "", "directions of the sweeps; none: at rest");
   std::string kind = plan.random ? "sample" : "grid";
   c(kind, at + "plan", "", "all combinations, or random ones");
@@ -80,7 +86,7 @@ void describe(Codec& c, StudyResult& a) {
   if (c.in())
     for (const std::string& name : names) a.variants.push_back({name, {}});
   for (std::size_t k = 0; k < a.plan.keys.size(); ++k) describe_values(c, a, k);
-  const std::vector<ResponseQuantity> kinds = response_quantities(a.plan.directions);
+  const std::vector<ResponseQuantity> kinds = response_quantities(a.plan.directions, a.plan.train);
   const auto quantities = static_cast<Eigen::Index>(a.plan.quantities.size());
   for (const ResponseQuantity& kind : kinds) {
     const auto found = std::find(a.plan.quantities.begin(), a.plan.quantities.end(), kind.name);
@@ -98,10 +104,13 @@ void describe(Codec& c, StudyResult& a) {
     if (std::find(a.plan.quantities.begin(), a.plan.quantities.begin() + static_cast<std::ptrdiff_t>(q),
                   a.plan.quantities[q]) != a.plan.quantities.begin() + static_cast<std::ptrdiff_t>(q))
       c.in()->reject("names the response quantity '" + a.plan.quantities[q] + "' twice");
+  std::string known;
+  for (const ResponseQuantity& kind : kinds) known += " " + kind.name;
   if (c.in())
     for (const std::string& name : a.plan.quantities)
       if (std::none_of(kinds.begin(), kinds.end(), [&](const ResponseQuantity& k) { return k.name == name; }))
-        c.in()->reject("names the response quantity '" + name + "', which no variant gives");
+        c.in()->reject(text("dataset /parameters/study/quantity holds '", name,
+                            "', which no variant gives; it is one of:", known));
   Eigen::VectorXi rejected(static_cast<Eigen::Index>(a.rejection.size()));
   for (Eigen::Index v = 0; v < rejected.size(); ++v) rejected[v] = a.rejection[v].empty() ? 0 : 1;
   c(rejected, "/outside_model", "1", kFlag, "variant",

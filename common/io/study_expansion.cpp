@@ -12,7 +12,9 @@
 #include "io/provenance.h"
 #include "io/publish.h"
 #include "io/scene.h"
+#include "io/system_scene.h"
 #include "results/variant.h"
+#include "system/system_rest.h"
 
 namespace whine {
 namespace {
@@ -35,13 +37,45 @@ void add_probes(const Study& study, std::vector<GatheredVariant>& variants) {
         values[k] = variants[(i + j) % count].values[k];
       try {
         const StudyVariant probe = study_variant(study, static_cast<long>(i), values);
-        variants.push_back(
-            {body_hash(variant_stage_parameters(probe.scene, probe.torque, study.directions)), values});
+        variants.push_back({body_hash(variant_stage_parameters(probe, study.directions)), values});
       } catch (const Error&) {
         // The values do not go together; so the key matters.
         variants.push_back({"", values});
       }
     }
+}
+
+// Gears and the stage parameters of their bodies; of a pair the driver first.
+BodySettings bodies_of(const StudyVariant& variant) {
+  if (variant.train) return body_parameters_of(*variant.train);
+  BodySettings out;
+  for (const std::string& gear : variant.scene.mesh.gear)
+    out.emplace_back(gear, body_parameters(variant.scene, gear));
+  return out;
+}
+
+// Where variants outside the model's range are marked their stage checks the inertias.
+void check_variant(const StudyVariant& variant, const Study& study, const ScenePlace& where) {
+  const bool inertia = !study.directions.empty() && !study.marks_outside;
+  if (!variant.train) {
+    check_geometry(variant.scene, where);
+    if (inertia) check_inertia(variant.scene, where);
+    return;
+  }
+  check_system_geometry(*variant.train, where);
+  if (inertia) check_inertia(*variant.train, where);
+  try {
+    check_at_rest(*variant.train, variant.layout);
+  } catch (const SystemSceneError& error) {
+    fail(Failure::input, where({}, ""), ": ", error.what());
+  }
+}
+
+void require_one_train(const StudyVariant& variant, const Study& study, const std::string& where) {
+  if (variant.train && train_names(static_parameters_of(*variant.train, variant.layout)) != study.train)
+    fail(
+        Failure::input, where,
+        ": the study varies which gears mesh; its quantities are of the meshes of the scene, so make a study of each");
 }
 
 }  // namespace
@@ -52,26 +86,22 @@ ExpandedStudy expand_study(const std::string& path, const std::string& home) {
   for (long i = 0; i < study.variants; ++i) {
     const std::vector<std::string> values = variant_values(study, i);
     const StudyVariant variant = study_variant(study, i, values);
-    const std::string own = variant.scene.mesh.gear[0] + " " + variant.scene.mesh.gear[1];
+    const std::string name = path + ": " + variant_name(study, i, values);
+    require_one_train(variant, study, name);
+    std::string own, pair;
+    for (const auto& [gear, body] : bodies_of(variant)) {
+      own += (own.empty() ? "" : " ") + gear;
+      pair += (pair.empty() ? "" : "_") + plan.bodies.emplace(body_hash(body), body).first->first;
+    }
     if (!plan.gears.empty() && own != plan.gears)
       fail(Failure::input, path, ": the study varies which gear drives which (", plan.gears, ", ", own,
            "); make a study of each");
     plan.gears = own;
-    std::string pair;
-    for (const std::string& gear : variant.scene.mesh.gear) {
-      const std::string body = body_parameters(variant.scene, gear);
-      pair += (pair.empty() ? "" : "_") + plan.bodies.emplace(body_hash(body), body).first->first;
-    }
-    const std::string settings = variant_stage_parameters(variant.scene, variant.torque, study.directions);
+    const std::string settings = variant_stage_parameters(variant, study.directions);
     // One whose stage parameters are there has been checked before.
-    if (!holds(home + variant_file(body_hash(settings)) + ".toml", settings)) {
-      const auto where = [&](const std::vector<std::string>&, const std::string&) {
-        return path + ": " + variant_name(study, i, values);
-      };
-      check_geometry(variant.scene, where);
-      // Where variants outside the model's range are marked its stage does so.
-      if (!study.directions.empty() && !study.marks_outside) check_inertia(variant.scene, where);
-    }
+    if (!holds(home + variant_file(body_hash(settings)) + ".toml", settings))
+      check_variant(variant, study,
+                    [&](const std::vector<std::string>&, const std::string&) { return name; });
     plan.variants.push_back({body_hash(settings), values});
     if (plan.parameters.emplace(plan.variants.back().name, settings).second)
       plan.of_pair[pair].push_back(plan.variants.back().name);
@@ -97,11 +127,12 @@ std::string study_fragment(const ExpandedStudy& plan, const std::string& path, c
   for (const auto& [hash, text] : plan.bodies) out << " " << hash;
   out << "\n";
   for (const auto& [pair, names] : plan.of_pair) {
-    const std::string driver = pair.substr(0, pair.find('_')), driven = pair.substr(pair.find('_') + 1);
-    out << "$(" << prefix << pair << ":%=out/studies/" << stem << "/%.h5): %.h5: %.toml $(sort out/bodies/"
-        << driver << "/body.h5 out/bodies/" << driven
-        << "/body.h5) $(call id,gear-variant) | $(B)/bin/gear-variant\n\t$(call of_variant," << stem << ","
-        << driver << "," << driven << ")\n";
+    std::string hashes = pair;
+    std::replace(hashes.begin(), hashes.end(), '_', ' ');
+    out << "$(" << prefix << pair << ":%=out/studies/" << stem
+        << "/%.h5): %.h5: %.toml $(patsubst %,out/bodies/%/body.h5,$(sort " << hashes
+        << ")) $(call id,gear-variant) | $(B)/bin/gear-variant\n\t$(call of_variant," << stem << "," << hashes
+        << ")\n";
   }
   return out.str();
 }
@@ -117,7 +148,7 @@ GatheredStudy gather_study(const std::string& path) {
   StudyResult& study = gathered.study;
   std::tie(study.plan, study.variants) = read_plan(path);
   const std::string home = std::filesystem::path(path).parent_path().string() + "/";
-  const std::vector<ResponseQuantity> kinds = response_quantities(study.plan.directions);
+  const std::vector<ResponseQuantity> kinds = response_quantities(study.plan.directions, study.plan.train);
   std::vector<Eigen::Index> column;
   for (const std::string& quantity : study.plan.quantities)
     column.push_back(std::find_if(kinds.begin(), kinds.end(),
@@ -129,7 +160,7 @@ GatheredStudy gather_study(const std::string& path) {
   for (size_t v = 0; v < study.variants.size(); ++v) {
     const std::string file = home + variant_file(study.variants[v].name) + ".h5";
     const VariantResult variant = read<VariantResult>(file);
-    if (variant.directions != study.plan.directions)
+    if (variant.directions != study.plan.directions || variant.names != study.plan.train)
       fail(Failure::input, file, ": is of another stage than the study; ", rebuild_advice(file));
     study.rejection.push_back(variant.rejection);
     // Marked when the study said so; its file is up to date, so nobody but this asks again.

@@ -13,8 +13,8 @@ struct ExpandedStudy {
   Study study;
   std::vector<GatheredVariant> variants;
   std::map<std::string, std::string> bodies, parameters;    // by hash
-  std::map<std::string, std::vector<std::string>> of_pair;  // "driver_driven" -> variants, each once
-  std::string gears;  // driver and driven gear, the order of a pair's bodies
+  std::map<std::string, std::vector<std::string>> of_pair;  // bodies "driver_driven" -> variants, each once
+  std::string gears;                                        // whose bodies these are, in this order
 };
 
 // Reads a study and checks it whole. home: folder of the study's stage parameters, where one that is there has been checked
@@ -22,8 +22,8 @@ struct ExpandedStudy {
 // which gear drives.
 ExpandedStudy expand_study(const std::string& path, const std::string& home);
 
-// The make fragment of a study S: STUDY_S_PAIRS (driver_driven, hashes of bodies), STUDY_S_<pair> (variants), STUDY_S_GEARS (names of driver
-// and driven gear), STUDY_S_OPTIONS, BODIES, a rule for the variants of each pair. stem: name of the study's file without folder and extension.
+// The make fragment of a study S: STUDY_S_PAIRS (hashes of the bodies of all gears, joined by _), STUDY_S_<pair> (variants), STUDY_S_GEARS (names of
+// the gears in that order), STUDY_S_OPTIONS, BODIES, a rule for the variants of each pair. stem: name of the study's file without folder and extension.
 std::string study_fragment(const ExpandedStudy& plan, const std::string& path, const std::string& stem);
 
 // Keys that change nothing that the study computes, as far as its variants, and for a sample some more, show.

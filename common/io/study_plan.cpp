@@ -55,9 +55,14 @@ std::string plan_text(const StudyPlan& study, const std::vector<GatheredVariant>
   Words names, directions;
   for (const VariedKey& key : study.keys) names.push_back(key.name);
   for (const Direction direction : study.directions) directions.push_back(name_of(direction));
+  const auto of_train = [&](const char* key, const Words& list) {
+    return study.train.empty() ? "" : "\n" + std::string(key) + " = " + quoted(list);
+  };
   out << kPlanStart << "\ntitle = " << quoted(study.title) << "\nscene = " << quoted(study.scene)
-      << "\ndirections = " << quoted(directions) << "\nrandom = " << (study.random ? "true" : "false")
-      << "\nseed = " << study.seed << "\nmarks_outside_model = " << (study.marks_outside ? "true" : "false")
+      << of_train("train_meshes", study.train.meshes) << of_train("train_bodies", study.train.bodies)
+      << of_train("train_shared", study.train.shared) << "\ndirections = " << quoted(directions)
+      << "\nrandom = " << (study.random ? "true" : "false") << "\nseed = " << study.seed
+      << "\nmarks_outside_model = " << (study.marks_outside ? "true" : "false")
       << "\nquantities = " << quoted(study.quantities) << "\nkeys = " << quoted(names)
       << "\nfigure_quantities = " << quoted(study.figure_quantities)
       << "\nfigure_keys = " << quoted(study.figure_keys)
@@ -90,6 +95,8 @@ std::pair<StudyPlan, std::vector<GatheredVariant>> read_plan(const std::string& 
   StudyPlan plan;
   plan.title = root["title"].value_or(std::string());
   plan.scene = root["scene"].value_or(std::string());
+  if (const toml::node* meshes = root.get("train_meshes"))
+    plan.train = {words(meshes), words(root.get("train_bodies")), words(root.get("train_shared"))};
   const auto directions = choices_in<Direction>(joined(words(root.get("directions")), " "));
   if (!directions) reject();
   plan.directions = *directions;
@@ -108,7 +115,8 @@ std::pair<StudyPlan, std::vector<GatheredVariant>> read_plan(const std::string& 
       return std::find(all.begin(), all.end(), word) != all.end();
     });
   };
-  for (const ResponseQuantity& kind : response_quantities(plan.directions)) quantities.push_back(kind.name);
+  for (const ResponseQuantity& kind : response_quantities(plan.directions, plan.train))
+    quantities.push_back(kind.name);
   for (const VariedKey& key : plan.keys) keys.push_back(key.name);
   if (!within(plan.quantities, quantities) || !within(plan.figure_quantities, plan.quantities) ||
       !within(plan.figure_keys, keys) || (!plan.figure_colour.empty() && !within({plan.figure_colour}, keys)))

@@ -443,15 +443,19 @@ void show(SummaryLines& lines, const HarrisMapResult& a) {
 }
 
 void show(SummaryLines& lines, const VariantResult& a) {
-  show_gear(lines, a.gear[0].design, a.gear[0].discretisation);
-  show_modification(lines, a.mesh);
-  show_friction(lines, a.mesh);
-  add(lines, "torque", a.torque, " N m");
+  if (a.of_train()) {
+    add(lines, "train", a.names.bodies.size(), " bodies, ", a.names.meshes.size(), " meshes");
+  } else {
+    show_gear(lines, a.gear[0].design, a.gear[0].discretisation);
+    show_modification(lines, a.mesh);
+    show_friction(lines, a.mesh);
+    add(lines, "torque", a.torque, " N m");
+  }
   if (!a.directions.empty())
     add(lines, "speeds", a.frequency_from, " to ", a.frequency_to, " Hz, ", a.directions.size(),
         a.directions.size() == 1 ? " direction" : " directions");
   if (!a.rejection.empty()) add(lines, "outside the model's range", a.rejection);
-  const std::vector<ResponseQuantity> kinds = response_quantities(a.directions);
+  const std::vector<ResponseQuantity> kinds = response_quantities(a.directions, a.names);
   for (Eigen::Index i = 0; i < a.quantity.size(); ++i)
     add(lines, kinds[i].name, a.quantity[i], " ", kinds[i].units == "1" ? "" : kinds[i].units);
 }
@@ -465,7 +469,7 @@ void show(SummaryLines& lines, const StudyResult& a) {
       a.plan.random ? ", drawn at random" : ", all combinations", ", ", rejected, " rejected, ",
       (a.unsteady.array() > 0).count(), " with speeds without a periodic motion");
   add(lines, "keys", keys);
-  for (const ResponseQuantity& kind : response_quantities(a.plan.directions)) {
+  for (const ResponseQuantity& kind : response_quantities(a.plan.directions, a.plan.train)) {
     const auto found = std::find(a.plan.quantities.begin(), a.plan.quantities.end(), kind.name);
     if (found == a.plan.quantities.end()) continue;
     double least = HUGE_VAL, most = -HUGE_VAL;

@@ -18,7 +18,8 @@ namespace {
 constexpr StageFile kSystemModes{"params/modes.toml", "the modes of a system"},
     kSystemStatic{"params/static.toml", "the statics of a system"},
     kSystemSweep{"params/sweep.toml", "a sweep of a system"},
-    kSystemImpact{"params/impact.toml", "the ring-down of a system"};
+    kSystemImpact{"params/impact.toml", "the ring-down of a system"},
+    kSystemVariant{"variants/<n>.toml", "a variant of a study of a system"};
 
 }  // namespace
 
@@ -58,6 +59,9 @@ void walk(StageParameters& s, System& layout) {
   s.list("body", layout.bodies);
   s.list("mesh", layout.meshes);
   s.list("drive", layout.drives);
+  for (System::Body& body : layout.bodies)
+    if (const std::string label = "offset_" + body.name; s.has(label, body.offset != std::array{0.0, 0.0}))
+      s(offset_keys(body).labelled(label));
   const Source* const source = s.source();
   if (!source) return;
   if (layout.bodies.empty()) source->reject("lists no [[body]]");
@@ -249,6 +253,29 @@ SystemSweepParameters read_system_sweep_parameters(const std::string& path) {
 
 SystemSweepParameters read_system_impact_parameters(const std::string& path) {
   return read_system_motion(path, kSystemImpact, false);
+}
+
+std::string system_variant_parameters(const SystemScene& scene, const System& layout,
+                                      const std::vector<Direction>& directions) {
+  SystemSweepParameters p = sweep_parameters_of(scene, layout);
+  StageParameters out(kSystemVariant);
+  walk(out, p, directions.empty() ? nullptr : &p, true);
+  std::string words = names_of(directions);
+  out.word("variant", "directions", words);
+  return out.text();
+}
+
+VariantParameters read_system_variant_parameters(const std::string& path) {
+  const Source source = stage_source(path, kSystemVariant);
+  StageParameters in(source);
+  VariantParameters out;
+  std::string words;
+  in.word("variant", "directions", words);
+  const auto directions = choices_in<Direction>(words);
+  if (!directions) source.reject("names the directions '", words, "'; there are up and down");
+  out.directions = *directions;
+  walk(in, out.train, out.directions.empty() ? nullptr : &out.train, true);
+  return out;
 }
 
 std::vector<std::pair<std::string, std::string>> stage_parameters_of(const SystemScene& scene,

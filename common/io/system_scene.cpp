@@ -87,6 +87,16 @@ void take_carriers(const Source& source, SystemScene& scene) {
   }
 }
 
+void take_pins(const Source& source, SystemScene& scene) {
+  for (const toml::table* table : source.list("pin")) {
+    const SectionReader reader(source, *table, "pin", "pin");
+    reader.read_all(keys(scene.pins.emplace_back()));
+    if (scene.rigid())
+      reader.reject(
+          " belongs to elastic gears: natural modes of rigid ones do not depend on where pins stand by micrometres; take it out");
+  }
+}
+
 // What body = "rigid" needs and elastic gears cannot have: `computed` of them.
 void reject_stiffness(const SectionReader& section, bool rigid, const char* computed) {
   if (const toml::node* node = section.node("stiffness_N_um"); node && !rigid)
@@ -215,13 +225,14 @@ bool is_system_scene(const std::string& path) {
   }
 }
 
-SystemScene read_system_scene(const std::string& path) {
-  const Source source(path);
+namespace {
+
+SystemScene system_scene_from(const Source& source) {
   if (source.is_stage_parameters())
     source.reject("holds stage parameters, which gear-scene wrote from a scene; give the scene itself");
   require_one_train(source);
   const SectionReader top(source, source.root(), "", "");
-  top.reject_unknown({"gear", "material", "bearing", "mesh", "carrier", "drive", "friction", "damping",
+  top.reject_unknown({"gear", "material", "bearing", "mesh", "carrier", "pin", "drive", "friction", "damping",
                       "operation", "fidelity", "discretisation"});
   for (const char* name : {"gear", "mesh"})
     if (!source.root().get(name))
@@ -230,18 +241,29 @@ SystemScene read_system_scene(const std::string& path) {
                     "; data/scenes/lin-parker-planetary.toml is an example");
   SystemScene scene;
   top.read(title_key(scene.title));
-  if (scene.title.empty()) scene.title = std::filesystem::path(path).stem().string();
+  if (scene.title.empty()) scene.title = std::filesystem::path(source.path()).stem().string();
   take_fidelity(source, scene);
   take_gears(source, scene);
   double largest = 0;
   for (const SystemScene::Gear& gear : scene.gears) largest = std::max(largest, gear.design.module);
   take_module(keys(scene.damping), largest);
   take_carriers(source, scene);
+  take_pins(source, scene);
   take_meshes(source, scene);
   take_friction(source, scene);
   take_bearings(source, scene);
   take_drives(source, scene);
   return scene;
+}
+
+}  // namespace
+
+SystemScene read_system_scene(const std::string& path) {
+  return system_scene_from(Source(path));
+}
+
+SystemScene read_system_variant_of(const std::string& path, const std::string& variant) {
+  return system_scene_from(Source(path, variant, false));
 }
 
 namespace {

@@ -13,6 +13,8 @@ bool is_system_scene(const std::string& path);
 
 // Errors as read_scene.
 SystemScene read_system_scene(const std::string& path);
+// As read_variant_of() of pairs.
+SystemScene read_system_variant_of(const std::string& path, const std::string& variant);
 
 // layout_of(scene), with file:line of the section that is wrong.
 System layout_in(const SystemScene& scene, const std::string& path);
@@ -43,6 +45,11 @@ SystemSweepParameters read_system_sweep_parameters(const std::string& path);
 // Of its ring-down: the same without speeds, which are 0 when read.
 std::string system_impact_parameters(const SystemSweepParameters& parameters);
 SystemSweepParameters read_system_impact_parameters(const std::string& path);
+
+// Of a variant of a study: those of its statics and, with directions, of its sweeps.
+std::string system_variant_parameters(const SystemScene& scene, const System& layout,
+                                      const std::vector<Direction>& directions);
+VariantParameters read_system_variant_parameters(const std::string& path);
 
 // Names and texts of all stage parameters: of rigid gears of the modes, else of the statics and, with [operation], of the motions.
 std::vector<std::pair<std::string, std::string>> stage_parameters_of(const SystemScene& scene,

@@ -37,6 +37,25 @@ void require_member(const toml::table& members, const std::string& group, const 
        near.empty() ? "" : "; did you mean '" + near + "'?");
 }
 
+// Whose a section of a list is, as the place of a key names it: "sun-planet" of a mesh.
+std::string owner_of(const toml::table& item, const std::string& group) {
+  const auto word = [&](const char* key) { return item[key].value_or(std::string()); };
+  return group == "mesh"      ? word("driver") + "-" + word("driven")
+         : group == "carrier" ? word("name")
+                              : word(group == "pin" ? "planet" : "gear");
+}
+
+// A planet without [[pin]] stands where it should; one is added, and true the result.
+bool add_pin(toml::table& scene, const std::string& planet) {
+  toml::array* pins = scene.get_as<toml::array>("pin");
+  if (!pins && scene.contains("pin")) return false;  // what it is instead is told when the scene is read
+  if (!pins) pins = scene.insert("pin", toml::array{}).first->second.as_array();
+  for (toml::node& item : *pins)
+    if (toml::table* table = item.as_table(); table && owner_of(*table, "pin") == planet) return false;
+  pins->push_back(toml::table{{"planet", planet}});
+  return true;
+}
+
 }  // namespace
 
 std::string scene_variant(const std::string& path, const std::vector<std::string>& changes) {
@@ -59,21 +78,26 @@ std::string scene_variant(const std::string& path, const std::vector<std::string
       continue;
     }
     const bool in_gear = section == "modification" || section == "error" || section == "crack";
-    const std::string group = in_gear ? "gear" : section;
-    const bool in_list = group == "mesh" || group == "bearing",
+    const std::string group = in_gear || section == "rigid_gear" ? "gear"
+                              : section == "train_mesh"          ? "mesh"
+                                                                 : section;
+    const bool in_list = group == "mesh" || group == "bearing" || group == "carrier" || group == "pin" ||
+                         group == "drive",
                has_owner = group == "gear" || group == "material";
     toml::node* node = scene.get(group);
+    if (group == "pin" && !owner.empty() && add_pin(scene, owner)) node = scene.get(group);
     if (!node && (in_list || has_owner))
       fail(Failure::input, path, ": lacks the section [", group, "] of the key '", name, "'");
     if (in_list) {
       bool found = owner.empty();
       if (toml::array* list = node->as_array())
         for (toml::node& item : *list)
-          if (toml::table* table = item.as_table(); table && (owner.empty() || (*table)["gear"] == owner)) {
+          if (toml::table* table = item.as_table();
+              table && (owner.empty() || owner_of(*table, group) == owner)) {
             set(*table, leaf, value);
             found = true;
           }
-      if (!found) fail(Failure::input, path, ": has no [[", group, "]] of the gear '", owner, "'");
+      if (!found) fail(Failure::input, path, ": has no [[", group, "]] of '", owner, "'");
     } else if (has_owner) {
       toml::table* members = node->as_table();
       if (!members) continue;  // what it is instead is told when the scene is read

@@ -10,7 +10,8 @@ namespace whine {
 // The scene file `path` as TOML with every change "key=value" in it; keys as in the table of scene keys, values as in a
 // scene, words with or without quotes. A key alone, "bore_radius_mm", changes in every gear or material that does not take it
 // over by `like`; by its place, "gear.pinion.bore_radius_mm", in that one, as if it were edited there: gears that are `like` it
-// follow. What the values mean is checked when the scene is read. Throws Error(usage) for a change without '=' or a key
+// follow. Of trains: "drive.sun.torque_Nm", "mesh.sun-planet.centre_distance_mm", "carrier.<name>.", "pin.planet2.tangential_um",
+// whose [[pin]] is added where it lacks. What the values mean is checked when the scene is read. Throws Error(usage) for a change without '=' or a key
 // that no scene has, by its nearest known name, Error(input) if the scene is not valid TOML or lacks the section, the gear or
 // the material.
 std::string scene_variant(const std::string& path, const std::vector<std::string>& changes);

@@ -159,8 +159,10 @@ KeyList keys(ContactDiscretisation& contact);
 KeyList keys(TimeDiscretisation& time);
 KeyList keys(SystemScene::Mesh& mesh);  // what a mesh of a system has beside `spec`
 KeyList keys(SystemScene::Carrier& carrier);
+KeyList keys(SystemScene::Pin& pin);
 KeyList keys(SystemScene::Drive& drive);
 KeyList keys(System::Body& body);
+KeyList offset_keys(System::Body& body);  // its position error
 KeyList keys(System::Mesh& mesh);
 KeyList keys(System::Drive& drive);
 

@@ -46,14 +46,6 @@ struct SweepParameters : ImpactParameters {
   TimeDiscretisation time;
 };
 
-// What gear-variant reads: the stage parameters of one variant.
-struct VariantParameters {
-  StaticParameters statics;
-  double torque = 0;                  // N m on the driver
-  std::vector<Direction> directions;  // of sweeps; none: the pair at rest, `motion` is empty
-  SweepParameters motion;             // its reference torque may be another than `torque`
-};
-
 // What a result of a pair says of what it was computed from.
 struct GearPairParameters {
   std::array<BodyParameters, kSides> gear;  // driver, driven

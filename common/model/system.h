@@ -28,6 +28,7 @@ struct System {
     int on = kGround;    // carrier of its axis
     double radius = 0;   // m: base circle of a gear, circle of the pins of a carrier
     double inertia = 0;  // kg m2; of rigid bodies only
+    std::array<double, 2> offset{};  // m: error of position, by which its axis stands beside `centre`
   };
   struct Side {
     int body = 0;

@@ -30,6 +30,14 @@ KeyList keys(SystemScene::Carrier& c) {
   return k;
 }
 
+KeyList keys(SystemScene::Pin& p) {
+  KeyList k("pin");
+  k.add(&p.planet, "planet", kNone, nullptr, {}, "name of the planet: that of the carrier's gear and its number, in the order of the positions from 1, as planet2");
+  k.add(&p.radial, "radial_um", kMicrometre, "0.0", {-1000, 1000}, "position error of its pin, away from the carrier's axis");
+  k.add(&p.tangential, "tangential_um", kMicrometre, "0.0", {-1000, 1000}, "position error of its pin, counter-clockwise about the carrier's axis");
+  return k;
+}
+
 KeyList keys(SystemScene::Drive& d) {
   KeyList k("drive");
   k.add(&d.gear, "gear", kNone, nullptr, {}, "name of the gear or carrier that it acts on; one without a drive is free of torque");
@@ -63,6 +71,13 @@ KeyList keys(System::Body& b) {
   k.add(&b.bearing.stiffness, "bearing_stiffness", kPerMetre, nullptr, kStiff, "radial stiffness of the bearing; 0: rigid");
   k.add(&b.bearing.damping, "bearing_damping", Unit{"", "N s m-1"}, nullptr, kStiff, "radial damping of the bearing");
   k.add(&b.bearing.mass, "bearing_mass", Unit{"", "kg"}, nullptr, kMass, "mass of what moves with the hub; 0: rigid bearing");
+  return k;
+}
+
+KeyList offset_keys(System::Body& b) {
+  KeyList k("offset");
+  k.add(&b.offset[0], "x", kMetre, nullptr, {-1e-3, 1e-3}, "position error of the axis");
+  k.add(&b.offset[1], "y", kMetre, nullptr, {-1e-3, 1e-3}, "position error of the axis");
   return k;
 }
 

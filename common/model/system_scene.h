@@ -23,6 +23,11 @@ struct SystemScene {
     double equivalent_mass = 0;  // kg: I / r^2, in place of inertia, of the same masses; 0: not given
     Bearing bearing = {};
   };
+  // Position error of the pin of one planet, from where the carrier should have it.
+  struct Pin {
+    std::string planet;                 // planet2: the gear of the carrier and a number, from 1
+    double radial = 0, tangential = 0;  // m: away from the carrier's axis; counter-clockwise about it
+  };
   struct Mesh {
     GearMeshSpec spec;  // that of one planet is for all planets
     double direction =
@@ -37,6 +42,7 @@ struct SystemScene {
   std::string title;
   std::vector<Gear> gears;
   std::vector<Carrier> carriers;
+  std::vector<Pin> pins;  // of planets that stand beside their places
   std::vector<Mesh> meshes;
   std::vector<Drive> drives;
   Fidelity fidelity;

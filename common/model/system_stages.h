@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "model/stages.h"
 #include "model/system_scene.h"
 
 namespace whine {
@@ -54,6 +55,17 @@ struct SystemSweepParameters : SystemStaticParameters {
   Damping damping;
   double frequency_from = 0, frequency_to = 0, frequency_step = 0;  // mesh frequency, Hz
   TimeDiscretisation time;
+};
+
+// What gear-variant reads: the stage parameters of one variant.
+struct VariantParameters {
+  StaticParameters statics;
+  double torque = 0;                  // N m on the driver
+  std::vector<Direction> directions;  // of sweeps; none: the pair at rest, `motion` is empty
+  SweepParameters motion;             // its reference torque may be another than `torque`
+  // Of a train in place of all but the directions; without them `damping`, speeds and `time` are empty. Of a pair no bodies.
+  SystemSweepParameters train;
+  bool of_train() const { return !train.layout.bodies.empty(); }
 };
 
 }  // namespace whine

@@ -6,6 +6,8 @@
 
 #include "base/error.h"
 #include "io/scene_keys.h"
+#include "model/response_quantities.h"
+#include "report/figure_words.h"
 #include "report/figures.h"
 #include "report/html.h"
 #include "report/report_geometry.h"
@@ -13,6 +15,8 @@
 #include "report/report_remarks.h"
 #include "report/report_results.h"
 #include "report/report_tables.h"
+#include "report/system_report_tables.h"
+#include "studies/study_variant.h"
 
 namespace whine {
 namespace {
@@ -40,13 +44,13 @@ void add_changes(Difference& row) {
 class Rows {
  public:
   explicit Rows(size_t designs) : designs_(designs) {}
-  void put(size_t design, const std::string& torque, const std::string& quantity, const std::string& unit,
+  void put(size_t design, const std::string& part, const std::string& quantity, const std::string& unit,
            const std::string& value) {
     auto row = std::find_if(rows_.begin(), rows_.end(), [&](const Difference& r) {
-      return r.torque == torque && r.quantity == quantity && r.unit == unit;
+      return r.part == part && r.quantity == quantity && r.unit == unit;
     });
     if (row == rows_.end()) {
-      rows_.push_back({torque, quantity, unit, std::vector<std::string>(designs_, html::kNoValue), {}});
+      rows_.push_back({part, quantity, unit, std::vector<std::string>(designs_, html::kNoValue), {}});
       row = rows_.end() - 1;
     }
     row->value[design] = value;
@@ -88,9 +92,18 @@ ReportContent by_role(ReportContent c) {
   return c;
 }
 
+bool any_train(const std::vector<Design>& designs) {
+  return std::any_of(designs.begin(), designs.end(), [](const Design& d) { return d.train.has_value(); });
+}
+
 void require_designs(const std::vector<Design>& designs) {
   if (designs.size() < 2)
     fail(Failure::input, "compare: ", designs.size(), " design given; two are the least");
+  for (const Design& d : designs)
+    if (d.train ? !d.train->rest : d.content.statics.empty())
+      fail(Failure::input, "compare: ", d.name, " has no static.h5",
+           d.train ? "; rigid gears have natural modes alone" : "");
+  if (any_train(designs)) return;
   if (common_torques(designs).empty())
     fail(
         Failure::input,
@@ -101,7 +114,7 @@ std::string differences_table(const std::vector<Design>& designs, const std::vec
                               const std::string& caption, bool of_scene) {
   if (rows.empty()) return html::paragraph("Nothing differs.");
   std::vector<std::string> head{of_scene ? "key" : "quantity", "unit"};
-  if (!of_scene) head.insert(head.begin(), "torque (N m)");
+  if (!of_scene) head.insert(head.begin(), any_train(designs) ? "mesh or body" : "torque (N m)");
   for (const Design& d : designs) head.push_back(d.name);
   const auto changed = [&](size_t d) {
     return !of_scene ||
@@ -113,7 +126,7 @@ std::string differences_table(const std::vector<Design>& designs, const std::vec
   html::Rows cells;
   for (const Difference& row : rows) {
     std::vector<std::string> line{row.quantity, row.unit == "1" ? html::kNoValue : row.unit};
-    if (!of_scene) line.insert(line.begin(), row.torque.empty() ? html::kNoValue : row.torque);
+    if (!of_scene) line.insert(line.begin(), row.part.empty() ? html::kNoValue : row.part);
     line.insert(line.end(), row.value.begin(), row.value.end());
     for (size_t d = 0; d < row.change.size(); ++d)
       if (changed(d)) line.push_back(row.change[d]);
@@ -128,14 +141,112 @@ std::string compared_picture(const ReportPicture& picture) {
   const char* words =
       rest
           ? "Static transmission error and secant mesh stiffness over the mesh period, and amplitudes of the harmonics of the error."
-          : "RMS and first order of the dynamic transmission error and largest tooth load over T / r_b against speed; falling speed dashed. Where the two lines of a design part it has two motions.";
+          : "RMS and first order of the dynamic transmission error and largest tooth load, of pairs over T / r_b, against speed; falling speed dashed. Where the two lines of a design part it has two motions. Of trains the first mesh of each [[mesh]].";
   return html::figure(picture.name, picture.bytes, title, html::escaped(words));
+}
+
+}  // namespace
+
+namespace {
+
+// What a design says: of a pair at the first of its torques.
+struct Said {
+  Quantities value;
+  std::vector<ResponseQuantity> kinds;
+};
+
+Said said_by(const Design& d) {
+  Said out;
+  std::vector<Direction> directions;
+  const double torque = d.train ? 0 : d.content.statics.front().torque;
+  out.value = d.train ? quantities_of(*d.train->rest) : quantities_of(d.content.statics.front());
+  for (const ResponseResult& sweep : d.train ? d.train->sweeps : d.content.sweeps) {
+    if (sweep.torque != torque) continue;
+    out.value.merge(quantities_of(sweep, d.train ? &d.train->rest->settings : nullptr));
+    directions.push_back(sweep.direction);
+  }
+  out.kinds = response_quantities(directions, d.train ? train_names(d.train->rest->settings) : TrainNames{});
+  return out;
+}
+
+// One of a mesh, body or [[mesh]] in its parts: "rms_max_up", "sun-planet1"; the words without the part.
+struct KindOfPart {
+  std::string name, part, words;
+};
+KindOfPart in_parts(const ResponseQuantity& kind) {
+  const size_t dot = kind.name.find('.');
+  if (dot == std::string::npos) return {kind.name, "", kind.meaning};
+  const std::string part = kind.name.substr(dot + 1), end = ", of " + part;
+  return {kind.name.substr(0, dot), part, kind.meaning.substr(0, kind.meaning.size() - end.size())};
+}
+
+std::vector<Difference> train_differences(const std::vector<Design>& designs) {
+  Rows rows(designs.size());
+  std::vector<std::string> meshes;  // of all trains
+  for (const Design& d : designs)
+    if (d.train)
+      for (const std::string& mesh : train_names(d.train->rest->settings).meshes)
+        if (std::find(meshes.begin(), meshes.end(), mesh) == meshes.end()) meshes.push_back(mesh);
+  for (size_t d = 0; d < designs.size(); ++d) {
+    const Said said = said_by(designs[d]);
+    for (const ResponseQuantity& kind : said.kinds) {
+      const auto found = said.value.find(kind.name);
+      if (found == said.value.end()) continue;
+      const KindOfPart own = in_parts(kind);
+      const ShownUnit unit = shown_units(kind.units);
+      // Numbers of jumps are of the whole; all else of a pair is of its one mesh.
+      const bool whole = designs[d].train || own.name.starts_with("jump") || own.name.starts_with("unsteady");
+      for (const std::string& part : whole ? std::vector{own.part} : meshes)
+        rows.put(d, part, own.words, *unit.units ? unit.units : "1", shown(found->second * unit.scale, 4));
+    }
+  }
+  std::vector<Difference> out = rows.differing();
+  // A pair has no load sharing; what no train has is left out.
+  std::erase_if(out, [&](const Difference& row) {
+    for (size_t d = 0; d < designs.size(); ++d)
+      if (designs[d].train && row.value[d] != html::kNoValue) return false;
+    return true;
+  });
+  return out;
+}
+
+// Of each gear of a pair or of a train: "gear.teeth, sun".
+std::vector<Difference> train_scene_differences(const std::vector<Design>& designs) {
+  Rows rows(designs.size());
+  for (size_t d = 0; d < designs.size(); ++d) {
+    const auto put = [&](const std::string& section, const std::string& name, const std::string& gear,
+                         const std::string& value) {
+      if (!value.empty())
+        rows.put(d, "", section + "." + name + (gear.empty() ? "" : ", " + gear), "", value);
+    };
+    if (designs[d].train) {
+      const SystemReport& r = *designs[d].train;
+      const SystemSweepParameters* const moving = r.sweeps.empty() ? nullptr : &r.sweeps[0].train;
+      const SystemKeys keys = scene_keys_of(*r.rest, moving);
+      for (const SystemKeys::Row& row : keys.rows)
+        for (size_t g = 0; g < row.value.size(); ++g)
+          put(row.section, row.name, row.value.size() == 1 ? "" : keys.gears[g], row.value[g]);
+      for (const System::Drive& drive : r.rest->settings.layout.drives)
+        put("drive", "torque_Nm", r.rest->settings.layout.bodies[static_cast<size_t>(drive.body)].name,
+            drive.torque != 0 ? shown(drive.torque, 6) : "");
+      continue;
+    }
+    const ReportContent& c = designs[d].content;
+    const auto keys = c.sweeps.empty() ? scene_keys_of(c.statics.at(0)) : scene_keys_of(c.sweeps[0]);
+    for (const SceneKey& key : keys) {
+      const bool one = key.value[1].empty();
+      for (size_t g = 0; g < (one ? 1 : kSides); ++g)
+        put(key.section, key.name, one ? "" : c.statics[0].mesh.gear[g], key.value[g]);
+    }
+  }
+  return rows.differing();
 }
 
 }  // namespace
 
 std::vector<Difference> differences(const std::vector<Design>& designs) {
   require_designs(designs);
+  if (any_train(designs)) return train_differences(designs);
   const std::vector<double> torques = common_torques(designs);
   Rows rows(designs.size());
   for (size_t d = 0; d < designs.size(); ++d) {
@@ -148,11 +259,12 @@ std::vector<Difference> differences(const std::vector<Design>& designs) {
   }
   std::vector<Difference> out = rows.differing();
   // Results first: the geometry explains them.
-  std::stable_partition(out.begin(), out.end(), [](const Difference& row) { return !row.torque.empty(); });
+  std::stable_partition(out.begin(), out.end(), [](const Difference& row) { return !row.part.empty(); });
   return out;
 }
 
 std::vector<Difference> scene_differences(const std::vector<Design>& designs) {
+  if (any_train(designs)) return train_scene_differences(designs);
   Rows rows(designs.size());
   for (size_t d = 0; d < designs.size(); ++d) {
     const ReportContent& c = designs[d].content;
@@ -174,7 +286,8 @@ std::vector<Difference> scene_differences(const std::vector<Design>& designs) {
 }
 
 std::string compare_tsv(const std::vector<Design>& designs) {
-  std::string out = "# designs:", head = "torque [N m]\tquantity\tunit";
+  std::string out = "# designs:",
+              head = any_train(designs) ? "part\tquantity\tunit" : "torque [N m]\tquantity\tunit";
   for (const Design& d : designs) {
     out += " " + d.name;
     head += "\t" + d.name;
@@ -184,7 +297,7 @@ std::string compare_tsv(const std::vector<Design>& designs) {
   out += "\n" + head + "\n";
   const auto add = [&](const std::vector<Difference>& rows) {
     for (const Difference& row : rows) {
-      out += row.torque + "\t" + row.quantity + "\t" + row.unit;
+      out += row.part + "\t" + row.quantity + "\t" + row.unit;
       for (const auto* cells : {&row.value, &row.change})
         for (const std::string& cell : *cells) out += "\t" + cell;
       out += "\n";
@@ -200,7 +313,7 @@ std::string compare_html(const std::vector<Design>& designs, const std::vector<R
   std::string names, list;
   for (const Design& d : designs) {
     names += (names.empty() ? "" : " / ") + d.name;
-    list += html::tagged("li", html::escaped(d.content.scene)) + "\n";
+    list += html::tagged("li", html::escaped(d.train ? d.train->scene : d.content.scene)) + "\n";
   }
   const std::vector<Difference> found = differences(designs);
   const bool starred = std::any_of(found.begin(), found.end(), [](const Difference& row) {
@@ -211,20 +324,26 @@ std::string compare_html(const std::vector<Design>& designs, const std::vector<R
       "<section id=\"differences\">\n<h2>Differences</h2>\n" +
       differences_table(
           designs, found,
-          "Results that differ, at the torques that all designs have, then geometry; change against the first design. compare.tsv holds the same.",
+          any_train(designs)
+              ? "Results that differ, each design at its own torque; of a pair its one mesh stands beside each mesh. Change against the first design. compare.tsv holds the same."
+              : "Results that differ, at the torques that all designs have, then geometry; change against the first design. compare.tsv holds the same.",
           false) +
       (starred
            ? html::paragraph(
                  "* At this speed the motion is larger than the backlash; contact of back flanks is not modelled.")
            : "") +
       differences_table(designs, scene_differences(designs),
-                        "Keys of the scenes that differ; of driver / driven gear where these differ.", true) +
+                        any_train(designs)
+                            ? "Keys of the scenes that differ, by gear."
+                            : "Keys of the scenes that differ; of driver / driven gear where these differ.",
+                        true) +
       "</section>\n<section id=\"figures\">\n<h2>On common axes</h2>\n";
   for (const ReportPicture& picture : pictures) inside += compared_picture(picture);
   inside += "</section>\n";
   for (const Design& d : designs)
-    inside += "<section>\n<h2>" + html::escaped(d.name) + "</h2>\n" + remarks_list(d.content) +
-              provenance_table(d.content.sources) + "</section>\n";
+    inside += "<section>\n<h2>" + html::escaped(d.name) + "</h2>\n" +
+              (d.train ? system_remarks(*d.train) : remarks_list(d.content)) +
+              provenance_table(d.train ? d.train->sources : d.content.sources) + "</section>\n";
   return html::page(names, "<ul>\n" + list + "</ul>\n", inside);
 }
 

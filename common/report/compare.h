@@ -1,27 +1,31 @@
 // Designs side by side as one page and one table: first what differs, in the scenes and in the results, then common figures.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "report/report_content.h"
+#include "report/system_report.h"
 
 namespace whine {
 
 struct Design {
-  std::string name;  // of its scene
-  ReportContent content;
+  std::string name;                        // of its scene
+  ReportContent content = {};              // of a pair
+  std::optional<SystemReport> train = {};  // of a train
 };
 
-// A row of the table: the values of one quantity at one torque (N m; empty: of the pair), and by how much those of the other
-// designs are above the first in per cent, where both are numbers.
+// A row of the table: the values of one quantity of one part, and by how much those of the other designs are above the first in per
+// cent, where both are numbers. part: of pairs the torque in N m, of designs among which a train is the mesh or body; "": of the whole.
 struct Difference {
-  std::string torque, quantity, unit;
+  std::string part, quantity, unit;
   std::vector<std::string> value;   // of each design, "–" where it has none
   std::vector<std::string> change;  // of each design but the first, "" where it is no number
 };
 
-// Quantities that are not the same in all designs, at torques that all have. Throws Error(input) for fewer than two designs or no
-// common torque.
+// Quantities that are not the same in all designs, of pairs at torques that all have. Trains, and pairs beside them, are compared
+// each at its own torque, by the response quantities of studies (model/response_quantities.h): the one mesh of a pair with each mesh.
+// Throws Error(input) for fewer than two designs, no common torque, and rigid gears.
 std::vector<Difference> differences(const std::vector<Design>& designs);
 
 // Keys of the scenes whose values differ; torque is empty, values of driver and driven gear are joined by " / ".

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "base/error.h"
 #include "gear/pair.h"
@@ -13,31 +14,88 @@ namespace {
 
 using Eigen::Index;
 
-// What messages call the two artifacts.
-const char* artifact_kind(const StaticResult&) {
-  return "static.h5";
-}
-const char* artifact_kind(const ResponseResult&) {
-  return "response.h5";
+// Pairs are compared at one torque; torque: of one of `designs` designs, 0: of a train.
+struct Compared {
+  std::string design;
+  double torque;
+};
+
+void require_all_designs(const std::vector<Compared>& all, size_t curves, const char* artifact) {
+  std::set<std::string> designs;
+  for (const Compared& one : all) designs.insert(one.design);
+  if (designs.size() < 2 || designs.size() > kMostCurves)
+    fail(Failure::input, "figure: ", designs.size(), " designs given; two to ", kMostCurves,
+         " can be compared");
+  if (curves > kMostCurves)
+    fail(Failure::input, "figure: the designs have ", curves, " kinds of meshes together; up to ",
+         kMostCurves, " can be told apart, so compare fewer of them");
+  const bool trains =
+      std::any_of(all.begin(), all.end(), [](const Compared& one) { return one.torque == 0; });
+  for (const Compared& one : all)
+    if (!trains && one.torque != all[0].torque)
+      fail(Failure::input, "figure: the ", artifact, " of ", one.design, " is at ", torque_words(one.torque),
+           ", that of ", all[0].design, " at ", torque_words(all[0].torque),
+           "; designs are compared at one torque");
 }
 
-template <class Artifact>
-void require_all_designs(const std::vector<OfDesign<Artifact>>& all, size_t designs) {
-  if (designs < 2 || designs > kMostCurves)
-    fail(Failure::input, "figure: ", designs, " designs given; two to ", kMostCurves, " can be compared");
-  for (const auto& one : all)
-    if (one.artifact.torque != all[0].artifact.torque)
-      fail(Failure::input, "figure: the ", artifact_kind(one.artifact), " of ", one.design, " is at ",
-           torque_words(one.artifact.torque), ", that of ", all[0].design, " at ",
-           torque_words(all[0].artifact.torque), "; designs are compared at one torque");
+// Of a train one mesh for each pair of gears, planets of one gear being alike.
+std::vector<size_t> shown_meshes(const System& layout) {
+  std::vector<size_t> out;
+  std::set<std::string> seen;
+  for (size_t m = 0; m < layout.meshes.size(); ++m) {
+    std::string gears;
+    for (const System::Side& side : layout.meshes[m].side) {
+      const System::Body& body = layout.bodies[static_cast<size_t>(side.body)];
+      const size_t letters =
+          body.on == System::kGround ? body.name.size() : body.name.find_last_not_of("0123456789") + 1;
+      gears += body.name.substr(0, letters) + "-";
+    }
+    if (seen.insert(gears).second) out.push_back(m);
+  }
+  return out;
+}
+
+std::string curve_name(const std::string& design, const std::string& mesh) {
+  return mesh.empty() ? design : design + ", " + mesh;
 }
 
 }  // namespace
 
-Figure compared_rest_figure(const std::vector<OfDesign<StaticResult>>& designs) {
-  require_all_designs(designs, designs.size());
+RestCurve rest_curve(const std::string& design, const StaticResult& s) {
+  return {design,
+          "",
+          pair_words(s),
+          s.torque,
+          s.hunting_periods,
+          s.mesh_phase,
+          s.transmission_error,
+          s.stiffness_secant,
+          s.transmission_error_harmonic};
+}
+
+std::vector<RestCurve> rest_curves(const std::string& design, const SystemStaticResult& s) {
+  if (!s.of_train()) return {rest_curve(design, s.mesh.at(0))};
+  std::vector<RestCurve> out;
+  for (const size_t m : shown_meshes(s.settings.layout)) {
+    RestCurve& curve = out.emplace_back(rest_curve(design, s.mesh[m]));
+    curve.mesh = s.mesh_names[m];
+    curve.words =
+        text("contact ratio ", rounded(s.mesh[m].contact_ratio, 3), ", mean mesh force ",
+             rounded(s.mesh_force.col(static_cast<Index>(m)).mean() * 1e-3, 3), " kN");
+    curve.torque = 0;
+    curve.mesh_phase = s.mesh_phase;
+  }
+  return out;
+}
+
+Figure compared_rest_figure(const std::vector<RestCurve>& curves) {
+  std::vector<Compared> all;
+  for (const RestCurve& curve : curves) all.push_back({curve.design, curve.torque});
+  require_all_designs(all, curves.size(), "static.h5");
   Figure figure;
-  figure.title = "Designs at rest, " + torque_words(designs.at(0).artifact.torque);
+  figure.title = "Designs at rest";
+  if (std::none_of(all.begin(), all.end(), [](const Compared& one) { return one.torque == 0; }))
+    figure.title += ", " + torque_words(curves[0].torque);
   std::vector<std::string> names;
   Panel error{.x = {.from = 0, .to = 1}, .y = {.label = "Static TE (µm)"}, .height = 300},
       stiffness{.x = {.label = "Mesh phase", .from = 0, .to = 1},
@@ -48,9 +106,10 @@ Figure compared_rest_figure(const std::vector<OfDesign<StaticResult>>& designs) 
                  .y = {.label = "Amplitude of TE (µm)", .from_zero = true},
                  .key = PanelKey::none,
                  .height = 240};
-  const double wide = 0.8 / static_cast<double>(designs.size());
-  for (size_t i = 0; i < designs.size(); ++i) {
-    const auto& [name, s] = designs[i];
+  const double wide = 0.8 / static_cast<double>(curves.size());
+  for (size_t i = 0; i < curves.size(); ++i) {
+    const RestCurve& s = curves[i];
+    const std::string name = curve_name(s.design, s.mesh);
     if (std::find(names.begin(), names.end(), name) != names.end())
       fail(Failure::input, "figure: two static.h5 of ", name, " given; one of each design is wanted");
     names.push_back(name);
@@ -60,16 +119,15 @@ Figure compared_rest_figure(const std::vector<OfDesign<StaticResult>>& designs) 
                        "period",
                        name};
     for (Index k = 0; k < s.transmission_error.size(); ++k)
-      period.rows.push_back(
-          {s.mesh_phase[k], s.transmission_error[k] * kMicro, s.stiffness_secant[k] * kMega});
+      period.rows.push_back({s.mesh_phase[k], s.transmission_error[k] * kMicro, s.stiffness[k] * kMega});
     // The mesh period closes.
     if (s.hunting_periods == 1 && !period.rows.empty())
       period.rows.push_back({period.rows.front()[0] + 1, period.rows.front()[1], period.rows.front()[2]});
     FigureBlock harmonics{
         text("harmonics ", i + 1), {"harmonic [1]", "transmission_error [µm]"}, {}, "harmonics", name};
-    const Index last = std::min<Index>(kShownHarmonics, s.transmission_error_harmonic.size() - 1);
+    const Index last = std::min<Index>(kShownHarmonics, s.harmonic.size() - 1);
     for (Index n = 1; n <= last; ++n)
-      harmonics.rows.push_back({static_cast<double>(n), s.transmission_error_harmonic[n] * kMicro});
+      harmonics.rows.push_back({static_cast<double>(n), s.harmonic[n] * kMicro});
     constexpr std::array kDash{1, 3, 5, 7, 4, 6};
     PanelCurve line{.block = period.name,
                     .colour = static_cast<int>(i) + 1,
@@ -86,7 +144,7 @@ Figure compared_rest_figure(const std::vector<OfDesign<StaticResult>>& designs) 
                                  .shift = wide * (static_cast<double>(i) + 0.5) - 0.4});
     figure.blocks.push_back(std::move(period));
     figure.blocks.push_back(std::move(harmonics));
-    figure.notes.push_back(name + ": " + pair_words(s));
+    figure.notes.push_back(name + ": " + s.words);
   }
   plain_captions(names.size(), figure);
   figure.panels = {error, stiffness, amplitudes};
@@ -94,56 +152,72 @@ Figure compared_rest_figure(const std::vector<OfDesign<StaticResult>>& designs) 
 }
 
 Figure compared_motion_figure(const std::vector<OfDesign<ResponseResult>>& sweeps) {
-  std::vector<std::string> names;
-  for (const auto& [name, r] : sweeps)
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  require_all_designs(sweeps, names.size());
+  struct Curve {
+    std::string design;
+    Index mesh;
+    std::string name;
+  };
+  std::vector<Curve> curves;
+  std::vector<Compared> all;
+  bool trains = false;
+  for (const auto& [design, r] : sweeps) {
+    all.push_back({design, r.of_train() ? 0 : r.torque});
+    trains = trains || r.of_train();
+    if (std::any_of(curves.begin(), curves.end(), [&](const Curve& c) { return c.design == design; }))
+      continue;
+    for (const size_t m : r.of_train() ? shown_meshes(r.train.layout) : std::vector<size_t>{0})
+      curves.push_back(
+          {design, static_cast<Index>(m), curve_name(design, r.of_train() ? r.mesh_names[m] : "")});
+  }
+  require_all_designs(all, curves.size(), "response.h5");
   Figure figure;
-  figure.title = "Designs in motion, " + torque_words(sweeps.at(0).artifact.torque);
+  figure.title = "Designs in motion" + (trains ? "" : ", " + torque_words(sweeps.at(0).artifact.torque));
   const PanelAxis speed{.label = "Mesh frequency (Hz)", .speed = true};
-  figure.panels = {
-      {.x = speed, .y = {.label = "RMS of DTE (µm)", .from_zero = true, .level = true}},
-      {.x = speed,
-       .y = {.label = "Order 1 of DTE (µm)", .from_zero = true, .level = true},
-       .key = PanelKey::none},
-      {.x = speed, .y = {.label = "Tooth load / (T / r_b)", .from_zero = true}, .key = PanelKey::none}};
-  for (size_t i = 0; i < names.size(); ++i) {
+  figure.panels = {{.x = speed, .y = {.label = "RMS of DTE (µm)", .from_zero = true, .level = true}},
+                   {.x = speed,
+                    .y = {.label = "Order 1 of DTE (µm)", .from_zero = true, .level = true},
+                    .key = PanelKey::none},
+                   {.x = speed,
+                    .y = {.label = trains ? "Tooth load (kN)" : "Tooth load / (T / r_b)", .from_zero = true},
+                    .key = PanelKey::none}};
+  for (size_t i = 0; i < curves.size(); ++i) {
+    const auto& [design, mesh, name] = curves[i];
     std::string jumps;
     for (const Direction direction : {Direction::up, Direction::down}) {
       const auto is = [&](const auto& one) {
-        return one.design == names[i] && one.artifact.direction == direction;
+        return one.design == design && one.artifact.direction == direction;
       };
       if (const auto found = std::count_if(sweeps.begin(), sweeps.end(), is); found != 1)
-        fail(Failure::input, "figure: ", found, " sweeps ", direction, " of ", names[i],
+        fail(Failure::input, "figure: ", found, " sweeps ", direction, " of ", design,
              " given; one up and one down of each design are wanted");
       const ResponseResult& r = std::find_if(sweeps.begin(), sweeps.end(), is)->artifact;
       const auto other = std::find_if(sweeps.begin(), sweeps.end(), [&](const auto& one) {
-        return one.design == names[i] && one.artifact.direction != direction;
+        return one.design == design && one.artifact.direction != direction;
       });
-      const double force = r.torque / ToothGeometry(r.gear[0].design).base_radius();
-      FigureBlock block{
-          text(i + 1, " ", direction),
-          {"mesh_frequency [Hz]", "dte_rms [µm]", "dte_harmonic_1 [µm]", "tooth_load_max [T / r_b]"},
-          {},
-          "motion",
-          text(names[i], " ", direction)};
+      const double force = trains ? 1e3 : r.torque / ToothGeometry(r.gear[0].design).base_radius();
+      FigureBlock block{text(i + 1, " ", direction),
+                        {"mesh_frequency [Hz]", "dte_rms [µm]", "dte_harmonic_1 [µm]",
+                         trains ? "tooth_load_max [kN]" : "tooth_load_max [T / r_b]"},
+                        {},
+                        "motion",
+                        text(name, " ", direction)};
       const std::vector<bool> broken = broken_after(r, other == sweeps.end() ? nullptr : &other->artifact);
       for (Index k = 0; k < r.mesh_frequency.size(); ++k) {
-        block.rows.push_back({r.mesh_frequency[k], r.dte_rms(k, 0) * kMicro,
-                              r.harmonics() > 0 ? r.dte_harmonic[static_cast<size_t>(k)](0, 0) * kMicro : 0,
-                              r.tooth_load_max(k, 0) / force});
+        block.rows.push_back(
+            {r.mesh_frequency[k], r.dte_rms(k, mesh) * kMicro,
+             r.harmonics() > 0 ? r.dte_harmonic[static_cast<size_t>(k)](0, mesh) * kMicro : 0,
+             r.tooth_load_max(k, mesh) / force});
         if (broken[static_cast<size_t>(k)]) block.rows.emplace_back();
       }
       for (size_t p = 0; p < figure.panels.size(); ++p) {
         // The second stands on the first, and lets it show where both are alike.
-        figure.panels[p].curves.push_back(
-            {.block = block.name,
-             .y = static_cast<int>(p) + 2,
-             .colour = static_cast<int>(i) + 1,
-             .label = direction == Direction::up ? without_markup(names[i]) : "",
-             .width = i == 0 ? 4.4 : 2.6,
-             .dash = direction == Direction::up ? 1 : 3});
-        if (direction == Direction::up)
+        figure.panels[p].curves.push_back({.block = block.name,
+                                           .y = static_cast<int>(p) + 2,
+                                           .colour = static_cast<int>(i) + 1,
+                                           .label = direction == Direction::up ? without_markup(name) : "",
+                                           .width = i == 0 ? 4.4 : 2.6,
+                                           .dash = direction == Direction::up ? 1 : 3});
+        if (direction == Direction::up && !r.of_train())
           figure.panels[p].rules.push_back(
               {'x', r.natural_frequency, p ? "" : "f_n", static_cast<int>(i) + 1});
       }
@@ -154,17 +228,22 @@ Figure compared_motion_figure(const std::vector<OfDesign<ResponseResult>>& sweep
       if (at.empty()) jumps += " none";
       figure.blocks.push_back(std::move(block));
     }
-    figure.notes.push_back(names[i] + ": jumps in Hz, " + jumps);
+    figure.notes.push_back(name + ": jumps in Hz, " + jumps);
   }
-  figure.notes.push_back(
-      "f_n: mean natural frequency over the mesh period, contact frozen under the static load");
-  plain_captions(names.size(), figure);
+  if (std::any_of(all.begin(), all.end(), [](const Compared& one) { return one.torque > 0; }))
+    figure.notes.push_back(
+        "f_n: mean natural frequency over the mesh period, contact frozen under the static load");
+  plain_captions(curves.size(), figure);
   for (size_t p = 0; p + 1 < figure.panels.size(); ++p) figure.panels[p].x.label.clear();
   figure.panels[0].curves.push_back({.colour = kDark, .label = "dashed: speed falling", .dash = 3});
-  std::vector<ResponseResult> all;
-  all.reserve(sweeps.size());
-  for (const auto& one : sweeps) all.push_back(one.artifact);
-  figure.shafts = shafts_of_all(all);
+  if (trains) {
+    figure.no_shafts = "designs among which a train is have no shaft in common";
+  } else {
+    std::vector<ResponseResult> responses;
+    responses.reserve(sweeps.size());
+    for (const auto& one : sweeps) responses.push_back(one.artifact);
+    figure.shafts = shafts_of_all(responses);
+  }
   figure.levels = {{"dte_rms [µm]", false}, {"dte_harmonic_1 [µm]", true}};
   return figure;
 }

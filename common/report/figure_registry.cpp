@@ -214,13 +214,17 @@ Drawings drawings_of_designs() {
        {"designs at rest: transmission error, mesh stiffness, harmonics",
         "static.h5 of each scene, at one torque", 0, 0,
         [](const Paths& in, const Frequencies&) {
-          return compared_rest_figure(read_designs(in, read_pair_statics));
+          std::vector<RestCurve> curves;
+          for (const std::string& path : in)
+            for (RestCurve& own : rest_curves(design_name(path), read<SystemStaticResult>(path)))
+              curves.push_back(std::move(own));
+          return compared_rest_figure(curves);
         }}},
       {"compare-motion",
        {"designs in motion: RMS, first order and tooth load against speed",
         "response.h5 of sweeps up and down of each scene, at one torque", 0, 0,
         [](const Paths& in, const Frequencies&) {
-          return compared_motion_figure(read_designs(in, read_pair_response));
+          return compared_motion_figure(read_designs(in, read<ResponseResult>));
         }}},
   };
 }

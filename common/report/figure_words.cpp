@@ -51,6 +51,13 @@ std::vector<std::string> in_lines(const std::string& words) {
   return broken_lines(words, kNoteWidth, name_width);
 }
 
+ShownUnit shown_units(const std::string& units) {
+  if (units == "m") return {"µm", 1e6};
+  if (units == "N m-1") return {"N/µm", 1e-6};
+  if (units == "N") return {"kN", 1e-3};
+  return {units == "1" ? "" : "Hz", 1};
+}
+
 PanelRule rest_rule(double force) {
   return {'y', force, text("T / r_b = ", fixed(force, 0), " N"), kGreen, 2, true};
 }

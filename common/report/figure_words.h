@@ -20,6 +20,13 @@ inline constexpr double kNoteWidth = 98;
 // Words in lines of a picture's width, broken at blanks; '_' and '^' are letters of them.
 std::vector<std::string> in_lines(const std::string& words);
 
+// The unit in which figures and tables show a quantity in SI, "" of numbers without: µm for "m".
+struct ShownUnit {
+  const char* units;
+  double scale;
+};
+ShownUnit shown_units(const std::string& units);
+
 // The force at which the torque is carried at rest: "T / r_b = 2128 N" in the key.
 PanelRule rest_rule(double force);
 

@@ -14,18 +14,6 @@ namespace {
 
 using Eigen::Index;
 
-struct Shown {
-  const char* units;
-  double scale;
-};
-
-Shown shown_units(const std::string& units) {
-  if (units == "m") return {"µm", 1e6};
-  if (units == "N m-1") return {"N/µm", 1e-6};
-  if (units == "N") return {"kN", 1e-3};
-  return {units == "1" ? "" : "Hz", 1};
-}
-
 // Key values as an axis shows them: powers of ten of small numbers stand at the unit.
 struct AxisUnits {
   std::string words;
@@ -65,8 +53,10 @@ std::string with_unit(const std::string& name, const std::string& units) {
   return units.empty() || units == "1" ? name : name + " (" + units + ")";
 }
 
-// "largest RMS, up" of rms_max_up.
+// "largest RMS, up" of rms_max_up; of a train with the mesh or body behind it.
 std::string label_of(const std::string& quantity) {
+  if (const size_t dot = quantity.find('.'); dot != std::string::npos)
+    return label_of(quantity.substr(0, dot)) + ", " + without_markup(quantity.substr(dot + 1));
   static const std::map<std::string, std::string> known{
       {"te_mean", "mean static TE"},
       {"te_peak_to_peak", "static TE, peak to peak"},
@@ -75,10 +65,18 @@ std::string label_of(const std::string& quantity) {
       {"te_harmonic_2", "static TE, harm. 2"},
       {"te_harmonic_3", "static TE, harm. 3"},
       {"tooth_load_static", "largest static tooth load"},
+      {"load_sharing_factor", "load sharing factor K_γ"},
+      {"load_sharing_peak", "largest momentary load sharing"},
+      {"load_share_mean", "mean load share"},
+      {"mesh_force_static", "largest static mesh force"},
+      {"bearing_force_static", "largest static bearing force"},
       {"rms_max", "largest RMS of DTE"},
       {"rms_max_speed", "its mesh frequency"},
       {"tooth_load_max", "largest tooth load"},
       {"separation_max", "largest contact loss"},
+      {"load_share_max", "largest load share"},
+      {"bearing_force_max", "largest bearing force"},
+      {"bearing_force_rms_max", "largest RMS of bearing force"},
       {"loss_from", "contact lost from"},
       {"loss_to", "contact lost to"},
       {"jump_frequency", "highest jump"},
@@ -138,7 +136,7 @@ Index quantity_of(const StudyResult& a, const std::string& name) {
 }
 
 ResponseQuantity kind_of(const StudyResult& a, const std::string& name) {
-  for (const ResponseQuantity& kind : response_quantities(a.plan.directions))
+  for (const ResponseQuantity& kind : response_quantities(a.plan.directions, a.plan.train))
     if (kind.name == name) return kind;
   fail(Failure::input, "there is no response quantity '", name, "'");
 }
@@ -228,7 +226,7 @@ FigureBlock table_of(const StudyResult& a, const std::vector<Axis>& axes) {
                             (key.number ? " [" + spelt_units(key) + "]" : " [place in the list above]"));
   std::vector<double> scale;
   for (const std::string& name : a.plan.quantities) {
-    const Shown unit = shown_units(kind_of(a, name).units);
+    const ShownUnit unit = shown_units(kind_of(a, name).units);
     table.columns.push_back(name + " [" + (*unit.units ? unit.units : "1") + "]");
     scale.push_back(unit.scale);
   }
@@ -251,7 +249,7 @@ std::string constant_words(const StudyResult& a, const ShownQuantities& quantiti
     for (size_t i = 0; i < quantities.constant.size(); ++i) {
       const std::string& name = quantities.constant[i];
       const auto drawn = std::find(a.rejection.begin(), a.rejection.end(), "") - a.rejection.begin();
-      const Shown unit = shown_units(kind_of(a, name).units);
+      const ShownUnit unit = shown_units(kind_of(a, name).units);
       char value[32];
       std::snprintf(value, sizeof value, "%.5g", a.quantity(drawn, quantity_of(a, name)) * unit.scale);
       words += text(i ? ", " : " ", label_of(name), " ");
@@ -374,7 +372,7 @@ void add_quantity_panel(const StudyResult& a, const Axis& axis, const Colours& c
                         const DrawnAnswer& quantity, const PanelAxis& y_axis, size_t k, size_t r, size_t c,
                         Figure& figure) {
   // What the pair does at rest does not depend on how its motion ends.
-  const bool of_motion = quantity.name.ends_with("_up") || quantity.name.ends_with("_down");
+  const bool moves = of_motion(quantity.name);
   FigureBlock panel{
       text("panel", r, "_", c),
       {with_unit(a.plan.keys[k].name, ""), quantity.name, "colour [rgb]", "unsteady speeds [1]", "mark [1]"},
@@ -399,9 +397,9 @@ void add_quantity_panel(const StudyResult& a, const Axis& axis, const Colours& c
   for (size_t i = 0; i < order.size(); ++i) {
     if (i > 0 && !a.plan.random && others(order[i]) != others(order[i - 1])) panel.rows.emplace_back();
     const int own_unsteady = a.unsteady[static_cast<Index>(order[i])];
-    crossed = crossed || (of_motion && own_unsteady > 0);
+    crossed = crossed || (moves && own_unsteady > 0);
     panel.rows.push_back({axis.at[order[i]] * scale, quantity.value[order[i]], colours.rgb[order[i]],
-                          of_motion ? static_cast<double>(own_unsteady) : 0.0, colours.marks[order[i]]});
+                          moves ? static_cast<double>(own_unsteady) : 0.0, colours.marks[order[i]]});
   }
   Panel drawn{
       .x = axis_of_key(a, axis, k), .y = y_axis, .key = PanelKey::none, .height = 190, .letter = false};
@@ -529,7 +527,7 @@ Figure study_figure(const StudyResult& a) {
   figure.columns = columns.size() + (a.plan.random ? 1 : 0);
   for (size_t r = 0; r < quantities.rows.size(); ++r) {
     DrawnAnswer quantity{quantities.rows[r], std::vector<double>(variants), {}};
-    const Shown unit = shown_units(kind_of(a, quantity.name).units);
+    const ShownUnit unit = shown_units(kind_of(a, quantity.name).units);
     // Vibration is seen from 0 on.
     PanelAxis y{.label = label_of(quantity.name) + (*unit.units ? text(" (", unit.units, ")") : "")};
     y.from_zero = y.label.find("RMS") != std::string::npos;

@@ -1,14 +1,16 @@
 #include "studies/study_variant.h"
 
 #include <algorithm>
-#include <map>
+#include <utility>
 
 #include "base/error.h"
 #include "model/response_quantities.h"
 #include "signal/response.h"
 #include "signal/spectrum.h"
 #include "studies/sweep.h"
+#include "studies/system_sweep.h"
 #include "system/statics.h"
+#include "system/system_rest.h"
 
 namespace whine {
 
@@ -16,55 +18,180 @@ using Eigen::Index;
 
 namespace {
 
-using Quantities = std::map<std::string, double>;
+constexpr int kHarmonics = 3;
 
-void add_static(Quantities& quantities, const StaticResult& rest) {
-  const Eigen::VectorXd& te = rest.transmission_error;
-  const int periods = rest.hunting_periods, count = resolved_harmonics(te.size(), 3, periods);
-  const Harmonics spectrum = harmonics(te, count, periods);
-  quantities["contact_ratio"] = rest.contact_ratio;
-  quantities["mean_stiffness"] = rest.mean_stiffness;
-  quantities["te_mean"] = spectrum.mean;
-  quantities["te_peak_to_peak"] = te.maxCoeff() - te.minCoeff();
-  const Index positions = te.size() / periods;
-  double largest = 0;
-  for (int period = 0; period < periods; ++period) {
-    const auto own = te.segment(period * positions, positions);
-    largest = std::max(largest, own.maxCoeff() - own.minCoeff());
-  }
-  quantities["te_peak_to_peak_mesh"] = largest;
-  for (int h = 1; h <= 3; ++h) {
-    if (h > count)
-      fail(Failure::input, te.size() / periods, " positions per mesh period do not resolve harmonic ", h,
-           " of the transmission error; raise 'positions'");
-    quantities[text("te_harmonic_", h)] = spectrum.amplitude[h - 1];
-  }
-  quantities["tooth_load_static"] = rest.tooth_load.maxCoeff();
-}
-
-void add_motion(Quantities& quantities, const ResponseResult& motion) {
-  const std::string d = name_of(motion.direction);
+// Of one mesh; end: what stands behind the names of quantities of a train, ".sun-planet1".
+void add_mesh(Quantities& quantities, const ResponseResult& motion, Index mesh, const std::string& end) {
+  const std::string d = name_of(motion.direction) + end;
   Index worst = 0;
-  quantities["natural_frequency"] = motion.natural_frequency;
-  quantities["rms_max_" + d] = motion.dte_rms.col(0).maxCoeff(&worst);
+  quantities["rms_max_" + d] = motion.dte_rms.col(mesh).maxCoeff(&worst);
   quantities["rms_max_speed_" + d] = motion.mesh_frequency[worst];
-  quantities["tooth_load_max_" + d] = motion.tooth_load_max.maxCoeff();
-  quantities["separation_max_" + d] = motion.separation_fraction.maxCoeff();
+  quantities["tooth_load_max_" + d] = motion.tooth_load_max.col(mesh).maxCoeff();
+  quantities["separation_max_" + d] = motion.separation_fraction.col(mesh).maxCoeff();
   double from = 0, to = 0;
   for (Index i = 0; i < motion.mesh_frequency.size(); ++i) {
-    if (!(motion.separation_fraction(i, 0) > 0)) continue;
+    if (!(motion.separation_fraction(i, mesh) > 0)) continue;
     const double f = motion.mesh_frequency[i];
     from = from > 0 ? std::min(from, f) : f;
     to = std::max(to, f);
   }
   quantities["loss_from_" + d] = from;
   quantities["loss_to_" + d] = to;
+}
+
+void add_sweep(Quantities& quantities, const ResponseResult& motion) {
+  const std::string d = name_of(motion.direction);
   quantities["jumps_" + d] = static_cast<double>(motion.jump_frequency.size());
   quantities["jump_frequency_" + d] = motion.jump_frequency.size() > 0 ? motion.jump_frequency.maxCoeff() : 0;
   quantities["unsteady_" + d] = static_cast<double>((motion.period_multiple.array() == 0).count());
 }
 
+void add_harmonics(Quantities& quantities, const Eigen::VectorXd& te, int periods, const std::string& end) {
+  const int count = resolved_harmonics(te.size(), kHarmonics, periods);
+  if (count < kHarmonics)
+    fail(Failure::input, te.size() / periods, " positions per mesh period do not resolve harmonic ",
+         count + 1, " of the transmission error; raise 'positions'");
+  const Harmonics spectrum = harmonics(te, count, periods);
+  quantities["te_mean" + end] = spectrum.mean;
+  quantities["te_peak_to_peak" + end] = te.maxCoeff() - te.minCoeff();
+  for (int h = 1; h <= count; ++h) quantities[text("te_harmonic_", h, end)] = spectrum.amplitude[h - 1];
+}
+
+void add_static(Quantities& quantities, const StaticResult& rest) {
+  const Eigen::VectorXd& te = rest.transmission_error;
+  quantities["contact_ratio"] = rest.contact_ratio;
+  quantities["mean_stiffness"] = rest.mean_stiffness;
+  add_harmonics(quantities, te, rest.hunting_periods, "");
+  const Index positions = te.size() / rest.hunting_periods;
+  double largest = 0;
+  for (int period = 0; period < rest.hunting_periods; ++period) {
+    const auto own = te.segment(period * positions, positions);
+    largest = std::max(largest, own.maxCoeff() - own.minCoeff());
+  }
+  quantities["te_peak_to_peak_mesh"] = largest;
+  quantities["tooth_load_static"] = rest.tooth_load.maxCoeff();
+}
+
+// Load sharing of the planets of each [[mesh]] that stands for several.
+void add_sharing(Quantities& quantities, const SystemStaticResult& rest) {
+  const Eigen::RowVectorXd mean = rest.mesh_force.colwise().mean();
+  for (size_t s = 0; s < rest.settings.mesh.size(); ++s) {
+    double planets = 0, sum = 0, largest = 0, peak = 0;
+    std::vector<Index> own;
+    for (Index m = 0; m < mean.size(); ++m)
+      if (rest.settings.section[static_cast<size_t>(m)] == static_cast<int>(s)) {
+        ++planets;
+        sum += mean[m];
+        largest = std::max(largest, mean[m]);
+        peak = std::max(peak, rest.load_share.col(m).maxCoeff());
+        own.push_back(m);
+      }
+    const auto& gear = rest.settings.mesh[s].gear;
+    const std::string end = "." + gear[0] + "-" + gear[1];
+    quantities["load_sharing_factor" + end] = sum > 0 ? largest * planets / sum : 0;
+    quantities["load_sharing_peak" + end] = peak * planets;
+    for (const Index m : own)
+      quantities["load_share_mean." + mesh_name(rest.settings.layout, static_cast<size_t>(m))] =
+          sum > 0 ? mean[m] / sum : 0;
+  }
+}
+
+void add_static(Quantities& quantities, const SystemStaticResult& rest) {
+  const System& layout = rest.settings.layout;
+  add_sharing(quantities, rest);
+  for (size_t m = 0; m < rest.mesh.size(); ++m) {
+    const StaticResult& mesh = rest.mesh[m];
+    const std::string end = "." + rest.mesh_names[m];
+    add_harmonics(quantities, mesh.transmission_error, rest.hunting_periods, end);
+    quantities["mean_stiffness" + end] = mesh.mean_stiffness;
+    quantities["mesh_force_static" + end] = rest.mesh_force.col(static_cast<Index>(m)).maxCoeff();
+    quantities["tooth_load_static" + end] = mesh.tooth_load.maxCoeff();
+  }
+  for (size_t b = 0; b < layout.bodies.size(); ++b) {
+    double force = 0;
+    for (const MatrixRM& forces : rest.bearing_force)
+      force = std::max(force, forces.row(static_cast<Index>(b)).norm());
+    quantities["bearing_force_static." + layout.bodies[b].name] = force;
+  }
+}
+
+VariantResponse in_order(const Quantities& quantities, const std::vector<ResponseQuantity>& kinds,
+                         VariantResponse out) {
+  out.quantity.resize(static_cast<Index>(kinds.size()));
+  for (size_t i = 0; i < kinds.size(); ++i)
+    out.quantity[static_cast<Index>(i)] = quantities.at(kinds[i].name);
+  return out;
+}
+
+void add_remarks(const std::string& where, const std::vector<Remark>& remarks, VariantResponse& out) {
+  for (const Remark& r : remarks) out.remarks.push_back({r.warning, where + ": " + r.words});
+}
+
 }  // namespace
+
+Quantities quantities_of(const StaticResult& rest) {
+  Quantities out;
+  add_static(out, rest);
+  return out;
+}
+
+Quantities quantities_of(const SystemStaticResult& rest) {
+  Quantities out;
+  add_static(out, rest);
+  return out;
+}
+
+Quantities quantities_of(const ResponseResult& motion, const SystemStaticParameters* settings) {
+  Quantities out;
+  const std::string d = name_of(motion.direction);
+  add_sweep(out, motion);
+  if (!motion.of_train()) {
+    add_mesh(out, motion, 0, "");
+    out["natural_frequency"] = motion.natural_frequency;
+    return out;
+  }
+  for (size_t m = 0; m < motion.mesh_names.size(); ++m)
+    add_mesh(out, motion, static_cast<Index>(m), "." + motion.mesh_names[m]);
+  for (size_t b = 0; b < motion.body_names.size(); ++b) {
+    const auto column = static_cast<Index>(b);
+    const std::string end = d + "." + motion.body_names[b];
+    out["bearing_force_max_" + end] = motion.bearing_force_max.col(column).maxCoeff();
+    out["bearing_force_rms_max_" + end] = motion.bearing_force_rms.col(column).maxCoeff();
+  }
+  for (Index m = 0; settings && motion.load_share_max.size() > 0 && m < motion.load_share_max.cols(); ++m) {
+    const auto& gear = settings->mesh[static_cast<size_t>(settings->section[static_cast<size_t>(m)])].gear;
+    double& most = out["load_share_max_" + d + "." + gear[0] + "-" + gear[1]];
+    most = std::max(most, motion.load_share_max.col(m).maxCoeff());
+  }
+  return out;
+}
+
+VariantResult variant_parameters(const VariantParameters& settings) {
+  VariantResult out;
+  out.train = settings.train;
+  out.names = train_names(settings.train);
+  out.directions = settings.directions;
+  out.frequency_from = settings.train.frequency_from;
+  out.frequency_to = settings.train.frequency_to;
+  out.frequency_step = settings.train.frequency_step;
+  return out;
+}
+
+VariantResponse variant_response(const std::vector<ReducedBody>& bodies, const VariantParameters& settings,
+                                 const std::function<void(long, long, const std::string&)>& report) {
+  const SystemSweepParameters& train = settings.train;
+  const TrainNames names = train_names(train);
+  VariantResponse out;
+  const SystemStaticResult rest = system_at_rest(train, bodies);
+  Quantities quantities = quantities_of(rest);
+  add_remarks("at rest", rest.remarks, out);
+  for (const Direction direction : settings.directions) {
+    const SweepResult motion = system_sweep(train, bodies, direction, report);
+    quantities.merge(quantities_of(response(motion), &train));
+    add_remarks(text("speed ", direction), motion.remarks, out);
+  }
+  return in_order(quantities, response_quantities(settings.directions, names), std::move(out));
+}
 
 VariantResult variant_parameters(const ReducedBody& driver, const ReducedBody& driven,
                                  const VariantParameters& settings) {
@@ -86,13 +213,9 @@ VariantResponse variant_response(const ReducedBody& driver, const ReducedBody& d
                                  const VariantParameters& settings,
                                  const std::function<void(long, long, const std::string&)>& report) {
   VariantResponse out;
-  const auto add_remarks = [&](const std::string& where, const std::vector<Remark>& remarks) {
-    for (const Remark& r : remarks) out.remarks.push_back({r.warning, where + ": " + r.words});
-  };
-  Quantities quantities;
   const StaticResult rest = static_transmission(driver, driven, settings.statics, settings.torque);
-  add_static(quantities, rest);
-  add_remarks("at rest", remarks(rest));
+  Quantities quantities = quantities_of(rest);
+  add_remarks("at rest", remarks(rest), out);
   if (!settings.directions.empty()) {
     // Without bearing dampers nothing depends on the pair at the reference torque.
     const bool alike =
@@ -104,15 +227,11 @@ VariantResponse variant_response(const ReducedBody& driver, const ReducedBody& d
     for (Direction direction : settings.directions) {
       const SweepResult motion =
           sweep(driver, driven, rest, bearing_stiffness, settings.motion, direction, report);
-      add_motion(quantities, response(motion));
-      add_remarks(text("speed ", direction), motion.remarks);
+      quantities.merge(quantities_of(response(motion)));
+      add_remarks(text("speed ", direction), motion.remarks, out);
     }
   }
-  const std::vector<ResponseQuantity> kinds = response_quantities(settings.directions);
-  out.quantity.resize(static_cast<Index>(kinds.size()));
-  for (size_t i = 0; i < kinds.size(); ++i)
-    out.quantity[static_cast<Index>(i)] = quantities.at(kinds[i].name);
-  return out;
+  return in_order(quantities, response_quantities(settings.directions), std::move(out));
 }
 
 }  // namespace whine

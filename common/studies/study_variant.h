@@ -1,10 +1,12 @@
 // One variant of a study from bodies to response quantities: static equilibrium, sweeps, and the numbers that a study gathers.
 #pragma once
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "results/reduced_body.h"
+#include "results/response.h"
 #include "results/variant.h"
 #include "system/statics.h"
 
@@ -14,8 +16,18 @@ namespace whine {
 VariantResult variant_parameters(const ReducedBody& driver, const ReducedBody& driven,
                                  const VariantParameters& settings);
 
+// Of a train: its layout and what its quantities are of.
+VariantResult variant_parameters(const VariantParameters& settings);
+
+// Quantities of results in SI, by the names of response_quantities(). settings: of a train, to know which meshes share a load; else
+// their sharing is left out.
+using Quantities = std::map<std::string, double>;
+Quantities quantities_of(const StaticResult& rest);
+Quantities quantities_of(const SystemStaticResult& rest);
+Quantities quantities_of(const ResponseResult& motion, const SystemStaticParameters* settings = nullptr);
+
 struct VariantResponse {
-  Eigen::VectorXd quantity;     // SI, in the order of response_quantities(settings.directions)
+  Eigen::VectorXd quantity;     // SI, in the order of response_quantities()
   std::vector<Remark> remarks;  // of the statics and of each sweep, which they name
 };
 
@@ -24,6 +36,9 @@ struct VariantResponse {
 // each speed. Throws as static_transmission, sweep and response.
 VariantResponse variant_response(const ReducedBody& driver, const ReducedBody& driven,
                                  const VariantParameters& settings,
+                                 const std::function<void(long, long, const std::string&)>& report);
+// The same of a train, from system_at_rest and system_sweep. bodies: [gear] of settings.train.body.
+VariantResponse variant_response(const std::vector<ReducedBody>& bodies, const VariantParameters& settings,
                                  const std::function<void(long, long, const std::string&)>& report);
 
 }  // namespace whine

@@ -179,6 +179,9 @@ SystemPosition join(const SystemModel& system, double phase, int period,
       segment.strips = position.first_strip[j + 1] - position.first_strip[j];
       for (int s = 0; s < kSides; ++s) {
         const auto b = static_cast<size_t>(model.layout.side[static_cast<size_t>(s)].body);
+        // A position error closes the gaps as a motion of the hub does.
+        out.gap.segment(segment.first_strip, segment.strips).array() -=
+            closing_sign(s) * segment.normal.dot(offset_of(system.layout.bodies[b]));
         const auto move = [&](MatrixXd& rows) {
           if (rows.size() > 0)
             rows.middleRows(segment.first_strip, segment.strips).rowwise() =
@@ -338,6 +341,7 @@ double mesh_deflection(const SystemModel& system, const SystemPosition& position
   double out = at.transmission_error(system, m);
   for (int s = 0; s < kSides; ++s) {
     const int own = mesh.layout.side[static_cast<size_t>(s)].body;
+    out += mesh.outward_in_system(s).dot(offset_of(system.layout.bodies[static_cast<size_t>(own)]));
     for (const int b : {own, system.layout.bodies[static_cast<size_t>(own)].on}) {
       if (b == System::kGround) continue;
       const Bearing& bearing = system.layout.bodies[static_cast<size_t>(b)].bearing;

@@ -23,6 +23,7 @@
 #include "report/study_figure.h"
 #include "results/harris_map.h"
 #include "signal/response.h"
+#include "small_system.h"
 #include "solid/tooth_bending.h"
 #include "system/statics.h"
 
@@ -91,15 +92,19 @@ TEST_CASE("pictures of teeth that differ, cracks, bearings, relief: no text is c
 }
 
 TEST_CASE("pictures of designs and of an error budget: no text is cut or lies on other text") {
-  std::vector<OfDesign<StaticResult>> rest;
+  std::vector<RestCurve> rest;
   std::vector<OfDesign<ResponseResult>> motion;
   for (const char* name :
        {"gearbox_of_the_first_variant_a", "gearbox_of_the_first_variant_b", "gearbox_of_the_third_variant",
         "d", "fifth_variant_of_the_gearbox", "gearbox_of_the_sixth_variant"}) {
-    rest.push_back({name, at_rest(9999)});
+    rest.push_back(rest_curve(name, at_rest(9999)));
     for (const ResponseResult& r : both_ways(9999)) motion.push_back({name, r});
   }
   check(compared_rest_figure(rest), "compare-rest");
+  std::vector<RestCurve> trains = rest_curves("gearbox_of_the_first_variant", small_system());
+  for (RestCurve& curve : rest_curves("gearbox_of_the_second_variant", small_system()))
+    trains.push_back(curve);
+  check(compared_rest_figure(trains), "compare-rest");
   check(compared_motion_figure(motion), "compare-motion");
   Figure turned = compared_motion_figure(motion);
   apply({"rpm:driver", 1e-6}, turned);

@@ -291,6 +291,75 @@ TEST_CASE("the study of tolerances draws the errors of both gears") {
     }
 }
 
+namespace {
+
+Study study_of_train(const std::string& content) {
+  const std::string scene = std::filesystem::absolute("data/scenes/oh58-planetary.toml").string();
+  return read_study(Written("scene = '" + scene + "'\n" + content).path);
+}
+const std::string kPin = "[[vary]]\nkey = 'pin.planet2.tangential_um'\nvalues = [0, 20]\n";
+
+}  // namespace
+
+TEST_CASE(
+    "a study of a train: quantities of meshes, bodies and shared meshes; its variants are the scene with edited lists") {
+  const Study study = study_of_train(
+      "quantities = ['load_sharing_factor.sun-planet', 'te_peak_to_peak.planet4-ring', 'bearing_force_static.sun']\n" +
+      kPin +
+      "[[vary]]\nkey = 'drive.sun.torque_Nm'\nvalues = [300, 500]\n[set]\n'mesh.planet-ring.corner_contact' = false\n");
+  REQUIRE(study.variants == 4);
+  CHECK(study.train.meshes.size() == 8);
+  CHECK(study.train.shared == std::vector<std::string>{"sun-planet", "planet-ring"});
+  const StudyVariant last = study_variant(study, 3, variant_values(study, 3)),
+                     first = study_variant(study, 0, variant_values(study, 0));
+  REQUIRE(last.train);
+  CHECK(last.layout.torque(0) == 500);
+  CHECK(std::hypot(last.layout.bodies[2].offset[0], last.layout.bodies[2].offset[1]) ==
+        relative(20e-6, 1e-12));
+  CHECK(last.train->meshes[0].spec.corner.enabled);
+  CHECK(!last.train->meshes[1].spec.corner.enabled);
+  // The pin of variant 0 stands where the drawing has it: the scene itself, but for torque and corners.
+  CHECK(first.layout.bodies[2].offset == std::array{0.0, 0.0});
+  const Written file(variant_stage_parameters(last, {Direction::down}), "variant.toml"),
+      rest(variant_stage_parameters(last, {}), "variant.toml");
+  const VariantParameters moving = read_variant_parameters(file.path),
+                          still = read_variant_parameters(rest.path);
+  CHECK(moving.of_train());
+  CHECK(moving.directions == std::vector<Direction>{Direction::down});
+  CHECK(moving.train.frequency_to == 6000);
+  CHECK(moving.train.layout.bodies[2].offset == last.layout.bodies[2].offset);
+  CHECK(still.directions.empty());
+  CHECK(train_names(still.train) == study.train);
+}
+
+TEST_CASE(
+    "a study of a train rejects quantities that it does not have, rigid gears and sweeps without speeds") {
+  const auto why = [](const std::string& content) { return message_of([&] { study_of_train(content); }); };
+  CHECK(names(why("quantities = ['te_peak_to_peak']\n" + kPin), {":2", "te_peak_to_peak"}));
+  CHECK(names(why("quantities = ['te_peak_to_peak.sun-planet5']\n" + kPin), {"te_peak_to_peak.sun-planet1"}));
+  CHECK(names(why("quantities = ['rms_max_up.sun-planet1']\n" + kPin), {":2", "rms_max_up.sun-planet1"}));
+  CHECK(why("stage = 'sweep'\nquantities = ['rms_max_up.sun-planet1']\n" + kPin).empty());
+  CHECK(names(why("[[vary]]\nkey = 'operation.torque_Nm'\nvalues = [1, 2]\n"), {":3", "[[drive]]"}));
+  for (const auto& [scene, word] :
+       {std::pair{"oh58-planetary-rigid", "rigid"}, std::pair{"lin-parker-planetary", "rigid"}}) {
+    const std::string path =
+        std::filesystem::absolute(std::string("data/scenes/") + scene + ".toml").string();
+    const Written file("scene = '" + path + "'\n[[vary]]\nkey = 'module_mm'\nvalues = [2, 3]\n");
+    CHECK(names(message_of([&] { read_study(file.path); }), {":1", word}));
+  }
+}
+
+TEST_CASE("the plan of a study of a train comes back as it was written") {
+  const Study study = study_of_train("stage = 'sweep'\n" + kPin);
+  std::vector<GatheredVariant> variants;
+  for (long i = 0; i < study.variants; ++i)
+    variants.push_back({"abcd" + std::to_string(i), variant_values(study, i)});
+  const Written file(plan_text(study, variants), "plan.toml");
+  const auto [plan, back] = read_plan(file.path);
+  CHECK(plan.train == study.train);
+  CHECK(plan_text(plan, back) == plan_text(study, variants));
+}
+
 TEST_CASE("what is gathered of a study comes back from its artifact") {
   StudyResult a;
   a.plan = study_of("stage = 'sweep'\n" + kDamping +

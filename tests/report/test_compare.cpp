@@ -93,10 +93,30 @@ Design design(const std::string& name, const std::vector<double>& torques, doubl
   return out;
 }
 
-const Difference& row(const std::vector<Difference>& rows, const std::string& torque,
+// A train at rest whose transmission errors swing by `swing` (m) to either side.
+Design train_design(const std::string& name, double swing) {
+  constexpr int kPhases = 16;
+  SystemStaticResult a = small_system();
+  const Index meshes = a.contact_ratio.size(), bodies = static_cast<Index>(a.settings.layout.bodies.size());
+  a.mesh_phase = VectorXd::LinSpaced(kPhases, 0, 1 - 1.0 / kPhases);
+  a.transmission_error.resize(kPhases, meshes);
+  for (Index i = 0; i < kPhases; ++i)
+    a.transmission_error.row(i).setConstant(20e-6 + swing * std::cos(2 * std::numbers::pi * a.mesh_phase[i]));
+  a.mesh_force = MatrixRM::Constant(kPhases, meshes, 1000);
+  a.mesh_force.col(0).setConstant(1300);
+  a.load_share = MatrixRM::Constant(kPhases, meshes, 1.0 / 3);
+  a.tooth_load.assign(kPhases, a.tooth_load[0]);
+  a.bearing_force.assign(kPhases, MatrixRM::Constant(bodies, 2, 100));
+  a.mesh_stiffness.assign(kPhases, a.mesh_stiffness[0]);
+  Design out{name};
+  out.train = SystemReport{name + ": a train", a, {}, {}, {}, {}};
+  return out;
+}
+
+const Difference& row(const std::vector<Difference>& rows, const std::string& part,
                       const std::string& quantity) {
   for (const Difference& r : rows)
-    if (r.torque == torque && r.quantity == quantity) return r;
+    if (r.part == part && r.quantity == quantity) return r;
   FAIL("no row " << quantity);
   return rows.front();
 }
@@ -250,7 +270,8 @@ TEST_CASE("axes that a figure does not have are rejected by what it has") {
 }
 
 TEST_CASE("names of designs stand in tables as they are, in pictures without marks") {
-  const Figure rest = compared_rest_figure({{"deep_root", at_rest(150)}, {"b", at_rest(150)}});
+  const Figure rest =
+      compared_rest_figure({rest_curve("deep_root", at_rest(150)), rest_curve("b", at_rest(150))});
   CHECK(rest.notes[0].starts_with("deep_root: "));
   CHECK(rest.captions[0].starts_with("deep\\_root: "));
   CHECK(rest.panels[0].curves[0].label == "deep\\_root");
@@ -263,7 +284,7 @@ TEST_CASE("templates of order cuts and of designs in motion draw both axes and l
                                             {"a", some_response(Direction::down)},
                                             {"b", some_response(Direction::up)},
                                             {"b", some_response(Direction::down)}}),
-           rest = compared_rest_figure({{"a", at_rest(150)}, {"b", at_rest(150, 8e-6)}});
+           rest = compared_rest_figure({rest_curve("a", at_rest(150)), rest_curve("b", at_rest(150, 8e-6))});
     if (engineers)
       for (Figure* figure : {&orders, &motion}) apply({"rpm:driven", 1e-6}, *figure);
     for (const auto& [figure, name] : {std::pair{&orders, "order-cuts"}, std::pair{&motion, "compare-motion"},
@@ -287,7 +308,7 @@ TEST_CASE("designs: what differs, with its change; gears by their role; keys of 
   CHECK(std::abs(std::stod(stiffness.change.at(0)) - 100 * (b / a - 1)) < 0.15);
   // At torques that both have; nothing of what is the same, though the gears are called otherwise.
   for (const Difference& r : found) {
-    CHECK(r.torque == "150");
+    CHECK(r.part == "150");
     CHECK(!contains(r.quantity, "sun"));
     CHECK(r.value[0] != r.value[1]);
   }
@@ -313,16 +334,55 @@ TEST_CASE("designs: what differs, with its change; gears by their role; keys of 
   CHECK(contains(compare_tsv({first, second}), "150\tmean mesh stiffness\tN/µm\t"));
 }
 
+TEST_CASE(
+    "trains side by side: quantities of each mesh, at their own torques; a pair stands beside each mesh") {
+  const std::string swing = "static transmission error, peak to peak, over the whole hunting period";
+  const Design first = train_design("first", 2e-6), second = train_design("second", 3e-6),
+               pair = design("pair", {150}, 8e-6);
+  const std::vector<Difference> found = differences({first, second});
+  for (const std::string mesh : {"sun-planet1", "planet3-ring"}) {
+    const Difference& own = row(found, mesh, swing);
+    CHECK(std::stod(own.value[0]) == relative(4, 1e-6));
+    CHECK(std::stod(own.value[1]) == relative(6, 1e-6));
+    CHECK(own.change.at(0) == "+50.0");
+    CHECK(own.unit == "µm");
+  }
+  for (const Difference& r : found) CHECK(!contains(r.quantity, "bearing"));  // the same in both
+  CHECK(differences({first, first}).empty());
+  CHECK(scene_differences({first, first}).empty());
+  const std::vector<Difference> beside = differences({pair, first});
+  const VectorXd& te = pair.content.statics[0].transmission_error;
+  CHECK(std::stod(row(beside, "sun-planet2", swing).value[0]) ==
+        relative((te.maxCoeff() - te.minCoeff()) * 1e6, 1e-3));
+  // 1300 N of one planet of three, 1000 N of the others; a pair shares no load.
+  const Difference& sharing =
+      row(beside, "sun-planet", "K_gamma: largest of the mean mesh forces over the mean of all planets");
+  CHECK(std::stod(sharing.value[1]) == relative(3 * 1300.0 / 3300, 1e-3));
+  CHECK(!std::isdigit(static_cast<unsigned char>(sharing.value[0][0])));
+  CHECK(contains(compare_html({pair, first}, {}), "mesh or body"));
+  CHECK(contains(compare_tsv({first, second}), "part\tquantity"));
+  // Of planets the first stands for all.
+  const std::vector<RestCurve> curves = rest_curves("first", *first.train->rest);
+  REQUIRE(curves.size() == 2);
+  CHECK(curves[1].mesh == "planet1-ring");
+  const Figure figure = compared_rest_figure({rest_curve("pair", at_rest(150)), curves[0], curves[1]});
+  CHECK(figure.panels[0].curves.size() == 3);
+  CHECK(figure.panels[0].curves[1].label == "first, sun-planet1");
+  Design rigid = first;
+  rigid.train->rest.reset();
+  CHECK(names(message_of([&] { differences({first, rigid}); }), {"first", "rigid"}));
+}
+
 TEST_CASE("designs that cannot be compared are rejected") {
   const Design first = design("first", {100}), other = design("other", {200});
   CHECK(failure_of([&] { differences({first}); }) == Failure::input);
   CHECK(failure_of([&] { differences({first, other}); }) == Failure::input);
-  CHECK(failure_of([&] { compared_rest_figure({{"a", at_rest(100)}}); }) == Failure::input);
+  CHECK(failure_of([&] { compared_rest_figure({rest_curve("a", at_rest(100))}); }) == Failure::input);
   CHECK(failure_of([&] {
-          compared_rest_figure({{"a", at_rest(100)}, {"b", at_rest(200)}});
+          compared_rest_figure({rest_curve("a", at_rest(100)), rest_curve("b", at_rest(200))});
         }) == Failure::input);
   CHECK(failure_of([&] {
-          compared_rest_figure({{"a", at_rest(100)}, {"a", at_rest(100)}});
+          compared_rest_figure({rest_curve("a", at_rest(100)), rest_curve("a", at_rest(100))});
         }) == Failure::input);
   CHECK(failure_of([&] {
           compared_motion_figure({{"a", some_response(Direction::up)}, {"b", some_response(Direction::up)}});
