@@ -20,6 +20,7 @@ graded_scene := parker2000-grade5
 # The standard tooth with tip relief, at both dampings.
 relief_scenes := $(foreach s,$(standard_scene) $(calibrated_scene),$(foreach r,20_9 22_2 23_6,$s-relief-$r))
 cracked_scene := parker2000-crack
+helical_scene := parker2000-helical-0_5
 bearing_scene := parker2000-bearings
 internal_scene := internal-pair
 friction_scene := fzg-c-friction
@@ -57,6 +58,7 @@ inputs_bearing-forces = $(call both_ways,$1,$(firstword $2),response) $(call imp
 inputs_fig14 = $(foreach t,$(call each,$2),$(call both_ways,$1,$t/rectangular,sweep))
 inputs_fig15 = $(foreach m,rectangular-fig15 rectangular,out/$1/T$(firstword $2)/$m/down/sweep.h5)
 inputs_fig16 = $(foreach t,$(call each,$2),$(call both_ways,$1,$t/secant,sweep))
+inputs_flank-load = out/$1/T$(firstword $2)/static.h5
 inputs_profile-chart = out/$1/T$(firstword $2)/static.h5
 inputs_error-budget = out/$1/T$(firstword $2)/error_budget.h5
 inputs_sidebands = out/$1/T$(firstword $2)/static.h5 out/$1/T$(firstword $2)/up/response.h5
@@ -97,13 +99,14 @@ options = $(patsubst $1:%,--mesh-frequency %,$(filter $1:%,$(shown_at) histories
 history_figures = $(foreach f,histories history-loads,$(figure_folder)/$f-$(AT)Hz-T$(TORQUE))
 
 beside_figures := fig05 fig07 fig05-branches fig07-branches fig07-600 fig08 fig09 fig10 fig11 fig14-elastic
+paper_scenes_flank-load := $(helical_scene)
 paper_scenes_sidebands := $(graded_scene)
 paper_scenes_crack := $(cracked_scene)
 paper_scenes_bearing-forces := $(bearing_scene)
 paper_scenes_efficiency := $(friction_scene)
 paper_scenes_profile-chart := $(firstword $(relief_scenes))
 paper_scenes_relief-jumps := $(standard_scene) $(calibrated_scene) $(relief_scenes)
-at_150 := profile-chart relief-jumps waterfall order-cuts tooth-loads root-stress root-stress-branches flank-pressure bearing-forces fig03 fig05 fig05-branches multipliers fig08 fig09 fig10 fig11 fig15 error-budget sidebands crack
+at_150 := flank-load profile-chart relief-jumps waterfall order-cuts tooth-loads root-stress root-stress-branches flank-pressure bearing-forces fig03 fig05 fig05-branches multipliers fig08 fig09 fig10 fig11 fig15 error-budget sidebands crack
 paper_torques = $(if $(filter $(at_150),$1),150,$(if $(filter fig07-600,$1),300 600,100 200 300))
 
 report_figures := fig01 fig03 fig05 fig07 fig12 fig13 fig14 fig14-elastic fig16
@@ -111,7 +114,7 @@ report_figures := fig01 fig03 fig05 fig07 fig12 fig13 fig14 fig14-elastic fig16
 paper_only := fig07-600 fig08 fig09 fig10 fig11 fig15
 paper_figures := $(sort $(report_figures) $(paper_only))
 # of any pair, none of the paper's
-other_figures := fig05-branches fig07-branches multipliers load-sharing waterfall order-cuts tooth-loads root-stress root-stress-branches flank-pressure efficiency bearing-forces error-budget profile-chart sidebands crack
+other_figures := fig05-branches fig07-branches multipliers load-sharing waterfall order-cuts tooth-loads root-stress root-stress-branches flank-pressure efficiency bearing-forces error-budget profile-chart flank-load sidebands crack
 figures := $(paper_figures) $(other_figures) relief-jumps
 inputs_of_paper = $(call inputs,$1,$(or $(paper_scenes_$1),$(if $(filter $(beside_figures),$1),$(shown_scenes)),$(paper_scene)),$(paper_torques))
 

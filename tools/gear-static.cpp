@@ -48,12 +48,16 @@ struct AtRest {
 
 AtRest pair_results(const StageCommand& stage, double torque, bool next_level) {
   const StaticParameters settings = read_static_parameters(stage.params());
+  const bool one_slice = settings.fidelity.width == WidthModel::one;
+  if (next_level && !one_slice)
+    fail(Failure::input, "--next-level is of contact in one slice, and width = \"", settings.fidelity.width,
+         "\"; the next level, a body in three dimensions, is not there yet");
   const auto [driver, driven] = read_bodies(stage.bodies(), settings);
   AtRest out{pair_at_rest(driver, driven, settings, torque), {}};
   StaticResult& mesh = out.result.mesh[0];
   if (next_level) out.change = next_contact_level(driver, driven, settings, mesh);
   add_harmonics(mesh);
-  mesh.reference_contact = reference_contact(driver, driven, mesh);
+  if (one_slice) mesh.reference_contact = reference_contact(driver, driven, mesh);
   return out;
 }
 
@@ -91,6 +95,7 @@ void tell(const SystemStaticResult& a, const std::string& output) {
                                " %, bearing forces up to ", force, " N")
                         : std::string(),
            " -> ", output);
+  if (!a.mesh[0].face.none()) tell(face_load_words(a.mesh[0]));
 }
 
 void at_rest(const StageCommand& stage, const Provenance& made, double torque, bool next_level) {
@@ -109,6 +114,9 @@ void at_rest(const StageCommand& stage, const Provenance& made, double torque, b
 
 void error_budget_of(const StageCommand& stage, const Provenance& made, double torque) {
   const StaticParameters settings = read_static_parameters(stage.params());
+  if (settings.fidelity.width != WidthModel::one)
+    fail(Failure::input, "--error-budget is of contact in one slice, and width = \"", settings.fidelity.width,
+         "\" in [fidelity]; leave the option out");
   const auto [driver, driven] = read_bodies(stage.bodies(), settings);
   std::optional<StepsShown> steps(std::in_place, "gear-static");
   const ErrorBudgetResult errors = error_budget(driver, driven, settings, torque);

@@ -14,6 +14,13 @@ class HalfPlaneSurface {
   HalfPlaneSurface(const Material& material, double face_width)
       : moduli_(plane_strain_equivalent(material)), face_width_(face_width) {}
 
+  // The same material of another width (m).
+  HalfPlaneSurface of_width(double face_width) const {
+    HalfPlaneSurface out = *this;
+    out.face_width_ = face_width;
+    return out;
+  }
+
   // m N-1: C = 2 (1 - nu^2) / (pi E b), the factor of ln(depth / |x|).
   double coefficient() const {
     const double nu = moduli_.poisson_ratio;

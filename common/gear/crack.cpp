@@ -33,6 +33,8 @@ std::string outside(const ToothGeometry& gear, const Vec2& p) {
 Slit crack_slit(const ToothGeometry& gear) {
   if (gear.internal())
     fail(Failure::input, "crack: a cracked tooth of an internal gear is not modelled; take the section out");
+  if (gear.design().helical())
+    fail(Failure::input, "crack: a cracked tooth of a helical gear is not modelled; take the section out");
   const Crack& crack = gear.design().crack;
   if (crack.tooth < 0 || crack.tooth >= gear.design().teeth)
     fail(Failure::input, "crack: tooth = ", crack.tooth, ", but the gear has the teeth 0 to ",

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "gear/helix.h"
 #include "gear/tooth_errors.h"
 
 namespace whine {
@@ -13,12 +14,15 @@ double reference_thickness(const ToothGeometry& gear) {
 
 std::optional<Span> span_measurement(const ToothGeometry& gear) {
   if (gear.internal()) return std::nullopt;
+  // Along the normal of a helix; the points touched stand as far from each other along the face.
+  const double cosine = std::cos(base_helix_angle(gear.design()));
   const double base = gear.base_radius(), on_base = gear.thickness_at_radius(base),
                middle = gear.pitch_radius() + gear.design().profile_shift * gear.design().module,
                form = base * std::hypot(1.0, gear.form_roll_angle());
   std::optional<Span> best;
   for (int k = 2; k < gear.design().teeth; ++k) {
-    const double length = (k - 1) * gear.base_pitch() + on_base, radius = std::hypot(base, 0.5 * length);
+    const double length = cosine * ((k - 1) * gear.base_pitch() + on_base),
+                 radius = std::hypot(base, 0.5 * length * cosine);
     if (radius > gear.tip_radius()) break;
     if (radius < form) continue;
     if (!best || std::abs(radius - middle) < std::abs(0.5 * best->diameter - middle))

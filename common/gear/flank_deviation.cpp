@@ -18,6 +18,10 @@ std::string degrees(double roll) {
   return text(roll / kOneDegree, " deg");
 }
 
+double degrees_of(const GearDesign& design) {
+  return design.helix_angle / kOneDegree;
+}
+
 // rad: where a relief starts. end: "tip" or "root"; `towards`: its end on the flank.
 double start_of(const ToothGeometry& gear, const Relief& relief, const std::string& end, double towards) {
   const double rb = gear.base_radius(), form = gear.form_roll_angle(), tip = gear.tip_roll_angle();
@@ -122,6 +126,10 @@ FlankDeviation::FlankDeviation(const ToothGeometry& gear, const FlankModificatio
   modified_ = !none_;
   if (!errors.none()) {
     const GearDesign& design = gear.design();
+    if (design.helical())
+      fail(Failure::input,
+           "errors of teeth are those of spur gears, and this one has helix_angle_deg = ", degrees_of(design),
+           "; take [gear.<name>.error] out");
     repeats_ = design.teeth;
     none_ = false;
     base_radius_ = gear.base_radius();

@@ -5,10 +5,12 @@
 #include "base/error.h"
 #include "base/format.h"
 #include "base/units.h"
+#include "gear/helix.h"
 
 namespace whine {
 
-ToothGeometry::ToothGeometry(const GearDesign& design) : design_(design) {
+ToothGeometry::ToothGeometry(const GearDesign& drawn) : design_(drawn), section_(transverse_section(drawn)) {
+  const GearDesign& design = section_;
   const double m = design.module, alpha = design.pressure_angle, z = design.teeth, x = design.profile_shift;
   rp_ = 0.5 * m * z;
   rb_ = rp_ * std::cos(alpha);
@@ -54,9 +56,11 @@ void ToothGeometry::require_body() const {
   }
 }
 
-double shift_without_undercut(const GearDesign& design) {
-  const double sine = std::sin(design.pressure_angle);
-  return design.dedendum - design.rack_tip_radius * (1 - sine) - 0.5 * design.teeth * sine * sine;
+double shift_without_undercut(const GearDesign& drawn) {
+  const GearDesign design = transverse_section(drawn);
+  const double sine = std::sin(design.pressure_angle), in_drawing = design.module / drawn.module;
+  return in_drawing *
+         (design.dedendum - design.rack_tip_radius * (1 - sine) - 0.5 * design.teeth * sine * sine);
 }
 
 double ToothGeometry::roll_angle_at_radius(double r) const {

@@ -1,4 +1,4 @@
-// The exact tooth: involute flank and root curve, of external and of internal gears.
+// The exact tooth: involute flank and root curve, of external and of internal gears, in the transverse section (gear/helix.h).
 //
 // Body frame: gear centre at the origin, tooth 0 centred on +y, teeth counted counter-clockwise. The driving
 // flank is the one that leads in counter-clockwise rotation (x < 0). A flank point is named by its roll angle
@@ -42,12 +42,13 @@ class ToothGeometry {
   explicit ToothGeometry(const GearDesign& design);
 
   const GearDesign& design() const { return design_; }
-  double base_radius() const { return rb_; }         // m
-  double pitch_radius() const { return rp_; }        // m, generating: module teeth / 2
-  double tip_radius() const { return ra_; }          // m
-  double root_radius() const { return rf_; }         // m
-  double base_pitch() const { return pb_; }          // m
-  double tip_roll_angle() const { return xi_tip_; }  // rad
+  const GearDesign& section() const { return section_; }  // transverse; of a spur gear the design
+  double base_radius() const { return rb_; }              // m
+  double pitch_radius() const { return rp_; }             // m, generating: transverse module teeth / 2
+  double tip_radius() const { return ra_; }               // m
+  double root_radius() const { return rf_; }              // m
+  double base_pitch() const { return pb_; }               // m, transverse
+  double tip_roll_angle() const { return xi_tip_; }       // rad
   double form_roll_angle() const {
     return xi_form_;
   }  // rad: where the root curve ends and the involute begins
@@ -82,7 +83,7 @@ class ToothGeometry {
   void require_body() const;
   Vec2 trochoid(double angle) const;  // angle of the rack-tip normal against the radial, rad
   Vec2 fillet(double angle) const;    // angle from its contact with the involute, rad
-  GearDesign design_;
+  GearDesign design_, section_;
   // rad: half the tooth is half_base_ + inv(angle at r) of a ring, half_base_ - inv(angle at r) else, at any radius r
   double rb_, rp_, ra_, rf_, pb_, xi_tip_, xi_form_ = 0, half_base_, t_arc_ = 1;
   double undercut_ = 0, trochoid_end_ = 0;             // m; rad: angle of the rack-tip normal at the flank

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "gear/face_width.h"
+#include "gear/helix.h"
 
 namespace whine {
 
@@ -14,7 +15,12 @@ IsoStiffness iso_6336_stiffness(const GearDesign& a, const Material& of_a, const
   // The pinion is gear 1.
   const GearDesign &pinion = a.teeth <= b.teeth ? a : b, &wheel = a.teeth <= b.teeth ? b : a;
   // Of an internal gear the standard takes a rack in its place.
-  const double z1 = pinion.teeth, z2 = wheel.internal ? std::numeric_limits<double>::infinity() : wheel.teeth,
+  const auto virtual_teeth = [](const GearDesign& g) {  // z_n
+    const double cosine = std::cos(base_helix_angle(g));
+    return g.teeth / (cosine * cosine * std::cos(g.helix_angle));
+  };
+  const double z1 = virtual_teeth(pinion),
+               z2 = wheel.internal ? std::numeric_limits<double>::infinity() : virtual_teeth(wheel),
                x1 = pinion.profile_shift, x2 = wheel.profile_shift;
   const double q = 0.04723 + 0.15551 / z1 + 0.25791 / z2 - 0.00635 * x1 - 0.11654 * x1 / z1 - 0.00193 * x2 -
                    0.24188 * x2 / z2 + 0.00529 * x1 * x1 + 0.00182 * x2 * x2;
@@ -27,10 +33,10 @@ IsoStiffness iso_6336_stiffness(const GearDesign& a, const Material& of_a, const
   const double modulus =
       2 * of_a.youngs_modulus * of_b.youngs_modulus / (of_a.youngs_modulus + of_b.youngs_modulus);
   IsoStiffness out;
-  out.line_load = torque / (0.5 * a.teeth * a.module) / contact_width(a, b);
+  out.line_load = torque / (0.5 * a.teeth * transverse_section(a).module) / contact_width(a, b);
   const double load = std::min(1.0, std::pow(out.line_load / kFullLoad, 0.25));
-  out.single =
-      kMeasured * 0.5 * (rack(a) + rack(b)) / q * (modulus / kSteel) * load * kPerMillimetreMicrometre;
+  out.single = kMeasured * 0.5 * (rack(a) + rack(b)) / q * (modulus / kSteel) * load *
+               kPerMillimetreMicrometre * std::cos(a.helix_angle);
   out.mesh = out.single * (0.75 * contact_ratio + 0.25);
   out.in_range =
       x1 + x2 >= -0.5 && x1 + x2 <= 2 && contact_ratio >= 1.2 && contact_ratio <= 1.9 && !wheel.internal;

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/format.h"
 #include "base/units.h"
+#include "gear/helix.h"
 #include "gear/internal_mesh.h"
 #include "gear/undercut.h"
 
@@ -36,7 +37,8 @@ GearPair::GearPair(const GearDesign& driver, const GearDesign& driven, double ce
             : driven.internal ? 1
                               : -1),
       along_{1, -1},
-      centre_distance_(centre_distance) {
+      centre_distance_(centre_distance),
+      helix_(whine::base_helix_angle(driver)) {
   if (internal()) along_ = {ring_ == 1 ? 1 : -1, ring_ == 1 ? 1 : -1};
   require_reach();
   const auto& [a, b] = gear_;
@@ -70,6 +72,8 @@ void GearPair::require_reach() const {
   const double rb1 = a.base_radius(), rb2 = b.base_radius();
   if (a.internal() && b.internal())
     fail(Failure::input, "both gears are internal; an internal gear meshes with an external one");
+  if (const std::string fault = helix_fault(a.design(), b.design()); !fault.empty())
+    fail(Failure::input, fault);
   if (std::abs(a.base_pitch() - b.base_pitch()) > 1e-9 * a.base_pitch())
     fail(Failure::input, "base pitches differ: driver ", millimetres(a.base_pitch()), ", driven gear ",
          millimetres(b.base_pitch()), "; give both gears the same module_mm and pressure_angle_deg");

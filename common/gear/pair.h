@@ -13,7 +13,9 @@
 //   contact ratio = (sqrt(r_a1^2 - r_b1^2) - sqrt(r_a2^2 - r_b2^2) + a sin(alpha_w)) / p_b, 1 the pinion, 2 the ring.
 #pragma once
 #include <array>
+#include <cmath>
 
+#include "gear/face_width.h"
 #include "gear/flank_deviation.h"
 #include "gear/involute.h"
 #include "model/stages.h"
@@ -50,7 +52,7 @@ struct FlankGap {
 class GearPair {
  public:
   // Throws Error(input) if the pair does not reach, jams (backlash below -1 micrometre, tip in root, tip
-  // beyond the other's involute, tip in an undercut root), has unequal base pitches or a contact ratio below 1; of an internal pair also for two rings,
+  // beyond the other's involute, tip in an undercut root), has helices that do not fit, unequal base pitches or a contact ratio below 1; of an internal pair also for two rings,
   // a ring that has no more teeth than its pinion, and tips that run into each other beside the mesh (trochoid
   // interference).
   GearPair(const GearDesign& driver, const GearDesign& driven, double centre_distance);
@@ -76,6 +78,12 @@ class GearPair {
   // m: by how much the undercut of gear g shortens the path of contact, at its start that of the driver, at its end that of the
   // driven gear.
   double path_lost(int g) const { return path_lost_[static_cast<size_t>(g)]; }
+  // rad: beta_b, positive where the driver is right-hand: a contact line lies at path + tan(beta_b) z along the face (gear/contact_lines.h).
+  double base_helix_angle() const { return helix_; }
+  double face_width() const { return contact_width(gear_[0].design(), gear_[1].design()); }  // m, common
+  double overlap_ratio() const {
+    return face_width() * std::tan(std::abs(helix_)) / base_pitch();
+  }                                              // eps_beta; 0 of spur gears
   double backlash() const { return backlash_; }  // m along the line of action, both gears unloaded
   double relative_curvature_radius(
       double path) const;  // m, rho1 rho2 / (rho1 + rho2), of a ring / (rho2 - rho1)
@@ -128,7 +136,7 @@ class GearPair {
   std::array<ToothGeometry, 2> gear_;
   int ring_;                  // -1: none
   std::array<int, 2> along_;  // see rolls_outwards()
-  double centre_distance_, alpha_, path_start_, path_end_, backlash_;
+  double centre_distance_, helix_, alpha_, path_start_, path_end_, backlash_;
   std::array<double, 2> path_lost_{};
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/units.h"
+#include "gear/helix.h"
 #include "gear/involute.h"
 
 namespace whine {
@@ -23,20 +24,22 @@ double land_of_ring(const GearDesign& d, double radius) {
 
 }  // namespace
 
-double largest_rack_tip_radius(const GearDesign& d) {
+double largest_rack_tip_radius(const GearDesign& drawn) {
+  const GearDesign d = transverse_section(drawn);
+  const double in_drawing = d.module / drawn.module;
   if (d.internal) {
     constexpr double kMost = 1;  // the range of rack_tip_radius
     if (land_of_ring(d, 0) < 0) return -1;
     double low = 0, high = kMost;
-    if (land_of_ring(d, high) >= 0) return high;
+    if (land_of_ring(d, high) >= 0) return high * in_drawing;
     for (int i = 0; i < 60; ++i) {  // the land shrinks as the fillets grow
       const double middle = 0.5 * (low + high);
       (land_of_ring(d, middle) < 0 ? high : low) = middle;
     }
-    return low;
+    return low * in_drawing;
   }
   const double slope = std::tan(d.pressure_angle);
-  return (0.25 * kPi + d.tooth_thinning / (2 * d.module) - d.dedendum * slope) /
+  return in_drawing * (0.25 * kPi + d.tooth_thinning / (2 * d.module) - d.dedendum * slope) /
          (1 / std::cos(d.pressure_angle) - slope);
 }
 

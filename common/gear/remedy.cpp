@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/format.h"
 #include "gear/handbook_sign.h"
+#include "gear/helix.h"
 #include "gear/pair.h"
 
 namespace whine {
@@ -44,7 +45,8 @@ bool ordinary(const Change& shifted) {
   return shifted.value >= kLeastShift && shifted.value <= kLargestShift;
 }
 
-double root_radius(const GearDesign& d) {
+double root_radius(const GearDesign& drawn) {
+  const GearDesign d = transverse_section(drawn);
   return d.module * (0.5 * d.teeth + (d.internal ? 1 : -1) * (d.dedendum - d.profile_shift));
 }
 
@@ -100,8 +102,9 @@ double teeth_of(const GearDesign& a, const GearDesign& b) {
 }
 
 // m: of the axes, at a working pressure angle of 0.
-double base_distance(const GearDesign& a, const GearDesign& b) {
-  return 0.5 * std::abs(teeth_of(a, b)) * a.module * std::cos(a.pressure_angle);
+double base_distance(const GearDesign& drawn, const GearDesign& b) {
+  const GearDesign a = transverse_section(drawn);
+  return 0.5 * std::abs(teeth_of(drawn, b)) * a.module * std::cos(a.pressure_angle);
 }
 
 // m: of the axes, where the involute function of the working pressure angle is `wanted`, above 0; rounded to the side on which there is more
@@ -153,7 +156,7 @@ std::vector<Change> deeper_roots(const DrawnGears& gears) {
   std::vector<Change> out;
   for (const DrawnGears::Mesh& mesh : gears.mesh)
     for (const auto& [own, mate] : {std::pair{mesh.first, mesh.second}, std::pair{mesh.second, mesh.first}}) {
-      const GearDesign &d = gears.design[own], &other = gears.design[mate];
+      const GearDesign &d = gears.design[own], other = transverse_section(gears.design[mate]);
       const double tip = other.module * (0.5 * other.teeth +
                                          (other.internal ? -1 : 1) * (other.addendum + other.profile_shift));
       const double clearance = (d.internal       ? root_radius(d) - mesh.centre_distance - tip
@@ -200,7 +203,7 @@ void add_shifts_of_undercut(const DrawnGears& gears, std::vector<Try>& tries) {
 void add_far_distance(const DrawnGears& gears, double farthest, std::vector<Try>& tries) {
   const DrawnGears::Mesh& mesh = gears.mesh[0];
   const GearDesign &a = gears.design[mesh.first], &b = gears.design[mesh.second];
-  const double wanted = involute_function(a.pressure_angle) +
+  const double wanted = involute_function(transverse_section(a).pressure_angle) +
                         2 * (a.profile_shift + b.profile_shift) * std::tan(a.pressure_angle) / teeth_of(a, b);
   if (!(wanted > 0)) return;
   const double distance = distance_at(a, b, wanted), away = std::abs(distance - mesh.centre_distance);
@@ -283,7 +286,8 @@ bool beyond_help(const DrawnGears& gears) {
     const GearDesign &a = gears.design[mesh.first], &b = gears.design[mesh.second];
     const GearDesign &ring = a.internal ? a : b, &pinion = a.internal ? b : a;
     const double base = a.module * std::cos(a.pressure_angle);
-    return (a.internal && b.internal) || (ring.internal && ring.teeth <= pinion.teeth) ||
+    return !helix_fault(a, b).empty() || (a.internal && b.internal) ||
+           (ring.internal && ring.teeth <= pinion.teeth) ||
            std::abs(b.module * std::cos(b.pressure_angle) - base) > 1e-9 * base;
   });
 }
@@ -416,7 +420,8 @@ std::string with_remedy(const std::string& words, const DrawnGears& gears) {
     if (bore && given > one.value && given / 2 <= one.value)
       out += text(" (a rim of one module; ", shown_number(given * 1e3), " may be a diameter)");
     const GearDesign& d = changed.design[one.number];
-    const double side = d.internal ? -1 : 1, middle = d.teeth + 2 * side * d.profile_shift;
+    const double side = d.internal ? -1 : 1,
+                 middle = d.teeth / std::cos(d.helix_angle) + 2 * side * d.profile_shift;
     const bool shifted = one.member == &GearDesign::profile_shift;
     std::string diameters;
     if (shifted || one.member == &GearDesign::addendum)

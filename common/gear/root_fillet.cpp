@@ -11,7 +11,7 @@
 namespace whine {
 
 void ToothGeometry::cut_by_rack() {
-  const GearDesign& design = design_;
+  const GearDesign& design = section_;
   const double m = design.module, alpha = design.pressure_angle, x = design.profile_shift;
   // The rack tip is a circle; lateral distances from the middle of its tooth, depths from the rolling line.
   tip_centre_depth_ = rp_ - rf_ - tool_radius_;

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/format.h"
 #include "gear/body_inertia.h"
+#include "gear/contact_lines.h"
 #include "gear/crack.h"
 #include "gear/face_width.h"
 #include "gear/handbook_sign.h"
@@ -39,7 +40,10 @@ void check_gear(const SceneGear& gear, const DrawnGears& gears, const ScenePlace
     const ToothGeometry tooth(gear.design);
     if (gear.design.crack.depth > 0) crack_slit(tooth);
   });
-  in_part(".modification", [&] { FlankDeviation(ToothGeometry(gear.design), gear.modification); });
+  in_part(".modification", [&] {
+    FlankDeviation(ToothGeometry(gear.design), gear.modification);
+    LeadDeviation(gear.modification.lead, gear.design.face_width);
+  });
   in_part(".error", [&] { FlankDeviation(ToothGeometry(gear.design), gear.modification, gear.errors); });
 }
 

@@ -272,14 +272,14 @@ void describe_design(Codec& c, const std::string& section, GearDesign& design) {
 void describe_pair(Codec& c, GearPairParameters& a, bool fidelity) {
   for (int g = 0; g < kSides; ++g) describe_gear(c, kRole[g], a.gear[g]);
   c.parameters("mesh", keys(a.mesh));
-  if (fidelity) c.parameters("fidelity", keys(a.fidelity).only({"contact"}));
+  if (fidelity) c.parameters("fidelity", keys(a.fidelity).only({"contact", "width"}));
   c.parameters("discretisation", keys(a.contact));
 }
 
 void describe_motion(Codec& c, MotionParameters& a, bool time) {
   for (int g = 0; g < kSides; ++g) c.parameters(kRole[g], inertia_key(a.inertia[g]));
   c.parameters("damping", keys(a.damping));
-  c.parameters("fidelity", keys(a.fidelity).without({"contact"}));
+  c.parameters("fidelity", keys(a.fidelity).without({"contact", "width"}));
   if (time) c.parameters("discretisation", keys(a.time));
 }
 

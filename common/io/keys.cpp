@@ -26,6 +26,7 @@ const KeyList& scene_keys() {
     KeyList all = title_key(v.scene.title);
     for (const KeyList& some : {keys(design, &v.words).section("gear"),
                                 keys(v.gear.modification),
+                                keys(v.gear.modification.lead),
                                 keys(v.gear.errors),
                                 error_file_key(v.error_file),
                                 keys(design).section("crack"),

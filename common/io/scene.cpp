@@ -89,7 +89,10 @@ void read_modification(const SectionReader& gear, FlankModification& modificatio
                      forms(end));
     if (!given.empty()) relief->start_roll = relief->start_radius = relief->length = 0;
   }
-  own->read(keys(modification), true);
+  own->read(keys(modification).append(keys(modification.lead)), true);
+  if ((modification.lead.end_relief > 0) != (modification.lead.end_relief_length > 0))
+    own->reject(
+        " gives one of end_relief_um and end_relief_length_mm; an end relief is as much at the end of the face, from so far before it: give both");
   for (const auto& [end, relief] : ends)
     if (relief->amount > 0 && !(relief->start_roll > 0 || relief->start_radius > 0 || relief->length > 0))
       own->reject(" lacks the start of ", end, "_relief_um = ", relief->amount * 1e6, "; give one of ",
@@ -215,12 +218,13 @@ void take_diameters(const SectionReader& gear, const GearDesign* like, GearValue
     if (diameter == 0) return;
     if (!own && like &&
         (like->teeth != d.teeth || like->module != d.module || like->profile_shift != d.profile_shift ||
-         like->internal != d.internal))
+         like->internal != d.internal || like->helix_angle != d.helix_angle))
       gear.reject(" takes '", diameter_key, "' = ", diameter * 1e3,
-                  " over from a gear of other teeth, module, profile_shift or kind; give '", diameter_key,
-                  "' or '", height_key, "' here");
-    const int out = d.internal ? -1 : 1;  // from root to tip
-    const double exact = outwards * out * (diameter / (2 * d.module) - d.teeth / 2.0 - out * d.profile_shift);
+                  " over from a gear of other teeth, module, profile_shift, helix or kind; give '",
+                  diameter_key, "' or '", height_key, "' here");
+    const int out = d.internal ? -1 : 1;                     // from root to tip
+    const double teeth = d.teeth / std::cos(d.helix_angle);  // in normal modules
+    const double exact = outwards * out * (diameter / (2 * d.module) - teeth / 2.0 - out * d.profile_shift);
     // A drawing has fewer digits than round-off leaves: 1, not 1 + 4e-15, makes the body of addendum = 1.
     constexpr double kDigits = 1e12;
     height = std::round(exact * kDigits) / kDigits;
@@ -229,7 +233,7 @@ void take_diameters(const SectionReader& gear, const GearDesign* like, GearValue
     // Of a ring whose shift is counted outwards.
     const double other = height + outwards * 2 * d.profile_shift;
     const bool other_sign = d.internal && other >= 0.6 && other <= 1.6;
-    const double pitch = d.module * (d.teeth + 2 * out * d.profile_shift),
+    const double pitch = d.module * (teeth + 2 * out * d.profile_shift),
                  limit = pitch + outwards * out * 2 * kMost * d.module;
     gear.reject_key(diameter_key, " = ", diameter * 1e3, ": with ", d.teeth,
                     " teeth, module_mm = ", d.module * 1e3, " and profile_shift = ", d.profile_shift,
@@ -304,6 +308,8 @@ void read_gears(const Source& source, Scene& scene, bool rigid) {
     else
       require_blank(gear, values.design);
     require_rim_support(gear, rigid, values.design);
+    if (!values.design.helical())
+      gear.reject_given("hand", ", and the gear is not helical; give helix_angle_deg, or take the line out");
     take_diameters(gear, model ? &base_design : nullptr, values);
     if (!gear.node("rack_tip_radius") && !(model && model->node("rack_tip_radius")))
       values.design.rack_tip_radius = default_rack_tip_radius(values.design);

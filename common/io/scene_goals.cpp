@@ -9,6 +9,9 @@
 namespace whine {
 namespace {
 
+// Goals of pairs that take more than one slice over the face: helices, misalignment, lead modifications, width = "slices".
+constexpr std::array kGoalsOfFace{"mesh", "reduce", "static", "flank-load"};
+
 // What a system must have for a goal; goals that do not stand here are of pairs alone.
 enum class Needs { nothing, elastic_gears, speeds, planets };
 struct SystemGoal {
@@ -58,10 +61,24 @@ void check_teeth(const SceneAbilities& pair, const std::string& which) {
                            : "crack");
 }
 
+void check_face(const std::string& goal, const SceneAbilities& pair, const std::string& which) {
+  const auto takes = [&](const char* own) { return goal == own; };
+  if (pair.face.empty() || std::any_of(kGoalsOfFace.begin(), kGoalsOfFace.end(), takes)) return;
+  std::string others;
+  for (const char* own : kGoalsOfFace) others += text(" ", own);
+  fail(Failure::input, goal, ": in ", which, " ", pair.face, ", and ", goal,
+       " is computed in one slice over the face, of spur gears under even load; for it there is: make ",
+       which, others);
+}
+
 }  // namespace
 
 SceneAbilities abilities(const Scene& scene) {
   SceneAbilities out;
+  out.face =
+      face_words(scene.mesh, scene.gear(scene.mesh.gear[0]).design, scene.gear(scene.mesh.gear[1]).design);
+  if (out.face.empty() && scene.fidelity.width != WidthModel::one)
+    out.face = text("[fidelity] has width = \"", scene.fidelity.width, "\"");
   for (const std::string& gear : scene.mesh.gear) {
     out.teeth_differ |= !scene.gear(gear).errors.none();
     out.cracked |= scene.gear(gear).design.crack.depth > 0;
@@ -86,6 +103,7 @@ void check_goals(const std::vector<std::string>& goals, const SceneAbilities& sc
       if (known != kSystemGoals.end() && !known->of_pairs)
         fail(Failure::input, goal, ": ", which,
              " is a pair, and natural modes are of systems, scenes of several meshes, carriers or drives");
+      check_face(goal, scene, which);
       if (goal == "teeth") check_teeth(scene, which);
       continue;
     }

@@ -69,11 +69,13 @@ std::vector<GearRow> rows_of(View& v, bool moves) {
   };
   const KeyList gear = keys(v.design, &v.words).without({"like", "material"});
   add(gear.section("gear"), true);
-  add(keys(v.modification), v.modification != FlankModification{});
+  add(keys(v.modification), v.modification.of_profile());
+  add(keys(v.modification.lead), !v.modification.lead.none());
   add(keys(v.errors), !v.errors.none());
   add(gear.section("crack"), true);
   add(keys(v.material), true);
-  add(keys(v.mesh).section("mesh").all(), true);
+  add(keys(v.mesh).section("mesh").without({"misalignment_um"}).all(), true);
+  add(keys(v.mesh).section("mesh").only({"misalignment_um"}), true);
   add(keys(v.bearing), v.bearing.elastic());
   add(keys(v.mesh.friction), v.mesh.friction.acts());
   add(keys(v.damping), moves);

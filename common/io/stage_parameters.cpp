@@ -109,7 +109,7 @@ KeyList running_keys(Motion& m, const MotionStage& stage) {
 
 KeyList motion_keys(Motion& m, const MotionStage& stage) {
   KeyList out = running_keys(m, stage);
-  out.append(stage.body_model ? keys(m.p.fidelity) : keys(m.p.fidelity).only({"contact"}));
+  out.append(stage.body_model ? keys(m.p.fidelity) : keys(m.p.fidelity).only({"contact", "width"}));
   return stage.time ? out.append(keys(m.p.time)) : out;
 }
 
@@ -193,6 +193,10 @@ SweepParameters motion_from(const Source& source, const MotionStage& stage) {
   Motion out;
   StageParameters in(source);
   in(motion_keys(out, stage));
+  if (out.p.fidelity.width != WidthModel::one)
+    source.reject(
+        "has width = \"", out.p.fidelity.width, "\", and ", stage.file.stage,
+        " is computed in one slice over the face; write width = \"one\" in [fidelity] of the scene");
   out.p.reference_torque = out.torques.front();
   return out.p;
 }

@@ -122,7 +122,7 @@ void StageParameters::put_row(const char* name, const KeyList& keys) {
 }
 
 KeyList level_keys(Fidelity& fidelity, ContactDiscretisation& contact, TimeDiscretisation* moving) {
-  KeyList out = moving ? keys(fidelity) : keys(fidelity).only({"contact"});
+  KeyList out = moving ? keys(fidelity) : keys(fidelity).only({"contact", "width"});
   out.append(keys(contact));
   return moving ? out.append(keys(*moving)) : out;
 }

@@ -296,6 +296,39 @@ void describe_reference_contact(Codec& c, ReferenceContact& a) {
   c(a.approach, at + "approach", "m", kLength, "", "transmission error at this phase with strips");
 }
 
+// Of a pair in slices over the face, its one mesh.
+void describe_face(Codec& c, SystemStaticResult& all) {
+  OverMeshes over(c, all);
+  if (!c.optional("/line_load", !all.mesh[0].face.none())) return;
+  FaceLoad& a = all.mesh[0].face;
+  const char* const slices = "mesh_phase pair slice";
+  c(a.line_load, "/line_load", "N m-1", kStiff, slices,
+    "normal force of each tooth pair per length of face, at the slices along its contact line");
+  c(a.position, "/face_position", "m", kLength, slices,
+    "place of each slice along the axes, from the middle of the common face towards the viewer who sees the driver turn counter-clockwise");
+  c(a.width, "/slice_width", "m", kSize, slices,
+    "length of face that a slice stands for: weights of Gauss points on the contact line; 0: the pair does not touch",
+    "tooth_load = sum of line_load slice_width");
+  c(a.contact_line_length, "/contact_line_length", "m", kSize, kMeshPhases,
+    "length of all contact lines together", "L");
+  const auto number = [&](double FaceLoad::*of, const char* name, const char* units, const Range& range,
+                          const char* meaning, const char* equation = "") {
+    over(
+        [of](StaticResult & s) -> auto& { return s.face.*of; }, name, units, range, "mesh", meaning,
+        equation);
+  };
+  number(&FaceLoad::overlap_ratio, "/overlap_ratio", "1", {0, 1000}, "overlap ratio",
+         "b sin(beta) / (pi m_n)");
+  number(&FaceLoad::axial_force, "/axial_force", "N", kForce,
+         "axial force on the driver, positive as face_position",
+         "F_bt tan(beta_b), > 0 of a right-hand driver");
+  number(&FaceLoad::load_factor, "/face_load_factor", "1", kPositive,
+         "largest line load of the reference pair at mesh phase 0 over its mean, ends of the line included",
+         "K_Hbeta = w_max / w_mean");
+  number(&FaceLoad::line_load_max, "/line_load_max", "N m-1", kStiff,
+         "largest line load of all phases within the inner 90 % of face and path of contact");
+}
+
 void describe_certificate(Codec& c, SystemStaticResult& a) {
   c(a.least_gap, "/certificate/least_gap", "m", kLength, "",
     "least gap of a strip without force, over all positions", "d >= 0 where p = 0 (with Eq. 18, 20)");
@@ -351,7 +384,10 @@ void describe(Codec& c, SystemStaticResult& a) {
   describe_compliance(c, a);
   describe_flank_pressure(c, a);
   describe_rectangular_wave(c, a);
-  if (!a.of_train()) describe_reference_contact(c, a.mesh[0].reference_contact);
+  if (!a.of_train()) {
+    describe_reference_contact(c, a.mesh[0].reference_contact);
+    describe_face(c, a);
+  }
   describe_certificate(c, a);
   describe_backlash(c, a.backlash_margin);
   describe_remarks(c, a.remarks);

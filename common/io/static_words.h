@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "results/error_budget.h"
+#include "results/static.h"
 #include "studies/error_budget.h"
 
 namespace whine {
@@ -14,5 +15,8 @@ std::vector<std::string> change_words(const std::string& where, const StaticDiff
 // Of each gear: what each halving of the elements on the root changes, and the order at last where the changes show one. None
 // without three levels of elements.
 std::vector<std::string> root_stress_words(const ErrorBudgetResult& errors);
+
+// Of a pair in slices over the face: overlap, load over the face, axial force.
+std::vector<std::string> face_load_words(const StaticResult& statics);
 
 }  // namespace whine

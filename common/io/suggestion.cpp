@@ -20,13 +20,12 @@ struct Synonym {
 };
 
 constexpr Synonym kSynonyms[] = {
-    {"helixangle helix beta spiralangle", "",
-     "gears are spur gears for now, helical ones are not computed; take the line out if the angle is 0"},
+    {"helixangle helix beta spiralangle", "helix_angle_deg"},
     {"frictioncoefficient coefficientoffriction friction cof", "coefficient"},
     {"bearingstiffness shaftstiffness supportstiffness", "stiffness_N_um"},
     {"torquenmm momentnmm inputtorquenmm", "torque_Nm", "1 N m is 1000 N mm"},
-    {"leadcrowning leadslope helixslope helixcrowning", "",
-     "teeth are alike over the face width, so that there is no modification along it; take the line out"},
+    {"leadcrowning helixcrowning", "lead_crowning_um", "in [gear.<name>.modification]"},
+    {"leadslope helixslope", "lead_slope_um", "in [gear.<name>.modification]"},
     {"z n toothcount numberofteeth noofteeth numteeth nteeth teethnumber teethcount", "teeth"},
     {"m mn mt normalmodule transversemodule modul", "module_mm"},
     {"diametralpitch dp", "module_mm", "25.4 over the diametral pitch"},

@@ -13,6 +13,10 @@
 namespace whine {
 namespace {
 
+// Behind what needs more.
+constexpr const char* kOneSlice =
+    ", and a system (several meshes, carriers or drives) is computed in one slice over the face, of spur gears under even load; compute two of the gears as a pair";
+
 // What a gear of a system cannot have.
 void reject_sections(const SectionReader& gear, bool rigid) {
   for (const char* key : {"modification", "error", "crack"}) {
@@ -57,6 +61,10 @@ void take_gears(const Source& source, SystemScene& scene) {
     static_cast<SceneGear&>(gear) = own;
     const SectionReader reader = reader_of(own.name);
     reject_sections(reader, rigid);
+    if (own.design.helical() || !own.modification.lead.none())
+      reader.reject_at(reader.node("helix_angle_deg") ? *reader.node("helix_angle_deg") : reader.table(),
+                       own.design.helical() ? " is helical" : " takes material off along its face",
+                       kOneSlice);
     if (!rigid) continue;
     const auto like = reader.table()["like"].value<std::string>();
     const bool inherits = like && !reader.node("equivalent_mass_kg");
@@ -111,6 +119,7 @@ void take_meshes(const Source& source, SystemScene& scene) {
     reader.read(keys(mesh.spec).section("mesh"));
     reader.read(keys(mesh));
     reject_stiffness(reader, scene.rigid(), "that of elastic gears is computed");
+    reader.reject_given("misalignment_um", kOneSlice);
     if (scene.rigid() && !(mesh.stiffness > 0))
       reader.reject(" of '", mesh.spec.gear[0], "' and '", mesh.spec.gear[1],
                     "' lacks 'stiffness_N_um', which body = \"rigid\" needs");
@@ -191,6 +200,9 @@ void take_fidelity(const Source& source, SystemScene& scene) {
       section.reject(" belongs to elastic gears in motion, and those of this scene are rigid; take it out");
   });
   if (moves && !scene.rigid()) reject_in_motion(source, scene.fidelity);
+  if (scene.fidelity.width != WidthModel::one)
+    source.reject(*source.root().at_path("fidelity.width").node(), "width = \"", scene.fidelity.width,
+                  "\" in [fidelity]", kOneSlice);
   if (const toml::node* node = source.root().get("discretisation"); node && scene.rigid())
     source.reject(
         *node, "[discretisation] belongs to elastic gears, and those of this scene are rigid; take it out");

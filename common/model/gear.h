@@ -22,17 +22,26 @@ struct Crack {
   double angle = std::numbers::pi / 3;  // rad, of the slit against the centre line
 };
 
+// Of a helix: right-hand if a section turns counter-clockwise as one moves towards the viewer.
+enum class Hand { right, left };
+template <>
+inline constexpr const char* kWordsOf<Hand> = "right left";
+
 // One gear's geometry; what is true of the tooth and the blank, nothing of load or motion.
+// Of a helical gear module, pressure angle, shift and heights are those of the normal section, as drawings give them (ISO 21771: m_n,
+// alpha_n, x, h*); its transverse section: gear/helix.h.
 struct GearDesign {
   int teeth = 0;
   double module = 0;          // m
   double pressure_angle = 0;  // rad
+  double helix_angle = 0;     // rad at the reference circle (beta); 0: a spur gear
+  Hand hand = Hand::right;    // of a helical gear
   double profile_shift = 0;   // in modules
   double addendum = 1.0;      // in modules
   double dedendum = 1.25;     // in modules
   // In modules. External: of the rack that cuts the root, a trochoid. Internal: of the circular fillet at the root.
   double rack_tip_radius = 0.38;
-  double tooth_thinning = 0;    // m at the pitch circle
+  double tooth_thinning = 0;    // m along the pitch circle
   double face_width = 0;        // m
   double bore_radius = 0;       // m; rigid hub of an external gear; 0: none
   bool internal = false;        // teeth on the inside of a ring; see gear/involute.h
@@ -43,6 +52,7 @@ struct GearDesign {
 
   // m: of the circle on which the body is held, the bore or, of an internal gear, the outside of the rim.
   double clamped_radius() const { return internal ? rim_outer_radius : bore_radius; }
+  bool helical() const { return helix_angle > 0; }
   bool elastic_rim() const { return internal && rim_radial_stiffness > 0; }
 };
 
@@ -63,13 +73,31 @@ struct Relief {
   bool operator==(const Relief&) const = default;
 };
 
+// What is taken off along the face of a gear, the same at every roll angle; z from the middle of its face towards the viewer who sees
+// the driver turn counter-clockwise, b its width. Parts add up.
+struct LeadModification {
+  double crowning = 0;           // m at both ends of the face, 0 in the middle: a parabola
+  double slope = 0;              // m at z = b / 2, 0 at -b / 2; below 0: excess material
+  double end_relief = 0;         // m at both ends of the face, linear
+  double end_relief_length = 0;  // m from where it starts to the end of the face
+
+  bool none() const { return crowning == 0 && slope == 0 && end_relief == 0; }
+  bool operator==(const LeadModification&) const = default;
+};
+
 // What is taken off the driving flanks of a gear, all of its teeth alike. Parts add up.
 struct FlankModification {
   Relief tip, root;
   double crowning = 0;                        // m at both ends of the involute, 0 midway in the roll angle
   double slope = 0;                           // m at the tip, 0 at the foot; below 0: excess material
   std::vector<std::array<double, 2>> points;  // rad, m: roll angle, ascending, and what is taken off there
+  LeadModification lead;
 
+  bool of_profile() const {
+    FlankModification profile = *this;
+    profile.lead = {};
+    return profile != FlankModification{};
+  }
   bool operator==(const FlankModification&) const = default;
 };
 

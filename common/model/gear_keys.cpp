@@ -33,6 +33,9 @@ KeyList keys(GearDesign& d, GearWords* words) {
   k.add(&d.tooth_thinning, "tooth_thinning_mm", kMillimetre, "0.0", {0, 50}, "arc taken off the tooth at the pitch circle, for backlash");
   k.add(&d.face_width, "face_width_mm", kMillimetre, nullptr, {0.05, 5000, false, "0.025 would be 25 mm in metres"}, "face width");
   k.add(&d.bore_radius, "bore_radius_mm", kMillimetre, nullptr, {0, 1e5, true}, "not of an internal gear: radius inside which the gear is as good as rigid: its shaft, hub or web. The body between it and the root circle twists, which all pairs in mesh share: often a fifth of the compliance, with a shaft's radius up to half").unless = &d.internal;
+  k.begin_group(d.helical());
+  k.add(&d.helix_angle, "helix_angle_deg", kDegree, "0.0", {0, 45}, "helix angle at the reference circle; 0: a spur gear. Of a helical gear module, pressure angle, profile shift, addendum, dedendum and rack tip radius are those of the normal section, as on drawings; tooth_thinning_mm is along the reference circle");
+  k.choice(d.hand, "hand", "right", "of the helix: gears in mesh have opposite hands, an internal gear that of its pinion");
   k.begin_group(d.internal, "_rim");
   k.add(&d.internal, "internal", kNone, "false", {}, "true: teeth on the inside of a ring, which meshes with an external gear of fewer teeth");
   k.add(&d.rim_outer_radius, "rim_outer_radius_mm", kMillimetre, "", {0, 1e5, true}, "of an internal gear, which needs it: radius outside which the ring is as good as rigid, its housing; what lies between it and the root circle bends and twists");
@@ -76,6 +79,15 @@ KeyList keys(FlankModification& m) {
   k.add(&m.crowning, "crowning_um", kMicrometre, "0.0", {-1000, 1000}, "profile crowning: a parabola, 0 midway in the roll angle, this much taken off at both ends of the involute");
   k.add(&m.slope, "slope_um", kMicrometre, "0.0", {-1000, 1000}, "profile slope: linear in the roll angle, 0 at the foot of the involute, this much taken off at the tip");
   k.add(&m.points, "points", kNone, "", {-1000, 1000}, "[[roll angle in degrees, micrometres taken off], ...], ascending; monotone cubics between, constant outside; adds to the others");
+  return k;
+}
+
+KeyList keys(LeadModification& m) {
+  KeyList k("modification");
+  k.add(&m.crowning, "lead_crowning_um", kMicrometre, "0.0", {-1000, 1000}, "lead crowning: a parabola over the face, 0 in its middle, this much taken off at both ends");
+  k.add(&m.slope, "lead_slope_um", kMicrometre, "0.0", {-1000, 1000}, "lead slope: linear over the face, this much taken off at the end that faces a viewer who sees the driver turn counter-clockwise, 0 at the other");
+  k.add(&m.end_relief, "end_relief_um", kMicrometre, "0.0", {0, 1000}, "material taken off at both ends of the face, linear; it needs end_relief_length_mm");
+  k.add(&m.end_relief_length, "end_relief_length_mm", kMillimetre, "0.0", {0, 2500}, "from where the end relief starts to the end of the face; half of the face width at most");
   return k;
 }
 

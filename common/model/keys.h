@@ -143,7 +143,8 @@ struct GearWords {
 };
 
 KeyList keys(GearDesign& design, GearWords* words = nullptr);  // with the crack, in a section of its own
-KeyList keys(FlankModification& modification);
+KeyList keys(FlankModification& modification);                 // of the profile
+KeyList keys(LeadModification& modification);
 KeyList keys(ToothErrors& errors);
 KeyList keys(Material& material);
 KeyList keys(Bearing& bearing);

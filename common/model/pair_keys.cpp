@@ -22,12 +22,16 @@ KeyList keys(GearMeshSpec& m) {
   k.add(&m.corner, "corner_contact", kCornerDegree, "true", {0, 90}, "tip edge on a flank, off the line of action: true, false, or the largest angle between the normals in degrees");
   k.begin_group(m.contact_plane != GearMeshSpec{}.contact_plane);
   k.choice(m.contact_plane, "contact_plane", "strain", "plane state of the contact alone (pressure, width, local approach): strain inside a wide face; body: as each gear's [material] plane");
+  k.begin_group(m.misalignment != 0);
+  k.add(&m.misalignment, "misalignment_um", kMicrometre, "0.0", {-1000, 1000}, "misalignment in the plane of action over the common face width: by so much more the flanks stand apart at the end that faces a viewer who sees the driver turn counter-clockwise than at the other. What axes deviate at right angles to the plane of action (ISO 21771) changes the gap by its square only");
   k.append_group(keys(m.friction), m.friction.acts(), "friction");
   const auto own = [](int g, const char* section) { return std::string(kRole[g]) + section; };
   for (int g = 0; g < kSides; ++g)
-    k.append_group(keys(m.modification[g]), m.modification[g] != FlankModification{}, own(g, "_modification"));
+    k.append_group(keys(m.modification[g]), m.modification[g].of_profile(), own(g, "_modification"));
   for (int g = 0; g < kSides; ++g) k.append_group(keys(m.errors[g]), !m.errors[g].none(), own(g, "_error"));
   for (int g = 0; g < kSides; ++g) k.append_group(keys(m.bearing[g]), m.bearing[g].elastic(), own(g, "_bearing"));
+  for (int g = 0; g < kSides; ++g)
+    k.append_group(keys(m.modification[g].lead), !m.modification[g].lead.none(), own(g, "_lead"));
   return k;
 }
 
@@ -73,6 +77,8 @@ KeyList keys(Fidelity& f) {
   k.choice(f.body, "body", "modal", "what of the elastic body moves by itself; rigid: of systems alone, one spring for each mesh, natural modes only");
   k.choice(f.contact, "contact", "strips", "contact of a tooth pair: one force and Hertz's closed law, or pressure on strips");
   k.choice(f.integrator, "integrator", "exact", "time integration: Newmark (Eq. 8), or modal propagators");
+  k.begin_group(f.width != WidthModel::one);
+  k.choice(f.width, "width", "one", "contact over the face width: one slice under even load, of spur pairs; slices: points along each contact line, which the teeth carry each by itself; it is what helical gears, leads and misalignment need");
   return k;
 }
 
@@ -99,6 +105,8 @@ KeyList keys(ContactDiscretisation& c) {
   KeyList k("discretisation");
   k.add(&c.strips, "strips", kNone, "8", {3, 1001}, "pressure strips across the contact width at the mean load; a candidate zone holds whole fours of them");
   k.add(&c.positions, "positions", kNone, "0", {8, 65536, false, "a mesh period in fewer points has no harmonics; 0 takes the default", true}, "positions of the static stage per mesh period; 0: as steps_per_period, 128 at least, for teeth that differ fewer (16 at least), so that there are 16384 in all");
+  k.begin_group(c.face_points > 0);
+  k.add(&c.face_points, "face_points", kNone, "0", {2, 64, false, "one point knows nothing of the face", true}, "Gauss points along the contact line of each tooth pair, of width = \"slices\"; 0: 8, with misalignment or lead modifications 12");
   return k;
 }
 

@@ -1,5 +1,7 @@
 #include "model/scene.h"
 
+#include <numbers>
+
 #include "base/error.h"
 
 namespace whine {
@@ -38,6 +40,25 @@ void require_external(const GearMeshSpec& mesh, const GearDesign& driver, const 
     if ((g ? driven : driver).internal)
       fail(Failure::input, stage, " is of external gears, and [gear.", mesh.gear[g],
            "] is internal; take a scene without internal gears");
+}
+
+std::string face_words(const GearMeshSpec& mesh, const GearDesign& driver, const GearDesign& driven) {
+  for (int g = 0; g < kSides; ++g)
+    if (const GearDesign& design = g ? driven : driver; design.helical())
+      return text("[gear.", mesh.gear[g],
+                  "] is helical (helix_angle_deg = ", design.helix_angle * 180 / std::numbers::pi, ")");
+  if (mesh.misalignment != 0) return text("[[mesh]] has misalignment_um = ", mesh.misalignment * 1e6);
+  for (int g = 0; g < kSides; ++g)
+    if (!mesh.modification[g].lead.none())
+      return text("[gear.", mesh.gear[g], ".modification] takes material off along the face");
+  return "";
+}
+
+void require_one_slice(const GearMeshSpec& mesh, const GearDesign& driver, const GearDesign& driven) {
+  if (const std::string words = face_words(mesh, driver, driven); !words.empty())
+    fail(
+        Failure::input, words,
+        ", and what is asked for is computed in one slice over the face, of spur gears under even load; the pair at rest is computed with width = \"slices\" in [fidelity]");
 }
 
 }  // namespace whine

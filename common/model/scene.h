@@ -73,7 +73,14 @@ struct GearMeshSpec {
   std::array<ToothErrors, kSides> errors = {};
   std::array<Bearing, kSides> bearing = {};
   Friction friction = {};
+  // m over the common face width, in the plane of action: by how much more the flanks stand apart at the end that faces a viewer who sees
+  // the driver turn counter-clockwise than at the other.
+  double misalignment = 0;
 
+  // Whether the load is not the same all over the face, helices aside.
+  bool uneven() const {
+    return misalignment != 0 || !modification[0].lead.none() || !modification[1].lead.none();
+  }
   bool on_bearings() const { return bearing[0].elastic() || bearing[1].elastic(); }
 };
 
@@ -107,16 +114,27 @@ enum class Integrator { newmark, exact };
 template <>
 inline constexpr const char* kWordsOf<Integrator> = "newmark exact";
 
+// Contact over the face width: one slice, or points that the teeth carry each by itself.
+enum class WidthModel { one, slices };
+template <>
+inline constexpr const char* kWordsOf<WidthModel> = "one slices";
+
 struct Fidelity {
   BodyModel body = BodyModel::modal;
   ContactModel contact = ContactModel::strips;
   Integrator integrator = Integrator::exact;
+  WidthModel width = WidthModel::one;
 };
+
+// Gauss points along the contact line of a tooth pair, under even load and where a part of the face may open.
+inline constexpr int kFacePoints = 8, kFacePointsUneven = 12;
 
 struct ContactDiscretisation {
   int strips = 8;  // across the contact width at the mean load
   int positions =
       0;  // of the static stage per mesh period; 0: as steps_per_period, 128 at least, fewer where teeth differ
+  int face_points =
+      0;  // Gauss points along the contact line of a tooth pair; 0: kFacePoints or kFacePointsUneven
 };
 
 // How a steady motion is found: transients are skipped where they can be, or run through period by period, as a rig would.
@@ -152,5 +170,10 @@ void require_rigid_bearings(const GearMeshSpec& mesh, const std::string& stage);
 void require_no_friction(const GearMeshSpec& mesh, const std::string& stage);     // ... friction,
 void require_external(const GearMeshSpec& mesh, const GearDesign& driver, const GearDesign& driven,
                       const std::string& stage);  // ... internal gears.
+
+// What of a pair one slice over the face does not hold, in words: "[gear.pinion] is helical (helix_angle_deg = 20)"; "": nothing.
+std::string face_words(const GearMeshSpec& mesh, const GearDesign& driver, const GearDesign& driven);
+// Throws Error(input) if there is any of it.
+void require_one_slice(const GearMeshSpec& mesh, const GearDesign& driver, const GearDesign& driven);
 
 }  // namespace whine

@@ -79,9 +79,8 @@ std::vector<RestCurve> rest_curves(const std::string& design, const SystemStatic
   for (const size_t m : shown_meshes(s.settings.layout)) {
     RestCurve& curve = out.emplace_back(rest_curve(design, s.mesh[m]));
     curve.mesh = s.mesh_names[m];
-    curve.words =
-        text("contact ratio ", rounded(s.mesh[m].contact_ratio, 3), ", mean mesh force ",
-             rounded(s.mesh_force.col(static_cast<Index>(m)).mean() * 1e-3, 3), " kN");
+    curve.words = text("contact ratio ", rounded(s.mesh[m].contact_ratio, 3), ", mean mesh force ",
+                       rounded(s.mesh_force.col(static_cast<Index>(m)).mean() * 1e-3, 3), " kN");
     curve.torque = 0;
     curve.mesh_phase = s.mesh_phase;
   }

@@ -13,6 +13,7 @@
 #include "report/compare_figures.h"
 #include "report/efficiency_figure.h"
 #include "report/error_budget_figure.h"
+#include "report/flank_load_figure.h"
 #include "report/flank_pressure_figure.h"
 #include "report/fold_curve_figure.h"
 #include "report/gear_figures.h"
@@ -311,6 +312,9 @@ std::pair<std::vector<FoldCurvesResult>, std::vector<JumpMapResult>> folds_and_m
 
 Drawings drawings_of_maps() {
   return {
+      {"flank-load",
+       {"line load over face and path of contact, as a contact pattern", "static.h5", 1, 0,
+        [](const Paths& in, const Frequencies&) { return flank_load_figure(read_pair_statics(in[0])); }}},
       {"harris-map",
        {"peak-to-peak transmission error against torque and tip relief, and the Harris cusp", "harris_map.h5",
         1, 0,

@@ -73,6 +73,23 @@ struct ReferenceContact {
   double approach = 0;         // m: the transmission error
 };
 
+// Load over the face of a pair in slices along its contact lines (system/face_contact.h); empty of one slice. z: m, from the middle of the
+// common face towards the viewer who sees the driver turn counter-clockwise.
+struct FaceLoad {
+  std::vector<MatrixRM> line_load;  // [phase] (pair, slice) N m-1: normal force per length of face
+  std::vector<MatrixRM> position;   // [phase] (pair, slice) m: z
+  std::vector<MatrixRM>
+      width;  // [phase] (pair, slice) m: length of face that a slice stands for; 0: the pair does not touch
+  Eigen::VectorXd contact_line_length;  // (phase) m: of all contact lines together
+  double overlap_ratio = 0;
+  double axial_force = 0;  // N, on the driver along z
+  double load_factor =
+      0;  // K_Hbeta of the reference pair at phase 0: largest line load over the mean along its line
+  double line_load_max = 0;  // N m-1: largest of all phases in the inner 90 % of face and path
+
+  bool none() const { return line_load.empty(); }
+};
+
 // One mesh at rest: of a pair its only one. Side 0 is the driving gear, side 1 the driven one.
 struct StaticResult : GearPairParameters {
   double torque =
@@ -124,6 +141,7 @@ struct StaticResult : GearPairParameters {
   FlankPressure flank_pressure;
   RectangularWave rectangular_wave;
   ReferenceContact reference_contact;
+  FaceLoad face;
   // certificate: worst over all positions
   double least_gap = 0;          // m, of strips without force
   double least_force = 0;        // N, of strips with force

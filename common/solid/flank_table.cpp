@@ -14,7 +14,7 @@ constexpr double kTipScale = 1.0 / 60;  // in modules: 0.05 mm for a module of 3
 
 FlankTable::FlankTable(const ToothGeometry& tooth, int points)
     : FlankTable(tooth.base_radius(), tooth.form_roll_angle(), tooth.tip_roll_angle(),
-                 kTipScale * tooth.design().module, points) {}
+                 kTipScale * tooth.section().module, points) {}
 
 FlankTable::FlankTable(double base_radius, double form_roll_angle, double tip_roll_angle, double tip_scale,
                        int points)

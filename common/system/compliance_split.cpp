@@ -36,13 +36,16 @@ ComplianceSplit compliance_split(const StaticResult& s) {
         design, material, design.internal ? std::max(bore / kWider, root) : std::min(kWider * bore, root));
   }
   const double force = s.torque / pair.gear(0).base_radius(), of_pair = force / pair.contact_ratio();
+  const double cosine = std::cos(pair.base_helix_angle());
   const auto surface = [&](size_t g) {
-    return HalfPlaneSurface(in_contact_plane(s.gear[g].material, s.mesh.contact_plane), s.face_width());
+    return HalfPlaneSurface(in_contact_plane(s.gear[g].material, s.mesh.contact_plane),
+                            s.face_width() / cosine);
   };
   const double depth = 0.25 * std::numbers::pi * s.gear[0].design.module;
-  out.contact =
-      HertzLine(surface(0), surface(1), pair.relative_curvature_radius(0.0), depth).at(of_pair).indentation /
-      force;
+  out.contact = HertzLine(surface(0), surface(1), pair.relative_curvature_radius(0.0) / cosine, depth)
+                    .at(of_pair / cosine)
+                    .indentation /
+                (cosine * force);
   for (Eigen::Index i = 0; i < s.tooth_load.rows(); ++i)
     if ((s.tooth_load.row(i).array() > 0).count() == 1)
       out.single = std::max(out.single, s.stiffness_secant[i]);

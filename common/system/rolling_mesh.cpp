@@ -46,7 +46,9 @@ GearMeshModel::GearMeshModel(const SideGears& gears, const GearMeshSpec& mesh, c
           FlankDeviation(kinematics.gear(1), mesh.modification[1], mesh.errors[1], placed.side[1].flank)},
       bearing(mesh.bearing),
       friction(mesh.friction),
-      layout(placed) {}
+      layout(placed) {
+  require_one_slice(mesh, kinematics.gear(0).design(), kinematics.gear(1).design());
+}
 
 Vec2 GearMeshModel::outward_in_system(int g, const PairContact& contact) const {
   Vec2 own = outward(g, contact);
@@ -219,18 +221,18 @@ struct LineGap {
 };
 
 // tip: m, distances of the tip edges of driver and driven gear; near: whose the law knows of. half_width: m, of the
-// contact over which flanks that deviate are averaged.
+// contact over which flanks that deviate are averaged. cosine: as make_line_point, along whose normal the gap is.
 LineGap line_gap(const GearPair& gears, const PairContact& contact, const PairDeviation& deviation,
-                 const double tip[2], int near, double half_width) {
+                 const double tip[2], int near, double half_width, double cosine) {
   LineGap line;
-  line.gap = contact.gap;
-  line.radius = gears.relative_curvature_radius(contact);
-  line.edge_slope = contact.corner ? std::tan(contact.normal_angle) : -tip[near] / line.radius;
+  line.gap = cosine * contact.gap;
+  line.radius = gears.relative_curvature_radius(contact) / cosine;
+  line.edge_slope = contact.corner ? cosine * std::tan(contact.normal_angle) : -tip[near] / line.radius;
   if (deviation.none()) return line;
 
   // Gap of the flanks as designed, to the side on which both exist: contact.gap + leaning x + x^2 / (2 R).
   const double side = near == 0 ? -1 : 1;  // the driver's tip edge is where x is largest
-  const double leaning = contact.corner ? side * std::tan(contact.normal_angle) : 0,
+  const double leaning = contact.corner ? side * cosine * std::tan(contact.normal_angle) : 0,
                curvature = 1 / line.radius;
   // Pressure that is bounded at both ends weighs a gap by 1 / sqrt(a^2 - x^2) (Johnson, Contact Mechanics, section 2.7):
   // what it feels of the deviation are the first Chebyshev coefficients over its width.
@@ -279,7 +281,7 @@ LineGap line_gap(const GearPair& gears, const PairContact& contact, const PairDe
   line.radius = 1 / whole;
   if (std::isfinite(edge) && side * (touch - edge) < 0) touch = edge;
   const double off = touch - middle;
-  line.gap = contact.gap + (leaning + 0.5 * curvature * middle) * middle + p.value +
+  line.gap = cosine * contact.gap + (leaning + 0.5 * curvature * middle) * middle + p.value +
              (slope_there + 0.5 * whole * off) * off;
   line.edge_slope = touch == edge ? side * (slope_there + whole * off) : -side * (touch - edge) * whole;
   line.touch = touch;
@@ -287,6 +289,29 @@ LineGap line_gap(const GearPair& gears, const PairContact& contact, const PairDe
 }
 
 }  // namespace
+
+LinePoint make_line_point(const GearMeshModel& model, const PairContact& contact,
+                          const std::array<HalfPlaneSurface, 2>& surface, double depth, double pair_force,
+                          double cosine) {
+  const GearPair& gears = model.kinematics;
+  const double coefficient = surface[0].coefficient() + surface[1].coefficient();
+  const double tip[2] = {gears.edge_distance(contact, 0), gears.edge_distance(contact, 1)};
+  const int near = contact.corner ? contact.end() : tip[0] < tip[1] ? 0 : 1;
+  const double half_width =
+      std::sqrt(2 * gears.relative_curvature_radius(contact) / cosine * pair_force * coefficient);
+  const LineGap flanks = line_gap(gears, contact, model.common_flanks(), tip, near, half_width, cosine);
+  LinePoint point{flanks.gap, flanks.touch,
+                  HertzLine(surface[0], surface[1], flanks.radius, depth, flanks.edge_slope)};
+  // The driver's tip edge is where x is largest.
+  const double edge = contact.corner ? 0 : near == 0 ? tip[0] : -tip[1];
+  const HertzLine& law = point.law;
+  point.roll =
+      gears
+          .gap_at(contact, law.at_edge(pair_force) ? edge + (near == 0 ? -1 : 1) * law.centroid(pair_force)
+                                                   : flanks.touch)
+          .roll;
+  return point;
+}
 
 MeshPosition make_line_position(const GearMeshModel& model, double phase, double corner_gap, double depth,
                                 double pair_force, int period) {
@@ -298,8 +323,7 @@ MeshPosition make_line_position(const GearMeshModel& model, double phase, double
   position.next_corner_gap = reach.next_corner_gap;
   position.lost_corner_gap = reach.lost_corner_gap;
   const int n = reach.size();
-  const double coefficient =
-      model.gear[0].half_plane().coefficient() + model.gear[1].half_plane().coefficient();
+  const std::array<HalfPlaneSurface, 2> surface{model.gear[0].half_plane(), model.gear[1].half_plane()};
   position.first_strip = {0};
   for (int g = 0; g < kSides; ++g) {
     position.strip_lever[g].resize(n);
@@ -310,29 +334,18 @@ MeshPosition make_line_position(const GearMeshModel& model, double phase, double
     PairStrips line;
     line.pair = reach.pair[j];
     line.contact = contact;
-    const double tip[2] = {gears.edge_distance(contact, 0), gears.edge_distance(contact, 1)};
-    const int near = contact.corner ? contact.end() : tip[0] < tip[1] ? 0 : 1;
-    const double half_width =
-        std::sqrt(2 * gears.relative_curvature_radius(contact) * pair_force * coefficient);
-    const LineGap flanks = line_gap(gears, contact, model.common_flanks(), tip, near, half_width);
-    line.gap = VectorXd::Constant(1, flanks.gap);
+    const LinePoint point = make_line_point(model, contact, surface, depth, pair_force);
+    line.gap = VectorXd::Constant(1, point.gap);
     if (model.common_flanks().differs()) {
-      const FlankGap touch = gears.gap_at(contact, flanks.touch);
+      const FlankGap touch = gears.gap_at(contact, point.touch);
       for (int g = 0; g < kSides; ++g) line.gap_roll[g] = VectorXd::Constant(1, touch.roll[g]);
     }
     position.pairs.push_back(line);
     position.first_strip.push_back(j + 1);
-    position.law.emplace_back(model.gear[0].half_plane(), model.gear[1].half_plane(), flanks.radius, depth,
-                              flanks.edge_slope);
-    const HertzLine& law = position.law.back();
-    // The driver's tip edge is where x is largest.
-    const double edge = contact.corner ? 0 : near == 0 ? tip[0] : -tip[1];
-    const FlankGap middle =
-        gears.gap_at(contact, law.at_edge(pair_force) ? edge + (near == 0 ? -1 : 1) * law.centroid(pair_force)
-                                                      : flanks.touch);
+    position.law.push_back(point.law);
     for (int g = 0; g < kSides; ++g) {
       position.strip_lever[g][j] = contact.lever[g];
-      position.table_weights[g].row(j) = model.gear[g].table().weights(middle.roll[g]);
+      position.table_weights[g].row(j) = model.gear[g].table().weights(point.roll[g]);
     }
   }
   position.node_lever = position.strip_lever;

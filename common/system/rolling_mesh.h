@@ -235,6 +235,18 @@ MeshPosition make_position(const GearMeshModel& model, double phase, const Candi
 MeshPosition make_line_position(const GearMeshModel& model, double phase, double corner_gap, double depth,
                                 double pair_force, int period = 0);
 
+// A contact line, or a piece of it as long as the half-planes `surface` are wide: its law, its gap, where the tables are read.
+struct LinePoint {
+  double gap = 0;    // m, along the flanks' normal
+  double touch = 0;  // m: tangential coordinate of the touching point, of the edge if that touches
+  HertzLine law;
+  std::array<double, 2> roll{};  // rad
+};
+// depth, pair_force: of the piece, as make_line_position; cosine: of the base helix angle, by which the normal leaves the transverse section.
+LinePoint make_line_point(const GearMeshModel& model, const PairContact& contact,
+                          const std::array<HalfPlaneSurface, 2>& surface, double depth, double pair_force,
+                          double cosine = 1);
+
 // The pair_force of statics and dynamics under a mean `load` (N): where a contact comes to a tip edge, two pairs share it.
 inline double shared_force(double load) {
   return 0.5 * load;

@@ -35,8 +35,7 @@ TEST_CASE("an unknown key is rejected with the key that its word means") {
   CHECK(names(rejection("torque = 3"), {"torque_Nm", "[operation]"}));
   CHECK(names(rejection("torque_Nmm = 3000"), {"torque_Nm", "[operation]", 1, 1000}));
   CHECK(names(rejection("bearing_stiffness = 3000"), {"stiffness_N_um", "[[bearing]]"}));
-  // What there is no key for says why.
-  CHECK(names(rejection("helix_angle_deg = 15"), {"x.toml:3", "helix_angle_deg", "[gear.pinion]"}));
+  CHECK(names(rejection("helix_angle = 15"), {"x.toml:3", "helix_angle_deg", "[gear.pinion]"}));
   CHECK(names(rejection("friction_coefficient = 0.05"), {"coefficient", "[friction]"}));
   // --set and studies take the same words.
   const auto set = [&](const std::string& change) -> std::string {
@@ -44,7 +43,7 @@ TEST_CASE("an unknown key is rejected with the key that its word means") {
   };
   CHECK(names(set("width_mm=20"), {"face_width_mm"}));
   CHECK(names(set("gear.pinion.bore_diameter_mm=20"), {"gear.pinion.bore_radius_mm"}));
-  CHECK(names(set("helix_angle_deg=20"), {"gears", "spur"}));
+  CHECK(names(set("helix_angle=20"), {"helix_angle_deg"}));
 }
 
 TEST_CASE("sentences.tsv: each change of a scene is refused with its sentence") {

@@ -24,7 +24,7 @@ void check_spur(RexsReader& reader, const RexsComponent& gear) {
     fail(
         Failure::input, reader.path(), ": ", quoted_name(gear), " is helical (", helix->origin, " = ",
         helix->value,
-        " degrees): a scene is a plane section, which knows no helix and no contact along the face width; only spur gears are imported");
+        " degrees); only spur gears are imported so far: write the scene by hand, with helix_angle_deg and hand in its gears");
 }
 
 // The tool of the gear, or of one of its flanks.

@@ -1,0 +1,106 @@
+#include "report/flank_load_figure.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "gear/contact_lines.h"
+
+namespace whine {
+
+using Eigen::Index;
+
+namespace {
+
+constexpr double kNewtonPerMillimetre = 1e-3;  // N m-1 -> N/mm
+
+// N m-1: of a pair at one phase, between its slices; 0 where it does not touch.
+double load_at(const FaceLoad& face, Index phase, Index pair, double z) {
+  const auto i = static_cast<size_t>(phase);
+  if (pair < 0 || pair >= face.line_load[i].rows()) return 0;
+  const auto at = face.position[i].row(pair), load = face.line_load[i].row(pair);
+  const Index n = at.size();
+  if (!(face.width[i](pair, 0) > 0)) return 0;
+  if (z <= at[0]) return load[0];
+  for (Index k = 1; k < n; ++k)
+    if (z <= at[k]) return load[k - 1] + (load[k] - load[k - 1]) * (z - at[k - 1]) / (at[k] - at[k - 1]);
+  return load[n - 1];
+}
+
+// N m-1: on the tooth of the reference pair where its contact line passes a place of the plane of action (m).
+double load_on_flank(const StaticResult& s, const GearPair& pair, double z, double path) {
+  const double total = (path - std::tan(pair.base_helix_angle()) * z) / pair.base_pitch();
+  const auto positions = s.mesh_phase.size();
+  const double row = (total - std::floor(total)) * static_cast<double>(positions);
+  const Index before = std::min<Index>(static_cast<Index>(row), positions - 1);
+  const double share = row - static_cast<double>(before);
+  const Index own = static_cast<Index>(std::floor(total)) - s.pair[0];
+  const double first = load_at(s.face, before, own, z), second = before + 1 < positions
+                                                                     ? load_at(s.face, before + 1, own, z)
+                                                                     : load_at(s.face, 0, own + 1, z);
+  return (1 - share) * first + share * second;
+}
+
+}  // namespace
+
+Figure flank_load_figure(const StaticResult& s) {
+  if (s.face.none())
+    fail(
+        Failure::input,
+        "flank-load: this static.h5 is of one slice over the face, whose load is the same all over it; write width = \"slices\" in [fidelity] of the scene");
+  const GearPair pair(s);
+  Figure figure;
+  figure.title = text("Load over the flank, ", torque_words(s.torque));
+  figure.notes.push_back(pair_words(s));
+  figure.notes.push_back(text("overlap ratio ", rounded(s.face.overlap_ratio, 3), ", K_{Hβ} ",
+                              rounded(s.face.load_factor, 3), " of the reference pair at mesh phase 0, ",
+                              s.face.line_load[0].cols(), " slices along each contact line, misalignment ",
+                              rounded(s.mesh.misalignment * kMicro, 2), " µm"));
+  constexpr int kAcross = 61, kAlong = 81;
+  FigureBlock flank{"flank", {"face [mm]", "path of contact [mm]", "line load [N/mm]"}, {}};
+  flank.rows.reserve(static_cast<size_t>(kAcross) * kAlong);
+  const double half = 0.5 * pair.face_width();
+  double most = 0;
+  for (int i = 0; i < kAlong; ++i) {
+    const double path = pair.path_start() + (pair.path_end() - pair.path_start()) * (i + 0.5) / kAlong;
+    for (int k = 0; k < kAcross; ++k) {
+      const double z = half * (2 * (k + 0.5) / kAcross - 1), load = load_on_flank(s, pair, z, path);
+      most = std::max(most, load);
+      flank.rows.push_back({z * kMilli, path * kMilli, load * kNewtonPerMillimetre});
+    }
+  }
+  figure.blocks.push_back(flank);
+  // Contact lines a quarter of a mesh period apart.
+  FigureBlock lines{"lines", {"face [mm]", "path of contact [mm]"}, {}, "", "", true};
+  for (int quarter = 0; quarter < 4; ++quarter)
+    for (const ContactLine& line : contact_lines(pair, 0.25 * quarter)) {
+      for (const double z : {line.from, line.to})
+        lines.rows.push_back({z * kMilli, path_at(pair, 0.25 * quarter + line.pair, z) * kMilli});
+      lines.rows.push_back({});
+    }
+  figure.blocks.push_back(lines);
+  std::string labels;
+  int curves = 0;
+  for (Index k = 0; k < s.pair.size() && curves < static_cast<int>(kMostCurves); ++k) {
+    if (!(s.face.width[0](k, 0) > 0)) continue;
+    FigureBlock curve{text("pair ", ++curves),
+                      {"face [mm]", "line load [N/mm]"},
+                      {},
+                      "line load at mesh phase 0",
+                      text("pair ", s.pair[k])};
+    for (Index q = 0; q < s.face.line_load[0].cols(); ++q)
+      curve.rows.push_back(
+          {s.face.position[0](k, q) * kMilli, s.face.line_load[0](k, q) * kNewtonPerMillimetre});
+    figure.blocks.push_back(curve);
+    labels += text("'tooth pair ", s.pair[k], "' ");
+  }
+  figure.words.emplace_back("labels", labels);
+  figure.numbers.emplace_back("curves", curves);
+  figure.numbers.emplace_back("half_face", half * kMilli);
+  figure.numbers.emplace_back("path_start", pair.path_start() * kMilli);
+  figure.numbers.emplace_back("path_end", pair.path_end() * kMilli);
+  figure.numbers.emplace_back("largest", most * kNewtonPerMillimetre);
+  return figure;
+}
+
+}  // namespace whine

@@ -1,0 +1,191 @@
+#include "system/face_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "gear/helix.h"
+#include "solid/elements.h"
+
+namespace whine {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+// The spur gear of the transverse section.
+ReducedBody section_of(const ReducedBody& body) {
+  ReducedBody out = body;
+  out.design = transverse_section(body.design);
+  return out;
+}
+
+GearMeshSpec even(GearMeshSpec mesh) {
+  mesh.misalignment = 0;
+  for (FlankModification& modification : mesh.modification) modification.lead = {};
+  return mesh;
+}
+
+const GearMeshSpec& taken(const GearMeshSpec& mesh, const ReducedBody& driver, const ReducedBody& driven) {
+  const char* const slices = "contact in slices over the face (width = \"slices\")";
+  require_external(mesh, driver.design, driven.design, slices);
+  require_rigid_bearings(mesh, slices);
+  require_no_friction(mesh, slices);
+  require_like_teeth(mesh, slices);
+  const ReducedBody* const bodies[] = {&driver, &driven};
+  for (size_t g = 0; g < kSides; ++g) {
+    const ReducedBody& body = *bodies[g];
+    if (body.design.crack.depth > 0)
+      fail(Failure::input, slices, " knows no cracks, and [gear.", mesh.gear[g],
+           ".crack] has one; take the section out");
+    if (body.design.helical() && body.material.plane_stress)
+      fail(
+          Failure::input, "[gear.", mesh.gear[g],
+          "] is helical, and its [material] has plane = \"stress\": the sections of a helical gear hold each other, write plane = \"strain\"");
+  }
+  return mesh;
+}
+
+}  // namespace
+
+FaceContact::FaceContact(const ReducedBody& driver, const ReducedBody& driven, const GearMeshSpec& mesh,
+                         int points)
+    : gears_(driver.design, driven.design, mesh.centre_distance),
+      section_(section_of(driver), section_of(driven), even(taken(mesh, driver, driven))),
+      gap_(gears_, mesh),
+      points_(points),
+      cosine_(std::cos(gears_.base_helix_angle())),
+      depth_(this->mesh().gear[0].contact_depth()) {
+  for (size_t g = 0; g < kSides; ++g) table_[g] = compliance_tables(this->mesh().gear[g], depth_);
+}
+
+// Of a spur pair all pairs in reach, tip edges off the line of action too: every section is at the same place of its path.
+std::vector<ContactLine> FaceContact::lines(double phase, double corner_gap, PairsInReach& reach) const {
+  if (gears_.base_helix_angle() != 0) return contact_lines(gears_, phase);
+  reach = pairs_in_reach(mesh(), phase, corner_gap);
+  std::vector<ContactLine> out;
+  out.reserve(reach.pair.size());
+  const double half = 0.5 * gears_.face_width();
+  for (const int pair : reach.pair) out.push_back({pair, -half, half});
+  return out;
+}
+
+PairContact FaceContact::contact(const PairsInReach& reach, const ContactLine& line, double path) const {
+  for (size_t i = 0; i < reach.pair.size(); ++i)
+    if (reach.pair[i] == line.pair) return reach.contact[i];
+  // Gauss points lie inside the line, a line within the path of contact.
+  return mesh().kinematics.contact(std::clamp(path, gears_.path_start(), gears_.path_end()) /
+                                   gears_.base_pitch());
+}
+
+FacePosition FaceContact::at(double phase, double corner_gap, double load) const {
+  FacePosition out;
+  out.phase = phase;
+  PairsInReach reach;
+  const std::vector<ContactLine> lines = this->lines(phase, corner_gap, reach);
+  out.next_corner_gap = reach.next_corner_gap;
+  out.lost_corner_gap = reach.lost_corner_gap;
+  FacePoints& points = out.points;
+  points = face_points(gears_, gap_, lines, phase, points_);
+  const double width = gears_.face_width();
+  const Index n = points.size();
+  std::array<MatrixXd, 2> roll;  // [gear] (point, 1) rad
+  for (MatrixXd& of : roll) of.resize(n, 1);
+  out.gap.resize(n);
+  out.approach.resize(n);
+  out.law.reserve(static_cast<size_t>(n));
+  for (Index q = 0; q < n; ++q) {
+    const PairContact contact = this->contact(
+        reach, points.line[static_cast<size_t>(points.line_of(static_cast<int>(q)))], points.path[q]);
+    const double along = points.weight[q] / cosine_;  // m, along the line
+    const std::array<HalfPlaneSurface, 2> surface{mesh().gear[0].half_plane().of_width(along),
+                                                  mesh().gear[1].half_plane().of_width(along)};
+    const LinePoint point = make_line_point(mesh(), contact, surface, depth_,
+                                            shared_force(load) / cosine_ * points.weight[q] / width, cosine_);
+    out.gap[q] = point.gap + points.gap[q];
+    out.approach[q] = points.approach[q] * contact.lever[0] / gears_.gear(0).base_radius();
+    out.law.push_back(point.law);
+    for (size_t g = 0; g < kSides; ++g) roll[g](q, 0) = point.roll[g];
+  }
+  add_bodies(out, roll);
+  return out;
+}
+
+void FaceContact::add_bodies(FacePosition& position, const std::array<MatrixXd, 2>& roll) const {
+  const FacePoints& points = position.points;
+  const int n = points.per_line, lines = static_cast<int>(points.line.size());
+  position.compliance.setZero(points.size(), points.size());
+  const double unit = cosine_ * cosine_ * gears_.face_width();  // m
+  const GaussRule rule = gauss_rule(n);
+  for (size_t g = 0; g < kSides; ++g) {
+    const ElasticGear& gear = mesh().gear[g];
+    const int most = static_cast<int>(table_[g].size()) / 2;
+    const auto own = [&](int line) { return Eigen::seqN(static_cast<Index>(line) * n, n); };
+    const auto weights = [&](int line, const Eigen::RowVectorXd& l) {
+      const double xi = l.dot(roll[g](own(line), 0));
+      return gear.table().weights(std::clamp(xi, gear.table().lowest(), gear.table().highest()));
+    };
+    for (int q = 0; q < points.size(); ++q) {
+      const Eigen::RowVectorXd row = gear.table().weights(roll[g](q, 0));
+      position.compliance(q, q) +=
+          unit / points.weight[q] * row.dot(table_[g][static_cast<size_t>(most)] * row.transpose());
+    }
+    for (int i = 0; i < lines; ++i)
+      for (int j = 0; j < i; ++j) {
+        const ContactLine &a = points.line[static_cast<size_t>(i)], &b = points.line[static_cast<size_t>(j)];
+        const double from = std::max(a.from, b.from), to = std::min(a.to, b.to);
+        const int offset = GearMeshModel::tooth(static_cast<int>(g), a.pair - b.pair);
+        if (!(to > from) || std::abs(offset) > most) continue;
+        MatrixXd between = MatrixXd::Zero(n, n);
+        for (int k = 0; k < n; ++k) {
+          const double z = 0.5 * (from + to + (to - from) * rule.point[k]);
+          const Eigen::RowVectorXd l = interpolation(points, i, z), m = interpolation(points, j, z);
+          const double value =
+              weights(i, l).dot(table_[g][static_cast<size_t>(offset + most)] * weights(j, m).transpose());
+          between += 0.5 * (to - from) * rule.weight[k] * value * l.transpose() * m;
+        }
+        between.array().colwise() /= points.weight(own(i)).array();
+        between.array().rowwise() /= points.weight(own(j)).transpose().array();
+        position.compliance(own(i), own(j)) += unit * between;
+        position.compliance(own(j), own(i)) += unit * between.transpose();
+      }
+  }
+}
+
+double FaceContact::unloaded_transmission_error(double phase, double corner_gap) const {
+  const PairDeviation flanks = mesh().common_flanks();
+  if (flanks.none() && gap_.none()) return 0;
+  PairsInReach reach;
+  double least = std::numeric_limits<double>::infinity();
+  for (const ContactLine& line : lines(phase, corner_gap, reach)) {
+    const auto closing = [&](double z) {  // m, of x
+      const PairContact contact = this->contact(reach, line, path_at(gears_, phase + line.pair, z));
+      const GearPair& section = mesh().kinematics;
+      const double kinematic = section.gap_at(contact, section.nearest(contact, flanks), {});
+      const double profile = section.gap_at(contact, section.nearest(contact, flanks), flanks) - kinematic;
+      return (cosine_ * kinematic + profile + gap_.at(z)) * gears_.gear(0).base_radius() /
+             (cosine_ * contact.lever[0]);
+    };
+    // The least of pieces of smooth functions: samples, then a search about the least of them.
+    constexpr int kSamples = 32;
+    const double step = line.length() / kSamples;
+    double best = line.from, value = closing(best);
+    for (int i = 1; i <= kSamples; ++i)
+      if (const double here = closing(line.from + i * step); here < value) {
+        value = here;
+        best = line.from + i * step;
+      }
+    double low = std::max(line.from, best - step), high = std::min(line.to, best + step);
+    for (int i = 0; i < 40; ++i) {
+      const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+      (closing(a) < closing(b) ? high : low) = closing(a) < closing(b) ? b : a;
+    }
+    least = std::min({least, value, closing(0.5 * (low + high))});
+  }
+  return least;
+}
+
+}  // namespace whine

@@ -1,0 +1,62 @@
+// Contact of one pair at rest in slices along its contact lines: what each point gives way, and the equilibrium of all of them.
+//
+// Gap, force and line load of a point q are d_q = e_q - a_q x + law_q(F_q) + sum C_qr F_r >= 0, F_q >= 0, d_q F_q = 0 (Eq. 18), with
+// sum a_q F_q = T / r_b (Eq. 20), x the transmission error along the transverse line of action and F_q the force along the normal. The
+// teeth of each section carry its load by themselves, by the tables of the bodies T (per force on the whole common face b); with
+// w_q the weight of a point
+//   C_qq = b cos^2 beta_b T(s_q, s_q) / w_q,   law_q: Hertz's line on half-planes of width w_q / cos beta_b, radius R_t / cos beta_b,
+// since the transverse part of a normal force is cos beta_b of it, and so is the normal part of a transverse displacement, while near the
+// contact the half-planes lie across the inclined line. Neighbouring teeth of the same section take part:
+//   C_qr = b cos^2 beta_b integral of l_q l_r T(s, s') dz / (w_q w_r),   q and r on different lines, over the z that both have,
+// l_q the polynomials of interpolation on the points of a line. A gear is rigid between its sections: x is common to all of them.
+#pragma once
+#include <array>
+#include <vector>
+
+#include "results/reduced_body.h"
+#include "system/face_points.h"
+#include "system/rolling_mesh.h"
+
+namespace whine {
+
+// All that contact in slices needs at one phase.
+struct FacePosition {
+  double phase = 0;  // mesh periods
+  FacePoints points;
+  Eigen::VectorXd gap;         // (point) m, along the normal
+  Eigen::VectorXd approach;    // (point) 1
+  std::vector<HertzLine> law;  // (point)
+  Eigen::MatrixXd compliance;  // (point, point) m N-1
+  double next_corner_gap = 0;  // m, see PairsInReach
+  double lost_corner_gap = 0;
+};
+
+class FaceContact {
+ public:
+  // points: of each contact line. Throws Error(input) for what slices do not take: internal gears, elastic bearings, friction, teeth that
+  // differ, cracks, and helical gears whose bodies are in plane stress.
+  FaceContact(const ReducedBody& driver, const ReducedBody& driven, const GearMeshSpec& mesh, int points);
+
+  const GearPair& gears() const { return gears_; }  // with their helix
+  const FaceGap& face_gap() const { return gap_; }
+  // The spur pair of the transverse section, under even load.
+  const GearMeshModel& mesh() const { return section_; }
+
+  // phase: mesh periods; corner_gap: m, of tip edges of spur pairs that are left out as too far; load: N, transverse.
+  FacePosition at(double phase, double corner_gap, double load) const;
+  // m: transmission error without load, 0 for flanks as they are designed.
+  double unloaded_transmission_error(double phase, double corner_gap) const;
+
+ private:
+  std::vector<ContactLine> lines(double phase, double corner_gap, PairsInReach& reach) const;
+  PairContact contact(const PairsInReach& reach, const ContactLine& line, double path) const;
+  void add_bodies(FacePosition& position, const std::array<Eigen::MatrixXd, 2>& roll) const;
+  GearPair gears_;
+  GearMeshModel section_;
+  FaceGap gap_;
+  int points_;
+  double cosine_, depth_;  // 1: cos beta_b; m: of the laws
+  std::array<std::vector<Eigen::MatrixXd>, 2> table_;
+};
+
+}  // namespace whine

@@ -1,0 +1,83 @@
+#include "system/face_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solid/elements.h"
+
+namespace whine {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+int face_points_of(const GearMeshSpec& mesh, const ContactDiscretisation& contact) {
+  if (contact.face_points > 0) return contact.face_points;
+  return mesh.uneven() ? kFacePointsUneven : kFacePoints;
+}
+
+FaceGap::FaceGap(const GearPair& pair, const GearMeshSpec& mesh)
+    : slope_(mesh.misalignment / pair.face_width()), none_(!mesh.uneven()) {
+  for (int g = 0; g < kSides; ++g)
+    lead_[static_cast<size_t>(g)] =
+        LeadDeviation(mesh.modification[static_cast<size_t>(g)].lead, pair.gear(g).design().face_width);
+}
+
+FacePoints face_points(const GearPair& pair, const FaceGap& gap, const std::vector<ContactLine>& lines,
+                       double phase, int per_line) {
+  const GaussRule rule = gauss_rule(per_line);
+  FacePoints out;
+  out.line = lines;
+  out.per_line = per_line;
+  const auto size = static_cast<Index>(lines.size()) * per_line;
+  for (VectorXd* v : {&out.z, &out.weight, &out.path, &out.gap, &out.approach}) v->resize(size);
+  Index at = 0;
+  for (const ContactLine& line : lines)
+    for (int i = 0; i < per_line; ++i, ++at) {
+      out.z[at] = 0.5 * (line.from + line.to + line.length() * rule.point[i]);
+      out.weight[at] = 0.5 * line.length() * rule.weight[i];
+      out.path[at] = path_at(pair, phase + line.pair, out.z[at]);
+      out.gap[at] = gap.at(out.z[at]);
+    }
+  out.approach.setConstant(std::cos(pair.base_helix_angle()));
+  return out;
+}
+
+Eigen::RowVectorXd interpolation(const FacePoints& points, int line, double z) {
+  const int n = points.per_line;
+  const auto own = points.z.segment(static_cast<Index>(line) * n, n);
+  Eigen::RowVectorXd value(n);
+  for (int a = 0; a < n; ++a) {
+    double product = 1;
+    for (int b = 0; b < n; ++b)
+      if (b != a) product *= (z - own[b]) / (own[a] - own[b]);
+    value[a] = product;
+  }
+  return value;
+}
+
+namespace {
+
+// At x, of the parabola through three points.
+double parabola(const Eigen::Vector3d& at, const Eigen::Vector3d& value, double x) {
+  double sum = 0;
+  for (int a = 0; a < 3; ++a) {
+    const int b = (a + 1) % 3, c = (a + 2) % 3;
+    sum += value[a] * (x - at[b]) * (x - at[c]) / ((at[a] - at[b]) * (at[a] - at[c]));
+  }
+  return sum;
+}
+
+}  // namespace
+
+double face_load_factor(const Eigen::Ref<const VectorXd>& z, const Eigen::Ref<const VectorXd>& weight,
+                        const Eigen::Ref<const VectorXd>& load, const ContactLine& line) {
+  const double mean = load.dot(weight) / line.length();
+  double most = load.maxCoeff();
+  if (z.size() >= 3) {
+    most = std::max(most, parabola(z.head(3), load.head(3), line.from));
+    most = std::max(most, parabola(z.tail(3), load.tail(3), line.to));
+  }
+  return most / mean;
+}
+
+}  // namespace whine

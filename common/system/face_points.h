@@ -1,0 +1,58 @@
+// Gauss points along the contact lines of a pair, and what they say of the load over the face.
+//
+// Each tooth pair has n points z_q of Gauss and Legendre on its contact line, clipped at the tips and at the ends of the face
+// (gear/contact_lines.h), of weights w_q: the length of face that a point stands for. As a pair comes in or leaves, its points move with
+// the ends of its line and their weights go to 0, so that no force steps. A point has the gap along the flanks' normal and the approach
+//   e_q = lead modifications + misalignment z_q / b,   a_q = cos beta_b,
+// by which the flanks come nearer to each other per motion along the transverse line of action.
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "gear/contact_lines.h"
+#include "model/scene.h"
+
+namespace whine {
+
+// n of a scene that leaves face_points open.
+int face_points_of(const GearMeshSpec& mesh, const ContactDiscretisation& contact);
+
+// Lead modifications of both gears and misalignment.
+class FaceGap {
+ public:
+  FaceGap(const GearPair& pair, const GearMeshSpec& mesh);
+  double at(double z) const { return lead_[0].at(z) + lead_[1].at(z) + slope_ * z; }  // m
+  bool none() const { return none_; }
+
+ private:
+  std::array<LeadDeviation, 2> lead_;
+  double slope_ = 0;
+  bool none_ = true;
+};
+
+struct FacePoints {
+  std::vector<ContactLine> line;
+  int per_line = 0;           // points of a line, in a row, in the order of z
+  Eigen::VectorXd z, weight;  // (point) m
+  Eigen::VectorXd path;       // (point) m, from the pitch point
+  Eigen::VectorXd gap;        // (point) m, along the normal, of what depends on z alone
+  Eigen::VectorXd approach;   // (point) 1
+
+  int size() const { return static_cast<int>(z.size()); }
+  int line_of(int point) const { return point / per_line; }
+};
+
+// The points of these lines. phase: mesh periods.
+FacePoints face_points(const GearPair& pair, const FaceGap& gap, const std::vector<ContactLine>& lines,
+                       double phase, int per_line);
+
+// 1 (point of `line`, a): value at z of the polynomial that is 1 at the point a of the line and 0 at its others.
+Eigen::RowVectorXd interpolation(const FacePoints& points, int line, double z);
+
+// K_Hbeta = w_max / w_mean of the loads w (N m-1) at points z (m, ascending) with these weights: the largest of all points and of both
+// ends of the line, to which a parabola through the three outermost points leads.
+double face_load_factor(const Eigen::Ref<const Eigen::VectorXd>& z,
+                        const Eigen::Ref<const Eigen::VectorXd>& weight,
+                        const Eigen::Ref<const Eigen::VectorXd>& load, const ContactLine& line);
+
+}  // namespace whine

@@ -1,0 +1,238 @@
+#include "system/face_statics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "base/error.h"
+#include "base/format.h"
+#include "base/model_range.h"
+#include "base/progress.h"
+#include "system/compliance_split.h"
+#include "system/face_contact.h"
+#include "system/flank_pressure.h"
+#include "system/rectangular_wave.h"
+#include "system/statics.h"
+#include "system/system_statics.h"
+
+namespace whine {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+// One phase that is solved.
+struct FaceSolution {
+  FacePosition position;
+  Equilibrium equilibrium;
+  double unloaded = 0;  // m
+};
+
+// Where and by how much contact exceeds the range; "" if it does not.
+std::string outside(const FaceSolution& at) {
+  const double x = at.equilibrium.x, phase = at.position.phase;
+  if (x > at.position.lost_corner_gap)
+    fail_outside_range(Failure::numerical, "at mesh phase ", phase, " the deflection ", x * 1e6,
+                       " micrometres closes the gap of a tip edge that would touch below the involute (gap ",
+                       at.position.lost_corner_gap * 1e6,
+                       " micrometres); lower the torque or set corner_contact = false");
+  if (x <= at.position.next_corner_gap) return "";
+  return text("at mesh phase ", phase, " the deflection ", x * 1e6,
+              " micrometres closes a tip edge's gap of ", at.position.next_corner_gap * 1e6, " micrometres");
+}
+
+void require_small(const FaceContact& contact, double x, double torque) {
+  constexpr double kMost = 0.25;  // modules
+  const double most = kMost * contact.gears().gear(0).design().module;
+  if (x > most)
+    fail_outside_range(
+        Failure::input, "at ", torque, " N m the transmission error is ", millimetres(x), ", above ",
+        millimetres(most),
+        ", a quarter of the module, up to which teeth may stand beside the place that the drawing gives them; lower the torque");
+}
+
+// All phases, with tip edges up to corner_gap (m) away; `beyond`: in words what that left out.
+std::vector<FaceSolution> solve_phases(const FaceContact& contact, int positions, double corner_gap,
+                                       double load, double torque, std::string& beyond) {
+  std::vector<FaceSolution> out(static_cast<size_t>(positions));
+  double start = 0;
+  for (int i = 0; i < positions && beyond.empty(); ++i) {
+    report_step("mesh positions", i, positions);
+    const double phase = static_cast<double>(i) / positions;
+    FaceSolution& at = out[static_cast<size_t>(i)];
+    at.position = contact.at(phase, corner_gap, load);
+    const FacePosition& p = at.position;
+    at.equilibrium = equilibrium(p.compliance, p.law, p.gap, p.approach, load, start);
+    start = at.equilibrium.x;
+    require_hertz_range(p.law, at.equilibrium.p);
+    require_small(contact, start, torque);
+    at.unloaded = contact.unloaded_transmission_error(phase, corner_gap);
+    beyond = outside(at);
+  }
+  return out;
+}
+
+// Of each tooth pair at one phase.
+void store_lines(const FaceContact& contact, const FaceSolution& at, Index row, StaticResult& result) {
+  const FacePoints& points = at.position.points;
+  const double cosine = std::cos(contact.gears().base_helix_angle());
+  FaceLoad& face = result.face;
+  const int n = points.per_line;
+  const auto i = static_cast<size_t>(row);
+  for (MatrixRM* m : {&face.line_load[i], &face.position[i], &face.width[i]})
+    m->setZero(result.pair.size(), n);
+  for (Index line = 0; line < static_cast<Index>(points.line.size()); ++line) {
+    const Index k = points.line[static_cast<size_t>(line)].pair - result.pair[0];
+    const auto own = Eigen::seqN(line * n, n);
+    face.line_load[i].row(k) = (at.equilibrium.p(own).array() / points.weight(own).array()).transpose();
+    face.position[i].row(k) = points.z(own).transpose();
+    face.width[i].row(k) = points.weight(own).transpose();
+    result.tooth_load(row, k) = at.equilibrium.p(own).sum();
+    for (Index q = line * n; q < (line + 1) * n; ++q) {
+      const double force = at.equilibrium.p[q];
+      const HertzLine& law = at.position.law[static_cast<size_t>(q)];
+      if (!(force > 0) || law.at_edge(force)) continue;
+      const double width = law.width(force),
+                   pressure = 4 * force * cosine / (std::numbers::pi * width * points.weight[q]);
+      if (pressure <= result.contact_pressure(row, k)) continue;
+      result.contact_pressure(row, k) = pressure;
+      result.contact_half_width(row, k) = 0.5 * width;
+    }
+  }
+  face.contact_line_length[row] = 0;
+  for (const ContactLine& line : points.line) face.contact_line_length[row] += line.length() / cosine;
+}
+
+// What is true of the whole period.
+void store_face(const FaceContact& contact, const std::vector<FaceSolution>& period, StaticResult& result) {
+  FaceLoad& face = result.face;
+  const GearPair& gears = contact.gears();
+  face.overlap_ratio = gears.overlap_ratio();
+  face.axial_force = helical_forces(gears, result.torque).axial;
+  const FacePoints& at_pitch_point = period[0].position.points;
+  const int n = at_pitch_point.per_line;
+  for (Index line = 0; line < static_cast<Index>(at_pitch_point.line.size()); ++line) {
+    if (at_pitch_point.line[static_cast<size_t>(line)].pair != 0) continue;
+    const auto own = Eigen::seqN(line * n, n);
+    const VectorXd load = period[0].equilibrium.p(own).array() / at_pitch_point.weight(own).array();
+    face.load_factor = face_load_factor(at_pitch_point.z(own), at_pitch_point.weight(own), load,
+                                        at_pitch_point.line[static_cast<size_t>(line)]);
+  }
+  // In the corners where a line comes in, the load of a line model has no limit.
+  constexpr double kInside = 0.9;
+  const double middle = 0.5 * (gears.path_start() + gears.path_end()),
+               reach = 0.5 * kInside * (gears.path_end() - gears.path_start());
+  double lost = 0;  // N m rad-1
+  for (const FaceSolution& at : period)
+    for (Index q = 0; q < at.position.points.size(); ++q) {
+      const FacePoints& p = at.position.points;
+      const double force = at.equilibrium.p[q],
+                   path = std::clamp(p.path[q], gears.path_start(), gears.path_end());
+      lost += force * std::abs(gears.sliding(path));
+      if (std::abs(p.z[q]) <= 0.5 * kInside * gears.face_width() && std::abs(p.path[q] - middle) <= reach)
+        face.line_load_max = std::max(face.line_load_max, force / p.weight[q]);
+    }
+  result.loss_factor = lost / (static_cast<double>(period.size()) * result.torque);
+}
+
+StaticResult result_of(const FaceContact& contact, const std::vector<FaceSolution>& period,
+                       const ReducedBody& driver, const ReducedBody& driven, const StaticParameters& settings,
+                       double torque) {
+  StaticResult out;
+  set_pair(out, {driver, driven}, settings);
+  out.fidelity.contact = ContactModel::line;
+  out.torque = torque;
+  out.contact_ratio = contact.gears().contact_ratio();
+  const auto positions = static_cast<Index>(period.size());
+  for (VectorXd* v : {&out.mesh_phase, &out.transmission_error, &out.unloaded_error, &out.stiffness_secant,
+                      &out.stiffness_tangent, &out.face.contact_line_length})
+    v->resize(positions);
+  int lowest = -1, highest = 1;
+  for (const FaceSolution& at : period)
+    for (const ContactLine& line : at.position.points.line) {
+      lowest = std::min(lowest, line.pair);
+      highest = std::max(highest, line.pair);
+    }
+  out.pair = Eigen::VectorXi::LinSpaced(highest - lowest + 1, lowest, highest);
+  out.tooth_load = MatrixRM::Zero(positions, out.pair.size());
+  out.contact_pressure = out.contact_half_width = out.tooth_load;
+  for (std::vector<MatrixRM>* list : {&out.face.line_load, &out.face.position, &out.face.width})
+    list->resize(period.size());
+  out.least_gap = out.least_force = std::numeric_limits<double>::infinity();
+  const double load = torque / contact.gears().gear(0).base_radius();
+  for (Index i = 0; i < positions; ++i) {
+    const FaceSolution& at = period[static_cast<size_t>(i)];
+    const Equilibrium& e = at.equilibrium;
+    out.mesh_phase[i] = static_cast<double>(i) / static_cast<double>(positions);
+    out.transmission_error[i] = e.x;
+    out.unloaded_error[i] = at.unloaded;
+    out.stiffness_secant[i] = load / (e.x - at.unloaded);
+    out.stiffness_tangent[i] = e.stiffness;
+    out.torque_residual = std::max(out.torque_residual, e.residual);
+    out.least_gap = std::min(out.least_gap, e.certificate.least_gap);
+    out.least_force = std::min(out.least_force, e.certificate.least_force);
+    store_lines(contact, at, i, out);
+  }
+  out.mean_stiffness = out.stiffness_secant.mean();
+  store_face(contact, period, out);
+  out.backlash_margin = out.tooth_thinning() > 0
+                            ? contact.gears().backlash() + out.transmission_error.minCoeff()
+                            : std::numeric_limits<double>::infinity();
+  out.compliance = compliance_split(out);
+  out.flank_pressure = flank_pressure(out);
+  out.rectangular_wave = rectangular_wave(out);
+  out.remarks = remarks(out);
+  return out;
+}
+
+}  // namespace
+
+StaticResult face_transmission(const ReducedBody& driver, const ReducedBody& driven,
+                               const StaticParameters& settings, double torque) {
+  const FaceContact contact(driver, driven, settings.mesh, face_points_of(settings.mesh, settings.contact));
+  const double load = torque / contact.gears().gear(0).base_radius();
+  double widening = 1;
+  for (int attempt = 0;; ++attempt, widening *= kWidening) {
+    std::string beyond;
+    const double corner_gap = reach_of_edges(contact.mesh(), load) * widening;
+    const std::vector<FaceSolution> period =
+        solve_phases(contact, settings.contact.positions, corner_gap, load, torque, beyond);
+    if (beyond.empty()) return result_of(contact, period, driver, driven, settings, torque);
+    if (attempt == kWidenings)
+      fail_outside_range(Failure::numerical, "at ", torque,
+                         " N m contact leaves the flanks: tip edges up to ", corner_gap * 1e6,
+                         " micrometres away, and still ", beyond, "; lower the torque");
+  }
+}
+
+SystemStaticResult face_at_rest(const ReducedBody& driver, const ReducedBody& driven,
+                                const StaticParameters& settings, double torque) {
+  SystemStaticResult out;
+  const StaticResult& mesh = out.mesh.emplace_back(face_transmission(driver, driven, settings, torque));
+  const GearPair gears(mesh);
+  const double force = torque / gears.gear(0).base_radius();
+  const Index phases = mesh.mesh_phase.size();
+  out.mesh_phase = mesh.mesh_phase;
+  out.rotation = out.torque = MatrixRM::Zero(phases, kSides);
+  out.rotation.col(0) = mesh.transmission_error;
+  out.torque.col(0).setConstant(torque);
+  out.torque.col(1).setConstant(-force * gears.gear(1).base_radius());
+  out.mesh_deflection = mesh.transmission_error;
+  out.mesh_force = MatrixRM::Constant(phases, 1, force);
+  out.load_share = MatrixRM::Ones(phases, 1);
+  out.translation.assign(static_cast<size_t>(phases), MatrixRM::Zero(kSides, 2));
+  MatrixRM bearings(kSides, 2);
+  bearings << -force * contact_normal(gears).transpose(), force * contact_normal(gears).transpose();
+  out.bearing_force.assign(static_cast<size_t>(phases), bearings);
+  out.least_gap = mesh.least_gap;
+  out.least_force = mesh.least_force;
+  out.torque_residual = mesh.torque_residual;
+  out.backlash_margin = mesh.backlash_margin;
+  return out;
+}
+
+}  // namespace whine

@@ -1,0 +1,109 @@
+// Scenes of helical, misaligned and lead-modified gears: what they hold, what they are refused with, and that a spur scene says nothing of
+// it.
+#include <doctest/doctest.h>
+
+#include <numbers>
+
+#include "gear/scene_geometry.h"
+#include "io/scene_goals.h"
+#include "io/scene_remarks.h"
+#include "io/system_scene.h"
+#include "scene_file.h"
+
+using namespace whine;
+
+namespace {
+
+constexpr double kDegreeOfScene = std::numbers::pi / 180;
+
+// A scene of kScene's gears made helical; centre distance 150 / cos 12 deg.
+std::string helical_scene(const std::string& hand_of_wheel = "left") {
+  std::string out =
+      scene_with("pressure_angle_deg = 20\n", "pressure_angle_deg = 20\nhelix_angle_deg = 12\n");
+  out.replace(out.find("like = \"pinion\""), 15, "like = \"pinion\"\nhand = \"" + hand_of_wheel + "\"");
+  out.replace(out.find("= 150\n"), 6, "= 153.351\n");
+  return out + "[fidelity]\nwidth = \"slices\"\n";
+}
+
+}  // namespace
+
+TEST_CASE("a helical scene: helix, hand and level, in the scene and in stage parameters") {
+  const SceneFile file;
+  const Scene scene = file.read(helical_scene() + "[gear.pinion.modification]\nlead_crowning_um = 5\n" +
+                                "end_relief_um = 10\nend_relief_length_mm = 2\n");
+  CHECK(scene.gear("pinion").design.helix_angle == doctest::Approx(12 * kDegreeOfScene));
+  CHECK(scene.gear("pinion").design.hand == Hand::right);
+  CHECK(scene.gear("wheel").design.hand == Hand::left);
+  CHECK(scene.gear("pinion").modification.lead.crowning == doctest::Approx(5e-6));
+  const std::string path = file.path(static_parameters(scene), "static.toml");
+  const StaticParameters read = read_static_parameters(path);
+  CHECK(read.fidelity.width == WidthModel::slices);
+  CHECK(read.mesh.modification[0] == scene.mesh.modification[0]);
+  CHECK(!read.mesh.modification[0].of_profile());
+  const std::string body = file.path(body_parameters(scene, "wheel"), "body.toml");
+  CHECK(read_body_parameters(body).design.hand == Hand::left);
+  CHECK(read_body_parameters(body).design.helix_angle == scene.gear("wheel").design.helix_angle);
+}
+
+TEST_CASE("a tip diameter of a helical gear is that of its transverse section") {
+  const SceneFile file;
+  std::string scene = helical_scene();
+  scene.replace(scene.find("face_width_mm"), 13, "tip_diameter_mm = 159.3511\nface_width_mm");
+  CHECK(file.read(scene).gear("pinion").design.addendum == doctest::Approx(1).epsilon(1e-4));
+}
+
+TEST_CASE("a spur scene says nothing of helix, leads or slices") {
+  const SceneFile file;
+  const Scene scene = file.read(kScene);
+  for (const std::string& words :
+       {static_parameters(scene), body_parameters(scene, "pinion"), sweep_parameters(scene)})
+    for (const char* word : {"helix", "hand", "lead", "width =", "misalignment", "face_points"})
+      CHECK(words.find(std::string("\n") + word) == std::string::npos);
+}
+
+TEST_CASE("what helical scenes are refused with") {
+  const SceneFile file;
+  const auto check = [&](const std::string& text) {
+    return message_of_input([&] {
+      const std::string path = file.path(text);
+      check_scene(read_scene(path), path);
+    });
+  };
+  CHECK(check(helical_scene()).empty());
+  CHECK(names(check(helical_scene("right")), {"hand", "left"}));
+  CHECK(names(file.rejection(scene_with("bore_radius_mm = 40", "bore_radius_mm = 40\nhand = \"left\"")),
+              {"helix_angle_deg"}));
+  CHECK(names(file.rejection(std::string(kScene) + "[gear.pinion.modification]\nend_relief_um = 4\n"),
+              {"end_relief_length_mm"}));
+  CHECK(names(check(helical_scene() + "[gear.pinion.error]\neccentricity_um = 4\n"), {"helix_angle_deg"}));
+  CHECK(names(check(helical_scene() + "[gear.pinion.crack]\ndepth_mm = 1\n"), {"helical"}));
+}
+
+TEST_CASE("goals of make that a helical or misaligned scene does not reach are named") {
+  const SceneFile file;
+  const SceneAbilities helical = abilities(file.read(helical_scene()));
+  check_goals({"mesh", "reduce", "static"}, helical, "x.toml");
+  CHECK(names(message_of_input([&] { check_goals({"report"}, helical, "x.toml"); }),
+              {"report", "[gear.pinion]", 12, "static"}));
+  const SceneAbilities askew = abilities(
+      file.read(scene_with("centre_distance_mm = 150", "centre_distance_mm = 150\nmisalignment_um = 10")));
+  CHECK(names(message_of_input([&] { check_goals({"sweep"}, askew, "x.toml"); }),
+              {"sweep", "misalignment_um = 10", "static"}));
+  check_goals({"sweep"}, abilities(file.read(kScene)), "x.toml");
+}
+
+TEST_CASE("stages of motion refuse what was asked in slices, and a system what is helical") {
+  const SceneFile file;
+  const Scene scene = file.read(std::string(kScene) + "[fidelity]\nwidth = \"slices\"\n");
+  const std::string path = file.path(sweep_parameters(scene), "sweep.toml");
+  CHECK(names(message_of_input([&] { read_sweep_parameters(path); }), {"width = \"slices\"", "one"}));
+  const std::string drive = "[[drive]]\ngear = \"pinion\"\nkind = \"torque\"\ntorque_Nm = 1\n";
+  std::string train = helical_scene() + drive;
+  train.erase(train.find("[operation]"), train.find("[fidelity]") - train.find("[operation]"));
+  const auto system = [&](const std::string& text) {
+    return message_of_input([&] { read_system_scene(file.path(text)); });
+  };
+  CHECK(names(system(train), {"width", "pair"}));
+  train.erase(train.find("width = "), 17);
+  CHECK(names(system(train), {"helical", "pair"}));
+}

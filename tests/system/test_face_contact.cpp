@@ -1,0 +1,300 @@
+// A pair in slices over the face: closed forms of independent slices, identities of elastic gears, convergence in the number of points.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "paper_pair.h"
+#include "refusal.h"
+#include "system/face_contact.h"
+#include "system/face_statics.h"
+
+using namespace whine;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kOneDegreeOfFace = std::numbers::pi / 180;
+
+// A gear of P2000's rack with a helix.
+GearDesign gear_with_helix(double beta, Hand hand, double width) {
+  GearDesign d = paper_gear();
+  d.helix_angle = beta * kOneDegreeOfFace;
+  d.hand = hand;
+  d.face_width = width;
+  return d;
+}
+
+GearPair pair_with_helix(double beta, double width) {
+  return {gear_with_helix(beta, Hand::right, width), gear_with_helix(beta, Hand::left, width),
+          0.150 / std::cos(beta * kOneDegreeOfFace)};
+}
+
+// Points on springs of c N m-1 per m of face, one beside the other; stiffness(path).
+Equilibrium on_springs(const FacePoints& points, const auto& stiffness, double load) {
+  MatrixXd a = MatrixXd::Zero(points.size(), points.size());
+  for (int q = 0; q < points.size(); ++q) a(q, q) = 1 / (stiffness(points.path[q]) * points.weight[q]);
+  ActiveSet active;
+  ComplementaritySolver solver;
+  return equilibrium(a, points.gap, points.approach, load, 0, active, solver);
+}
+
+struct Spread {
+  double factor, share;  // K_Hbeta; length of face that carries over b
+};
+
+// One line of a spur pair of 20 mm on even springs.
+Spread one_line(const GearMeshSpec& mesh, int n, double load, double c) {
+  const GearPair pair = pair_with_helix(0, 20e-3);
+  const std::vector<ContactLine> line{{0, -10e-3, 10e-3}};
+  const FacePoints points = face_points(pair, FaceGap(pair, mesh), line, 0, n);
+  const Equilibrium e = on_springs(
+      points, [&](double) { return c; }, load);
+  double carrying = 0;
+  for (int q = 0; q < points.size(); ++q) carrying += e.p[q] > 0 ? points.weight[q] : 0;
+  return {face_load_factor(points.z, points.weight, e.p.array() / points.weight.array(), line[0]),
+          carrying / 20e-3};
+}
+
+// m: transmission error of helical lines on springs at `positions` phases; c(s) N m-2 of a pair.
+VectorXd error_on_springs(const GearPair& pair, const GearMeshSpec& mesh, int n, double load, int positions,
+                          const auto& stiffness) {
+  VectorXd out(positions);
+  for (int i = 0; i < positions; ++i) {
+    const double phase = static_cast<double>(i) / positions;
+    const FacePoints points = face_points(pair, FaceGap(pair, mesh), contact_lines(pair, phase), phase, n);
+    out[i] = on_springs(points, stiffness, load).x;
+  }
+  return out;
+}
+
+double peak_to_peak(const VectorXd& x) {
+  return x.maxCoeff() - x.minCoeff();
+}
+
+// m: root mean square of the harmonics from `first` on.
+double high_harmonics(const VectorXd& x, int first) {
+  const Harmonics h = harmonics(x, static_cast<int>(x.size() / 2 - 1));
+  return std::sqrt(0.5 * h.amplitude.tail(h.amplitude.size() - (first - 1)).squaredNorm());
+}
+
+const ReducedBody& helical_body(Hand hand) {
+  const auto make = [](Hand of) {
+    BodyDiscretisation coarse;
+    coarse.element_size = 1e-3;
+    coarse.modes = 0;
+    Material steel = paper_steel();
+    steel.plane_stress = false;
+    return reduce(make_sector_mesh(gear_with_helix(20, of, 20e-3), coarse), steel, 0);
+  };
+  static const ReducedBody right = make(Hand::right), left = make(Hand::left);
+  return hand == Hand::right ? right : left;
+}
+
+StaticParameters slices(int positions, int points, double distance = 0.150) {
+  StaticParameters settings = paper_statics(positions);
+  settings.mesh.centre_distance = distance;
+  settings.fidelity.width = WidthModel::slices;
+  settings.fidelity.contact = ContactModel::line;
+  settings.contact.face_points = points;
+  return settings;
+}
+
+const double kHelicalDistance = 0.150 / std::cos(20 * kOneDegreeOfFace);
+
+}  // namespace
+
+TEST_CASE("independent slices under misalignment: K = 1 + q, then 2 sqrt(q) with the share 1 / sqrt(q)") {
+  const double load = 2000, c = 14e9, b = 20e-3;
+  for (const double q : {0.2, 0.7, 1.0}) {
+    GearMeshSpec mesh;
+    mesh.misalignment = q * 2 * load / (c * b);
+    CHECK(one_line(mesh, 8, load, c).factor == doctest::Approx(1 + q).epsilon(1e-9));
+  }
+  for (const double q : {2.0, 4.0}) {
+    GearMeshSpec mesh;
+    mesh.misalignment = q * 2 * load / (c * b);
+    const Spread coarse = one_line(mesh, 12, load, c), fine = one_line(mesh, 64, load, c);
+    MESSAGE("q " << q << ": K " << coarse.factor << " of 12 points, " << fine.factor << " of 64, exact "
+                 << 2 * std::sqrt(q) << "; share " << fine.share << ", exact " << 1 / std::sqrt(q));
+    CHECK(coarse.factor == doctest::Approx(2 * std::sqrt(q)).epsilon(0.05));
+    CHECK(fine.factor == doctest::Approx(2 * std::sqrt(q)).epsilon(2e-3));
+    CHECK(fine.share == doctest::Approx(1 / std::sqrt(q)).epsilon(0.03));
+  }
+}
+
+TEST_CASE("independent slices with a crown: K = 1 + r / 3, then 1.5 (r / 1.5)^(1/3)") {
+  const double load = 2000, c = 14e9, b = 20e-3;
+  for (const double r : {0.6, 1.4, 3.0, 6.0}) {
+    GearMeshSpec mesh;
+    mesh.modification[0].lead.crowning = r * load / (c * b);
+    const double exact = r <= 1.5 ? 1 + r / 3 : 1.5 * std::cbrt(r / 1.5);
+    const Spread fine = one_line(mesh, 64, load, c);
+    MESSAGE("r " << r << ": K " << fine.factor << ", exact " << exact << "; share " << fine.share);
+    // The largest is in the middle, between two points.
+    CHECK(fine.factor == doctest::Approx(exact).epsilon(2e-3));
+    CHECK(fine.share == doctest::Approx(std::min(1.0, std::cbrt(1.5 / r))).epsilon(0.03));
+  }
+}
+
+TEST_CASE(
+    "even springs: the transmission error is F / (c cos^2 beta_b L cos beta_b), and still at a whole overlap") {
+  const double load = 2000, c = 14e9, beta = 20;
+  for (const double overlap : {0.5, 1.0, 2.0}) {
+    const GearPair pair =
+        pair_with_helix(beta, overlap * std::numbers::pi * 3e-3 / std::sin(beta * kOneDegreeOfFace));
+    const VectorXd x = error_on_springs(pair, {}, 8, load, 64, [&](double) { return c; });
+    const double cosine = std::cos(pair.base_helix_angle());
+    for (int i = 0; i < 64; ++i)
+      CHECK(x[i] ==
+            doctest::Approx(load / (c * cosine * cosine * cosine * contact_line_length(pair, i / 64.0)))
+                .epsilon(1e-9));
+    if (overlap >= 1) CHECK(peak_to_peak(x) < 1e-9 * x.mean());
+  }
+}
+
+TEST_CASE("springs that soften to the tips: peak to peak and high harmonics over the number of points") {
+  // c(s) = 14e3 (1 - 0.3 (s / s_tip)^2) N/mm per mm; 2000 N along the normal; lines end at the tips.
+  const GearPair pair = pair_with_helix(20, 20e-3);
+  CHECK(pair.contact_ratio() == doctest::Approx(1.6015).epsilon(1e-4));
+  CHECK(pair.overlap_ratio() == doctest::Approx(0.7258).epsilon(1e-4));
+  const double cosine = std::cos(pair.base_helix_angle()), load = 2000 * cosine;
+  const auto c = [&](double s) { return 14e9 * (1 - 0.3 * std::pow(s / pair.path_end(), 2)); };
+  struct Case {
+    double crown, lead, peak, high, off_8,
+        off_12;  // um, um, um, nm; relative errors of the table, with what positions add
+  };
+  for (const Case& own : {Case{0, 0, 0.97061, 6.9, 1e-4, 1e-4}, Case{4, 0, 1.4261, 3.3, 1e-3, 1e-4},
+                          Case{4, 10, 2.2579, 8.1, 0.012, 0.006}}) {
+    GearMeshSpec mesh;
+    mesh.modification[0].lead.crowning = own.crown * 1e-6;
+    mesh.misalignment = own.lead * 1e-6;
+    // Along the normal.
+    const auto error = [&](int n) {
+      return VectorXd(cosine * error_on_springs(pair, mesh, n, load, 256, c));
+    };
+    const VectorXd exact = error(48), eight = error(8), twelve = error(12);
+    const double peak = peak_to_peak(exact);
+    MESSAGE("crown " << own.crown << ", lead " << own.lead << " um: peak to peak " << peak * 1e6
+                     << " (printed " << own.peak << ") um, harmonics from 8 on "
+                     << high_harmonics(exact, 8) * 1e9 << " (printed " << own.high
+                     << ") nm; 8 points: off by " << (eight - exact).cwiseAbs().maxCoeff() / peak << ", "
+                     << high_harmonics(eight, 8) * 1e9 << " nm; 12 points: off by "
+                     << (twelve - exact).cwiseAbs().maxCoeff() / peak << ", "
+                     << high_harmonics(twelve, 8) * 1e9 << " nm");
+    CHECK(peak * 1e6 == doctest::Approx(own.peak).epsilon(2e-3));
+    CHECK((eight - exact).cwiseAbs().maxCoeff() < own.off_8 * peak);
+    CHECK((twelve - exact).cwiseAbs().maxCoeff() < own.off_12 * peak);
+    CHECK(high_harmonics(eight, 8) == doctest::Approx(high_harmonics(exact, 8)).epsilon(0.12));
+  }
+}
+
+TEST_CASE("points of a spur pair under even load are one slice, whatever their number") {
+  StaticParameters one = paper_statics(24);
+  one.fidelity.contact = ContactModel::line;
+  const StaticResult whole = static_transmission(paper_body(), paper_body(), one, 150);
+  for (const int n : {2, 5, 8}) {
+    const StaticResult cut = static_transmission(paper_body(), paper_body(), slices(24, n), 150);
+    REQUIRE(cut.pair.size() == whole.pair.size());
+    const double off = (cut.transmission_error - whole.transmission_error).cwiseAbs().maxCoeff() /
+                       whole.transmission_error.mean(),
+                 loads =
+                     (cut.tooth_load - whole.tooth_load).cwiseAbs().maxCoeff() / whole.tooth_load.maxCoeff();
+    MESSAGE(n << " points: transmission error off by " << off << ", loads by " << loads << ", K_Hbeta - 1 "
+              << cut.face.load_factor - 1);
+    CHECK(off < 1e-9);
+    CHECK(loads < 1e-8);
+    CHECK(cut.face.load_factor == doctest::Approx(1).epsilon(1e-8));
+    CHECK(cut.stiffness_tangent[0] == doctest::Approx(whole.stiffness_tangent[0]).epsilon(1e-6));
+    CHECK(cut.loss_factor == doctest::Approx(whole.loss_factor).epsilon(1e-6));
+    CHECK(cut.compliance.contact == whole.compliance.contact);
+  }
+}
+
+TEST_CASE("a helical pair: equilibrium, axial force, certificate; the other hand is its mirror image") {
+  StaticParameters settings = slices(16, 8, kHelicalDistance);
+  settings.mesh.modification[0].lead.crowning = 3e-6;
+  settings.mesh.misalignment = 4e-6;
+  const StaticResult right =
+      static_transmission(helical_body(Hand::right), helical_body(Hand::left), settings, 150);
+  settings.mesh.misalignment = -4e-6;
+  const StaticResult left =
+      static_transmission(helical_body(Hand::left), helical_body(Hand::right), settings, 150);
+  const GearPair pair(right);
+  const HelicalForces force = helical_forces(pair, 150);
+  CHECK(right.face.axial_force == doctest::Approx(force.axial).epsilon(1e-12));
+  CHECK(left.face.axial_force == doctest::Approx(-force.axial).epsilon(1e-12));
+  CHECK(right.least_gap >= -1e-12);
+  CHECK(right.torque_residual < 1e-10);
+  for (Index i = 0; i < 16; ++i) {
+    const auto at = static_cast<size_t>(i);
+    CHECK(right.tooth_load.row(i).sum() == doctest::Approx(force.normal).epsilon(1e-10));
+    CHECK(left.transmission_error[i] == doctest::Approx(right.transmission_error[i]).epsilon(1e-11));
+    // Slices in the order of z: mirrored, the order turns round.
+    const MatrixRM mirrored = left.face.line_load[at].rowwise().reverse();
+    CHECK((mirrored - right.face.line_load[at]).cwiseAbs().maxCoeff() < 1e-8 * right.face.line_load_max);
+    const MatrixRM back = -left.face.position[at].rowwise().reverse();
+    CHECK((back - right.face.position[at]).cwiseAbs().maxCoeff() < 1e-15);
+    CHECK((right.face.line_load[at].cwiseProduct(right.face.width[at])).sum() ==
+          doctest::Approx(force.normal).epsilon(1e-10));
+  }
+}
+
+TEST_CASE("the elastic helical pair: convergence in the number of points") {
+  struct Case {
+    double crown, lead, off;  // um, um, of the peak to peak with 8 points
+  };
+  for (const Case& own : {Case{0, 0, 0.01}, Case{4, 0, 0.01}, Case{4, 10, 0.03}}) {
+    const auto error = [&](int n) {
+      StaticParameters settings = slices(64, n, kHelicalDistance);
+      settings.mesh.modification[0].lead.crowning = own.crown * 1e-6;
+      settings.mesh.misalignment = own.lead * 1e-6;
+      return static_transmission(helical_body(Hand::right), helical_body(Hand::left), settings, 150)
+          .transmission_error;
+    };
+    const VectorXd exact = error(24), eight = error(8), twelve = error(12);
+    const double peak = peak_to_peak(exact);
+    MESSAGE("crown " << own.crown << ", lead " << own.lead << " um: peak to peak " << peak * 1e6
+                     << " um, harmonics from 8 on " << high_harmonics(exact, 8) * 1e9
+                     << " nm; 8 points: off by " << (eight - exact).cwiseAbs().maxCoeff() / peak << ", "
+                     << high_harmonics(eight, 8) * 1e9 << " nm; 12 points: off by "
+                     << (twelve - exact).cwiseAbs().maxCoeff() / peak);
+    CHECK((eight - exact).cwiseAbs().maxCoeff() < own.off * peak);
+  }
+}
+
+TEST_CASE("a small helix is the spur pair") {
+  BodyDiscretisation coarse;
+  coarse.element_size = 1e-3;
+  coarse.modes = 0;
+  Material steel = paper_steel();
+  steel.plane_stress = false;
+  const auto error = [&](double beta) {
+    const ReducedBody right = reduce(make_sector_mesh(gear_with_helix(beta, Hand::right, 20e-3), coarse),
+                                     steel, 0),
+                      left = reduce(make_sector_mesh(gear_with_helix(beta, Hand::left, 20e-3), coarse), steel,
+                                    0);
+    StaticParameters settings = slices(8, 8, 0.150 / std::cos(beta * kOneDegreeOfFace));
+    settings.mesh.corner.enabled = false;
+    return static_transmission(right, left, settings, 150).transmission_error;
+  };
+  const VectorXd spur = error(0), slight = error(0.05);
+  // Away from the ends of the path, at which a spur line comes and goes as a whole.
+  for (const int i : {0, 2, 4, 6}) CHECK(slight[i] == doctest::Approx(spur[i]).epsilon(1e-4));
+}
+
+TEST_CASE("what slices do not take is refused") {
+  StaticParameters settings = slices(8, 4);
+  settings.mesh.friction.coefficient = 0.05;
+  const auto run = [&] { static_transmission(paper_body(), paper_body(), settings, 150); };
+  CHECK(refused(run, Failure::input, {"friction"}));
+  settings.mesh.friction = {};
+  settings.mesh.bearing[0].stiffness = 1e8;
+  CHECK(refused(run, Failure::input, {"[[bearing]]"}));
+  settings.mesh.bearing[0] = {};
+  settings.mesh.misalignment = 5e-6;
+  settings.fidelity.width = WidthModel::one;
+  CHECK(refused(run, Failure::input, {"misalignment_um", 5, "slices"}));
+}
