@@ -12,7 +12,7 @@ namespace whine {
 struct SceneAbilities {
   bool pair = true;
   bool teeth_differ = false, cracked = false;  // of a pair
-  std::string face;  // what of a pair one slice over the face does not hold, in words; "": nothing
+  std::string face = {};  // what of a pair one slice over the face does not hold, in words; "": nothing
   bool elastic = false, planets = false, moves = false;  // of a system
 };
 SceneAbilities abilities(const Scene& scene);

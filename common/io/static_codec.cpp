@@ -325,6 +325,9 @@ void describe_face(Codec& c, SystemStaticResult& all) {
   number(&FaceLoad::load_factor, "/face_load_factor", "1", kPositive,
          "largest line load of the reference pair at mesh phase 0 over its mean, ends of the line included",
          "K_Hbeta = w_max / w_mean");
+  number(
+      &FaceLoad::least_eigenvalue, "/certificate/least_eigenvalue", "m2 N-1", kFlexibility,
+      "least eigenvalue of local and body compliance between line loads over all phases: above 0, or loads have no single solution");
   number(&FaceLoad::line_load_max, "/line_load_max", "N m-1", kStiff,
          "largest line load of all phases within the inner 90 % of face and path of contact");
 }

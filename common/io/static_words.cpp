@@ -36,9 +36,11 @@ std::vector<std::string> face_load_words(const StaticResult& statics) {
   const FaceLoad& face = statics.face;
   const double mean = statics.tooth_load.row(0).sum() / statics.face_width();
   std::ostringstream out;
-  out << face.line_load[0].cols() << " slices along each contact line: overlap ratio " << face.overlap_ratio
-      << ", face load factor K_Hbeta " << face.load_factor
-      << " of the reference pair at the pitch point, largest line load " << face.line_load_max * 1e-3
+  out << face.line_load[0].cols()
+      << (statics.fidelity.width == WidthModel::body ? " points on bodies in three dimensions" : " slices")
+      << " along each contact line: overlap ratio " << face.overlap_ratio << ", face load factor K_Hbeta "
+      << face.load_factor << " of the reference pair at the pitch point, largest line load "
+      << face.line_load_max * 1e-3
       << " N/mm (inner 90 % of face and path; all of the load over the face: " << mean * 1e-3 << " N/mm)";
   if (face.axial_force != 0) out << ", axial force on the driver " << face.axial_force << " N";
   return {out.str()};

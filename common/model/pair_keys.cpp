@@ -78,7 +78,7 @@ KeyList keys(Fidelity& f) {
   k.choice(f.contact, "contact", "strips", "contact of a tooth pair: one force and Hertz's closed law, or pressure on strips");
   k.choice(f.integrator, "integrator", "exact", "time integration: Newmark (Eq. 8), or modal propagators");
   k.begin_group(f.width != WidthModel::one);
-  k.choice(f.width, "width", "one", "contact over the face width: one slice under even load, of spur pairs; slices: points along each contact line, which the teeth carry each by itself; it is what helical gears, leads and misalignment need");
+  k.choice(f.width, "width", "one", "contact over the face width: one slice under even load, of spur pairs; slices: points along each contact line, which the teeth carry each by itself, what helical gears, leads and misalignment need; body: the same points on bodies in three dimensions, of spur gears, which width_degree in [discretisation] gives them");
   return k;
 }
 
@@ -106,7 +106,7 @@ KeyList keys(ContactDiscretisation& c) {
   k.add(&c.strips, "strips", kNone, "8", {3, 1001}, "pressure strips across the contact width at the mean load; a candidate zone holds whole fours of them");
   k.add(&c.positions, "positions", kNone, "0", {8, 65536, false, "a mesh period in fewer points has no harmonics; 0 takes the default", true}, "positions of the static stage per mesh period; 0: as steps_per_period, 128 at least, for teeth that differ fewer (16 at least), so that there are 16384 in all");
   k.begin_group(c.face_points > 0);
-  k.add(&c.face_points, "face_points", kNone, "0", {2, 64, false, "one point knows nothing of the face", true}, "Gauss points along the contact line of each tooth pair, of width = \"slices\"; 0: 8, with misalignment or lead modifications 12");
+  k.add(&c.face_points, "face_points", kNone, "0", {2, 64, false, "one point knows nothing of the face", true}, "Gauss points along the contact line of each tooth pair, of width = \"slices\" and \"body\"; 0: 8, with misalignment or lead modifications 12");
   return k;
 }
 

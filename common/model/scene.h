@@ -114,10 +114,10 @@ enum class Integrator { newmark, exact };
 template <>
 inline constexpr const char* kWordsOf<Integrator> = "newmark exact";
 
-// Contact over the face width: one slice, or points that the teeth carry each by itself.
-enum class WidthModel { one, slices };
+// Contact over the face width: one slice; points that the teeth carry each by itself; points on bodies in three dimensions.
+enum class WidthModel { one, slices, body };
 template <>
-inline constexpr const char* kWordsOf<WidthModel> = "one slices";
+inline constexpr const char* kWordsOf<WidthModel> = "one slices body";
 
 struct Fidelity {
   BodyModel body = BodyModel::modal;

@@ -16,7 +16,7 @@
 #include "report/report_results.h"
 #include "report/report_tables.h"
 #include "report/system_report_tables.h"
-#include "studies/study_variant.h"
+#include "signal/result_quantities.h"
 
 namespace whine {
 namespace {

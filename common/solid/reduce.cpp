@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/units.h"
+#include "gear/helix.h"
 #include "solid/crack.h"
 #include "solid/flank_table.h"
 #include "solid/mesher.h"
@@ -418,7 +419,7 @@ ReducedBody reduce(const SectorGrid& mesh, const Material& material, int modes, 
     GearDesign intact = mesh.design;
     intact.crack = {};
     const SectorGrid section = make_sector_mesh(intact, {.element_size = width.section_size});
-    body.width = make_width_tables(section, material, 0, width.degree, xi, body.offsets);
+    body.width = make_width_tables(section, material, helix_twist(intact), width.degree, xi, body.offsets);
   }
   body.least_eigenvalue =
       least_eigenvalue(r, harmonics.flexibility, kept, body.compliance[0].cwiseAbs().maxCoeff());

@@ -1,12 +1,10 @@
 // One variant of a study from bodies to response quantities: static equilibrium, sweeps, and the numbers that a study gathers.
 #pragma once
 #include <functional>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "results/reduced_body.h"
-#include "results/response.h"
 #include "results/variant.h"
 #include "system/statics.h"
 
@@ -18,13 +16,6 @@ VariantResult variant_parameters(const ReducedBody& driver, const ReducedBody& d
 
 // Of a train: its layout and what its quantities are of.
 VariantResult variant_parameters(const VariantParameters& settings);
-
-// Quantities of results in SI, by the names of response_quantities(). settings: of a train, to know which meshes share a load; else
-// their sharing is left out.
-using Quantities = std::map<std::string, double>;
-Quantities quantities_of(const StaticResult& rest);
-Quantities quantities_of(const SystemStaticResult& rest);
-Quantities quantities_of(const ResponseResult& motion, const SystemStaticParameters* settings = nullptr);
 
 struct VariantResponse {
   Eigen::VectorXd quantity;     // SI, in the order of response_quantities()

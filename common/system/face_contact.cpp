@@ -29,7 +29,25 @@ GearMeshSpec even(GearMeshSpec mesh) {
   return mesh;
 }
 
-const GearMeshSpec& taken(const GearMeshSpec& mesh, const ReducedBody& driver, const ReducedBody& driven) {
+// What bodies in three dimensions need.
+void require_width(const GearMeshSpec& mesh, size_t g, const ReducedBody& body) {
+  const std::string of = text("width = \"body\" and [gear.", mesh.gear[g], "] ");
+  if (body.design.helical())
+    fail(
+        Failure::input, of,
+        "is helical: bodies in three dimensions are joined to the contact of spur gears so far; write width = \"slices\"");
+  if (body.material.plane_stress)
+    fail(
+        Failure::input, of,
+        "is of a [material] with plane = \"stress\": what the third dimension adds counts from plane strain; write plane = \"strain\"");
+  if (body.width.flexibility.empty())
+    fail(
+        Failure::input, of,
+        "has a plane body: write width_degree = 8 in [discretisation], by which gear-reduce adds the third dimension");
+}
+
+const GearMeshSpec& taken(const GearMeshSpec& mesh, WidthModel width, const ReducedBody& driver,
+                          const ReducedBody& driven) {
   const char* const slices = "contact in slices over the face (width = \"slices\")";
   require_external(mesh, driver.design, driven.design, slices);
   require_rigid_bearings(mesh, slices);
@@ -38,6 +56,7 @@ const GearMeshSpec& taken(const GearMeshSpec& mesh, const ReducedBody& driver, c
   const ReducedBody* const bodies[] = {&driver, &driven};
   for (size_t g = 0; g < kSides; ++g) {
     const ReducedBody& body = *bodies[g];
+    if (width == WidthModel::body) require_width(mesh, g, body);
     if (body.design.crack.depth > 0)
       fail(Failure::input, slices, " knows no cracks, and [gear.", mesh.gear[g],
            ".crack] has one; take the section out");
@@ -46,20 +65,28 @@ const GearMeshSpec& taken(const GearMeshSpec& mesh, const ReducedBody& driver, c
           Failure::input, "[gear.", mesh.gear[g],
           "] is helical, and its [material] has plane = \"stress\": the sections of a helical gear hold each other, write plane = \"strain\"");
   }
+  if (width == WidthModel::body && driver.design.face_width != driven.design.face_width)
+    fail(
+        Failure::input,
+        "width = \"body\" takes gears of equal face widths so far: what stands beyond the common face stiffens the teeth; write width = \"slices\"");
   return mesh;
 }
 
 }  // namespace
 
 FaceContact::FaceContact(const ReducedBody& driver, const ReducedBody& driven, const GearMeshSpec& mesh,
-                         int points)
+                         WidthModel width, int points)
     : gears_(driver.design, driven.design, mesh.centre_distance),
-      section_(section_of(driver), section_of(driven), even(taken(mesh, driver, driven))),
+      section_(section_of(driver), section_of(driven), even(taken(mesh, width, driver, driven))),
       gap_(gears_, mesh),
       points_(points),
       cosine_(std::cos(gears_.base_helix_angle())),
       depth_(this->mesh().gear[0].contact_depth()) {
   for (size_t g = 0; g < kSides; ++g) table_[g] = compliance_tables(this->mesh().gear[g], depth_);
+  if (width != WidthModel::body) return;
+  const ReducedBody* const bodies[] = {&driver, &driven};
+  for (size_t g = 0; g < kSides; ++g)
+    kernel_[g] = std::make_unique<const WidthKernel>(gears_.gear(static_cast<int>(g)), bodies[g]->width);
 }
 
 // Of a spur pair all pairs in reach, tip edges off the line of action too: every section is at the same place of its path.
@@ -110,11 +137,12 @@ FacePosition FaceContact::at(double phase, double corner_gap, double load) const
     out.law.push_back(point.law);
     for (size_t g = 0; g < kSides; ++g) roll[g](q, 0) = point.roll[g];
   }
-  add_bodies(out, roll);
+  add_sections(out, roll);
+  if (kernel_[0]) add_width(out, roll);
   return out;
 }
 
-void FaceContact::add_bodies(FacePosition& position, const std::array<MatrixXd, 2>& roll) const {
+void FaceContact::add_sections(FacePosition& position, const std::array<MatrixXd, 2>& roll) const {
   const FacePoints& points = position.points;
   const int n = points.per_line, lines = static_cast<int>(points.line.size());
   position.compliance.setZero(points.size(), points.size());
@@ -133,6 +161,7 @@ void FaceContact::add_bodies(FacePosition& position, const std::array<MatrixXd, 
       position.compliance(q, q) +=
           unit / points.weight[q] * row.dot(table_[g][static_cast<size_t>(most)] * row.transpose());
     }
+    if (kernel_[g]) continue;
     for (int i = 0; i < lines; ++i)
       for (int j = 0; j < i; ++j) {
         const ContactLine &a = points.line[static_cast<size_t>(i)], &b = points.line[static_cast<size_t>(j)];
@@ -151,6 +180,32 @@ void FaceContact::add_bodies(FacePosition& position, const std::array<MatrixXd, 
         between.array().rowwise() /= points.weight(own(j)).transpose().array();
         position.compliance(own(i), own(j)) += unit * between;
         position.compliance(own(j), own(i)) += unit * between.transpose();
+      }
+  }
+}
+
+// Of all points on all lines.
+void FaceContact::add_width(FacePosition& position, const std::array<MatrixXd, 2>& roll) const {
+  const FacePoints& points = position.points;
+  const int n = points.per_line, lines = static_cast<int>(points.line.size());
+  const auto own = [&](int line) { return Eigen::seqN(static_cast<Index>(line) * n, n); };
+  for (size_t g = 0; g < kSides; ++g) {
+    const WidthKernel& kernel = *kernel_[g];
+    MatrixXd functional;  // (functional, point)
+    for (int q = 0; q < points.size(); ++q) {
+      const VectorXd at = kernel.point(roll[g](q, 0), points.z[q]);
+      if (q == 0) functional.resize(at.size(), points.size());
+      functional.col(q) = at;
+      position.compliance(q, q) += kernel.completion(roll[g](q, 0), roll[g](q, 0)) / points.weight[q];
+    }
+    for (int i = 0; i < lines; ++i)
+      for (int j = 0; j < lines; ++j) {
+        const int offset =
+            GearMeshModel::tooth(static_cast<int>(g), points.line[static_cast<size_t>(i)].pair -
+                                                          points.line[static_cast<size_t>(j)].pair);
+        if (std::abs(offset) > kernel.offsets()) continue;
+        position.compliance(own(i), own(j)) +=
+            kernel.between(functional(Eigen::all, own(i)), functional(Eigen::all, own(j)), offset);
       }
   }
 }

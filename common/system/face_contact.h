@@ -9,11 +9,19 @@
 // contact the half-planes lie across the inclined line. Neighbouring teeth of the same section take part:
 //   C_qr = b cos^2 beta_b integral of l_q l_r T(s, s') dz / (w_q w_r),   q and r on different lines, over the z that both have,
 // l_q the polynomials of interpolation on the points of a line. A gear is rigid between its sections: x is common to all of them.
+//
+// On bodies in three dimensions (width = "body") what the sections do to each other is added to the points of a line, and takes the place of
+// C_qr on different lines (solid/width_tables.h):
+//   C_qr += sum_ij P_i(z_q) (dC_ij - delta_ij c)(s_q, s_r) P_j(z_r),   C_qq += c(s_q, s_q) / w_q.
+// The sum of local compliance, tables and this is positive definite where the polynomials are not finer than the contact is wide: degree P
+// at most sqrt(b / 2a); its least eigenvalue is part of the result.
 #pragma once
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "results/reduced_body.h"
+#include "solid/width_tables.h"
 #include "system/face_points.h"
 #include "system/rolling_mesh.h"
 
@@ -33,12 +41,15 @@ struct FacePosition {
 
 class FaceContact {
  public:
-  // points: of each contact line. Throws Error(input) for what slices do not take: internal gears, elastic bearings, friction, teeth that
-  // differ, cracks, and helical gears whose bodies are in plane stress.
-  FaceContact(const ReducedBody& driver, const ReducedBody& driven, const GearMeshSpec& mesh, int points);
+  // width: slices or body; points: of each contact line. Throws Error(input) for what slices do not take: internal gears, elastic bearings, friction, teeth that
+  // differ, cracks, and helical gears whose bodies are in plane stress; of width = body also for helical gears, unequal faces, and bodies in
+  // plane stress or without tables over the width.
+  FaceContact(const ReducedBody& driver, const ReducedBody& driven, const GearMeshSpec& mesh,
+              WidthModel width, int points);
 
   const GearPair& gears() const { return gears_; }  // with their helix
   const FaceGap& face_gap() const { return gap_; }
+  int degree() const { return kernel_[0] ? std::min(kernel_[0]->degree(), kernel_[1]->degree()) : 0; }
   // The spur pair of the transverse section, under even load.
   const GearMeshModel& mesh() const { return section_; }
 
@@ -50,13 +61,15 @@ class FaceContact {
  private:
   std::vector<ContactLine> lines(double phase, double corner_gap, PairsInReach& reach) const;
   PairContact contact(const PairsInReach& reach, const ContactLine& line, double path) const;
-  void add_bodies(FacePosition& position, const std::array<Eigen::MatrixXd, 2>& roll) const;
+  void add_sections(FacePosition& position, const std::array<Eigen::MatrixXd, 2>& roll) const;
+  void add_width(FacePosition& position, const std::array<Eigen::MatrixXd, 2>& roll) const;
   GearPair gears_;
   GearMeshModel section_;
   FaceGap gap_;
   int points_;
   double cosine_, depth_;  // 1: cos beta_b; m: of the laws
   std::array<std::vector<Eigen::MatrixXd>, 2> table_;
+  std::array<std::unique_ptr<const WidthKernel>, 2> kernel_;  // of width = body
 };
 
 }  // namespace whine

@@ -70,12 +70,19 @@ double parabola(const Eigen::Vector3d& at, const Eigen::Vector3d& value, double 
 }  // namespace
 
 double face_load_factor(const Eigen::Ref<const VectorXd>& z, const Eigen::Ref<const VectorXd>& weight,
-                        const Eigen::Ref<const VectorXd>& load, const ContactLine& line) {
-  const double mean = load.dot(weight) / line.length();
-  double most = load.maxCoeff();
-  if (z.size() >= 3) {
-    most = std::max(most, parabola(z.head(3), load.head(3), line.from));
-    most = std::max(most, parabola(z.tail(3), load.tail(3), line.to));
+                        const Eigen::Ref<const VectorXd>& load, const ContactLine& line, double inner) {
+  const double mean = load.dot(weight) / line.length(), middle = 0.5 * (line.from + line.to),
+               reach = 0.5 * inner * line.length();
+  Index first = 0, count = z.size();
+  while (count > 3 && std::abs(z[first] - middle) > reach) {  // the rule is symmetric
+    ++first;
+    count -= 2;
+  }
+  const VectorXd at = z.segment(first, count), own = load.segment(first, count);
+  double most = own.maxCoeff();
+  if (count >= 3) {
+    most = std::max(most, parabola(at.head(3), own.head(3), line.from));
+    most = std::max(most, parabola(at.tail(3), own.tail(3), line.to));
   }
   return most / mean;
 }

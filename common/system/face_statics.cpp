@@ -1,5 +1,6 @@
 #include "system/face_statics.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -45,6 +46,17 @@ std::string outside(const FaceSolution& at) {
               " micrometres closes a tip edge's gap of ", at.position.next_corner_gap * 1e6, " micrometres");
 }
 
+// m: as if each point gave way by itself under its share of the load.
+double start_without_coupling(const FacePosition& p, double load) {
+  double stiffness = 0;
+  for (Index q = 0; q < p.points.size(); ++q) {
+    const double share = load * p.points.weight[q] / p.points.weight.sum();
+    stiffness += p.approach[q] * p.approach[q] /
+                 (p.compliance(q, q) + p.law[static_cast<size_t>(q)].at(share).indentation / share);
+  }
+  return p.gap.minCoeff() + load / stiffness;
+}
+
 void require_small(const FaceContact& contact, double x, double torque) {
   constexpr double kMost = 0.25;  // modules
   const double most = kMost * contact.gears().gear(0).design().module;
@@ -66,6 +78,7 @@ std::vector<FaceSolution> solve_phases(const FaceContact& contact, int positions
     FaceSolution& at = out[static_cast<size_t>(i)];
     at.position = contact.at(phase, corner_gap, load);
     const FacePosition& p = at.position;
+    if (i == 0) start = start_without_coupling(p, load);
     at.equilibrium = equilibrium(p.compliance, p.law, p.gap, p.approach, load, start);
     start = at.equilibrium.x;
     require_hertz_range(p.law, at.equilibrium.p);
@@ -74,6 +87,17 @@ std::vector<FaceSolution> solve_phases(const FaceContact& contact, int positions
     beyond = outside(at);
   }
   return out;
+}
+
+// m2 N-1: of local compliance (at the forces that it carries) and bodies between line loads, W^1/2 (C + law') W^1/2 with the weights W.
+double least_eigenvalue(const FaceSolution& at) {
+  const FacePoints& points = at.position.points;
+  MatrixXd whole = at.position.compliance;
+  for (Index q = 0; q < points.size(); ++q)
+    whole(q, q) += at.position.law[static_cast<size_t>(q)].at(at.equilibrium.p[q]).slope;
+  const VectorXd root = points.weight.cwiseSqrt();
+  whole = root.asDiagonal() * whole * root.asDiagonal();
+  return Eigen::SelfAdjointEigenSolver<MatrixXd>(whole, Eigen::EigenvaluesOnly).eigenvalues()[0];
 }
 
 // Of each tooth pair at one phase.
@@ -107,6 +131,9 @@ void store_lines(const FaceContact& contact, const FaceSolution& at, Index row, 
   for (const ContactLine& line : points.line) face.contact_line_length[row] += line.length() / cosine;
 }
 
+// At the very end of a face the load of teeth in three dimensions falls off, which no polynomial holds.
+constexpr double kInnerFace = 0.8;
+
 // What is true of the whole period.
 void store_face(const FaceContact& contact, const std::vector<FaceSolution>& period, StaticResult& result) {
   FaceLoad& face = result.face;
@@ -120,7 +147,8 @@ void store_face(const FaceContact& contact, const std::vector<FaceSolution>& per
     const auto own = Eigen::seqN(line * n, n);
     const VectorXd load = period[0].equilibrium.p(own).array() / at_pitch_point.weight(own).array();
     face.load_factor = face_load_factor(at_pitch_point.z(own), at_pitch_point.weight(own), load,
-                                        at_pitch_point.line[static_cast<size_t>(line)]);
+                                        at_pitch_point.line[static_cast<size_t>(line)],
+                                        result.fidelity.width == WidthModel::body ? kInnerFace : 1);
   }
   // In the corners where a line comes in, the load of a line model has no limit.
   constexpr double kInside = 0.9;
@@ -162,7 +190,7 @@ StaticResult result_of(const FaceContact& contact, const std::vector<FaceSolutio
   out.contact_pressure = out.contact_half_width = out.tooth_load;
   for (std::vector<MatrixRM>* list : {&out.face.line_load, &out.face.position, &out.face.width})
     list->resize(period.size());
-  out.least_gap = out.least_force = std::numeric_limits<double>::infinity();
+  out.least_gap = out.least_force = out.face.least_eigenvalue = std::numeric_limits<double>::infinity();
   const double load = torque / contact.gears().gear(0).base_radius();
   for (Index i = 0; i < positions; ++i) {
     const FaceSolution& at = period[static_cast<size_t>(i)];
@@ -175,6 +203,7 @@ StaticResult result_of(const FaceContact& contact, const std::vector<FaceSolutio
     out.torque_residual = std::max(out.torque_residual, e.residual);
     out.least_gap = std::min(out.least_gap, e.certificate.least_gap);
     out.least_force = std::min(out.least_force, e.certificate.least_force);
+    out.face.least_eigenvalue = std::min(out.face.least_eigenvalue, least_eigenvalue(at));
     store_lines(contact, at, i, out);
   }
   out.mean_stiffness = out.stiffness_secant.mean();
@@ -193,7 +222,8 @@ StaticResult result_of(const FaceContact& contact, const std::vector<FaceSolutio
 
 StaticResult face_transmission(const ReducedBody& driver, const ReducedBody& driven,
                                const StaticParameters& settings, double torque) {
-  const FaceContact contact(driver, driven, settings.mesh, face_points_of(settings.mesh, settings.contact));
+  const FaceContact contact(driver, driven, settings.mesh, settings.fidelity.width,
+                            face_points_of(settings.mesh, settings.contact));
   const double load = torque / contact.gears().gear(0).base_radius();
   double widening = 1;
   for (int attempt = 0;; ++attempt, widening *= kWidening) {

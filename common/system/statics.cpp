@@ -63,7 +63,7 @@ std::vector<Remark> remarks(const StaticResult& s) {
   out.insert(out.end(), drawn.begin(), drawn.end());
   if (!s.mesh.corner.enabled)
     add(false, "corner contact is off: only pairs on the line of action carry load");
-  if (!s.face.none())
+  if (s.fidelity.width == WidthModel::slices)
     add(false,
         "width = \"slices\": the teeth carry each section by itself. That holds the transmission error to a few per cent; K_Hbeta - 1 of bodies in three dimensions is 1.7 to 2.1 times as large");
   if (s.gear[0].design.internal || s.gear[1].design.internal) {
