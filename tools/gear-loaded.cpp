@@ -16,6 +16,7 @@
 #include "io/artifacts.h"
 #include "io/compatibility.h"
 #include "io/named_files.h"
+#include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "results/loaded.h"
 #include "results/reduced_body.h"
@@ -48,7 +49,7 @@ void body(int argc, char** argv) {
   const whine::NamedFiles body_files("--body", bodies), mesh_files("--mesh", meshes);
   const whine::Provenance provenance =
       whine::made_by(argc, argv, mesh_files.and_inputs(body_files.and_inputs({"static=" + statics_path})));
-  const whine::StaticResult statics = whine::read<whine::StaticResult>(statics_path);
+  const whine::StaticResult statics = whine::read_pair_statics(statics_path);
   const std::vector<std::string> body_paths = body_files.of(statics.mesh),
                                  mesh_paths = mesh_files.of(statics.mesh);
   std::optional<whine::StepsShown> steps(std::in_place, "gear-loaded");

@@ -97,6 +97,11 @@ void describe_speed_by_speed(Codec& c, SweepResult& a) {
   c(a.drift_force, "/drift_force", "N", kForce, kAxis,
     "largest force that the output must supply to hold the mean speed");
   describe_certificate(c, a.least_gap, a.least_force, a.fallbacks);
+  const bool slides = a.of_train() ? a.train.friction().acts() : a.mesh.friction.acts();
+  if (c.optional("/certificate/friction_coupling", slides))
+    c(a.friction_coupling, "/certificate/friction_coupling", "m", kSize, "",
+      "largest change of a gap by what friction of the last forces moves, over all steps",
+      "iteration for d = (A + E) p + e, E of friction: E times the last change of p");
   describe_hunting(c, a.hunting_periods);
   c(a.jump_frequency, "/jump_frequency", "Hz", kFrequency, "jump",
     "middle of the interval in which the response jumps; of trains whose teeth differ jumps are not looked for");
@@ -132,10 +137,6 @@ void describe(Codec& c, SweepResult& a) {
   describe_speed_by_speed(c, a);
   if (!a.of_train()) {
     describe_friction(c, a.mesh, a.friction);
-    if (c.lists() || a.mesh.friction.acts())
-      c(a.friction_coupling, "/certificate/friction_coupling", "m", kSize, "",
-        "largest change of a gap by what friction of the last forces moves, over all steps",
-        "iteration for d = (A + E) p + e, E of friction: E times the last change of p");
     describe_backlash(c, a.backlash_margin);
     describe_backlash_left(c, a.backlash_left);
   }

@@ -85,7 +85,7 @@ const std::vector<GuideRow>& rows_of_modes_and_motion() {
        "The largest force, and the RMS of the oscillating part, over the speeds.",
        text("As the forces at rest, and the dampers of the bearings in the scene. Where a carrier turns, ",
             "remarks say how large centrifugal and Coriolis forces are, and whether they are in them."),
-       "They are the input of a housing model; /body/name/bearing_force of sweep.h5 has their time histories."},
+       "They are the input of a housing model; /bearing_force/name of sweep.h5 has their time histories."},
   };
   return rows;
 }

@@ -35,7 +35,7 @@ struct TrainMotion {
   std::vector<MatrixRM> bearing_force;
   // J: by line of kEnergyLines, mesh, body; N m, by body
   Eigen::RowVectorXd energy, rolling, bearing_damping, holding_torque;
-  double imbalance = 0, drift_force = 0, least_gap = 0, least_force = 0;
+  double imbalance = 0, drift_force = 0, least_gap = 0, least_force = 0, friction_coupling = 0;
 };
 
 // A train with the tip edges that are looked at; the rig of a SpeedSweep.
@@ -139,6 +139,7 @@ class TrainSweepRig {
       motion.drift_force = std::max(motion.drift_force, period.drift_force);
       motion.least_gap = std::min(motion.least_gap, period.least_gap);
       motion.least_force = std::min(motion.least_force, period.least_force);
+      motion.friction_coupling = std::max(motion.friction_coupling, period.friction_coupling);
     }
     motion.rms = statistics.dte_rms().norm();
     return true;
@@ -205,8 +206,8 @@ class TrainSweepRig {
 
   static void take(const SystemEnergyBalance& e, Motion& motion) {
     Eigen::RowVectorXd lines(motion.energy.size());
-    lines << e.kinetic, e.modal, e.residual, e.local, e.drive.sum(), e.rolling.sum(), 0,
-        e.centrifugal + e.dragging.sum(), e.modal_damping, e.bearing_damping.sum(), e.relaxation_damping, 0,
+    lines << e.kinetic, e.modal, e.residual, e.local, e.drive.sum(), e.rolling.sum(), e.friction_rolling,
+        e.centrifugal + e.dragging.sum(), e.modal_damping, e.bearing_damping.sum(), e.relaxation_damping, e.friction.sum(),
         e.switching.sum(), e.cutting.sum(), e.averaging, e.dropped, e.throughput;  // kEnergyLines
     motion.energy += lines;
     motion.rolling += e.rolling;
@@ -240,6 +241,7 @@ std::string store(TrainMotion& motion, Index row, SweepResult& out) {
   out.energy_imbalance[row] = motion.imbalance / motion.energy[energy_line("throughput")];
   out.least_gap = std::min(out.least_gap, motion.least_gap);
   out.least_force = std::min(out.least_force, motion.least_force);
+  out.friction_coupling = std::max(out.friction_coupling, motion.friction_coupling);
   return text(out.periods[row], " periods",
               motion.settled.multiple == 0  ? ", not periodic"
               : motion.settled.multiple > 1 ? text(", repeats after ", out.period_multiple[row])

@@ -705,8 +705,7 @@ TEST_CASE("crawling gears follow the static transmission error") {
     const SweepResult sweep_result =
         sweep(body, body, statics, statics.mean_stiffness, settings, Direction::up, no_report);
     // At 10 Hz the slope of the error excites 4e-3 of its size at f_n.
-    const VectorXd difference =
-        sweep_result.transmission_error.row(0).transpose() - statics.transmission_error;
+    const VectorXd difference = sweep_result.transmission_error[0].col(0) - statics.transmission_error;
     CHECK(difference.cwiseAbs().maxCoeff() < 5e-3 * statics.transmission_error.maxCoeff());
   }
 }
@@ -730,7 +729,8 @@ TEST_CASE(
         CHECK(result.energy_imbalance.maxCoeff() < 1e-9);
         CHECK(result.least_gap > -1e-15);
         CHECK(result.drift_force.maxCoeff() < 0.02 * 2128);  // lever arms at a corner differ by 2 % at most
-        if (level == BodyModel::modal) CHECK(result.mesh_force.minCoeff() == 0);  // contact is lost here
+        if (level == BodyModel::modal)                       // contact is lost here
+          CHECK(std::min(result.mesh_force[0].minCoeff(), result.mesh_force[1].minCoeff()) == 0);
       }
   }
 }

@@ -92,6 +92,21 @@ TEST_CASE("a pair as a train: the sweep jumps where that of the pair does, and w
   REQUIRE(pair.jump_frequency.size() == 1);
   check_alike(train.jump_frequency, pair.jump_frequency);
   CHECK(train.jump_width[0] == relative(pair.jump_width[0], 1e-9));
+  // Loads of the same teeth, and the same balance, whose dampers of bearings a train has apart.
+  const double load = pair.tooth_load[0].maxCoeff();
+  for (Eigen::Index p = 0; p < pair.pair.size(); ++p) {
+    const Eigen::Index own = pair.pair[p] - train.pair[0];
+    const Eigen::VectorXd known = pair.loads_of(0, 0).col(p);
+    const Eigen::VectorXd found = own >= 0 && own < train.pair.size()
+                                      ? Eigen::VectorXd(train.loads_of(0, 0).col(own))
+                                      : Eigen::VectorXd(Eigen::VectorXd::Zero(known.size()));
+    CHECK((found - known).cwiseAbs().maxCoeff() < 0.02 * load);
+  }
+  const auto line = [](const SweepResult& of, const char* name) { return of.energy(0, energy_line(name)); };
+  for (const char* name : {"rolling", "relaxation_damping", "throughput"})
+    CHECK(line(train, name) == relative(line(pair, name), 0.02));
+  CHECK(line(train, "modal_damping") + line(train, "bearing_damping") ==
+        relative(line(pair, "modal_damping"), 0.02));
   const BranchPlan from_sweep{.sweep = Direction::up, .at = 2500};
   const SystemBranchResult branch = both.train_along(from_sweep);
   check_alike(branch.fold_frequency, both.pair_along(from_sweep).fold_frequency);

@@ -97,15 +97,16 @@ Design design(const std::string& name, const std::vector<double>& torques, doubl
 Design train_design(const std::string& name, double swing) {
   constexpr int kPhases = 16;
   SystemStaticResult a = small_system();
-  const Index meshes = a.contact_ratio.size(), bodies = static_cast<Index>(a.settings.layout.bodies.size());
+  const Index meshes = static_cast<Index>(a.mesh.size()), bodies = static_cast<Index>(a.settings.layout.bodies.size());
   a.mesh_phase = VectorXd::LinSpaced(kPhases, 0, 1 - 1.0 / kPhases);
-  a.transmission_error.resize(kPhases, meshes);
-  for (Index i = 0; i < kPhases; ++i)
-    a.transmission_error.row(i).setConstant(20e-6 + swing * std::cos(2 * std::numbers::pi * a.mesh_phase[i]));
+  for (StaticResult& mesh : a.mesh) {
+    mesh.transmission_error = 20e-6 + swing * (2 * std::numbers::pi * a.mesh_phase.array()).cos();
+    mesh.stiffness_secant = mesh.stiffness_tangent = VectorXd::Constant(kPhases, 5e8);
+    mesh.tooth_load = MatrixRM::Constant(kPhases, 3, 1000.0 / 3);
+  }
   a.mesh_force = MatrixRM::Constant(kPhases, meshes, 1000);
   a.mesh_force.col(0).setConstant(1300);
   a.load_share = MatrixRM::Constant(kPhases, meshes, 1.0 / 3);
-  a.tooth_load.assign(kPhases, a.tooth_load[0]);
   a.bearing_force.assign(kPhases, MatrixRM::Constant(bodies, 2, 100));
   a.mesh_stiffness.assign(kPhases, a.mesh_stiffness[0]);
   Design out{name};

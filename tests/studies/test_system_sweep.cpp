@@ -180,6 +180,10 @@ TEST_CASE(
       CHECK(r.mesh_force_max(i, m) == most);
       CHECK(r.tooth_load_max(i, m) == tooth);
       CHECK(tooth <= most * (1 + 1e-12));
+      // Levers of tip edges differ from the base radius by a few per cent.
+      CHECK((a.loads_of(i, m).rowwise().sum() - force.col(m)).cwiseAbs().maxCoeff() < 0.05 * most);
+      CHECK(r.tooth_load_sustained(i, m) <= tooth);
+      CHECK(r.tooth_load_sustained(i, m) > 0);
       CHECK(r.separation_fraction(i, m) == apart / 48);
       CHECK(r.load_share_max(i, m) == relative(share, 1e-12));
       parted += apart;
