@@ -18,9 +18,10 @@
 #include "io/artifacts.h"
 #include "io/codec.h"
 
-// Whether a file has what a codec calls optional; usual: all but what excludes other parts, which are lumped models, rims, trains in
-// response.h5 and variants outside the model's range.
-enum class Optional { none, all, usual };
+// Whether a file has what a codec calls optional; pair: all but what makes it one of a train; usual: nor what else excludes other
+// parts, which are lumped models, rims and variants outside the model's range.
+enum class Optional { none, all, pair, usual };
+inline constexpr Optional kOptionals[] = {Optional::none, Optional::all, Optional::pair, Optional::usual};
 
 using AnyBlock = std::variant<whine::Block<double>, whine::Block<int>, whine::Block<std::string>>;
 
@@ -70,9 +71,10 @@ class Filling : public whine::ArtifactReader {
     const bool train = given_.contains("/body/is_carrier") || given_.contains("/layout/body/is_carrier");
     for (const char* pair : {"/parameters/driver_", "/parameters/driven_", "/parameters/modification_"})
       if (train && name.starts_with(pair)) return false;
-    const bool excludes = name == "/parameters/fidelity/model" || name == "/layout/body/name" ||
-                          name.find("_rim/") != std::string::npos;
-    return optional_ == Optional::all || (optional_ == Optional::usual && !excludes);
+    if (optional_ == Optional::none) return false;
+    if (optional_ != Optional::all && name == "/layout/body/name") return false;
+    const bool excludes = name == "/parameters/fidelity/model" || name.find("_rim/") != std::string::npos;
+    return optional_ != Optional::usual || !excludes;
   }
 
   void rejected(const std::string& what) const override {
@@ -181,11 +183,11 @@ std::map<std::string, AnyBlock> fill(Artifact& artifact, Optional optional = Opt
   return {};
 }
 
-// Filled as it was made, {}.
+// Filled as it was made, {}; of a pair what may also be of a train.
 template <class Artifact>
 Artifact any() {
   Artifact a;
-  fill(a);
+  fill(a, Optional::pair);
   return a;
 }
 

@@ -46,7 +46,7 @@ struct LineStart {
 // each pair's own terms; forces are never negative; `factorisations` counts Newton steps; where the start is followed, d
 // of a pair with force is 0 and the residual is the bound of the last step's error, below that tolerance. Throws
 // Error(numerical) for a number that is not finite, a C that is not semidefinite where it
-// is tried, an energy that does not fall within 30 halvings of a step, no convergence within 200 steps, or by
+// is tried, an energy that does not fall within 30 halvings of a step, no convergence within 200 steps and 8 for each pair, or by
 // require_residual.
 Certificate solve_line_contact(const Eigen::Ref<const Eigen::MatrixXd>& c, std::span<const HertzLine> law,
                                const Eigen::Ref<const Eigen::VectorXd>& e, Eigen::Ref<Eigen::VectorXd> force,

@@ -127,8 +127,9 @@ void describe_loads(Codec& c, SystemStaticResult& a) {
   OverMeshes over(c, a);
   over(&StaticResult::contact_ratio, "/contact_ratio", "1", {0, 100, true}, "mesh",
        "profile contact ratio of the unloaded gears");
-  over(&StaticResult::torque, "/mesh_torque", "N m", kMoment, "mesh",
-       "torque on the driving gear, of trains by the balance of rigid bodies; 0: no load");
+  if (c.lists() || a.of_train())
+    over(&StaticResult::torque, "/mesh_torque", "N m", kMoment, "mesh",
+         "of trains: torque on the driving gear by the balance of rigid bodies; 0: no load");
   c(a.mesh_force, "/mesh_force", "N", kForce, kPhaseMesh, "torque on the driving body over its base radius");
   c(a.load_share, "/load_share", "1", {0, 1 + 1e-9}, kPhaseMesh,
     "share of the meshes that come from one [[mesh]]: of planets the load sharing; of a pair 1");

@@ -97,7 +97,8 @@ void describe_speed_by_speed(Codec& c, SweepResult& a) {
   c(a.drift_force, "/drift_force", "N", kForce, kAxis,
     "largest force that the output must supply to hold the mean speed");
   describe_certificate(c, a.least_gap, a.least_force, a.fallbacks);
-  const bool slides = a.of_train() ? a.train.friction().acts() : a.mesh.friction.acts();
+  const bool slides =
+      a.friction_coupling > 0 || (a.of_train() ? a.train.friction().acts() : a.mesh.friction.acts());
   if (c.optional("/certificate/friction_coupling", slides))
     c(a.friction_coupling, "/certificate/friction_coupling", "m", kSize, "",
       "largest change of a gap by what friction of the last forces moves, over all steps",

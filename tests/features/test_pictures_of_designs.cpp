@@ -9,6 +9,7 @@
 #include "report/compare_figures.h"
 #include "report/engineering_axes.h"
 #include "report/error_budget_figure.h"
+#include "report/flank_load_figure.h"
 #include "report/fold_curve_figure.h"
 #include "report/gear_figures.h"
 #include "report/harris_figure.h"
@@ -356,4 +357,12 @@ TEST_CASE("pictures of the contact zone: no text is cut or lies on other text") 
   StaticResult loaded = static_transmission(body, body, paper_statics(2), 9999);
   loaded.reference_contact = reference_contact(body, body, loaded);
   check(contact_zone_figure(mesh, mesh, loaded), "fig03");
+}
+
+TEST_CASE("pictures of the load over the face: no text is cut or lies on other text") {
+  StaticParameters settings = paper_statics(8);
+  settings.fidelity.width = WidthModel::slices;
+  settings.mesh.misalignment = 15e-6;
+  const ReducedBody& body = paper_body(40e-3, 1.2e-3, 1);
+  check(flank_load_figure(static_transmission(body, body, settings, 600)), "flank-load");
 }

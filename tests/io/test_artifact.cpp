@@ -116,7 +116,7 @@ TEST_CASE(
   unwritten(ragged, {"/flank_mode", static_cast<int>(modes - 1), static_cast<int>(modes), "mode"});
   SweepResult sweep = any<SweepResult>();
   sweep.pair.conservativeResize(sweep.pair.size() - 1);
-  unwritten(sweep, {"pair"});
+  unwritten(sweep, {"tooth_pair"});
   SystemStaticResult broken = any<SystemStaticResult>();
   broken.mesh[0].transmission_error[1] = std::nan("");
   unwritten(broken, {"/transmission_error"});
@@ -132,7 +132,7 @@ TEST_CASE("an artifact of another schema or version is rejected with what it is 
   CHECK(refused([] { read<SweepResult>("out/static.h5"); }, Failure::input,
                 {"whine/static", "whine/sweep", "make out/static.h5"}));
   write_like("out/old.h5", [](h5::Writer& file) { put_schema(file, "whine/static", 0); });
-  CHECK(unread_static("out/old.h5", Failure::input, {"version", 0, 6, "make out/old.h5"}));
+  CHECK(unread_static("out/old.h5", Failure::input, {"version", 0, 7, "make out/old.h5"}));
   write_like("out/alien.h5", [](h5::Writer& file) { file.group("/data"); });
   CHECK(unread_static("out/alien.h5", Failure::input, {"out/alien.h5"}));
 }

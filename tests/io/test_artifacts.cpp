@@ -119,7 +119,7 @@ std::string left_alone() {
   const Image<Artifact> other = image<Artifact>(1, [](const Artifact&) {});
   for (std::size_t i = 0; i < made.size(); ++i)
     if (made[i] == 0 && other[i] == 0x0101010101010101) described[i] = true;
-  for (const Optional optional : {Optional::none, Optional::all, Optional::usual}) {
+  for (const Optional optional : kOptionals) {
     const Image<Artifact> full = image<Artifact>(0, [&](Artifact& a) { fill(a, optional); });
     for (std::size_t i = 0; i < full.size(); ++i) described[i] = described[i] || full[i] != made[i];
   }
@@ -140,7 +140,7 @@ TEST_CASE("describe() names every member of every kind of artifact") {
 }
 
 TEST_CASE("every kind of artifact gives back every value, whatever optional parts it has") {
-  for (const Optional optional : {Optional::none, Optional::all, Optional::usual})
+  for (const Optional optional : kOptionals)
     for_each_kind([&]<class A>(const ArtifactKind<A>& kind) {
       CAPTURE(std::string(kind.name));
       CAPTURE(static_cast<int>(optional));

@@ -140,7 +140,7 @@ TEST_CASE("the list of datasets has a line for each, with axes, unit and meaning
     CHECK(line.size() > meaning + 5);
   }
   CHECK(count > 200);
-  CHECK(contains(dataset_list(), "static.h5  /transmission_error (mesh_phase; m): "));
+  CHECK(contains(dataset_list(), "static.h5  /transmission_error (mesh_phase mesh; m): "));
 }
 
 TEST_CASE("the summary names the key numbers in an engineer's units") {
