@@ -38,12 +38,12 @@ void add_forces(double* y, const double* start, const MatrixXd& c, const Columns
 
 }  // namespace
 
-// All that is of one solution.
+// All that is of one solution; of each list only what belongs to the pairs that carry, or to all, is ever set.
 struct FollowedContact::Work {
-  double f[kMost] = {};            // N
-  double left[kMost] = {};         // m: bound of what d of these forces differs from 0 by
-  double gap[kMostContacts] = {};  // m: d without the laws
-  int laws = 0;
+  double f[kMost];            // N
+  double left[kMost];         // m: bound of what d of these forces differs from 0 by
+  double gap[kMostContacts];  // m: d without the laws
+  int laws;
 };
 
 void FollowedContact::reserve(int pairs) {
@@ -113,16 +113,22 @@ bool FollowedContact::invert() {
 bool FollowedContact::approach(const MatrixXd& c, std::span<const HertzLine> law, const VectorXd& e,
                                Work& work) {
   const int apart = stride();
-  double right[kMost] = {}, change[kMost] = {}, bent[kMost] = {}, stiffer[kMost] = {}, before[kMost];
-  std::copy_n(at_, count_, before);
-  for (int i = 0; i < count_; ++i) right[i] = d_[i] + e[carrying_[i]];
+  double right[kMost], change[kMost], bent[kMost], stiffer[kMost], before[kMost];
+  for (int i = 0; i < count_; ++i) {
+    before[i] = at_[i];
+    right[i] = d_[i] + e[carrying_[i]];
+    bent[i] = stiffer[i] = 0;
+  }
+  const auto solved = [&](double* out) {  // T^-1 right
+    std::fill_n(out, apart, 0.0);
+    if (apart > kLanes) return add_columns(out, inverse_.data(), apart, right, count_, 0, apart);
+    for (int j = 0; j < count_; ++j) lanes(out) += right[j] * lanes(inverse_.data() + j * kLanes);
+  };
   for (;; ++work.laws) {
-    std::fill_n(change, apart, 0.0);
-    std::fill_n(bent, apart, 0.0);
-    add_columns(change, inverse_.data(), apart, right, count_, 0, apart);
+    solved(change);
     if (work.laws > 0) {
       for (int i = 0; i < count_; ++i) right[i] = stiffer[i] * change[i];
-      add_columns(bent, inverse_.data(), apart, right, count_, 0, apart);
+      solved(bent);
     }
     bool met = true, inside = true;
     for (int i = 0; i < count_; ++i) {
@@ -213,7 +219,7 @@ Certificate FollowedContact::solve(const MatrixXd& c, std::span<const HertzLine>
     if (!look_at_others(c, law, e, work, certificate)) continue;
     certificate.iterations = work.laws + 1;
     force.setZero();
-    d = Eigen::Map<const VectorXd>(work.gap, d.size());
+    d.head(c.rows()) = Eigen::Map<const VectorXd>(work.gap, c.rows());
     for (int i = 0; i < count_; ++i) {
       force[carrying_[i]] = work.f[i];
       d[carrying_[i]] = 0;
@@ -230,13 +236,12 @@ Certificate FollowedContact::solve(const MatrixXd& c, std::span<const HertzLine>
   VectorXd shift;
   if (friction.size() > 0) shift = friction * force;
   const Certificate certificate =
-      friction.size() == 0 ? symmetric(c.topRows(n), e.head(n))
-                           : solve_with_friction(
-                                 shift, e.cwiseAbs().maxCoeff(),
-                                 [&](const VectorXd& by) {
-                                   return symmetric(c.topRows(n) - friction, e.head(n) + by);
-                                 },
-                                 [&] { return VectorXd(friction * force); });
+      friction.size() == 0
+          ? symmetric(c.topRows(n), e.head(n))
+          : solve_with_friction(
+                shift, e.cwiseAbs().maxCoeff(),
+                [&](const VectorXd& by) { return symmetric(c.topRows(n) - friction, e.head(n) + by); },
+                [&] { return VectorXd(friction * force); });
   if (n <= kMostContacts) take(force);
   return certificate;
 }

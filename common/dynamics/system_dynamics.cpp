@@ -29,7 +29,8 @@ SystemDynamics::SystemDynamics(const SystemModel& system, const SystemMotion& mo
                            [](const GearMeshModel& mesh) { return mesh.friction.acts(); })),
       friction_(VectorXd::Zero(static_cast<Index>(system.mesh.size()))) {
   if (system.slides())
-    fail(Failure::numerical, "a system in motion takes its coefficients of friction from the speed; clear those of rest");
+    fail(Failure::numerical,
+         "a system in motion takes its coefficients of friction from the speed; clear those of rest");
   if (!(motion.axis_frequency > 0))
     fail(Failure::input, "the axis frequency is ", motion.axis_frequency,
          " rad/s; give that of axis_frequency()");
@@ -95,12 +96,11 @@ MatrixXd SystemDynamics::modal_compliance(const Position& position, const Vector
     const Rows& rows = position.rows[p];
     const Part& part = part_[p];
     const auto of = [&](Place place) {
-      return Eigen::Map<const MatrixXd, 0, Eigen::OuterStride<>>(stream_.data() + rows.*place, part.count,
-                                                                 rows.contacts(),
-                                                                 Eigen::OuterStride<>(part.length()));
+      return Eigen::Map<const MatrixXd, 0, Eigen::OuterStride<>>(
+          stream_.data() + rows.*place, part.count, rows.contacts(), Eigen::OuterStride<>(part.length()));
     };
-    const MatrixXd own = of(&Rows::row).transpose() *
-                         weight.segment(part.first, part.count).asDiagonal() * of(pushed);
+    const MatrixXd own =
+        of(&Rows::row).transpose() * weight.segment(part.first, part.count).asDiagonal() * of(pushed);
     for (int k = 0; k < rows.contacts(); ++k)
       for (int l = 0; l < rows.contacts(); ++l)
         out(position.order.data()[rows.begin + k], position.order.data()[rows.begin + l]) += own(k, l);

@@ -56,9 +56,10 @@ class SystemDynamics {
   };
   // What one mesh period showed; sample i at phase i / steps, sample 0 that of its end.
   struct Period {
-    Eigen::MatrixXd transmission_error;   // (mesh, step) m: of rotations
-    Eigen::MatrixXd mesh_deflection;      // (mesh, step) m: what flanks close by, motion of the hubs included
-    Eigen::MatrixXd mesh_force;           // (mesh, step) N: torque of normal forces on the driving body over its base radius
+    Eigen::MatrixXd transmission_error;  // (mesh, step) m: of rotations
+    Eigen::MatrixXd mesh_deflection;     // (mesh, step) m: what flanks close by, motion of the hubs included
+    Eigen::MatrixXd
+        mesh_force;  // (mesh, step) N: torque of normal forces on the driving body over its base radius
     Eigen::MatrixXd largest_tooth_force;  // (mesh, step) N
     // [body] (xy, step) N, of the body on what carries it: k x + c x' of an elastic bearing, on the ground k x + c (x' + Omega J x); of
     // a planet on a rigid pin of a carrier that moves F = sum of the contact forces - (P' + mu P), P = m X' + G^T q' its momentum in the
@@ -107,7 +108,9 @@ class SystemDynamics {
   int hunting_periods() const { return hunting_; }  // see hunting_periods() of the system
   double mesh_frequency() const { return mesh_frequency_; }
   const TurningFrame& frame() const { return frame_; }  // at the speed that is set
-  const Eigen::VectorXd& friction() const { return friction_; }  // (mesh) 1: coefficients at the speed that is set
+  const Eigen::VectorXd& friction() const {
+    return friction_;
+  }                             // (mesh) 1: coefficients at the speed that is set
   double torque(int b) const {  // N m, in its own sense: with friction the output's follows from the losses
     return system_.layout.torque(b) + (b == motion_.output ? motion_.loss.dot(friction_) : 0.0);
   }
@@ -149,8 +152,8 @@ class SystemDynamics {
     double carrier_slide = 0;
     Vec2 across = Vec2::Zero();
     double loss = 0;
-    std::array<int, 4> part{};      // rotations, those of both sides' bodies, a group or -1
-    std::array<int, 4> in_part{};   // number among the contacts of the part
+    std::array<int, 4> part{};     // rotations, those of both sides' bodies, a group or -1
+    std::array<int, 4> in_part{};  // number among the contacts of the part
   };
   // Pairs of a mesh outside which neither side has a relaxed load: first to last - 1, in slots of the mesh.
   struct Live {
@@ -181,7 +184,8 @@ class SystemDynamics {
     std::vector<int> order;      // contacts of all parts, one part after the other
     Eigen::MatrixXd instantaneous_compliance, relaxed;  // (contact, contact) m N-1: A, and W V S
     Eigen::MatrixXd compliance;  // (contact in whole lanes, contact) m N-1: of a step at the speed
-    Eigen::MatrixXd friction;    // (contact, contact) m N-1: what friction adds to it, not symmetric; empty without
+    Eigen::MatrixXd
+        friction;  // (contact, contact) m N-1: what friction adds to it, not symmetric; empty without
     Eigen::MatrixXd drift, drift_slide;      // (null vector, contact): of normal forces; of friction per mu
     std::vector<double> next_gap, lost_gap;  // (mesh) m, see PairsInReach
     FollowedContact followed;
@@ -299,8 +303,8 @@ class SystemDynamics {
       positions_;  // (step + 1): the last one is the first one in the names of the period before
   std::vector<double> corner_gap_;  // [mesh] m
   int hunting_ = 1;
-  bool sliding_;              // [friction] of a mesh acts
-  Eigen::VectorXd friction_;  // (mesh) 1, at the speed that is set
+  bool sliding_;                     // [friction] of a mesh acts
+  Eigen::VectorXd friction_;         // (mesh) 1, at the speed that is set
   std::vector<int> hunting_place_;   // (position + 1) of its gaps in each mesh period's part of hunting_gap_
   std::vector<double> hunting_gap_;  // m: (mesh period, contact of all positions), of teeth that differ
   int first_ = 0, last_ = 0;         // pairs that may touch

@@ -148,8 +148,8 @@ double SystemEnergyRecord::modes(const Instant& a, const Instant& b) {
   // Integrals of v^2; Newmark's own velocity is the mean one.
   const VectorXd squared = of_.motion_.fidelity.integrator == Integrator::newmark
                                ? VectorXd((b.z - a.z).array().square() / of_.step_)
-                               : VectorXd(speed_.array() * start.square() + 2 * mixed_.array() * start * push +
-                                          push_.array() * push.square());
+                               : VectorXd(speed_.array() * start.square() +
+                                          2 * mixed_.array() * start * push + push_.array() * push.square());
   const double damping = (c.damping - c.of_bearing).dot(squared);
   double bearing = 0, drive = 0;
   for (Index n = 0; n < balance_->drive.size(); ++n) {
@@ -163,8 +163,7 @@ double SystemEnergyRecord::modes(const Instant& a, const Instant& b) {
     balance_->bearing_damping[n] += taken;
     bearing += taken;
     const int body = static_cast<int>(n);
-    const double work =
-        of_.torque(body) * (c.rotation_of(body, b.z) - c.rotation_of(body, a.z));
+    const double work = of_.torque(body) * (c.rotation_of(body, b.z) - c.rotation_of(body, a.z));
     if (of_.system_.layout.held(body)) continue;
     balance_->drive[n] += work;
     drive += work;

@@ -25,9 +25,9 @@ class SystemEnergyRecord {
     std::vector<SystemDynamics::Live> live;  // [mesh] outside which relaxed and load are 0
     Eigen::VectorXd p, d, local;             // (contact) N, m, m
     double stored = 0;                       // J: at once
-    Eigen::VectorXd normal, slide;           // (body) N m, with friction: moments of normal forces, of friction
-    Eigen::VectorXd momentum;                // (body) N m s: of rigid rotations, with what the dampers of the axes took
-    Eigen::VectorXd sliding;                 // (mesh) W: mu s N v of the kinematics
+    Eigen::VectorXd normal, slide;  // (body) N m, with friction: moments of normal forces, of friction
+    Eigen::VectorXd momentum;  // (body) N m s: of rigid rotations, with what the dampers of the axes took
+    Eigen::VectorXd sliding;   // (mesh) W: mu s N v of the kinematics
   };
   void fill(Instant& now, const SystemDynamics::Position& position) const;
   void displace(Instant& at, const std::vector<SystemDynamics::Live>& wanted) const;
@@ -45,8 +45,9 @@ class SystemEnergyRecord {
   Instant before_, now_;
   double sum_ = 0;
   bool first_step_ = true;
-  std::vector<Eigen::Index> pivot_;  // gears that what holds the mean speed follows from, one for each rolling
-  Eigen::MatrixXd holding_;          // (body, pivot) 1: D of each body by those of these gears
+  std::vector<Eigen::Index>
+      pivot_;                // gears that what holds the mean speed follows from, one for each rolling
+  Eigen::MatrixXd holding_;  // (body, pivot) 1: D of each body by those of these gears
   Eigen::VectorXd speed_, mixed_, push_;  // (coordinate) integrals over a step, see DampingIntegrals
   double decay2_ = 0, mixed2_ = 0, growth2_ = 0, decay_ = 0, growth_ = 0, late_decay_ = 0, late_growth_ = 0;
 };

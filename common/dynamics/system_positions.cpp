@@ -215,7 +215,8 @@ void SystemDynamics::put_contacts(const SystemPosition& at, int shift, Position&
       contact.carrier_slide =
           closing_sign(on.side) *
           contact.across.dot(pin_direction(
-              system_.layout, system_.layout.bodies[static_cast<size_t>(contact.body[static_cast<size_t>(on.side)])]));
+              system_.layout,
+              system_.layout.bodies[static_cast<size_t>(contact.body[static_cast<size_t>(on.side)])]));
   }
   position.rows.resize(part_.size());
   for (size_t p = 0; p < part_.size(); ++p) {
@@ -265,8 +266,7 @@ void SystemDynamics::put_slide(const ContactSegment& segment, const Contact& con
     position.drift_slide.col(k) += contact.slide[s] * coordinates_.rolling.row(b).transpose();
     auto elastic = row(1 + s);
     elastic.head(share.torsional) = arm * share.hub;
-    if (share.swaying > 0)
-      elastic.segment(share.torsional, share.swaying) = share.shift.transpose() * along;
+    if (share.swaying > 0) elastic.segment(share.torsional, share.swaying) = share.shift.transpose() * along;
     if (share.group < 0) continue;
     const SystemCoordinates::Group& group = coordinates_.group[static_cast<size_t>(share.group)];
     row(3) = group.member[static_cast<size_t>(share.member)].shift.transpose() * along;
@@ -297,8 +297,8 @@ void SystemDynamics::set_friction(const VectorXd& coefficient) {
       const Rows& rows = position.rows[p];
       const int length = part_[p].length();
       for (int c = 0; c < rows.contacts(); ++c) {
-        const double share = friction_of(position.contact[static_cast<size_t>(
-            position.order[static_cast<size_t>(rows.begin + c)])]);
+        const double share = friction_of(
+            position.contact[static_cast<size_t>(position.order[static_cast<size_t>(rows.begin + c)])]);
         for (int i = c * length; i < (c + 1) * length; i += kLanes)
           lanes(&stream_[rows.push] + i) =
               lanes(&stream_[rows.row] + i) + share * lanes(&stream_[rows.slide] + i);

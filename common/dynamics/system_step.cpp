@@ -1,6 +1,7 @@
 // One time step of a system: all that knows how the rows of a position lie in memory.
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "base/error.h"
 #include "contact/lanes.h"
@@ -16,33 +17,61 @@ namespace {
 
 constexpr double kLeastRelaxed = 1e-20;  // of the mean load of the meshes
 
-// sum[i] -= row[i] . z lane by lane, rows one after the other.
-template <int kRows>
-void subtract_rows(const double* rows, int length, const double* z, double* sums, const int* contact) {
-  Lanes total[kRows];
-#pragma GCC unroll 4
-  for (int r = 0; r < kRows; ++r) total[r] = lanes(sums + contact[r] * kLanes);
-  for (int i = 0; i < length; i += kLanes)
-#pragma GCC unroll 4
-    for (int r = 0; r < kRows; ++r) total[r] -= lanes(rows + r * length + i) * lanes(z + i);
-#pragma GCC unroll 4
-  for (int r = 0; r < kRows; ++r) lanes(sums + contact[r] * kLanes) = total[r];
-}
-
-void subtract_all_rows(const double* rows, int length, const double* z, double* sums, const int* contact,
-                       int count) {
-  for (; count >= 4; count -= 4, contact += 4, rows += 4 * length)
-    subtract_rows<4>(rows, length, z, sums, contact);
-  switch (count) {
+// visit(rows, first): contacts in fours from number `first` on, then what is left; rows is a constant.
+template <class Visit>
+void in_fours(int count, const Visit& visit) {
+  int first = 0;
+  for (; first + 4 <= count; first += 4) visit(std::integral_constant<int, 4>(), first);
+  switch (count - first) {
     case 3:
-      return subtract_rows<3>(rows, length, z, sums, contact);
+      return visit(std::integral_constant<int, 3>(), first);
     case 2:
-      return subtract_rows<2>(rows, length, z, sums, contact);
+      return visit(std::integral_constant<int, 2>(), first);
     case 1:
-      return subtract_rows<1>(rows, length, z, sums, contact);
+      return visit(std::integral_constant<int, 1>(), first);
     default:
       return;
   }
+}
+
+// sum[i] -= row[i] . z lane by lane, rows one after the other; of few rows two sums each, which do not wait for each other.
+template <int kRows>
+void subtract_rows(const double* rows, int length, const double* z, double* sums, const int* contact) {
+  constexpr bool kTwice = kRows < 4;
+  Lanes total[kRows], other[kRows] = {};
+#pragma GCC unroll 4
+  for (int r = 0; r < kRows; ++r) total[r] = lanes(sums + contact[r] * kLanes);
+  int i = 0;
+  for (; kTwice && i + 2 * kLanes <= length; i += 2 * kLanes)
+#pragma GCC unroll 4
+    for (int r = 0; r < kRows; ++r) {
+      total[r] -= lanes(rows + r * length + i) * lanes(z + i);
+      other[r] -= lanes(rows + r * length + i + kLanes) * lanes(z + i + kLanes);
+    }
+  for (; i < length; i += kLanes)
+#pragma GCC unroll 4
+    for (int r = 0; r < kRows; ++r) total[r] -= lanes(rows + r * length + i) * lanes(z + i);
+#pragma GCC unroll 4
+  for (int r = 0; r < kRows; ++r) lanes(sums + contact[r] * kLanes) = kTwice ? total[r] + other[r] : total[r];
+}
+
+// sum[i] += w[i] . fields of all pairs, which lie `apart` from one another in w.
+template <int kRows>
+void add_readings(const double* w, int apart, const double* fields, int pairs, double* sums,
+                  const int* contact) {
+  constexpr int kFields = SystemDynamics::kFields;
+  Lanes total[kRows], other[kRows] = {};
+#pragma GCC unroll 4
+  for (int r = 0; r < kRows; ++r) total[r] = lanes(sums + contact[r] * kLanes);
+  for (int pair = 0; pair < pairs; ++pair, w += apart, fields += kFields)
+#pragma GCC unroll 4
+    for (int r = 0; r < kRows; ++r) {
+      const double* of = w + r * kFields;
+      total[r] += lanes(of) * lanes(fields) + lanes(of + 4) * lanes(fields + 4);
+      other[r] += lanes(of + 8) * lanes(fields + 8);
+    }
+#pragma GCC unroll 4
+  for (int r = 0; r < kRows; ++r) lanes(sums + contact[r] * kLanes) = total[r] + other[r];
 }
 
 }  // namespace
@@ -90,8 +119,7 @@ void SystemDynamics::close(Position& position) const {
   position.friction.resize(0, 0);
   if (slides()) {
     position.friction = modal_compliance(position, 0.5 * bq_, &Rows::slide);
-    if (frame_.turns())
-      position.friction += frame_.compliance(in_frame(&Rows::row), in_frame(&Rows::slide));
+    if (frame_.turns()) position.friction += frame_.compliance(in_frame(&Rows::row), in_frame(&Rows::slide));
     for (int k = 0; k < position.size(); ++k)
       position.friction.col(k) *= friction_of(position.contact[static_cast<size_t>(k)]);
     whole += position.friction;
@@ -168,8 +196,11 @@ void SystemDynamics::read_gaps(const Position& position) {
   for (size_t p = 0; p < part_.size(); ++p) {
     const Rows& rows = position.rows[p];
     const int* contact = position.order.data() + rows.begin;
-    subtract_all_rows(stream_.data() + rows.row, part_[p].length(), &z_[part_[p].first], sums, contact,
-                      rows.contacts());
+    const int length = part_[p].length();
+    in_fours(rows.contacts(), [&](auto count, int first) {
+      subtract_rows<count>(stream_.data() + rows.row + static_cast<size_t>(first * length), length,
+                           &z_[part_[p].first], sums, contact + first);
+    });
   }
   for (size_t b = 0; b < system_.body.size(); ++b) {
     const Rows& rows = position.rows[1 + b];
@@ -180,15 +211,10 @@ void SystemDynamics::read_gaps(const Position& position) {
       const int from = static_cast<int>(place) * tooth_pairs() + live.first;
       const double* w = stream_.data() + rows.reading + static_cast<size_t>(from * count * kFields);
       const double* fields = relaxed_.data() + relaxed_first_[b] + from * kFields;
-      for (int c = 0; c < count; ++c, w += kFields) {
-        Lanes total = lanes(sums + contact[c] * kLanes), other{};
-        const double *of = w, *f = fields;
-        for (int pair = live.first; pair < live.last; ++pair, of += count * kFields, f += kFields) {
-          total += lanes(of) * lanes(f) + lanes(of + 4) * lanes(f + 4);
-          other += lanes(of + 8) * lanes(f + 8);
-        }
-        lanes(sums + contact[c] * kLanes) = total + other;
-      }
+      in_fours(count, [&](auto rows_at_once, int first) {
+        add_readings<rows_at_once>(w + first * kFields, count * kFields, fields, live.last - live.first, sums,
+                                   contact + first);
+      });
     }
     for (int c = 0; c < count; ++c)
       __builtin_prefetch(&stream_[rows.field + static_cast<size_t>(c * kFields)]);
@@ -204,7 +230,8 @@ void SystemDynamics::read_gaps(const Position& position) {
 void SystemDynamics::solve(Position& position) {
   const int n = position.size();
   for (int k = 0; k < n; ++k) p_[k] = p_of_slot_[position.contact[static_cast<size_t>(k)].slot];
-  certificate_ = position.followed.solve(position.compliance, position.law, e_, p_.head(n), d_, position.friction);
+  certificate_ =
+      position.followed.solve(position.compliance, position.law, e_, p_.head(n), d_, position.friction);
   p_of_slot_.setZero();
   for (int k = 0; k < n; ++k) p_of_slot_[position.contact[static_cast<size_t>(k)].slot] = p_[k];
 }

@@ -8,7 +8,6 @@
 #include "results/jump_map.h"
 #include "results/response.h"
 #include "results/static.h"
-#include "results/static.h"
 
 namespace whine {
 

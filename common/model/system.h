@@ -25,9 +25,9 @@ struct System {
     std::array<double, 2> centre{};  // m
     Bearing bearing = {};            // on the ground or, of a planet, on its carrier
     BodyKind kind = BodyKind::gear;
-    int on = kGround;    // carrier of its axis
-    double radius = 0;   // m: base circle of a gear, circle of the pins of a carrier
-    double inertia = 0;  // kg m2; of rigid bodies only
+    int on = kGround;                // carrier of its axis
+    double radius = 0;               // m: base circle of a gear, circle of the pins of a carrier
+    double inertia = 0;              // kg m2; of rigid bodies only
     std::array<double, 2> offset{};  // m: error of position, by which its axis stands beside `centre`
   };
   struct Side {

@@ -52,10 +52,11 @@ Figure flank_load_figure(const StaticResult& s) {
   Figure figure;
   figure.title = text("Load over the flank, ", torque_words(s.torque));
   figure.notes.push_back(pair_words(s));
-  figure.notes.push_back(text("overlap ratio ", rounded(s.face.overlap_ratio, 3), ", K_{Hβ} ",
-                              rounded(s.face.load_factor, 3), " of the reference pair at mesh phase 0, ",
-                              s.face.line_load[0].cols(), " slices along each contact line, misalignment ",
-                              rounded(s.mesh.misalignment * kMicro, 2), " µm"));
+  figure.notes.push_back(
+      text("overlap ratio ", rounded(s.face.overlap_ratio, 3), ", K_{Hβ} ", rounded(s.face.load_factor, 3),
+           " of the reference pair at mesh phase 0, ", s.face.line_load[0].cols(),
+           " points along each contact line, a quarter of a mesh period between the lines, misalignment ",
+           rounded(s.mesh.misalignment * kMicro, 2), " µm"));
   constexpr int kAcross = 61, kAlong = 81;
   FigureBlock flank{"flank", {"face [mm]", "path of contact [mm]", "line load [N/mm]"}, {}};
   flank.rows.reserve(static_cast<size_t>(kAcross) * kAlong);
@@ -70,7 +71,7 @@ Figure flank_load_figure(const StaticResult& s) {
     }
   }
   figure.blocks.push_back(flank);
-  // Contact lines a quarter of a mesh period apart.
+  // Lines of contact a quarter of a mesh period apart.
   FigureBlock lines{"lines", {"face [mm]", "path of contact [mm]"}, {}, "", "", true};
   for (int quarter = 0; quarter < 4; ++quarter)
     for (const ContactLine& line : contact_lines(pair, 0.25 * quarter)) {
@@ -82,7 +83,7 @@ Figure flank_load_figure(const StaticResult& s) {
   std::string labels;
   int curves = 0;
   for (Index k = 0; k < s.pair.size() && curves < static_cast<int>(kMostCurves); ++k) {
-    if (!(s.face.width[0](k, 0) > 0)) continue;
+    if (!(s.face.width[0](k, 0) > 0) || !(s.tooth_load(0, k) > 0)) continue;
     FigureBlock curve{text("pair ", ++curves),
                       {"face [mm]", "line load [N/mm]"},
                       {},

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "base/model_range.h"
 #include "dynamics/dynamics.h"
 #include "orbits/recurrence.h"
 #include "studies/branch_rigs.h"
@@ -207,8 +208,9 @@ class TrainSweepRig {
   static void take(const SystemEnergyBalance& e, Motion& motion) {
     Eigen::RowVectorXd lines(motion.energy.size());
     lines << e.kinetic, e.modal, e.residual, e.local, e.drive.sum(), e.rolling.sum(), e.friction_rolling,
-        e.centrifugal + e.dragging.sum(), e.modal_damping, e.bearing_damping.sum(), e.relaxation_damping, e.friction.sum(),
-        e.switching.sum(), e.cutting.sum(), e.averaging, e.dropped, e.throughput;  // kEnergyLines
+        e.centrifugal + e.dragging.sum(), e.modal_damping, e.bearing_damping.sum(), e.relaxation_damping,
+        e.friction.sum(), e.switching.sum(), e.cutting.sum(), e.averaging, e.dropped,
+        e.throughput;  // kEnergyLines
     motion.energy += lines;
     motion.rolling += e.rolling;
     motion.bearing_damping.head(e.bearing_damping.size()) += e.bearing_damping;

@@ -69,7 +69,8 @@ void TrainInMotion::take_losses(const SystemModel& still, const std::vector<Syst
   system_.friction.clear();
   if (motion_.output < 0) return;
   motion_.loss = Eigen::VectorXd::Zero(static_cast<Index>(still.mesh.size()));
-  const double turned = 2 * std::numbers::pi * ground_turns(system_.layout, motion_.output);  // in a mesh period
+  const double turned =
+      2 * std::numbers::pi * ground_turns(system_.layout, motion_.output);  // in a mesh period
   for (const SystemSolution& at : rest)
     for (size_t m = 0; m < still.mesh.size(); ++m)
       if (still.friction[m] > 0)

@@ -202,6 +202,9 @@ MatrixXd without_rolling(const MatrixXd& closing) {
   return eigen.vectors.rightCols(kept) * eigen.vectors.rightCols(kept).transpose();
 }
 
+constexpr int kSteps = 200;
+constexpr double kBalanced = 1e-10;  // residual, where round-off allows no less
+
 // Newton's method with a line search on the convex energy whose gradient is `unbalance`, which stand(x) sets together with the residual
 // and the stiffness; false if it does not come to 1e-12, or to 1e-10 where round-off allows no more, within `steps`.
 // spring: N m-1, of the size of a mesh load over a deflection, at least.
@@ -217,7 +220,7 @@ bool balanced(const Stand& stand, VectorXd& x, const VectorXd& unbalance, const 
     if (at.residual < 1e-12) return true;
     idle = at.residual < best ? 0 : idle + 1;
     best = std::min(best, at.residual);
-    if (at.residual < 1e-10 && idle > 1) return true;
+    if (at.residual < kBalanced && idle > 1) return true;
     // Bodies that carry nothing may roll freely: the least step is taken.
     VectorXd newton = -least_norm(at.stiffness, unbalance);
     // A body that carries load and whose meshes have parted has a force and no stiffness: springs bring it back.
@@ -271,6 +274,37 @@ Freedoms freedoms_of(const SystemModel& system, const SystemPosition& position) 
     out.spring(own).setConstant(system.layout.bodies[b].bearing.stiffness);
   }
   return out;
+}
+
+// Where Newton's method does not converge with friction: forces of friction as loads and gaps, repeated until they no longer change. Each
+// problem is that without friction, whose energy is convex. x: result; false if they do not settle.
+bool by_repeated_friction(const SystemPosition& position, const MatrixXd& compliance,
+                          const MatrixXd& friction, const Freedoms& of, double scale,
+                          ComplementaritySolver& solver, VectorXd& x) {
+  constexpr double kSettled = 1e-13;  // of the largest force
+  const MatrixXd none, across = of.load - of.displacement;
+  Contact contact(position, compliance, none, false, solver);
+  SystemEquilibrium out;
+  out.p = VectorXd::Zero(position.strips());
+  VectorXd unbalance, slid = out.p, gap, force;
+  const auto stand = [&](const VectorXd& at) {
+    const StillContact held =
+        contact.solve(gap - of.displacement * at, of.displacement, of.displacement, out.p);
+    out.stiffness = held.stiffness;
+    out.stiffness.diagonal() += of.spring;
+    unbalance = of.displacement.transpose() * out.p - force + of.spring.cwiseProduct(at);
+    out.residual = unbalance.cwiseAbs().maxCoeff() / scale;
+  };
+  for (int step = 0; step < kMostFrictionSteps; ++step) {
+    gap = position.gap;
+    if (friction.size() > 0) gap += friction * slid;
+    force = of.force - across.transpose() * slid;
+    if (!balanced(stand, x, unbalance, out, scale / x.cwiseAbs().maxCoeff(), kSteps)) return false;
+    const double change = (out.p - slid).cwiseAbs().maxCoeff();
+    slid = out.p;
+    if (change < kSettled * slid.maxCoeff()) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -340,12 +374,18 @@ SystemEquilibrium equilibrium(const SystemModel& system, const SystemPosition& p
     out.residual = unbalance.cwiseAbs().maxCoeff() / scale;
   };
   // From where the bodies stood at the position before, if that is known.
-  constexpr int kNearSteps = 20, kSteps = 200;
+  constexpr int kNearSteps = 20;
   const bool known = x.squaredNorm() > 0;
   if (known && balanced(stand, x, unbalance, out, scale / x.cwiseAbs().maxCoeff(), kNearSteps)) return give();
   x.setZero();
   x.head(turns) = first_guess(system, position, compliance, of.body);
   if (balanced(stand, x, unbalance, out, scale / x.cwiseAbs().maxCoeff(), kSteps)) return give();
+  x.setZero();
+  x.head(turns) = first_guess(system, position, compliance, of.body);
+  if (system.slides() && by_repeated_friction(position, compliance, friction, of, scale, solver, x)) {
+    stand(x);
+    if (out.residual < kBalanced) return give();
+  }
   fail(Failure::numerical, "static equilibrium of the system did not converge: residual ", out.residual,
        " of the largest mesh load ", scale, " N after ", kSteps, " steps");
 }

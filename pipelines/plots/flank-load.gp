@@ -9,12 +9,12 @@ set multiplot title heading offset 0, -0.3
 set border 15 lw 1.6 front
 set tics out nomirror front
 set palette defined (0 "#f7fbff", 0.1 "#d6e6f4", 0.25 "#abcfe6", 0.45 "#6aaed6", 0.7 "#2e7ebc", 1 "#08306b")
-set tmargin at screen 1 - 130.0 / height + lift
+set tmargin at screen 1 - 150.0 / height + lift
 set bmargin at screen 0.155 + lift
 set lmargin at screen 0.08
 set rmargin at screen 0.46
-set xlabel "Along the face, from its middle (mm)\n{/:Bold (a)} line load on a tooth (N/mm), contact lines a quarter of a mesh period apart"
-set ylabel "Path of contact from the pitch point (mm)\ndriver's root to tip" offset 0.8
+set xlabel "Along the face, from its middle (mm)\n{/:Bold (a)} line load (N/mm), lines of contact"
+set ylabel "Path of contact, driver's root to tip (mm)"
 set xrange [-half_face:half_face]
 set yrange [path_start:path_end]
 set cbrange [0:largest]

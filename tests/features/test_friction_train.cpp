@@ -174,7 +174,8 @@ TEST_CASE("a pair told as a train with friction is the pair") {
   }
 }
 
-TEST_CASE("without friction a train has the bits that it had; one that rolls is refused until its output is held") {
+TEST_CASE(
+    "without friction a train has the bits that it had; one that rolls is refused until its output is held") {
   const SystemModel none = train_of(0);
   CHECK(!none.slides());
   SystemModel rolls = train(kTeeth, 3, {}, [](SystemScene& scene) {

@@ -112,8 +112,8 @@ struct Both {
     out.fidelity.integrator = pair.integrator;
     if (pair.statics.friction_coefficient > 0) {
       out.output = 1;
-      out.loss = VectorXd::Constant(1, (1 - pair.statics.efficiency) / pair.statics.friction_coefficient *
-                                           -of.layout.torque(1));
+      out.loss = VectorXd::Constant(
+          1, (1 - pair.statics.efficiency) / pair.statics.friction_coefficient * -of.layout.torque(1));
     }
     return out;
   }
@@ -131,7 +131,10 @@ struct Both {
   struct Pair {
     Pair(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& at_rest,
          const std::array<double, kSides>& of_gears, Integrator method)
-        : statics(at_rest), model(driver, driven, statics.mesh), inertia(of_gears), integrator(method),
+        : statics(at_rest),
+          model(driver, driven, statics.mesh),
+          inertia(of_gears),
+          integrator(method),
           dynamics(model, [&] {
             ImpactParameters settings;
             settings.inertia = inertia;
@@ -153,7 +156,8 @@ struct Both {
 
 // The difference of the transmission errors of a mesh period, over their RMS.
 double apart(const Both& both) {
-  const VectorXd one = both.train.period.transmission_error.row(0), other = both.pair.period.transmission_error;
+  const VectorXd one = both.train.period.transmission_error.row(0),
+                 other = both.pair.period.transmission_error;
   return (one - other).norm() / std::sqrt(static_cast<double>(kSteps)) / rms_of(other);
 }
 
@@ -186,9 +190,10 @@ namespace {
 SystemModel planetary(double coefficient, bool carrier_turns, bool corner = true, double of_carrier = 0) {
   return train(kTeeth, 3, {}, [&](SystemScene& scene) {
     const auto held = System::DriveKind::held, torque = System::DriveKind::torque;
-    scene.drives = {{"sun", torque, kTrainTorque, 0},
-                    {"ring", held, 0, 0},
-                    {"carrier", carrier_turns ? torque : held, carrier_turns ? -kTrainTorque * 126 / 26 : 0, 0}};
+    scene.drives = {
+        {"sun", torque, kTrainTorque, 0},
+        {"ring", held, 0, 0},
+        {"carrier", carrier_turns ? torque : held, carrier_turns ? -kTrainTorque * 126 / 26 : 0, 0}};
     if (of_carrier > 0) scene.carriers[0].bearing = {of_carrier, 4000, 5.43};
     for (SystemScene::Mesh& mesh : scene.meshes) {
       mesh.spec.corner.enabled = corner;
@@ -248,9 +253,10 @@ TEST_CASE("friction of trains in motion: the work balance closes with contact lo
     double eta, frequency;
     bool loses;  // contact
   };
-  for (const Case& of : {Case{"three in line", three_in_line(kFriction), 1e-6, 5200, true},
-                         Case{"planetary, carrier held", planetary(kFriction, false), 1e-7, 2400, true},
-                         Case{"planetary, carrier turns", planetary(kFriction, true, false, 2e8), 1e-7, 2400, false}}) {
+  for (const Case& of :
+       {Case{"three in line", three_in_line(kFriction), 1e-6, 5200, true},
+        Case{"planetary, carrier held", planetary(kFriction, false), 1e-7, 2400, true},
+        Case{"planetary, carrier turns", planetary(kFriction, true, false, 2e8), 1e-7, 2400, false}}) {
     INFO(std::string(of.name));
     Moving moving(of.system, with_losses(of.system, of.eta));
     moving.start(of.frequency, 60);
@@ -269,7 +275,8 @@ TEST_CASE("friction of trains in motion: the work balance closes with contact lo
 
 // The mean torques that bodies take are those of the drives, of what holds them, and of what holds the mean speed; what friction takes
 // is the power that they leave, but for the work on the vibration.
-TEST_CASE("friction of trains in motion: efficiency by losses is that of the mean torques, and at low speed that of rest") {
+TEST_CASE(
+    "friction of trains in motion: efficiency by losses is that of the mean torques, and at low speed that of rest") {
   for (const bool carrier_turns : {false, true}) {
     CAPTURE(carrier_turns);
     const SystemModel system = planetary(kFriction, carrier_turns, false);
@@ -304,7 +311,8 @@ TEST_CASE("friction of trains in motion: efficiency by losses is that of the mea
   }
 }
 
-TEST_CASE("friction of trains in motion: a coefficient of 0, and free motion at a phase, have the bytes of no friction") {
+TEST_CASE(
+    "friction of trains in motion: a coefficient of 0, and free motion at a phase, have the bytes of no friction") {
   const auto bytes = [](double coefficient) {
     const SystemModel system = planetary(coefficient, false);
     Moving moving(system, with_losses(system));

@@ -31,10 +31,10 @@ TEST_CASE("a helical scene: helix, hand and level, in the scene and in stage par
   const SceneFile file;
   const Scene scene = file.read(helical_scene() + "[gear.pinion.modification]\nlead_crowning_um = 5\n" +
                                 "end_relief_um = 10\nend_relief_length_mm = 2\n");
-  CHECK(scene.gear("pinion").design.helix_angle == doctest::Approx(12 * kDegreeOfScene));
+  CHECK(scene.gear("pinion").design.helix_angle == relative(12 * kDegreeOfScene, 1e-14));
   CHECK(scene.gear("pinion").design.hand == Hand::right);
   CHECK(scene.gear("wheel").design.hand == Hand::left);
-  CHECK(scene.gear("pinion").modification.lead.crowning == doctest::Approx(5e-6));
+  CHECK(scene.gear("pinion").modification.lead.crowning == relative(5e-6, 1e-14));
   const std::string path = file.path(static_parameters(scene), "static.toml");
   const StaticParameters read = read_static_parameters(path);
   CHECK(read.fidelity.width == WidthModel::slices);
@@ -49,7 +49,7 @@ TEST_CASE("a tip diameter of a helical gear is that of its transverse section") 
   const SceneFile file;
   std::string scene = helical_scene();
   scene.replace(scene.find("face_width_mm"), 13, "tip_diameter_mm = 159.3511\nface_width_mm");
-  CHECK(file.read(scene).gear("pinion").design.addendum == doctest::Approx(1).epsilon(1e-4));
+  CHECK(file.read(scene).gear("pinion").design.addendum == relative(1, 1e-4));
 }
 
 TEST_CASE("a spur scene says nothing of helix, leads or slices") {

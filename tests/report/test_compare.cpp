@@ -97,7 +97,8 @@ Design design(const std::string& name, const std::vector<double>& torques, doubl
 Design train_design(const std::string& name, double swing) {
   constexpr int kPhases = 16;
   SystemStaticResult a = small_system();
-  const Index meshes = static_cast<Index>(a.mesh.size()), bodies = static_cast<Index>(a.settings.layout.bodies.size());
+  const Index meshes = static_cast<Index>(a.mesh.size()),
+              bodies = static_cast<Index>(a.settings.layout.bodies.size());
   a.mesh_phase = VectorXd::LinSpaced(kPhases, 0, 1 - 1.0 / kPhases);
   for (StaticResult& mesh : a.mesh) {
     mesh.transmission_error = 20e-6 + swing * (2 * std::numbers::pi * a.mesh_phase.array()).cos();

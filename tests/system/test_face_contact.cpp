@@ -6,6 +6,7 @@
 
 #include "paper_pair.h"
 #include "refusal.h"
+#include "relative.h"
 #include "system/face_contact.h"
 #include "system/face_statics.h"
 
@@ -111,7 +112,7 @@ TEST_CASE("independent slices under misalignment: K = 1 + q, then 2 sqrt(q) with
   for (const double q : {0.2, 0.7, 1.0}) {
     GearMeshSpec mesh;
     mesh.misalignment = q * 2 * load / (c * b);
-    CHECK(one_line(mesh, 8, load, c).factor == doctest::Approx(1 + q).epsilon(1e-9));
+    CHECK(one_line(mesh, 8, load, c).factor == relative(1 + q, 1e-9));
   }
   for (const double q : {2.0, 4.0}) {
     GearMeshSpec mesh;
@@ -119,9 +120,9 @@ TEST_CASE("independent slices under misalignment: K = 1 + q, then 2 sqrt(q) with
     const Spread coarse = one_line(mesh, 12, load, c), fine = one_line(mesh, 64, load, c);
     MESSAGE("q " << q << ": K " << coarse.factor << " of 12 points, " << fine.factor << " of 64, exact "
                  << 2 * std::sqrt(q) << "; share " << fine.share << ", exact " << 1 / std::sqrt(q));
-    CHECK(coarse.factor == doctest::Approx(2 * std::sqrt(q)).epsilon(0.05));
-    CHECK(fine.factor == doctest::Approx(2 * std::sqrt(q)).epsilon(2e-3));
-    CHECK(fine.share == doctest::Approx(1 / std::sqrt(q)).epsilon(0.03));
+    CHECK(coarse.factor == relative(2 * std::sqrt(q), 0.05));
+    CHECK(fine.factor == relative(2 * std::sqrt(q), 2e-3));
+    CHECK(fine.share == relative(1 / std::sqrt(q), 0.03));
   }
 }
 
@@ -134,8 +135,8 @@ TEST_CASE("independent slices with a crown: K = 1 + r / 3, then 1.5 (r / 1.5)^(1
     const Spread fine = one_line(mesh, 64, load, c);
     MESSAGE("r " << r << ": K " << fine.factor << ", exact " << exact << "; share " << fine.share);
     // The largest is in the middle, between two points.
-    CHECK(fine.factor == doctest::Approx(exact).epsilon(2e-3));
-    CHECK(fine.share == doctest::Approx(std::min(1.0, std::cbrt(1.5 / r))).epsilon(0.03));
+    CHECK(fine.factor == relative(exact, 2e-3));
+    CHECK(fine.share == relative(std::min(1.0, std::cbrt(1.5 / r)), 0.03));
   }
 }
 
@@ -149,8 +150,7 @@ TEST_CASE(
     const double cosine = std::cos(pair.base_helix_angle());
     for (int i = 0; i < 64; ++i)
       CHECK(x[i] ==
-            doctest::Approx(load / (c * cosine * cosine * cosine * contact_line_length(pair, i / 64.0)))
-                .epsilon(1e-9));
+            relative(load / (c * cosine * cosine * cosine * contact_line_length(pair, i / 64.0)), 1e-9));
     if (overlap >= 1) CHECK(peak_to_peak(x) < 1e-9 * x.mean());
   }
 }
@@ -158,8 +158,8 @@ TEST_CASE(
 TEST_CASE("springs that soften to the tips: peak to peak and high harmonics over the number of points") {
   // c(s) = 14e3 (1 - 0.3 (s / s_tip)^2) N/mm per mm; 2000 N along the normal; lines end at the tips.
   const GearPair pair = pair_with_helix(20, 20e-3);
-  CHECK(pair.contact_ratio() == doctest::Approx(1.6015).epsilon(1e-4));
-  CHECK(pair.overlap_ratio() == doctest::Approx(0.7258).epsilon(1e-4));
+  CHECK(pair.contact_ratio() == relative(1.6015, 1e-4));
+  CHECK(pair.overlap_ratio() == relative(0.7258, 1e-4));
   const double cosine = std::cos(pair.base_helix_angle()), load = 2000 * cosine;
   const auto c = [&](double s) { return 14e9 * (1 - 0.3 * std::pow(s / pair.path_end(), 2)); };
   struct Case {
@@ -184,10 +184,10 @@ TEST_CASE("springs that soften to the tips: peak to peak and high harmonics over
                      << high_harmonics(eight, 8) * 1e9 << " nm; 12 points: off by "
                      << (twelve - exact).cwiseAbs().maxCoeff() / peak << ", "
                      << high_harmonics(twelve, 8) * 1e9 << " nm");
-    CHECK(peak * 1e6 == doctest::Approx(own.peak).epsilon(2e-3));
+    CHECK(peak * 1e6 == relative(own.peak, 2e-3));
     CHECK((eight - exact).cwiseAbs().maxCoeff() < own.off_8 * peak);
     CHECK((twelve - exact).cwiseAbs().maxCoeff() < own.off_12 * peak);
-    CHECK(high_harmonics(eight, 8) == doctest::Approx(high_harmonics(exact, 8)).epsilon(0.12));
+    CHECK(high_harmonics(eight, 8) == relative(high_harmonics(exact, 8), 0.12));
   }
 }
 
@@ -206,9 +206,9 @@ TEST_CASE("points of a spur pair under even load are one slice, whatever their n
               << cut.face.load_factor - 1);
     CHECK(off < 1e-9);
     CHECK(loads < 1e-8);
-    CHECK(cut.face.load_factor == doctest::Approx(1).epsilon(1e-8));
-    CHECK(cut.stiffness_tangent[0] == doctest::Approx(whole.stiffness_tangent[0]).epsilon(1e-6));
-    CHECK(cut.loss_factor == doctest::Approx(whole.loss_factor).epsilon(1e-6));
+    CHECK(cut.face.load_factor == relative(1, 1e-8));
+    CHECK(cut.stiffness_tangent[0] == relative(whole.stiffness_tangent[0], 1e-6));
+    CHECK(cut.loss_factor == relative(whole.loss_factor, 1e-6));
     CHECK(cut.compliance.contact == whole.compliance.contact);
   }
 }
@@ -224,21 +224,21 @@ TEST_CASE("a helical pair: equilibrium, axial force, certificate; the other hand
       static_transmission(helical_body(Hand::left), helical_body(Hand::right), settings, 150);
   const GearPair pair(right);
   const HelicalForces force = helical_forces(pair, 150);
-  CHECK(right.face.axial_force == doctest::Approx(force.axial).epsilon(1e-12));
-  CHECK(left.face.axial_force == doctest::Approx(-force.axial).epsilon(1e-12));
+  CHECK(right.face.axial_force == relative(force.axial, 1e-12));
+  CHECK(left.face.axial_force == relative(-force.axial, 1e-12));
   CHECK(right.least_gap >= -1e-12);
   CHECK(right.torque_residual < 1e-10);
   for (Index i = 0; i < 16; ++i) {
     const auto at = static_cast<size_t>(i);
-    CHECK(right.tooth_load.row(i).sum() == doctest::Approx(force.normal).epsilon(1e-10));
-    CHECK(left.transmission_error[i] == doctest::Approx(right.transmission_error[i]).epsilon(1e-11));
+    CHECK(right.tooth_load.row(i).sum() == relative(force.normal, 1e-10));
+    CHECK(left.transmission_error[i] == relative(right.transmission_error[i], 1e-11));
     // Slices in the order of z: mirrored, the order turns round.
     const MatrixRM mirrored = left.face.line_load[at].rowwise().reverse();
     CHECK((mirrored - right.face.line_load[at]).cwiseAbs().maxCoeff() < 1e-8 * right.face.line_load_max);
     const MatrixRM back = -left.face.position[at].rowwise().reverse();
     CHECK((back - right.face.position[at]).cwiseAbs().maxCoeff() < 1e-15);
     CHECK((right.face.line_load[at].cwiseProduct(right.face.width[at])).sum() ==
-          doctest::Approx(force.normal).epsilon(1e-10));
+          relative(force.normal, 1e-10));
   }
 }
 
@@ -282,7 +282,7 @@ TEST_CASE("a small helix is the spur pair") {
   };
   const VectorXd spur = error(0), slight = error(0.05);
   // Away from the ends of the path, at which a spur line comes and goes as a whole.
-  for (const int i : {0, 2, 4, 6}) CHECK(slight[i] == doctest::Approx(spur[i]).epsilon(1e-4));
+  for (const int i : {0, 2, 4, 6}) CHECK(slight[i] == relative(spur[i], 1e-4));
 }
 
 TEST_CASE("what slices do not take is refused") {
@@ -332,7 +332,7 @@ TEST_CASE(
           << " (1.985 finite elements, 1.980 coupled slices); least eigenvalue "
           << whole.face.least_eigenvalue << " m2/N");
   // The printed values are of a linear contact and of teeth without fillets.
-  CHECK(sections.face.load_factor == doctest::Approx(1.545).epsilon(0.04));
+  CHECK(sections.face.load_factor == relative(1.545, 0.04));
   const double ratio = (whole.face.load_factor - 1) / (sections.face.load_factor - 1);
   CHECK(ratio > 1.75);
   CHECK(ratio < 2.1);
@@ -346,7 +346,7 @@ TEST_CASE(
   const StaticResult even_sections = static_transmission(body, body, settings, 150);
   MESSAGE("even load: mean stiffness of bodies over that of slices "
           << even.mean_stiffness / even_sections.mean_stiffness << ", K_Hbeta " << even.face.load_factor);
-  CHECK(even.mean_stiffness / even_sections.mean_stiffness == doctest::Approx(0.97).epsilon(0.02));
+  CHECK(even.mean_stiffness / even_sections.mean_stiffness == relative(0.97, 0.02));
 }
 
 TEST_CASE("bodies in three dimensions are asked for by name") {
