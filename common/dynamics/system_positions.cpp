@@ -297,8 +297,8 @@ void SystemDynamics::set_friction(const VectorXd& coefficient) {
       const Rows& rows = position.rows[p];
       const int length = part_[p].length();
       for (int c = 0; c < rows.contacts(); ++c) {
-        const double share = friction_of(
-            position.contact[static_cast<size_t>(position.order[static_cast<size_t>(rows.begin + c)])]);
+        const int k = position.order[static_cast<size_t>(rows.begin) + static_cast<size_t>(c)];
+        const double share = friction_of(position.contact[static_cast<size_t>(k)]);
         for (int i = c * length; i < (c + 1) * length; i += kLanes)
           lanes(&stream_[rows.push] + i) =
               lanes(&stream_[rows.row] + i) + share * lanes(&stream_[rows.slide] + i);

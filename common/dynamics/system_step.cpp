@@ -198,8 +198,9 @@ void SystemDynamics::read_gaps(const Position& position) {
     const int* contact = position.order.data() + rows.begin;
     const int length = part_[p].length();
     in_fours(rows.contacts(), [&](auto count, int first) {
-      subtract_rows<count>(stream_.data() + rows.row + static_cast<size_t>(first * length), length,
-                           &z_[part_[p].first], sums, contact + first);
+      subtract_rows<count>(
+          stream_.data() + rows.row + static_cast<size_t>(first) * static_cast<size_t>(length), length,
+          &z_[part_[p].first], sums, contact + first);
     });
   }
   for (size_t b = 0; b < system_.body.size(); ++b) {

@@ -41,10 +41,12 @@ void check_gear(const SceneGear& gear, const DrawnGears& gears, const ScenePlace
     if (gear.design.crack.depth > 0) crack_slit(tooth);
   });
   in_part(".modification", [&] {
-    FlankDeviation(ToothGeometry(gear.design), gear.modification);
-    LeadDeviation(gear.modification.lead, gear.design.face_width);
+    [[maybe_unused]] const FlankDeviation flank(ToothGeometry(gear.design), gear.modification);
+    [[maybe_unused]] const LeadDeviation lead(gear.modification.lead, gear.design.face_width);
   });
-  in_part(".error", [&] { FlankDeviation(ToothGeometry(gear.design), gear.modification, gear.errors); });
+  in_part(".error", [&] {
+    [[maybe_unused]] const FlankDeviation flank(ToothGeometry(gear.design), gear.modification, gear.errors);
+  });
 }
 
 }  // namespace

@@ -175,16 +175,20 @@ class TrainSweepRig {
       put(period.bearing_force[b], motion.bearing_force[b]);
   }
 
-  // At the end of a mesh period the next one begins, in which a pair has a number that is higher by one.
+  // Pairs are numbered as at rest, from the reference pair of the mesh's own period; in the dynamics by the period of the system. The end
+  // of a mesh period is the start of the next one, in which a pair has a number that is higher by one.
   void take_loads(int k, Index stride, Motion& motion) {
     const SystemDynamics& dynamics = rig_.train().dynamics();
     const Index samples = settings_.time.steps_per_period, pairs = dynamics.tooth_pairs();
     for (Index i = 1; i <= samples; ++i) {
+      const auto forces = dynamics.forces().row(i * stride);
       auto row = motion.tooth_load.row((k * samples + i) % motion.tooth_load.rows());
-      row = dynamics.forces().row(i * stride);
-      for (Index m = 0; i == samples && m < dynamics.meshes(); ++m)
-        for (Index pair = pairs - 1; pair >= 0; --pair)
-          row[m * pairs + pair] = pair > 0 ? row[m * pairs + pair - 1] : 0;
+      const double phase = static_cast<double>(i % samples) / static_cast<double>(samples);
+      for (int m = 0; m < dynamics.meshes(); ++m) {
+        const int later = static_cast<int>(i / samples) + mesh_instant(dynamics.system(), m, phase, 0).period;
+        for (Index pair = 0; pair + later < pairs; ++pair)
+          row[m * pairs + pair + later] = forces[m * pairs + pair];
+      }
     }
   }
 

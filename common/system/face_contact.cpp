@@ -168,12 +168,13 @@ void FaceContact::add_sections(FacePosition& position, const std::array<MatrixXd
         const double from = std::max(a.from, b.from), to = std::min(a.to, b.to);
         const int offset = GearMeshModel::tooth(static_cast<int>(g), a.pair - b.pair);
         if (!(to > from) || std::abs(offset) > most) continue;
+        const int place = offset + most;
         MatrixXd between = MatrixXd::Zero(n, n);
         for (int k = 0; k < n; ++k) {
           const double z = 0.5 * (from + to + (to - from) * rule.point[k]);
           const Eigen::RowVectorXd l = interpolation(points, i, z), m = interpolation(points, j, z);
           const double value =
-              weights(i, l).dot(table_[g][static_cast<size_t>(offset + most)] * weights(j, m).transpose());
+              weights(i, l).dot(table_[g][static_cast<size_t>(place)] * weights(j, m).transpose());
           between += 0.5 * (to - from) * rule.weight[k] * value * l.transpose() * m;
         }
         between.array().colwise() /= points.weight(own(i)).array();

@@ -8,9 +8,9 @@
 #include "io/variant.h"
 #include "own_folder.h"
 #include "refusal.h"
+#include "relative.h"
 #include "studies/study_variant.h"
 #include "system/system_rest.h"
-#include "relative.h"
 
 using namespace whine;
 using Eigen::VectorXd;
