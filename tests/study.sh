@@ -129,7 +129,7 @@ outside_model = "mark"
 key = "operation.torque_Nm"
 values = [100, 150]
 STUDY
-rejected "outside_model = \"mark\" does not mark a setting that asks for too much" 'gear-variant variant positions 2097152' -k STUDY=large.toml study
+rejected "outside_model = \"mark\" does not mark a setting that asks for too much" 'gear-variant variant positions GB' -k STUDY=large.toml study
 [ -z "$(find out/studies/large -name '*.h5')" ] && ok "nor leaves it as an artifact" || wrong "nor leaves it as an artifact" "$(find out/studies/large -name '*.h5')"
 
 # --- what the stages warn of: here a motion that hardly anything damps

@@ -14,7 +14,7 @@ namespace {
 
 // What is kept of each position: loads, and the result itself.
 void require_rows(const SystemModel& system, int periods, int positions) {
-  constexpr double kMostMemory = 4e9;  // bytes
+  constexpr double kMostMemory = 3e9;  // bytes
   const auto meshes = static_cast<double>(system.mesh.size()),
              bodies = static_cast<double>(system.body.size());
   constexpr double kOfMesh = 100, kOfBody = 20;  // numbers: of its pairs; places and forces

@@ -14,20 +14,18 @@ int main(int argc, char** argv) {
   H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
   const hid_t file = H5Fopen(argv[1], H5F_ACC_RDWR, access), old = H5Dopen2(file, name, H5P_DEFAULT),
               space = H5Dget_space(old), list = H5Pcreate(H5P_DATASET_CREATE);
-  hsize_t count = 0;
-  H5Sget_simple_extent_dims(space, &count, nullptr);
+  hsize_t shape[H5S_MAX_RANK];
+  const int rank = H5Sget_simple_extent_dims(space, shape, nullptr);
+  const hssize_t count = H5Sget_simple_extent_npoints(space);
   H5Dclose(old);
   herr_t done = H5Ldelete(file, name, H5P_DEFAULT);
   if (kind == "soft")
     done |= H5Lcreate_soft("/unloaded_transmission_error", file, name, H5P_DEFAULT, H5P_DEFAULT);
   if (kind == "external") done |= H5Lcreate_external(other, name, file, name, H5P_DEFAULT, H5P_DEFAULT);
-  if (kind == "storage") done |= H5Pset_external(list, other, 0, count * 8);
-  if (kind == "virtual") {
-    const hid_t whole = H5Screate_simple(1, &count, nullptr);
-    done |= H5Pset_virtual(list, whole, other, name, whole);
-  }
+  if (kind == "storage") done |= H5Pset_external(list, other, 0, static_cast<hsize_t>(count) * 8);
+  if (kind == "virtual") done |= H5Pset_virtual(list, space, other, name, space);
   if (kind == "filter") {
-    done |= H5Pset_chunk(list, 1, &count);
+    done |= H5Pset_chunk(list, rank, shape);
     done |= H5Pset_fletcher32(list);
   }
   if (kind == "storage" || kind == "virtual" || kind == "filter") {
