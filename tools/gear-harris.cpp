@@ -70,6 +70,12 @@ MappedPair mesh_of_train(const std::string& params, const std::string& name, con
   return out;
 }
 
+MappedPair drawn_pair(const std::string& params, const NamedFiles& files) {
+  const StaticParameters settings = read_static_parameters(params);
+  const PairBodies bodies = read_bodies(files, settings);
+  return {settings, {bodies.begin(), bodies.end()}, 0};
+}
+
 // The map at rest, checked at so many points; with params (of sweeps) in motion, too. took: s of this processor.
 HarrisMapResult computed(const ReducedBody& first, const ReducedBody& second,
                          const StaticParameters& settings, const HarrisPlan& plan, int checks,
@@ -164,13 +170,8 @@ void body(int argc, char** argv) {
   const bool train = is_system_scene(static_params);
   if (train && dynamic) fail(Failure::usage, "--dynamic: the map of a train is at rest; leave it out");
   if (!train && !mesh.empty()) fail(Failure::usage, "--mesh ", mesh, ": ", static_params, " is of a pair");
-  MappedPair mapped;
-  if (train) {
-    mapped = mesh_of_train(static_params, mesh, files);
-  } else {
-    mapped.settings = read_static_parameters(static_params);
-    for (const ReducedBody& gear : read_bodies(files, mapped.settings)) mapped.body.push_back(gear);
-  }
+  const MappedPair mapped =
+      train ? mesh_of_train(static_params, mesh, files) : drawn_pair(static_params, files);
   const StaticParameters& settings = mapped.settings;
   const ReducedBody &first = mapped.body[0], &second = mapped.body[1];
   if (!design.empty()) plan.design_torque = number_option("--design-torque", design);

@@ -404,6 +404,51 @@ std::string drawn_value(const StudyPlan& study, const VariedKey& key, long index
   fail(Failure::input, "no draw of ", key.name, " falls between its 'least' and 'most'");
 }
 
+// [[vary]]: the keys that vary, each once, none of them in [set].
+void read_varied_keys(const StudyFile& file, Study& study) {
+  const toml::node* vary = file.root().get("vary");
+  if (!vary) file.reject("the study varies nothing: it lacks [[vary]] with a key and its values");
+  const toml::array* list = vary->as_array();
+  if (!list || !list->is_array_of_tables() || list->empty())
+    file.reject(*vary, "'vary' must be a list of sections: write [[vary]] before each key");
+  if (list->size() > kMostKeys) file.reject(*vary, list->size(), " keys vary; ", kMostKeys, " is the most");
+  std::vector<KeyPlace> varied, fixed;
+  for (const auto& [name, value] : study.fixed) fixed.push_back(find_key(name));
+  for (const toml::node& item : *list) {
+    const VariedKey key = read_varied(file, *item.as_table(), study.random);
+    const KeyPlace place = find_key(key.name);
+    for (size_t k = 0; k < varied.size(); ++k)
+      if (overlap(place, varied[k]))
+        file.reject_line(key.line, "'", key.name, "' varies twice, as '", study.keys[k].name, "' in line ",
+                         study.keys[k].line);
+    // A torque of [set] is the one that sets the bearing dampers.
+    for (const KeyPlace& other : fixed)
+      if (overlap(place, other) && !is_torque(*place.key))
+        file.reject_line(key.line, "'", key.name, "' varies and is in [set]; leave one of them out");
+    varied.push_back(place);
+    study.keys.push_back(key);
+  }
+}
+
+// How many variants the plan has: of a sample as it says, of a grid the product of its keys' values.
+void count_variants(const StudyFile& file, Study& study) {
+  const toml::table& root = file.root();
+  const toml::node* vary = root.get("vary");
+  if (study.random) {
+    if (!root.contains("samples")) file.reject("a sample lacks samples = <number of variants>");
+    study.variants = file.whole(root, "samples", 1, kMostVariants);
+  } else {
+    double variants = 1;
+    for (const VariedKey& key : study.keys) variants *= static_cast<double>(key.values.size());
+    if (variants > static_cast<double>(kMostVariants))
+      file.reject(*vary, "the grid has ", variants, " variants; ", kMostVariants,
+                  " is the most: give fewer values, or draw from them with plan = \"sample\"");
+    study.variants = std::lround(variants);
+  }
+  if (study.variants == 1 && !study.random)
+    file.reject(*vary, "the study varies nothing: every key has one value only");
+}
+
 }  // namespace
 
 VariedKey varied_key(const std::string& name) {
@@ -463,46 +508,11 @@ Study read_study(const std::string& path) {
     if (!fixed->is_table()) file.reject(*fixed, "'set' must be a section: write [set]");
     read_fixed(file, *fixed->as_table(), "", study);
   }
-  const toml::node* vary = root.get("vary");
-  if (!vary) file.reject("the study varies nothing: it lacks [[vary]] with a key and its values");
-  const toml::array* list = vary->as_array();
-  if (!list || !list->is_array_of_tables() || list->empty())
-    file.reject(*vary, "'vary' must be a list of sections: write [[vary]] before each key");
-  if (list->size() > kMostKeys) file.reject(*vary, list->size(), " keys vary; ", kMostKeys, " is the most");
-  std::vector<KeyPlace> varied, fixed;
-  for (const auto& [name, value] : study.fixed) fixed.push_back(find_key(name));
-  for (const toml::node& item : *list) {
-    const VariedKey key = read_varied(file, *item.as_table(), study.random);
-    const KeyPlace place = find_key(key.name);
-    for (size_t k = 0; k < varied.size(); ++k)
-      if (overlap(place, varied[k]))
-        file.reject_line(key.line, "'", key.name, "' varies twice, as '", study.keys[k].name, "' in line ",
-                         study.keys[k].line);
-    // A torque of [set] is the one that sets the bearing dampers.
-    for (const KeyPlace& other : fixed)
-      if (overlap(place, other) && !is_torque(*place.key))
-        file.reject_line(key.line, "'", key.name, "' varies and is in [set]; leave one of them out");
-    varied.push_back(place);
-    study.keys.push_back(key);
-  }
-
-  if (study.random) {
-    if (!root.contains("samples")) file.reject("a sample lacks samples = <number of variants>");
-    study.variants = file.whole(root, "samples", 1, kMostVariants);
-  } else {
-    double variants = 1;
-    for (const VariedKey& key : study.keys) variants *= static_cast<double>(key.values.size());
-    if (variants > static_cast<double>(kMostVariants))
-      file.reject(*vary, "the grid has ", variants, " variants; ", kMostVariants,
-                  " is the most: give fewer values, or draw from them with plan = \"sample\"");
-    study.variants = std::lround(variants);
-  }
-  if (study.variants == 1 && !study.random)
-    file.reject(*vary, "the study varies nothing: every key has one value only");
-
+  read_varied_keys(file, study);
+  count_variants(file, study);
   if (is_system_scene(study.scene)) study.train = names_in_train(file, study);
   for (size_t k = 0; k < study.keys.size() && !study.train.empty(); ++k)
-    if (is_torque(*varied[k].key))
+    if (is_torque(*find_key(study.keys[k].name).key))
       file.reject_line(
           study.keys[k].line, "'", study.keys[k].name,
           "' is of pairs: the torques of a train are those of [[drive]]; write key = \"drive.<gear>.torque_Nm\"");

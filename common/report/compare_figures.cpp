@@ -150,99 +150,117 @@ Figure compared_rest_figure(const std::vector<RestCurve>& curves) {
   return figure;
 }
 
-Figure compared_motion_figure(const std::vector<OfDesign<ResponseResult>>& sweeps) {
-  struct Curve {
-    std::string design;
-    Index mesh;
-    std::string name;
+namespace {
+
+// A curve of designs in motion: a design, and a mesh of it.
+struct MotionCurve {
+  std::string design;
+  Index mesh;
+  std::string name;
+};
+
+// Rows over speed of one curve in one direction, parted where the response jumps to the branch of the other direction.
+FigureBlock motion_block(const ResponseResult& r, const ResponseResult* other, const MotionCurve& curve,
+                         size_t number, bool trains) {
+  const double force = trains ? 1e3 : r.torque / ToothGeometry(r.gear[0].design).base_radius();
+  FigureBlock block{text(number, " ", r.direction),
+                    {"mesh_frequency [Hz]", "dte_rms [µm]", "dte_harmonic_1 [µm]",
+                     trains ? "tooth_load_max [kN]" : "tooth_load_max [T / r_b]"},
+                    {},
+                    "motion",
+                    text(curve.name, " ", r.direction)};
+  const std::vector<bool> broken = broken_after(r, other);
+  for (Index k = 0; k < r.mesh_frequency.size(); ++k) {
+    block.rows.push_back(
+        {r.mesh_frequency[k], r.dte_rms(k, curve.mesh) * kMicro,
+         r.harmonics() > 0 ? r.dte_harmonic[static_cast<size_t>(k)](0, curve.mesh) * kMicro : 0,
+         r.tooth_load_max(k, curve.mesh) / force});
+    if (broken[static_cast<size_t>(k)]) block.rows.emplace_back();
+  }
+  return block;
+}
+
+// "rising 2158 2634": speeds at which the response jumps, in Hz.
+std::string jump_words(const ResponseResult& r) {
+  std::string words = r.direction == Direction::up ? "rising" : "falling";
+  std::vector<double> at(r.jump_frequency.begin(), r.jump_frequency.end());
+  std::sort(at.begin(), at.end());
+  for (const double f : at) words += " " + fixed(f, 0);
+  return at.empty() ? words + " none" : words;
+}
+
+// The one sweep of a design in a direction.
+const ResponseResult& swept(const std::vector<OfDesign<ResponseResult>>& sweeps, const std::string& design,
+                            Direction direction) {
+  const auto is = [&](const auto& one) {
+    return one.design == design && one.artifact.direction == direction;
   };
-  std::vector<Curve> curves;
+  if (const auto found = std::count_if(sweeps.begin(), sweeps.end(), is); found != 1)
+    fail(Failure::input, "figure: ", found, " sweeps ", direction, " of ", design,
+         " given; one up and one down of each design are wanted");
+  return std::find_if(sweeps.begin(), sweeps.end(), is)->artifact;
+}
+
+}  // namespace
+
+Figure compared_motion_figure(const std::vector<OfDesign<ResponseResult>>& sweeps) {
+  std::vector<MotionCurve> curves;
   std::vector<Compared> all;
-  bool trains = false;
-  for (const auto& [design, r] : sweeps) {
-    all.push_back({design, r.of_train() ? 0 : r.torque});
-    trains = trains || r.of_train();
-    if (std::any_of(curves.begin(), curves.end(), [&](const Curve& c) { return c.design == design; }))
+  std::vector<ResponseResult> responses;
+  responses.reserve(sweeps.size());
+  for (const auto& one : sweeps) {
+    const ResponseResult& r = responses.emplace_back(one.artifact);
+    all.push_back({one.design, r.of_train() ? 0 : r.torque});
+    if (std::any_of(curves.begin(), curves.end(), [&](const auto& c) { return c.design == one.design; }))
       continue;
     for (const size_t m : r.of_train() ? shown_meshes(r.train.layout) : std::vector<size_t>{0})
       curves.push_back(
-          {design, static_cast<Index>(m), curve_name(design, r.of_train() ? r.mesh_names[m] : "")});
+          {one.design, static_cast<Index>(m), curve_name(one.design, r.of_train() ? r.mesh_names[m] : "")});
   }
+  const bool trains =
+      std::any_of(responses.begin(), responses.end(), [](const auto& r) { return r.of_train(); });
   require_all_designs(all, curves.size(), "response.h5");
   Figure figure;
   figure.title = "Designs in motion" + (trains ? "" : ", " + torque_words(sweeps.at(0).artifact.torque));
-  const PanelAxis speed{.label = "Mesh frequency (Hz)", .speed = true};
+  const PanelAxis speed{.speed = true};
   figure.panels = {{.x = speed, .y = {.label = "RMS of DTE (µm)", .from_zero = true, .level = true}},
                    {.x = speed,
                     .y = {.label = "Order 1 of DTE (µm)", .from_zero = true, .level = true},
                     .key = PanelKey::none},
-                   {.x = speed,
+                   {.x = {.label = "Mesh frequency (Hz)", .speed = true},
                     .y = {.label = trains ? "Tooth load (kN)" : "Tooth load / (T / r_b)", .from_zero = true},
                     .key = PanelKey::none}};
   for (size_t i = 0; i < curves.size(); ++i) {
-    const auto& [design, mesh, name] = curves[i];
-    std::string jumps;
-    for (const Direction direction : {Direction::up, Direction::down}) {
-      const auto is = [&](const auto& one) {
-        return one.design == design && one.artifact.direction == direction;
-      };
-      if (const auto found = std::count_if(sweeps.begin(), sweeps.end(), is); found != 1)
-        fail(Failure::input, "figure: ", found, " sweeps ", direction, " of ", design,
-             " given; one up and one down of each design are wanted");
-      const ResponseResult& r = std::find_if(sweeps.begin(), sweeps.end(), is)->artifact;
-      const auto other = std::find_if(sweeps.begin(), sweeps.end(), [&](const auto& one) {
-        return one.design == design && one.artifact.direction != direction;
-      });
-      const double force = trains ? 1e3 : r.torque / ToothGeometry(r.gear[0].design).base_radius();
-      FigureBlock block{text(i + 1, " ", direction),
-                        {"mesh_frequency [Hz]", "dte_rms [µm]", "dte_harmonic_1 [µm]",
-                         trains ? "tooth_load_max [kN]" : "tooth_load_max [T / r_b]"},
-                        {},
-                        "motion",
-                        text(name, " ", direction)};
-      const std::vector<bool> broken = broken_after(r, other == sweeps.end() ? nullptr : &other->artifact);
-      for (Index k = 0; k < r.mesh_frequency.size(); ++k) {
-        block.rows.push_back(
-            {r.mesh_frequency[k], r.dte_rms(k, mesh) * kMicro,
-             r.harmonics() > 0 ? r.dte_harmonic[static_cast<size_t>(k)](0, mesh) * kMicro : 0,
-             r.tooth_load_max(k, mesh) / force});
-        if (broken[static_cast<size_t>(k)]) block.rows.emplace_back();
-      }
+    const MotionCurve& curve = curves[i];
+    const int colour = static_cast<int>(i) + 1;
+    const auto &up = swept(sweeps, curve.design, Direction::up),
+               down = swept(sweeps, curve.design, Direction::down);
+    for (const ResponseResult* r : {&up, &down}) {
+      const bool rising = r == &up;
+      figure.blocks.push_back(motion_block(*r, rising ? &down : &up, curve, i + 1, trains));
       for (size_t p = 0; p < figure.panels.size(); ++p) {
         // The second stands on the first, and lets it show where both are alike.
-        figure.panels[p].curves.push_back({.block = block.name,
+        figure.panels[p].curves.push_back({.block = figure.blocks.back().name,
                                            .y = static_cast<int>(p) + 2,
-                                           .colour = static_cast<int>(i) + 1,
-                                           .label = direction == Direction::up ? without_markup(name) : "",
+                                           .colour = colour,
+                                           .label = rising ? without_markup(curve.name) : "",
                                            .width = i == 0 ? 4.4 : 2.6,
-                                           .dash = direction == Direction::up ? 1 : 3});
-        if (direction == Direction::up && !r.of_train())
-          figure.panels[p].rules.push_back(
-              {'x', r.natural_frequency, p ? "" : "f_n", static_cast<int>(i) + 1});
+                                           .dash = rising ? 1 : 3});
+        if (rising && !r->of_train())
+          figure.panels[p].rules.push_back({'x', r->natural_frequency, p ? "" : "f_n", colour});
       }
-      jumps += text(jumps.empty() ? "" : ", ", direction == Direction::up ? "rising" : "falling");
-      std::vector<double> at(r.jump_frequency.begin(), r.jump_frequency.end());
-      std::sort(at.begin(), at.end());
-      for (const double f : at) jumps += " " + fixed(f, 0);
-      if (at.empty()) jumps += " none";
-      figure.blocks.push_back(std::move(block));
     }
-    figure.notes.push_back(name + ": jumps in Hz, " + jumps);
+    figure.notes.push_back(curve.name + ": jumps in Hz, " + jump_words(up) + ", " + jump_words(down));
   }
   if (std::any_of(all.begin(), all.end(), [](const Compared& one) { return one.torque > 0; }))
     figure.notes.push_back(
         "f_n: mean natural frequency over the mesh period, contact frozen under the static load");
   plain_captions(curves.size(), figure);
-  for (size_t p = 0; p + 1 < figure.panels.size(); ++p) figure.panels[p].x.label.clear();
   figure.panels[0].curves.push_back({.colour = kDark, .label = "dashed: speed falling", .dash = 3});
-  if (trains) {
+  if (trains)
     figure.no_shafts = "designs among which a train is have no shaft in common";
-  } else {
-    std::vector<ResponseResult> responses;
-    responses.reserve(sweeps.size());
-    for (const auto& one : sweeps) responses.push_back(one.artifact);
+  else
     figure.shafts = shafts_of_all(responses);
-  }
   figure.levels = {{"dte_rms [µm]", false}, {"dte_harmonic_1 [µm]", true}};
   return figure;
 }
