@@ -72,8 +72,8 @@ inputs_system = $(if $2,$(inputs_system-static),$(inputs_modes))
 inputs_modes = out/$1/modes.h5
 inputs_campbell = $(inputs_modes)
 inputs_system-sweep = $(call both_ways,$1,$(firstword $2),response)
-inputs_system-ringdown = out/$1/T$(firstword $2)/impact.h5
-inputs_system-branch = out/$1/T$(firstword $2)/branch.h5 $(inputs_system-sweep)
+inputs_ring-down = out/$1/T$(firstword $2)/impact.h5
+inputs_branch = out/$1/T$(firstword $2)/branch.h5 $(inputs_system-sweep)
 inputs_table1 = $(foreach t,$2,out/$1/T$t/impact.h5)
 # Figures of a scene are called by what they show, those of P2000 by their numbers there: `make SCENE=own.toml fig12` is out/own/report/transmission-error.
 shown_names := fig01:finite-elements fig03:contact-zone fig05:response fig05-branches:response-branches fig07:responses-by-torque fig07-branches:responses-by-torque-branches \
@@ -138,16 +138,16 @@ figure_folder := $(if $(SCENE),out/$(basename $(notdir $(SCENE)))/report,out/fig
 # AXIS=rpm:pinion: the speed of a gear, of a train also of its carrier, in place of the mesh frequency; DB=1e-6: RMS of the DTE and of its orders in dB re this length in m.
 AXIS ?=
 DB ?=
-speed_figures := $(foreach f,fig05 fig05-branches fig07 fig07-branches fig14 fig14-elastic fig16,$(call paired,$f,$(shown_names))) fig05 fig07 fig05-branches fig07-branches fig07-600 fig14 fig14-elastic fig16 relief-jumps waterfall order-cuts tooth-loads bearing-forces efficiency root-stress root-stress-branches flank-pressure compare-motion runup-up runup-down campbell system-sweep system-branch
-level_figures := order-cuts compare-motion runup-up runup-down system-sweep system-branch
-# A figure that would not take them is not drawn without them; `modes` draws the Campbell diagram, too, and `sweep` and `branches` draw those
-# of trains.
+speed_figures := $(foreach f,fig05 fig05-branches fig07 fig07-branches fig14 fig14-elastic fig16,$(call paired,$f,$(shown_names))) fig05 fig07 fig05-branches fig07-branches fig07-600 fig14 fig14-elastic fig16 relief-jumps waterfall order-cuts tooth-loads bearing-forces efficiency root-stress root-stress-branches flank-pressure compare-motion runup-up runup-down campbell system-sweep branch
+level_figures := order-cuts compare-motion runup-up runup-down system-sweep branch
+# A figure that would not take them is not drawn without them; `modes` draws the Campbell diagram, too, `branches` its figure, and `sweep`
+# that of a train.
 not_drawn_with = $(filter-out $1,$(filter $(figures) table1 static impact histories multipliers fold-curves jump-map sensitivity harris-map modes \
   animation study reading work-precision,$(goals)))
 $(if $(AXIS),$(if $(call not_drawn_with,modes $(speed_figures)),$(error AXIS=$(AXIS): $(firstword $(call not_drawn_with,modes $(speed_figures))) \
-  is not drawn against the speed of a gear; leave AXIS out. It is for $(filter-out compare-motion runup-up runup-down campbell system-%,$(speed_figures))$(,) modes$(,) runup$(,) compare$(,) report$(,) of a train sweep and branches)))
+  is not drawn against the speed of a gear; leave AXIS out. It is for $(filter-out compare-motion runup-up runup-down campbell branch system-%,$(speed_figures))$(,) modes$(,) runup$(,) compare$(,) report$(,) branches$(,) of a train sweep)))
 $(if $(DB),$(if $(call not_drawn_with,$(level_figures)),$(error DB=$(DB): $(firstword $(call not_drawn_with,$(level_figures))) \
-  is not drawn in dB; leave DB out. It is for order-cuts$(,) runup$(,) compare$(,) report$(,) of a train sweep and branches)))
+  is not drawn in dB; leave DB out. It is for order-cuts$(,) runup$(,) compare$(,) report$(,) branches$(,) of a train sweep)))
 axis_options = $(strip $(if $(AXIS),$(if $(filter $1,$(speed_figures)),--axis '$(AXIS)')) $(if $(DB),$(if $(filter $1,$(level_figures)),--db $(DB))))
 
 # Figures, by the path out/$1 of a file without its ending: out/S/report/fig05, out/figures/histories-1250Hz-T150. Those of a scene depend on its
@@ -222,7 +222,7 @@ teeth = $(filter $2,$(SCENE_$1_TEETH))
 BRANCHES ?= no
 system_shows = system $(if $2,system-static) $(if $(and $2,$(filter yes,$(SCENE_$1_PLANETS))),load-sharing) modes campbell $(if $(filter yes,$(SCENE_$1_MOVES)),system-sweep order-cuts)
 system_artifacts = $(if $2,$(inputs_system-static)) out/$1/modes.h5 $(if $(filter yes,$(SCENE_$1_MOVES)),$(inputs_system-sweep))
-system_figures := system system-static load-sharing modes campbell system-sweep order-cuts system-ringdown system-branch harris-map
+system_figures := system system-static load-sharing modes campbell system-sweep order-cuts ring-down branch multipliers harris-map
 report_shows = system finite-elements $(if $(filter yes,$(SCENE_$1_MODIFIED)),profile-chart) \
   $(if $(call teeth,$1,alike),transmission-error mesh-stiffness load-sharing error-budget) \
   $(if $(call teeth,$1,cracked),$(if $(call teeth,$1,differ),,crack),responses-by-torque \

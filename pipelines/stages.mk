@@ -139,19 +139,21 @@ $(addsuffix /response.h5,$(ways) $(lumped)): %/response.h5: %/sweep.h5 $(call id
 	$(B)/bin/gear-spectra --input $< --output $@
 
 .PHONY: mesh reduce static loaded impact calibrate sweep branches lumped modes mode-shapes
-# $(call at_torques,files): at all torques of SCENE; $(call drawn,figures): of a train, in its report
+# $(call at_torques,files): at all torques of SCENE; $(call drawn,figures): of a train, in its report; $(call drawn_in_motion,figures): of
+# whatever moves
 at_torques = $(foreach f,$1,$(SCENE_$(own_scene)_TORQUES:%=out/$(own_scene)/T%/$f.h5))
 drawn = $(if $(filter train,$(SCENE_$(own_scene)_KIND)),$(call report_figure,$(own_scene),$1))
+drawn_in_motion = $(if $(SCENE_$(own_scene)_TORQUES),$(call report_figure,$(own_scene),$1))
 mesh: $(foreach g,$(SCENE_$(own_scene)_GEARS),out/$(own_scene)/$g/mesh.h5) ## mesh every gear of SCENE (default: the paper's)
 reduce: $(foreach g,$(SCENE_$(own_scene)_GEARS),out/$(own_scene)/$g/body.h5) ## modes and flexibility of every gear of SCENE
 static: $(call at_torques,static) $(call drawn,system-static) ## transmission error and stiffness, all torques of SCENE; of a train also load sharing and bearing forces, out/<scene>/report/system-static.png
 loaded: $(loaded_file) ## both gears loaded and deformed, with contact pressure and stresses, for ParaView: PHASE=0.25 (0 up to 1) TORQUE=150
-impact: $(call at_torques,impact) $(call drawn,system-ringdown) ## natural frequency and damping by ring-down, all torques of SCENE; of a train of each mode, out/<scene>/report/system-ringdown.png
+impact: $(call at_torques,impact) $(call drawn_in_motion,ring-down) ## natural frequency and damping by ring-down, all torques of SCENE, of a train of each mode; out/<scene>/report/ring-down.png
 calibrated := $(if $(filter calibrate,$(goals)),$(patsubst %,out/$(own_scene)/T%/static.h5,$(TORQUE)))
 calibrate: $(if $(calibrated),out/$(own_scene)/params/impact.toml $(call bodies_of,$(own_scene)) $(calibrated) $(call reference_static,$(own_scene))) | $(B)/bin/gear-impact ## print the rayleigh_stiffness_s that gives a damping ratio by ring-down: DAMPING=0.07 TORQUE=150 STATE=two
 	@$| --params $< $(call named,--body,$(own_scene),body) --static $(calibrated) --reference-static $(call reference_static,$(own_scene)) --calibrate $(DAMPING) --contact-state $(STATE)
 sweep: $(call at_torques,up/response down/response) $(call drawn,system-sweep) ## speed sweeps, all torques of SCENE; of a train with the forces on bearings, out/<scene>/report/system-sweep.png
-branches: $(call at_torques,branch) $(call drawn,system-branch) ## branches of periodic orbits, stable or not, with their folds, all torques of SCENE; of a train over both sweeps, out/<scene>/report/system-branch.png
+branches: $(call at_torques,branch) $(call drawn_in_motion,branch) ## branches of periodic orbits, stable or not, with their folds, all torques of SCENE; over both sweeps of the first, out/<scene>/report/branch.png
 lumped: $(call at_torques,$(foreach m,$(filter-out %-fig15,$(lumped_models)),$m/up/response $m/down/response)) ## speed sweeps of the lumped models, one degree of freedom, all torques of SCENE
 modes_scene := $(if $(SCENE),$(own_scene),$(system_scene))
 modes: out/$(modes_scene)/modes.h5 $(call report_figure,$(modes_scene),modes campbell) ## natural frequencies and mode shapes of a train, SCENE (default: a planetary train of rigid gears), out/<scene>/report/modes.png, and a Campbell diagram, campbell.png

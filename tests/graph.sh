@@ -119,7 +119,7 @@ make_ $all; cp scene.original $scene; plans "going back to a bore keeps its body
 change 's/^rayleigh_stiffness_s = [^ ]*/rayleigh_stiffness_s = 5.5e-6/'; plans "damping redoes the elastic sweeps, no lumped one" "gear-impact*5 gear-plot*9 gear-spectra*10 gear-sweep*10" $all; restore
 make_ impact; plans "ring-downs are up to date" "" impact
 change 's/^(mesh_frequency_Hz = .*)step = 20/\1step = 40/'; plans "speeds redo no ring-down" "" impact; restore
-change 's/^rayleigh_stiffness_s = [^ ]*/rayleigh_stiffness_s = 5.5e-6/'; plans "damping redoes the ring-downs" "gear-impact*4" impact; restore
+change 's/^rayleigh_stiffness_s = [^ ]*/rayleigh_stiffness_s = 5.5e-6/'; plans "damping redoes the ring-downs" "gear-impact*4 gear-plot*1" impact; restore
 change 's/^total_inertia_kgm2 = [^ ]*/total_inertia_kgm2 = 0.0150/'; plans "inertia redoes the sweeps" "gear-impact*5 gear-lumped*14 gear-plot*12 gear-spectra*10 gear-sweep*10" $all; restore
 change 's/^corner_contact = [^ ]*/corner_contact = false/'; plans "the corner rule redoes statics and sweeps, no body" "gear-impact*5 gear-lumped*14 gear-plot*16 gear-spectra*10 gear-static*5 gear-sweep*10" $all; restore
 change 's/^\[gear.wheel\]/[gear.pinion.modification]\ntip_relief_um = 10\ntip_relief_start_deg = 22\n[gear.wheel]/'; plans "a relief redoes statics and sweeps, no body" "gear-impact*5 gear-lumped*14 gear-plot*16 gear-spectra*10 gear-static*5 gear-sweep*10" $all; restore

@@ -181,11 +181,15 @@ inline ImpactResult ring_down_at(double torque) {
   ImpactResult a;
   set_motions(a);
   a.torque = torque;
-  a.contact_state = {ContactState::one, ContactState::two, ContactState::mean};
-  a.natural_frequency = Eigen::Vector3d(5012.3, 5932.1, 5432.1);
-  a.damping_ratio = Eigen::Vector3d(0.06543, 0.07654, 0.07);
-  a.undamped_frequency = a.natural_frequency;
-  a.state_phase = Eigen::Vector2d(0, 0.5);
+  ContactStateDecays& s = a.states;
+  s.contact_state = {ContactState::one, ContactState::two, ContactState::mean};
+  s.natural_frequency = Eigen::Vector3d(5012.3, 5932.1, 5432.1);
+  s.damping_ratio = Eigen::Vector3d(0.06543, 0.07654, 0.07);
+  s.undamped_frequency = s.natural_frequency;
+  s.mesh_phase = Eigen::Vector2d(0, 0.5);
+  a.mesh_phase = s.mesh_phase;
+  a.natural_frequency = a.eigen_frequency = s.natural_frequency.head(2);
+  a.damping_ratio = a.eigen_damping_ratio = s.damping_ratio.head(2);
   return a;
 }
 

@@ -26,7 +26,7 @@ def check(claim, right, said=""):
 expected = {
     "mesh": ("/sector", "flank_roll_angle", ("flank_node",), {"flank_node"}),
     "body": ("/", "flank_mode", ("flank_position", "mode"), {"flank_position"}),
-    "static": ("/", "tooth_load", ("mesh_phase", "mesh", "pair"), {"mesh_phase", "mesh", "pair"}),
+    "static": ("/", "tooth_load", ("mesh_phase", "mesh", "tooth_pair"), {"mesh_phase", "mesh", "tooth_pair"}),
     "error_budget": ("/choice", "harmonic_change", ("change", "harmonic"), set()),
     "loaded": ("/strip", "roll_angle", ("strip", "gear"), set()),
     "impact": ("/ring_down", "transmission_error", ("mesh_phase", "time"), {"mesh_phase", "time"}),

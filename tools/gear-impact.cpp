@@ -21,14 +21,13 @@
 #include "io/stage_command.h"
 #include "io/system_scene.h"
 #include "results/impact.h"
-#include "results/system_impact.h"
 #include "studies/sweep.h"
 #include "studies/system_impact.h"
 
 namespace {
 using namespace whine;
 
-std::string states(const ImpactResult& a) {
+std::string states(const ContactStateDecays& a) {
   std::ostringstream out;
   out << std::fixed;
   for (Eigen::Index i = 0; i < a.natural_frequency.size(); ++i)
@@ -43,7 +42,7 @@ void print_calibration(const ImpactResult& a, double ratio, ContactState state) 
             << "  # damping ratio " << ratio << " by ring-down, loaded pairs: " << state << ", at "
             << a.torque << " N m, bearing_ratio " << a.damping.bearing_ratio << ", rayleigh_mass_per_s "
             << a.damping.rayleigh_mass << ", undamped_depth_mm " << a.damping.undamped_depth * 1e3
-            << ", body " << a.fidelity.body << "; in all: " << states(a) << "\n";
+            << ", body " << a.fidelity.body << "; in all: " << states(a.states) << "\n";
 }
 
 constexpr const char* kWithoutFriction =
@@ -52,7 +51,7 @@ constexpr const char* kWithoutFriction =
 void impact_of_train(const StageCommand& stage, const Provenance& made, const SystemImpactPlan& plan) {
   const SystemSweepParameters settings = read_system_impact_parameters(stage.params());
   const std::vector<ReducedBody> gears = read_bodies(stage.bodies(), settings);
-  const SystemImpactResult result = system_impact(settings, gears, plan, StepsDone("gear-impact"));
+  const ImpactResult result = system_impact(settings, gears, plan, StepsDone("gear-impact"));
   write(stage.output(), result, made);
   const Eigen::VectorXd lowest = result.natural_frequency.col(0), ratio = result.damping_ratio.col(0);
   log_line("gear-impact: ", result.mesh_phase.size(), " phases, ", result.damping_ratio.cols(),
@@ -82,7 +81,8 @@ void impact_of_pair(const StageCommand& stage, const Provenance& made, const Imp
   const ImpactResult result = impact(driver, driven, at_torque, at_reference.mean_stiffness, settings, plan,
                                      StepsDone("gear-impact"));
   write(stage.output(), result, made);
-  log_line("gear-impact: ", result.torque, " N m, loaded pairs: ", states(result), " -> ", stage.output());
+  log_line("gear-impact: ", result.torque, " N m, loaded pairs: ", states(result.states), " -> ",
+           stage.output());
   if (result.mesh.friction.acts()) log_line(kWithoutFriction);
   for (const Remark& remark : setup_remarks(at_torque, result.inertia, result.damping, result.fidelity))
     log_line("gear-impact: warning: ", remark.words);

@@ -3,8 +3,8 @@
 // Reads   params (those of sweeps: damping, inertia, speeds, fidelity, time; of a train meshes and layout, too), body.h5 of every
 //         gear; of a pair static.h5 of the torque and of the reference torque (mean stiffness of the dampers)
 // Writes  branch.h5   along the branch: mesh frequency, RMS, mean and harmonics of the transmission error, Floquet multipliers,
-//                     stability; folds, period doublings, tori, and where contacts begin to come or go; of a train forces and contact
-//                     loss of each mesh, forces on bearings
+//                     stability; folds, period doublings, tori, and where contacts begin to come or go; forces and contact loss of
+//                     each mesh, forces on bearings
 // Equations: y = P(y; f) over one mesh period, by Newton's method with the exact tangent of P; pseudo-arclength continuation.
 //            A sweep jumps where the branch folds.
 #include <string>
@@ -18,22 +18,19 @@
 #include "io/stage_command.h"
 #include "io/system_scene.h"
 #include "results/branch.h"
-#include "results/system_branch.h"
 #include "signal/jump_words.h"
-#include "studies/pair_branch.h"
-#include "studies/system_branch.h"
+#include "studies/branch.h"
 
 namespace {
 using namespace whine;
 
 // from: lowest speed of the scene, Hz.
-template <class Branch>
-void finish(const StageCommand& stage, const Provenance& made, const Branch& result, const std::string& at,
-            double from) {
+void finish(const StageCommand& stage, const Provenance& made, const BranchResult& result, double from) {
   write(stage.output(), result, made);
-  log_line("gear-orbit: ", at, result.mesh_frequency.size(), " orbits, ",
-           result.mesh_frequency.size() - result.stable.sum(), " of them unstable",
-           ", folds: ", jump_words(result.fold_frequency, result.fold_width), " -> ", stage.output());
+  log_line("gear-orbit: ", result.of_train() ? "" : text(result.torque, " N m, "),
+           result.mesh_frequency.size(), " orbits, ", result.mesh_frequency.size() - result.stable.sum(),
+           " of them unstable", ", folds: ", jump_words(result.fold_frequency, result.fold_width), " -> ",
+           stage.output());
   constexpr double kRoundOff = 1e-9;
   if (result.mesh_frequency.minCoeff() > from * (1 + kRoundOff))
     log_line("gear-orbit: warning: the branch does not reach the lowest speed: ", result.end);
@@ -70,8 +67,8 @@ void body(int argc, char** argv) {
   if (train) {
     const SystemSweepParameters settings = read_system_sweep_parameters(stage.params());
     const std::vector<ReducedBody> gears = read_bodies(stage.bodies(), settings);
-    const SystemBranchResult result = system_branch(settings, gears, StepsDone("gear-orbit"), plan);
-    return finish(stage, made, result, "", settings.frequency_from);
+    const BranchResult result = system_branch(settings, gears, StepsDone("gear-orbit"), plan);
+    return finish(stage, made, result, settings.frequency_from);
   }
   SweepParameters settings = read_sweep_parameters(stage.params());
   const auto [pair, at_torque, at_reference] =
@@ -79,7 +76,7 @@ void body(int argc, char** argv) {
   const auto& [driver, driven] = pair;
   const BranchResult result = pair_branch(driver, driven, at_torque, at_reference.mean_stiffness, settings,
                                           StepsDone("gear-orbit"), plan);
-  finish(stage, made, result, text(result.torque, " N m, "), settings.frequency_from);
+  finish(stage, made, result, settings.frequency_from);
 }
 
 }  // namespace

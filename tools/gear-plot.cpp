@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/tool.h"
 #include "io/artifacts.h"
+#include "io/pair_inputs.h"
 #include "io/picture_sources.h"
 #include "io/provenance.h"
 #include "io/publish.h"
@@ -77,7 +78,7 @@ void body(int argc, char** argv) {
       "figures against speed: rpm:<gear> in place of the mesh frequency; of a pair also rpm:driver, rpm:driven, of a train rpm:<carrier>");
   const whine::Option level = options.add(
       "--db", reference,
-      "order-cuts, compare-motion, runup, system-sweep, system-branch: RMS (of an order its amplitude / sqrt 2) in dB re this length in m, as 1e-6");
+      "order-cuts, compare-motion, runup, system-sweep, branch: RMS (of an order its amplitude / sqrt 2) in dB re this length in m, as 1e-6");
   options.add("--plots", plots, "folder of the gnuplot templates").show_default();
   options.footer(footer());
   options.parse(argc, argv);
@@ -95,7 +96,7 @@ void body(int argc, char** argv) {
   }
   if (name == kTable) {
     std::vector<whine::ImpactResult> impacts;
-    for (const std::string& path : inputs) impacts.push_back(whine::read<whine::ImpactResult>(path));
+    for (const std::string& path : inputs) impacts.push_back(whine::read_pair_impact(path));
     const whine::Figure table = whine::natural_frequency_table(
         impacts, printed.empty() ? std::vector<whine::PrintedClaim>{} : whine::read_printed_claims(printed));
     const std::string words = whine::natural_frequency_text(table);

@@ -89,6 +89,11 @@ int loaded_pairs(const FixedPhaseMesh& mesh, const VectorXd& p) {
   return loaded;
 }
 
+// Over the phases; summed as a vector.
+double mean_of(const MatrixRM& values) {
+  return VectorXd(values.col(0)).mean();
+}
+
 ContactState state_of(int pairs) {
   if (pairs < 0 || pairs >= static_cast<int>(ContactState::mean))
     fail(Failure::numerical, pairs, " tooth pairs carry load; ring-downs know up to seven");
@@ -122,32 +127,33 @@ class FixedPhasePair {
     // As a sweep begins, so that the strips are the same.
     dynamics.set_zone(candidate_zone(model, statics, MotionBounds(model, statics)), plan_.phases);
     set_motion(blank_, {driver, driven}, statics, settings);
+    blank_.name_parts();
     blank_.torque = statics.torque;
     blank_.torque_step = plan.torque_step;
     blank_.mean_stiffness = mean_stiffness;
     for (int g = 0; g < kSides; ++g) blank_.bearing_damper[g] = dynamics.bearing_damper(g);
     blank_.mesh_phase = VectorXd::LinSpaced(plan_.phases, 0, 1 - 1.0 / plan_.phases);
-    blank_.phase_undamped_frequency.resize(plan_.phases);
-    blank_.loaded_pairs.resize(plan_.phases);
+    blank_.size_modes(plan_.phases, 1);
+    blank_.loaded_pairs.resize(plan_.phases, 1);
     ComplementaritySolver solver;
     for (int i = 0; i < plan_.phases; ++i) {
       meshes_.push_back(dynamics.hold(i));
-      blank_.phase_undamped_frequency[i] = dynamics.frozen_frequency(i);
+      blank_.undamped_frequency(i, 0) = dynamics.frozen_frequency(i);
       // Modes of a body that do not move the mesh lie below it.
-      if (blank_.phase_undamped_frequency[i] > 1.0001 * dynamics.frozen_frequencies(i)[0])
-        meshes_.back().near = blank_.phase_undamped_frequency[i];
+      if (blank_.undamped_frequency(i, 0) > 1.0001 * dynamics.frozen_frequencies(i)[0])
+        meshes_.back().near = blank_.undamped_frequency(i, 0);
       if (model.on_bearings()) {
-        meshes_.back().near = blank_.phase_undamped_frequency[i];
+        meshes_.back().near = blank_.undamped_frequency(i, 0);
         // The mesh, and each gear on a bearing along the line of action and across.
         const int shown = 1 + 2 * (model.bearing[0].elastic() + model.bearing[1].elastic());
         if (i == 0) blank_.frozen_frequency.resize(plan_.phases, shown);
         blank_.frozen_frequency.row(i) = dynamics.frozen_frequencies(i).head(shown).transpose();
       }
-      blank_.loaded_pairs[i] = loaded_pairs(meshes_[i], rest(meshes_[i], 1, solver).p);
+      blank_.loaded_pairs(i, 0) = loaded_pairs(meshes_[i], rest(meshes_[i], 1, solver).p);
     }
-    const double mean_period = 1 / blank_.phase_undamped_frequency.mean();
+    const double mean_period = 1 / mean_of(blank_.undamped_frequency);
     step_ = mean_period / kSteps;
-    blank_.time = VectorXd::LinSpaced(kSamples * kOscillations + 1, 0, kOscillations * mean_period);
+    blank_.states.time = VectorXd::LinSpaced(kSamples * kOscillations + 1, 0, kOscillations * mean_period);
     find_states();
   }
 
@@ -180,59 +186,46 @@ class FixedPhasePair {
     return sum / static_cast<double>(phases.size());
   }
 
-  double mean_frequency() const { return blank_.phase_undamped_frequency.mean(); }
+  double mean_frequency() const { return mean_of(blank_.undamped_frequency); }
 
   std::vector<FixedPhaseState> states() const {
     std::vector<FixedPhaseState> states;
     for (const auto& [pairs, phase] : state_phase_)
-      states.push_back({state_of(pairs), blank_.phase_undamped_frequency[phase], meshes_[phase]});
+      states.push_back({state_of(pairs), blank_.undamped_frequency(phase, 0), meshes_[phase]});
     return states;
   }
 
   ImpactResult run(double rayleigh_stiffness, const std::function<void(long, long)>& report) const {
     ImpactResult result = blank_;
     result.damping.rayleigh_stiffness = rayleigh_stiffness;
-    for (VectorXd* v : {&result.phase_natural_frequency, &result.phase_damping_ratio, &result.eigen_frequency,
-                        &result.eigen_damping_ratio, &result.fit_residual})
-      v->resize(plan_.phases);
-    const auto states = static_cast<Eigen::Index>(state_phase_.size());
-    result.transmission_error.resize(states, result.time.size());
+    ContactStateDecays& states = result.states;
+    states.transmission_error.resize(static_cast<Eigen::Index>(state_phase_.size()), states.time.size());
     result.least_mesh_force = 1;
     for (int i = 0; i < plan_.phases; ++i) {
       const FixedPhaseMesh mesh = at(i, rayleigh_stiffness);
       const auto [trace, fit] = decay(mesh);
-      result.phase_natural_frequency[i] = fit.root.frequency;
-      result.phase_damping_ratio[i] = fit.root.damping_ratio;
-      result.fit_residual[i] = fit.residual;
+      result.natural_frequency(i, 0) = fit.root.frequency;
+      result.damping_ratio(i, 0) = fit.root.damping_ratio;
+      result.fit_residual(i, 0) = fit.residual;
+      result.contact_changes(i, 0) = trace.contact_changes;
       result.least_mesh_force = std::min(result.least_mesh_force, trace.least_mesh_force);
       const DampedRoot root = frozen_root(mesh);
-      result.eigen_frequency[i] = root.frequency;
-      result.eigen_damping_ratio[i] = root.damping_ratio;
+      result.eigen_frequency(i, 0) = root.frequency;
+      result.eigen_damping_ratio(i, 0) = root.damping_ratio;
+      result.rayleigh_damping_ratio(i, 0) = rayleigh_ratio(result.damping, result.undamped_frequency(i, 0));
       Eigen::Index row = 0;
       for (const auto& state : state_phase_) {
-        if (state.second == i) result.transmission_error.row(row) = trace.transmission_error.transpose();
+        if (state.second == i) states.transmission_error.row(row) = trace.transmission_error.transpose();
         ++row;
       }
       report(i + 1, plan_.phases);
     }
-
-    result.natural_frequency.resize(states + 1);
-    result.damping_ratio.resize(states + 1);
-    result.undamped_frequency.resize(states + 1);
-    result.state_phase.resize(states);
-    Eigen::Index row = 0;
-    for (const auto& [pairs, phase] : state_phase_) {
-      result.contact_state.push_back(state_of(pairs));
-      result.state_phase[row] = result.mesh_phase[phase];
-      result.natural_frequency[row] = result.phase_natural_frequency[phase];
-      result.damping_ratio[row] = result.phase_damping_ratio[phase];
-      result.undamped_frequency[row] = result.phase_undamped_frequency[phase];
-      ++row;
-    }
-    result.contact_state.push_back(ContactState::mean);
-    result.natural_frequency[states] = result.phase_natural_frequency.mean();
-    result.damping_ratio[states] = result.phase_damping_ratio.mean();
-    result.undamped_frequency[states] = result.phase_undamped_frequency.mean();
+    fill_states(result, [&](int phase) {
+      return DampedRoot{result.natural_frequency(phase, 0), result.damping_ratio(phase, 0)};
+    });
+    const Eigen::Index mean = states.natural_frequency.size() - 1;
+    states.natural_frequency[mean] = mean_of(result.natural_frequency);
+    states.damping_ratio[mean] = mean_of(result.damping_ratio);
     return result;
   }
 
@@ -242,39 +235,51 @@ class FixedPhasePair {
     result.damping.rayleigh_stiffness = rayleigh_stiffness;
     std::map<int, DampedRoot> roots;
     for (const auto& [pairs, phase] : state_phase_) roots[pairs] = frozen_root(at(phase, rayleigh_stiffness));
-    const auto states = static_cast<Eigen::Index>(state_phase_.size());
-    for (VectorXd* v : {&result.natural_frequency, &result.damping_ratio, &result.undamped_frequency})
-      v->setZero(states + 1);
-    result.state_phase.resize(states);
-    Eigen::Index row = 0;
+    fill_states(result, [&](int phase) { return roots[result.loaded_pairs(phase, 0)]; });
+    ContactStateDecays& states = result.states;
+    const Eigen::Index mean = states.natural_frequency.size() - 1;
     std::map<int, double> change;
-    for (const auto& [pairs, phase] : state_phase_) {
-      result.contact_state.push_back(state_of(pairs));
-      result.state_phase[row] = result.mesh_phase[phase];
-      result.natural_frequency[row] = roots[pairs].frequency;
-      result.damping_ratio[row] = roots[pairs].damping_ratio;
-      result.undamped_frequency[row] = result.phase_undamped_frequency[phase];
-      change[pairs] = roots[pairs].frequency / result.phase_undamped_frequency[phase];
-      ++row;
-    }
-    result.contact_state.push_back(ContactState::mean);
+    for (const auto& [pairs, phase] : state_phase_)
+      change[pairs] = roots[pairs].frequency / result.undamped_frequency(phase, 0);
     for (int i = 0; i < plan_.phases; ++i) {
-      const int pairs = result.loaded_pairs[i];
-      result.natural_frequency[states] += result.phase_undamped_frequency[i] * change[pairs] / plan_.phases;
-      result.damping_ratio[states] += roots[pairs].damping_ratio / plan_.phases;
+      const int pairs = result.loaded_pairs(i, 0);
+      states.natural_frequency[mean] += result.undamped_frequency(i, 0) * change[pairs] / plan_.phases;
+      states.damping_ratio[mean] += roots[pairs].damping_ratio / plan_.phases;
     }
-    result.undamped_frequency[states] = result.phase_undamped_frequency.mean();
     return result;
   }
 
  private:
+  // The states but for their mean frequency and damping, which are 0; root(phase): amid a state.
+  template <class Root>
+  void fill_states(ImpactResult& result, const Root& root) const {
+    ContactStateDecays& states = result.states;
+    const auto count = static_cast<Eigen::Index>(state_phase_.size());
+    for (VectorXd* v : {&states.natural_frequency, &states.damping_ratio, &states.undamped_frequency})
+      v->setZero(count + 1);
+    states.mesh_phase.resize(count);
+    states.contact_state.reserve(state_phase_.size() + 1);
+    Eigen::Index row = 0;
+    for (const auto& [pairs, phase] : state_phase_) {
+      const DampedRoot amid = root(phase);
+      states.contact_state.push_back(state_of(pairs));
+      states.mesh_phase[row] = result.mesh_phase[phase];
+      states.natural_frequency[row] = amid.frequency;
+      states.damping_ratio[row] = amid.damping_ratio;
+      states.undamped_frequency[row] = result.undamped_frequency(phase, 0);
+      ++row;
+    }
+    states.contact_state.push_back(ContactState::mean);
+    states.undamped_frequency[count] = mean_of(result.undamped_frequency);
+  }
+
   FixedPhaseMesh at(int i, double rayleigh_stiffness) const {
     return with_rayleigh_stiffness(meshes_[i], rayleigh_stiffness, blank_.fidelity.body);
   }
 
   std::pair<RingDown, Decay> decay(const FixedPhaseMesh& mesh) const {
-    RingDown trace =
-        ring_down(mesh, plan_.torque_step, step_, static_cast<int>(blank_.time.size()), kSteps / kSamples);
+    RingDown trace = ring_down(mesh, plan_.torque_step, step_, static_cast<int>(blank_.states.time.size()),
+                               kSteps / kSamples);
     const Decay fit =
         trace.contact_changes > 0
             ? fit_decay(trace.transmission_error, step_ * kSteps / kSamples, mesh.near, kMostExponentials)
@@ -300,7 +305,7 @@ class FixedPhasePair {
 
   // Amid the longest run of phases with as many loaded pairs; the period is cyclic.
   void find_states() {
-    const Eigen::VectorXi& loaded = blank_.loaded_pairs;
+    const Eigen::VectorXi loaded = blank_.loaded_pairs.col(0);
     std::map<int, int> longest;
     for (int start = 0; start < plan_.phases; ++start) {
       const int pairs = loaded[start];

@@ -18,8 +18,6 @@
 #include "results/sector_grid.h"
 #include "results/static.h"
 #include "results/sweep.h"
-#include "results/system_branch.h"
-#include "results/system_impact.h"
 #include "results/variant.h"
 #include "studies/runup.h"
 
@@ -40,22 +38,20 @@ struct ArtifactKind {
 inline constexpr std::tuple kArtifactKinds{
     ArtifactKind<SectorGrid>{"mesh", 1, "mesh.h5", "mesh"},
     ArtifactKind<ReducedBody>{"body", 5, "body.h5", "body"},
-    ArtifactKind<SystemStaticResult>{"static", 7, "static.h5", "static"},
+    ArtifactKind<SystemStaticResult>{"static", 8, "static.h5", "static"},
     ArtifactKind<ErrorBudgetResult>{"error_budget", 4, "error_budget.h5", "error_budget"},
-    ArtifactKind<LoadedResult>{"loaded", 1, "loaded_<phase>.h5", "loaded_*"},
-    ArtifactKind<ImpactResult>{"impact", 1, "impact.h5", "impact"},
+    ArtifactKind<LoadedResult>{"loaded", 2, "loaded_<phase>.h5", "loaded_*"},
+    ArtifactKind<ImpactResult>{"impact", 2, "impact.h5", "impact"},
     ArtifactKind<SweepResult>{"sweep", 8, "sweep.h5", "sweep"},
     ArtifactKind<ResponseResult>{"response", 10, "response.h5", "response"},
-    ArtifactKind<BranchResult>{"branch", 6, "branch.h5", "branch"},
-    ArtifactKind<RunupResult>{"runup", 4, "runup_<rate>.h5", "runup_*"},
+    ArtifactKind<BranchResult>{"branch", 7, "branch.h5", "branch"},
+    ArtifactKind<RunupResult>{"runup", 5, "runup_<rate>.h5", "runup_*"},
     ArtifactKind<FoldCurvesResult>{"fold_curves", 1, "fold_curves_*.h5", "fold_curves*"},
     ArtifactKind<JumpMapResult>{"jump_map", 2, "jump_map_*.h5", "jump_map* branches*"},
     ArtifactKind<HarrisMapResult>{"harris_map", 1, "harris_map.h5", "harris_*"},
     ArtifactKind<VariantResult>{"variant", 3, "ab12....h5", ""},
     ArtifactKind<StudyResult>{"study", 3, "study.h5", ""},
     ArtifactKind<ModesResult>{"modes", 2, "modes.h5", "modes"},
-    ArtifactKind<SystemImpactResult>{"system_impact", 1, "impact.h5 of a train", "impact"},
-    ArtifactKind<SystemBranchResult>{"system_branch", 3, "branch.h5 of a train", "branch"},
     ArtifactKind<ReadingsResult>{"readings", 1, "readings.h5", ""}};
 
 template <class Artifact>

@@ -388,10 +388,6 @@ void describe_natural_frequency(Codec& c, double& frequency) {
     "natural frequency: mean over the period with the contact frozen under the static load");
 }
 
-std::string of_body(const Codec& c, const GearMeshSpec& mesh, int g, const std::string& dataset) {
-  return "/body/" + (c.lists() ? "<gear>" : mesh.gear[g]) + "/" + dataset;
-}
-
 std::string gear_title(const GearDesign& design) {
   return text(design.teeth, " teeth, module ", design.module * 1e3, " mm");
 }

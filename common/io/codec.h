@@ -202,9 +202,6 @@ void describe_root_place(Codec& c, const std::string& angle_name, Eigen::VectorX
 void describe_hunting(Codec& codec, int& periods);
 void describe_natural_frequency(Codec& codec, double& frequency);
 
-// "/body/pinion/bearing_force": what belongs to the gear that stands there, by its name.
-std::string of_body(const Codec& codec, const GearMeshSpec& mesh, int g, const std::string& dataset);
-
 std::string gear_title(const GearDesign& design);
 std::string pair_title(const GearMeshSpec& mesh, double torque);
 

@@ -9,7 +9,7 @@ using namespace ranges;
 
 void describe_strips(Codec& c, LoadedResult& a) {
   const std::string at = "/strip/";
-  c(a.strip_pair, at + "pair", "1", kPair, "strip", "number of the tooth pair of each strip");
+  c(a.strip_pair, at + "tooth_pair", "1", kPair, "strip", "number of the tooth pair of each strip");
   c(a.strip_roll, at + "roll_angle", "rad", kRoll, "strip gear",
     "roll angles of the strip's middle on both gears");
   c(a.strip_width, at + "width", "m", kSize, "strip", "width of the strips along the flank");
@@ -42,11 +42,11 @@ void describe(Codec& c, LoadedResult& a) {
   c(a.transmission_error, "/transmission_error", "m", kLength, "",
     "transmission error along the line of action, positive when the driver is ahead",
     "r1 theta1 + r2 theta2");
-  c(a.pair, "/pair", "1", kPair, "pair",
+  c(a.pair, "/tooth_pair", "1", kPair, "tooth_pair",
     "number of the tooth pairs that carry load: -1 following, 0 reference, +1 preceding");
-  c(a.tooth_load, "/tooth_load", "N", kForce, "pair", "normal force of each tooth pair");
-  c(a.tooth, "/tooth", "1", kTooth, "pair gear", "teeth of the pairs, counter-clockwise from tooth 0");
-  c(a.root_stress, "/root_stress", "Pa", kStress, "pair gear",
+  c(a.tooth_load, "/tooth_load", "N", kForce, "tooth_pair", "normal force of each tooth pair");
+  c(a.tooth, "/tooth", "1", kTooth, "tooth_pair gear", "teeth of the pairs, counter-clockwise from tooth 0");
+  c(a.root_stress, "/root_stress", "Pa", kStress, "tooth_pair gear",
     "largest principal stress at the nodes of the fillet below the loaded flank; static.h5 has the tangential stress, fitted along the root");
   describe_strips(c, a);
   describe_loaded_certificate(c, a);

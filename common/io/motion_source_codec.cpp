@@ -7,11 +7,6 @@ namespace whine {
 
 using namespace ranges;
 
-static void describe_axis_frequency(Codec& c, double& frequency) {
-  c(frequency, "/axis_frequency", "Hz", kFrequency, "",
-    "highest natural frequency of the rigid train on its mean stiffnesses, to which the dampers of the axes refer");
-}
-
 void describe_system(Codec& c, SystemSweepParameters& s, Eigen::VectorXd& torque, const LayoutPlace& place) {
   describe_layout(c, s.layout, place);
   c(torque, place.group + "/body/torque", "N m", kMoment, "body" + place.axis_end,
@@ -20,21 +15,16 @@ void describe_system(Codec& c, SystemSweepParameters& s, Eigen::VectorXd& torque
   c.parameters("damping", keys(s.damping));
 }
 
-void describe_system_motion(Codec& c, SystemSweepParameters& s, Eigen::VectorXd& torque,
-                            double& axis_frequency) {
-  describe_system(c, s, torque);
-  describe_axis_frequency(c, axis_frequency);
-}
-
-void describe_source(Codec& c, MotionSource& a) {
+void describe_source(Codec& c, MotionSource& a, bool time) {
   if (c.optional("/layout/body/name", a.of_train())) {
     describe_system(c, a.train, a.drive, {"/layout", ""});
-    describe_axis_frequency(c, a.axis_frequency);
-    describe_time_steps(c, a.train.time);
+    c(a.axis_frequency, "/axis_frequency", "Hz", kFrequency, "",
+      "highest natural frequency of the rigid train on its mean stiffnesses, to which the dampers of the axes refer");
+    if (time) c.parameters("discretisation", keys(a.train.time));
   }
   if (a.of_train()) return;
   describe_pair(c, a);
-  describe_motion(c, a);
+  describe_motion(c, a, time);
   describe_torque(c, a.torque);
 }
 
@@ -46,10 +36,6 @@ void describe_names(Codec& c, bool of_train, std::vector<std::string>& meshes,
   }
   c(meshes, "/mesh", "mesh", "meshes by the names of their bodies, driving-driven");
   c(bodies, "/body", "body", "bodies by name; of a pair the driver, then the driven gear");
-}
-
-void describe_time_steps(Codec& c, TimeDiscretisation& time) {
-  c.parameters("discretisation", keys(time));
 }
 
 }  // namespace whine

@@ -77,4 +77,12 @@ SweepResult read_pair_sweep(const std::string& path) {
   return read_of_pair<SweepResult>(path);
 }
 
+ImpactResult read_pair_impact(const std::string& path) {
+  return read_of_pair<ImpactResult>(path);
+}
+
+BranchResult read_pair_branch(const std::string& path) {
+  return read_of_pair<BranchResult>(path);
+}
+
 }  // namespace whine

@@ -4,6 +4,8 @@
 #include <string>
 
 #include "io/named_files.h"
+#include "results/branch.h"
+#include "results/impact.h"
 #include "results/reduced_body.h"
 #include "results/response.h"
 #include "results/static.h"
@@ -33,5 +35,7 @@ PairInputs read_pair_inputs(const NamedFiles& files, const std::string& statics,
 StaticResult read_pair_statics(const std::string& path);
 ResponseResult read_pair_response(const std::string& path);
 SweepResult read_pair_sweep(const std::string& path);
+ImpactResult read_pair_impact(const std::string& path);
+BranchResult read_pair_branch(const std::string& path);
 
 }  // namespace whine

@@ -18,7 +18,7 @@ void describe_head(Codec& c, RunupResult& a) {
   if (!a.of_train()) {
     describe_bearing_dampers(c, a.mean_stiffness, a.bearing_damper);
     describe_natural_frequency(c, a.natural_frequency);
-    c(a.pair, "/pair", "1", kPair, "pair",
+    c(a.pair, "/tooth_pair", "1", kPair, "tooth_pair",
       "number of the tooth pair: -1 following, 0 reference, +1 preceding");
   }
   describe_names(c, a.of_train(), a.mesh_names, a.body_names);
@@ -43,7 +43,7 @@ void describe_samples(Codec& c, const RunupResult& head, RunupSamples& a) {
   c(a.mesh_force, "/mesh_force", "N", kForce, "time mesh",
     "normal force of all tooth pairs together, of trains torque on the driving body over its base radius, up to 5/12 of the sample rate: its low-pass filter may swing below 0");
   if (!head.of_train())
-    c(a.tooth_load, "/tooth_load", "N", kForce, "time pair",
+    c(a.tooth_load, "/tooth_load", "N", kForce, "time tooth_pair",
       "normal force of each tooth pair, filtered in the same way; left out of trains");
   a.bearing_force.resize(c.lists() ? 1 : head.body_names.size());
   for (size_t b = 0; b < a.bearing_force.size(); ++b)

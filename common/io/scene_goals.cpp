@@ -19,22 +19,16 @@ struct SystemGoal {
   Needs needs;
   bool of_pairs;
 };
-constexpr std::array kSystemGoals{SystemGoal{"report", Needs::nothing, true},
-                                  SystemGoal{"mesh", Needs::elastic_gears, true},
-                                  SystemGoal{"reduce", Needs::elastic_gears, true},
-                                  SystemGoal{"static", Needs::elastic_gears, true},
-                                  SystemGoal{"sweep", Needs::speeds, true},
-                                  SystemGoal{"impact", Needs::speeds, true},
-                                  SystemGoal{"branches", Needs::speeds, true},
-                                  SystemGoal{"order-cuts", Needs::speeds, true},
-                                  SystemGoal{"runup", Needs::speeds, true},
-                                  SystemGoal{"sound", Needs::speeds, true},
-                                  SystemGoal{"teeth", Needs::elastic_gears, true},
-                                  SystemGoal{"load-sharing", Needs::planets, true},
-                                  SystemGoal{"harris-map", Needs::elastic_gears, true},
-                                  SystemGoal{"compare", Needs::elastic_gears, true},
-                                  SystemGoal{"modes", Needs::nothing, false},
-                                  SystemGoal{"mode-shapes", Needs::nothing, false}};
+constexpr std::array kSystemGoals{
+    SystemGoal{"report", Needs::nothing, true},        SystemGoal{"mesh", Needs::elastic_gears, true},
+    SystemGoal{"reduce", Needs::elastic_gears, true},  SystemGoal{"static", Needs::elastic_gears, true},
+    SystemGoal{"sweep", Needs::speeds, true},          SystemGoal{"impact", Needs::speeds, true},
+    SystemGoal{"branches", Needs::speeds, true},       SystemGoal{"multipliers", Needs::speeds, true},
+    SystemGoal{"order-cuts", Needs::speeds, true},     SystemGoal{"runup", Needs::speeds, true},
+    SystemGoal{"sound", Needs::speeds, true},          SystemGoal{"teeth", Needs::elastic_gears, true},
+    SystemGoal{"load-sharing", Needs::planets, true},  SystemGoal{"harris-map", Needs::elastic_gears, true},
+    SystemGoal{"compare", Needs::elastic_gears, true}, SystemGoal{"modes", Needs::nothing, false},
+    SystemGoal{"mode-shapes", Needs::nothing, false}};
 
 bool has(const SceneAbilities& system, Needs needs) {
   return needs == Needs::nothing ||

@@ -17,13 +17,13 @@ using Eigen::Index;
 
 constexpr const char* kMeshPhases = "mesh_phase";
 constexpr const char* kPhaseMesh = "mesh_phase mesh";
-constexpr const char* kPhasePair = "mesh_phase mesh pair";
+constexpr const char* kPhasePair = "mesh_phase mesh tooth_pair";
 constexpr const char* kPhaseBody = "mesh_phase body";
 constexpr const char* kMeshSide = "mesh side";
 constexpr const char* kSideOf[] = {"driving", "driven"};
 
 // Members of the meshes as datasets with an axis `mesh`, the arguments in the order of Codec's: numbers (mesh), vectors (axis, mesh) or
-// (mesh, side), matrices (phase, mesh, pair). of: the member, or what gives a reference to it; one that is empty is written as zeros.
+// (mesh, side), matrices (phase, mesh, tooth_pair). of: the member, or what gives a reference to it; one that is empty is written as zeros.
 class OverMeshes {
  public:
   OverMeshes(Codec& c, SystemStaticResult& a)
@@ -134,7 +134,8 @@ void describe_loads(Codec& c, SystemStaticResult& a) {
   c(a.load_share, "/load_share", "1", {0, 1 + 1e-9}, kPhaseMesh,
     "share of the meshes that come from one [[mesh]]: of planets the load sharing; of a pair 1");
   Eigen::VectorXi pair = a.mesh.empty() ? Eigen::VectorXi() : a.mesh[0].pair;
-  c(pair, "/pair", "1", kPair, "pair", "number of the tooth pair: -1 following, 0 reference, +1 preceding");
+  c(pair, "/tooth_pair", "1", kPair, "tooth_pair",
+    "number of the tooth pair: -1 following, 0 reference, +1 preceding");
   for (StaticResult& mesh : a.mesh) mesh.pair = pair;
   over(&StaticResult::tooth_load, "/tooth_load", "N", kForce, kPhasePair, "normal force of each tooth pair");
   over(
@@ -302,7 +303,7 @@ void describe_face(Codec& c, SystemStaticResult& all) {
   OverMeshes over(c, all);
   if (!c.optional("/line_load", !all.mesh[0].face.none())) return;
   FaceLoad& a = all.mesh[0].face;
-  const char* const slices = "mesh_phase pair slice";
+  const char* const slices = "mesh_phase tooth_pair slice";
   c(a.line_load, "/line_load", "N m-1", kStiff, slices,
     "normal force of each tooth pair per length of face, at the slices along its contact line");
   c(a.position, "/face_position", "m", kLength, slices,
@@ -371,7 +372,7 @@ void require_phases(const Codec& c, const SystemStaticResult& a) {
   if (a.mesh_phase.size() % a.hunting_periods != 0)
     c.in()->reject(text("dataset /mesh_phase holds ", a.mesh_phase.size(),
                         " phases, not a multiple of /hunting_periods = ", a.hunting_periods));
-  if (a.mesh[0].pair.size() == 0) c.in()->reject("dataset /pair holds no pair");
+  if (a.mesh[0].pair.size() == 0) c.in()->reject("dataset /tooth_pair holds no pair");
 }
 
 }  // namespace

@@ -210,26 +210,31 @@ void show(SummaryLines& lines, const ErrorBudgetResult& a) {
 }
 
 void show(SummaryLines& lines, const ImpactResult& a) {
-  if (a.mesh.friction.acts())
-    add(lines, "friction", "left out of ring-downs: teeth do not slide at a fixed mesh phase");
-  add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", ", a.torque_step * 100, " % let go");
-  show_damping(lines, a.damping);
-  for (Eigen::Index i = 0; i < a.natural_frequency.size(); ++i)
+  if (a.of_train()) {
+    show_model(lines, a.train);
+  } else {
+    if (a.mesh.friction.acts())
+      add(lines, "friction", "left out of ring-downs: teeth do not slide at a fixed mesh phase");
+    add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", ", a.torque_step * 100,
+        " % let go");
+    show_damping(lines, a.damping);
+  }
+  const ContactStateDecays& s = a.states;
+  for (Eigen::Index i = 0; i < s.natural_frequency.size(); ++i)
     add(lines,
-        i < a.state_phase.size() ? text("loaded pairs: ", a.contact_state[i]) : name_of(a.contact_state[i]),
-        a.natural_frequency[i], " Hz, damping ratio ", a.damping_ratio[i] * 100, " %; undamped ",
-        a.undamped_frequency[i], " Hz");
-  add(lines, "fit", a.mesh_phase.size(), " phases; largest residual ", a.fit_residual.maxCoeff(),
-      "; furthest from the eigenvalues ",
-      ((a.phase_natural_frequency - a.eigen_frequency).array() / a.eigen_frequency.array()).abs().maxCoeff() *
-          100,
-      " % in frequency, ",
-      ((a.phase_damping_ratio - a.eigen_damping_ratio).array() / a.eigen_damping_ratio.array())
-              .abs()
-              .maxCoeff() *
-          100,
-      " % in damping");
-  add(lines, "least mesh force", a.least_mesh_force * 100, " % of the static one");
+        i < s.mesh_phase.size() ? text("loaded pairs: ", s.contact_state[i]) : name_of(s.contact_state[i]),
+        s.natural_frequency[i], " Hz, damping ratio ", s.damping_ratio[i] * 100, " %; undamped ",
+        s.undamped_frequency[i], " Hz");
+  add(lines, "ring-down", a.mesh_phase.size(), " mesh phases, ", a.damping_ratio.cols(), " modes");
+  for (Eigen::Index k = 0; k < a.damping_ratio.cols(); ++k)
+    add(lines, text("mode ", k + 1), a.natural_frequency.col(k).minCoeff(), " to ",
+        a.natural_frequency.col(k).maxCoeff(), " Hz, damping ratio ", a.damping_ratio.col(k).minCoeff() * 100,
+        " to ", a.damping_ratio.col(k).maxCoeff() * 100, " %, by eigenvalues ",
+        a.eigen_damping_ratio.col(k).minCoeff() * 100, " to ", a.eigen_damping_ratio.col(k).maxCoeff() * 100,
+        " %");
+  if (a.fit_residual.size() > 0)
+    add(lines, "residual of the fits", a.fit_residual.maxCoeff(), " of the decay");
+  if (!a.of_train()) add(lines, "least mesh force", a.least_mesh_force * 100, " % of the static one");
 }
 
 // Which pair moves, by which model.
@@ -271,13 +276,13 @@ void show_motions(SummaryLines& lines, const SweepResult& a) {
   add(lines, "steady state", a.periods.sum(), " periods run, largest residual ", a.residual.maxCoeff(),
       ", energy imbalance ", a.energy_imbalance.cwiseAbs().maxCoeff());
   if (a.lumped.cell_end.size() == 0) {
-    const auto line = [&a](const char* name) { return Eigen::ArrayXd(a.energy.col(energy_line(name))); };
-    const Eigen::ArrayXd damped =
-        line("modal_damping") + line("bearing_damping") + line("relaxation_damping");
+    const auto line = [&a](Eigen::Index of) { return Eigen::ArrayXd(a.energy.col(of)); };
+    const Eigen::ArrayXd damped = line(energy_line("modal_damping")) + line(energy_line("bearing_damping")) +
+                                  line(energy_line("relaxation_damping"));
     add(lines, "energy", "at most ", damped.maxCoeff(),
         " J damped in the stored periods; of that the scheme's own work, ", "strips that switch ",
-        (line("switching") / damped).abs().maxCoeff() * 100, " %, averaging ",
-        (line("averaging") / damped).abs().maxCoeff() * 100, " %");
+        (line(energy_line("switching")) / damped).abs().maxCoeff() * 100, " %, averaging ",
+        (line(energy_line("averaging")) / damped).abs().maxCoeff() * 100, " %");
   }
   const Eigen::Index open = (a.period_multiple.array() == 0).count();
   if (open > 0) add(lines, "not periodic", open, " of ", a.period_multiple.size(), " speeds");
@@ -302,16 +307,22 @@ void show(SummaryLines& lines, const SweepResult& a) {
 }
 
 void show(SummaryLines& lines, const BranchResult& a) {
-  add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", ", range_of(a.mesh_frequency));
-  show_friction(lines, a.mesh);
-  add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
-      a.fidelity.integrator);
-  show_damping(lines, a.damping);
+  add(lines, "operating point", a.of_train() ? "" : text(a.torque, " N m on ", a.mesh.gear[0], ", "),
+      range_of(a.mesh_frequency));
+  if (a.of_train()) {
+    show_model(lines, a.train);
+  } else {
+    show_friction(lines, a.mesh);
+    add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
+        a.fidelity.integrator);
+    show_damping(lines, a.damping);
+  }
   const Eigen::Index points = a.mesh_frequency.size();
   if (points > 0) {
-    Eigen::Index worst = 0;
-    const double peak = a.dte_rms.maxCoeff(&worst);
-    add(lines, "largest DTE", peak * 1e6, " µm RMS at ", a.mesh_frequency[worst], " Hz");
+    Eigen::Index worst = 0, mesh = 0;
+    const double peak = a.dte_rms.maxCoeff(&worst, &mesh);
+    add(lines, "largest DTE", peak * 1e6, " µm RMS at ", a.mesh_frequency[worst], " Hz",
+        a.of_train() ? " of " + a.mesh_names[static_cast<size_t>(mesh)] : "");
     add(lines, "orbits", points, ", of them ", points - a.stable.sum(), " unstable; largest residual ",
         a.residual.maxCoeff());
     for (const int periods : {2, 4, 8})

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "gear/layout.h"
-#include "signal/jump_words.h"
 
 namespace whine {
 
@@ -55,28 +54,6 @@ void show_model(SummaryLines& lines, const SystemSweepParameters& s) {
   add(lines, "system", s.layout.bodies.size(), " bodies, ", s.layout.meshes.size(), " meshes");
   add(lines, "model", "body ", s.fidelity.body, ", contact ", s.fidelity.contact, ", damping ",
       s.damping.rayleigh_stiffness, " s and ", s.damping.rayleigh_mass, " 1/s");
-}
-
-void show(SummaryLines& lines, const SystemImpactResult& a) {
-  show_model(lines, a.settings);
-  add(lines, "ring-down", a.mesh_phase.size(), " mesh phases, ", a.damping_ratio.cols(), " modes");
-  for (Eigen::Index k = 0; k < a.damping_ratio.cols(); ++k)
-    add(lines, text("mode ", k + 1), a.natural_frequency.col(k).minCoeff(), " to ",
-        a.natural_frequency.col(k).maxCoeff(), " Hz, damping ratio ", a.damping_ratio.col(k).minCoeff() * 100,
-        " to ", a.damping_ratio.col(k).maxCoeff() * 100, " %");
-  if (a.fit_residual.size() > 0)
-    add(lines, "residual of the fits", a.fit_residual.maxCoeff(), " of the decay");
-}
-
-void show(SummaryLines& lines, const SystemBranchResult& a) {
-  show_model(lines, a.settings);
-  add(lines, "orbits", a.mesh_frequency.size(), ", ", a.mesh_frequency.size() - a.stable.sum(),
-      " of them unstable");
-  if (a.mesh_frequency.size() > 0)
-    add(lines, "mesh frequencies", a.mesh_frequency.minCoeff(), " to ", a.mesh_frequency.maxCoeff(), " Hz");
-  if (a.fold_frequency.size() > 0) add(lines, "folds", jump_words(a.fold_frequency, a.fold_width));
-  if (a.flip_frequency.size() > 0) add(lines, "period doublings", jump_words(a.flip_frequency, a.flip_width));
-  add(lines, "end", a.end);
 }
 
 std::string words_of(const ToothErrors& e) {

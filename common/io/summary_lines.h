@@ -13,8 +13,6 @@
 #include "results/modes.h"
 #include "results/static.h"
 #include "results/sweep.h"
-#include "results/system_branch.h"
-#include "results/system_impact.h"
 
 namespace whine {
 
@@ -46,7 +44,5 @@ void show(SummaryLines& lines, const StaticResult& a);  // of a pair
 void show(SummaryLines& lines, const SystemStaticResult& a);
 // Which gears have errors, and after how many mesh periods the same teeth meet.
 void show_differing_teeth(SummaryLines& lines, const SystemStaticParameters& s, int periods);
-void show(SummaryLines& lines, const SystemImpactResult& a);
-void show(SummaryLines& lines, const SystemBranchResult& a);
 
 }  // namespace whine

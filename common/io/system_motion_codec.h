@@ -14,14 +14,11 @@ class Codec;
 
 void describe_system(Codec& codec, SystemSweepParameters& settings, Eigen::VectorXd& torque,
                      const LayoutPlace& place = {});
-// The same with axis_frequency: Hz, as axis_frequency() gives it.
-void describe_system_motion(Codec& codec, SystemSweepParameters& settings, Eigen::VectorXd& torque,
-                            double& axis_frequency);
-// What pairs and trains in motion were computed from: /layout of a train, the parameters of two gears of a pair.
-void describe_source(Codec& codec, MotionSource& source);
+// What pairs and trains in motion were computed from: /layout of a train, the parameters of two gears of a pair; `time`: its
+// discretisation, too.
+void describe_source(Codec& codec, MotionSource& source, bool time = true);
 // /mesh and /body, the coordinates of the axes mesh and body: of a pair one mesh and two bodies, else those of the layout.
 void describe_names(Codec& codec, bool of_train, std::vector<std::string>& meshes,
                     std::vector<std::string>& bodies);
-void describe_time_steps(Codec& codec, TimeDiscretisation& time);
 
 }  // namespace whine

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "io/artifact_file.h"
+#include "io/keys.h"
 #include "io/system_motion_codec.h"
 #include "model/response_quantities.h"
 
@@ -23,7 +24,7 @@ void describe_train(Codec& c, VariantResult& a) {
     c(a.names.shared, "/shared_mesh", "shared_mesh", "[[mesh]] of several planets, which share its load");
   if (c.lists() || !c.optional("/parameters/damping/rayleigh_stiffness", !a.directions.empty())) return;
   c.parameters("damping", keys(a.train.damping));
-  describe_time_steps(c, a.train.time);
+  c.parameters("discretisation", keys(a.train.time));
 }
 
 }  // namespace

@@ -92,9 +92,9 @@ double largest_load(const SceneResults& s, const Motion& m, LoadOf what) {
 
 Finding table_frequency(const SceneResults& s, int torque, ContactState state) {
   const ImpactResult& i = s.ring_down(torque);
-  const auto row = i.row_of(state);
+  const auto row = i.states.row_of(state);
   if (!row) return {kNone, "no part of the period has " + name_of(state) + " loaded pairs"};
-  const double frequency = i.natural_frequency[*row];
+  const double frequency = i.states.natural_frequency[*row];
   if (state != ContactState::mean)
     return {frequency, torque == kTorques[0] ? std::string()
                                              : text("mean stiffness ", digits(100 * stiffening(s, torque), 2),
@@ -103,11 +103,13 @@ Finding table_frequency(const SceneResults& s, int torque, ContactState state) {
       (i.loaded_pairs.array() >= 2).cast<double>().sum() / static_cast<double>(i.loaded_pairs.size());
   std::string note =
       text("two pairs loaded for ", digits(100 * loaded, 3), " % of the period, tip edges included");
-  const auto one = i.row_of(ContactState::one), two = i.row_of(ContactState::two);
+  const auto one = i.states.row_of(ContactState::one), two = i.states.row_of(ContactState::two);
   const double share = s.at_rest(torque).contact_ratio - 1;
   if (one && two)
-    note += text("; weighted with the ", digits(100 * share, 3), " % of the contact ratio: ",
-                 digits((1 - share) * i.natural_frequency[*one] + share * i.natural_frequency[*two]), " Hz");
+    note += text(
+        "; weighted with the ", digits(100 * share, 3), " % of the contact ratio: ",
+        digits((1 - share) * i.states.natural_frequency[*one] + share * i.states.natural_frequency[*two]),
+        " Hz");
   return {frequency, note};
 }
 
@@ -117,7 +119,8 @@ Finding damping(const SceneResults& s) {
   for (const auto& [state, words] : {std::pair{ContactState::one, "one pair in mesh"},
                                      {ContactState::two, "two pairs in mesh"},
                                      {ContactState::mean, "mean over the cycle"}})
-    if (const auto row = i.row_of(state)) readings.push_back({words, 100 * i.damping_ratio[*row]});
+    if (const auto row = i.states.row_of(state))
+      readings.push_back({words, 100 * i.states.damping_ratio[*row]});
   return nearest_reading(readings, 7, "%",
                          text("rayleigh_stiffness_s = ", digits(i.damping.rayleigh_stiffness, 3),
                               ", ring-down at ", kFigureTorque, " N m"));

@@ -105,7 +105,7 @@ std::string excitation(const SceneResults& s, int torque) {
                            " % of its mean");
   const auto damped = s.impacts.find(text("T", torque, "/impact.h5"));
   if (damped != s.impacts.end())
-    words += text(", damping ", digits(100 * damped->second.damping_ratio.tail(1)[0], 3), " %");
+    words += text(", damping ", digits(100 * damped->second.states.damping_ratio.tail(1)[0], 3), " %");
   return words;
 }
 

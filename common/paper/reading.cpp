@@ -90,7 +90,7 @@ const double kDamped = std::sqrt(1 - kPaperDampingRatio * kPaperDampingRatio);
 
 Index row_of(const ImpactResult& impact, const std::string& state) {
   const auto wanted = choice_of<ContactState>(state);
-  const auto row = wanted ? impact.row_of(*wanted) : std::nullopt;
+  const auto row = wanted ? impact.states.row_of(*wanted) : std::nullopt;
   if (!row)
     fail(Failure::input, "at ", impact.torque, " N m no mesh phase has the contact state '", state, "'");
   return *row;
@@ -224,7 +224,7 @@ double PaperPair::tied_inertia(const std::string& from) {
       for (const Claim& row : claims_) {
         if (row.value != kNaturalFrequency || row.torque != kTorques[t]) continue;
         if (from != "table" && from != row.contact) continue;
-        sum += row.printed / (kDamped * at_phase.undamped_frequency[row_of(at_phase, row.contact)]);
+        sum += row.printed / (kDamped * at_phase.states.undamped_frequency[row_of(at_phase, row.contact)]);
         ++count;
       }
     }
@@ -295,7 +295,7 @@ Reading PaperPair::evaluate(const OpenChoices& choices) {
     const StaticResult& rest = pair_.at_rest(kFigureTorque);
     const ImpactResult at = frozen_impact(body_, body_, rest, bearing_stiffness, at_phase, kFixedPhases);
     out.rayleigh_mass = choices.mass_share * 2 * kPaperDampingRatio * 2 * std::numbers::pi *
-                        at.undamped_frequency[row_of(at, choices.damped_state)];
+                        at.states.undamped_frequency[row_of(at, choices.damped_state)];
   }
   out.rayleigh_stiffness = tied_rayleigh_stiffness(choices, out.total_inertia, out.rayleigh_mass);
   return judge(std::move(out));

@@ -117,7 +117,7 @@ struct SceneReader {
     if (kind == "static.h5")
       require_operation(file, results.statics[file] = whine::read_pair_statics(path));
     else if (kind == "impact.h5")
-      require_operation(file, results.impacts[file] = whine::read<ImpactResult>(path));
+      require_operation(file, results.impacts[file] = read_pair_impact(path));
     else if (kind == "sweep.h5")
       require_sweep(file, results.sweeps[file] = whine::read<SweepResult>(path));
     else

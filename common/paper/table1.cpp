@@ -45,11 +45,11 @@ Figure natural_frequency_table(std::vector<ImpactResult> impacts, const std::vec
       fail(Failure::input, "table: two impact.h5 of the same torque, ", torque_words(a.torque),
            "; give each once");
     const auto at = [&](ContactState state) {
-      const auto row = a.row_of(state);
+      const auto row = a.states.row_of(state);
       if (!row)
         fail(Failure::input, "table: at ", torque_words(a.torque), " the impact.h5 holds no contact state '",
              state, "'; with this load no phase has it");
-      return a.natural_frequency[*row];
+      return a.states.natural_frequency[*row];
     };
     const double low = at(few), high = at(many);
     std::vector<double> row{a.torque};

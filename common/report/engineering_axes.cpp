@@ -179,7 +179,7 @@ void apply(const EngineeringAxes& axes, Figure& figure) {
   if (figure.levels.empty())
     fail(
         Failure::usage, "--db ", reference,
-        ": this figure has no amplitudes of the transmission error; it is for order-cuts, system-sweep, system-branch, compare-motion and runup");
+        ": this figure has no amplitudes of the transmission error; it is for order-cuts, system-sweep, branch, compare-motion and runup");
   in_levels(reference, figure);
 }
 

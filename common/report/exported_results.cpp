@@ -62,13 +62,13 @@ void export_ring_down(const ReportContent& c, Collector& all) {
        {std::pair{"one_pair", ContactState::one}, std::pair{"two_pairs", ContactState::two}}) {
     const auto at = [&c, wanted = state](const StaticResult& s, auto member, double scale) {
       const ImpactResult* a = impact_of(c, s.torque);
-      const auto row = a ? a->row_of(wanted) : std::nullopt;
-      return row ? Value((a->*member)[*row] * scale) : Value();
+      const auto row = a ? a->states.row_of(wanted) : std::nullopt;
+      return row ? Value((a->states.*member)[*row] * scale) : Value();
     };
     all.add(text("natural_frequency_", name), kHertz,
-            [&](const StaticResult& s) { return at(s, &ImpactResult::natural_frequency, 1.0); });
+            [&](const StaticResult& s) { return at(s, &ContactStateDecays::natural_frequency, 1.0); });
     all.add(text("damping_ratio_", name), "%",
-            [&](const StaticResult& s) { return at(s, &ImpactResult::damping_ratio, kPercent); });
+            [&](const StaticResult& s) { return at(s, &ContactStateDecays::damping_ratio, kPercent); });
   }
 }
 

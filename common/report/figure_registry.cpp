@@ -9,6 +9,7 @@
 #include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "io/scene_words.h"
+#include "report/branch_figure.h"
 #include "report/campbell_figure.h"
 #include "report/compare_figures.h"
 #include "report/efficiency_figure.h"
@@ -18,6 +19,7 @@
 #include "report/fold_curve_figure.h"
 #include "report/gear_figures.h"
 #include "report/harris_figure.h"
+#include "report/impact_figure.h"
 #include "report/jump_map_figures.h"
 #include "report/modes_figure.h"
 #include "report/motion_figures.h"
@@ -29,9 +31,7 @@
 #include "report/sensitivity_figure.h"
 #include "report/static_figures.h"
 #include "report/study_figure.h"
-#include "report/system_branch_figure.h"
 #include "report/system_figures.h"
-#include "report/system_impact_figure.h"
 #include "report/system_picture.h"
 #include "report/system_sweep_figure.h"
 #include "signal/response.h"
@@ -73,9 +73,9 @@ Captioned<ResponseResult> read_responses(const Paths& inputs) {
   CaptionSources& background = captions.background;
   for (const std::string& path : inputs) {
     if (is_a("whine/impact", path)) {
-      background.impacts.push_back(read<ImpactResult>(path));
+      background.impacts.push_back(read_pair_impact(path));
     } else if (is_a("whine/branch", path)) {
-      background.branches.push_back(read<BranchResult>(path));
+      background.branches.push_back(read_pair_branch(path));
     } else if (is_a("whine/sweep", path)) {
       const SweepResult sweep = read_pair_sweep(path);
       captions.add(path, response(sweep), sweep.lumped);
@@ -90,7 +90,7 @@ Captioned<SweepResult> read_sweeps(const Paths& inputs) {
   Captioned<SweepResult> captions;
   for (const std::string& path : inputs) {
     if (is_a("whine/impact", path)) {
-      captions.background.impacts.push_back(read<ImpactResult>(path));
+      captions.background.impacts.push_back(read_pair_impact(path));
     } else {
       const SweepResult sweep = read_pair_sweep(path);
       captions.add(path, sweep, sweep.lumped);
@@ -117,7 +117,7 @@ Figure draw_root_stress(const Paths& inputs, const Frequencies&) {
     if (is_a("whine/static", path))
       statics.push_back(read_pair_statics(path));
     else if (is_a("whine/branch", path))
-      branches.push_back(read<BranchResult>(path));
+      branches.push_back(read_pair_branch(path));
     else
       sweeps.push_back(read_pair_response(path));
   if (statics.size() != 1)
@@ -245,6 +245,17 @@ Figure draw_runup(const Paths& inputs, const Frequencies&) {
 
 Drawings drawings_of_motions() {
   return {
+      {"ring-down",
+       {"damping ratios and natural frequencies by ring-down, of the mesh of a pair or the modes of a train",
+        "impact.h5", 1, 0,
+        [](const Paths& in, const Frequencies&) { return impact_figure(read<ImpactResult>(in[0])); }}},
+      {"branch",
+       {"the branch of periodic motions, stable and unstable, over the sweeps",
+        "branch.h5, and response.h5 of the same pair or train if you like", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          const Paths sweeps(in.begin() + 1, in.end());
+          return branch_figure(read<BranchResult>(in[0]), read_all(sweeps, read<ResponseResult>));
+        }}},
       {"runup",
        {"a run-up: spectrogram of the mesh force, orders of the transmission error, tooth loads",
         "runup.h5; response.h5 of sweeps at the same torque, to compare", 0, 0, draw_runup}},
@@ -392,20 +403,6 @@ Drawings drawings_of_systems() {
         "response.h5 of one system, rising, falling or both", 0, 0,
         [](const Paths& in, const Frequencies&) {
           return system_sweep_figure(read_all(in, read<ResponseResult>));
-        }}},
-      {"system-ringdown",
-       {"damping ratios and natural frequencies of the modes of a system by ring-down",
-        "impact.h5 of a system", 1, 0,
-        [](const Paths& in, const Frequencies&) {
-          return system_impact_figure(read<SystemImpactResult>(in[0]));
-        }}},
-      {"system-branch",
-       {"the branch of periodic motions of a system, stable and unstable, over its sweeps",
-        "branch.h5 of a system, and response.h5 of the same system if you like", 0, 0,
-        [](const Paths& in, const Frequencies&) {
-          const Paths sweeps(in.begin() + 1, in.end());
-          return system_branch_figure(read<SystemBranchResult>(in[0]),
-                                      read_all(sweeps, read<ResponseResult>));
         }}},
   };
 }

@@ -17,7 +17,8 @@ Figure multiplier_figure(const BranchResult& b) {
   const Index n = b.mesh_frequency.size();
   if (n == 0) fail(Failure::input, "a figure of multipliers needs a branch with one orbit at least");
   Figure figure;
-  figure.title = "Floquet multipliers along the branch of periodic orbits, " + torque_words(b.torque);
+  figure.title = "Floquet multipliers along the branch of periodic orbits, " +
+                 (b.of_train() ? "of a train" : torque_words(b.torque));
   FigureBlock plane{"multipliers", {"real", "imaginary", "mesh_frequency [Hz]", "stable"}, {}};
   FigureBlock modulus{"modulus", {"mesh_frequency [Hz]", "largest modulus", "stable"}, {}};
   double largest = 1;

@@ -15,6 +15,19 @@ bool agree(double a, double b) {
   return std::abs(a - b) <= 1e-9 * std::max(std::abs(a), std::abs(b));
 }
 
+bool one_source(const MotionSource& a, const MotionSource& b) {
+  bool same = a.of_train() == b.of_train() && one_system(a.train.layout, b.train.layout);
+  for (size_t g = 0; same && g < kSides; ++g)
+    same = a.gear[g].design.teeth == b.gear[g].design.teeth &&
+           a.gear[g].design.module == b.gear[g].design.module;
+  return same;
+}
+
+// N m: on each body, of a pair on the driver.
+Eigen::VectorXd torques_of(const MotionSource& a) {
+  return a.of_train() ? a.drive : Eigen::VectorXd::Constant(1, a.torque);
+}
+
 }  // namespace
 
 bool one_system(const System& a, const System& b) {
@@ -42,21 +55,29 @@ void add_shafts(const System& system, Figure& figure) {
   }
 }
 
-void require_one_system(const std::string& what, const SystemSweepParameters& settings,
-                        const Eigen::VectorXd& torque, const std::vector<ResponseResult>& sweeps) {
-  const System& s = settings.layout;
+void add_shafts(const MotionSource& source, Figure& figure) {
+  if (source.of_train())
+    add_shafts(source.train.layout, figure);
+  else
+    figure.shafts = shafts_of(source);
+}
+
+void require_one_system(const std::string& what, const MotionSource& source,
+                        const std::vector<ResponseResult>& sweeps) {
+  const Eigen::VectorXd torque = torques_of(source);
   for (size_t i = 0; i < sweeps.size(); ++i) {
     const ResponseResult& sweep = sweeps[i];
     const std::string of = text("the sweep ", name_of(sweep.direction));
-    if (!one_system(sweep.train.layout, s))
+    if (!one_source(sweep, source))
       fail(Failure::input, "figure: ", what, " and ", of,
            " are of two systems, with other bodies, teeth or meshes; give those of one scene");
+    const Eigen::VectorXd other_torque = torques_of(sweep);
     for (Eigen::Index b = 0; b < torque.size(); ++b)
-      if (!agree(sweep.drive[b], torque[b]))
-        fail(Failure::input, "figure: the torque on '", s.bodies[static_cast<size_t>(b)].name, "' is ",
-             torque[b], " N m in ", what, " and ", sweep.drive[b], " N m in ", of,
+      if (!agree(other_torque[b], torque[b]))
+        fail(Failure::input, "figure: the torque on '", source.body_names[static_cast<size_t>(b)], "' is ",
+             torque[b], " N m in ", what, " and ", other_torque[b], " N m in ", of,
              "; give those of one scene");
-    const Damping &own = settings.damping, &other = sweep.train.damping;
+    const Damping &own = source.damping_used(), &other = sweep.damping_used();
     if (!agree(own.rayleigh_stiffness, other.rayleigh_stiffness) ||
         !agree(own.rayleigh_mass, other.rayleigh_mass))
       fail(Failure::input, "figure: the damping is ", own.rayleigh_stiffness, " s x stiffness + ",

@@ -16,12 +16,13 @@ bool jumps_between(const ResponseResult& sweep, double from, double to);
 // "jumps: speed rising 2645 +- 0.4 Hz"; "" where none is known.
 std::string jump_note(const std::vector<ResponseResult>& sweeps);
 
-// What a figure of a system needs for speeds in rpm: its gears and carriers, or why they have none.
+// What a figure needs for speeds in rpm: gears and carriers, or why they have none.
 void add_shafts(const System& system, Figure& figure);
+void add_shafts(const MotionSource& source, Figure& figure);
 
-// Throws Error(input) unless all sweeps are of one system, with one torque on each body and one damping, at most one of them in a
-// direction. `settings` and `torque`: of what else stands in the figure, or of the first sweep; `what` it is, such as "the branch".
-void require_one_system(const std::string& what, const SystemSweepParameters& settings,
-                        const Eigen::VectorXd& torque, const std::vector<ResponseResult>& sweeps);
+// Throws Error(input) unless all sweeps are of one pair or train, with one torque on each body and one damping, at most one of them in a
+// direction. `source`: of what else stands in the figure, or of the first sweep; `what` it is, such as "the branch".
+void require_one_system(const std::string& what, const MotionSource& source,
+                        const std::vector<ResponseResult>& sweeps);
 
 }  // namespace whine

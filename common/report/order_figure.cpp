@@ -68,7 +68,7 @@ Figure orders_of_train(const std::vector<ResponseResult>& sweeps) {
     fail(Failure::input, "figure: a sweep of no speeds was given");
   const ResponseResult& a = sweeps.front();
   const System& s = a.train.layout;
-  require_one_system("another sweep", a.train, a.drive, sweeps);
+  require_one_system("another sweep", a, sweeps);
   Figure figure;
   figure.title = "Order cuts of the dynamic transmission error (DTE) of a system";
   figure.notes = in_lines(bodies_words(s, a.drive));

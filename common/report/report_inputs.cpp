@@ -127,7 +127,7 @@ ReportContent read_report_content(const std::vector<std::string>& paths) {
     if (schema == "whine/static") {
       content.statics.push_back(read_pair_statics(path));
     } else if (schema == "whine/impact") {
-      content.impacts.push_back(read<ImpactResult>(path));
+      content.impacts.push_back(read_pair_impact(path));
     } else if (schema == "whine/error_budget") {
       content.budget = read<ErrorBudgetResult>(path);
     } else if (schema == "whine/response") {

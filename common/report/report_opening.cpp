@@ -58,9 +58,10 @@ std::string pair_critical_speeds(const FirstTorque& t) {
   const ResponseResult* r = t.sweep();
   if (r && r->natural_frequency > 0)
     out.natural.push_back({r->natural_frequency, "the natural frequency of the mesh"});
-  else if (t.ring_down && t.ring_down->natural_frequency.size() > 0)
-    out.natural.push_back({t.ring_down->natural_frequency[t.ring_down->natural_frequency.size() - 1],
-                           "the natural frequency of the mesh"});
+  else if (t.ring_down && t.ring_down->states.natural_frequency.size() > 0)
+    out.natural.push_back(
+        {t.ring_down->states.natural_frequency[t.ring_down->states.natural_frequency.size() - 1],
+         "the natural frequency of the mesh"});
   if (r)
     for (const Index i : resonances(*r)) out.peaks.push_back(r->mesh_frequency[i]);
   return critical_speed_line(out);
@@ -135,8 +136,8 @@ std::string pair_advice(const FirstTorque& t) {
   out.avoid = pair_speeds_to_avoid(t, out.parts);
   if (s.stiffness_harmonic.size() > 1)
     out.stiffness_swing = s.stiffness_harmonic[1] / s.stiffness_harmonic[0];
-  if (t.ring_down && t.ring_down->damping_ratio.size() > 0)
-    out.damping_ratio = t.ring_down->damping_ratio[t.ring_down->damping_ratio.size() - 1];
+  if (t.ring_down && t.ring_down->states.damping_ratio.size() > 0)
+    out.damping_ratio = t.ring_down->states.damping_ratio[t.ring_down->states.damping_ratio.size() - 1];
   return advice_line(out);
 }
 

@@ -173,16 +173,17 @@ class RemarksByTorque {
 std::string remarks_list(const ReportContent& c) {
   RemarksByTorque at_rest, ring_downs, in_motion;
   for (const StaticResult& s : c.statics) at_rest.add("at rest", s.torque, s.remarks);
-  for (const ImpactResult& a : c.impacts) {
+  for (const ImpactResult& impact : c.impacts) {
+    const ContactStateDecays& a = impact.states;
     std::vector<Remark> found;
-    for (Index i = 0; i < a.state_phase.size(); ++i)
+    for (Index i = 0; i < a.mesh_phase.size(); ++i)
       if (const double ratio = a.damping_ratio[i]; ratio < 0.01 || ratio > 0.12)
         found.push_back(
             remark(true, "the damping ratio by ring-down with ", a.contact_state[static_cast<size_t>(i)],
                    a.contact_state[static_cast<size_t>(i)] == ContactState::one ? " pair" : " pairs",
                    " in contact is ", shown(ratio * kPercent, 3),
                    " %, outside 1 to 12 %; `make calibrate` finds the damping for a ratio"));
-    ring_downs.add("ring-down", a.torque, found);
+    ring_downs.add("ring-down", impact.torque, found);
   }
   for (const ResponseResult& s : c.sweeps) {
     std::vector<Remark> found = s.remarks;

@@ -116,12 +116,12 @@ void add_losses(const StaticResult& s, Adder add) {
   }
 }
 
-void add_ring_down(const ImpactResult& a, Adder add) {
+void add_ring_down(const ContactStateDecays& a, Adder add) {
   add.group = kNatural;
   for (size_t i = 0; i < a.contact_state.size(); ++i) {
     const Index at = static_cast<Index>(i);
     const std::string state =
-        at < a.state_phase.size()
+        at < a.mesh_phase.size()
             ? name_of(a.contact_state[i]) + (a.contact_state[i] == ContactState::one ? " pair" : " pairs")
             : "mean over the period";
     add.speed("natural frequency by ring-down, " + state, a.natural_frequency[at]);
@@ -329,7 +329,7 @@ std::vector<ReportNumber> report_numbers(const ReportContent& c) {
     std::vector<const ResponseResult*> sweeps;
     for (const Direction direction : {Direction::up, Direction::down})
       if (const ResponseResult* sweep = sweep_of(c, s.torque, direction)) sweeps.push_back(sweep);
-    if (const ImpactResult* a = impact_of(c, s.torque)) add_ring_down(*a, add);
+    if (const ImpactResult* a = impact_of(c, s.torque)) add_ring_down(a->states, add);
     add_motion(s, sweeps, add);
   }
   return out;

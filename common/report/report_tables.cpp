@@ -28,15 +28,15 @@ using Eigen::Index;
 std::string bearing_frequencies_table(const ReportContent& c) {
   html::Rows rows;
   for (const ImpactResult& a : c.impacts)
-    for (Index i = 0; i < a.state_phase.size() && a.frozen_frequency.size() > 0; ++i) {
+    for (Index i = 0; i < a.states.mesh_phase.size() && a.frozen_frequency.size() > 0; ++i) {
       Index phase = 0;
-      (a.mesh_phase.array() - a.state_phase[i]).abs().minCoeff(&phase);
+      (a.mesh_phase.array() - a.states.mesh_phase[i]).abs().minCoeff(&phase);
       std::string all, turned;
       for (const double f : a.frozen_frequency.row(phase)) {
         all += (all.empty() ? "" : ", ") + fixed(f, 1);
         turned += (turned.empty() ? "" : ", ") + fixed(driver_of(c).rpm(f), 0);
       }
-      rows.push_back({shown(a.torque, 6), name_of(a.contact_state[static_cast<size_t>(i)]),
+      rows.push_back({shown(a.torque, 6), name_of(a.states.contact_state[static_cast<size_t>(i)]),
                       all + "\n" + turned + " rpm"});
     }
   if (rows.empty()) return "";
@@ -212,14 +212,16 @@ std::string stiffness_tables(const ReportContent& c) {
 std::string natural_frequencies_table(const ReportContent& c) {
   const TurningMember driver = driver_of(c);
   html::Rows rows;
-  for (const ImpactResult& a : c.impacts)
+  for (const ImpactResult& impact : c.impacts) {
+    const ContactStateDecays& a = impact.states;
     for (Index i = 0; i < a.natural_frequency.size(); ++i)
-      rows.push_back({shown(a.torque, 6),
-                      i < a.state_phase.size() ? name_of(a.contact_state[static_cast<size_t>(i)])
-                                               : "mean over the mesh period",
+      rows.push_back({shown(impact.torque, 6),
+                      i < a.mesh_phase.size() ? name_of(a.contact_state[static_cast<size_t>(i)])
+                                              : "mean over the mesh period",
                       fixed(a.natural_frequency[i], 1), fixed(driver.rpm(a.natural_frequency[i]), 0),
                       fixed(a.damping_ratio[i] * kPercent, 3), fixed(a.undamped_frequency[i], 1),
                       fixed(driver.rpm(a.undamped_frequency[i]), 0)});
+  }
   return html::table(
              "Natural frequency and damping ratio of the mesh by ring-down: the gears are at a fixed mesh phase, a part of the torque is let go, and the decay is fitted. Rpm: of the driver, as the mesh frequency meets it.",
              {"torque (N m)", "loaded tooth pairs", "by ring-down (Hz)", "met at (rpm)", "damping ratio (%)",

@@ -49,7 +49,7 @@ FigureBlock orbit_block(const std::string& name, const BranchResult& b, bool sta
                     stable ? "stable orbits" : "unstable orbits",
                     name};
   const auto add = [&](Eigen::Index i) {
-    block.rows.push_back({b.mesh_frequency[i], b.dte_rms[i] * kMicro, b.dte_mean[i] * kMicro});
+    block.rows.push_back({b.mesh_frequency[i], b.dte_rms(i, 0) * kMicro, b.dte_mean(i, 0) * kMicro});
   };
   const auto shown = [&](Eigen::Index i) { return (b.stable[i] != 0) == stable; };
   const Eigen::Index n = b.mesh_frequency.size();
@@ -74,7 +74,7 @@ FigureBlock fold_block(const std::string& name, const BranchResult& b) {
                     name};
   for (Eigen::Index i = 0; i < b.fold_frequency.size(); ++i)
     block.rows.push_back(
-        {b.fold_frequency[i], b.fold_rms[i] * kMicro, b.fold_multiplier(i, 0), b.fold_multiplier(i, 1)});
+        {b.fold_frequency[i], b.fold_rms(i, 0) * kMicro, b.fold_multiplier(i, 0), b.fold_multiplier(i, 1)});
   return block;
 }
 

@@ -104,21 +104,21 @@ FigureBlock branch_block(const BranchResult& b, const StaticResult& s, const AtR
   if (b.torque != s.torque)
     fail(Failure::input, "root-stress: a branch.h5 of ", b.torque, " N m; static.h5 is of ", s.torque,
          " N m; give both of one torque");
-  if (b.root_stress_sustained[0].size() == 0 || b.root_stress_sustained[1].size() == 0)
+  if (b.root_stress_sustained.size() == 0)
     fail(Failure::input, "root-stress: branch.h5 holds no root stress; make it anew");
   FigureBlock block{"branch", motion_columns(b), {}};
   for (const char* column : {"stable [1]", "part [1]"}) block.columns.emplace_back(column);
   add_place_columns(b, block);
   for (Eigen::Index i = 0; i < b.mesh_frequency.size(); ++i) {
     if (i > 0 && b.part[i] != b.part[i - 1]) block.rows.emplace_back();
-    const double first = b.root_stress_sustained[0][i], second = b.root_stress_sustained[1][i];
+    const double first = b.root_stress_sustained(i, 0), second = b.root_stress_sustained(i, 1);
     block.rows.push_back({b.mesh_frequency[i], first * kInMegapascals, second * kInMegapascals,
-                          b.mesh_force_sustained[i] / rest.mesh_force,
-                          b.tooth_load_sustained[i] / rest.tooth_load, first / rest.root_stress[0],
+                          b.mesh_force_sustained(i, 0) / rest.mesh_force,
+                          b.tooth_load_sustained(i, 0) / rest.tooth_load, first / rest.root_stress[0],
                           second / rest.root_stress[1], static_cast<double>(b.stable[i]),
                           static_cast<double>(b.part[i])});
-    for (size_t g = 0; g < kSides; ++g)
-      add_place(b.root_stress_angle[g][i], b.root_stress_phase[g][i], block.rows.back());
+    for (Eigen::Index g = 0; g < kSides; ++g)
+      add_place(b.root_stress_angle(i, g), b.root_stress_phase(i, g), block.rows.back());
   }
   return block;
 }

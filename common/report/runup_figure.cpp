@@ -173,7 +173,7 @@ bool add_sweeps(const RunupResult& a, const std::vector<ResponseResult>& sweeps,
       fail(Failure::input, "the run-", a.direction, " has ", a.meshes(), " meshes, a sweep ",
            r.dte_rms.cols(), "; give sweeps of the same scene");
     if (a.of_train())
-      require_one_system(text("the run-", a.direction), a.train, a.drive, {r});
+      require_one_system(text("the run-", a.direction), a, {r});
     else if (r.torque != a.torque)
       fail(Failure::input, "the run-", a.direction, " is at ", a.torque, " N m, a sweep at ", r.torque,
            " N m; give sweeps of the same torque");
@@ -213,10 +213,7 @@ Figure runup_figure(const RunupResult& a, const std::vector<ResponseResult>& swe
       "(c, d) of each mesh period, at its time steps; load: what a pair sustains for 1/64 of it; the mesh frequency changes by ",
       shown(std::abs(a.mesh_acceleration), 4), " Hz/s, ", up ? "rising" : "falling", " for ",
       shown((a.ramp.to - a.ramp.from) / a.mesh_acceleration, 3), " s"));
-  if (a.of_train())
-    add_shafts(a.train.layout, figure);
-  else
-    figure.shafts = shafts_of(a);
+  add_shafts(a, figure);
   for (int n = 1; n <= kRunupOrders; ++n) figure.levels.push_back({text("order_", n, " [µm]"), true});
   return figure;
 }

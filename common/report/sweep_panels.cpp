@@ -119,18 +119,18 @@ std::string operating_words(const ChoicePanel<Sweep>& panel, const CaptionSource
     const auto found =
         std::find_if(background.impacts.begin(), background.impacts.end(), [&](const ImpactResult& impact) {
           return impact.torque == s.torque && gears_with_model(impact) == gears_with_model(s) &&
-                 impact.mesh.modification == s.mesh.modification && impact.state_phase.size() > 0;
+                 impact.mesh.modification == s.mesh.modification && impact.states.mesh_phase.size() > 0;
         });
     if (!elastic(s) || found == background.impacts.end()) continue;
     // Many pairs as without load; with any load there may be more.
     const auto many = static_cast<ContactState>(std::ceil(GearPair(s).contact_ratio() - 1e-9));
-    const auto& states = found->contact_state;
-    const Eigen::Index i = found->row_of(many).value_or(found->state_phase.size() - 1);
+    const auto& states = found->states.contact_state;
+    const Eigen::Index i = found->states.row_of(many).value_or(found->states.mesh_phase.size() - 1);
     const std::string own = name_of(states[static_cast<size_t>(i)]);
     state = known++ == 0 || state == own ? own : "most";
-    ratios += (ratios.empty() ? "" : ", ") + fixed(found->damping_ratio[i] * kPercent, 2);
+    ratios += (ratios.empty() ? "" : ", ") + fixed(found->states.damping_ratio[i] * kPercent, 2);
     if (i > 0 && states[0] == ContactState::one)
-      with_one += (with_one.empty() ? "" : ", ") + fixed(found->damping_ratio[0] * kPercent, 2);
+      with_one += (with_one.empty() ? "" : ", ") + fixed(found->states.damping_ratio[0] * kPercent, 2);
     once(at, shown(s.torque, 6));
   }
   const auto in_a_row = [](const std::vector<std::string>& list) {

@@ -93,7 +93,7 @@ Figure system_sweep_figure(const std::vector<ResponseResult>& sweeps) {
       fail(Failure::input, "figure: a sweep of no speeds, or of a system without meshes, was given");
   const ResponseResult& a = sweeps.front();
   const System& s = a.train.layout;
-  require_one_system("another sweep", a.train, a.drive, sweeps);
+  require_one_system("another sweep", a, sweeps);
   Figure figure;
   figure.title = "A system over its speeds: vibration, contact loss, forces on bearings";
   figure.notes = in_lines(bodies_words(s, a.drive));

@@ -20,6 +20,8 @@ struct MotionSource : MotionParameters {
   std::vector<std::string> mesh_names, body_names;
 
   bool of_train() const { return !train.layout.bodies.empty(); }
+  const Damping& damping_used() const { return of_train() ? train.damping : damping; }
+  const Fidelity& fidelity_used() const { return of_train() ? train.fidelity : fidelity; }
   int steps_per_period() const { return of_train() ? train.time.steps_per_period : time.steps_per_period; }
   Eigen::Index meshes() const {
     return of_train() ? static_cast<Eigen::Index>(train.layout.meshes.size()) : 1;

@@ -40,11 +40,11 @@ inline constexpr std::array<EnergyLine, 17> kEnergyLines{
      {"dropped", "taken out with the relaxed loads of teeth that are no longer followed"},
      {"throughput", "sum of the sizes of the works of drive and rolling over the steps"}}};
 
-// The column of a line in SweepResult::energy; one past the last for a name that is none.
-constexpr Eigen::Index energy_line(std::string_view name) {
-  size_t line = 0;
-  while (line < kEnergyLines.size() && kEnergyLines[line].name != name) ++line;
-  return static_cast<Eigen::Index>(line);
+// The column of a line in SweepResult::energy. A name that is none does not compile.
+consteval Eigen::Index energy_line(std::string_view name) {
+  for (size_t line = 0; line < kEnergyLines.size(); ++line)
+    if (kEnergyLines[line].name == name) return static_cast<Eigen::Index>(line);
+  throw "no line of the energy balance has this name";
 }
 
 // What a lumped model (Eq. 23) is made of, in place of elastic bodies: m x'' + c x' + sum_i k_i max(x - g_i, 0) = T / r,

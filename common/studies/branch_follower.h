@@ -56,7 +56,7 @@ struct BranchSegment {
   int part = 0;      // segments of one part follow each other along the arc
   // (special) of branch.special: the state there, which any set of candidate contacts can go on from
   std::vector<State> special_state{};
-  // (special) mesh, from 1, and tooth pair of the contact of its event, by the names of these candidate contacts
+  // (special) mesh, from 0, and tooth pair of the contact of its event, by the names of these candidate contacts
   std::vector<std::pair<int, int>> special_place{};
 };
 

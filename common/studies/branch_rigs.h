@@ -42,8 +42,8 @@ class PairRig {
   // Contact forces where this zone has its strips: an orbit puts them there in the periods after which it repeats, at the map's
   // speed. False if contact leaves the zone.
   bool fit(State& state, int periods);
-  // Of a contact of a map's events: its mesh, from 1, and its tooth pair.
-  static std::pair<int, int> place_of(int contact) { return {1, contact}; }
+  // Of a contact of a map's events: its mesh, from 0, and its tooth pair.
+  static std::pair<int, int> place_of(int contact) { return {0, contact}; }
   int level() const { return level_; }
 
  private:
@@ -74,7 +74,7 @@ class TrainRig {
   bool fit(State& /*state*/, int /*periods*/) { return true; }
   std::pair<int, int> place_of(int slot) {
     const SystemDynamics& dynamics = train_.dynamics();
-    return {slot / dynamics.tooth_pairs() + 1, slot % dynamics.tooth_pairs() + dynamics.first_pair()};
+    return {slot / dynamics.tooth_pairs(), slot % dynamics.tooth_pairs() + dynamics.first_pair()};
   }
 
  private:

@@ -1,6 +1,6 @@
 // Fold curves of a pair: mesh frequency of the folds against damping, torque or tip relief, with the cusps in which they end.
 //
-// The folds at one value come from the branch there (studies/pair_branch.h), those at others from these (orbits/fold_curve.h).
+// The folds at one value come from the branch there (studies/branch.h), those at others from these (orbits/fold_curve.h).
 // Between the folds of a pair there are two stable motions at one speed, and beyond a cusp one.
 #pragma once
 #include <functional>

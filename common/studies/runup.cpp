@@ -350,11 +350,6 @@ void runup(const SystemSweepParameters& settings, const std::vector<ReducedBody>
   const TrainSpeeds speeds = train_speeds(settings.layout);
   const size_t input = input_of(settings.layout, speeds);
   RunupResult head = head_of(wanted, 1 / std::abs(speeds.turns[input]));
-  head.time = settings.time;
-  head.train = settings;
-  head.name_parts();
-  head.drive.setZero(static_cast<Index>(settings.layout.bodies.size()));
-  for (int b = 0; b < head.drive.size(); ++b) head.drive[b] = settings.layout.torque(b);
   head.input = settings.layout.bodies[input].name;
   SystemSweepParameters of_ramp = settings;
   of_ramp.frequency_from = std::min(wanted.ramp.from, wanted.ramp.to);

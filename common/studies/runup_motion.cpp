@@ -1,7 +1,6 @@
 #include "studies/runup_motion.h"
 
 #include <algorithm>
-#include <numbers>
 #include <utility>
 
 #include "base/error.h"
@@ -97,7 +96,8 @@ void PairRunup::read(long k) {
   out_.separation.setConstant(1, static_cast<double>(parted) / static_cast<double>(steps));
   out_.tooth_load_max.setConstant(1, sustained_tooth_load(period_.tooth_pair_load));
   if (peaks_.root_stress() && k >= 0)
-    out_.root_stress = peaks_.of(period_, static_cast<int>(k), SustainedPeaks::kNever).segment(2, kSides);
+    out_.root_stress =
+        peaks_.of(period_.tooth_pair_load, static_cast<int>(k), SustainedPeaks::kNever).segment(2, kSides);
   out_.bearing_force.resize(kSides);
   VectorXd closing = period_.transmission_error;  // without what bearings give way
   for (size_t g = 0; g < kSides; ++g)
@@ -113,9 +113,7 @@ void PairRunup::read(long k) {
 }
 
 int TrainRunup::begin(RunupResult& head) {
-  const TrainInMotion& train = rig_.train();
-  head.train = train.used();
-  head.axis_frequency = train.motion().axis_frequency / (2 * std::numbers::pi);
+  static_cast<MotionSource&>(head) = rig_.train().source();
   return -1;
 }
 

@@ -1,6 +1,7 @@
 #include "studies/sustained_peaks.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "signal/branches.h"
@@ -26,19 +27,22 @@ std::vector<double> phases_of(int samples) {
 }  // namespace
 
 SustainedPeaks::SustainedPeaks(const GearMeshModel& model, int steps)
-    : roots_(model, phases_of(samples_of(steps))), samples_(samples_of(steps)) {}
+    : roots_(std::in_place, model, phases_of(samples_of(steps))), samples_(samples_of(steps)) {}
 
-VectorXd SustainedPeaks::of(const RollingDynamics::Period& period, int number, int periods) {
-  const Eigen::Index pairs = period.tooth_pair_load.rows(), stride = period.tooth_pair_load.cols() / samples_;
+SustainedPeaks::SustainedPeaks(int steps) : samples_(samples_of(steps)) {}
+
+VectorXd SustainedPeaks::of(const Eigen::Ref<const Eigen::MatrixXd>& tooth_pair_load, int number,
+                            int periods) {
+  const Eigen::Index pairs = tooth_pair_load.rows(), stride = tooth_pair_load.cols() / samples_;
   const int reach = static_cast<int>(pairs) / 2;
   pair_ = Eigen::VectorXi::LinSpaced(pairs, -reach, reach);
   load_.resize(samples_, pairs);
   along_.resize(samples_, root_stress() ? kRows - 1 : 1);
   for (Eigen::Index n = 0; n < samples_; ++n) {
-    load_.row(n) = period.tooth_pair_load.col(n * stride).transpose();
+    load_.row(n) = tooth_pair_load.col(n * stride).transpose();
     along_(n, 0) = load_.row(n).sum();
     for (int g = 0; root_stress() && g < kSides; ++g) {
-      const RootStress at = roots_.largest(g, static_cast<size_t>(n), pair_, load_.row(n).transpose());
+      const RootStress at = roots_->largest(g, static_cast<size_t>(n), pair_, load_.row(n).transpose());
       along_(n, 1 + g) = at.stress;
       along_(n, 1 + kSides + g) = at.angle;
       along_(n, 1 + 2 * kSides + g) = static_cast<double>(n) / samples_ + at.pair;
@@ -65,8 +69,9 @@ VectorXd SustainedPeaks::of(const RollingDynamics::Period& period, int number, i
   return out;
 }
 
-VectorXd SustainedPeaks::so_far(const RollingDynamics::Period& period, int number, int periods) {
-  const VectorXd own = of(period, number, periods);
+VectorXd SustainedPeaks::so_far(const Eigen::Ref<const Eigen::MatrixXd>& tooth_pair_load, int number,
+                                int periods) {
+  const VectorXd own = of(tooth_pair_load, number, periods);
   if (number == 0) return so_far_ = own;
   for (Eigen::Index k = 0; k < 2; ++k) so_far_[k] = std::max(so_far_[k], own[k]);
   for (Eigen::Index k = 2; k < own.size() && k < 2 + kSides; ++k)

@@ -4,8 +4,8 @@
 // of a load over 1/128 of a mesh period. Root stress is quasi-static in the tooth loads (system/root_stress.h).
 #pragma once
 #include <Eigen/Core>
+#include <optional>
 
-#include "dynamics/dynamics.h"
 #include "system/root_stress.h"
 
 namespace whine {
@@ -15,18 +15,22 @@ class SustainedPeaks {
   // model is kept by reference. steps: per period, the least of those that will be asked for; those are multiples of it by powers
   // of two.
   SustainedPeaks(const GearMeshModel& model, int steps);
-  bool root_stress() const { return roots_.known(); }
+  // Without root stress.
+  explicit SustainedPeaks(int steps);
+  bool root_stress() const { return roots_ && roots_->known(); }
+  // tooth_pair_load: (pair, step) N, pairs -reach..reach.
   // (2, or kRows with root stress) N, N, Pa, Pa: mesh force, load of one pair, root stress of driver and driven gear; then where
   // either root stress occurs, as in a sweep: rad, angles of the roots' tangents; 1, mesh phases of the teeth's pairs. In mesh
   // period `number`, from 0, of a motion that repeats after `periods`, or never: kNever. Periods are given in their order: what is held
   // across the start of one counts with it, and across the end of the last with that. The load of one pair is not followed there.
   static constexpr int kNever = 0, kRows = 2 + 3 * kSides;
-  Eigen::VectorXd of(const RollingDynamics::Period& period, int number = 0, int periods = 1);
+  Eigen::VectorXd of(const Eigen::Ref<const Eigen::MatrixXd>& tooth_pair_load, int number = 0,
+                     int periods = 1);
   // The largest of this period and those before it, from number 0 on.
-  Eigen::VectorXd so_far(const RollingDynamics::Period& period, int number, int periods);
+  Eigen::VectorXd so_far(const Eigen::Ref<const Eigen::MatrixXd>& tooth_pair_load, int number, int periods);
 
  private:
-  RootStresses roots_;
+  std::optional<RootStresses> roots_;
   int samples_;
   Eigen::VectorXi pair_;
   MatrixRM load_;   // (sample, pair) N

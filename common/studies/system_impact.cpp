@@ -25,16 +25,7 @@ constexpr int kSteps = 256, kSamples = 32, kOscillations = 8;
 constexpr int kMostExponentials = 12;  // where contact changes, as of pairs (dynamics/impact.cpp)
 constexpr double kReal = 1e-5;         // Im s / |s| below which a root counts as real
 
-// Pairs that carry force, of each mesh.
-VectorXd loaded_pairs(const SystemDynamics& dynamics, const VectorXd& p) {
-  VectorXd out(dynamics.meshes());
-  for (int m = 0; m < dynamics.meshes(); ++m)
-    out[m] = static_cast<double>(
-        (p.segment(m * dynamics.tooth_pairs(), dynamics.tooth_pairs()).array() > 0).count());
-  return out;
-}
-
-void measure(SystemDynamics& dynamics, int i, const SystemImpactPlan& plan, SystemImpactResult& out) {
+void measure(SystemDynamics& dynamics, int i, const SystemImpactPlan& plan, ImpactResult& out) {
   const SystemDynamics::State rest = dynamics.rest(i);
   const SystemDynamics::FrozenModes modes = dynamics.frozen_modes(i);
   const Index count = out.undamped_frequency.cols();
@@ -42,12 +33,12 @@ void measure(SystemDynamics& dynamics, int i, const SystemImpactPlan& plan, Syst
   const std::vector<DampedRoot> roots = damped_roots(dynamics, i, undamped);
   const double speed = plan.impulse * std::sqrt(2 * dynamics.energy(rest));
   out.mesh_phase[i] = static_cast<double>(i) / plan.phases;
-  out.loaded_pairs.row(i) = loaded_pairs(dynamics, rest.p).transpose();
+  for (int m = 0; m < dynamics.meshes(); ++m)
+    out.loaded_pairs(i, m) = static_cast<int>(
+        (rest.p.segment(m * dynamics.tooth_pairs(), dynamics.tooth_pairs()).array() > 0).count());
   out.undamped_frequency.row(i) = undamped.transpose();
-  const Damping& damping = out.settings.damping;
   for (Index k = 0; k < count; ++k) {
-    const double w = kTwoPi * undamped[k];
-    out.rayleigh_damping_ratio(i, k) = (damping.rayleigh_mass + damping.rayleigh_stiffness * w * w) / (2 * w);
+    out.rayleigh_damping_ratio(i, k) = rayleigh_ratio(out.train.damping, undamped[k]);
     const DampedRoot& root = roots[static_cast<size_t>(k)];
     out.eigen_frequency(i, k) = root.frequency;
     out.eigen_damping_ratio(i, k) = root.damping_ratio;
@@ -134,9 +125,8 @@ std::vector<DampedRoot> damped_roots(SystemDynamics& dynamics, int i, const Vect
   return out;
 }
 
-SystemImpactResult system_impact(const SystemSweepParameters& settings,
-                                 const std::vector<ReducedBody>& bodies, const SystemImpactPlan& plan,
-                                 const std::function<void(long, long)>& report) {
+ImpactResult system_impact(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
+                           const SystemImpactPlan& plan, const std::function<void(long, long)>& report) {
   if (plan.modes < 1 || plan.phases < 1 || !(plan.impulse > 0 && plan.impulse <= 0.1))
     fail(Failure::input, "a ring-down of ", plan.modes, " modes at ", plan.phases,
          " phases with an impulse of ", plan.impulse,
@@ -144,21 +134,14 @@ SystemImpactResult system_impact(const SystemSweepParameters& settings,
   require_like_teeth(settings, "a ring-down of a system");
   TrainInMotion rig(settings, bodies, plan.phases);
   SystemDynamics& dynamics = rig.dynamics();
-  SystemImpactResult out;
-  out.settings = rig.used();
-  const auto all = static_cast<Index>(settings.layout.bodies.size());
-  out.torque.setZero(all);
-  for (int b = 0; b < all; ++b) out.torque[b] = settings.layout.torque(b);
-  out.axis_frequency = rig.motion().axis_frequency / kTwoPi;
+  ImpactResult out;
+  static_cast<MotionSource&>(out) = rig.source();
   out.impulse = plan.impulse;
-  out.rigid_frequency = rigid_frequencies(rig, out.settings.layout);
+  out.rigid_frequency = rigid_frequencies(rig, out.train.layout);
   const Index phases = plan.phases, modes = std::min<Index>(plan.modes, dynamics.coordinates().size());
   out.mesh_phase.setZero(phases);
   out.loaded_pairs.setZero(phases, dynamics.meshes());
-  for (MatrixRM* x :
-       {&out.undamped_frequency, &out.rayleigh_damping_ratio, &out.eigen_frequency, &out.eigen_damping_ratio,
-        &out.natural_frequency, &out.damping_ratio, &out.fit_residual, &out.contact_changes})
-    x->setZero(phases, modes);
+  out.size_modes(phases, modes);
   for (int i = 0; i < plan.phases; ++i) {
     measure(dynamics, i, plan, out);
     report(i + 1, plan.phases);

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "dynamics/system_dynamics.h"
+#include "results/impact.h"
 #include "results/reduced_body.h"
-#include "results/system_impact.h"
 #include "signal/decay.h"
 
 namespace whine {
@@ -40,8 +40,7 @@ std::vector<DampedRoot> damped_roots(SystemDynamics& dynamics, int i, const Eige
 
 // bodies: [gear] of settings.body. report(done, total) is called after each phase. Throws Error(input) for a plan without modes or
 // phases, or an impulse outside (0, 0.1]; else as TrainInMotion and ring_down().
-SystemImpactResult system_impact(const SystemSweepParameters& settings,
-                                 const std::vector<ReducedBody>& bodies, const SystemImpactPlan& plan,
-                                 const std::function<void(long, long)>& report);
+ImpactResult system_impact(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
+                           const SystemImpactPlan& plan, const std::function<void(long, long)>& report);
 
 }  // namespace whine

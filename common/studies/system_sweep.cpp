@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -12,9 +11,9 @@
 #include "dynamics/dynamics.h"
 #include "orbits/recurrence.h"
 #include "studies/branch_rigs.h"
+#include "studies/motion_statistics.h"
 #include "studies/speed_sweep.h"
 #include "studies/sweep.h"
-#include "studies/train_statistics.h"
 #include "studies/turning_carrier.h"
 #include "system/system_rest.h"
 
@@ -125,7 +124,7 @@ class TrainSweepRig {
     const int periods = hunting * (motion.settled.multiple > 0 ? motion.settled.multiple
                                    : hunting > 1               ? 1
                                                                : Recurrence<VectorXd>::kMostMultiple);
-    TrainStatistics statistics;
+    MotionStatistics statistics;
     SystemEnergyBalance energy;
     SystemDynamics::Period period;
     if (whole) begin(periods, motion);
@@ -316,13 +315,9 @@ void fill_rows(SweepResult& a) {
 // The train of a sweep and rows for its speeds.
 SweepResult empty_sweep(const TrainInMotion& rig, const std::vector<double>& speeds) {
   SweepResult out;
-  out.train = rig.used();
-  out.name_parts();
+  static_cast<MotionSource&>(out) = rig.source();
   const auto n = static_cast<Index>(speeds.size());
   const Index meshes = out.meshes(), bodies = out.bodies();
-  out.drive.setZero(bodies);
-  for (int b = 0; b < bodies; ++b) out.drive[b] = out.train.layout.torque(b);
-  out.axis_frequency = rig.motion().axis_frequency / (2 * std::numbers::pi);
   out.mesh_frequency = Eigen::Map<const VectorXd>(speeds.data(), n);
   out.rolling.setZero(n, meshes);
   for (MatrixRM* x : {&out.bearing_damping, &out.holding_torque}) x->setZero(n, bodies);

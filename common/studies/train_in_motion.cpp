@@ -103,17 +103,22 @@ void TrainInMotion::widen(const std::vector<SystemDynamics::State*>& states) {
   dynamics_ = std::move(wider);
 }
 
-SystemSweepParameters TrainInMotion::used() const {
-  SystemSweepParameters out = settings_;
-  out.fidelity = motion_.fidelity;
+MotionSource TrainInMotion::source() const {
+  MotionSource out;
+  SystemSweepParameters& used = out.train = settings_;
+  used.fidelity = motion_.fidelity;
+  out.drive.setZero(static_cast<Index>(used.layout.bodies.size()));
+  out.axis_frequency = motion_.axis_frequency / (2 * std::numbers::pi);
   for (size_t b = 0; b < system_.layout.bodies.size(); ++b) {
-    out.layout.bodies[b].inertia = system_.layout.bodies[b].inertia;
     const System::Body& body = system_.layout.bodies[b];
+    out.drive[static_cast<Index>(b)] = used.layout.torque(static_cast<int>(b));
+    used.layout.bodies[b].inertia = body.inertia;
     // On a rigid pin a planet has the mass of its body, of which a moving carrier's pins feel the inertia.
-    out.layout.bodies[b].bearing.mass = body.on != System::kGround && !body.bearing.elastic()
-                                            ? system_.body[b]->body().mass
-                                            : body.bearing.mass;
+    used.layout.bodies[b].bearing.mass = body.on != System::kGround && !body.bearing.elastic()
+                                             ? system_.body[b]->body().mass
+                                             : body.bearing.mass;
   }
+  out.name_parts();
   return out;
 }
 

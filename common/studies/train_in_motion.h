@@ -8,6 +8,7 @@
 
 #include "dynamics/system_dynamics.h"
 #include "model/system_stages.h"
+#include "results/motion_source.h"
 #include "results/reduced_body.h"
 
 namespace whine {
@@ -28,8 +29,8 @@ class TrainInMotion {
   const SystemMotion& motion() const { return motion_; }
   SystemDynamics& dynamics() { return *dynamics_; }
   const Eigen::MatrixXd& mean_stiffness() const { return stiffness_; }  // (mesh, mesh) N m-1, at rest
-  // The settings with the masses, inertias and the contact level that are used.
-  SystemSweepParameters used() const;
+  // The settings with the masses, inertias and the contact level that are used, and what else results say of them.
+  MotionSource source() const;
   // Looks for tip edges that are 1.6 times as far off as before, for which dynamics() is made anew. The states then fit the new
   // positions. What is looked for and does not touch changes no force. Throws ModelRangeError after 5 times.
   void widen(const std::vector<SystemDynamics::State*>& states);

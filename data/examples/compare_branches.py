@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Branches of periodic motions, stable and unstable, of one or several pairs on common axes, with their folds.
+"""Branches of periodic motions, stable and unstable, of pairs or trains on common axes, with their folds.
 
     data/examples/compare_branches.py out/parker2000/T150/branch.h5 out/parker2000/T300/branch.h5 --output branches.png
 
@@ -15,7 +15,8 @@ import numpy
 import xarray
 
 parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-parser.add_argument("branch", nargs="+", help="branch.h5 of a pair")
+parser.add_argument("branch", nargs="+", help="branch.h5")
+parser.add_argument("--mesh", help="name of the mesh (default: the first)")
 parser.add_argument("--output", required=True, help="picture to write (.png, .svg)")
 options = parser.parse_args()
 
@@ -23,6 +24,7 @@ figure, axes = plt.subplots(figsize=(9, 6), layout="constrained")
 for number, path in enumerate(options.branch):
     with xarray.open_dataset(path, engine="h5netcdf") as branch:
         branch.load()
+    branch = branch.sel(mesh=options.mesh) if options.mesh else branch.isel(mesh=0)
     colour = f"C{number}"
     stable = branch.stable.values == 1
     rms = 1e6 * branch.dte_rms.values

@@ -228,39 +228,39 @@ TEST_CASE(
     settings.fidelity.integrator = level.integrator;
     // Small enough that hardly a strip comes or goes.
     const ImpactResult a = ring(settings, 1e-4);
-    CHECK(furthest(a.phase_natural_frequency, a.eigen_frequency) < 1e-4);
-    CHECK(furthest(a.phase_damping_ratio, a.eigen_damping_ratio) < 1e-3);
+    CHECK(furthest(a.natural_frequency, a.eigen_frequency) < 1e-4);
+    CHECK(furthest(a.damping_ratio, a.eigen_damping_ratio) < 1e-3);
     CHECK(a.fit_residual.maxCoeff() < 1e-4);
     // Without damping the eigenvalues are the undamped frequencies, found another way.
     settings.damping.rayleigh_stiffness = settings.damping.bearing_ratio = 0;
     const ImpactResult undamped = ring(settings, 1e-4);
-    CHECK(furthest(undamped.eigen_frequency, undamped.phase_undamped_frequency) < 1e-9);
-    CHECK(furthest(undamped.phase_natural_frequency, undamped.phase_undamped_frequency) < 1e-4);
-    CHECK(undamped.phase_damping_ratio.cwiseAbs().maxCoeff() < 1e-4);
+    CHECK(furthest(undamped.eigen_frequency, undamped.undamped_frequency) < 1e-9);
+    CHECK(furthest(undamped.natural_frequency, undamped.undamped_frequency) < 1e-4);
+    CHECK(undamped.damping_ratio.cwiseAbs().maxCoeff() < 1e-4);
   }
 }
 
 TEST_CASE("pair at a fixed phase: one and two pairs, their mean, and no dependence on what is let go") {
   const ImpactResult a = ring(coarse_impact());
-  REQUIRE(a.contact_state == std::vector{ContactState::one, ContactState::two, ContactState::mean});
-  CHECK(a.state_phase == Eigen::Vector2d(0, 0.5));
-  CHECK(a.natural_frequency[0] < a.natural_frequency[2]);
-  CHECK(a.natural_frequency[2] < a.natural_frequency[1]);
-  CHECK(a.natural_frequency[2] == relative(a.phase_natural_frequency.mean(), 1e-14));
-  CHECK(a.damping_ratio[2] == relative(a.phase_damping_ratio.mean(), 1e-14));
+  REQUIRE(a.states.contact_state == std::vector{ContactState::one, ContactState::two, ContactState::mean});
+  CHECK(a.states.mesh_phase == Eigen::Vector2d(0, 0.5));
+  CHECK(a.states.natural_frequency[0] < a.states.natural_frequency[2]);
+  CHECK(a.states.natural_frequency[2] < a.states.natural_frequency[1]);
+  CHECK(a.states.natural_frequency[2] == relative(a.natural_frequency.mean(), 1e-14));
+  CHECK(a.states.damping_ratio[2] == relative(a.damping_ratio.mean(), 1e-14));
   // The first sample is the static difference, the last has decayed by the damping ratio.
-  const double oscillations = a.time[a.time.size() - 1] * a.natural_frequency[1];
-  const VectorXd two = a.transmission_error.row(1);
+  const double oscillations = a.states.time[a.states.time.size() - 1] * a.states.natural_frequency[1];
+  const VectorXd two = a.states.transmission_error.row(1);
   CHECK(two[0] > 0);
   CHECK(two.tail(33).cwiseAbs().maxCoeff() <
-        1.5 * two[0] * std::exp(-2 * kPi * a.damping_ratio[1] * (oscillations - 1)));
+        1.5 * two[0] * std::exp(-2 * kPi * a.states.damping_ratio[1] * (oscillations - 1)));
   for (double step : {1e-7, 1e-5, 1e-4}) {
     const ImpactResult other = ring(coarse_impact(), step);
     INFO("let go " << step);
     CHECK(other.least_mesh_force == relative(1 - 0.85 * step, 0.1 * step));
     for (int state = 0; state < 3; ++state) {
-      CHECK(other.natural_frequency[state] == relative(a.natural_frequency[state], 1e-5));
-      CHECK(other.damping_ratio[state] == relative(a.damping_ratio[state], 1e-4));
+      CHECK(other.states.natural_frequency[state] == relative(a.states.natural_frequency[state], 1e-5));
+      CHECK(other.states.damping_ratio[state] == relative(a.states.damping_ratio[state], 1e-4));
     }
   }
   // Strips that come and go within the decay split its root in two.
@@ -283,9 +283,9 @@ TEST_CASE(
   const ImpactResult fine = at(120);
   for (int strips : {15, 60}) {
     const ImpactResult a = at(strips);
-    const VectorXd f = a.phase_natural_frequency.tail(31), ratio = a.phase_damping_ratio.tail(31);
+    const VectorXd f = a.natural_frequency.bottomRows(31), ratio = a.damping_ratio.bottomRows(31);
     const double frequency = furthest(f, f.reverse()), damping = furthest(ratio, ratio.reverse()),
-                 error = furthest(a.phase_damping_ratio, fine.phase_damping_ratio);
+                 error = furthest(a.damping_ratio, fine.damping_ratio);
     INFO(strips << " strips: mirror phases differ by " << frequency << " in frequency, " << damping
                 << " in damping; damping by " << error << " from that of 120 strips");
     CHECK(frequency < before_frequency);
@@ -324,11 +324,11 @@ TEST_CASE(
   const ReducedBody& body = coarse_body(61);
   const StaticResult statics = coarse_statics(150);
   const ImpactResult a = impact(body, body, statics, 463e6, coarse_impact(), {1e-6, 8}, no_report);
-  CHECK(furthest(a.phase_natural_frequency, a.eigen_frequency) < 1e-4);
-  CHECK(furthest(a.phase_damping_ratio, a.eigen_damping_ratio) < 1e-3);
+  CHECK(furthest(a.natural_frequency, a.eigen_frequency) < 1e-4);
+  CHECK(furthest(a.damping_ratio, a.eigen_damping_ratio) < 1e-3);
   const ImpactResult found =
       calibrate(body, body, statics, 463e6, coarse_impact(), {1e-6, 8}, 0.07, ContactState::two, no_report);
-  CHECK(found.damping_ratio[1] == relative(0.07, 1e-6));
+  CHECK(found.states.damping_ratio[1] == relative(0.07, 1e-6));
   CHECK(found.damping.rayleigh_stiffness == relative(7.75e-6, 0.01));
 }
 
@@ -338,13 +338,13 @@ TEST_CASE(
   for (const double torque_step : {1e-8, 1e-6, 1e-4}) {
     INFO("torque step " << torque_step);
     const ImpactResult a = pair.ring(torque_step);
-    CHECK(furthest(a.phase_natural_frequency, a.eigen_frequency) < 1e-5);
-    CHECK(furthest(a.phase_damping_ratio, a.eigen_damping_ratio) < 3e-5);
+    CHECK(furthest(a.natural_frequency, a.eigen_frequency) < 1e-5);
+    CHECK(furthest(a.damping_ratio, a.eigen_damping_ratio) < 3e-5);
     CHECK(a.fit_residual.maxCoeff() < 1e-6);
   }
   const ImpactResult found = calibrate(pair.pinion, pair.wheel, pair.statics, pair.statics.mean_stiffness,
                                        pair.settings, {1e-6, 8}, 0.05, ContactState::two, no_report);
-  CHECK(found.damping_ratio[1] == relative(0.05, 1e-6));
+  CHECK(found.states.damping_ratio[1] == relative(0.05, 1e-6));
   // Round-off of the static error stands in the samples of a decay this small.
   CHECK(names(message_of([&] { pair.ring(1e-12); }), {"contact", "stays"}));
 }
@@ -353,9 +353,9 @@ TEST_CASE(
     "ring-down of a pinion of 20 teeth and a wheel of 130: modes of the wheel that no torque moves lie below that of the mesh") {
   const UnequalPair pair(20, 130, 0, 30e-3, 40e-3, 5e-3, 300);
   const ImpactResult a = pair.ring(1e-6, 2);
-  CHECK(furthest(a.phase_natural_frequency, a.eigen_frequency) < 1e-5);
-  CHECK(furthest(a.phase_damping_ratio, a.eigen_damping_ratio) < 3e-5);
-  CHECK(furthest(a.phase_undamped_frequency, a.eigen_frequency) < 1e-3);
+  CHECK(furthest(a.natural_frequency, a.eigen_frequency) < 1e-5);
+  CHECK(furthest(a.damping_ratio, a.eigen_damping_ratio) < 3e-5);
+  CHECK(furthest(a.undamped_frequency, a.eigen_frequency) < 1e-3);
 }
 
 TEST_CASE("calibration: the factor that it finds gives the ratio, what cannot be is rejected") {
@@ -369,7 +369,7 @@ TEST_CASE("calibration: the factor that it finds gives the ratio, what cannot be
     ImpactParameters settings = coarse_impact();
     const ImpactResult found = calibrated(settings, 0.05, state);
     settings.damping.rayleigh_stiffness = found.damping.rayleigh_stiffness;
-    CHECK(ring(settings).damping_ratio[row] == relative(0.05, 1e-6));
+    CHECK(ring(settings).states.damping_ratio[row] == relative(0.05, 1e-6));
     // It does not depend on the factor that the scene has now.
     settings.damping.rayleigh_stiffness = 1e-5;
     CHECK(calibrated(settings, 0.05, state).damping.rayleigh_stiffness == found.damping.rayleigh_stiffness);

@@ -6,10 +6,9 @@
 #include "io/system_scene.h"
 #include "paper_pair.h"
 #include "relative.h"
-#include "studies/pair_branch.h"
+#include "studies/branch.h"
 #include "studies/runup.h"
 #include "studies/sweep.h"
-#include "studies/system_branch.h"
 #include "studies/system_sweep.h"
 #include "system/statics.h"
 
@@ -73,7 +72,7 @@ struct Both {
   BranchResult pair_along(const BranchPlan& plan) const {
     return pair_branch(body(), body(), statics(), statics().mean_stiffness, pair, no_report, plan);
   }
-  SystemBranchResult train_along(const BranchPlan& plan) const {
+  BranchResult train_along(const BranchPlan& plan) const {
     return system_branch(train, {body(), body()}, no_report, plan);
   }
 };
@@ -102,14 +101,26 @@ TEST_CASE("a pair as a train: the sweep jumps where that of the pair does, and w
                                       : Eigen::VectorXd(Eigen::VectorXd::Zero(known.size()));
     CHECK((found - known).cwiseAbs().maxCoeff() < 0.02 * load);
   }
-  const auto line = [](const SweepResult& of, const char* name) { return of.energy(0, energy_line(name)); };
-  for (const char* name : {"rolling", "relaxation_damping", "throughput"})
-    CHECK(line(train, name) == relative(line(pair, name), 0.02));
-  CHECK(line(train, "modal_damping") + line(train, "bearing_damping") ==
-        relative(line(pair, "modal_damping"), 0.02));
+  for (const Eigen::Index line :
+       {energy_line("rolling"), energy_line("relaxation_damping"), energy_line("throughput")})
+    CHECK(train.energy(0, line) == relative(pair.energy(0, line), 0.02));
+  CHECK(train.energy(0, energy_line("modal_damping")) + train.energy(0, energy_line("bearing_damping")) ==
+        relative(pair.energy(0, energy_line("modal_damping")), 0.02));
   const BranchPlan from_sweep{.sweep = Direction::up, .at = 2500};
-  const SystemBranchResult branch = both.train_along(from_sweep);
-  check_alike(branch.fold_frequency, both.pair_along(from_sweep).fold_frequency);
+  const BranchResult branch = both.train_along(from_sweep);
+  const BranchResult of_pair = both.pair_along(from_sweep);
+  check_alike(branch.fold_frequency, of_pair.fold_frequency);
+  // What orbits show at the speed of the sweep, which both begin at.
+  const auto alike = [&](const MatrixRM& own, const MatrixRM& known) {
+    CHECK(own(0, 0) == relative(known(0, 0), 0.02));
+  };
+  alike(branch.dte_rms, of_pair.dte_rms);
+  alike(branch.dte_harmonic[0], of_pair.dte_harmonic[0]);
+  alike(branch.mesh_force_max, of_pair.mesh_force_max);
+  alike(branch.tooth_load_max, of_pair.tooth_load_max);
+  alike(branch.mesh_force_sustained, of_pair.mesh_force_sustained);
+  alike(branch.tooth_load_sustained, of_pair.tooth_load_sustained);
+  CHECK(branch.separation_fraction(0, 0) == of_pair.separation_fraction(0, 0));
   // A sweep in steps ends at the fold, or at a kink a little before.
   CHECK(std::abs(train.jump_frequency[0] - branch.fold_frequency[0]) <
         branch.fold_width[0] + train.jump_width[0]);
@@ -155,7 +166,7 @@ TEST_CASE("a pair as a train: orbits of two mesh periods begin at the same speed
   const Both both(5300, 6300, 2e-6);
   const BranchPlan plan{.most_periods = 2};
   const BranchResult pair = both.pair_along(plan);
-  const SystemBranchResult train = both.train_along(plan);
+  const BranchResult train = both.train_along(plan);
   REQUIRE(pair.flip_frequency.size() >= 1);
   check_alike(train.flip_frequency, pair.flip_frequency);
   CHECK(train.period_multiple.maxCoeff() == 2);

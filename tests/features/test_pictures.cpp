@@ -12,6 +12,7 @@
 #include "report/engineering_axes.h"
 #include "report/figure_registry.h"
 #include "report/flank_pressure_figure.h"
+#include "report/impact_figure.h"
 #include "report/motion_figures.h"
 #include "report/order_figure.h"
 #include "report/response_figures.h"
@@ -60,6 +61,7 @@ TEST_CASE("pictures of motions: no text is cut or lies on other text") {
   const std::vector<SweepResult> sweeps{sweep_at(9999, Direction::up), sweep_at(9999, Direction::down)};
   CaptionSources tell;
   tell.impacts = {ring_down_at(9999)};
+  check(impact_figure(tell.impacts[0]), "ring-down");
   tell.scenes.assign(2, kScene);
   check(dynamic_load_figure(sweeps, tell), "tooth-loads");
   check(vibration_figure(sweeps, 5500, tell), "fig08");

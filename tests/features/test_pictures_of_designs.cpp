@@ -6,6 +6,7 @@
 #include "paper/reading_figure.h"
 #include "picture_inputs.h"
 #include "report/animation.h"
+#include "report/branch_figure.h"
 #include "report/compare_figures.h"
 #include "report/engineering_axes.h"
 #include "report/error_budget_figure.h"
@@ -185,6 +186,7 @@ TEST_CASE("pictures of maps, branches and studies: no text is cut or lies on oth
   branch.torque = 9999;
   constexpr Index n = 61;
   branch.mesh_frequency = VectorXd::LinSpaced(n, 1000, 9000);
+  branch.name_parts();
   branch.dte_rms = branch.dte_mean = VectorXd::LinSpaced(n, 1e-6, 300e-6);
   branch.stable = Eigen::VectorXi::Ones(n);
   branch.stable.segment(20, 20).setZero();
@@ -197,11 +199,12 @@ TEST_CASE("pictures of maps, branches and studies: no text is cut or lies on oth
   branch.fold_smooth = Eigen::Vector3i(1, 0, 1);
   branch.fold_multiplier = MatrixRM::Ones(3, 2);
   branch.mesh_force_sustained = branch.tooth_load_sustained = VectorXd::LinSpaced(n, 1e5, 3e5);
-  branch.root_stress_sustained = {VectorXd::LinSpaced(n, 1e9, 3e9), VectorXd::LinSpaced(n, 1e9, 3e9)};
-  branch.root_stress_angle = branch.root_stress_phase = {VectorXd::Zero(n), VectorXd::Zero(n)};
+  branch.root_stress_sustained = VectorXd::LinSpaced(n, 1e9, 3e9).replicate(1, 2);
+  branch.root_stress_angle = branch.root_stress_phase = MatrixRM::Zero(n, 2);
   branch.end = "leaves the speeds of the scene";
   check(multiplier_figure(branch), "multipliers");
   const std::vector<ResponseResult> one = both_ways(9999);
+  check(branch_figure(branch, one), "branch");
   CaptionSources tell = background_of(one);
   tell.branches = {branch};
   check(response_figure(one, tell), "fig05");

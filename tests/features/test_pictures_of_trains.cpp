@@ -3,13 +3,14 @@
 
 #include "gear/system_layout.h"
 #include "picture_inputs.h"
+#include "report/branch_figure.h"
 #include "report/campbell_figure.h"
 #include "report/engineering_axes.h"
+#include "report/impact_figure.h"
 #include "report/modes_figure.h"
+#include "report/multiplier_figure.h"
 #include "report/order_figure.h"
-#include "report/system_branch_figure.h"
 #include "report/system_figures.h"
-#include "report/system_impact_figure.h"
 #include "report/system_picture.h"
 #include "report/system_sweep_figure.h"
 #include "small_system.h"
@@ -55,9 +56,8 @@ TEST_CASE("pictures of trains: no text is cut or lies on other text, eight meshe
   const ModesResult modes = natural_modes(rest.settings.layout);
   check(modes_figure(modes), "modes");
   check(campbell_figure(modes), "campbell");
-  SystemBranchResult branch;
-  branch.settings = sweeps[0].train;
-  branch.torque = sweeps[0].drive;
+  BranchResult branch;
+  static_cast<MotionSource&>(branch) = sweeps[0];
   constexpr Index n = 41;
   branch.mesh_frequency = VectorXd::LinSpaced(n, 1000, 9000);
   branch.dte_rms = 123e-6 * MatrixRM::Random(n, 8).cwiseAbs();
@@ -66,10 +66,13 @@ TEST_CASE("pictures of trains: no text is cut or lies on other text, eight meshe
   branch.stable.segment(10, 12).setZero();
   branch.fold_frequency = Eigen::Vector3d(2345.67, 3456.78, 4567.89);
   branch.fold_width = Eigen::Vector3d::Constant(0.4);
+  branch.part = Eigen::VectorXi::Zero(n);
   branch.fold_smooth = Eigen::Vector3i(1, 0, 1);
-  check(system_branch_figure(branch, sweeps), "system-branch");
-  SystemImpactResult decay;
-  decay.settings = sweeps[0].train;
+  branch.fold_multiplier = MatrixRM::Ones(3, 2);
+  check(branch_figure(branch, sweeps), "branch");
+  check(multiplier_figure(branch), "multipliers");
+  ImpactResult decay;
+  static_cast<MotionSource&>(decay) = sweeps[0];
   decay.mesh_phase = Eigen::Vector2d(0, 0.5);
   decay.natural_frequency = decay.eigen_frequency = MatrixRM(2, 6);
   decay.damping_ratio = decay.eigen_damping_ratio = MatrixRM::Constant(2, 6, 0.0765);
@@ -77,5 +80,5 @@ TEST_CASE("pictures of trains: no text is cut or lies on other text, eight meshe
     decay.natural_frequency.col(k).setConstant(1234.5 * static_cast<double>(k + 1));
   decay.eigen_frequency = decay.natural_frequency;
   decay.rigid_frequency = decay.natural_frequency.row(0).transpose();
-  check(system_impact_figure(decay), "system-ringdown");
+  check(impact_figure(decay), "ring-down");
 }

@@ -111,7 +111,8 @@ TEST_CASE("the page of the scenes shows what fzg-c and nasa28 give at rest and b
                   .mesh *
               1e-9);
     for (size_t state = 0; state < 3; ++state)
-      check(row("natural frequency")[at], state, rung.natural_frequency[static_cast<Eigen::Index>(state)]);
+      check(row("natural frequency")[at], state,
+            rung.states.natural_frequency[static_cast<Eigen::Index>(state)]);
     check(row("peak-to-peak transmission error")[at], 0,
           (s.transmission_error.maxCoeff() - s.transmission_error.minCoeff()) * 1e6);
   }

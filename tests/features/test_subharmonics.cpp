@@ -9,7 +9,7 @@
 #include "refusal.h"
 #include "relative.h"
 #include "signal/response.h"
-#include "studies/pair_branch.h"
+#include "studies/branch.h"
 #include "studies/sweep.h"
 #include "system/statics.h"
 
@@ -66,15 +66,15 @@ TEST_CASE("subharmonics: beyond a period doubling the branch of two mesh periods
     if (branch.period_multiple[i] != 2 || branch.part[i] != branch.part[i + 1] || (a - at) * (b - at) > 0)
       continue;
     const double share = (at - a) / (b - a),
-                 rms = (1 - share) * branch.dte_rms[i] + share * branch.dte_rms[i + 1];
+                 rms = (1 - share) * branch.dte_rms(i, 0) + share * branch.dte_rms(i + 1, 0);
     nearest = std::min(nearest, std::abs(rms / response.dte_rms(0, 0) - 1));
     double apart = 0;
     const auto beside = [&](const Eigen::VectorXd& along, double swept_value) {
       apart = std::max(apart, std::abs(((1 - share) * along[i] + share * along[i + 1]) / swept_value - 1));
     };
-    beside(branch.mesh_force_sustained, response.mesh_force_sustained(0, 0));
-    for (size_t g = 0; g < kSides; ++g)
-      beside(branch.root_stress_sustained[g], response.root_stress_sustained(0, g));
+    beside(branch.mesh_force_sustained.col(0), response.mesh_force_sustained(0, 0));
+    for (Eigen::Index g = 0; g < kSides; ++g)
+      beside(branch.root_stress_sustained.col(g), response.root_stress_sustained(0, g));
     sustained = std::min(sustained, apart);
   }
   CHECK(nearest < 0.01);

@@ -28,7 +28,7 @@
 #include "results/sweep.h"
 #include "scene_file.h"
 #include "signal/response.h"
-#include "studies/system_branch.h"
+#include "studies/branch.h"
 #include "studies/system_impact.h"
 #include "studies/system_sweep.h"
 #include "system/system_rest.h"

@@ -38,7 +38,7 @@ TEST_CASE("artifacts of systems belong to their scene and, sweeps, to their dire
     CHECK(misplaced("out/a/T60/down/sweep.h5", down).empty());
     CHECK(names(misplaced("out/a/T60/up/sweep.h5", down), {"sweep down", "in up"}));
     CHECK(names(misplaced("out/b/T60/down/sweep.h5", down), {"out/a/params/sweep.toml", "out/b"}));
-    CHECK(names(misplaced("out/a/T60/branch.h5", down), {"whine/branch", "whine/system_branch"}));
+    CHECK(names(misplaced("out/a/T60/branch.h5", down), {"whine/branch"}));
   }
   // A name is of pairs and of trains, and of nothing else.
   write("static.h5", small_system(), kMade);

@@ -206,13 +206,12 @@ TEST_CASE("axes of each kind of artifact are dimension scales, the numbers of ha
 TEST_CASE("an empty list of matrices is given back as such: a branch without a point") {
   OwnFolder folder;
   BranchResult a = any<BranchResult>();
-  for (Eigen::VectorXd* v :
-       {&a.mesh_frequency, &a.dte_rms, &a.dte_mean, &a.residual, &a.fold_frequency, &a.fold_rms,
-        &a.fold_width, &a.mesh_force_sustained, &a.tooth_load_sustained, &a.root_stress_sustained[0],
-        &a.root_stress_sustained[1], &a.root_stress_angle[0], &a.root_stress_angle[1],
-        &a.root_stress_phase[0], &a.root_stress_phase[1]})
-    v->resize(0);
-  a.dte_harmonic.resize(0, 3);
+  for (Eigen::VectorXd* v : {&a.mesh_frequency, &a.residual, &a.fold_frequency, &a.fold_width}) v->resize(0);
+  for (MatrixRM* x : {&a.dte_rms, &a.dte_mean, &a.mesh_force_max, &a.tooth_load_max, &a.mesh_force_sustained,
+                      &a.tooth_load_sustained, &a.separation_fraction, &a.fold_rms, &a.bearing_force_rms,
+                      &a.root_stress_sustained, &a.root_stress_angle, &a.root_stress_phase})
+    x->resize(0, x->cols());
+  a.dte_harmonic.clear();
   a.floquet_multiplier.clear();
   for (Eigen::VectorXi* v : {&a.stable, &a.steps, &a.period_multiple, &a.part}) v->resize(0);
   a.fold_smooth.resize(0);
@@ -221,6 +220,6 @@ TEST_CASE("an empty list of matrices is given back as such: a branch without a p
   const BranchResult b = read<BranchResult>("branch.h5");
   CHECK(b.floquet_multiplier.empty());
   CHECK(b.mesh_frequency.size() == 0);
-  CHECK(b.dte_harmonic.cols() == 3);
+  CHECK(b.dte_rms.cols() == a.dte_rms.cols());
   CHECK(b.end == a.end);
 }

@@ -121,15 +121,15 @@ TEST_CASE("readings: eigenvalues of the frozen contact stand for ring-downs in a
   const ImpactResult level = impact(body, body, statics, statics.mean_stiffness, settings, plan, no_report);
   const ImpactResult frozen =
       frozen_impact(body, body, statics, statics.mean_stiffness, settings, plan.phases);
-  REQUIRE(frozen.contact_state == level.contact_state);
-  for (Eigen::Index i = 0; i + 1 < level.natural_frequency.size(); ++i) {
-    CHECK(frozen.natural_frequency[i] == relative(level.natural_frequency[i], 5e-5));
-    CHECK(frozen.damping_ratio[i] == relative(level.damping_ratio[i], 1e-3));
+  REQUIRE(frozen.states.contact_state == level.states.contact_state);
+  for (Eigen::Index i = 0; i + 1 < level.states.natural_frequency.size(); ++i) {
+    CHECK(frozen.states.natural_frequency[i] == relative(level.states.natural_frequency[i], 5e-5));
+    CHECK(frozen.states.damping_ratio[i] == relative(level.states.damping_ratio[i], 1e-3));
   }
   // The mean takes each phase as its contact state: 0.1 % and 2 % are what states vary in themselves.
-  const Eigen::Index mean = level.natural_frequency.size() - 1;
-  CHECK(frozen.natural_frequency[mean] == relative(level.natural_frequency[mean], 1e-3));
-  CHECK(frozen.damping_ratio[mean] == relative(level.damping_ratio[mean], 0.02));
+  const Eigen::Index mean = level.states.natural_frequency.size() - 1;
+  CHECK(frozen.states.natural_frequency[mean] == relative(level.states.natural_frequency[mean], 1e-3));
+  CHECK(frozen.states.damping_ratio[mean] == relative(level.states.damping_ratio[mean], 0.02));
 }
 
 TEST_CASE("readings: an artifact gives back what it was given") {

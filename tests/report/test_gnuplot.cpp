@@ -525,8 +525,8 @@ ImpactResult some_impact(double torque) {
   a.gear[0].design = a.gear[1].design = standard_gear();
   a.mesh.centre_distance = 0.15;
   a.torque = torque;
-  a.contact_state = {ContactState::one, ContactState::two, ContactState::mean};
-  a.natural_frequency = Eigen::Vector3d(2500, 3000, 2940) + Eigen::Vector3d::Constant(torque);
+  a.states.contact_state = {ContactState::one, ContactState::two, ContactState::mean};
+  a.states.natural_frequency = Eigen::Vector3d(2500, 3000, 2940) + Eigen::Vector3d::Constant(torque);
   return a;
 }
 
@@ -568,7 +568,7 @@ TEST_CASE("table of natural frequencies: both means, deviations from what is pub
   CHECK(failure_of([&] { natural_frequency_table({some_impact(300)}, printed); }) == Failure::input);
   CHECK(failure_of([] {
           ImpactResult a = some_impact(100);
-          a.contact_state[0] = ContactState::two;
+          a.states.contact_state[0] = ContactState::two;
           natural_frequency_table({a}, {});
         }) == Failure::input);
 }
@@ -590,9 +590,10 @@ TEST_CASE("response figure: scene and measured damping ratio stand at the panel 
       ImpactResult impact = some_impact(torque);
       impact.damping.rayleigh_stiffness = eta;
       // fewest pairs first: at 300 N m contact of three pairs occurs, two is what is asked for
-      impact.contact_state = {ContactState::one, ContactState::two, ContactState::three, ContactState::mean};
-      impact.damping_ratio = Eigen::Vector4d(0.01, 9000 * eta + torque * 1e-5, 0.02, 0.03);
-      impact.state_phase = Eigen::Vector3d(0, 0.5, 0.6);
+      impact.states.contact_state = {ContactState::one, ContactState::two, ContactState::three,
+                                     ContactState::mean};
+      impact.states.damping_ratio = Eigen::Vector4d(0.01, 9000 * eta + torque * 1e-5, 0.02, 0.03);
+      impact.states.mesh_phase = Eigen::Vector3d(0, 0.5, 0.6);
       captions.impacts.push_back(impact);
     }
   const Figure figure = response_figure(sweeps, captions);

@@ -14,8 +14,8 @@
 #include "io/system_scene.h"
 #include "refusal.h"
 #include "relative.h"
+#include "report/branch_figure.h"
 #include "report/figure_words.h"
-#include "report/system_branch_figure.h"
 #include "report/system_figures.h"
 #include "report/system_motion_tables.h"
 #include "report/system_picture.h"
@@ -267,21 +267,21 @@ TEST_CASE(
 TEST_CASE("figures of motion set only motions of one system beside each other, one sweep in a direction") {
   const SystemStaticResult rest = varied();
   const std::vector<ResponseResult> sweeps = sweeps_of(rest);
-  SystemBranchResult branch;
-  branch.settings = sweeps[0].train;
-  branch.torque = sweeps[0].drive;
+  BranchResult branch;
+  static_cast<MotionSource&>(branch) = sweeps[0];
   branch.mesh_frequency = Eigen::Vector2d(1000, 1100);
   branch.dte_rms = MatrixRM::Constant(2, sweeps[0].dte_rms.cols(), 1e-6);
   branch.floquet_multiplier.assign(2, MatrixRM::Constant(1, 2, 0.5));
   branch.stable = Eigen::Vector2i(1, 1);
+  branch.part = Eigen::Vector2i(0, 0);
   REQUIRE(system_sweep_figure(sweeps).blocks.size() == 6);
-  REQUIRE(system_branch_figure(branch, sweeps).blocks.size() == 3);
+  REQUIRE(branch_figure(branch, sweeps).blocks.size() == 3);
 
   const auto said = [&](const auto& change, const std::vector<Field>& fields) {
     std::vector<ResponseResult> changed = sweeps;
     change(changed[1]);
     CHECK(names(message_of_input([&] { system_sweep_figure(changed); }), fields));
-    CHECK(names(message_of_input([&] { system_branch_figure(branch, changed); }), fields));
+    CHECK(names(message_of_input([&] { branch_figure(branch, changed); }), fields));
   };
   said([](ResponseResult& c) { c.train.layout.bodies[0].teeth = 28; }, {"two", "systems"});
   said([](ResponseResult& c) { c.train.layout.bodies[0].name = "other"; }, {"two", "systems"});

@@ -16,8 +16,8 @@
 #include "paper_pair.h"
 #include "refusal.h"
 #include "relative.h"
+#include "studies/branch.h"
 #include "studies/fold_curves.h"
-#include "studies/pair_branch.h"
 
 using namespace whine;
 using Eigen::MatrixXd;

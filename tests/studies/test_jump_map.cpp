@@ -165,12 +165,10 @@ TEST_CASE(
     ring.damping.rayleigh_stiffness = map.rayleigh_stiffness[c];
     const ImpactResult decay =
         impact(coarse(), coarse(), fixed, map.bearing_stiffness, ring, impact_plan, [](long, long) {});
-    for (size_t s = 0; s < decay.contact_state.size(); ++s)
-      if (decay.contact_state[s] == ContactState::two) {
-        CHECK(map.damping_ratio[c] == relative(decay.damping_ratio[static_cast<Eigen::Index>(s)], 5e-3));
-        CHECK(map.two_pair_frequency ==
-              relative(decay.undamped_frequency[static_cast<Eigen::Index>(s)], 1e-3));
-      }
+    const auto two = decay.states.row_of(ContactState::two);
+    REQUIRE(two);
+    CHECK(map.damping_ratio[c] == relative(decay.states.damping_ratio[*two], 5e-3));
+    CHECK(map.two_pair_frequency == relative(decay.states.undamped_frequency[*two], 1e-3));
   }
   CHECK(map.damping_ratio[1] == relative(0.10, 1e-8));
 }

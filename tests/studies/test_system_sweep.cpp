@@ -24,9 +24,9 @@
 #include "small_system.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
+#include "studies/branch.h"
 #include "studies/branch_rigs.h"
 #include "studies/sweep.h"
-#include "studies/system_branch.h"
 #include "studies/system_impact.h"
 #include "studies/system_sweep.h"
 #include "studies/train_in_motion.h"
@@ -228,7 +228,7 @@ TEST_CASE(
   settings.frequency_from = 2550;
   settings.frequency_to = 2600;
   settings.frequency_step = 25;
-  const SystemBranchResult branch = system_branch(settings, train().bodies, [](auto&&...) {});
+  const BranchResult branch = system_branch(settings, train().bodies, [](auto&&...) {});
   const ResponseResult sweep = response(swept(Direction::down, settings));
   INFO(branch.end);
   const Index last = branch.mesh_frequency.size() - 1;
@@ -257,7 +257,7 @@ TEST_CASE(
     return system_branch(
         settings, train().bodies, [](auto&&...) {}, plan);
   };
-  const SystemBranchResult branch = follow({.sweep = Direction::up, .at = 2575});
+  const BranchResult branch = follow({.sweep = Direction::up, .at = 2575});
   INFO(branch.end);
   CHECK(branch.mesh_frequency[0] == relative(2575, 1e-12));
   REQUIRE(branch.part.maxCoeff() == 1);
@@ -281,7 +281,7 @@ TEST_CASE("orbits of a planetary train: where a contact begins to come or go its
   settings.frequency_from = 2400;
   settings.frequency_to = 2700;
   settings.frequency_step = 25;
-  const SystemBranchResult branch = system_branch(settings, train().bodies, [](auto&&...) {});
+  const BranchResult branch = system_branch(settings, train().bodies, [](auto&&...) {});
   MESSAGE(branch.grazing_frequency.size() << " grazing orbits; " << branch.end);
   REQUIRE(branch.grazing_frequency.size() > 0);
   TrainRig rig(settings, train().bodies);
@@ -297,7 +297,7 @@ TEST_CASE("orbits of a planetary train: where a contact begins to come or go its
     map.apply(orbit.orbit.start);
     int count = 0;
     for (const ContactEvent& event : map.events())
-      count += event.contact / rig.train().dynamics().tooth_pairs() == mesh - 1;
+      count += event.contact / rig.train().dynamics().tooth_pairs() == mesh;
     return count;
   };
   const double at = branch.grazing_frequency[0];
@@ -313,7 +313,7 @@ TEST_CASE("without contact loss the largest multiplier is the decay of the slowe
   settings.frequency_from = 2590;
   settings.frequency_to = 2600;
   settings.frequency_step = 10;
-  const SystemBranchResult branch = system_branch(settings, train().bodies, [](auto&&...) {});
+  const BranchResult branch = system_branch(settings, train().bodies, [](auto&&...) {});
   REQUIRE(branch.separation_fraction.maxCoeff() == 0);
   TrainInMotion rig(settings, train().bodies, 6);
   double slowest = 0;  // s-1
@@ -332,7 +332,7 @@ TEST_CASE("without contact loss the largest multiplier is the decay of the slowe
 
 TEST_CASE("ring-down of a planetary train: decays are eigenvalues, damping by mass is its closed form") {
   const double mu = 900;
-  const SystemImpactResult a = system_impact(damped(0, mu), train().bodies, {8, 2, 1e-4}, [](auto&&...) {});
+  const ImpactResult a = system_impact(damped(0, mu), train().bodies, {8, 2, 1e-4}, [](auto&&...) {});
   REQUIRE(a.natural_frequency.cols() == 8);
   for (Index i = 0; i < 2; ++i)
     for (Index k = 0; k < 8; ++k) {
@@ -351,7 +351,7 @@ TEST_CASE("ring-down of a planetary train: decays are eigenvalues, damping by ma
 TEST_CASE("ring-down of a planetary train: damping by stiffness is the energy that it damps") {
   constexpr double kEta = 1e-7;
   const SystemSweepParameters settings = damped(kEta, 0);
-  const SystemImpactResult a = system_impact(settings, train().bodies, {6, 1, 1e-4}, [](auto&&...) {});
+  const ImpactResult a = system_impact(settings, train().bodies, {6, 1, 1e-4}, [](auto&&...) {});
   TrainInMotion rig(settings, train().bodies, 1);
   const FixedPhaseMesh mesh = rig.dynamics().frozen(0);
   const SystemDynamics::FrozenModes modes = rig.dynamics().frozen_modes(0);

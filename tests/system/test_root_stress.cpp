@@ -392,7 +392,8 @@ TEST_CASE(
   const auto largest_of = [&](int repeats) {
     SustainedPeaks peaks(model, kSteps);
     Eigen::VectorXd most;
-    for (int k = 0; k < kPeriods; ++k) most = peaks.so_far(periods[static_cast<size_t>(k)], k, repeats);
+    for (int k = 0; k < kPeriods; ++k)
+      most = peaks.so_far(periods[static_cast<size_t>(k)].tooth_pair_load, k, repeats);
     return most;
   };
   MatrixRM force(kPeriods * kSteps, 1);
@@ -402,15 +403,16 @@ TEST_CASE(
   CHECK(largest_of(kPeriods)[0] == sustained_load(force, kSteps, kPeriods));
   CHECK(largest_of(kPeriods)[0] == 3200);
   CHECK(largest_of(SustainedPeaks::kNever)[0] == sustained_load(force, kSteps));
-  CHECK(largest_of(kPeriods)[2] > 1.1 * SustainedPeaks(model, kSteps).of(periods[1])[2]);
+  CHECK(largest_of(kPeriods)[2] > 1.1 * SustainedPeaks(model, kSteps).of(periods[1].tooth_pair_load)[2]);
   // The place goes with the largest of the periods, not with the last one, and it is not the largest place.
   SustainedPeaks following(model, kSteps);
   Eigen::VectorXd alone[kPeriods], together;
   for (int k = 0; k < kPeriods; ++k) {
     SustainedPeaks own(model, kSteps);
-    for (int before = 0; before < k; ++before) own.of(periods[static_cast<size_t>(before)], before, kPeriods);
-    alone[k] = own.of(periods[static_cast<size_t>(k)], k, kPeriods);
-    together = following.so_far(periods[static_cast<size_t>(k)], k, kPeriods);
+    for (int before = 0; before < k; ++before)
+      own.of(periods[static_cast<size_t>(before)].tooth_pair_load, before, kPeriods);
+    alone[k] = own.of(periods[static_cast<size_t>(k)].tooth_pair_load, k, kPeriods);
+    together = following.so_far(periods[static_cast<size_t>(k)].tooth_pair_load, k, kPeriods);
   }
   REQUIRE(together.size() == SustainedPeaks::kRows);
   for (int g = 0; g < kSides; ++g) {
@@ -425,12 +427,13 @@ TEST_CASE(
     CHECK(std::min(std::abs(phase), std::abs(phase - 1)) <= 2.0 / kSteps);
   }
   // A motion of one period meets its own start.
-  CHECK(SustainedPeaks(model, kSteps).of(periods[0])[0] == 2200);
-  CHECK(SustainedPeaks(model, kSteps).of(periods[0], 0, SustainedPeaks::kNever)[0] == 300);
+  CHECK(SustainedPeaks(model, kSteps).of(periods[0].tooth_pair_load)[0] == 2200);
+  CHECK(SustainedPeaks(model, kSteps).of(periods[0].tooth_pair_load, 0, SustainedPeaks::kNever)[0] == 300);
   // Last and first period of three.
   SustainedPeaks once(model, kSteps);
-  for (int k = 0; k + 1 < kPeriods; ++k) once.of(periods[static_cast<size_t>(k)], k, kPeriods);
-  CHECK(once.of(periods[2], 2, kPeriods)[0] == 2200);
+  for (int k = 0; k + 1 < kPeriods; ++k)
+    once.of(periods[static_cast<size_t>(k)].tooth_pair_load, k, kPeriods);
+  CHECK(once.of(periods[2].tooth_pair_load, 2, kPeriods)[0] == 2200);
 }
 
 TEST_CASE(

@@ -1,10 +1,11 @@
-#include "report/system_impact_figure.h"
+#include "report/impact_figure.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/error.h"
+#include "report/figure_words.h"
+#include "report/one_system.h"
 
 namespace whine {
 
@@ -49,11 +50,33 @@ Panel ringdown_panel(double from, double to, const FigureBlock& rigid) {
   return panel;
 }
 
+// Decays of a pair by its contact.
+void add_states(const ContactStateDecays& a, Figure& figure) {
+  for (Index i = 0; i < a.natural_frequency.size(); ++i) {
+    const ContactState state = a.contact_state[static_cast<size_t>(i)];
+    const std::string name = state == ContactState::mean  ? "mean over the period"
+                             : state == ContactState::one ? "one pair"
+                                                          : name_of(state) + " pairs";
+    figure.blocks.push_back(
+        {name,
+         {"natural_frequency [Hz]", "damping_ratio [%]", "undamped_frequency [Hz]"},
+         {{a.natural_frequency[i], a.damping_ratio[i] * kPercent, a.undamped_frequency[i]}},
+         "states",
+         name});
+    figure.panels[0].curves.push_back({.block = name,
+                                       .style = PanelStyle::points,
+                                       .colour = curve_colour(static_cast<size_t>(i) + 1),
+                                       .label = "decay, " + name,
+                                       .size = 1.6});
+  }
+}
+
 }  // namespace
 
-Figure system_impact_figure(const SystemImpactResult& a) {
+Figure impact_figure(const ImpactResult& a) {
   Figure figure;
-  figure.title = "Ring-down of a system: damping ratios and natural frequencies of its modes";
+  figure.title = text("Ring-down ", a.of_train() ? "of a train" : torque_words(a.torque),
+                      ": damping ratios and natural frequencies of its modes");
   FigureBlock modes{"modes",
                     {"mode", "natural_frequency [Hz]", "least over the mesh phases [Hz]",
                      "largest over the mesh phases [Hz]", "damping_ratio [%]", "least ratio [%]",
@@ -75,13 +98,12 @@ Figure system_impact_figure(const SystemImpactResult& a) {
     from = modes.rows.size() == 1 ? f.minCoeff() : std::min(from, f.minCoeff());
     to = std::max(to, f.maxCoeff());
   }
-  if (modes.rows.empty()) fail(Failure::input, "figure: no mode of the system oscillates at all mesh phases");
-  const Damping& damping = a.settings.damping;
+  if (modes.rows.empty()) fail(Failure::input, "figure: no mode oscillates at all mesh phases");
+  const Damping& damping = a.damping_used();
   constexpr int kPoints = 100;
   const double low = 0.8 * from, high = 1.1 * to;
   for (int i = 0; i <= kPoints; ++i) {
-    const double f = low + (high - low) * i / kPoints, w = 2 * std::numbers::pi * f,
-                 ratio = (damping.rayleigh_mass + damping.rayleigh_stiffness * w * w) / (2 * w);
+    const double f = low + (high - low) * i / kPoints, ratio = rayleigh_ratio(damping, f);
     if (!(ratio < 1)) continue;
     // Decays have the damped frequency.
     rayleigh.rows.push_back({f * std::sqrt(1 - ratio * ratio), ratio * kPercent});
@@ -91,8 +113,9 @@ Figure system_impact_figure(const SystemImpactResult& a) {
   figure.blocks = {modes, rayleigh};
   if (!rigid.rows.empty()) figure.blocks.push_back(rigid);
   figure.panels = {ringdown_panel(low, high, rigid)};
-  figure.notes.push_back(text(a.settings.layout.bodies.size(), " bodies, ", a.settings.layout.meshes.size(),
-                              " meshes, body \"", a.settings.fidelity.body, "\"; ", a.mesh_phase.size(),
+  add_states(a.states, figure);
+  figure.notes.push_back(text(a.bodies(), " bodies, ", a.meshes(), a.meshes() == 1 ? " mesh" : " meshes",
+                              ", body \"", a.fidelity_used().body, "\"; ", a.mesh_phase.size(),
                               " mesh phases: bars from the least to the largest"));
   figure.notes.push_back(text("[damping] ", shown(damping.rayleigh_stiffness, 3), " s x stiffness + ",
                               shown(damping.rayleigh_mass, 3), " 1/s x mass, dampers of the axes ",

@@ -28,8 +28,8 @@
 #include "results/static.h"
 #include "signal/jump_cause.h"
 #include "signal/response.h"
+#include "studies/branch.h"
 #include "studies/branch_follower.h"
-#include "studies/pair_branch.h"
 #include "studies/sweep.h"
 
 using namespace whine;
@@ -747,23 +747,23 @@ TEST_CASE("orbits: a sweep jumps where the branch folds, also across a change of
         const double share = (response.mesh_frequency[i] - branch.mesh_frequency[k]) /
                              (branch.mesh_frequency[k + 1] - branch.mesh_frequency[k]);
         if (!(share >= 0 && share < 1) || !branch.stable[k] || !branch.stable[k + 1]) continue;
-        const double own = (1 - share) * branch.dte_rms[k] + share * branch.dte_rms[k + 1];
+        const double own = (1 - share) * branch.dte_rms(k, 0) + share * branch.dte_rms(k + 1, 0);
         if (std::abs(own / response.dte_rms(i, 0) - 1) > 0.2) continue;  // the other branch
         apart = std::max(apart, std::abs(own / response.dte_rms(i, 0) - 1));
         const auto sustained_apart = [&](const VectorXd& along, double swept_value) {
           sustained = std::max(sustained,
                                std::abs(((1 - share) * along[k] + share * along[k + 1]) / swept_value - 1));
         };
-        for (size_t g = 0; g < kSides; ++g)
-          sustained_apart(branch.root_stress_sustained[g], response.root_stress_sustained(i, g));
+        for (Eigen::Index g = 0; g < kSides; ++g)
+          sustained_apart(branch.root_stress_sustained.col(g), response.root_stress_sustained(i, g));
         // Where that stress stands: at the nearer orbit, as the largest may go over to another tooth.
         const Eigen::Index near = share < 0.5 ? k : k + 1;
-        for (size_t g = 0; g < kSides; ++g)
+        for (Eigen::Index g = 0; g < kSides; ++g)
           place = place.max(
-              Eigen::Array2d(std::abs(branch.root_stress_angle[g][near] - response.root_stress_angle(i, g)),
-                             std::abs(branch.root_stress_phase[g][near] - response.root_stress_phase(i, g))));
-        sustained_apart(branch.tooth_load_sustained, response.tooth_load_sustained(i, 0));
-        sustained_apart(branch.mesh_force_sustained, response.mesh_force_sustained(i, 0));
+              Eigen::Array2d(std::abs(branch.root_stress_angle(near, g) - response.root_stress_angle(i, g)),
+                             std::abs(branch.root_stress_phase(near, g) - response.root_stress_phase(i, g))));
+        sustained_apart(branch.tooth_load_sustained.col(0), response.tooth_load_sustained(i, 0));
+        sustained_apart(branch.mesh_force_sustained.col(0), response.mesh_force_sustained(i, 0));
         ++compared;
         break;
       }

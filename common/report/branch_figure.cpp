@@ -1,9 +1,8 @@
-#include "report/system_branch_figure.h"
+#include "report/branch_figure.h"
 
 #include <algorithm>
 
 #include "base/error.h"
-#include "gear/layout.h"
 #include "report/figure_words.h"
 #include "report/one_system.h"
 #include "signal/jump_words.h"
@@ -16,19 +15,19 @@ namespace {
 
 constexpr size_t kMostMeshes = 8;  // curves that can be told apart beside their sweeps
 
-std::string rms_column(const System& s, size_t mesh) {
-  return text("dte_rms ", mesh_name(s, mesh), " [µm]");
+std::string rms_column(const MotionSource& a, size_t mesh) {
+  return text("dte_rms ", a.mesh_names[mesh], " [µm]");
 }
 
 // Where stability changes the curve of the other kind begins with the last point of this one; parts are curves of their own.
-FigureBlock system_branch_block(const SystemBranchResult& b, size_t meshes, bool stable) {
+FigureBlock branch_block(const BranchResult& b, size_t meshes, bool stable) {
   FigureBlock block{stable ? "stable" : "unstable",
                     {"mesh_frequency [Hz]", "largest multiplier"},
                     {},
                     stable ? "stable" : "unstable"};
-  for (size_t m = 0; m < meshes; ++m) block.columns.push_back(rms_column(b.settings.layout, m));
+  for (size_t m = 0; m < meshes; ++m) block.columns.push_back(rms_column(b, m));
   for (Index i = 0; i < b.mesh_frequency.size(); ++i) {
-    const bool goes_on = i > 0 && (b.part.size() == 0 || b.part[i] == b.part[i - 1]);
+    const bool goes_on = i > 0 && (b.part[i] == b.part[i - 1]);
     const bool own = (b.stable[i] != 0) == stable, before = goes_on && (b.stable[i - 1] != 0) == stable;
     if (i > 0 && !goes_on && !block.rows.empty() && !block.rows.back().empty())
       block.rows.emplace_back();  // lifts the pen
@@ -45,7 +44,7 @@ FigureBlock system_branch_block(const SystemBranchResult& b, size_t meshes, bool
 FigureBlock sweep_block(const ResponseResult& s, size_t meshes) {
   const std::string way = text("sweep ", name_of(s.direction));
   FigureBlock block{way, {"mesh_frequency [Hz]"}, {}, text("sweep_", name_of(s.direction))};
-  for (size_t m = 0; m < meshes; ++m) block.columns.push_back(rms_column(s.train.layout, m));
+  for (size_t m = 0; m < meshes; ++m) block.columns.push_back(rms_column(s, m));
   for (Index i = 0; i < s.mesh_frequency.size(); ++i) {
     if (i > 0 && jumps_between(s, s.mesh_frequency[i - 1], s.mesh_frequency[i])) block.rows.emplace_back();
     std::vector<double> row{s.mesh_frequency[i]};
@@ -70,14 +69,14 @@ PanelCurve look_of(const std::string& block) {
 }
 
 // Meshes that are alike lie on each other: the wider line below shows.
-Panel vibration_panel(const System& s, const std::vector<FigureBlock>& blocks, size_t meshes) {
+Panel vibration_panel(const BranchResult& b, const std::vector<FigureBlock>& blocks, size_t meshes) {
   Panel panel{.heading = "RMS of the transmission error",
               .x = {.label = "Mesh frequency (Hz)", .speed = true},
               .y = {.label = "RMS (µm)", .from_zero = true, .level = true},
               .height = 560};
   for (size_t m = 0; m < meshes; ++m)
     panel.curves.push_back({.colour = curve_colour(m),
-                            .label = without_markup(short_name(mesh_name(s, m))),
+                            .label = without_markup(short_name(b.mesh_names[m])),
                             .width = 3,
                             .dash = m < 6 ? 1 : 2});
   for (const FigureBlock& block : blocks) {
@@ -116,30 +115,29 @@ Panel multiplier_panel(const std::vector<FigureBlock>& blocks) {
 
 }  // namespace
 
-Figure system_branch_figure(const SystemBranchResult& b, const std::vector<ResponseResult>& sweeps) {
+Figure branch_figure(const BranchResult& b, const std::vector<ResponseResult>& sweeps) {
   if (b.mesh_frequency.size() == 0) fail(Failure::input, "figure: the branch holds no orbit");
-  const System& s = b.settings.layout;
-  require_one_system("the branch", b.settings, b.torque, sweeps);
-  const size_t meshes = std::min(s.meshes.size(), kMostMeshes);
+  require_one_system("the branch", b, sweeps);
+  const size_t meshes = std::min(b.mesh_names.size(), kMostMeshes);
   Figure figure;
-  figure.title = "Branch of periodic motions of a system";
+  figure.title = text("Branch of periodic motions, ", b.of_train() ? "of a train" : torque_words(b.torque));
   const bool unstable = b.stable.minCoeff() == 0, stable = b.stable.maxCoeff() == 1;
-  if (stable) figure.blocks.push_back(system_branch_block(b, meshes, true));
-  if (unstable) figure.blocks.push_back(system_branch_block(b, meshes, false));
+  if (stable) figure.blocks.push_back(branch_block(b, meshes, true));
+  if (unstable) figure.blocks.push_back(branch_block(b, meshes, false));
   for (const ResponseResult& sweep : sweeps) figure.blocks.push_back(sweep_block(sweep, meshes));
-  for (size_t m = 0; m < meshes; ++m) figure.levels.push_back({rms_column(s, m), false});
+  for (size_t m = 0; m < meshes; ++m) figure.levels.push_back({rms_column(b, m), false});
   figure.notes.push_back(text(b.mesh_frequency.size(), " orbits, ", b.mesh_frequency.size() - b.stable.sum(),
                               " unstable, ", b.fold_frequency.size(), " folds, ", b.flip_frequency.size(),
                               " period doublings, ", b.torus_frequency.size(), " tori; body \"",
-                              b.settings.fidelity.body, "\", contact \"", b.settings.fidelity.contact, "\""));
+                              b.fidelity_used().body, "\", contact \"", b.fidelity_used().contact, "\""));
   for (Index i = 0; i < std::min<Index>(b.fold_frequency.size(), 6); ++i)
     figure.notes.push_back(text("fold at ",
                                 jump_words(b.fold_frequency.segment(i, 1), b.fold_width.segment(i, 1)), ", ",
                                 b.fold_smooth[i] ? "smooth" : "at a kink"));
-  if (s.meshes.size() > meshes)
-    figure.notes.push_back(text("the first ", meshes, " of ", s.meshes.size(), " meshes"));
-  figure.panels = {vibration_panel(s, figure.blocks, meshes), multiplier_panel(figure.blocks)};
-  add_shafts(s, figure);
+  if (b.mesh_names.size() > meshes)
+    figure.notes.push_back(text("the first ", meshes, " of ", b.mesh_names.size(), " meshes"));
+  figure.panels = {vibration_panel(b, figure.blocks, meshes), multiplier_panel(figure.blocks)};
+  add_shafts(b, figure);
   return figure;
 }
 
