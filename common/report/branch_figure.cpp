@@ -41,10 +41,10 @@ FigureBlock branch_block(const BranchResult& b, size_t meshes, bool stable) {
   return block;
 }
 
-FigureBlock sweep_block(const ResponseResult& s, size_t meshes) {
+FigureBlock sweep_block(const BranchResult& b, const ResponseResult& s, size_t meshes) {
   const std::string way = text("sweep ", name_of(s.direction));
   FigureBlock block{way, {"mesh_frequency [Hz]"}, {}, text("sweep_", name_of(s.direction))};
-  for (size_t m = 0; m < meshes; ++m) block.columns.push_back(rms_column(s, m));
+  for (size_t m = 0; m < meshes; ++m) block.columns.push_back(rms_column(b, m));
   for (Index i = 0; i < s.mesh_frequency.size(); ++i) {
     if (i > 0 && jumps_between(s, s.mesh_frequency[i - 1], s.mesh_frequency[i])) block.rows.emplace_back();
     std::vector<double> row{s.mesh_frequency[i]};
@@ -120,11 +120,12 @@ Figure branch_figure(const BranchResult& b, const std::vector<ResponseResult>& s
   require_one_system("the branch", b, sweeps);
   const size_t meshes = std::min(b.mesh_names.size(), kMostMeshes);
   Figure figure;
-  figure.title = text("Branch of periodic motions, ", b.of_train() ? "of a train" : torque_words(b.torque));
+  figure.title =
+      text("Branch of periodic motions", b.of_train() ? " of a train" : ", " + torque_words(b.torque));
   const bool unstable = b.stable.minCoeff() == 0, stable = b.stable.maxCoeff() == 1;
   if (stable) figure.blocks.push_back(branch_block(b, meshes, true));
   if (unstable) figure.blocks.push_back(branch_block(b, meshes, false));
-  for (const ResponseResult& sweep : sweeps) figure.blocks.push_back(sweep_block(sweep, meshes));
+  for (const ResponseResult& sweep : sweeps) figure.blocks.push_back(sweep_block(b, sweep, meshes));
   for (size_t m = 0; m < meshes; ++m) figure.levels.push_back({rms_column(b, m), false});
   figure.notes.push_back(text(b.mesh_frequency.size(), " orbits, ", b.mesh_frequency.size() - b.stable.sum(),
                               " unstable, ", b.fold_frequency.size(), " folds, ", b.flip_frequency.size(),

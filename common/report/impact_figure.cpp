@@ -75,7 +75,7 @@ void add_states(const ContactStateDecays& a, Figure& figure) {
 
 Figure impact_figure(const ImpactResult& a) {
   Figure figure;
-  figure.title = text("Ring-down ", a.of_train() ? "of a train" : torque_words(a.torque),
+  figure.title = text("Ring-down", a.of_train() ? " of a train" : ", " + torque_words(a.torque),
                       ": damping ratios and natural frequencies of its modes");
   FigureBlock modes{"modes",
                     {"mode", "natural_frequency [Hz]", "least over the mesh phases [Hz]",

@@ -108,7 +108,7 @@ TEST_CASE(
   up.frequency_to = 2500;
   const SweepResult swept =
       sweep(paper_body(), paper_body(), coarse_statics(), 463e6, up, Direction::up, no_report);
-  CHECK(lower.dte_rms[0] == relative(whine::response(swept).dte_rms.bottomRows(1)(0, 0), 1e-4));
+  CHECK(lower.dte_rms(0, 0) == relative(whine::response(swept).dte_rms.bottomRows(1)(0, 0), 1e-4));
   // What cannot be done is said.
   CHECK(failure_of([&] { follow({.sweep = Direction::up, .at = 1000}); }) == Failure::input);
   CHECK(failure_of([&] { follow({.most_periods = 3}); }) == Failure::input);
