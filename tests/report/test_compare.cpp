@@ -104,6 +104,7 @@ Design train_design(const std::string& name, double swing) {
     mesh.transmission_error = 20e-6 + swing * (2 * std::numbers::pi * a.mesh_phase.array()).cos();
     mesh.stiffness_secant = mesh.stiffness_tangent = VectorXd::Constant(kPhases, 5e8);
     mesh.tooth_load = MatrixRM::Constant(kPhases, 3, 1000.0 / 3);
+    mesh.contact_pressure = MatrixRM::Constant(kPhases, 3, 1e9);
   }
   a.mesh_force = MatrixRM::Constant(kPhases, meshes, 1000);
   a.mesh_force.col(0).setConstant(1300);

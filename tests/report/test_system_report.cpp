@@ -212,6 +212,7 @@ TEST_CASE("load sharing: loads of tooth pairs are continuous over a period of th
       own -= std::floor(own);
       for (Index p = 0; p < 3; ++p) load(i, p) = load_at(own + static_cast<double>(a.mesh[0].pair[p]));
     }
+    for (StaticResult& other : a.mesh) other.tooth_load = load;
     a.load_share = MatrixRM::Constant(kPhases, 6, 1.0 / 3);
     const Figure figure = system_load_sharing_figure(a);
     const FigureBlock& loads = block(figure, "loads 1");
