@@ -23,8 +23,7 @@ compare_folder := out/compare/$(compare_words)
 at_compared = $(if $(filter own,$2),$(firstword $(SCENE_$1_TORQUES)),$2)
 inputs_compare-rest = $(foreach s,$1,out/$s/T$(call at_compared,$s,$2)/static.h5)
 inputs_compare-motion = $(foreach s,$1,$(call both_ways,$s,$(call at_compared,$s,$2),response))
-# With a crack there is no motion.
-compare_moves := $(if $(strip $(foreach s,$(compared),$(call teeth,$s,cracked) $(filter no,$(SCENE_$s_MOVES)))),,yes)
+compare_moves := $(if $(filter no,$(foreach s,$(compared),$(SCENE_$s_MOVES))),,yes)
 compare_artifacts := $(foreach s,$(compared),$(foreach t,$(call at_compared,$s,$(compared_torques)),out/$s/T$t/static.h5) \
   $(if $(filter $s,$(pairs)),$(call impacts,$s,$(call at_compared,$s,$(compared_torques)))) \
   $(if $(compare_moves),$(call both_ways,$s,$(call at_compared,$s,$(compared_torques)),response)))

@@ -66,6 +66,7 @@ inputs_root-stress = out/$1/T$(firstword $2)/static.h5 $(call both_ways,$1,$(fir
 inputs_root-stress-branches = $(inputs_root-stress) out/$1/T$(firstword $2)/branch.h5
 inputs_efficiency = $(foreach t,$(call each,$2),out/$1/T$t/static.h5 $(call both_ways,$1,$t,response))
 inputs_crack = out/$1/T$(firstword $2)/static.h5
+inputs_residual-signal = $(foreach kind,sweep response,out/$1/T$(firstword $2)/up/$(kind).h5)
 # Of systems: trains, planetary trains.
 inputs_system-static = out/$1/T$(firstword $2)/static.h5
 inputs_system = $(if $2,$(inputs_system-static),$(inputs_modes))
@@ -102,11 +103,12 @@ beside_figures := fig05 fig07 fig05-branches fig07-branches fig07-600 fig08 fig0
 paper_scenes_flank-load := $(helical_scene)
 paper_scenes_sidebands := $(graded_scene)
 paper_scenes_crack := $(cracked_scene)
+paper_scenes_residual-signal := $(cracked_scene)
 paper_scenes_bearing-forces := $(bearing_scene)
 paper_scenes_efficiency := $(friction_scene)
 paper_scenes_profile-chart := $(firstword $(relief_scenes))
 paper_scenes_relief-jumps := $(standard_scene) $(calibrated_scene) $(relief_scenes)
-at_150 := flank-load profile-chart relief-jumps waterfall order-cuts tooth-loads root-stress root-stress-branches flank-pressure bearing-forces fig03 fig05 fig05-branches multipliers fig08 fig09 fig10 fig11 fig15 error-budget sidebands crack
+at_150 := flank-load profile-chart relief-jumps waterfall order-cuts tooth-loads root-stress root-stress-branches flank-pressure bearing-forces fig03 fig05 fig05-branches multipliers fig08 fig09 fig10 fig11 fig15 error-budget sidebands crack residual-signal
 paper_torques = $(if $(filter $(at_150),$1),150,$(if $(filter fig07-600,$1),300 600,100 200 300))
 
 report_figures := fig01 fig03 fig05 fig07 fig12 fig13 fig14 fig14-elastic fig16
@@ -114,7 +116,7 @@ report_figures := fig01 fig03 fig05 fig07 fig12 fig13 fig14 fig14-elastic fig16
 paper_only := fig07-600 fig08 fig09 fig10 fig11 fig15
 paper_figures := $(sort $(report_figures) $(paper_only))
 # of any pair, none of the paper's
-other_figures := fig05-branches fig07-branches multipliers load-sharing waterfall order-cuts tooth-loads root-stress root-stress-branches flank-pressure efficiency bearing-forces error-budget profile-chart flank-load sidebands crack
+other_figures := fig05-branches fig07-branches multipliers load-sharing waterfall order-cuts tooth-loads root-stress root-stress-branches flank-pressure efficiency bearing-forces error-budget profile-chart flank-load sidebands crack residual-signal
 figures := $(paper_figures) $(other_figures) relief-jumps
 inputs_of_paper = $(call inputs,$1,$(or $(paper_scenes_$1),$(if $(filter $(beside_figures),$1),$(shown_scenes)),$(paper_scene)),$(paper_torques))
 
@@ -138,7 +140,7 @@ figure_folder := $(if $(SCENE),out/$(basename $(notdir $(SCENE)))/report,out/fig
 # AXIS=rpm:pinion: the speed of a gear, of a train also of its carrier, in place of the mesh frequency; DB=1e-6: RMS of the DTE and of its orders in dB re this length in m.
 AXIS ?=
 DB ?=
-speed_figures := $(foreach f,fig05 fig05-branches fig07 fig07-branches fig14 fig14-elastic fig16,$(call paired,$f,$(shown_names))) fig05 fig07 fig05-branches fig07-branches fig07-600 fig14 fig14-elastic fig16 relief-jumps waterfall order-cuts tooth-loads bearing-forces efficiency root-stress root-stress-branches flank-pressure compare-motion runup-up runup-down campbell system-sweep branch
+speed_figures := $(foreach f,fig05 fig05-branches fig07 fig07-branches fig14 fig14-elastic fig16,$(call paired,$f,$(shown_names))) fig05 fig07 fig05-branches fig07-branches fig07-600 fig14 fig14-elastic fig16 relief-jumps waterfall order-cuts residual-signal tooth-loads bearing-forces efficiency root-stress root-stress-branches flank-pressure compare-motion runup-up runup-down campbell system-sweep branch
 level_figures := order-cuts compare-motion runup-up runup-down system-sweep branch
 # A figure that would not take them is not drawn without them; `modes` draws the Campbell diagram, too, `branches` its figure, and `sweep`
 # that of a train.
@@ -186,7 +188,7 @@ out/%.wav: $$(call sound_inputs,$$(own_scene)) $(TRANSFER) $$(sound_plan_file) $
 export_file = $(figure_folder)/$(basename $(notdir $(MODEL)))-results$(suffix $(MODEL))
 export_plan_file = $(B)/plans/$(own_scene)/$(notdir $(export_file)).export
 export_plan = --model $(MODEL) --stage $(STAGE) $(firstword $(shell sha256sum 2>/dev/null < '$(MODEL)'))
-export_inputs = $(foreach t,$2,out/$1/T$t/static.h5) $(call impacts,$1,$2) $(if $(call teeth,$1,cracked),,$(call both_ways,$1,$2,response))
+export_inputs = $(foreach t,$2,out/$1/T$t/static.h5) $(call impacts,$1,$2) $(call both_ways,$1,$2,response)
 ifneq ($(filter export,$(goals)),)
 $(export_file): $$(call export_inputs,$$(own_scene),$$(SCENE_$$(own_scene)_TORQUES)) $(MODEL) $$(export_plan_file) out/$$(own_scene)/params/title.txt $(call id,gear-export) | $(B)/bin/gear-export $(with_deps)
 	$(B)/bin/gear-export --model '$(MODEL)' $(if $(STAGE),--stage '$(STAGE)') --output $@ $(filter %.h5,$^)
@@ -216,20 +218,20 @@ $(animation_files): $$(call animation_needs,$$*,$$(call animated_scene,$$*)) \
 	$(call run,animate) $(call named,--mesh,$(call animated_scene,$*),mesh) --sweep $(filter %/sweep.h5,$^) $(if $(filter figures,$*),--mesh-frequency 2400) --frames $(words $(animation_frames)) --output out/$*/animation/motion $(call landed,animate)
 
 # A report shows what there is of a scene: of a system with planets their load sharing, of one in motion its sweeps; of a pair with teeth
-# that differ no figure of one mesh period, with a crack no motion.
+# that differ or are cracked no figure of one mesh period.
 teeth = $(filter $2,$(SCENE_$1_TEETH))
 # BRANCHES=yes: with the branch at the first torque, which takes about as long as four sweeps.
 BRANCHES ?= no
-system_shows = system $(if $2,system-static) $(if $(and $2,$(filter yes,$(SCENE_$1_PLANETS))),load-sharing) modes campbell $(if $(filter yes,$(SCENE_$1_MOVES)),system-sweep order-cuts)
+system_shows = system $(if $2,system-static) $(if $(and $2,$(filter yes,$(SCENE_$1_PLANETS))),load-sharing) modes campbell $(if $(filter yes,$(SCENE_$1_MOVES)),system-sweep order-cuts $(if $(call teeth,$1,alike),,residual-signal))
 system_artifacts = $(if $2,$(inputs_system-static)) out/$1/modes.h5 $(if $(filter yes,$(SCENE_$1_MOVES)),$(inputs_system-sweep))
-system_figures := system system-static load-sharing modes campbell system-sweep order-cuts ring-down branch multipliers harris-map
+system_figures := system system-static load-sharing modes campbell system-sweep order-cuts residual-signal ring-down branch multipliers harris-map
 report_shows = system finite-elements $(if $(filter yes,$(SCENE_$1_MODIFIED)),profile-chart) \
   $(if $(call teeth,$1,alike),transmission-error mesh-stiffness load-sharing error-budget) \
-  $(if $(call teeth,$1,cracked),$(if $(call teeth,$1,differ),,crack),responses-by-torque \
-  $(if $(call teeth,$1,alike),$(if $(filter yes,$(BRANCHES)),response-branches multipliers)) order-cuts waterfall tooth-loads $(if $(call teeth,$1,alike),root-stress) \
-  $(if $(filter yes,$(SCENE_$1_FRICTION)),efficiency) $(if $(filter elastic,$(SCENE_$1_BEARINGS)),bearing-forces) $(if $(call teeth,$1,differ),sidebands))
+  $(if $(call teeth,$1,cracked),$(if $(call teeth,$1,differ),,crack)) responses-by-torque \
+  $(if $(call teeth,$1,alike),$(if $(filter yes,$(BRANCHES)),response-branches multipliers)) order-cuts waterfall tooth-loads $(if $(call teeth,$1,alike),root-stress,residual-signal) \
+  $(if $(filter yes,$(SCENE_$1_FRICTION)),efficiency) $(if $(filter elastic,$(SCENE_$1_BEARINGS)),bearing-forces) $(if $(call teeth,$1,differ),sidebands)
 report_artifacts = $(foreach t,$2,out/$1/T$t/static.h5) $(call impacts,$1,$2) \
-  $(if $(call teeth,$1,cracked),,$(call both_ways,$1,$2,response)) $(if $(call teeth,$1,alike),out/$1/T$(firstword $2)/error_budget.h5)
+  $(call both_ways,$1,$2,response) $(if $(call teeth,$1,alike),out/$1/T$(firstword $2)/error_budget.h5)
 of_report = $(call $(if $(filter $2,$(systems)),system,report)_$1,$2,$(SCENE_$2_TORQUES))
 page_inputs = $(call of_report,artifacts,$1) $(patsubst %,out/$1/report/%.png,$(call of_report,shows,$1))
 # $(call report_figure,scene,figures)

@@ -519,7 +519,7 @@ if "$bin/gear-reduce" --params $matched/body.toml --mesh out/scene/pinion/mesh.h
   wrong "gear-reduce matches at the depth of the scene, and body.h5 says so" "$(tail -n 1 said)"; fi
 rm -f said
 
-# --- a cracked tooth: another mesh and body of that gear alone, statics over a turn, no motion
+# --- a cracked tooth: another mesh and body of that gear alone, statics over a turn, no ring-down
 sed -E "$coarse; s/^\[material.steel\]/[gear.pinion.crack]\ntooth = 3\ndepth_mm = 2\n&/" "$scene_of_paper" > scene_cracked.toml
 cracked=out/scene_cracked
 "$bin/gear-scene" --scene scene_cracked.toml --output cracked.mk --out out > /dev/null 2>&1
@@ -534,9 +534,9 @@ if [ "$(readlink $cracked/wheel)" = "$(readlink out/scene/wheel)" ] && [ "$(read
   wrong "a cracked tooth: mesh, body, statics over a turn and its figure" "$(tail -n 1 said)"; fi
 rejected "the mesh of a gear without the crack" 3 "tooth 0 3" "$bin/gear-reduce" \
   --params $cracked/pinion/body.toml --mesh out/scene/pinion/mesh.h5 --output $cracked/pinion/body.h5
-rejected "motion with a cracked tooth" 3 "driver 3 motion" "$bin/gear-sweep" --params $cracked/params/sweep.toml "${cracked_pair[@]}" \
-  --static $cracked/T100/static.h5 --reference-static $cracked/T100/static.h5 --direction up --output $cracked/T100/sweep.h5
-rejected "a lumped model of a cracked tooth" 3 "50 cracked" "$bin/gear-lumped" --model secant --static $cracked/T100/static.h5 \
+rejected "a ring-down with a cracked tooth" 3 "pinion crack" "$bin/gear-impact" --params $cracked/params/impact.toml "${cracked_pair[@]}" \
+  --static $cracked/T100/static.h5 --reference-static $cracked/T100/static.h5 --torque 100 --output $cracked/T100/impact.h5
+rejected "a lumped model of a cracked tooth" 3 "pinion cracked" "$bin/gear-lumped" --model secant --static $cracked/T100/static.h5 \
   --params $cracked/params/sweep.toml --direction up --output $cracked/T100/lumped.h5
 rejected "root stress without two sweeps of one torque" 3 'two response.h5 static.h5 up down' "$bin/gear-plot" root-stress --plots "$plots" --output root \
   out/scene/T100/static.h5 out/scene/T100/up/response.h5 out/scene/T100/up/response.h5

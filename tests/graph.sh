@@ -272,13 +272,13 @@ plans "a report of a scene: every torque both ways, ring-downs, one error budget
 plans "with branches: one branch, two figures more" "gear-impact*2 gear-orbit*1 gear-plot*13 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4" SCENE=mine/plain.toml BRANCHES=yes report
 sed -E 's/^contact = .*/contact = "line"/' mine/plain.toml > mine/lines.toml; plans "contact in lines: no ring-down" "gear-plot*11 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4" SCENE=mine/lines.toml report
 sed -E 's/^\[gear.wheel\]/[gear.pinion.modification]\ntip_relief_um = 10\ntip_relief_start_deg = 22\n&/' mine/plain.toml > mine/relief.toml; plans "relief: a profile chart" "gear-impact*2 gear-plot*12 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4" SCENE=mine/relief.toml report
-sed -E 's/^\[gear.wheel\]/[gear.pinion.error]\niso_class = 5\n&/' mine/plain.toml > mine/graded.toml; plans "teeth that differ: sidebands instead of figures of one mesh period" "gear-plot*7 gear-report*1 gear-spectra*4 gear-static*2 gear-sweep*4" SCENE=mine/graded.toml report
-sed -E 's/^\[gear.wheel\]/[gear.pinion.crack]\ndepth_mm = 1.0\n&/' mine/plain.toml > mine/cracked.toml; plans "a cracked tooth: gears at rest only" "gear-mesh*1 gear-plot*3 gear-reduce*1 gear-report*1 gear-static*2" SCENE=mine/cracked.toml report
-refuses "make teeth says what there is of teeth that differ" 'teeth differ make SCENE=mine/graded.toml tooth-loads sidebands' SCENE=mine/graded.toml teeth
+sed -E 's/^\[gear.wheel\]/[gear.pinion.error]\niso_class = 5\n&/' mine/plain.toml > mine/graded.toml; plans "teeth that differ: sidebands instead of figures of one mesh period" "gear-plot*8 gear-report*1 gear-spectra*4 gear-static*2 gear-sweep*4" SCENE=mine/graded.toml report
+sed -E 's/^\[gear.wheel\]/[gear.pinion.crack]\ndepth_mm = 1.0\n&/' mine/plain.toml > mine/cracked.toml; plans "a cracked tooth: its figures, no ring-down" "gear-mesh*1 gear-plot*8 gear-reduce*1 gear-report*1 gear-spectra*4 gear-static*2 gear-sweep*4" SCENE=mine/cracked.toml report
+refuses "make teeth says what there is of teeth that differ" 'teeth differ make SCENE=mine/graded.toml tooth-loads sidebands residual-signal' SCENE=mine/graded.toml teeth
 make_ -n teeth
 grep -q 'gear-report --teeth --output out/figures/teeth/index.html out/parker2000/T150/static.h5 .*out/figures/root-stress.png' "$log" && ! grep -q 'T100/up' "$log" && ok "make teeth is at the torque of the figures that it shows" ||
   wrong "make teeth is at the torque of the figures that it shows" "$(grep -e --teeth "$log" | tail -n 1) $(tail -n 1 "$log")"
-refuses "make teeth says what there is of a cracked tooth" 'teeth cracked make SCENE=mine/cracked.toml crack' SCENE=mine/cracked.toml teeth
+refuses "make teeth says what there is of a cracked tooth" 'teeth cracked make SCENE=mine/cracked.toml crack residual-signal' SCENE=mine/cracked.toml teeth
 plans "teeth that differ have no ring-down in other figures either" "gear-plot*1 gear-spectra*2 gear-static*1 gear-sweep*2" SCENE=mine/graded.toml fig05
 plans "a page by its path" "gear-impact*2 gear-plot*11 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4" SCENE=mine/plain.toml out/plain/report/index.html
 

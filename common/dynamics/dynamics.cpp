@@ -143,6 +143,7 @@ void RollingDynamics::set_zone(const CandidateZone& range, int steps, const Zone
   const auto tables = couple_fields(system);
   for (Position& position : positions_) fill_position(position, system, tables);
   set_hunting_gaps(beside.gaps);
+  set_cracks();
   share_zones(system);
   kernel_.set_zone(std::move(system), positions_);
   if (model_.friction.acts()) kernel_.set_friction(friction_, torque_force_);
@@ -343,6 +344,34 @@ void RollingDynamics::put_gap(int position, int period) {
                     hunting_place_[position]],
       gap.size());
   kernel_.set_gap(position, gap);
+  if (!crack_.empty()) put_crack(position, period);
+}
+
+// A crack has no inertia of its own and no damping: what it adds follows the forces at once, as the half-planes do.
+void RollingDynamics::set_cracks() {
+  crack_.clear();
+  intact_.clear();
+  crack_is_put_.assign(positions_.size(), 0);
+  if (parameters_.fidelity.body == BodyModel::rigid) return;
+  for (int period = 0; period < hunting_; ++period)
+    for (size_t i = 0; i < positions_.size(); ++i)
+      if (MatrixXd adds = crack_compliance(model_, positions_[i].mesh, period); adds.size() > 0)
+        crack_.emplace(std::pair{period, static_cast<int>(i)}, std::move(adds));
+  if (crack_.empty()) return;
+  intact_.reserve(positions_.size());
+  for (const Position& position : positions_) intact_.push_back(position.instantaneous_compliance);
+}
+
+void RollingDynamics::put_crack(int position, int period) {
+  const auto i = static_cast<size_t>(position);
+  const auto found = crack_.find({period, position});
+  const bool adds = found != crack_.end();
+  if (!adds && !crack_is_put_[i]) return;
+  crack_is_put_[i] = adds;
+  MatrixXd& instantaneous = positions_[i].instantaneous_compliance;
+  instantaneous = intact_[i];
+  if (adds) instantaneous += found->second;
+  kernel_.set_crack(position, instantaneous, adds ? found->second : MatrixXd());
 }
 
 void RollingDynamics::pass_speed(double mesh_frequency, int steps) {
@@ -353,6 +382,7 @@ void RollingDynamics::pass_speed(double mesh_frequency, int steps) {
   steps_ = steps;
   stride_ = finest / steps;
   const double h = step_ = 1 / (mesh_frequency * steps);
+  for (size_t i = 0; i < crack_is_put_.size(); ++i) put_crack(static_cast<int>(i), -1);
   if (model_.friction.acts()) set_friction(mesh_frequency);
   std::vector<Propagator> propagators;
   for (size_t i = 0; i < coordinates_.size(); ++i) {

@@ -37,6 +37,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "base/dense.h"
@@ -273,6 +274,9 @@ class RollingDynamics {
     if (hunting_ > 1) put_gap(position, period);
   }
   void put_gap(int position, int period);
+  // What cracks add to the compliance at a position in a mesh period; period -1: nothing.
+  void set_cracks();
+  void put_crack(int position, int period);
   // result: (strip) m, of all that is instantaneous, without laws of lines; p: (strip) N.
   void displace_locally(int position, const double* p, Eigen::VectorXd& result) const;
   Eigen::MatrixXd local_compliance(int position) const;  // (strip, strip) m N-1, the same
@@ -336,6 +340,10 @@ class RollingDynamics {
   int hunting_ = 1;
   std::vector<size_t> hunting_place_;  // (position) of its gaps in each mesh period's part of hunting_gap_
   std::vector<double> hunting_gap_;    // m: (mesh period, strip of all positions), of teeth that differ
+  // (node, node) m N-1 of a mesh period and position at which a tooth near a cracked one is in reach
+  std::map<std::pair<int, int>, Eigen::MatrixXd> crack_;
+  std::vector<Eigen::MatrixXd> intact_;  // [position] what is instantaneous without cracks
+  std::vector<char> crack_is_put_;       // [position]
   DampingIntegrals damping_;
   double step_ = 0;                      // s
   std::vector<Eigen::MatrixXd> fields_;  // [gear] (flank, field) V, orthonormal

@@ -46,11 +46,6 @@ void RollingDynamics::require_bodies() const {
   if (parameters_.inertia.size() != model_.gear.size())
     fail(Failure::input, parameters_.inertia.size(), " total inertias are given for ", gears(), " gears");
   for (int g = 0; g < gears(); ++g) {
-    if (model_.gear[g].cracked())
-      fail(
-          Failure::input, "the ", g ? "driven gear" : "driver", " has a crack in tooth ",
-          model_.gear[g].body().design.crack.tooth,
-          ": motion does not yet follow a tooth that is softer than the others; statics do (make static), or take the section [gear.<name>.crack] out");
     if (!(parameters_.inertia[g] > model_.gear[g].body().inertia))
       fail(Failure::input, "total_inertia_kgm2 = ", parameters_.inertia[g], " of the ",
            g ? "driven gear" : "driver", " lies below the inertia of its own body, ",

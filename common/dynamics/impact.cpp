@@ -115,7 +115,8 @@ class FixedPhasePair {
           "body = \"full\" in [fidelity] is not available in ring-downs: the eigenvalues beside the decays are those of dense matrices; set body = \"modal\"");
     if (plan.phases < 2 || plan.phases % 2)
       fail(Failure::input, plan.phases, " phases: an even number above 0 is needed");
-    require_like_teeth(statics.mesh, "a pair at a fixed mesh phase (gear-impact, gear-jump-map)");
+    require_like_teeth(statics.mesh, driver.design, driven.design,
+                       "a pair at a fixed mesh phase (gear-impact, gear-jump-map)");
     require_inertia(statics.mesh, {driver.inertia, driven.inertia}, settings.inertia);
     GearMeshSpec still = statics.mesh;
     still.friction = {};  // nothing slides at a fixed phase

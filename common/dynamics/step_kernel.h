@@ -127,6 +127,7 @@ class StepKernel {
     std::pmr::vector<double> store;
     // Of lines (pair, pair), of strips that between nodes: StripCompliance::at_nodes.
     Eigen::Map<Eigen::MatrixXd> compliance;
+    Eigen::MatrixXd intact;  // the same without cracks, once there was one here at this speed
     ActiveSet active;
     PairVector force;  // (pair) N, of lines: what they carried here last; empty: not known
     LineStart start;   // of lines, at this speed
@@ -151,6 +152,8 @@ class StepKernel {
   void set_zone(StepSystem system, const std::vector<StepPosition>& positions);
   // (strip) m: of the teeth that meet there now.
   void set_gap(int position, const Eigen::VectorXd& gap);
+  // (node, node) m N-1: what is instantaneous there now, and what of it a crack adds to the position's own; empty: nothing.
+  void set_crack(int position, const Eigen::MatrixXd& instantaneous, const Eigen::MatrixXd& crack);
   // 1: coefficient of friction from the next set_speed on; torque_force: as in StepSystem. For positions with friction.
   void set_friction(double coefficient, const Eigen::VectorXd& torque_force);
   // `steps` a divisor of the number of positions. Active strips, or forces, of a step at the same phase stay as a first guess.

@@ -214,6 +214,24 @@ void StepKernel::set_gap(int position, const VectorXd& gap) {
     stream_[frame.line + static_cast<size_t>(j * record.size() + LineRecord::kGap)] = gap[j];
 }
 
+void StepKernel::set_crack(int position, const MatrixXd& instantaneous, const MatrixXd& crack) {
+  if (!system_.lines) put_at_nodes(instantaneous, &stream_[frame(position).instantaneous_compliance]);
+  if (steps_.empty() || position % stride_ != 0) return;
+  Step& step = steps_[static_cast<size_t>(position) / static_cast<size_t>(stride_)];
+  if (step.intact.size() == 0) step.intact = step.compliance;
+  step.compliance = step.intact;
+  if (crack.size() > 0) {
+    MatrixXd laid = crack;
+    if (!system_.lines) {
+      laid.setZero(step.compliance.rows(), step.compliance.cols());
+      put_at_nodes(crack, laid.data());
+    }
+    step.compliance += laid;
+  }
+  step.active.forget();
+  step.start.forget();
+}
+
 // Lays (node, node) out as StripCompliance::at_nodes, whose other rows stay 0.
 void StepKernel::put_at_nodes(const MatrixXd& at_nodes, double* to) {
   const auto pairs = at_nodes.cols() / kZoneNodes;
@@ -288,6 +306,7 @@ void StepKernel::set_speed(std::vector<Propagator> propagators, const Relaxation
   for (int i = 0; i < steps; ++i) {
     const StepPosition& position = positions[position_of(i)];
     Step& step = steps_[i];
+    step.intact.resize(0, 0);
     step.active.forget();
     step.start.forget();
     at_nodes = position.instantaneous_compliance + relaxed_step_.from_new * position.relaxed;

@@ -166,8 +166,8 @@ SystemEquilibrium SystemDynamics::equilibrium_under(const VectorXd& frame, int i
     further = frame_.on_carriers(frame, coordinates_.inertia.size());
   }
   flexibility.head(coordinates_.rigid).setZero();
-  const MatrixXd compliance =
-      position.instantaneous_compliance + position.relaxed + modal_compliance(position, flexibility);
+  const MatrixXd compliance = position.instantaneous_compliance + position.relaxed + crack_at_rest(i) +
+                              modal_compliance(position, flexibility);
   const VectorXd by_torque = flexibility.cwiseProduct(torque);
   for (int k = 0; k < position.size(); ++k) at.gap[k] -= moved(position, k, by_torque);
   ComplementaritySolver solver;
@@ -390,7 +390,7 @@ FixedPhaseMesh SystemDynamics::frozen(int i) {
   out.relaxation = relaxation_;
   out.torque = VectorXd::Zero(coordinates_.size());
   out.gap = VectorXd::Zero(static_cast<Index>(active.size()));
-  out.local = position.instantaneous_compliance(active, active);
+  out.local = (position.instantaneous_compliance + crack_at_rest(i))(active, active);
   out.residual = position.relaxed(active, active);
   out.participation.resize(static_cast<Index>(active.size()), coordinates_.size());
   for (Index a = 0; a < out.gap.size(); ++a) {

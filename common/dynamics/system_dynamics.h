@@ -15,15 +15,17 @@
 //
 // Pairs of a mesh are numbered by the mesh period of the system: a pair that is number i in one is i + 1 in the next. At the end
 // of a mesh period relaxed loads move on by one tooth, and doublets that turn with their gear turn back by one. A slot is
-// (mesh, pair). Where teeth differ, gaps are those of the mesh period of the hunting period in which a state is; all else is the same in
-// each. All that depends on the position is computed once for the steps of a period. A step takes no memory where at most
+// (mesh, pair). Where teeth differ, gaps are those of the mesh period of the hunting period in which a state is, and so is what a crack
+// adds to A, at once as Hertz's law; all else is the same in each. All that depends on the position is computed once for the steps of a period. A step takes no memory where at most
 // 64 pairs are in reach and no energy balance is kept.
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <map>
 #include <memory_resource>
+#include <utility>
 #include <vector>
 
 #include "base/huge_pages.h"
@@ -184,6 +186,8 @@ class SystemDynamics {
     std::vector<int> order;      // contacts of all parts, one part after the other
     Eigen::MatrixXd instantaneous_compliance, relaxed;  // (contact, contact) m N-1: A, and W V S
     Eigen::MatrixXd compliance;  // (contact in whole lanes, contact) m N-1: of a step at the speed
+    // (contact, contact) m N-1: what cracks add in the mesh period that is put, empty: nothing; `compliance` without it
+    Eigen::MatrixXd crack, intact;
     Eigen::MatrixXd
         friction;  // (contact, contact) m N-1: what friction adds to it, not symmetric; empty without
     Eigen::MatrixXd drift, drift_slide;      // (null vector, contact): of normal forces; of friction per mu
@@ -195,6 +199,10 @@ class SystemDynamics {
   void require_range(const Position& position, const Eigen::Ref<const Eigen::VectorXd>& force) const;
   void set_hunting_gaps(const std::vector<SystemPosition>& placed);
   void put_gap(int position, int period);  // of its mesh period
+  void set_cracks(const std::vector<SystemPosition>& placed);
+  void put_crack(Position& position, int place, int period);
+  // (contact, contact) at rest at phase i / positions, of the first mesh period; of teeth without cracks zeros.
+  Eigen::MatrixXd crack_at_rest(int i) const;
   void find_slots(const std::vector<SystemPosition>& placed);
   void list_parts();
   double numbers(const std::vector<SystemPosition>& placed) const;
@@ -307,7 +315,9 @@ class SystemDynamics {
   Eigen::VectorXd friction_;         // (mesh) 1, at the speed that is set
   std::vector<int> hunting_place_;   // (position + 1) of its gaps in each mesh period's part of hunting_gap_
   std::vector<double> hunting_gap_;  // m: (mesh period, contact of all positions), of teeth that differ
-  int first_ = 0, last_ = 0;         // pairs that may touch
+  // (contact, contact) m N-1 of a mesh period and position at which a tooth near a cracked one is in reach
+  std::map<std::pair<int, int>, Eigen::MatrixXd> crack_;
+  int first_ = 0, last_ = 0;                 // pairs that may touch
   std::vector<std::vector<int>> meshes_of_;  // [body]
   std::vector<int> relaxed_first_;           // (body + 1)
   std::vector<Eigen::MatrixXd> fields_;      // [body] (flank, field) V

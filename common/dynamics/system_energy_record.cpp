@@ -93,6 +93,7 @@ void SystemEnergyRecord::fill(Instant& now, const SystemDynamics::Position& posi
   now.p = of_.p_.head(n);
   if (of_.slides()) fill_friction(now);
   now.local = position.instantaneous_compliance * now.p;
+  if (position.crack.size() > 0) now.local += position.crack * now.p;
   now.stored = 0.5 * now.p.dot(now.local);
   now.d.resize(n);
   for (int k = 0; k < n; ++k) {

@@ -442,6 +442,36 @@ void SystemDynamics::put_gap(int position, int period) {
       &hunting_gap_[static_cast<size_t>(hunting_place_.back()) * static_cast<size_t>(in) +
                     static_cast<size_t>(hunting_place_[static_cast<size_t>(place)])],
       gap.size());
+  if (!crack_.empty()) put_crack(positions_[static_cast<size_t>(position)], place, in);
+}
+
+void SystemDynamics::set_cracks(const std::vector<SystemPosition>& placed) {
+  crack_.clear();
+  if (!system_.cracked() || motion_.fidelity.body == BodyModel::rigid) return;
+  for (int period = 0; period < hunting_; ++period)
+    for (size_t i = 0; i < placed.size(); ++i) {
+      MatrixXd adds = MatrixXd::Zero(placed[i].strips(), placed[i].strips());
+      if (add_cracks(system_, placed[i], period, adds))
+        crack_.emplace(std::pair{period, static_cast<int>(i)}, std::move(adds));
+    }
+}
+
+void SystemDynamics::put_crack(Position& position, int place, int period) {
+  const auto found = crack_.find({period, place});
+  const bool adds = found != crack_.end();
+  if (!adds && position.crack.size() == 0) return;
+  auto whole = position.compliance.topRows(position.size());
+  if (position.crack.size() == 0) position.intact = whole;
+  position.crack = adds ? found->second : MatrixXd();
+  whole = position.intact;
+  if (adds) whole += position.crack;
+  position.followed.forget();
+}
+
+MatrixXd SystemDynamics::crack_at_rest(int i) const {
+  const auto found = crack_.find({0, i});
+  const Index n = positions_[static_cast<size_t>(i)].size();
+  return found == crack_.end() ? MatrixXd::Zero(n, n) : found->second;
 }
 
 void SystemDynamics::set_positions(const std::vector<double>& corner_gap, int steps) {
@@ -470,6 +500,7 @@ void SystemDynamics::set_positions(const std::vector<double>& corner_gap, int st
   }
   positions_.back() = filled(placed[0], 1);
   set_hunting_gaps(placed);
+  set_cracks(placed);
   for (VectorXd* x : {&e_, &p_, &d_}) x->setZero(padded(most_contacts_));
   carrying_rows_.assign(static_cast<size_t>(most_contacts_), nullptr);
   carrying_forces_.assign(static_cast<size_t>(most_contacts_), 0);

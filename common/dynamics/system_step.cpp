@@ -102,6 +102,7 @@ void SystemDynamics::propagate_by(double seconds) {
 
 // Compliance of the contacts at the end of a step.
 void SystemDynamics::close(Position& position) const {
+  position.crack.resize(0, 0);
   auto whole = position.compliance.topRows(position.size());
   whole = position.instantaneous_compliance + relaxed_step_.from_new * position.relaxed +
           modal_compliance(position, 0.5 * bq_);

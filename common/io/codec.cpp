@@ -66,17 +66,20 @@ std::vector<Eigen::Index> shape_of(const std::vector<MatrixRM>& values) {
 std::vector<Eigen::Index> shape_of(const std::vector<std::string>& values) {
   return {static_cast<Eigen::Index>(values.size())};
 }
-// Of a dataset with these known lengths: four axes divide the columns of a list of matrices.
+// Of a dataset with these known lengths: one axis more than a matrix, or a list of matrices, has divides the columns.
 template <class Value>
 std::vector<Eigen::Index> shape_along(const std::vector<Eigen::Index>& known, const Value& value) {
   std::vector<Eigen::Index> shape = shape_of(value);
-  if constexpr (std::is_same_v<Value, std::vector<MatrixRM>>)
-    if (known.size() == 4 && known[2] > 0) {
-      if (shape[2] % known[2] != 0)
-        fail(Failure::numerical, "a result has ", shape[2], " columns, no multiple of ", known[2]);
-      shape.push_back(shape[2] < 0 ? -1 : shape[2] / known[2]);
-      shape[2] = known[2];
+  if constexpr (std::is_same_v<Value, std::vector<MatrixRM>> || std::is_same_v<Value, MatrixRM>) {
+    const std::size_t last = shape.size() - 1;
+    const Eigen::Index columns = shape[last];
+    if (known.size() == shape.size() + 1 && known[last] > 0) {
+      if (columns % known[last] != 0)
+        fail(Failure::numerical, "a result has ", columns, " columns, no multiple of ", known[last]);
+      shape.push_back(columns < 0 ? -1 : columns / known[last]);
+      shape[last] = known[last];
     }
+  }
   return shape;
 }
 
@@ -93,6 +96,9 @@ void put(ArtifactWriter& out, const Dataset& d, const AxisLengths&, const Eigen:
 }
 void put(ArtifactWriter& out, const Dataset& d, const AxisLengths&, const std::vector<std::string>& value) {
   out.file().put(d.name, value, label(d));
+}
+void put(ArtifactWriter& out, const Dataset& d, const AxisLengths& known, const MatrixRM& value) {
+  out.file().put(d.name, value.data(), sizes(shape_along(known, value)), label(d));
 }
 void put(ArtifactWriter& out, const Dataset& d, const AxisLengths& known,
          const std::vector<MatrixRM>& value) {
@@ -132,7 +138,13 @@ void take(const ArtifactReader& in, const Dataset& d, const AxisLengths&, Eigen:
   value = in.vector(d.name, d.range, 2);
 }
 void take(const ArtifactReader& in, const Dataset& d, const AxisLengths& shape, MatrixRM& value) {
-  value = in.matrix(d.name, d.range, shape[0], shape[1]);
+  if (shape.size() == 2) {
+    value = in.matrix(d.name, d.range, shape[0], shape[1]);
+    return;
+  }
+  const auto [all, found] = in.doubles(d.name, d.range, shape);
+  value = Eigen::Map<const MatrixRM>(all.data(), static_cast<Eigen::Index>(found[0]),
+                                     static_cast<Eigen::Index>(found[1] * found[2]));
 }
 void take(const ArtifactReader& in, const Dataset& d, const AxisLengths& shape, MatrixRMi& value) {
   value = in.whole_matrix(d.name, d.range, shape[0], shape[1]);
@@ -361,20 +373,21 @@ void describe_remarks(Codec& c, std::vector<Remark>& remarks) {
 
 void describe_root_place(Codec& c, const std::string& angle_name, Eigen::VectorXd& angle,
                          const std::string& phase_name, Eigen::VectorXd& phase, const std::string& axis) {
-  c(angle, angle_name, "1", kRoll, axis,
-    "angle (rad) of the root's tangent against the centre line of the tooth where the stress is largest of what is sustained for 1/64 of a mesh period");
-  c(phase, phase_name, "1", kPlace, axis, "mesh phase of the tooth's pair then, 0 at the pitch point");
+  c(angle, angle_name, "1", kRoll, axis, kRootAngle);
+  c(phase, phase_name, "1", kPlace, axis, kRootPhase);
 }
 
-void describe_friction(Codec& c, const GearMeshSpec& mesh, FrictionLosses& friction) {
+void describe_friction(Codec& c, FrictionLosses& losses) {
   constexpr Range kPower{-1e12, 1e12};  // W
-  if (!c.lists() && !mesh.friction.acts()) return;
+  if (!c.optional("/friction_power", losses.power.size() > 0)) return;
   const char* const axis = "mesh_frequency";
-  c(friction.coefficient, "/friction_coefficient", "1", kShare, axis, "coefficient of friction");
-  c(friction.power, "/friction_power", "W", kPower, axis,
-    "mean power that friction takes, the vibration in the sliding speed", "mean of mu s F v");
-  c(friction.efficiency, "/efficiency", "1", kSigned, axis,
-    "share of the power of the driver that friction leaves", "1 - friction_power / (T omega)");
+  c(losses.coefficient, "/friction_coefficient", "1", kShare, axis,
+    "coefficient of friction; of a train the mean over its meshes, weighted with what friction takes in each");
+  c(losses.power, "/friction_power", "W", kPower, axis,
+    "mean power that friction takes in all meshes, the vibration in the sliding speed", "mean of mu s F v");
+  c(losses.efficiency, "/efficiency", "1", kSigned, axis,
+    "share of the power that goes in that friction leaves: of the driver of a pair; of a train of the drives, and of what holds a member that turns on the ground",
+    "1 - friction_power / sum of the T omega above 0");
 }
 
 void describe_hunting(Codec& c, int& periods) {

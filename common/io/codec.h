@@ -41,8 +41,8 @@ struct Dataset {
   std::string equation{};  // where it comes from
 };
 
-// A list of matrices is one dataset with three axes, the first along the list; or with four, the columns being along the last two, of
-// which the length of the first is known.
+// A list of matrices is one dataset with three axes, the first along the list. With one axis more than it has, the columns of a matrix,
+// or of a list of matrices, are along the last two, of which the length of the first is known.
 using Member = std::variant<double*, int*, std::string*, Eigen::VectorXd*, Eigen::VectorXi*, Eigen::Vector2d*,
                             MatrixRM*, MatrixRMi*, std::vector<MatrixRM>*, std::vector<std::string>*>;
 
@@ -193,8 +193,13 @@ void describe_remarks(Codec& codec, std::vector<Remark>& remarks);
 
 // How well the contact conditions hold, worst over all steps: m, N, contact solutions by the slower method.
 void describe_certificate(Codec& codec, double& least_gap, double& least_force, int& fallbacks);
-// Losses of a mesh with friction; nothing of one without, that is of a file without /parameters/friction.
-void describe_friction(Codec& c, const GearMeshSpec& mesh, FrictionLosses& friction);
+// Losses by friction between the flanks, where it acts.
+void describe_friction(Codec& c, FrictionLosses& losses);
+// What the place of the largest root stress of a motion means.
+inline constexpr const char *
+    kRootAngle =
+       "angle (rad) of the root's tangent against the centre line of the tooth where the stress is largest of what is sustained for 1/64 of a mesh period",
+   *kRootPhase = "phase of the tooth's pair in its mesh then, 0 at the pitch point";
 // Of a gear, (axis): where the largest root stress of a motion stands.
 void describe_root_place(Codec& c, const std::string& angle_name, Eigen::VectorXd& angle,
                          const std::string& phase_name, Eigen::VectorXd& phase, const std::string& axis);

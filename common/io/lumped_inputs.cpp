@@ -26,13 +26,9 @@ LumpedInputs read_lumped_inputs(const std::string& statics, const std::string& r
   LumpedInputs inputs;
   inputs.at_torque = read_pair_statics(statics);
   const StaticResult& at_torque = inputs.at_torque;
-  require_like_teeth(at_torque.mesh, "a lumped model");
+  require_like_teeth(at_torque.mesh, at_torque.gear[0].design, at_torque.gear[1].design, "a lumped model");
   require_rigid_bearings(at_torque.mesh, "a lumped model");
   require_no_friction(at_torque.mesh, "a lumped model");
-  if (at_torque.hunting_periods > 1)
-    fail(
-        Failure::input, statics, " holds ", at_torque.hunting_periods,
-        " mesh periods, because a tooth is cracked: a lumped model takes teeth that are all alike; use a scene without [gear.<name>.crack]");
   inputs.at_reference = reference.empty() ? at_torque : read_pair_statics(reference);
   if (params.empty()) {
     if (!reference.empty()) require_same_pair(statics, reference);

@@ -43,6 +43,11 @@ void describe_vibration(Codec& c, ResponseResult& a) {
   c(a.dte_order, "/dte_order", "m", kSize, "mesh_frequency order mesh",
     "amplitude of the harmonics 1, 2, ... of the hunting frequency");
   c.numbers("order", 1, "number of the harmonic of the hunting frequency");
+  c(a.residual_rms, "/residual_rms", "m", kSize, kOfMesh,
+    "RMS of the residual signal: the dynamic transmission error less the mean of its mesh periods, without mesh harmonics");
+  c(a.residual_kurtosis, "/residual_kurtosis", "1", kPositive, kOfMesh,
+    "kurtosis of the residual signal: 3 of noise, the more the fewer teeth make it",
+    "mean of y^4 / (mean of y^2)^2");
 }
 
 void describe_loads(Codec& c, ResponseResult& a) {
@@ -66,14 +71,13 @@ void describe_loads(Codec& c, ResponseResult& a) {
       "amplitude of the harmonics 1, 2, ... of the mesh frequency in the force on the bearing, x and y together",
       "sqrt(x^2 + y^2)");
   if (c.optional("/root_stress_max", a.root_stress_max.size() > 0)) {
-    c(a.root_stress_max, "/root_stress_max", "Pa", kStress, kOfBody,
-      "largest tangential stress along the roots beside the loaded flanks, quasi-static in the tooth loads: the inertia of the body adds none; 0 of a body of which it is not known");
-    c(a.root_stress_sustained, "/root_stress_sustained", "Pa", kStress, kOfBody,
+    const std::string side = "mesh_frequency mesh side";
+    c(a.root_stress_max, "/root_stress_max", "Pa", kStress, side,
+      "largest tangential stress along the roots beside the loaded flanks under the loads of the mesh, quasi-static in them: the inertia of the body adds none; 0 of a mesh of which it is not known");
+    c(a.root_stress_sustained, "/root_stress_sustained", "Pa", kStress, side,
       "the same, sustained for 1/64 of a mesh period: without spikes whose height depends on the time step");
-    c(a.root_stress_angle, "/root_stress_angle", "1", kRoll, kOfBody,
-      "angle (rad) of the root's tangent against the centre line of the tooth where the stress is largest of what is sustained for 1/64 of a mesh period");
-    c(a.root_stress_phase, "/root_stress_phase", "1", kPlace, kOfBody,
-      "mesh phase of the tooth's pair then, 0 at the pitch point");
+    c(a.root_stress_angle, "/root_stress_angle", "1", kRoll, side, kRootAngle);
+    c(a.root_stress_phase, "/root_stress_phase", "1", kPlace, side, kRootPhase);
   }
   if (c.optional("/tooth_load_sustained", a.tooth_load_sustained.size() > 0)) {
     c(a.tooth_load_sustained, "/tooth_load_sustained", "N", kLoad, kOfMesh,
@@ -100,7 +104,7 @@ void describe(Codec& c, ResponseResult& a) {
     c(a.loss_factor, "/loss_factor", "1", kPositive, kSpeeds,
       "mean power lost by sliding over the power carried, per unit coefficient of friction");
   describe_pressure(c, a);
-  if (!a.of_train()) describe_friction(c, a.mesh, a.friction);
+  describe_friction(c, a.friction);
   c(a.separation_fraction, "/separation_fraction", "1", kShare, kOfMesh, "share of the period without force");
   c(a.separations_per_period, "/separations_per_period", "1", kPositive, kOfMesh,
     "losses of contact per mesh period");

@@ -97,6 +97,14 @@ class Fragment {
 
 }  // namespace
 
+namespace {
+
+std::string teeth_words(const SceneAbilities& able) {
+  return text(able.teeth_differ ? "differ" : able.cracked ? "" : "alike", able.cracked ? " cracked" : "");
+}
+
+}  // namespace
+
 std::string system_fragment(const SystemScene& scene, const System& layout, const std::string& path,
                             const std::string& stem, const BodyHashes& bodies) {
   const SceneAbilities able = abilities(scene, layout);
@@ -106,6 +114,7 @@ std::string system_fragment(const SystemScene& scene, const System& layout, cons
   if (!able.elastic) return out.words();
   out.gears(bodies, {input_torque(layout)});
   out.yes_or_no("MOVES", able.moves);
+  out("TEETH", teeth_words(able));
   std::string meshes;
   for (size_t m = 0; m < layout.meshes.size(); ++m) meshes += (m > 0 ? " " : "") + mesh_name(layout, m);
   out("MESHES", meshes);
@@ -115,12 +124,11 @@ std::string system_fragment(const SystemScene& scene, const System& layout, cons
 std::string scene_fragment(const Scene& scene, const std::string& path, const std::string& stem,
                            const BodyHashes& bodies) {
   const SceneAbilities able = abilities(scene);
-  const bool differ = able.teeth_differ, cracked = able.cracked;
   bool modified = false;
   for (const std::string& gear : scene.mesh.gear)
     modified |= scene.gear(gear).modification != FlankModification{};
   const bool rings_down = scene.fidelity.contact == ContactModel::strips &&
-                          scene.fidelity.body != BodyModel::full && !differ && !cracked;
+                          scene.fidelity.body != BodyModel::full && !able.teeth_differ && !able.cracked;
   Fragment out(path, stem);
   out("KIND", "pair");
   out.gears(bodies, scene.operation.torques);
@@ -128,7 +136,7 @@ std::string scene_fragment(const Scene& scene, const std::string& path, const st
   out("DRIVEN", scene.mesh.gear[1]);
   out.yes_or_no("MOVES", true);
   out.yes_or_no("RINGS_DOWN", rings_down);
-  out("TEETH", std::string(differ ? "differ" : cracked ? "" : "alike") + (cracked ? " cracked" : ""));
+  out("TEETH", teeth_words(able));
   out.yes_or_no("MODIFIED", modified);
   out.yes_or_no("FRICTION", scene.mesh.friction.acts());
   out("BEARINGS", scene.mesh.on_bearings() ? "elastic" : "rigid");

@@ -19,16 +19,24 @@ struct SystemGoal {
   Needs needs;
   bool of_pairs;
 };
-constexpr std::array kSystemGoals{
-    SystemGoal{"report", Needs::nothing, true},        SystemGoal{"mesh", Needs::elastic_gears, true},
-    SystemGoal{"reduce", Needs::elastic_gears, true},  SystemGoal{"static", Needs::elastic_gears, true},
-    SystemGoal{"sweep", Needs::speeds, true},          SystemGoal{"impact", Needs::speeds, true},
-    SystemGoal{"branches", Needs::speeds, true},       SystemGoal{"multipliers", Needs::speeds, true},
-    SystemGoal{"order-cuts", Needs::speeds, true},     SystemGoal{"runup", Needs::speeds, true},
-    SystemGoal{"sound", Needs::speeds, true},          SystemGoal{"teeth", Needs::elastic_gears, true},
-    SystemGoal{"load-sharing", Needs::planets, true},  SystemGoal{"harris-map", Needs::elastic_gears, true},
-    SystemGoal{"compare", Needs::elastic_gears, true}, SystemGoal{"modes", Needs::nothing, false},
-    SystemGoal{"mode-shapes", Needs::nothing, false}};
+constexpr std::array kSystemGoals{SystemGoal{"report", Needs::nothing, true},
+                                  SystemGoal{"mesh", Needs::elastic_gears, true},
+                                  SystemGoal{"reduce", Needs::elastic_gears, true},
+                                  SystemGoal{"static", Needs::elastic_gears, true},
+                                  SystemGoal{"sweep", Needs::speeds, true},
+                                  SystemGoal{"impact", Needs::speeds, true},
+                                  SystemGoal{"branches", Needs::speeds, true},
+                                  SystemGoal{"multipliers", Needs::speeds, true},
+                                  SystemGoal{"order-cuts", Needs::speeds, true},
+                                  SystemGoal{"runup", Needs::speeds, true},
+                                  SystemGoal{"residual-signal", Needs::speeds, true},
+                                  SystemGoal{"sound", Needs::speeds, true},
+                                  SystemGoal{"teeth", Needs::elastic_gears, true},
+                                  SystemGoal{"load-sharing", Needs::planets, true},
+                                  SystemGoal{"harris-map", Needs::elastic_gears, true},
+                                  SystemGoal{"compare", Needs::elastic_gears, true},
+                                  SystemGoal{"modes", Needs::nothing, false},
+                                  SystemGoal{"mode-shapes", Needs::nothing, false}};
 
 bool has(const SceneAbilities& system, Needs needs) {
   return needs == Needs::nothing ||
@@ -49,10 +57,7 @@ void check_teeth(const SceneAbilities& pair, const std::string& which) {
   if (!pair.teeth_differ && !pair.cracked) return;
   fail(Failure::input, "teeth: ", which, " has teeth that ", pair.teeth_differ ? "differ" : "are cracked",
        ", and root stress, load sharing and error budget are of intact, equal teeth; for it there is: make ",
-       which, " ",
-       !pair.cracked       ? "tooth-loads sidebands"
-       : pair.teeth_differ ? "fig01"
-                           : "crack");
+       which, " ", pair.teeth_differ ? "tooth-loads sidebands" : "crack", " residual-signal");
 }
 
 void check_face(const std::string& goal, const SceneAbilities& pair, const std::string& which) {
@@ -81,7 +86,10 @@ SceneAbilities abilities(const Scene& scene) {
 }
 
 SceneAbilities abilities(const SystemScene& scene, const System& layout) {
+  const auto any = [&](const auto& of) { return std::any_of(scene.gears.begin(), scene.gears.end(), of); };
   return {.pair = false,
+          .teeth_differ = any([](const SystemScene::Gear& gear) { return !gear.errors.none(); }),
+          .cracked = any([](const SystemScene::Gear& gear) { return gear.design.crack.depth > 0; }),
           .elastic = !scene.rigid(),
           .planets = layout.meshes.size() > scene.meshes.size(),
           .moves = scene.operation.frequency_to > 0};

@@ -11,7 +11,7 @@ namespace whine {
 
 struct SceneAbilities {
   bool pair = true;
-  bool teeth_differ = false, cracked = false;  // of a pair
+  bool teeth_differ = false, cracked = false;
   std::string face = {};  // what of a pair one slice over the face does not hold, in words; "": nothing
   bool elastic = false, planets = false, moves = false;  // of a system
 };

@@ -370,6 +370,11 @@ void show(SummaryLines& lines, const RunupResult& a) {
   }
 }
 
+// " of sun-planet1"; of a pair nothing.
+static std::string of_train_mesh(const ResponseResult& a, Eigen::Index mesh) {
+  return a.of_train() ? " of " + a.mesh_names[static_cast<size_t>(mesh)] : "";
+}
+
 void show(SummaryLines& lines, const ResponseResult& a) {
   if (a.of_train()) {
     add(lines, "operating point", a.direction, ", ", range_of(a.mesh_frequency));
@@ -381,7 +386,7 @@ void show(SummaryLines& lines, const ResponseResult& a) {
   }
   if (a.mesh_frequency.size() > 0) {
     Eigen::Index worst = 0, mesh = 0;
-    const auto of_mesh = [&] { return a.of_train() ? " of " + a.mesh_names[static_cast<size_t>(mesh)] : ""; };
+    const auto of_mesh = [&] { return of_train_mesh(a, mesh); };
     const double peak = a.dte_rms.maxCoeff(&worst, &mesh);
     add(lines, "largest DTE", peak * 1e6, " µm RMS", of_mesh(), " at ", a.mesh_frequency[worst], " Hz");
     const double load = a.tooth_load_max.maxCoeff(&worst, &mesh);
@@ -392,14 +397,19 @@ void show(SummaryLines& lines, const ResponseResult& a) {
         add(lines, "bearing of " + a.body_names[static_cast<size_t>(b)], "force at most ",
             a.bearing_force_max.col(b).maxCoeff(), " N, its oscillation at most ",
             a.bearing_force_rms.col(b).maxCoeff(), " N RMS");
-    for (Eigen::Index b = 0; b < a.root_stress_max.cols(); ++b)
-      if (known_of(a.root_stress_max, b)) {
-        const double stress = a.root_stress_sustained.col(b).maxCoeff(&worst);
-        add(lines, "root stress of " + a.body_names[static_cast<size_t>(b)], stress * 1e-6,
-            " MPa sustained at ", a.mesh_frequency[worst], " Hz, at a tangent of ",
-            a.root_stress_angle(worst, b) * 180 / std::numbers::pi, " deg, phase of its pair ",
-            a.root_stress_phase(worst, b));
+    for (Eigen::Index side = 0; side < a.root_stress_max.cols(); ++side)
+      if (known_of(a.root_stress_max, side)) {
+        const double stress = a.root_stress_sustained.col(side).maxCoeff(&worst);
+        add(lines, text("root stress of ", a.name_of_side(side), of_train_mesh(a, side / kSides)),
+            stress * 1e-6, " MPa sustained at ", a.mesh_frequency[worst], " Hz, at a tangent of ",
+            a.root_stress_angle(worst, side) * 180 / std::numbers::pi, " deg, phase of its pair ",
+            a.root_stress_phase(worst, side));
       }
+    if (const Eigen::VectorXd& left = a.friction.efficiency; left.size() > 0) {
+      const double least = left.minCoeff(&worst);
+      add(lines, "efficiency", least * 100, " % at least, friction between the flanks alone, at ",
+          a.mesh_frequency[worst], " Hz, where friction takes ", a.friction.power[worst], " W");
+    }
     add(lines, "contact lost", (a.separation_fraction.rowwise().maxCoeff().array() > 0).count(),
         " speeds, at most ", a.separation_fraction.maxCoeff() * 100, " % of the period");
     if (a.of_train()) {

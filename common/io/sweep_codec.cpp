@@ -59,13 +59,15 @@ void describe_bodies(Codec& c, SweepResult& a, const std::vector<std::string>& n
   if (c.lists() || a.of_train())
     c(a.holding_torque, "/holding_torque", "N m", kMoment, "mesh_frequency body",
       "of a train: mean torque that holds the body, in its sense: of a gear against its contact forces, of a carrier against the forces on its pins; 0 of bodies that turn");
-  for (size_t g = 0; g < (c.lists() ? 1 : kSides) && !a.of_train(); ++g)
-    if (c.optional("/root_stress/" + names[g], a.root_stress[g].size() > 0)) {
-      c(a.root_stress[g], "/root_stress/" + names[g], "Pa", kStress, "mesh_frequency sample",
-        "largest tangential stress of the teeth that carry load along the root beside the loaded flank, tension positive; quasi-static in the tooth loads: the inertia of the body adds none");
-      describe_root_place(c, "/root_stress_angle/" + names[g], a.root_stress_angle[g],
-                          "/root_stress_phase/" + names[g], a.root_stress_phase[g], kAxis);
-    }
+}
+
+void describe_root_stress(Codec& c, SweepResult& a) {
+  if (!c.optional("/root_stress", !a.root_stress.empty())) return;
+  const std::string side = "mesh_frequency mesh side";
+  c(a.root_stress, "/root_stress", "Pa", kStress, "mesh_frequency sample mesh side",
+    "largest tangential stress of the teeth that carry load along the root beside the loaded flank, tension positive, under the loads of the mesh; quasi-static in them: the inertia of the body adds none; 0 of a mesh of which it is not known");
+  c(a.root_stress_angle, "/root_stress_angle", "1", kRoll, side, kRootAngle);
+  c(a.root_stress_phase, "/root_stress_phase", "1", kPlace, side, kRootPhase);
 }
 
 void describe_energy(Codec& c, SweepResult& a) {
@@ -135,9 +137,10 @@ void describe(Codec& c, SweepResult& a) {
     "mesh frequency, in the order in which they were computed");
   describe_meshes(c, a);
   describe_bodies(c, a, c.lists() ? std::vector<std::string>{"<body>"} : a.body_names, lumped);
+  describe_root_stress(c, a);
   describe_speed_by_speed(c, a);
+  describe_friction(c, a.friction);
   if (!a.of_train()) {
-    describe_friction(c, a.mesh, a.friction);
     describe_backlash(c, a.backlash_margin);
     describe_backlash_left(c, a.backlash_left);
   }

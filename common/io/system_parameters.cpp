@@ -125,7 +125,10 @@ SystemStaticParameters static_parameters_of(const SystemScene& scene, const Syst
   out.fidelity = scene.fidelity;
   out.contact = scene.contact;
   out.errors = errors_of(scene, out.gear);
-  if (out.contact.positions == 0) take_positions(out.contact, hunting_periods(out), kPositions);
+  std::vector<int> cracked;
+  for (const SystemScene::Gear& gear : scene.gears)
+    if (gear.design.crack.depth > 0) cracked.push_back(gear.design.teeth);
+  if (out.contact.positions == 0) take_positions(out.contact, hunting_periods(out, cracked), kPositions);
   for (const auto& [gear, settings] : body_parameters_of(scene))
     out.body.emplace_back(gear, body_hash(settings));
   return out;

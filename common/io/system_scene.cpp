@@ -25,24 +25,22 @@ void reject_sections(const SectionReader& gear, bool rigid) {
       gear.source().reject(*node, "[", gear.label(), ".", key,
                            "]: a gear of a system with body = \"rigid\" has no '", key,
                            "', its mesh is one spring of stiffness_N_um; take the section out");
-    if (node && key == std::string("crack"))
-      gear.source().reject(
-          *node, "[", gear.label(),
-          ".crack]: a gear of a system (several meshes, carriers or drives) has no 'crack': the body of a cracked gear knows what forces on its leading flanks do to the crack, and gears of a system may work with the other ones; take the section out, or compute two of the gears as a pair");
   }
 }
 
-// The hunting period is checked at the last gear with errors, which makes it as long as it is.
+// The hunting period is checked at the last gear with errors or a crack, which makes it as long as it is.
 void check_hunting(const Source& source, const Scene& gears) {
   std::vector<int> teeth;
   for (const SceneGear& own : gears.gears) {
-    if (own.errors.none()) continue;
+    const bool cracked = own.design.crack.depth > 0;
+    if (own.errors.none() && !cracked) continue;
     teeth.push_back(own.design.teeth);
     try {
       hunting_periods_of(teeth);
     } catch (const Error& error) {
       const toml::table& table = *source.section("gear")->get(own.name)->as_table();
-      source.reject(*table.get("error"), "[gear.", own.name, ".error]: ", error.what());
+      const char* const section = own.errors.none() ? "crack" : "error";
+      source.reject(*table.get(section), "[gear.", own.name, ".", section, "]: ", error.what());
     }
   }
 }

@@ -13,7 +13,12 @@ const SceneGear& Scene::gear(const std::string& name) const {
   fail(Failure::input, "the scene has no gear '", name, "'");
 }
 
-void require_like_teeth(const GearMeshSpec& mesh, const std::string& stage) {
+void require_like_teeth(const GearMeshSpec& mesh, const GearDesign& driver, const GearDesign& driven,
+                        const std::string& stage) {
+  for (int g = 0; g < kSides; ++g)
+    if ((g ? driven : driver).crack.depth > 0)
+      fail(Failure::input, stage, " does not take a cracked tooth: [gear.", mesh.gear[g],
+           ".crack]; use a scene without this section, or a sweep, which covers the turn of the gear");
   for (int g = 0; g < kSides; ++g)
     if (!mesh.errors[g].none())
       fail(Failure::input, stage, " does not take teeth that differ: [gear.", mesh.gear[g],

@@ -164,8 +164,8 @@ struct Scene {
 };
 
 // Throw Error(input) that names the gear and `stage` ("a Harris map"), which knows nothing of ...
-void require_like_teeth(const GearMeshSpec& mesh,
-                        const std::string& stage);  // ... teeth that differ from each other,
+void require_like_teeth(const GearMeshSpec& mesh, const GearDesign& driver, const GearDesign& driven,
+                        const std::string& stage);  // ... teeth that differ from each other or are cracked,
 void require_rigid_bearings(const GearMeshSpec& mesh, const std::string& stage);  // ... elastic bearings,
 void require_no_friction(const GearMeshSpec& mesh, const std::string& stage);     // ... friction,
 void require_external(const GearMeshSpec& mesh, const GearDesign& driver, const GearDesign& driven,

@@ -25,6 +25,7 @@
 #include "report/motion_figures.h"
 #include "report/multiplier_figure.h"
 #include "report/order_figure.h"
+#include "report/residual_figure.h"
 #include "report/response_figures.h"
 #include "report/root_stress_figure.h"
 #include "report/runup_figure.h"
@@ -398,8 +399,14 @@ Drawings drawings_of_systems() {
           return is_a("whine/modes", in[0]) ? system_picture(read<ModesResult>(in[0]))
                                             : system_picture(read<SystemStaticResult>(in[0]));
         }}},
+      {"residual-signal",
+       {"teeth that differ or are cracked, in motion: transmission error and residual signal over the hunting period, sidebands, kurtosis over speed",
+        "sweep.h5 and response.h5 of one sweep", 2, 0,
+        [](const Paths& in, const Frequencies&) {
+          return residual_figure(read<SweepResult>(in[0]), read<ResponseResult>(in[1]));
+        }}},
       {"system-sweep",
-       {"a system over its speeds: vibration and contact loss of meshes, forces on bearings",
+       {"a system over its speeds: vibration and contact loss of meshes, forces on bearings, root stress, efficiency",
         "response.h5 of one system, rising, falling or both", 0, 0,
         [](const Paths& in, const Frequencies&) {
           return system_sweep_figure(read_all(in, read<ResponseResult>));

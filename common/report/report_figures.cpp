@@ -151,53 +151,56 @@ std::function<std::string(const ReportContent&)> same_words(const char* words) {
 }
 
 const std::vector<ExplainedFigure>& explained_figures() {
-  static const std::vector<ExplainedFigure> all{
-      {"system", "opening", "The gears",
-       same_words(
-           "The gears at their places, unloaded at mesh phase 0, with the teeth of their drawings, and the teeth about the pitch point. Check it against your drawing.")},
-      {"finite-elements", "gears", "Finite elements of the pair",
-       same_words(
-           "Finite element mesh of the pair and of the teeth in mesh. Flanks are exact involutes in the contact; the mesh carries their bending.")},
-      {"profile-chart", "gears", "Profile charts",
-       same_words(
-           "Profile charts of the driving flanks as an inspection sheet shows them: material against roll angle, the tip to the right.")},
-      {"contact-zone", "rest", "Contact zone",
-       same_words(
-           "Contact zone of the reference pair at the pitch point: strips, gap and pressure, beside Hertz's.")},
-      {"transmission-error", "rest", "Static transmission error", transmission_error_caption},
-      {"mesh-stiffness", "rest", "Mesh stiffness", stiffness_caption},
-      {"load-sharing", "rest", "Load sharing", load_sharing_caption},
-      {"sidebands", "rest", "Sidebands",
-       same_words(
-           "Teeth that differ: transmission error over the period after which the same teeth meet, and the shafts' orders and sidebands at rest and in motion.")},
-      {"crack", "rest", "The cracked tooth",
-       same_words(
-           "The mark of the cracked tooth in the static transmission error, its orders, and the root stress of the teeth about it.")},
-      {"response", "motion", "Vibration over speed", response_caption},
-      {"responses-by-torque", "motion", "Vibration over speed", response_caption},
-      {"response-branches", "motion", "Branches of periodic motions",
-       same_words(
-           "The same with all orbits of the branch: stable ones as a thin line, also where no sweep was on them, unstable ones dashed, and the folds at which stable branches end. A sweep jumps at a fold; where it jumps without one it has left the basin of a branch that goes on.")},
-      {"multipliers", "motion", "Floquet multipliers",
-       same_words(
-           "Floquet multipliers along the branch in the complex plane: a small disturbance of the motion is multiplied by them in each mesh period. Inside the unit circle it decays. A branch folds at 1; at -1 its period doubles.")},
-      {"rms-and-mean", "motion", "RMS and mean over speed",
-       same_words("RMS and mean of the dynamic transmission error against speed.")},
-      {"waterfall", "motion", "Spectra over speed", waterfall_caption},
-      {"order-cuts", "motion", "Order cuts",
-       same_words(
-           "Order cuts: amplitudes of the first orders of the mesh frequency in the dynamic transmission error against speed, rising and falling. Where the two differ there are two motions, and the order that is heard depends on where the speed came from.")},
-      {"tooth-loads", "motion", "Tooth loads in motion", tooth_loads_caption},
-      {"root-stress", "motion", "Root stress and dynamic factors",
-       same_words(
-           "Largest tension along the roots beside the loaded flanks: while a tooth passes through the mesh at rest (a), and over speed (b). Dynamic factors (c) are the largest mesh force, tooth load and root stress at a speed, each sustained for 1/64 of a mesh period, over T / r_b or over the largest at rest; K_v is what ISO 6336-1, method B, says of gears without deviations.")},
-      {"root-stress-branches", "motion", "Root stress along the branch",
-       same_words(
-           "The same with the orbits of the branch: thin lines where they are stable, dots where they are not and no sweep finds them.")},
-      {"flank-pressure", "motion", "Flank pressure over speed", same_words("Largest pressure at each place of the flanks, by Hertz's law of the load that a pair holds there inside its flanks for 1/64 of a mesh period, against roll angle and speed. Where a tip edge runs on a flank the pressure is singular: the map is grey, and the load that the edge carries stands beside it. White: no load is sustained.")},
-      {"efficiency", "motion", "Losses by friction", losses_caption},
-      {"bearing-forces", "motion", "Forces on the bearings", bearings_caption},
-      {"error-budget", "errors", "Error budget", budget_caption}};
+  static const std::vector<ExplainedFigure>
+      all{{"system", "opening", "The gears",
+           same_words(
+               "The gears at their places, unloaded at mesh phase 0, with the teeth of their drawings, and the teeth about the pitch point. Check it against your drawing.")},
+          {"finite-elements", "gears", "Finite elements of the pair",
+           same_words(
+               "Finite element mesh of the pair and of the teeth in mesh. Flanks are exact involutes in the contact; the mesh carries their bending.")},
+          {"profile-chart", "gears", "Profile charts",
+           same_words(
+               "Profile charts of the driving flanks as an inspection sheet shows them: material against roll angle, the tip to the right.")},
+          {"contact-zone", "rest", "Contact zone",
+           same_words(
+               "Contact zone of the reference pair at the pitch point: strips, gap and pressure, beside Hertz's.")},
+          {"transmission-error", "rest", "Static transmission error", transmission_error_caption},
+          {"mesh-stiffness", "rest", "Mesh stiffness", stiffness_caption},
+          {"load-sharing", "rest", "Load sharing", load_sharing_caption},
+          {"sidebands", "rest", "Sidebands",
+           same_words(
+               "Teeth that differ: transmission error over the period after which the same teeth meet, and the shafts' orders and sidebands at rest and in motion.")},
+          {"residual-signal", "motion", "Residual signal",
+           same_words(
+               "Teeth that differ or are cracked, at the speed at which they show most: transmission error over the period after which the same teeth meet, and what it is less the mean of its mesh periods, the residual signal of gear diagnostics; orders, with sidebands beside those of the mesh; RMS and kurtosis of the residual signal over speed.")},
+          {"crack", "rest", "The cracked tooth",
+           same_words(
+               "The mark of the cracked tooth in the static transmission error, its orders, and the root stress of the teeth about it.")},
+          {"response", "motion", "Vibration over speed", response_caption},
+          {"responses-by-torque", "motion", "Vibration over speed", response_caption},
+          {"response-branches", "motion", "Branches of periodic motions",
+           same_words(
+               "The same with all orbits of the branch: stable ones as a thin line, also where no sweep was on them, unstable ones dashed, and the folds at which stable branches end. A sweep jumps at a fold; where it jumps without one it has left the basin of a branch that goes on.")},
+          {"multipliers", "motion", "Floquet multipliers",
+           same_words(
+               "Floquet multipliers along the branch in the complex plane: a small disturbance of the motion is multiplied by them in each mesh period. Inside the unit circle it decays. A branch folds at 1; at -1 its period doubles.")},
+          {"rms-and-mean", "motion", "RMS and mean over speed",
+           same_words("RMS and mean of the dynamic transmission error against speed.")},
+          {"waterfall", "motion", "Spectra over speed", waterfall_caption},
+          {"order-cuts", "motion", "Order cuts",
+           same_words(
+               "Order cuts: amplitudes of the first orders of the mesh frequency in the dynamic transmission error against speed, rising and falling. Where the two differ there are two motions, and the order that is heard depends on where the speed came from.")},
+          {"tooth-loads", "motion", "Tooth loads in motion", tooth_loads_caption},
+          {"root-stress", "motion", "Root stress and dynamic factors", same_words("Largest tension along the roots beside the loaded flanks: while a tooth passes through the mesh at rest (a), and over speed (b). Dynamic factors (c) are the largest mesh force, tooth load and root stress at a speed, each sustained for 1/64 of a mesh period, over T / r_b or over the largest at rest; K_v is what ISO 6336-1, method B, says of gears without deviations.")},
+          {"root-stress-branches", "motion", "Root stress along the branch",
+           same_words(
+               "The same with the orbits of the branch: thin lines where they are stable, dots where they are not and no sweep finds them.")},
+          {"flank-pressure", "motion", "Flank pressure over speed",
+           same_words(
+               "Largest pressure at each place of the flanks, by Hertz's law of the load that a pair holds there inside its flanks for 1/64 of a mesh period, against roll angle and speed. Where a tip edge runs on a flank the pressure is singular: the map is grey, and the load that the edge carries stands beside it. White: no load is sustained.")},
+          {"efficiency", "motion", "Losses by friction", losses_caption},
+          {"bearing-forces", "motion", "Forces on the bearings", bearings_caption},
+          {"error-budget", "errors", "Error budget", budget_caption}};
   return all;
 }
 

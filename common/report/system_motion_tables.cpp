@@ -141,6 +141,16 @@ std::string sweeps_table(const SystemReport& r) {
   const auto at = [&](const std::string& speeds) {
     return speeds.empty() ? "none" : speed_cell(driver, speeds);
   };
+  const bool slides = std::any_of(r.sweeps.begin(), r.sweeps.end(),
+                                  [](const ResponseResult& a) { return a.friction.efficiency.size() > 0; });
+  std::vector<std::string> head{"sweep",
+                                "speeds (Hz)",
+                                "contact loss at (Hz)",
+                                "not periodic at (Hz)",
+                                "repeats after several mesh periods at (Hz)",
+                                "mesh periods run, most",
+                                "energy imbalance"};
+  if (slides) head.emplace_back("efficiency (%)");
   html::Rows rows;
   for (const ResponseResult& a : r.sweeps) {
     const std::string loss =
@@ -154,13 +164,15 @@ std::string sweeps_table(const SystemReport& r) {
               at(shown(a.mesh_frequency.minCoeff(), 6) + " to " + shown(a.mesh_frequency.maxCoeff(), 6))),
          at(loss), at(open), at(several), text(a.periods.maxCoeff()),
          shown(a.energy_imbalance.maxCoeff(), 2)});
+    if (const Eigen::VectorXd& left = a.friction.efficiency; left.size() > 0)
+      rows.back().push_back(
+          text(fixed(left.minCoeff() * kPercent, 3), " to ", fixed(left.maxCoeff() * kPercent, 3)));
   }
   return html::table(
       text("The sweeps. Each speed starts with the motion of the one before it. Energy imbalance: ",
-           "largest energy that is not accounted for, over the energy that goes through."),
-      {"sweep", "speeds (Hz)", "contact loss at (Hz)", "not periodic at (Hz)",
-       "repeats after several mesh periods at (Hz)", "mesh periods run, most", "energy imbalance"},
-      rows);
+           "largest energy that is not accounted for, over the energy that goes through.",
+           slides ? " Efficiency: by friction between the flanks alone." : ""),
+      head, rows);
 }
 
 // The sweep the other way; nullptr: there is none.
@@ -218,7 +230,7 @@ std::vector<SystemNumber> motion_numbers(const SystemReport& r) {
   for (const ResponseResult& a : r.sweeps) {
     const System& s = a.train.layout;
     const std::string way = way_words_of(a);
-    const auto add = [&](const std::string& part, const char* what, const char* unit,
+    const auto add = [&](const std::string& part, const std::string& what, const char* unit,
                          const std::string& value, const Peak& peak) {
       out.push_back(
           {part, text(what, ", ", way), unit, value, text("at ", shown(peak.at, 6), " Hz of the mesh")});
@@ -245,6 +257,20 @@ std::vector<SystemNumber> motion_numbers(const SystemReport& r) {
       if (r.rest && shares_load(*r.rest, m))
         add(name, "share of the load in motion, largest", "%", fixed(share.value * kPercent, 2), share);
       add(name, "time without contact, largest", "%", fixed(loss.value * kPercent, 2), loss);
+      for (size_t side = kSides * m; side < kSides * (m + 1); ++side)
+        if (const Peak stress = peak_of(a, a.root_stress_sustained, side); stress.value > 0)
+          add(name,
+              "root stress of " + a.name_of_side(static_cast<Index>(side)) + " in motion, largest sustained",
+              "MPa", fixed(stress.value * kInMegapascals, 1), stress);
+    }
+    if (a.friction.efficiency.size() > 0) {
+      Index least = 0, most = 0;
+      const double efficiency = a.friction.efficiency.minCoeff(&least),
+                   power = a.friction.power.maxCoeff(&most);
+      add("train", "efficiency, friction between the flanks alone, least", "%",
+          fixed(efficiency * kPercent, 3), {efficiency, a.mesh_frequency[least]});
+      add("train", "power that friction takes, largest", "W", shown(power, 4),
+          {power, a.mesh_frequency[most]});
     }
     for (size_t b = 0; b < s.bodies.size(); ++b) {
       const Peak most = peak_of(a, a.bearing_force_max, b), rms = peak_of(a, a.bearing_force_rms, b);

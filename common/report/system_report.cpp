@@ -89,6 +89,12 @@ std::string of_orders(const SystemReport&) {
          "where an order peaks, that multiple of the mesh frequency meets a natural frequency.";
 }
 
+std::string of_residual(const SystemReport&) {
+  return "Teeth that differ or are cracked: of the mesh in which it shows most, at that speed, the transmission error over the period after "
+         "which the same teeth meet, and what it is less the mean of its mesh periods, the residual signal of gear diagnostics; orders, with "
+         "sidebands beside those of the mesh; RMS and kurtosis of the residual signal over speed.";
+}
+
 struct ExplainedSystemFigure {
   const char *name, *section, *title;
   std::function<std::string(const SystemReport&)> words;
@@ -104,6 +110,7 @@ const std::vector<ExplainedSystemFigure>& explained_system_figures() {
       {"campbell", "modes", "Campbell diagram", of_campbell},
       {"system-sweep", "motion", "The system over its speeds", of_sweep},
       {"order-cuts", "motion", "Order cuts", of_orders},
+      {"residual-signal", "motion", "Residual signal", of_residual},
   };
   return all;
 }

@@ -15,25 +15,51 @@ using Eigen::Index;
 
 namespace {
 
+enum class Parts { meshes, bearings, gears, whole };
 struct Quantity {
   const char *name, *heading, *axis, *unit;
   double scale;
-  MatrixRM ResponseResult::*values;  // (speed, mesh or body)
-  bool of_bodies;
+  MatrixRM (*values)(const ResponseResult&);  // (speed, part); empty: the sweeps do not have it
+  Parts parts;
 };
-constexpr Quantity kQuantities[] = {
-    {"dte_rms", "RMS of the transmission error", "RMS", "µm", kMicro, &ResponseResult::dte_rms, false},
-    {"separation_fraction", "Time without contact", "Time", "%", kPercent,
-     &ResponseResult::separation_fraction, false},
-    {"bearing_force_rms", "Bearing force, oscillating (RMS)", "Force", "N", 1,
-     &ResponseResult::bearing_force_rms, true}};
 
-std::vector<std::string> curve_names(const System& s, bool bodies) {
+// (speed, gear): largest sustained root stress in any mesh of each gear; gears stand before carriers.
+MatrixRM root_stress_of_gears(const ResponseResult& a) {
+  if (a.root_stress_sustained.size() == 0) return {};
+  const System& s = a.train.layout;
+  const auto gears = std::count_if(s.bodies.begin(), s.bodies.end(), [](const System::Body& body) {
+    return body.kind == System::BodyKind::gear;
+  });
+  MatrixRM out = MatrixRM::Zero(a.mesh_frequency.size(), gears);
+  for (size_t m = 0; m < s.meshes.size(); ++m)
+    for (size_t side = 0; side < kSides; ++side) {
+      auto own = out.col(s.meshes[m].side[side].body);
+      own = own.cwiseMax(a.root_stress_sustained.col(static_cast<Index>(kSides * m + side)));
+    }
+  return out;
+}
+
+constexpr Quantity kQuantities[] = {
+    {"dte_rms", "RMS of the transmission error", "RMS", "µm", kMicro,
+     [](const ResponseResult& a) { return a.dte_rms; }, Parts::meshes},
+    {"separation_fraction", "Time without contact", "Time", "%", kPercent,
+     [](const ResponseResult& a) { return a.separation_fraction; }, Parts::meshes},
+    {"bearing_force_rms", "Bearing force, oscillating (RMS)", "Force", "N", 1,
+     [](const ResponseResult& a) { return a.bearing_force_rms; }, Parts::bearings},
+    {"root_stress_sustained", "Largest root stress of each gear, sustained", "Stress", "MPa", kInMegapascals,
+     root_stress_of_gears, Parts::gears},
+    {"efficiency", "Efficiency, friction between the flanks alone", "Efficiency", "%", kPercent,
+     [](const ResponseResult& a) { return MatrixRM(a.friction.efficiency); }, Parts::whole}};
+
+std::vector<std::string> curve_names(const System& s, Parts parts) {
   std::vector<std::string> out;
-  if (!bodies)
+  if (parts == Parts::whole) return {"train"};
+  if (parts == Parts::meshes)
     for (size_t m = 0; m < s.meshes.size(); ++m) out.push_back(mesh_name(s, m));
-  for (const System::Body& body : s.bodies)
-    if (bodies) out.push_back(body.name + (body.on != System::kGround ? " (pin)" : ""));
+  else
+    for (const System::Body& body : s.bodies)
+      if (parts == Parts::bearings || body.kind == System::BodyKind::gear)
+        out.push_back(body.name + (parts == Parts::bearings && body.on != System::kGround ? " (pin)" : ""));
   return out;
 }
 
@@ -42,7 +68,8 @@ std::string column_of(const Quantity& q, const std::string& curve) {
 }
 
 FigureBlock block_of(const Quantity& q, const ResponseResult& a, size_t curves) {
-  const std::vector<std::string> names = curve_names(a.train.layout, q.of_bodies);
+  const std::vector<std::string> names = curve_names(a.train.layout, q.parts);
+  const MatrixRM values = q.values(a);
   const std::string way = name_of(a.direction);
   FigureBlock block{text(q.name, " ", way), {"mesh_frequency [Hz]"}, {}, text(q.name, "_", way)};
   for (size_t i = 0; i < curves; ++i) block.columns.push_back(column_of(q, names[i]));
@@ -55,7 +82,7 @@ FigureBlock block_of(const Quantity& q, const ResponseResult& a, size_t curves) 
       block.rows.emplace_back();  // lifts the pen
     std::vector<double> row{a.mesh_frequency[i]};
     row.reserve(curves + 1);
-    for (size_t c = 0; c < curves; ++c) row.push_back((a.*q.values)(i, static_cast<Index>(c)) * q.scale);
+    for (size_t c = 0; c < curves; ++c) row.push_back(values(i, static_cast<Index>(c)) * q.scale);
     block.rows.push_back(row);
   }
   return block;
@@ -95,7 +122,7 @@ Figure system_sweep_figure(const std::vector<ResponseResult>& sweeps) {
   const System& s = a.train.layout;
   require_one_system("another sweep", a, sweeps);
   Figure figure;
-  figure.title = "A system over its speeds: vibration, contact loss, forces on bearings";
+  figure.title = "A system over its speeds: vibration, contact loss, forces on bearings, root stress";
   figure.notes = in_lines(bodies_words(s, a.drive));
   figure.notes.push_back(text("body \"", a.train.fidelity.body, "\", contact \"", a.train.fidelity.contact,
                               "\", damping ", shown(a.train.damping.rayleigh_stiffness, 3),
@@ -107,15 +134,20 @@ Figure system_sweep_figure(const std::vector<ResponseResult>& sweeps) {
       text("lines: rising speed; open marks: falling speed; force on a rigid axis: sum of the contact forces",
            pins ? ", on a rigid pin less the inertia force of the planet" : ""));
   for (const Quantity& q : kQuantities) {
-    const std::vector<std::string> names = curve_names(s, q.of_bodies);
+    if (std::any_of(sweeps.begin(), sweeps.end(),
+                    [&](const ResponseResult& one) { return q.values(one).size() == 0; }))
+      continue;
+    const std::vector<std::string> names = curve_names(s, q.parts);
     if (names.size() > kMostLines)
       figure.notes.push_back(text(q.heading, ": the first ", kMostLines, " of ", names.size(), " curves"));
     const size_t curves = std::min(names.size(), kMostLines);
-    const bool vibration = q.values == &ResponseResult::dte_rms;
+    const bool vibration = &q == &kQuantities[0];
     for (const ResponseResult& sweep : sweeps) figure.blocks.push_back(block_of(q, sweep, curves));
     Panel panel{.heading = q.heading,
                 .x = {.label = "Mesh frequency (Hz)", .speed = true},
-                .y = {.label = text(q.axis, " (", q.unit, ")"), .from_zero = true, .level = vibration}};
+                .y = {.label = text(q.axis, " (", q.unit, ")"),
+                      .from_zero = q.parts != Parts::whole,
+                      .level = vibration}};
     for (size_t i = 0; i < curves; ++i) {
       if (vibration) figure.levels.push_back({column_of(q, names[i]), false});
       add_curves(q, sweeps, i, curves, short_name(names[i]), panel);

@@ -178,23 +178,29 @@ std::vector<size_t> most_stressed(const SystemStaticResult& a) {
 
 WordTable train_in_motion(const SystemReport& r) {
   WordTable out{
-      "In motion: the largest over all speeds, with the mesh frequency at which it stands, and what it is over its value at rest: over the mean of the mesh force, over the largest load of a pair of teeth. Root stress in motion is not computed for trains; it goes with the loads of the pairs.",
+      "In motion: the largest over all speeds, with the mesh frequency at which it stands, and what it is over its value at rest: over the mean of the mesh force, over the largest load of a pair of teeth, over the largest root stress. Root stress is what lasts for 1/64 of a mesh period.",
       {"mesh", "speed", "mesh force (N)", "at (Hz)", "dynamic factor", "load of a pair of teeth (N)",
-       "at (Hz)", "over rest"},
+       "at (Hz)", "over rest", "root stress of the driving gear (MPa)", "at (Hz)", "over rest",
+       "of the driven gear (MPa)", "at (Hz)", "over rest"},
       {}};
   for (size_t m = 0; m < r.rest->mesh.size(); ++m)
     for (const ResponseResult& sweep : r.sweeps) {
       const auto column = static_cast<Index>(m);
       out.rows.push_back({r.rest->mesh_names[m], sweep.direction == Direction::up ? "rising" : "falling"});
-      const auto add = [&](const MatrixRM& of, double rest) {
+      const auto add = [&](const MatrixRM& of, Index column, double scale, double rest) {
+        if (!known_of(of, column)) return out.rows.back().resize(out.rows.back().size() + 3, html::kNoValue);
         Index top = 0;
         const double most = of.col(column).maxCoeff(&top);
-        for (const std::string& cell : {fixed(most, 0), fixed(sweep.mesh_frequency[top], 0),
+        for (const std::string& cell : {fixed(most * scale, 0), fixed(sweep.mesh_frequency[top], 0),
                                         rest > 0 ? fixed(most / rest, 2) : html::kNoValue})
           out.rows.back().push_back(cell);
       };
-      add(sweep.mesh_force_max, r.rest->mesh_force.col(column).mean());
-      add(sweep.tooth_load_max, r.rest->mesh[m].tooth_load.maxCoeff());
+      const StaticResult& rest = r.rest->mesh[m];
+      add(sweep.mesh_force_max, column, 1, r.rest->mesh_force.col(column).mean());
+      add(sweep.tooth_load_max, column, 1, rest.tooth_load.maxCoeff());
+      for (Index side = 0; side < kSides; ++side)
+        add(sweep.root_stress_sustained, kSides * column + side, kInMegapascals,
+            rest.root_stress_max.size() > 0 ? rest.root_stress_max[side] : 0);
     }
   return out;
 }

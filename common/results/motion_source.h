@@ -29,6 +29,11 @@ struct MotionSource : MotionParameters {
   Eigen::Index bodies() const {
     return of_train() ? static_cast<Eigen::Index>(train.layout.bodies.size()) : kSides;
   }
+  // Name of the body on a side of a mesh; number: 2 mesh + side.
+  const std::string& name_of_side(Eigen::Index number) const {
+    const auto mesh = static_cast<size_t>(number / kSides), side = static_cast<size_t>(number % kSides);
+    return body_names[of_train() ? static_cast<size_t>(train.layout.meshes[mesh].side[side].body) : side];
+  }
   void name_parts() {
     mesh_names.clear();
     body_names.clear();

@@ -24,6 +24,9 @@ struct ResponseResult : MotionSource {
   // [speed] (order 1.., mesh) m, amplitude of the harmonics of the hunting frequency, up to those above; empty if it is the mesh
   // frequency
   std::vector<MatrixRM> dte_order;
+  // (speed, mesh) of the residual signal, the transmission error less the mean of its mesh periods: RMS in m; kurtosis, 3 of noise,
+  // the more the fewer teeth make it. Empty if the hunting frequency is the mesh frequency
+  MatrixRM residual_rms, residual_kurtosis;
   MatrixRM tooth_load_max, mesh_force_max;    // (speed, mesh) N
   std::vector<MatrixRM> mesh_force_harmonic;  // [speed] (harmonic 1.., mesh) N, amplitude
   // (speed, mesh) 1: largest share, at one instant, of the meshes that come from one [[mesh]]; empty unless one has several
@@ -35,15 +38,15 @@ struct ResponseResult : MotionSource {
   MatrixRM bearing_force_max, bearing_force_rms;
   // [speed] (harmonic 1.., body) N: amplitude of that force, x and y together, the root of the sum of their squares
   std::vector<MatrixRM> bearing_force_harmonic;
-  // (speed, body) Pa: largest root stress, as in the sweep; 0 of gears whose root stress is not known, empty if it is of none:
-  // of lumped models and trains. So are the next ones.
+  // (speed, mesh and within it side) Pa: largest root stress, as in the sweep; 0 of a mesh of which it is not known, empty if it is of
+  // none. So are the next ones.
   MatrixRM root_stress_max;
   // What is sustained for 1/64 of a mesh period: without the spikes of pairs that come into contact at once, whose height depends on
-  // the time step. (speed, body) Pa; (speed, mesh) N
+  // the time step. (speed, mesh and within it side) Pa; (speed, mesh) N
   MatrixRM root_stress_sustained;
-  MatrixRM root_stress_angle, root_stress_phase;  // (speed, body) as in the sweep
+  MatrixRM root_stress_angle, root_stress_phase;  // as in the sweep
   MatrixRM tooth_load_sustained, mesh_force_sustained;
-  Eigen::VectorXd loss_factor;  // (speed) H_V, as in static.h5; empty without root stress
+  Eigen::VectorXd loss_factor;  // (speed) H_V of a pair, as in static.h5; empty without root stress
   // Flank pressure (studies/sweep_pressure.h); empty for lumped models. Places of the flanks by the phase of the pair that touches
   // there, in mesh periods from the pitch point: (place) 1; (place, gear) rad
   Eigen::VectorXd pair_phase;
@@ -64,9 +67,9 @@ struct ResponseResult : MotionSource {
   double natural_frequency = 0;  // Hz: as in the sweep, of pairs
 };
 
-// Whether values (speed, body) hold something of this body: of others they are 0.
-inline bool known_of(const MatrixRM& values, Eigen::Index body) {
-  return values.size() > 0 && values.col(body).maxCoeff() > 0;
+// Whether values (speed, body), or (speed, mesh and within it side), hold something in this column: elsewhere they are 0.
+inline bool known_of(const MatrixRM& values, Eigen::Index column) {
+  return values.size() > 0 && values.col(column).maxCoeff() > 0;
 }
 
 }  // namespace whine

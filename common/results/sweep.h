@@ -80,12 +80,13 @@ struct SweepResult : MotionSource {
   // [body][speed] (sample, xy) N: as in static.h5, with the bearing's damper; empty for a rigid bearing of a pair
   std::vector<std::vector<MatrixRM>> bearing_force = std::vector<std::vector<MatrixRM>>(kSides);
   MatrixRM holding_torque;  // (speed, body) N m, of a train: mean, of what holds the body; 0 of free ones
-  // [gear] (speed, sample) Pa: largest tangential stress of the teeth that carry load, along the root beside the loaded flank,
-  // quasi-static in their loads; empty for lumped models and trains
-  std::array<MatrixRM, 2> root_stress;
-  // [gear] (speed) where it is largest as it is sustained for 1/64 of a mesh period (sustained_row() of signal/branches.h): rad, of the
-  // root's tangent there against the centre line of the tooth; 1, mesh phase of the tooth's pair then, 0 at the pitch point
-  std::array<Eigen::VectorXd, 2> root_stress_angle, root_stress_phase;
+  // [speed] (sample, mesh and within it side) Pa: largest tangential stress of the teeth that carry load, along the root beside the
+  // loaded flank, quasi-static in the loads of their mesh; 0 of a mesh of which it is not known, empty if it is of none
+  std::vector<MatrixRM> root_stress;
+  // (speed, mesh and within it side) where it is largest as it is sustained for 1/64 of a mesh period (sustained_row() of
+  // signal/branches.h): rad, of the root's tangent there against the centre line of the tooth; 1, phase of the tooth's pair in its mesh
+  // then, 0 at the pitch point
+  MatrixRM root_stress_angle, root_stress_phase;
   Eigen::VectorXi periods;   // (speed) mesh periods run
   Eigen::VectorXd residual;  // (speed) relative change of the state over a period at the end
   // (speed) mesh periods of the orbit: hunting_periods unless subharmonic; 0: not periodic within the limit

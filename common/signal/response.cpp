@@ -68,14 +68,12 @@ void require_shapes(const SweepResult& s) {
          s.bodies());
   for (const auto& rows : s.bearing_force)
     if (s.of_train() || !rows.empty()) require_rows("bearing_force", rows, 2);
-  for (size_t g = 0; g < kSides; ++g) {
-    const MatrixRM& stress = s.root_stress[g];
-    if (stress.size() == 0) continue;
-    if (stress.rows() != speeds || stress.cols() != samples)
-      fail(Failure::input, "sweep: root_stress is ", stress.rows(), " x ", stress.cols(), ", expected ",
-           speeds, " x ", samples);
-    for (const Eigen::VectorXd* place : {&s.root_stress_angle[g], &s.root_stress_phase[g]})
-      require_length("the place of the root stress", static_cast<size_t>(place->size()), speeds);
+  if (!s.root_stress.empty()) {
+    require_rows("root_stress", s.root_stress, s.meshes() * kSides);
+    for (const MatrixRM* place : {&s.root_stress_angle, &s.root_stress_phase})
+      if (place->rows() != speeds || place->cols() != s.meshes() * kSides)
+        fail(Failure::input, "sweep: the place of the root stress is ", place->rows(), " x ", place->cols(),
+             ", expected ", speeds, " x ", s.meshes() * kSides);
   }
   require_periods(s);
 }
@@ -143,6 +141,8 @@ void size_meshes(Index samples, Index speeds, Index meshes, ResponseResult& r) {
   r.dte_harmonic.assign(static_cast<size_t>(speeds), MatrixRM(count, meshes));
   r.mesh_force_harmonic = r.dte_harmonic;
   if (r.hunting_periods > 1)
+    for (MatrixRM* x : {&r.residual_rms, &r.residual_kurtosis}) x->resize(speeds, meshes);
+  if (r.hunting_periods > 1)
     r.dte_order.assign(static_cast<size_t>(speeds), MatrixRM(count * r.hunting_periods, meshes));
 }
 
@@ -162,9 +162,13 @@ void add_mesh(const Samples& transmission_error, const Samples& force, int perio
   r.dte_mean(f, m) = dte.mean;
   r.dte_harmonic[at].col(m) = dte.amplitude;
   r.mesh_force_harmonic[at].col(m) = harmonics(force, count, periods).amplitude;
-  if (r.hunting_periods > 1)
+  if (r.hunting_periods > 1) {
     r.dte_order[at].col(m) =
         harmonics(transmission_error, count * r.hunting_periods, periods / r.hunting_periods).amplitude;
+    const VectorXd residual = residual_signal(transmission_error, periods);
+    r.residual_rms(f, m) = oscillating_rms({residual});
+    r.residual_kurtosis(f, m) = kurtosis(residual);
+  }
   const Separations apart = separations(force);
   r.mesh_force_max(f, m) = force.maxCoeff();
   r.separation_fraction(f, m) = apart.fraction;
@@ -185,21 +189,17 @@ void add_bearing(const Eigen::Ref<const MatrixRM>& force, int periods, Index f, 
 
 // Root stress over speed.
 void add_root_stress(const SweepResult& s, ResponseResult& r) {
-  if (s.root_stress[0].size() == 0 && s.root_stress[1].size() == 0) return;
-  const Index speeds = s.mesh_frequency.size();
-  for (MatrixRM* x :
-       {&r.root_stress_max, &r.root_stress_sustained, &r.root_stress_angle, &r.root_stress_phase})
-    x->setZero(speeds, kSides);
-  for (Index g = 0; g < kSides; ++g) {
-    const auto gear = static_cast<size_t>(g);
-    const MatrixRM& stress = s.root_stress[gear];
-    if (stress.size() == 0) continue;
-    r.root_stress_max.col(g) = stress.rowwise().maxCoeff();
-    r.root_stress_angle.col(g) = s.root_stress_angle[gear];
-    r.root_stress_phase.col(g) = s.root_stress_phase[gear];
-    for (Index f = 0; f < speeds; ++f)
-      r.root_stress_sustained(f, g) =
-          sustained_load(stress.row(f).transpose(), s.steps_per_period(), s.period_multiple[f]);
+  if (s.root_stress.empty()) return;
+  r.root_stress_angle = s.root_stress_angle;
+  r.root_stress_phase = s.root_stress_phase;
+  for (MatrixRM* x : {&r.root_stress_max, &r.root_stress_sustained})
+    x->resize(s.mesh_frequency.size(), s.meshes() * kSides);
+  for (Index f = 0; f < s.mesh_frequency.size(); ++f) {
+    const MatrixRM& stress = s.root_stress[static_cast<size_t>(f)];
+    r.root_stress_max.row(f) = stress.colwise().maxCoeff();
+    for (Index side = 0; side < stress.cols(); ++side)
+      r.root_stress_sustained(f, side) =
+          sustained_load(stress.col(side), s.steps_per_period(), s.period_multiple[f]);
   }
 }
 
@@ -250,7 +250,7 @@ ResponseResult response(const SweepResult& s) {
   const auto borne = [](const std::vector<MatrixRM>& force) { return !force.empty(); };
   if (std::any_of(s.bearing_force.begin(), s.bearing_force.end(), borne)) size_bearings(s.bodies(), r);
   add_root_stress(s, r);
-  if (s.of_train() || s.root_stress[0].size() > 0)
+  if (s.of_train() || !s.root_stress.empty())
     for (MatrixRM* x : {&r.tooth_load_sustained, &r.mesh_force_sustained}) x->resize(speeds, meshes);
   // Of the meshes of one [[mesh]].
   const std::set<int> sections(s.train.section.begin(), s.train.section.end());

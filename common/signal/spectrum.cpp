@@ -89,6 +89,19 @@ int resolved_harmonics(Eigen::Index samples, int wanted, int periods) {
   return static_cast<int>(std::min<Eigen::Index>(wanted, limit));
 }
 
+VectorXd residual_signal(const Eigen::Ref<const VectorXd>& samples, int periods) {
+  if (periods < 1 || samples.size() % periods != 0)
+    fail(Failure::input, samples.size(), " samples are no whole number of ", periods, " periods");
+  const Eigen::Index length = samples.size() / periods;
+  const Eigen::VectorXd mean = samples.reshaped(length, periods).rowwise().mean();
+  return samples - mean.replicate(periods, 1);
+}
+
+double kurtosis(const Eigen::Ref<const VectorXd>& samples) {
+  const double square = samples.squaredNorm() / static_cast<double>(samples.size());
+  return square > 0 ? samples.array().square().square().mean() / (square * square) : 0;
+}
+
 double at_phase(const Eigen::VectorXd& phase, const Eigen::VectorXd& value, double at) {
   const double p = at - std::floor(at);
   const Eigen::Index n = phase.size();

@@ -30,6 +30,12 @@ Eigen::VectorXcd fourier_coefficients(const Eigen::Ref<const Eigen::VectorXd>& s
 // The number of harmonics, `wanted` at most, that `samples` over `periods` base periods resolve; may be 0.
 int resolved_harmonics(Eigen::Index samples, int wanted, int periods = 1);
 
+// The residual signal of gear diagnostics, in which mesh harmonics are not: samples over `periods` whole periods less the mean of
+// these, sample by sample. Throws Error(input) for samples that are no multiple of `periods`.
+Eigen::VectorXd residual_signal(const Eigen::Ref<const Eigen::VectorXd>& samples, int periods);
+// 1: mean fourth power over the squared mean square of samples whose mean is 0; 0 of nothing but zeros.
+double kurtosis(const Eigen::Ref<const Eigen::VectorXd>& samples);
+
 // At a phase, any, of a periodic curve: linear between its samples at these phases, ascending within one period.
 double at_phase(const Eigen::VectorXd& phase, const Eigen::VectorXd& value, double at);
 

@@ -234,7 +234,7 @@ BranchResult pair_branch(const ReducedBody& driver, const ReducedBody& driven, c
 
 BranchResult system_branch(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
                            const BranchReport& report, const BranchPlan& plan) {
-  require_like_teeth(settings, "a branch of a system");
+  require_like_teeth(settings, bodies, "a branch of a system");
   require_relaxation_range(settings.damping, settings.fidelity.body, settings.frequency_to);
   TrainRig rig(settings, bodies);
   BranchFollower<TrainRig> follower(rig, speeds_of(settings));

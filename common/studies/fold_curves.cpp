@@ -250,7 +250,7 @@ FoldCurvesResult fold_curves(const ReducedBody& driver, const ReducedBody& drive
                              const SweepParameters& stage_settings, const FoldCurvesPlan& given,
                              const std::function<void(long, long, const std::string&)>& report) {
   require_ascending(given);
-  require_like_teeth(statics.mesh, "a fold curve");
+  require_like_teeth(statics.mesh, driver.design, driven.design, "a fold curve");
   FoldCurvesPlan plan = given;
   SweepParameters settings = stage_settings;
   if (plan.quantity == FoldQuantity::torque) torque = plan.first;

@@ -380,14 +380,10 @@ HarrisMapResult harris_map(const ReducedBody& driver, const ReducedBody& driven,
                            const StaticParameters& statics, const HarrisPlan& plan,
                            const std::function<void(long, long, const std::string&)>& report) {
   require_plan(plan);
-  require_like_teeth(statics.mesh, "a Harris map");
+  require_like_teeth(statics.mesh, driver.design, driven.design, "a Harris map");
   require_rigid_bearings(statics.mesh, "a Harris map");
   require_no_friction(statics.mesh, "a Harris map");
   require_external(statics.mesh, driver.design, driven.design, "a Harris map");
-  if (hunting_periods(GearMeshModel(driver, driven, statics.mesh)) > 1)
-    fail(
-        Failure::input,
-        "a Harris map is of teeth that are alike, and a gear of this pair has a cracked one; take a scene without [gear.<name>.crack]");
   HarrisMapResult map = blank_map(driver, driven, statics, plan);
   const GearMeshModel model(driver, driven, map.mesh);
   MapOfStarts starts(map, model, plan);

@@ -346,7 +346,7 @@ void runup(const SystemSweepParameters& settings, const std::vector<ReducedBody>
            const RunupSettings& wanted, RunupSink& sink,
            const std::function<void(long, long, const std::string&)>& report) {
   require_ramp(wanted, settings.time);
-  require_like_teeth(settings, "a run-up");
+  require_like_teeth(settings, bodies, "a run-up");
   const TrainSpeeds speeds = train_speeds(settings.layout);
   const size_t input = input_of(settings.layout, speeds);
   RunupResult head = head_of(wanted, 1 / std::abs(speeds.turns[input]));

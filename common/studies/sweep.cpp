@@ -23,8 +23,8 @@
 #include "signal/jumps.h"
 #include "signal/response.h"
 #include "studies/speed_sweep.h"
+#include "studies/sweep_root_stress.h"
 #include "studies/zone_levels.h"
-#include "system/root_stress.h"
 
 namespace whine {
 
@@ -383,40 +383,6 @@ double store_motions(const std::vector<Orbit>& steady, int reach, SweepResult& a
   return least_error;
 }
 
-// At the samples that are stored, and the place of the largest; orbits shorter than the row repeat in it.
-void store_root_stress(const GearMeshModel& model, SweepResult& a) {
-  const int samples = a.time.steps_per_period;
-  std::vector<double> phases;
-  phases.reserve(static_cast<size_t>(samples));
-  for (int n = 0; n < samples; ++n) phases.push_back(static_cast<double>(n) / samples);
-  RootStresses roots(model, phases);
-  if (!roots.known()) return;
-  const Eigen::Index width = a.samples();
-  for (int g = 0; g < kSides; ++g) {
-    const auto gear = static_cast<size_t>(g);
-    MatrixRM& out = a.root_stress[gear];
-    out.resize(a.mesh_frequency.size(), width);
-    for (VectorXd* v : {&a.root_stress_angle[gear], &a.root_stress_phase[gear]}) v->resize(out.rows());
-    std::vector<RootStress> along(static_cast<size_t>(width));
-    for (Eigen::Index row = 0; row < out.rows(); ++row) {
-      const Eigen::Index orbit = a.period_multiple[row] > 0
-                                     ? std::min<Eigen::Index>(width, a.period_multiple[row] * samples)
-                                     : width;
-      const MatrixRM& load = a.tooth_load[static_cast<size_t>(row)];
-      for (Eigen::Index n = 0; n < width; ++n) {
-        RootStress& at = along[static_cast<size_t>(n)];
-        at = n < orbit ? roots.largest(g, static_cast<size_t>(n % samples), a.pair, load.row(n).transpose())
-                       : along[static_cast<size_t>(n - orbit)];
-        out(row, n) = at.stress;
-      }
-      const auto top =
-          static_cast<size_t>(sustained_row(out.row(row).transpose(), samples, a.period_multiple[row]));
-      a.root_stress_angle[gear][row] = along[top].angle;
-      a.root_stress_phase[gear][row] = phases[top % phases.size()] + along[top].pair;
-    }
-  }
-}
-
 }  // namespace
 
 std::vector<double> swept_speeds(double from, double to, double step, Direction direction) {
@@ -453,7 +419,8 @@ SweepResult sweep(const ReducedBody& driver, const ReducedBody& driven, const St
   const auto speeds = static_cast<int>(speed.size());
   require_jump_width(jump_width);
   require_inertia(statics.mesh, {driver.inertia, driven.inertia}, settings.inertia);
-  const GearMeshModel model(driver, driven, statics.mesh);
+  const SystemModel system(driver, driven, statics.mesh);
+  const GearMeshModel& model = system.mesh[0];
   report(0, speeds, "candidate contact zone");
   PairSweepRig rig(model, dynamic_parameters(statics, mean_stiffness, settings, settings.frequency_to),
                    statics, settings);
@@ -492,7 +459,7 @@ SweepResult sweep(const ReducedBody& driver, const ReducedBody& driven, const St
   const std::vector<BranchJump> jumps = sweep.jumps(jump_width, left_early, report);
 
   double least_error = store_motions(steady, rig.reach(), result);
-  store_root_stress(model, result);
+  add_root_stress(system, result);
   if (model.on_bearings()) least_error = least_closing(result).minCoeff();
   result.backlash_margin = result.tooth_thinning() > 0 ? model.kinematics.backlash() + least_error
                                                        : std::numeric_limits<double>::infinity();

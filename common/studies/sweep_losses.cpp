@@ -5,7 +5,7 @@
 namespace whine {
 
 Eigen::VectorXd loss_factors(const SweepResult& s) {
-  if (s.root_stress[0].size() == 0) return {};
+  if (s.root_stress.empty()) return {};
   const GearPair gears(s);
   Eigen::VectorXd out(s.mesh_frequency.size());
   const auto per_period = static_cast<double>(s.time.steps_per_period);

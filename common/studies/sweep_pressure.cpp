@@ -138,7 +138,7 @@ void add_sustained(const SweepResult& s, const Hertz& hertz, ResponseResult& r) 
 }  // namespace
 
 void add_flank_pressure(const SweepResult& s, ResponseResult& r) {
-  if (s.root_stress[0].size() == 0 && !elastic(s)) return;
+  if (s.root_stress.empty() && !elastic(s)) return;
   const GearPair gears(s);
   const Hertz hertz = hertz_of(s, gears);
   const std::vector<Place> places = places_of(s, gears);

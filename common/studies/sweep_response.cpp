@@ -8,10 +8,10 @@ namespace whine {
 
 ResponseResult sweep_response(const SweepResult& sweep) {
   ResponseResult out = response(sweep);
+  out.friction = sweep.friction;
   if (sweep.of_train()) return out;
   out.loss_factor = loss_factors(sweep);
   add_flank_pressure(sweep, out);
-  out.friction = sweep.friction;
   return out;
 }
 

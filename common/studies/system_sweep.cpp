@@ -9,11 +9,13 @@
 #include "base/memory.h"
 #include "base/model_range.h"
 #include "dynamics/dynamics.h"
+#include "gear/system_layout.h"
 #include "orbits/recurrence.h"
 #include "studies/branch_rigs.h"
 #include "studies/motion_statistics.h"
 #include "studies/speed_sweep.h"
 #include "studies/sweep.h"
+#include "studies/sweep_root_stress.h"
 #include "studies/turning_carrier.h"
 #include "system/system_rest.h"
 
@@ -35,6 +37,8 @@ struct TrainMotion {
   std::vector<MatrixRM> bearing_force;
   // J: by line of kEnergyLines, mesh, body; N m, by body
   Eigen::RowVectorXd energy, rolling, bearing_damping, holding_torque;
+  VectorXd friction;                                         // (mesh) J
+  double coefficient = 0, friction_power = 0, power_in = 0;  // 1, W, W: see FrictionLosses
   double imbalance = 0, drift_force = 0, least_gap = 0, least_force = 0, friction_coupling = 0;
 };
 
@@ -142,6 +146,7 @@ class TrainSweepRig {
       motion.friction_coupling = std::max(motion.friction_coupling, period.friction_coupling);
     }
     motion.rms = statistics.dte_rms().norm();
+    if (whole) take_losses(periods, motion);
     return true;
   }
 
@@ -156,6 +161,7 @@ class TrainSweepRig {
     motion.bearing_force.assign(static_cast<size_t>(bodies), MatrixRM::Zero(samples, 2));
     motion.energy.setZero(static_cast<Index>(kEnergyLines.size()));
     motion.rolling.setZero(meshes);
+    motion.friction.setZero(meshes);
     for (Eigen::RowVectorXd* x : {&motion.bearing_damping, &motion.holding_torque}) x->setZero(bodies);
   }
 
@@ -216,7 +222,24 @@ class TrainSweepRig {
         e.throughput;  // kEnergyLines
     motion.energy += lines;
     motion.rolling += e.rolling;
+    motion.friction += e.friction;
     motion.bearing_damping.head(e.bearing_damping.size()) += e.bearing_damping;
+  }
+
+  // What friction takes, and the power that drives, and what holds bodies that turn on the ground, put in.
+  void take_losses(int periods, Motion& motion) {
+    const SystemDynamics& dynamics = rig_.train().dynamics();
+    const double all = motion.friction.sum();
+    if (!(all > 0)) return;
+    const System& layout = settings_.layout;
+    motion.coefficient = motion.friction.dot(dynamics.friction()) / all;
+    motion.friction_power = all * dynamics.mesh_frequency() / periods;
+    for (int b = 0; b < static_cast<int>(layout.bodies.size()); ++b) {
+      if (layout.bodies[static_cast<size_t>(b)].on != System::kGround) continue;
+      const double torque = layout.held(b) ? motion.holding_torque[b] : dynamics.torque(b),
+                   turning = 2 * std::numbers::pi * dynamics.mesh_frequency() * ground_turns(layout, b);
+      motion.power_in += std::max(0.0, torque * turning);
+    }
   }
 
   const SystemSweepParameters& settings_;
@@ -240,6 +263,11 @@ std::string store(TrainMotion& motion, Index row, SweepResult& out) {
   out.bearing_damping.row(row) = motion.bearing_damping;
   out.holding_torque.row(row) = motion.holding_torque;
   out.drift_force[row] = motion.drift_force;
+  if (out.friction.power.size() > 0) {
+    out.friction.coefficient[row] = motion.coefficient;
+    out.friction.power[row] = motion.friction_power;
+    out.friction.efficiency[row] = motion.power_in > 0 ? 1 - motion.friction_power / motion.power_in : 0;
+  }
   out.periods[row] = motion.settled.turns * out.hunting_periods;
   out.period_multiple[row] = motion.settled.multiple * out.hunting_periods;
   out.residual[row] = motion.settled.residual;
@@ -255,9 +283,10 @@ std::string store(TrainMotion& motion, Index row, SweepResult& out) {
 
 // All samples are kept until the sweep is written.
 void require_memory_for(const SystemSweepParameters& settings, int hunting, size_t speeds) {
-  constexpr double kMostMemory = 4e9;  // bytes; of a mesh three quantities and five pairs in reach
+  constexpr double kMostMemory =
+      4e9;  // bytes; of a mesh three quantities, five pairs in reach, two sides of roots
   const double memory = 8.0 * static_cast<double>(speeds) * hunting * settings.time.steps_per_period *
-                        (8.0 * static_cast<double>(settings.layout.meshes.size()) +
+                        (10.0 * static_cast<double>(settings.layout.meshes.size()) +
                          2.0 * static_cast<double>(settings.layout.bodies.size()));
   if (memory > kMostMemory)
     fail(Failure::input,
@@ -323,6 +352,9 @@ SweepResult empty_sweep(const TrainInMotion& rig, const std::vector<double>& spe
   for (MatrixRM* x : {&out.bearing_damping, &out.holding_torque}) x->setZero(n, bodies);
   out.energy.setZero(n, static_cast<Index>(kEnergyLines.size()));
   for (VectorXd* x : {&out.residual, &out.energy_imbalance, &out.drift_force}) x->setZero(n);
+  if (out.train.friction().acts())
+    for (VectorXd* x : {&out.friction.coefficient, &out.friction.power, &out.friction.efficiency})
+      x->setZero(n);
   out.periods.setZero(n);
   out.period_multiple.setZero(n);
   for (auto* x : {&out.transmission_error, &out.mesh_deflection, &out.mesh_force}) x->resize(speeds.size());
@@ -340,9 +372,9 @@ SweepResult system_sweep(const SystemSweepParameters& settings, const std::vecto
       swept_speeds(settings.frequency_from, settings.frequency_to, settings.frequency_step, direction);
   require_jump_width(jump_width);
   require_relaxation_range(settings.damping, settings.fidelity.body, settings.frequency_to);
-  require_memory_for(settings, whine::hunting_periods(settings), speeds.size());
   report(0, static_cast<long>(speeds.size()), "at rest");
   TrainSweepRig moving(settings, bodies);
+  require_memory_for(settings, moving.single(), speeds.size());
   SweepResult out = empty_sweep(moving.train(), speeds);
   out.direction = direction;
   out.hunting_periods = moving.single();
@@ -355,6 +387,7 @@ SweepResult system_sweep(const SystemSweepParameters& settings, const std::vecto
   });
   store_tooth_loads(std::move(loads), out);
   fill_rows(out);
+  add_root_stress(moving.train().system(), out);
   store_jumps(sweep.jumps(jump_width, nullptr, report), out.jump_frequency, out.jump_width);
   out.remarks = remarks_on_carriers(out, bodies);
   return out;

@@ -26,13 +26,18 @@ constexpr int kMostWidenings = 5;
 
 }  // namespace
 
-void require_like_teeth(const SystemStaticParameters& settings, const std::string& stage) {
+void require_like_teeth(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies,
+                        const std::string& stage) {
   for (size_t b = 0; b < settings.errors.size(); ++b)
     if (settings.has_errors(b))
       fail(
           Failure::input, stage, " does not take teeth that differ: [gear.", settings.gear[b],
           ".error] gives '", settings.layout.bodies[b].name,
           "' deviations tooth by tooth; use a scene without this section, or a sweep, which covers the hunting period");
+  for (size_t g = 0; g < settings.body.size() && g < bodies.size(); ++g)
+    if (bodies[g].design.crack.depth > 0)
+      fail(Failure::input, stage, " does not take a cracked tooth: [gear.", settings.body[g].first,
+           ".crack]; use a scene without this section, or a sweep, which covers the turn of the gear");
 }
 
 TrainInMotion::TrainInMotion(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,

@@ -16,8 +16,9 @@ namespace whine {
 // Mesh periods per speed before a motion counts as not periodic, and so many hunting periods at least.
 inline constexpr int kMostSystemPeriods = 3000, kLeastSystemTurns = 100;
 
-// Throws Error(input) that names the gear and `stage` ("a branch"), which knows nothing of teeth that differ from each other.
-void require_like_teeth(const SystemStaticParameters& settings, const std::string& stage);
+// Throws Error(input) that names the gear and `stage` ("a branch"), which knows nothing of teeth that differ from each other or are cracked.
+void require_like_teeth(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies,
+                        const std::string& stage);
 
 class TrainInMotion {
  public:

@@ -52,14 +52,11 @@ const GearMeshSpec& taken(const GearMeshSpec& mesh, WidthModel width, const Redu
   require_external(mesh, driver.design, driven.design, slices);
   require_rigid_bearings(mesh, slices);
   require_no_friction(mesh, slices);
-  require_like_teeth(mesh, slices);
+  require_like_teeth(mesh, driver.design, driven.design, slices);
   const ReducedBody* const bodies[] = {&driver, &driven};
   for (size_t g = 0; g < kSides; ++g) {
     const ReducedBody& body = *bodies[g];
     if (width == WidthModel::body) require_width(mesh, g, body);
-    if (body.design.crack.depth > 0)
-      fail(Failure::input, slices, " knows no cracks, and [gear.", mesh.gear[g],
-           ".crack] has one; take the section out");
     if (body.design.helical() && body.material.plane_stress)
       fail(
           Failure::input, "[gear.", mesh.gear[g],

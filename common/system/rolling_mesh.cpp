@@ -106,7 +106,7 @@ int hunting_periods(const GearMeshModel& model) {
   int periods = 1;
   for (int g = 0; g < kSides; ++g) {
     periods = std::lcm(periods, model.deviation[g].repeats());
-    if (model.gear[g].cracked()) periods = std::lcm(periods, model.kinematics.gear(g).design().teeth);
+    if (model.cracked(g)) periods = std::lcm(periods, model.kinematics.gear(g).design().teeth);
   }
   return periods;
 }
@@ -456,9 +456,9 @@ MatrixXd crack_compliance(const GearMeshModel& model, const MeshPosition& positi
   const auto pairs = static_cast<Eigen::Index>(position.pairs.size());
   MatrixXd c;
   for (int g = 0; g < kSides; ++g) {
-    if (!model.gear[g].cracked()) continue;
+    if (!model.cracked(g)) continue;
     const auto tooth = [&](Eigen::Index pair) {
-      return GearMeshModel::tooth(g, position.pairs[static_cast<size_t>(pair)].pair - period);
+      return model.tooth_at_crack(g, position.pairs[static_cast<size_t>(pair)].pair - period);
     };
     for (Eigen::Index i = 0; i < pairs; ++i)
       for (Eigen::Index j = 0; j < pairs; ++j) {

@@ -78,7 +78,7 @@ class ElasticGear {
   Eigen::MatrixXd residual(int offset, double depth, const std::vector<int>& kept) const;
   bool cracked() const { return body_->crack_compliance.size() > 0; }
   // (flank, flank) m N-1: what the crack adds to the inward displacement of tooth `read` by a force on tooth `loaded`: numbers
-  // of teeth, counter-clockwise, any whole ones. Empty where it adds nothing: without a crack, and further than the stored
+  // of GearMeshModel::tooth_at_crack(), any whole ones. Empty where it adds nothing: without a crack, and further than the stored
   // offsets from the cracked tooth.
   Eigen::MatrixXd crack_compliance(int read, int loaded) const;
   // (root, flank) Pa N-1: the same of the stress along the root beside the driving flank.
@@ -129,7 +129,22 @@ struct GearMeshModel {
   std::array<Bearing, 2> bearing;           // [side]
   Friction friction;
   System::Mesh layout;
+  // [side] whether this mesh works on the flank of the gear beside whose fillet its crack is: forces on the other one close it, and the
+  // tooth is then as an intact one.
+  std::array<bool, 2> opens_crack{true, true};
 
+  bool cracked(int g) const {
+    const auto side = static_cast<size_t>(g);
+    return opens_crack[side] && gear[side].cracked();
+  }
+  // Number of the tooth of side g in a pair, as its crack counts them: away from the cracked one in the direction in which the flank
+  // that works leads.
+  int tooth_at_crack(int g, int pair) const {
+    const System::Side& side = layout.side[static_cast<size_t>(g)];
+    const int crack = gear[static_cast<size_t>(g)].body().design.crack.tooth,
+              ahead = side.tooth(pair) - crack;
+    return crack + (side.flank == FlankSide::leading ? ahead : -ahead);
+  }
   bool on_bearings() const { return bearing[0].elastic() || bearing[1].elastic(); }
   double face_width() const {  // m, on which teeth meet
     return contact_width(kinematics.gear(0).design(), kinematics.gear(1).design());

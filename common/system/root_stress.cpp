@@ -12,7 +12,8 @@ RootStresses::RootStresses(const GearMeshModel& model, std::vector<double> phase
     per_force_[g].resize(phases_.size());
     const ReducedBody& body = model.gear[g].body();
     known_ = known_ && static_cast<int>(body.root_stress.size()) == 2 * body.offsets + 1 &&
-             body.root_angle.size() > 2 && (body.crack_root_stress.size() > 0 || !model.gear[g].cracked());
+             body.root_angle.size() > 2 &&
+             (body.crack_root_stress.size() > 0 || !model.cracked(static_cast<int>(g)));
   }
 }
 
@@ -39,7 +40,7 @@ RootStress RootStresses::of_tooth(int g, size_t phase, int of, const Eigen::Vect
                                   const Eigen::Ref<const Eigen::VectorXd>& load, int period) {
   const ElasticGear& gear = model_.gear[static_cast<size_t>(g)];
   const ReducedBody& body = gear.body();
-  const auto tooth = [&](int pair) { return GearMeshModel::tooth(g, pair - period); };
+  const auto tooth = [&](int pair) { return GearMeshModel::tooth(g, pair); };
   along_.setZero(body.root_angle.size());
   for (Eigen::Index k = 0; k < numbers.size(); ++k) {
     if (!(load[k] > 0)) continue;
@@ -47,8 +48,9 @@ RootStress RootStresses::of_tooth(int g, size_t phase, int of, const Eigen::Vect
     if (std::abs(offset) > body.offsets) continue;
     const PerForce& at = per_force(g, phase, numbers[k]);
     along_ += load[k] * at.table.col(offset + body.offsets);
-    if (!gear.cracked()) continue;
-    const Eigen::MatrixXd crack = gear.crack_root_stress(tooth(of), tooth(numbers[k]));
+    if (!model_.cracked(g)) continue;
+    const Eigen::MatrixXd crack = gear.crack_root_stress(model_.tooth_at_crack(g, of - period),
+                                                         model_.tooth_at_crack(g, numbers[k] - period));
     if (crack.size() > 0) along_ += load[k] * (crack * at.weights);
   }
   Eigen::Index top = 0;
@@ -65,11 +67,11 @@ RootStress RootStresses::of_tooth(int g, size_t phase, int of, const Eigen::Vect
 }
 
 RootStress RootStresses::largest(int g, size_t phase, const Eigen::VectorXi& numbers,
-                                 const Eigen::Ref<const Eigen::VectorXd>& load) {
+                                 const Eigen::Ref<const Eigen::VectorXd>& load, int period) {
   RootStress most;
   for (Eigen::Index k = 0; k < numbers.size(); ++k) {
     if (!(load[k] > 0)) continue;
-    const RootStress stress = of_tooth(g, phase, numbers[k], numbers, load);
+    const RootStress stress = of_tooth(g, phase, numbers[k], numbers, load, period);
     if (stress.stress > most.stress) most = stress;
   }
   return most;

@@ -31,7 +31,7 @@ class RootStresses {
                       const Eigen::Ref<const Eigen::VectorXd>& load, int period = 0);
   // Of the teeth that carry load; 0 where none does. Neighbours without load are not looked at.
   RootStress largest(int g, size_t phase, const Eigen::VectorXi& numbers,
-                     const Eigen::Ref<const Eigen::VectorXd>& load);
+                     const Eigen::Ref<const Eigen::VectorXd>& load, int period = 0);
 
  private:
   struct PerForce {

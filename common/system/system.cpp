@@ -47,14 +47,26 @@ SystemModel::SystemModel(const System& of, const std::vector<ReducedBody>& bodie
     for (size_t s = 0; s < kSides; ++s) {
       const int b = placed.side[s].body;
       spec.bearing[s] = layout.bodies[static_cast<size_t>(b)].bearing;
-      if (specs.size() > 1 && body[static_cast<size_t>(b)]->cracked())
-        fail(Failure::input, "[gear.", layout.bodies[static_cast<size_t>(b)].name,
-             "] has a crack; a cracked gear is computed in a single pair only");
     }
     mesh.emplace_back(SideGears(body[static_cast<size_t>(placed.side[0].body)],
                                 body[static_cast<size_t>(placed.side[1].body)]),
                       spec, placed);
+    for (int s = 0; s < kSides; ++s) mesh.back().opens_crack[static_cast<size_t>(s)] = opens_crack(placed, s);
   }
+}
+
+// The crack of a gear of several meshes is beside the flank that works in the first of them.
+bool SystemModel::opens_crack(const System::Mesh& of, int side) const {
+  const System::Side& own = of.side[static_cast<size_t>(side)];
+  for (const System::Mesh& first : layout.meshes)
+    for (const System::Side& other : first.side)
+      if (other.body == own.body) return other.flank == own.flank;
+  return true;
+}
+
+bool SystemModel::cracked() const {
+  return std::any_of(mesh.begin(), mesh.end(),
+                     [](const GearMeshModel& of) { return of.cracked(0) || of.cracked(1); });
 }
 
 double SystemModel::base_radius(int b) const {
@@ -88,10 +100,29 @@ MeshInstant mesh_instant(const SystemModel& system, int m, double phase, int per
 int hunting_periods(const SystemModel& system) {
   if (system.mesh.size() == 1) return hunting_periods(system.mesh[0]);
   std::vector<int> teeth;
-  teeth.reserve(kSides * system.mesh.size());
+  teeth.reserve(2 * kSides * system.mesh.size());
   for (const GearMeshModel& mesh : system.mesh)
-    for (const FlankDeviation& flank : mesh.deviation) teeth.push_back(flank.repeats());
+    for (int g = 0; g < kSides; ++g) {
+      teeth.push_back(mesh.deviation[static_cast<size_t>(g)].repeats());
+      if (mesh.cracked(g)) teeth.push_back(mesh.kinematics.gear(g).design().teeth);
+    }
   return hunting_periods_of(teeth);
+}
+
+bool add_cracks(const SystemModel& system, const SystemPosition& position, int period, MatrixXd& a) {
+  bool adds = false;
+  for (size_t m = 0; m < system.mesh.size(); ++m) {
+    const MatrixXd at_nodes =
+        crack_compliance(system.mesh[m], position.mesh[m],
+                         mesh_instant(system, static_cast<int>(m), position.phase, period).period);
+    if (at_nodes.size() == 0) continue;
+    adds = true;
+    const auto own = position.strips_of(m);
+    MatrixXd block = a(own, own);
+    position.mesh[m].add_to_strips(at_nodes, block);
+    a(own, own) = block;
+  }
+  return adds;
 }
 
 // The frame of a mesh may be the mirror image of that of the system.

@@ -28,18 +28,22 @@ struct SystemModel {
   // The one pair of a scene.
   SystemModel(const ReducedBody& driver, const ReducedBody& driven, const GearMeshSpec& mesh);
   // bodies: of the gears of the layout; specs: of each mesh of it; of its bearings those of the layout count. Throws Error(input) for a
-  // number of gears or meshes that is not the layout's, for a carrier before a gear or on a carrier, and for a cracked gear, whose teeth
-  // are not their own mirror images, in several meshes.
+  // number of gears or meshes that is not the layout's, and for a carrier before a gear or on a carrier. The crack of a gear is beside the
+  // flank that works in the first of its meshes; forces on the other one close it.
   SystemModel(const System& layout, const std::vector<ReducedBody>& bodies,
               const std::vector<GearMeshSpec>& specs);
 
   bool slides() const { return !friction.empty(); }
+  bool cracked() const;             // a crack that a mesh opens
   double base_radius(int b) const;  // m; of a carrier the radius of its pins
   // Whether body b of several meshes is on a bearing so soft that the compliance of its teeth would be lost to round-off beside it: the
   // translations of its hub are then freedoms of the equilibrium, and no part of A.
   bool floats(int b) const;
   // The side of mesh m that body b is; -1: none.
   int side_of(int b, int m) const;
+
+ private:
+  bool opens_crack(const System::Mesh& mesh, int side) const;
 };
 
 // The unit of contact: one slice of one pair of teeth on one side of their flanks.
@@ -91,6 +95,9 @@ MeshInstant mesh_instant(const SystemModel& system, int m, double phase, int per
 // of the gears that have errors or cracks; 1 if teeth are all alike. In each mesh period every gear turns by one tooth, those on
 // a carrier relative to it. Throws Error(input) above kMostHuntingPeriods.
 int hunting_periods(const SystemModel& system);
+
+// a: (strip, strip) m N-1, to which is added what cracks add in a mesh period. False if no tooth near a cracked one is in reach.
+bool add_cracks(const SystemModel& system, const SystemPosition& position, int period, Eigen::MatrixXd& a);
 
 // tau of gear/friction.h of a contact per unit of mu s, in the frame of the system: friction pushes the first side's body along -tau.
 Vec2 across(const SystemModel& system, const ContactSegment& segment);

@@ -30,10 +30,11 @@ const ReducedBody& body_of(const SystemStaticParameters& settings, const std::ve
 
 }  // namespace
 
-int hunting_periods(const SystemStaticParameters& settings) {
+int hunting_periods(const SystemStaticParameters& settings, const std::vector<int>& cracked) {
   std::vector<int> teeth;
   for (size_t b = 0; b < settings.errors.size(); ++b)
     if (settings.has_errors(b)) teeth.push_back(settings.layout.bodies[b].teeth);
+  teeth.insert(teeth.end(), cracked.begin(), cracked.end());
   return hunting_periods_of(teeth);
 }
 
@@ -43,6 +44,13 @@ SystemModel elastic_system(const SystemStaticParameters& settings, const std::ve
   for (size_t b = 0; b < layout.bodies.size(); ++b)
     if (layout.bodies[b].kind == System::BodyKind::gear)
       of_body.push_back(body_of(settings, bodies, settings.gear[b]));
+  // A crack is in one gear: of planets that are one [gear] in the first.
+  for (size_t b = 1; b < of_body.size(); ++b)
+    if (std::find(settings.gear.begin(), settings.gear.begin() + static_cast<Index>(b), settings.gear[b]) !=
+        settings.gear.begin() + static_cast<Index>(b)) {
+      of_body[b].crack_compliance.resize(0, 0);
+      of_body[b].crack_root_stress.resize(0, 0);
+    }
   std::vector<GearMeshSpec> specs;
   specs.reserve(settings.section.size());
   for (size_t m = 0; m < settings.section.size(); ++m) {

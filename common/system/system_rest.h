@@ -15,8 +15,8 @@ namespace whine {
 // carries.
 void check_at_rest(const SystemScene& scene, const System& layout);
 
-// Mesh periods after which the same teeth meet, as hunting_periods() of the system.
-int hunting_periods(const SystemStaticParameters& settings);
+// Mesh periods after which the same teeth meet, as hunting_periods() of the system; cracked: teeth of the gears with a crack.
+int hunting_periods(const SystemStaticParameters& settings, const std::vector<int>& cracked = {});
 
 // The system that the settings describe, with friction as its meshes have it; bodies: [gear] of settings.body.
 SystemModel elastic_system(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies);

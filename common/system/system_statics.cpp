@@ -248,15 +248,11 @@ void SystemStatics::take_position(double phase, int period) {
 const SystemSolution& SystemStatics::solve(double phase, int period, const VectorXd& start) {
   take_position(phase, period);
   const SystemPosition& position = *position_;
-  // Cracked gears come in single pairs.
-  const MatrixXd cracks =
-      system_.mesh.size() == 1 ? crack_compliance(system_.mesh[0], position.mesh[0], period) : MatrixXd();
-  cracked_here_ = cracks.size() > 0;
-  if (repeats_ && !cracked_here_) return solution_;
-  if (cracked_here_) {
+  if (system_.cracked()) {
     with_cracks_ = compliance_;
-    position.mesh[0].add_to_strips(cracks, with_cracks_);
+    cracked_here_ = add_cracks(system_, position, period, with_cracks_);
   }
+  if (repeats_ && !cracked_here_) return solution_;
   SystemSolution solution;
   solution.equilibrium =
       equilibrium(system_, position, cracked_here_ ? with_cracks_ : compliance_, start, solver_);

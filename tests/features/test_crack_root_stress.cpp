@@ -1,4 +1,5 @@
-// Root stress of a gear with a cracked tooth: convergence of its tables, and the turn in which the tooth comes round.
+// A gear with a cracked tooth: root stress, convergence of its tables, the turn in which the tooth comes round; in motion, as a pair and as
+// a train.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -6,11 +7,16 @@
 #include <map>
 
 #include "cracked_gear.h"
+#include "io/system_scene.h"
 #include "paper_pair.h"
 #include "relative.h"
+#include "signal/response.h"
+#include "signal/spectrum.h"
 #include "solid/crack.h"
 #include "solid/flank_table.h"
 #include "solid/reduce.h"
+#include "studies/sweep.h"
+#include "studies/system_sweep.h"
 #include "system/statics.h"
 
 namespace {
@@ -100,4 +106,107 @@ TEST_CASE("root stress of a cracked gear: no crack, no table; without its table 
   const StaticResult s = static_transmission(lacking, cracked_body(0), paper_statics(8), kTorque);
   CHECK(s.root_stress_max.size() == 0);
   CHECK(s.root_stress[0].size() == 0);
+}
+
+namespace {
+
+// With modes for motion; the crack is in tooth 3.
+const ReducedBody& moving_body(bool cracked) {
+  static std::map<bool, ReducedBody> cache;
+  const auto [found, fresh] = cache.try_emplace(cracked);
+  if (fresh) {
+    GearDesign design = cracked_gear(cracked ? 2e-3 : 0);
+    design.crack.tooth = 3;
+    found->second = reduce(sector_of(design, 1.2e-3), kSteel, 7);
+  }
+  return found->second;
+}
+
+// The driver has the crack; 64 steps a mesh period.
+SweepResult cracked_sweep(ContactModel contact, double frequency) {
+  StaticParameters at_rest = paper_statics(64);
+  at_rest.fidelity.contact = contact;
+  SweepParameters settings = paper_sweep(frequency, frequency, 1);
+  settings.fidelity = {BodyModel::modal, contact, Integrator::exact};
+  settings.time.steps_per_period = 64;
+  settings.time.min_sample_rate = 0;
+  const StaticResult s = static_transmission(moving_body(true), moving_body(false), at_rest, kTorque);
+  return sweep(moving_body(true), moving_body(false), s, s.mean_stiffness, settings, Direction::up,
+               no_report);
+}
+
+SweepResult cracked_train_sweep(double frequency) {
+  SystemScene scene;
+  for (const char* name : {"pinion", "wheel"}) {
+    SystemScene::Gear& gear = scene.gears.emplace_back();
+    gear.name = name;
+    gear.design = moving_body(scene.gears.size() == 1).design;
+    gear.material = paper_steel();
+    gear.total_inertia = 0.0148;
+  }
+  scene.meshes.resize(1);
+  scene.meshes[0].spec = paper_statics(64).mesh;
+  scene.drives = {{"pinion", System::DriveKind::torque, kTorque, 0},
+                  {"wheel", System::DriveKind::torque, -kTorque, 0}};
+  scene.operation.frequency_from = scene.operation.frequency_to = frequency;
+  scene.operation.frequency_step = 1;
+  scene.fidelity = {BodyModel::modal, ContactModel::line, Integrator::exact};
+  scene.contact = {17, 64};
+  scene.damping.rayleigh_stiffness = 7.7e-6;
+  scene.time.steps_per_period = 64;
+  scene.time.min_sample_rate = 0;
+  return system_sweep(sweep_parameters_of(scene, layout_of(scene)), {moving_body(true), moving_body(false)},
+                      Direction::up, no_report);
+}
+
+Eigen::VectorXd residual_of(const SweepResult& a) {
+  return residual_signal(a.transmission_error[0].col(0), a.hunting_periods);
+}
+
+double rms_of(const Eigen::VectorXd& x) {
+  return std::sqrt(x.squaredNorm() / static_cast<double>(x.size()));
+}
+
+}  // namespace
+
+// A slow motion is that of the statics, but for the vibration after each tooth that comes in.
+TEST_CASE(
+    "a cracked tooth in motion: slow, the residual signal is that at rest; lines, strips and a train have one") {
+  constexpr int kTeeth = 50;
+  constexpr double kSlow = 150;
+  StaticParameters at_rest = paper_statics(64);
+  const StaticResult s = static_transmission(moving_body(true), moving_body(false), at_rest, kTorque);
+  const Eigen::VectorXd rest = residual_signal(s.transmission_error, kTeeth);
+  const SweepResult strips = cracked_sweep(ContactModel::strips, kSlow),
+                    lines = cracked_sweep(ContactModel::line, kSlow), train = cracked_train_sweep(kSlow);
+  for (const SweepResult* a : {&strips, &lines, &train}) {
+    REQUIRE(a->hunting_periods == kTeeth);
+    REQUIRE(a->period_multiple[0] == kTeeth);
+    REQUIRE(a->samples() == kTeeth * 64);
+    CHECK(a->energy_imbalance[0] < 1e-9);
+    const ResponseResult r = response(*a);
+    MESSAGE("residual " << r.residual_rms(0, 0) * 1e9 << " nm, at rest " << rms_of(rest) * 1e9
+                        << ", kurtosis " << r.residual_kurtosis(0, 0) << ", at rest " << kurtosis(rest)
+                        << "; apart " << rms_of(residual_of(*a) - rest) / rms_of(rest) << ", of lines "
+                        << rms_of(residual_of(*a) - residual_of(lines)) / rms_of(rest));
+    CHECK(rms_of(residual_of(*a) - rest) < 0.1 * rms_of(rest));
+    CHECK(r.residual_kurtosis(0, 0) == relative(kurtosis(rest), 0.05));
+    CHECK(r.residual_kurtosis(0, 0) > 10);
+    // Sidebands a turn of the gear apart, beside the mesh and low; an intact pair has none.
+    for (const Index order : {1, 2, kTeeth - 1, kTeeth + 1})
+      CHECK(r.dte_order[0](order - 1, 0) > 1e-2 * rms_of(rest));
+  }
+  CHECK(rms_of(residual_of(train) - residual_of(lines)) < 1e-2 * rms_of(rest));
+  // The root of the cracked tooth, in motion as at rest.
+  const Eigen::VectorXd known = s.root_stress[0].rowwise().maxCoeff();
+  CHECK((strips.root_stress[0].col(0) - known).cwiseAbs().maxCoeff() < 0.02 * known.maxCoeff());
+}
+
+TEST_CASE("a cracked tooth in motion: near resonance a pair and a train of two gears move alike") {
+  const SweepResult lines = cracked_sweep(ContactModel::line, 2000), train = cracked_train_sweep(2000);
+  const Eigen::VectorXd one = lines.transmission_error[0].col(0), other = train.transmission_error[0].col(0);
+  REQUIRE(one.size() == other.size());
+  CHECK(rms_of(one - other) < 1e-2 * rms_of(residual_of(lines)));
+  CHECK(lines.energy_imbalance[0] < 1e-9);
+  CHECK(train.energy_imbalance[0] < 1e-9);
 }

@@ -2,10 +2,13 @@
 // their period at the same speeds. Only the fields of the residual flexibility differ, 12 in place of 8 a tooth.
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "gear/system_layout.h"
 #include "io/system_scene.h"
 #include "paper_pair.h"
 #include "relative.h"
+#include "signal/response.h"
 #include "studies/branch.h"
 #include "studies/runup.h"
 #include "studies/sweep.h"
@@ -100,6 +103,15 @@ TEST_CASE("a pair as a train: the sweep jumps where that of the pair does, and w
                                       ? Eigen::VectorXd(train.loads_of(0, 0).col(own))
                                       : Eigen::VectorXd(Eigen::VectorXd::Zero(known.size()));
     CHECK((found - known).cwiseAbs().maxCoeff() < 0.02 * load);
+  }
+  const ResponseResult train_response = response(train), pair_response = response(pair);
+  for (Eigen::Index side = 0; side < kSides; ++side) {
+    CHECK(train_response.root_stress_sustained(0, side) ==
+          relative(pair_response.root_stress_sustained(0, side), 0.01));
+    CHECK(train_response.root_stress_angle(0, side) ==
+          relative(pair_response.root_stress_angle(0, side), 0.01));
+    CHECK(std::abs(train_response.root_stress_phase(0, side) - pair_response.root_stress_phase(0, side)) <
+          0.04);
   }
   for (const Eigen::Index line :
        {energy_line("rolling"), energy_line("relaxation_damping"), energy_line("throughput")})

@@ -214,7 +214,7 @@ TEST_CASE("goals that a scene cannot reach name what there is of it") {
   CHECK(begins(said({"report", "modes"}, {}),
                "modes: SCENE=my.toml is a pair, and natural modes are of systems"));
   CHECK(begins(said({"teeth"}, {.teeth_differ = true}), "teeth: SCENE=my.toml has teeth that differ, "));
-  CHECK(said({"teeth"}, {.cracked = true}).ends_with("make SCENE=my.toml crack"));
+  CHECK(said({"teeth"}, {.cracked = true}).ends_with("make SCENE=my.toml crack residual-signal"));
 
   const SceneAbilities rigid{.pair = false}, elastic{.pair = false, .elastic = true},
       train{.pair = false, .elastic = true, .planets = true, .moves = true};

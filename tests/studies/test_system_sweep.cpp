@@ -21,15 +21,18 @@
 #include "results/sweep.h"
 #include "scene_file.h"
 #include "signal/response.h"
+#include "signal/spectrum.h"
 #include "small_system.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
 #include "studies/branch.h"
 #include "studies/branch_rigs.h"
 #include "studies/sweep.h"
+#include "studies/sweep_response.h"
 #include "studies/system_impact.h"
 #include "studies/system_sweep.h"
 #include "studies/train_in_motion.h"
+#include "system/system_rest.h"
 
 using namespace whine;
 using Eigen::Index;
@@ -154,13 +157,20 @@ TEST_CASE(
   CHECK(r.mesh_names[1] == "sun-planet2");
   CHECK(r.body_names == std::vector<std::string>{"sun", "planet1", "planet2", "planet3", "ring", "carrier"});
   REQUIRE(r.harmonics() == 10);
-  CHECK(r.root_stress_max.size() == 0);
+  REQUIRE(r.root_stress_max.cols() == 12);
+  CHECK(r.name_of_side(3) == "planet2");
+  CHECK(r.friction.power.size() == 0);
   double parted = 0;
   for (Index i = 0; i < 4; ++i) {
     const auto at = static_cast<size_t>(i);
     const MatrixRM &error = a.transmission_error[at], &force = a.mesh_force[at];
     const Index n = error.rows();
     REQUIRE(n == 48);
+    for (Index side = 0; side < 12; ++side) {
+      CHECK(r.root_stress_max(i, side) == a.root_stress[at].col(side).maxCoeff());
+      CHECK(r.root_stress_sustained(i, side) <= r.root_stress_max(i, side));
+      CHECK(r.root_stress_sustained(i, side) > 0);
+    }
     for (Index m = 0; m < 6; ++m) {
       double sum = 0, square = 0, most = 0, tooth = 0, apart = 0, share = 0;
       std::complex<double> second = 0;
@@ -202,6 +212,104 @@ TEST_CASE(
     }
   }
   CHECK(parted > 0);
+}
+
+// Nothing resonates at this speed: what is left of the statics' root stress are the free vibrations after each tooth that comes in.
+TEST_CASE("slow motion of a planetary train with friction: root stress and efficiency are those at rest") {
+  SystemSweepParameters settings = damped(4e-6, 3000);
+  settings.set_friction({.coefficient = 0.06});
+  settings.frequency_from = settings.frequency_to = 150;
+  settings.contact.positions = 48;
+  settings.fidelity.contact = ContactModel::line;
+  const SweepResult slow = swept(Direction::up, settings);
+  const SystemStaticResult rest = system_at_rest(settings, train().bodies);
+  REQUIRE(slow.root_stress.size() == 1);
+  for (size_t m = 0; m < 6; ++m)
+    for (size_t side = 0; side < kSides; ++side) {
+      const Eigen::VectorXd known = rest.mesh[m].root_stress[side].rowwise().maxCoeff(),
+                            found = slow.root_stress[0].col(static_cast<Index>(kSides * m + side));
+      REQUIRE(known.size() == found.size());
+      INFO(m << " " << side << ": " << (found - known).cwiseAbs().maxCoeff() / known.maxCoeff());
+      CHECK((found - known).cwiseAbs().maxCoeff() < 0.03 * known.maxCoeff());
+    }
+  CHECK(slow.friction.coefficient[0] == relative(0.06, 1e-12));
+  CHECK(1 - slow.friction.efficiency[0] == relative(1 - rest.efficiency[5], 0.01));
+}
+
+TEST_CASE("losses of a planetary train in motion: the work of friction, and what the mean torques leave") {
+  SystemSweepParameters settings = train().settings;
+  settings.set_friction({.coefficient = 0.06});
+  settings.damping.rayleigh_stiffness = 4e-6;
+  settings.frequency_to = settings.frequency_from;
+  const SweepResult a = swept(Direction::up, settings);
+  REQUIRE(a.period_multiple[0] == 1);
+  const double f = a.mesh_frequency[0];
+  CHECK(a.friction.power[0] == relative(a.energy(0, energy_line("friction")) * f, 1e-12));
+  CHECK(a.energy_imbalance[0] < 1e-9);
+  Eigen::VectorXd torque = a.holding_torque.row(0).transpose();
+  torque[0] = 300;
+  const double by_torques = efficiency_at_rest(a.train.layout, torque, -1);
+  INFO(a.friction.efficiency[0] << " by losses, " << by_torques << " by torques");
+  CHECK(1 - a.friction.efficiency[0] == relative(1 - by_torques, 0.02));
+  const SceneFile place;
+  const std::string path = place.path("") + ".h5";
+  write(path, sweep_response(a), Provenance());
+  const ResponseResult read = whine::read<ResponseResult>(path);
+  CHECK(read.friction.power[0] == a.friction.power[0]);
+  CHECK(read.friction.efficiency[0] == a.friction.efficiency[0]);
+}
+
+// The first planet has a cracked tooth. By kinematics it works once in a turn of its planet, of 37 mesh periods; the ring, which stands,
+// sees the carrier go by once in 100.
+TEST_CASE(
+    "a cracked planet tooth in motion: sidebands of its turn in the meshes, of the carrier on the ring") {
+  constexpr int kPlanet = 37, kTooth = 5;
+  SystemSweepParameters settings = damped(4e-6, 3000);
+  settings.frequency_from = settings.frequency_to = 700;
+  std::vector<ReducedBody> bodies = train().bodies;
+  GearDesign design = bodies[1].design;
+  design.crack = {.tooth = kTooth, .depth = 2e-3};
+  BodyDiscretisation coarse;
+  coarse.element_size = 1.5e-3;
+  coarse.modes = 15;
+  bodies[1] = reduce(make_sector_mesh(design, coarse), Material{206e9, 0.3, 7850, true}, coarse.modes);
+  REQUIRE(bodies[1].crack_compliance.size() > 0);
+  const SweepResult a = system_sweep(settings, bodies, Direction::up, [](auto&&...) {});
+  REQUIRE(a.hunting_periods == kPlanet);
+  REQUIRE(a.period_multiple[0] == kPlanet);
+  CHECK(a.energy_imbalance[0] < 1e-9);
+  const ResponseResult r = response(a);
+  // That of its own mesh with the sun is the largest: the other flank, which the ring works on, closes the crack.
+  Index most = 0;
+  r.residual_rms.row(0).maxCoeff(&most);
+  CHECK(most == 0);
+  MESSAGE("residual, nm: " << r.residual_rms.row(0) * 1e9 << "; kurtosis " << r.residual_kurtosis(0, 0));
+  CHECK(r.residual_kurtosis(0, 0) > 6);
+  // While the tooth is in mesh.
+  Index at = 0;
+  residual_signal(a.transmission_error[0].col(0), kPlanet).cwiseAbs().maxCoeff(&at);
+  const int tooth = a.train.layout.meshes[0].side[1].tooth(-static_cast<int>(at) / 48);
+  const int ahead = ((tooth - kTooth) % kPlanet + kPlanet) % kPlanet;
+  CHECK(std::min(ahead, kPlanet - ahead) <= 1);
+  // N: the line at an order of the force on the ring, in the frame of the ring, over 3700 mesh periods.
+  const MatrixRM& force = a.bearing_force[4][0];
+  const auto line = [&](double order) {
+    std::complex<double> sum = 0;
+    const Index all = 3700 * 48;
+    for (Index i = 0; i < all; ++i) {
+      const double mesh_periods = static_cast<double>(i) / 48;
+      const Index row = i % force.rows();
+      sum += std::complex(force(row, 0), force(row, 1)) *
+             std::polar(
+                 1.0, 2 * std::numbers::pi * mesh_periods * (a.train.layout.bodies[5].sense / 100.0 - order));
+    }
+    return std::abs(sum) / static_cast<double>(all);
+  };
+  const double pass = a.train.layout.bodies[5].sense / 100.0;
+  for (const double order : {1 - 1.0 / kPlanet, 1 + 1.0 / kPlanet}) {
+    CHECK(line(order + pass) > 1e4 * line(order));
+    CHECK(line(order + pass) > 1e4 * line(order + 1.5 * pass));
+  }
 }
 
 TEST_CASE("a sweep of a train whose rows do not fit each other is rejected with what does not") {

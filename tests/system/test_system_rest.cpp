@@ -365,7 +365,7 @@ TEST_CASE(
       said(
           "[gear.sun.error]\niso_class = 5\n[gear.ring.error]\niso_class = 5\n[gear.planet.error]\niso_class = 5\n"),
       {10395, "periods"}));
-  CHECK(names(said("[gear.sun.crack]\ntooth = 1\ndepth_mm = 0.5\n"), {"compute", "gears"}));
+  CHECK(said("[gear.sun.crack]\ntooth = 1\ndepth_mm = 0.5\n").empty());
   CHECK(names(said("[[bearing]]\ngear = \"carrier\"\nstiffness_N_um = 5.0\n"), {"mass_kg"}));
   CHECK(said("[[bearing]]\ngear = \"carrier\"\nstiffness_N_um = 5.0\nmass_kg = 6.0\n").empty());
   CHECK(said("[fidelity]\ncontact = \"line\"\n").empty());
