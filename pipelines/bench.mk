@@ -15,6 +15,10 @@ $(stress_benches): bench-stress-of-%: $(B)/bin/whine-bench-stress out/%/params/s
 	@$< --params out/$*/params/static.toml --sweep-params out/$*/params/sweep.toml $(call named,--body,$*,body) --torque 150
 bench-stress: $(stress_benches) ## root stress of two pairs at one position beside CalculiX, which `deps-bench` installs (SCENE: of its pair)
 
+.PHONY: bench-width
+bench-width: $(B)/bin/whine-bench-width ## bodies over the face width beside CalculiX in three dimensions, spur and helical, which `deps-bench` installs
+	@$<
+
 # One static position of an internal pair beside CalculiX: three mesh phases, of which the middle one has two pairs of teeth in contact.
 .PHONY: bench-internal
 bench-internal: $(B)/bin/whine-bench $(call bodies_of,$(internal_scene)) ## static positions of a planet in a ring beside CalculiX, if `deps-bench` has installed it

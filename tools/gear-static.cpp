@@ -7,7 +7,8 @@
 // held (common/system/system.h); k = (T / r_b) / STE.
 // Of a pair, with --error-budget: error_budget.h5, the changes of mean stiffness, peak to peak and harmonics by each refinement, and
 // for information those by the other near field and the other contact.
-// Of a pair, with --next-level: beside static.h5, in words, what contact = "strips" would change in the result of contact = "line".
+// Of a pair, with --next-level: beside static.h5, in words, what contact = "strips" would change in the result of contact = "line", and of
+// helical, misaligned and lead-modified pairs what bodies in three dimensions would change in slices, or two degrees less in such bodies.
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -24,6 +25,7 @@
 #include "results/error_budget.h"
 #include "results/static.h"
 #include "studies/error_budget.h"
+#include "studies/width_levels.h"
 #include "system/mesh_record.h"
 #include "system/statics.h"
 #include "system/system_rest.h"
@@ -40,22 +42,22 @@ void tell_remarks(const std::vector<Remark>& remarks) {
     log_line("gear-static: ", remark.warning ? "warning: " : "", remark.words);
 }
 
-// Of a pair what the next level of contact would change beside.
+// Of a pair what the next level of contact, or over the face, would change beside.
 struct AtRest {
   SystemStaticResult result;
-  std::optional<NextLevel> change;
+  std::optional<NextLevel> change = {};
+  std::optional<WidthChange> over_face = {};
 };
 
 AtRest pair_results(const StageCommand& stage, double torque, bool next_level) {
   const StaticParameters settings = read_static_parameters(stage.params());
   const bool one_slice = settings.fidelity.width == WidthModel::one;
-  if (next_level && !one_slice)
-    fail(Failure::input, "--next-level is of contact in one slice, and width = \"", settings.fidelity.width,
-         "\"; the next level, a body in three dimensions, is not there yet");
   const auto [driver, driven] = read_bodies(stage.bodies(), settings);
-  AtRest out{pair_at_rest(driver, driven, settings, torque), {}};
+  AtRest out{pair_at_rest(driver, driven, settings, torque)};
   StaticResult& mesh = out.result.mesh[0];
-  if (next_level) out.change = next_contact_level(driver, driven, settings, mesh);
+  if (next_level && one_slice) out.change = next_contact_level(driver, driven, settings, mesh);
+  if (next_level && !one_slice)
+    out.over_face = width_change(mesh, next_width_level(driver, driven, settings, mesh));
   add_harmonics(mesh);
   if (one_slice) mesh.reference_contact = reference_contact(driver, driven, mesh);
   return out;
@@ -63,7 +65,7 @@ AtRest pair_results(const StageCommand& stage, double torque, bool next_level) {
 
 AtRest train_results(const StageCommand& stage) {
   const SystemStaticParameters settings = read_system_static_parameters(stage.params());
-  return {system_at_rest(settings, read_bodies(stage.bodies(), settings)), {}};
+  return {system_at_rest(settings, read_bodies(stage.bodies(), settings))};
 }
 
 std::string range(double least, double most) {
@@ -109,6 +111,7 @@ void at_rest(const StageCommand& stage, const Provenance& made, double torque, b
     tell(change_words("where a pair carries load off the line of action", rest.change->corner, strips));
     tell(change_words("elsewhere", rest.change->elsewhere, strips));
   }
+  if (rest.over_face) tell({change_words(*rest.over_face)});
   tell_remarks(rest.result.remarks);
 }
 
@@ -139,7 +142,10 @@ void body(int argc, char** argv) {
   stage.add("--torque", torque_word, "torque on the driver in N m, above 0");
   const Option of_budget = stage.flag(
       "--error-budget", budget, "refine one discretisation at a time and write error_budget.h5 instead");
-  stage.flag("--next-level", next_level, "for contact = \"line\": say what \"strips\" would change")
+  stage
+      .flag(
+          "--next-level", next_level,
+          "say what the next model level would change: strips for contact = \"line\", bodies in three dimensions for slices over the face, two degrees less for such bodies")
       .excludes(of_budget);
   stage.add_output("static.h5").required();
   options.footer(

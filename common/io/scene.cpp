@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "gear/face_width.h"
 #include "gear/handbook_sign.h"
 #include "gear/rack_tip.h"
 #include "io/keys.h"
@@ -430,6 +431,16 @@ bool plain_name(const std::string& name) {
 
 namespace {
 
+// Level over the face and degree where the scene leaves them open: bodies in three dimensions for what one slice does not hold.
+void take_width(const Source& source, Scene& scene) {
+  const GearDesign &driver = scene.gear(scene.mesh.gear[0]).design,
+                   &driven = scene.gear(scene.mesh.gear[1]).design;
+  if (!source.root().at_path("fidelity.width").node() && !face_words(scene.mesh, driver, driven).empty())
+    scene.fidelity.width = WidthModel::body;
+  int& degree = scene.body.width.degree;
+  if (scene.fidelity.width == WidthModel::body && degree == 0) degree = degree_of_width(driver, driven);
+}
+
 Scene scene_from(const Source& source) {
   if (source.is_stage_parameters())
     source.reject(
@@ -479,6 +490,7 @@ Scene scene_from(const Source& source) {
                         "\", which has no depth; set near_field = \"matching\" or take it out");
   take_module(keys(scene.damping), scene.gear(scene.mesh.gear[0]).design.module);
   if (scene.fidelity.body == BodyModel::full) scene.body.modes = kAllModes;
+  take_width(source, scene);
   return scene;
 }
 

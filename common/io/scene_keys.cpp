@@ -74,8 +74,8 @@ std::vector<GearRow> rows_of(View& v, bool moves) {
   add(keys(v.errors), !v.errors.none());
   add(gear.section("crack"), true);
   add(keys(v.material), true);
-  add(keys(v.mesh).section("mesh").without({"misalignment_um"}).all(), true);
-  add(keys(v.mesh).section("mesh").only({"misalignment_um"}), true);
+  add(keys(v.mesh).section("mesh").without({"misalignment_um", "face_offset_mm"}).all(), true);
+  add(keys(v.mesh).section("mesh").only({"misalignment_um", "face_offset_mm"}), true);
   add(keys(v.bearing), v.bearing.elastic());
   add(keys(v.mesh.friction), v.mesh.friction.acts());
   add(keys(v.damping), moves);

@@ -8,6 +8,7 @@
 #include "io/artifact_file.h"
 #include "io/static_source.h"
 #include "io/system_motion_codec.h"
+#include "results/width_tables.h"
 
 namespace whine {
 namespace {
@@ -327,6 +328,11 @@ void describe_face(Codec& c, SystemStaticResult& all) {
   number(&FaceLoad::load_factor, "/face_load_factor", "1", kPositive,
          "largest line load of the reference pair at mesh phase 0 over its mean, ends of the line included",
          "K_Hbeta = w_max / w_mean");
+  number(
+      &FaceLoad::load_factor_error, "/face_load_factor_error", "1", kPositive,
+      "what face_load_factor changes by with half as many points more and, on bodies in three dimensions, with polynomials of two degrees less");
+  c(a.degree, "/width_degree", "1", {0, kLargestDegree}, "",
+    "degree of the polynomials over the face that bodies in three dimensions take part with; 0 of slices");
   number(
       &FaceLoad::least_eigenvalue, "/certificate/least_eigenvalue", "m2 N-1", kFlexibility,
       "least eigenvalue of local and body compliance between line loads over all phases: above 0, or loads have no single solution");

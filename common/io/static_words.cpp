@@ -3,6 +3,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/error.h"
+
 namespace whine {
 
 std::vector<std::string> change_words(const std::string& where, const StaticDifference& change, int strips) {
@@ -13,6 +15,15 @@ std::vector<std::string> change_words(const std::string& where, const StaticDiff
       << change.error_rms * 100 << " % RMS; pair loads by " << change.load_largest * 100 << " % at most, "
       << change.load_rms * 100 << " % RMS of the load";
   return {out.str()};
+}
+
+std::string change_words(const WidthChange& change) {
+  const auto percent = [](double share) { return text(std::round(share * 1e4) / 1e2, " %"); };
+  return text(change.level, " against ", change.other, ": transmission error off by ",
+              percent(change.transmission_error), " of its mean at most, peak to peak ",
+              percent(change.peak_to_peak), ", first harmonic ", percent(change.first_harmonic),
+              ", mean stiffness ", percent(change.mean_stiffness), ", K_Hbeta ", change.load_factor[0],
+              " against ", change.load_factor[1]);
 }
 
 std::vector<std::string> root_stress_words(const ErrorBudgetResult& errors) {
@@ -36,11 +47,14 @@ std::vector<std::string> face_load_words(const StaticResult& statics) {
   const FaceLoad& face = statics.face;
   const double mean = statics.tooth_load.row(0).sum() / statics.face_width();
   std::ostringstream out;
-  out << face.line_load[0].cols()
-      << (statics.fidelity.width == WidthModel::body ? " points on bodies in three dimensions" : " slices")
-      << " along each contact line: overlap ratio " << face.overlap_ratio << ", face load factor K_Hbeta "
-      << face.load_factor << " of the reference pair at the pitch point, largest line load "
-      << face.line_load_max * 1e-3
+  out << face.line_load[0].cols();
+  if (face.degree > 0)
+    out << " points on bodies in three dimensions (degree " << face.degree << ")";
+  else
+    out << " slices";
+  out << " along each contact line: overlap ratio " << face.overlap_ratio << ", face load factor K_Hbeta "
+      << face.load_factor << " +- " << std::round(1e3 * face.load_factor_error) / 1e3
+      << " of the reference pair at the pitch point, largest line load " << face.line_load_max * 1e-3
       << " N/mm (inner 90 % of face and path; all of the load over the face: " << mean * 1e-3 << " N/mm)";
   if (face.axial_force != 0) out << ", axial force on the driver " << face.axial_force << " N";
   return {out.str()};

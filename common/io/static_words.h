@@ -6,6 +6,7 @@
 #include "results/error_budget.h"
 #include "results/static.h"
 #include "studies/error_budget.h"
+#include "studies/width_levels.h"
 
 namespace whine {
 
@@ -17,6 +18,8 @@ std::vector<std::string> change_words(const std::string& where, const StaticDiff
 std::vector<std::string> root_stress_words(const ErrorBudgetResult& errors);
 
 // Of a pair in slices over the face: overlap, load over the face, axial force.
+// Of another level over the face.
+std::string change_words(const WidthChange& change);
 std::vector<std::string> face_load_words(const StaticResult& statics);
 
 }  // namespace whine

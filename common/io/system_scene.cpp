@@ -117,7 +117,7 @@ void take_meshes(const Source& source, SystemScene& scene) {
     reader.read(keys(mesh.spec).section("mesh"));
     reader.read(keys(mesh));
     reject_stiffness(reader, scene.rigid(), "that of elastic gears is computed");
-    reader.reject_given("misalignment_um", kOneSlice);
+    for (const char* key : {"misalignment_um", "face_offset_mm"}) reader.reject_given(key, kOneSlice);
     if (scene.rigid() && !(mesh.stiffness > 0))
       reader.reject(" of '", mesh.spec.gear[0], "' and '", mesh.spec.gear[1],
                     "' lacks 'stiffness_N_um', which body = \"rigid\" needs");

@@ -24,6 +24,8 @@ KeyList keys(GearMeshSpec& m) {
   k.choice(m.contact_plane, "contact_plane", "strain", "plane state of the contact alone (pressure, width, local approach): strain inside a wide face; body: as each gear's [material] plane");
   k.begin_group(m.misalignment != 0);
   k.add(&m.misalignment, "misalignment_um", kMicrometre, "0.0", {-1000, 1000}, "misalignment in the plane of action over the common face width: by so much more the flanks stand apart at the end that faces a viewer who sees the driver turn counter-clockwise than at the other. What axes deviate at right angles to the plane of action (ISO 21771) changes the gap by its square only");
+  k.begin_group(m.face_offset != 0);
+  k.add(&m.face_offset, "face_offset_mm", kMillimetre, "0.0", {-1000, 1000}, "of faces of unequal width: middle of the driven gear's face beyond that of the driver's, towards a viewer who sees the driver turn counter-clockwise; the narrower face stands inside the wider one");
   k.append_group(keys(m.friction), m.friction.acts(), "friction");
   const auto own = [](int g, const char* section) { return std::string(kRole[g]) + section; };
   for (int g = 0; g < kSides; ++g)

@@ -53,6 +53,7 @@ std::string face_words(const GearMeshSpec& mesh, const GearDesign& driver, const
       return text("[gear.", mesh.gear[g],
                   "] is helical (helix_angle_deg = ", design.helix_angle * 180 / std::numbers::pi, ")");
   if (mesh.misalignment != 0) return text("[[mesh]] has misalignment_um = ", mesh.misalignment * 1e6);
+  if (mesh.face_offset != 0) return text("[[mesh]] has face_offset_mm = ", mesh.face_offset * 1e3);
   for (int g = 0; g < kSides; ++g)
     if (!mesh.modification[g].lead.none())
       return text("[gear.", mesh.gear[g], ".modification] takes material off along the face");

@@ -76,6 +76,9 @@ struct GearMeshSpec {
   // m over the common face width, in the plane of action: by how much more the flanks stand apart at the end that faces a viewer who sees
   // the driver turn counter-clockwise than at the other.
   double misalignment = 0;
+  // m, along the axes as misalignment counts them: middle of the driven gear's face beyond that of the driver's. The narrower face
+  // stands inside the wider one.
+  double face_offset = 0;
 
   // Whether the load is not the same all over the face, helices aside.
   bool uneven() const {
@@ -114,7 +117,8 @@ enum class Integrator { newmark, exact };
 template <>
 inline constexpr const char* kWordsOf<Integrator> = "newmark exact";
 
-// Contact over the face width: one slice; points that the teeth carry each by itself; points on bodies in three dimensions.
+// Contact over the face width, coarsest first: one slice; points that the teeth carry each by itself; points on bodies in three
+// dimensions.
 enum class WidthModel { one, slices, body };
 template <>
 inline constexpr const char* kWordsOf<WidthModel> = "one slices body";

@@ -85,6 +85,8 @@ struct FaceLoad {
   double axial_force = 0;  // N, on the driver along z
   double load_factor =
       0;  // K_Hbeta of the reference pair at phase 0: largest line load over the mean along its line
+  double load_factor_error = 0;  // by half as many points more and, on bodies, two degrees less
+  int degree = 0;  // of the polynomials over the face, on bodies in three dimensions; 0 of slices
   // m2 N-1: least eigenvalue of local and body compliance between line loads, of all phases; above 0
   double least_eigenvalue = 0;
   double line_load_max = 0;  // N m-1: largest of all phases in the inner 90 % of face and path

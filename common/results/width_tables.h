@@ -7,6 +7,9 @@
 
 namespace whine {
 
+// Largest degree of the polynomials over the face: beyond it the tables are not finer but the line contact of a slice ends to hold.
+inline constexpr int kLargestDegree = 24;
+
 // Flexibility of the driving flank between Legendre polynomials over the face width, at the points of a flank table. Load on tooth 0:
 // normal force per face width q(z) = sum_j P_j(z) q_j at roll angle xi'; reading: inward normal displacement u(z) = sum_i P_i(z) u_i at
 // roll angle xi, in axes that turn with the helix (contact lines: roll angle xi_0 + helix z). P_j: base/legendre.h, z from the middle of

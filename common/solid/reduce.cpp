@@ -66,6 +66,13 @@ std::string coarse_enough(const SectorGrid& mesh) {
   return "not even elements of a module of order 1 are coarse enough";
 }
 
+void require_plane_strain(const WidthDiscretisation& width, const Material& material) {
+  if (width.acts() && material.plane_stress)
+    fail(
+        Failure::input, "width_degree = ", width.degree,
+        " of a body in plane stress: what the face width adds is the difference to plane strain; set plane = \"strain\" in [gear.<name>.material]");
+}
+
 void check_options(const SectorGrid& mesh, const Material& material, int modes) {
   if (modes < 0 && modes != kAllModes) fail(Failure::input, "modes = ", modes, " is below 0");
   const bool matching = mesh.discretisation.near_field == NearField::matching;
@@ -75,10 +82,7 @@ void check_options(const SectorGrid& mesh, const Material& material, int modes) 
     fail(Failure::input, "youngs_modulus_GPa = ", material.youngs_modulus * 1e-9,
          ", poisson_ratio = ", material.poisson_ratio, ", density_kgm3 = ", material.density,
          ": modulus and density must be above 0, the ratio between -1 and 0.5");
-  if (mesh.discretisation.width.acts() && material.plane_stress)
-    fail(
-        Failure::input, "width_degree = ", mesh.discretisation.width.degree,
-        " of a body in plane stress: what the face width adds is the difference to plane strain; set plane = \"strain\" in [gear.<name>.material]");
+  require_plane_strain(mesh.discretisation.width, material);
   if (matching && !(depth > 0)) fail(Failure::input, "matching_depth_mm = ", depth * 1e3, " is not above 0");
 }
 
@@ -415,12 +419,7 @@ ReducedBody reduce(const SectorGrid& mesh, const Material& material, int modes, 
     body.crack_compliance = std::move(crack.compliance);
     body.crack_root_stress = std::move(crack.root_stress);
   }
-  if (const WidthDiscretisation& width = mesh.discretisation.width; width.acts()) {
-    GearDesign intact = mesh.design;
-    intact.crack = {};
-    const SectorGrid section = make_sector_mesh(intact, {.element_size = width.section_size});
-    body.width = make_width_tables(section, material, helix_twist(intact), width.degree, xi, body.offsets);
-  }
+  if (mesh.discretisation.width.acts()) add_width(mesh.discretisation.width, body);
   body.least_eigenvalue =
       least_eigenvalue(r, harmonics.flexibility, kept, body.compliance[0].cwiseAbs().maxCoeff());
   fields.add("displacement_unit_force", [&](int j) {
@@ -430,6 +429,16 @@ ReducedBody reduce(const SectorGrid& mesh, const Material& material, int modes, 
     return u;
   });
   return body;
+}
+
+void add_width(const WidthDiscretisation& width, ReducedBody& body) {
+  require_plane_strain(width, body.material);
+  GearDesign intact = body.design;
+  intact.crack = {};
+  body.discretisation.width = width;
+  body.width =
+      make_width_tables(make_sector_mesh(intact, {.element_size = width.section_size}), body.material,
+                        helix_twist(intact), width.degree, body.flank_position, body.offsets);
 }
 
 double refine_root_stress(const SectorGrid& mesh, double share, ReducedBody& body) {

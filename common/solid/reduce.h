@@ -40,6 +40,10 @@ constexpr int kOffsets = 3;
 ReducedBody reduce(const SectorGrid& mesh, const Material& material, int modes,
                    int flank_points = kFlankPoints);
 
+// Adds the third dimension to a body in plane strain: the tables over its face width. All else of the body stays. Throws as
+// make_width_tables(), Error(input) for a body in plane stress.
+void add_width(const WidthDiscretisation& width, ReducedBody& body);
+
 // Reads the root stress of a body anew, from `mesh` with elements on the root that are `share` (0 to 1, neither) times as large as those
 // that reduce() reads it from. All else of the body stays. Returns their size (m). Throws as reduce(), Error(input) for another share.
 double refine_root_stress(const SectorGrid& mesh, double share, ReducedBody& body);

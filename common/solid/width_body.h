@@ -13,11 +13,9 @@
 #include "results/sector_grid.h"
 #include "results/width_tables.h"
 #include "solid/elements.h"
+#include "solid/width_tables.h"
 
 namespace whine {
-
-// Largest degree of the polynomials: beyond it the tables are not finer but the line contact of a slice ends to hold.
-constexpr int kLargestDegree = 24;
 
 // (3 node, point) 1: of the points xi of the driving flank (rad), -n_c N_n(xi), the nodal forces of a unit force along the inward normal
 // n = (n_t, -helix r_b) / sqrt(1 + (helix r_b)^2) in turned axes, n_t outward in the section. Its transpose reads the inward displacement.

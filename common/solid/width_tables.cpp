@@ -1,5 +1,7 @@
 #include "solid/width_tables.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <utility>
 
@@ -10,6 +12,25 @@ namespace whine {
 
 Eigen::VectorXd plane_share(double base_radius, double helix, const Eigen::VectorXd& xi) {
   return (1 + (helix * base_radius) * (helix * base_radius) * (1 + xi.array().square())).rsqrt();
+}
+
+int degree_of_contact(double face_width, double half_width) {
+  return static_cast<int>(std::min<double>(kLargestDegree, std::sqrt(face_width / (2 * half_width))));
+}
+
+WidthTables cut_to_degree(const WidthTables& tables, int degree) {
+  if (degree == tables.degree) return tables;
+  WidthTables out = tables;
+  out.degree = degree;
+  const Eigen::Index points = tables.flank_position.size(), all = tables.degree + 1, own = degree + 1;
+  for (size_t k = 0; k < tables.flexibility.size(); ++k) {
+    out.flexibility[k].resize(points * own, points * own);
+    for (Eigen::Index a = 0; a < points; ++a)
+      for (Eigen::Index b = 0; b < points; ++b)
+        out.flexibility[k].block(a * own, b * own, own, own) =
+            tables.flexibility[k].block(a * all, b * all, own, own);
+  }
+  return out;
 }
 
 WidthKernel::WidthKernel(const ToothGeometry& tooth, WidthTables tables)

@@ -18,6 +18,14 @@ namespace whine {
 // section in plane strain. Between two points: the geometric mean. 1 of a spur gear.
 Eigen::VectorXd plane_share(double base_radius, double helix, const Eigen::VectorXd& xi);
 
+// Largest degree under a contact of this half-width (m) on a face of this width (m): P <= sqrt(b / (2 a)). The last of P + 1 Gauss points
+// is 1.4 b / (P + 1)^2 from the end of the face; where that comes near a, local compliance, tables and completion have no positive
+// definite sum.
+int degree_of_contact(double face_width, double half_width);
+
+// The tables of the polynomials 0 .. degree alone; `degree` at most that of the tables.
+WidthTables cut_to_degree(const WidthTables& tables, int degree);
+
 class WidthKernel {
  public:
   // Throws Error(input) where the tables are not of this tooth.

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "gear/face_width.h"
 #include "gear/helix.h"
 #include "solid/elements.h"
 
@@ -16,15 +17,22 @@ using Eigen::VectorXd;
 
 namespace {
 
-// The spur gear of the transverse section.
-ReducedBody section_of(const ReducedBody& body) {
+// The spur gear of the transverse section. On bodies in three dimensions it is as wide as the common face,
+// and what stands beyond it is in the tables over the width.
+ReducedBody section_of(const ReducedBody& body, WidthModel width, double common) {
   ReducedBody out = body;
   out.design = transverse_section(body.design);
+  if (width != WidthModel::body || body.design.face_width == common) return out;
+  const double more = body.design.face_width / common;
+  for (MatrixRM& table : out.compliance) table *= more;
+  out.far_compliance *= more;
+  out.back_compliance *= more;
+  out.design.face_width = common;
   return out;
 }
 
 GearMeshSpec even(GearMeshSpec mesh) {
-  mesh.misalignment = 0;
+  mesh.misalignment = mesh.face_offset = 0;
   for (FlankModification& modification : mesh.modification) modification.lead = {};
   return mesh;
 }
@@ -32,10 +40,6 @@ GearMeshSpec even(GearMeshSpec mesh) {
 // What bodies in three dimensions need.
 void require_width(const GearMeshSpec& mesh, size_t g, const ReducedBody& body) {
   const std::string of = text("width = \"body\" and [gear.", mesh.gear[g], "] ");
-  if (body.design.helical())
-    fail(
-        Failure::input, of,
-        "is helical: bodies in three dimensions are joined to the contact of spur gears so far; write width = \"slices\"");
   if (body.material.plane_stress)
     fail(
         Failure::input, of,
@@ -43,7 +47,7 @@ void require_width(const GearMeshSpec& mesh, size_t g, const ReducedBody& body) 
   if (body.width.flexibility.empty())
     fail(
         Failure::input, of,
-        "has a plane body: write width_degree = 8 in [discretisation], by which gear-reduce adds the third dimension");
+        "has a plane body: gear-reduce adds the third dimension by the polynomials of width_degree in [discretisation]; write it, or leave it to width = \"body\" in the scene");
 }
 
 const GearMeshSpec& taken(const GearMeshSpec& mesh, WidthModel width, const ReducedBody& driver,
@@ -62,10 +66,6 @@ const GearMeshSpec& taken(const GearMeshSpec& mesh, WidthModel width, const Redu
           Failure::input, "[gear.", mesh.gear[g],
           "] is helical, and its [material] has plane = \"stress\": the sections of a helical gear hold each other, write plane = \"strain\"");
   }
-  if (width == WidthModel::body && driver.design.face_width != driven.design.face_width)
-    fail(
-        Failure::input,
-        "width = \"body\" takes gears of equal face widths so far: what stands beyond the common face stiffens the teeth; write width = \"slices\"");
   return mesh;
 }
 
@@ -74,8 +74,10 @@ const GearMeshSpec& taken(const GearMeshSpec& mesh, WidthModel width, const Redu
 FaceContact::FaceContact(const ReducedBody& driver, const ReducedBody& driven, const GearMeshSpec& mesh,
                          WidthModel width, int points)
     : gears_(driver.design, driven.design, mesh.centre_distance),
-      section_(section_of(driver), section_of(driven), even(taken(mesh, width, driver, driven))),
+      section_(section_of(driver, width, gears_.face_width()), section_of(driven, width, gears_.face_width()),
+               even(taken(mesh, width, driver, driven))),
       gap_(gears_, mesh),
+      middle_(contact_middle(driver.design, driven.design, mesh.face_offset)),
       points_(points),
       cosine_(std::cos(gears_.base_helix_angle())),
       depth_(this->mesh().gear[0].contact_depth()) {
@@ -83,7 +85,17 @@ FaceContact::FaceContact(const ReducedBody& driver, const ReducedBody& driven, c
   if (width != WidthModel::body) return;
   const ReducedBody* const bodies[] = {&driver, &driven};
   for (size_t g = 0; g < kSides; ++g)
-    kernel_[g] = std::make_unique<const WidthKernel>(gears_.gear(static_cast<int>(g)), bodies[g]->width);
+    kernel_[g] = std::make_shared<const WidthKernel>(gears_.gear(static_cast<int>(g)), bodies[g]->width);
+}
+
+FaceContact FaceContact::with(int points, int degree) const {
+  FaceContact out = *this;
+  out.points_ = points;
+  for (size_t g = 0; g < kSides; ++g)
+    if (out.kernel_[g] && out.kernel_[g]->degree() > degree)
+      out.kernel_[g] = std::make_shared<const WidthKernel>(gears_.gear(static_cast<int>(g)),
+                                                           cut_to_degree(kernel_[g]->tables(), degree));
+  return out;
 }
 
 // Of a spur pair all pairs in reach, tip edges off the line of action too: every section is at the same place of its path.
@@ -143,7 +155,7 @@ void FaceContact::add_sections(FacePosition& position, const std::array<MatrixXd
   const FacePoints& points = position.points;
   const int n = points.per_line, lines = static_cast<int>(points.line.size());
   position.compliance.setZero(points.size(), points.size());
-  const double unit = cosine_ * cosine_ * gears_.face_width();  // m
+  const double width = gears_.face_width(), unit = cosine_ * cosine_ * width;  // m
   const GaussRule rule = gauss_rule(n);
   for (size_t g = 0; g < kSides; ++g) {
     const ElasticGear& gear = mesh().gear[g];
@@ -153,10 +165,15 @@ void FaceContact::add_sections(FacePosition& position, const std::array<MatrixXd
       const double xi = l.dot(roll[g](own(line), 0));
       return gear.table().weights(std::clamp(xi, gear.table().lowest(), gear.table().highest()));
     };
+    // Of the width that a point stands for: m.
+    const VectorXd plane = kernel_[g]
+                               ? VectorXd(width * plane_share(gears_.gear(static_cast<int>(g)).base_radius(),
+                                                              kernel_[g]->tables().helix, roll[g].col(0)))
+                               : VectorXd::Constant(points.size(), unit);
     for (int q = 0; q < points.size(); ++q) {
       const Eigen::RowVectorXd row = gear.table().weights(roll[g](q, 0));
       position.compliance(q, q) +=
-          unit / points.weight[q] * row.dot(table_[g][static_cast<size_t>(most)] * row.transpose());
+          plane[q] / points.weight[q] * row.dot(table_[g][static_cast<size_t>(most)] * row.transpose());
     }
     if (kernel_[g]) continue;
     for (int i = 0; i < lines; ++i)
@@ -191,7 +208,7 @@ void FaceContact::add_width(FacePosition& position, const std::array<MatrixXd, 2
     const WidthKernel& kernel = *kernel_[g];
     MatrixXd functional;  // (functional, point)
     for (int q = 0; q < points.size(); ++q) {
-      const VectorXd at = kernel.point(roll[g](q, 0), points.z[q]);
+      const VectorXd at = kernel.point(roll[g](q, 0), points.z[q] + middle_[g]);
       if (q == 0) functional.resize(at.size(), points.size());
       functional.col(q) = at;
       position.compliance(q, q) += kernel.completion(roll[g](q, 0), roll[g](q, 0)) / points.weight[q];

@@ -12,10 +12,13 @@
 //
 // On bodies in three dimensions (width = "body") what the sections do to each other is added to the points of a line, and takes the place of
 // C_qr on different lines (solid/width_tables.h):
-//   C_qr += sum_ij P_i(z_q) (dC_ij - delta_ij c)(s_q, s_r) P_j(z_r),   C_qq += c(s_q, s_q) / w_q.
+//   C_qr += sum_ij P_i(z_q) (dC_ij - delta_ij c)(s_q, s_r) P_j(z_r),   C_qq += c(s_q, s_q) / w_q,
+// z from the middle of each gear's own face, beyond whose contact a wider gear goes on. The tables T then count with plane_share() in
+// place of cos^2 beta_b, as what the tables over the width were taken from.
 // The sum of local compliance, tables and this is positive definite where the polynomials are not finer than the contact is wide: degree P
 // at most sqrt(b / 2a); its least eigenvalue is part of the result.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <vector>
@@ -42,14 +45,18 @@ struct FacePosition {
 class FaceContact {
  public:
   // width: slices or body; points: of each contact line. Throws Error(input) for what slices do not take: internal gears, elastic bearings, friction, teeth that
-  // differ, cracks, and helical gears whose bodies are in plane stress; of width = body also for helical gears, unequal faces, and bodies in
-  // plane stress or without tables over the width.
+  // differ, cracks, and helical gears whose bodies are in plane stress; of width = body also for bodies in plane stress or without tables
+  // over the width.
   FaceContact(const ReducedBody& driver, const ReducedBody& driven, const GearMeshSpec& mesh,
               WidthModel width, int points);
 
   const GearPair& gears() const { return gears_; }  // with their helix
   const FaceGap& face_gap() const { return gap_; }
-  int degree() const { return kernel_[0] ? std::min(kernel_[0]->degree(), kernel_[1]->degree()) : 0; }
+  int points() const { return points_; }  // of each contact line
+  // Of the polynomials over the face width: the larger one of both gears, 0 of slices.
+  int degree() const { return kernel_[0] ? std::max(kernel_[0]->degree(), kernel_[1]->degree()) : 0; }
+  // The same contact with this number of points, and with polynomials to `degree` at most.
+  FaceContact with(int points, int degree) const;
   // The spur pair of the transverse section, under even load.
   const GearMeshModel& mesh() const { return section_; }
 
@@ -66,10 +73,11 @@ class FaceContact {
   GearPair gears_;
   GearMeshModel section_;
   FaceGap gap_;
+  std::array<double, 2> middle_;  // m: of the common face from that of each gear
   int points_;
   double cosine_, depth_;  // 1: cos beta_b; m: of the laws
   std::array<std::vector<Eigen::MatrixXd>, 2> table_;
-  std::array<std::unique_ptr<const WidthKernel>, 2> kernel_;  // of width = body
+  std::array<std::shared_ptr<const WidthKernel>, 2> kernel_;  // of width = body
 };
 
 }  // namespace whine

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gear/face_width.h"
 #include "solid/elements.h"
 
 namespace whine {
@@ -16,7 +17,9 @@ int face_points_of(const GearMeshSpec& mesh, const ContactDiscretisation& contac
 }
 
 FaceGap::FaceGap(const GearPair& pair, const GearMeshSpec& mesh)
-    : slope_(mesh.misalignment / pair.face_width()), none_(!mesh.uneven()) {
+    : middle_(contact_middle(pair.gear(0).design(), pair.gear(1).design(), mesh.face_offset)),
+      slope_(mesh.misalignment / pair.face_width()),
+      none_(!mesh.uneven()) {
   for (int g = 0; g < kSides; ++g)
     lead_[static_cast<size_t>(g)] =
         LeadDeviation(mesh.modification[static_cast<size_t>(g)].lead, pair.gear(g).design().face_width);

@@ -21,11 +21,13 @@ int face_points_of(const GearMeshSpec& mesh, const ContactDiscretisation& contac
 class FaceGap {
  public:
   FaceGap(const GearPair& pair, const GearMeshSpec& mesh);
-  double at(double z) const { return lead_[0].at(z) + lead_[1].at(z) + slope_ * z; }  // m
+  // m; z: from the middle of the common face.
+  double at(double z) const { return lead_[0].at(z + middle_[0]) + lead_[1].at(z + middle_[1]) + slope_ * z; }
   bool none() const { return none_; }
 
  private:
   std::array<LeadDeviation, 2> lead_;
+  std::array<double, 2> middle_;  // m: contact_middle()
   double slope_ = 0;
   bool none_ = true;
 };

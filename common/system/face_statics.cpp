@@ -11,6 +11,7 @@
 #include "base/format.h"
 #include "base/model_range.h"
 #include "base/progress.h"
+#include "gear/hertz.h"
 #include "system/compliance_split.h"
 #include "system/face_contact.h"
 #include "system/flank_pressure.h"
@@ -67,26 +68,67 @@ void require_small(const FaceContact& contact, double x, double torque) {
         ", a quarter of the module, up to which teeth may stand beside the place that the drawing gives them; lower the torque");
 }
 
+// start: m, of the transmission error; below 0: none is known.
+FaceSolution solve_phase(const FaceContact& contact, double phase, double corner_gap, double load,
+                         double start) {
+  FaceSolution at;
+  at.position = contact.at(phase, corner_gap, load);
+  const FacePosition& p = at.position;
+  if (start < 0) start = start_without_coupling(p, load);
+  at.equilibrium = equilibrium(p.compliance, p.law, p.gap, p.approach, load, start);
+  require_hertz_range(p.law, at.equilibrium.p);
+  return at;
+}
+
 // All phases, with tip edges up to corner_gap (m) away; `beyond`: in words what that left out.
 std::vector<FaceSolution> solve_phases(const FaceContact& contact, int positions, double corner_gap,
                                        double load, double torque, std::string& beyond) {
   std::vector<FaceSolution> out(static_cast<size_t>(positions));
-  double start = 0;
+  double start = -1;
   for (int i = 0; i < positions && beyond.empty(); ++i) {
     report_step("mesh positions", i, positions);
     const double phase = static_cast<double>(i) / positions;
     FaceSolution& at = out[static_cast<size_t>(i)];
-    at.position = contact.at(phase, corner_gap, load);
-    const FacePosition& p = at.position;
-    if (i == 0) start = start_without_coupling(p, load);
-    at.equilibrium = equilibrium(p.compliance, p.law, p.gap, p.approach, load, start);
+    at = solve_phase(contact, phase, corner_gap, load, start);
     start = at.equilibrium.x;
-    require_hertz_range(p.law, at.equilibrium.p);
     require_small(contact, start, torque);
     at.unloaded = contact.unloaded_transmission_error(phase, corner_gap);
     beyond = outside(at);
   }
   return out;
+}
+
+// Of the place of a point: inside nine tenths of face and path. In the corners where a line comes in, the load of a line model has
+// no limit.
+bool well_inside(const GearPair& gears, const FacePoints& points, Index q) {
+  constexpr double kInside = 0.9;
+  const double middle = 0.5 * (gears.path_start() + gears.path_end()),
+               reach = 0.5 * kInside * (gears.path_end() - gears.path_start());
+  return std::abs(points.z[q]) <= 0.5 * kInside * gears.face_width() &&
+         std::abs(points.path[q] - middle) <= reach;
+}
+
+// m: half-width of the widest contact well inside.
+double widest_contact(const FaceContact& contact, const std::vector<FaceSolution>& period) {
+  double most = 0;
+  for (const FaceSolution& at : period)
+    for (Index q = 0; q < at.position.points.size(); ++q)
+      if (at.equilibrium.p[q] > 0 && well_inside(contact.gears(), at.position.points, q))
+        most = std::max(most, 0.5 * at.position.law[static_cast<size_t>(q)].width(at.equilibrium.p[q]));
+  return most;
+}
+
+// Degree that a contact of this half-width (m) allows on the common face.
+int allowed_degree(const FaceContact& contact, double half_width, double torque) {
+  constexpr int kLeast = 2;
+  const double width = contact.gears().face_width();
+  const int degree = degree_of_contact(width, half_width);
+  if (degree < kLeast)
+    fail_outside_range(
+        Failure::input, "at ", torque, " N m the contact is ", millimetres(2 * half_width),
+        " wide, and the common face ", millimetres(width), ": polynomials to degree ", degree,
+        " alone, by P <= sqrt(b / 2a), hold no load over the face; lower the torque or write width = \"slices\"");
+  return degree;
 }
 
 // m2 N-1: of local compliance (at the forces that it carries) and bodies between line loads, W^1/2 (C + law') W^1/2 with the weights W.
@@ -134,26 +176,44 @@ void store_lines(const FaceContact& contact, const FaceSolution& at, Index row, 
 // At the very end of a face the load of teeth in three dimensions falls off, which no polynomial holds.
 constexpr double kInnerFace = 0.8;
 
+// K_Hbeta of the reference pair where it has a line, else 0.
+double load_factor(const FaceContact& contact, const FaceSolution& at) {
+  const FacePoints& points = at.position.points;
+  const int n = points.per_line;
+  for (Index line = 0; line < static_cast<Index>(points.line.size()); ++line) {
+    if (points.line[static_cast<size_t>(line)].pair != 0) continue;
+    const auto own = Eigen::seqN(line * n, n);
+    const VectorXd load = at.equilibrium.p(own).array() / points.weight(own).array();
+    return face_load_factor(points.z(own), points.weight(own), load, points.line[static_cast<size_t>(line)],
+                            contact.degree() > 0 ? kInnerFace : 1);
+  }
+  return 0;
+}
+
+// What K_Hbeta at phase 0 changes by with half as many points more, and with two degrees less.
+double load_factor_error(const FaceContact& contact, double factor, double corner_gap, double load,
+                         double start) {
+  const auto change = [&](int points, int degree) {
+    const FaceContact other = contact.with(points, degree);
+    return std::abs(load_factor(other, solve_phase(other, 0, corner_gap, load, start)) - factor);
+  };
+  double sum = change(contact.points() + contact.points() / 2, contact.degree());
+  if (contact.degree() > 0) sum += change(contact.points(), contact.degree() - 2);
+  return sum;
+}
+
 // What is true of the whole period.
-void store_face(const FaceContact& contact, const std::vector<FaceSolution>& period, StaticResult& result) {
+void store_face(const FaceContact& contact, const std::vector<FaceSolution>& period, double corner_gap,
+                StaticResult& result) {
   FaceLoad& face = result.face;
   const GearPair& gears = contact.gears();
   face.overlap_ratio = gears.overlap_ratio();
   face.axial_force = helical_forces(gears, result.torque).axial;
-  const FacePoints& at_pitch_point = period[0].position.points;
-  const int n = at_pitch_point.per_line;
-  for (Index line = 0; line < static_cast<Index>(at_pitch_point.line.size()); ++line) {
-    if (at_pitch_point.line[static_cast<size_t>(line)].pair != 0) continue;
-    const auto own = Eigen::seqN(line * n, n);
-    const VectorXd load = period[0].equilibrium.p(own).array() / at_pitch_point.weight(own).array();
-    face.load_factor = face_load_factor(at_pitch_point.z(own), at_pitch_point.weight(own), load,
-                                        at_pitch_point.line[static_cast<size_t>(line)],
-                                        result.fidelity.width == WidthModel::body ? kInnerFace : 1);
-  }
-  // In the corners where a line comes in, the load of a line model has no limit.
-  constexpr double kInside = 0.9;
-  const double middle = 0.5 * (gears.path_start() + gears.path_end()),
-               reach = 0.5 * kInside * (gears.path_end() - gears.path_start());
+  face.degree = contact.degree();
+  face.load_factor = load_factor(contact, period[0]);
+  face.load_factor_error =
+      load_factor_error(contact, face.load_factor, corner_gap, result.torque / gears.gear(0).base_radius(),
+                        period[0].equilibrium.x);
   double lost = 0;  // N m rad-1
   for (const FaceSolution& at : period)
     for (Index q = 0; q < at.position.points.size(); ++q) {
@@ -161,15 +221,14 @@ void store_face(const FaceContact& contact, const std::vector<FaceSolution>& per
       const double force = at.equilibrium.p[q],
                    path = std::clamp(p.path[q], gears.path_start(), gears.path_end());
       lost += force * std::abs(gears.sliding(path));
-      if (std::abs(p.z[q]) <= 0.5 * kInside * gears.face_width() && std::abs(p.path[q] - middle) <= reach)
-        face.line_load_max = std::max(face.line_load_max, force / p.weight[q]);
+      if (well_inside(gears, p, q)) face.line_load_max = std::max(face.line_load_max, force / p.weight[q]);
     }
   result.loss_factor = lost / (static_cast<double>(period.size()) * result.torque);
 }
 
 StaticResult result_of(const FaceContact& contact, const std::vector<FaceSolution>& period,
                        const ReducedBody& driver, const ReducedBody& driven, const StaticParameters& settings,
-                       double torque) {
+                       double torque, double corner_gap) {
   StaticResult out;
   set_pair(out, {driver, driven}, settings);
   out.fidelity.contact = ContactModel::line;
@@ -207,7 +266,12 @@ StaticResult result_of(const FaceContact& contact, const std::vector<FaceSolutio
     store_lines(contact, at, i, out);
   }
   out.mean_stiffness = out.stiffness_secant.mean();
-  store_face(contact, period, out);
+  if (!(out.face.least_eigenvalue > 0))
+    fail(Failure::numerical, "at ", torque, " N m the compliance of ", contact.points(),
+         " points along each line and polynomials to degree ", contact.degree(),
+         " is not positive definite (least eigenvalue ", out.face.least_eigenvalue,
+         " m2/N); write a smaller width_degree in [discretisation], or another number of face_points");
+  store_face(contact, period, corner_gap, out);
   out.backlash_margin = out.tooth_thinning() > 0
                             ? contact.gears().backlash() + out.transmission_error.minCoeff()
                             : std::numeric_limits<double>::infinity();
@@ -222,20 +286,34 @@ StaticResult result_of(const FaceContact& contact, const std::vector<FaceSolutio
 
 StaticResult face_transmission(const ReducedBody& driver, const ReducedBody& driven,
                                const StaticParameters& settings, double torque) {
-  const FaceContact contact(driver, driven, settings.mesh, settings.fidelity.width,
-                            face_points_of(settings.mesh, settings.contact));
+  const int points = face_points_of(settings.mesh, settings.contact);
+  FaceContact contact(driver, driven, settings.mesh, settings.fidelity.width, points);
   const double load = torque / contact.gears().gear(0).base_radius();
+  if (contact.degree() > 0) {
+    StaticResult pair;
+    set_pair(pair, {driver, driven}, settings);
+    contact = contact.with(points, allowed_degree(contact, hertz_contact(pair, load).half_width, torque));
+  }
   double widening = 1;
-  for (int attempt = 0;; ++attempt, widening *= kWidening) {
+  for (int attempt = 0;;) {
     std::string beyond;
     const double corner_gap = reach_of_edges(contact.mesh(), load) * widening;
     const std::vector<FaceSolution> period =
         solve_phases(contact, settings.contact.positions, corner_gap, load, torque, beyond);
-    if (beyond.empty()) return result_of(contact, period, driver, driven, settings, torque);
+    if (beyond.empty()) {
+      const int allowed =
+          contact.degree() > 0 ? allowed_degree(contact, widest_contact(contact, period), torque) : 0;
+      if (contact.degree() <= allowed)
+        return result_of(contact, period, driver, driven, settings, torque, corner_gap);
+      contact = contact.with(points, allowed);
+      continue;
+    }
     if (attempt == kWidenings)
       fail_outside_range(Failure::numerical, "at ", torque,
                          " N m contact leaves the flanks: tip edges up to ", corner_gap * 1e6,
                          " micrometres away, and still ", beyond, "; lower the torque");
+    ++attempt;
+    widening *= kWidening;
   }
 }
 

@@ -66,6 +66,12 @@ std::vector<Remark> remarks(const StaticResult& s) {
   if (s.fidelity.width == WidthModel::slices)
     add(false,
         "width = \"slices\": the teeth carry each section by itself. That holds the transmission error to a few per cent; K_Hbeta - 1 of bodies in three dimensions is 1.7 to 2.1 times as large");
+  if (s.fidelity.width == WidthModel::body) {
+    const int most = std::max(s.gear[0].discretisation.width.degree, s.gear[1].discretisation.width.degree);
+    if (s.face.degree < most)
+      add(false, "polynomials over the face to degree ", s.face.degree, " of ", most,
+          " of the bodies: P <= sqrt(b / 2a), a the half-width of the contact, beyond which they resolve less than the contact is wide");
+  }
   if (s.gear[0].design.internal || s.gear[1].design.internal) {
     const double radial = radial_assembly_clearance(GearPair(s));
     if (radial < 0)

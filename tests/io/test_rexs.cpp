@@ -357,7 +357,7 @@ TEST_CASE("REXS: foreign and damaged files are rejected with the reason") {
        {"stage", "gear_1", "gear_2"}},
       {"helical",
        changed([](Gearbox& b) { set(b, 10, "helix_angle_reference_diameter", "deg", "15"); }),
-       {"helical"}},
+       {"helix angles differ"}},
       {"a bevel gear",
        without(good, "\"11\" type=\"cylindrical_gear\"", "\"11\" type=\"bevel_gear\""),
        {"cylindrical_gear", "ring_gear"}},

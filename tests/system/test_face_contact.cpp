@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "gear/face_width.h"
 #include "paper_pair.h"
 #include "refusal.h"
 #include "relative.h"
@@ -357,5 +358,174 @@ TEST_CASE("bodies in three dimensions are asked for by name") {
   settings.mesh.centre_distance = kHelicalDistance;
   CHECK(refused(
       [&] { static_transmission(helical_body(Hand::right), helical_body(Hand::left), settings, 150); },
-      Failure::input, {"helical", "slices"}));
+      Failure::input, {"plane body", "width_degree"}));
+}
+
+namespace {
+
+// A body in plane strain and three dimensions, 20 mm wide or as wide as is said.
+ReducedBody body_3d(double beta, Hand hand, int degree = 8, double width = 20e-3) {
+  BodyDiscretisation coarse;
+  coarse.element_size = 1e-3;
+  coarse.modes = 0;
+  coarse.width = {degree, 1.5e-3};
+  Material steel = paper_steel();
+  steel.plane_stress = false;
+  return reduce(make_sector_mesh(gear_with_helix(beta, hand, width), coarse), steel, 0);
+}
+
+const ReducedBody& helical_3d(Hand hand) {
+  static const ReducedBody right = body_3d(20, Hand::right), left = body_3d(20, Hand::left);
+  return hand == Hand::right ? right : left;
+}
+
+const ReducedBody& spur_3d() {
+  static const ReducedBody body = body_3d(0, Hand::right);
+  return body;
+}
+
+StaticParameters on_bodies(int positions, int points, double distance = 0.150) {
+  StaticParameters settings = slices(positions, points, distance);
+  settings.fidelity.width = WidthModel::body;
+  return settings;
+}
+
+// Largest difference of two results over the period: transmission errors over the mean, line loads over the largest.
+struct Apart {
+  double error, load;
+};
+Apart apart(const StaticResult& a, const StaticResult& b, bool mirrored) {
+  Apart out{(a.transmission_error - b.transmission_error).cwiseAbs().maxCoeff() / a.transmission_error.mean(),
+            0};
+  for (size_t i = 0; i < a.face.line_load.size(); ++i) {
+    const MatrixRM other = mirrored ? MatrixRM(b.face.line_load[i].rowwise().reverse()) : b.face.line_load[i];
+    out.load = std::max(out.load, (a.face.line_load[i] - other).cwiseAbs().maxCoeff() / a.face.line_load_max);
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "helical bodies in three dimensions: the other hand is the mirror image, exchanged gears give the same") {
+  StaticParameters settings = on_bodies(8, 8, kHelicalDistance);
+  settings.mesh.modification[0].lead.crowning = 3e-6;
+  settings.mesh.misalignment = 4e-6;
+  const ReducedBody &right = helical_3d(Hand::right), &left = helical_3d(Hand::left);
+  const StaticResult here = static_transmission(right, left, settings, 150);
+  settings.mesh.misalignment = -4e-6;
+  const Apart mirrored = apart(here, static_transmission(left, right, settings, 150), true);
+  MESSAGE("other hand: transmission error off by " << mirrored.error << ", line loads by " << mirrored.load);
+  CHECK(mirrored.error < 1e-11);
+  CHECK(mirrored.load < 1e-9);
+  CHECK(here.face.degree == 8);
+  CHECK(here.face.least_eigenvalue > 0);
+  CHECK(here.least_gap >= -1e-12);
+  const HelicalForces force = helical_forces(GearPair(here), 150);
+  for (Index i = 0; i < 8; ++i) CHECK(here.tooth_load.row(i).sum() == relative(force.normal, 1e-10));
+  // Buttressing: under even flanks the ends of a helical tooth differ, and they change places with the hand, which half a turn of the pair
+  // about an axis across does, too: phase f of right-hand gears is phase -f of left-hand ones with z turned round.
+  settings.mesh.misalignment = 0;
+  const StaticResult even = static_transmission(right, left, settings, 150);
+  const auto ends = [](const StaticResult& s) {  // of the reference line at the pitch point
+    const auto row = s.face.line_load[0].row(-s.pair[0]);
+    return row[0] / row[row.size() - 1];
+  };
+  const StaticResult turned = static_transmission(left, right, settings, 150);
+  MESSAGE("load at one end of the line over that at the other: " << ends(even) << ", of the other hand "
+                                                                 << ends(turned));
+  CHECK(std::abs(ends(even) - 1) > 0.01);
+  CHECK(ends(even) * ends(turned) == relative(1, 1e-9));
+}
+
+TEST_CASE("bodies in three dimensions: a small helix is the spur pair") {
+  const double beta = 0.05;
+  StaticParameters settings = on_bodies(8, 8);
+  settings.mesh.corner.enabled = false;
+  settings.mesh.misalignment = 5e-6;
+  const VectorXd spur = static_transmission(spur_3d(), spur_3d(), settings, 150).transmission_error;
+  settings.mesh.centre_distance = 0.150 / std::cos(beta * kOneDegreeOfFace);
+  const VectorXd slight =
+      static_transmission(body_3d(beta, Hand::right), body_3d(beta, Hand::left), settings, 150)
+          .transmission_error;
+  // Away from the ends of the path, at which a spur line comes and goes as a whole.
+  for (const int i : {0, 2, 4, 6}) CHECK(slight[i] == relative(spur[i], 1e-4));
+}
+
+TEST_CASE(
+    "bodies in three dimensions: degree and points against finer ones, and the error that stands beside K_Hbeta") {
+  for (const bool helical : {false, true}) {
+    const double lead = 10e-6;
+    StaticParameters settings = on_bodies(helical ? 16 : 4, 12, helical ? kHelicalDistance : 0.150);
+    settings.mesh.misalignment = lead;
+    settings.mesh.corner.enabled = false;
+    const auto result = [&](int degree) {
+      const ReducedBody a = helical ? body_3d(20, Hand::right, degree) : body_3d(0, Hand::right, degree);
+      return static_transmission(a, helical ? body_3d(20, Hand::left, degree) : a, settings, 150);
+    };
+    const StaticResult six = result(6), eight = result(8), ten = result(10);
+    const auto off = [&](const StaticResult& s) {
+      return (s.transmission_error - ten.transmission_error).cwiseAbs().maxCoeff() /
+             ten.transmission_error.mean();
+    };
+    MESSAGE((helical ? "helical" : "spur")
+            << ": K_Hbeta of degrees 6, 8, " << ten.face.degree << ": " << six.face.load_factor << ", "
+            << eight.face.load_factor << " +- " << eight.face.load_factor_error << ", "
+            << ten.face.load_factor << "; transmission error off by " << off(six) << ", " << off(eight));
+    CHECK(off(eight) < 2e-3);
+    CHECK(std::abs(eight.face.load_factor - ten.face.load_factor) < eight.face.load_factor_error);
+    CHECK(eight.face.load_factor_error < 0.1 * eight.face.load_factor);
+  }
+}
+
+TEST_CASE("polynomials over the face are no finer than the contact is wide") {
+  StaticParameters settings = on_bodies(4, 8);
+  settings.mesh.corner.enabled = false;
+  const StaticResult light = static_transmission(spur_3d(), spur_3d(), settings, 150),
+                     heavy = static_transmission(spur_3d(), spur_3d(), settings, 1200);
+  CHECK(light.face.degree == 8);
+  const double a = heavy.contact_half_width.maxCoeff();
+  MESSAGE("degree " << heavy.face.degree << " at half-widths up to " << a * 1e3 << " mm");
+  CHECK(heavy.face.degree < 8);
+  CHECK(heavy.face.degree == degree_of_contact(20e-3, a));
+  CHECK(std::any_of(heavy.remarks.begin(), heavy.remarks.end(),
+                    [](const Remark& r) { return r.words.find("P <= sqrt(b / 2a)") != std::string::npos; }));
+  CHECK(degree_of_contact(20e-3, 0.15e-3) == 8);
+  for (const auto& [modules, degree] : {std::pair{8.5, 8}, std::pair{15.0, 12}, std::pair{20.0, 16}})
+    CHECK(degree_of_width(gear_with_helix(0, Hand::right, 3e-3 * modules), paper_gear()) == degree);
+}
+
+TEST_CASE(
+    "faces of unequal width: what stands beyond the contact stiffens the ends of the wider gear's teeth") {
+  const ReducedBody wide = body_3d(0, Hand::right, 8, 26e-3);
+  StaticParameters settings = on_bodies(4, 8);
+  settings.mesh.corner.enabled = false;
+  const auto ends = [](const StaticResult& s) {
+    const auto row = s.face.line_load[0].row(-s.pair[0]);
+    return std::array{row[0], row[row.size() - 1]};
+  };
+  const StaticResult equal = static_transmission(spur_3d(), spur_3d(), settings, 150),
+                     middle = static_transmission(wide, spur_3d(), settings, 150);
+  settings.mesh.face_offset = 3e-3;  // the driven, narrower gear at the end of the driver's face
+  const StaticResult end = static_transmission(wide, spur_3d(), settings, 150);
+  settings.mesh.face_offset = -3e-3;
+  const StaticResult other_end = static_transmission(wide, spur_3d(), settings, 150);
+  const std::array even = ends(equal), both = ends(middle), one = ends(end), two = ends(other_end);
+  MESSAGE("line loads at the two ends, N/mm: equal faces "
+          << even[0] * 1e-3 << ", " << even[1] * 1e-3 << "; wider by 3 mm on either side " << both[0] * 1e-3
+          << ", " << both[1] * 1e-3 << "; by 6 mm on one " << one[0] * 1e-3 << ", " << one[1] * 1e-3
+          << "; mean stiffness " << middle.mean_stiffness / equal.mean_stiffness << ", "
+          << end.mean_stiffness / equal.mean_stiffness << " of that of equal faces");
+  CHECK(both[0] == relative(both[1], 1e-9));
+  CHECK(both[0] > even[0]);
+  CHECK(middle.mean_stiffness > equal.mean_stiffness);
+  // z = -10 mm then has 6 mm of tooth beyond it, z = +10 mm none.
+  CHECK(one[0] > one[1]);
+  CHECK(one[0] == relative(two[1], 1e-9));
+  // The gears exchanged: a wider driven gear, whose overhang is on the other side of the same offset.
+  const StaticResult exchanged = static_transmission(spur_3d(), wide, settings, 150);
+  CHECK(exchanged.transmission_error[0] == relative(end.transmission_error[0], 1e-6));
+  settings.mesh.face_offset = 3.5e-3;
+  CHECK(refused([&] { static_transmission(wide, spur_3d(), settings, 150); }, Failure::input,
+                {"face_offset_mm", 3.5, 3}));
 }

@@ -15,18 +15,6 @@
 namespace whine {
 namespace {
 
-void check_spur(RexsReader& reader, const RexsComponent& gear) {
-  if (gear.type != "cylindrical_gear" && gear.type != "ring_gear")
-    fail(Failure::input, reader.path(), ": ", quoted_name(gear),
-         " is no cylindrical_gear and no ring_gear; spur gears are imported");
-  const auto helix = reader.number(&gear, "helix_angle_reference_diameter", kRexsDegree);
-  if (helix && helix->value != 0)
-    fail(
-        Failure::input, reader.path(), ": ", quoted_name(gear), " is helical (", helix->origin, " = ",
-        helix->value,
-        " degrees); only spur gears are imported so far: write the scene by hand, with helix_angle_deg and hand in its gears");
-}
-
 // The tool of the gear, or of one of its flanks.
 const RexsComponent* tool_of(const RexsReader& reader, int gear, const std::string& type) {
   if (const RexsComponent* tool = reader.beside(gear, type)) return tool;
@@ -107,7 +95,7 @@ std::optional<RexsNumber> shaft_diameter(RexsReader& reader, int gear) {
 void take_clamped_radius(RexsReader& reader, const RexsComponent& gear, RexsGear& out) {
   const GearDesign d = out.design();
   const double root =
-      (d.teeth / 2.0 + (d.internal ? -1 : 1) * (d.profile_shift - d.dedendum)) * out.module.value;
+      (out.reference_radius() + (d.internal ? -1 : 1) * (d.profile_shift - d.dedendum)) * out.module.value;
   if (out.internal) {
     constexpr double kLeastRim = 2, kRim = 4;  // modules
     const auto outside = shaft_diameter(reader, gear.id);
@@ -126,20 +114,20 @@ void take_clamped_radius(RexsReader& reader, const RexsComponent& gear, RexsGear
       shaft && shaft->value > 0 && shaft->value / 2 <= root - out.module.value)
     out.held = {shaft->value / 2, "its shaft, " + shaft->origin, true};
   else
-    out.held = {std::round(0.3 * out.module.value * out.teeth.value * 10) / 20,
+    out.held = {std::round(0.6 * out.module.value * out.reference_radius() * 10) / 20,
                 "0.3 of the reference diameter; it decides how much the body twists", true};
 }
 
-// ISO 21771: an arc of 2 m (x - x_E) tan(alpha) is cut off by generating with x_E.
+// ISO 21771: an arc of 2 m (x - x_E) tan(alpha) / cos(beta) is cut off by generating with x_E.
 RexsNumber thinning_of(RexsReader& reader, const RexsGear& gear) {
   const RexsComponent* settings = reader.beside(gear.id, "cylindrical_gear_manufacturing_settings");
   const char* attribute = "generated_addendum_modification_coefficient";
   auto generated = reader.number(settings, attribute, kRexsNumber);
   if (!generated) generated = reader.of_flanks(gear.id, attribute, kRexsNumber);
   if (!generated) return {0, "no backlash", true};
-  return {
-      2 * gear.module.value * (gear.shift.value - generated->value) * std::tan(gear.angle.value * kOneDegree),
-      generated->origin};
+  return {2 * gear.module.value * (gear.shift.value - generated->value) *
+              std::tan(gear.angle.value * kOneDegree) / std::cos(gear.helix.value * kOneDegree),
+          generated->origin};
 }
 
 // The flank that carries load: as load case or stage say, else the left one, else the only one.
@@ -180,7 +168,9 @@ std::vector<const RexsComponent*> modifications_of(const RexsReader& reader, con
 std::string held_by_scene(const std::vector<const RexsComponent*>& modifications) {
   std::set<std::string> words;
   for (const RexsComponent* c : modifications) {
-    if (c->type != "tip_relief" && c->type != "root_relief" && c->type != "profile_crowning") continue;
+    if (c->type != "tip_relief" && c->type != "root_relief" && c->type != "profile_crowning" &&
+        c->type != "helix_crowning")
+      continue;
     std::string word = c->type;
     for (const auto& [name, attribute] : c->attributes)
       word += "\n" + name + attribute.value + attribute.unit;
@@ -205,7 +195,10 @@ class ModificationWriter {
     if (c.type == "tip_relief" || c.type == "root_relief")
       write_relief(c);
     else if (c.type == "profile_crowning")
-      write_crowning(c);
+      write_crowning(c, "crowning_um", "profile_crowning_at_tip", "profile_crowning_at_root", "tip and root");
+    else if (c.type == "helix_crowning")
+      write_crowning(c, "lead_crowning_um", "helix_crowning_amount_datum_face",
+                     "helix_crowning_amount_non_datum_face", "both ends of the face");
     else
       skip(c, "");
   }
@@ -239,15 +232,16 @@ class ModificationWriter {
                    shape.empty() ? "the model says none" : "the model says " + printable(shape, 40));
   }
 
-  void write_crowning(const RexsComponent& c) {
-    const auto at_tip = reader_.number(&c, "profile_crowning_at_tip", kRexsMicrometre),
-               at_root = reader_.number(&c, "profile_crowning_at_root", kRexsMicrometre);
-    if (!at_tip || !at_root || std::abs(at_tip->value - at_root->value) > 1e-9) {
-      skip(c, ": a scene has one crowning, the same at tip and root");
+  void write_crowning(const RexsComponent& c, const char* key, const char* one, const char* other,
+                      const char* ends) {
+    const auto here = reader_.number(&c, one, kRexsMicrometre),
+               there = reader_.number(&c, other, kRexsMicrometre);
+    if (!here || !there || std::abs(here->value - there->value) > 1e-9) {
+      skip(c, text(": a scene has one such crowning, the same at ", ends));
       return;
     }
     begin(c);
-    out_.value("crowning_um", of(), *at_tip);
+    out_.value(key, of(), *here);
   }
 
   RexsReader& reader_;
@@ -321,17 +315,23 @@ void RexsWriter::assumed_of(const std::string& section, const std::string& why) 
   out_.assumed.push_back(section + ": " + why);
 }
 
+double RexsGear::reference_radius() const {
+  return teeth.value / (2 * std::cos(helix.value * kOneDegree));
+}
+
 GearDesign RexsGear::design() const {
   GearDesign d;
   d.teeth = static_cast<int>(std::lround(teeth.value));
   d.module = module.value * 1e-3;
   d.pressure_angle = angle.value * kOneDegree;
   d.profile_shift = shift.value;
+  d.helix_angle = std::abs(helix.value) * kOneDegree;
+  d.hand = helix.value < 0 ? Hand::left : Hand::right;
   d.internal = internal;
   const int out = internal ? -1 : 1;  // from root to tip
   const auto height = [&](const std::pair<std::string, RexsNumber>& end, int outwards) {
     if (!end.first.ends_with("_diameter_mm")) return end.second.value;
-    return outwards * out * (end.second.value / (2 * module.value) - teeth.value / 2 - out * shift.value);
+    return outwards * out * (end.second.value / (2 * module.value) - reference_radius() - out * shift.value);
   };
   d.addendum = height(tip, 1);
   d.dedendum = height(root, -1);
@@ -344,13 +344,16 @@ GearDesign RexsGear::design() const {
 
 RexsGear read_gear(RexsReader& reader, int gear, const RexsNumber& shift) {
   const RexsComponent& c = reader.component(gear);
-  check_spur(reader, c);
+  if (c.type != "cylindrical_gear" && c.type != "ring_gear")
+    fail(Failure::input, reader.path(), ": ", quoted_name(c),
+         " is no cylindrical_gear and no ring_gear; cylindrical gears are imported");
   RexsGear out;
   out.id = gear;
   out.internal = is_internal(reader, gear);
   out.teeth = teeth_of(reader, gear);
   out.module = reader.required(c, "normal_module", kRexsMillimetre);
   out.angle = pressure_angle_of(reader, gear);
+  out.helix = helix_of(reader, gear);
   out.shift = shift;
   const RexsComponent *rack = tool_of(reader, gear, "rack_shaped_tool"),
                       *cutter = out.internal ? tool_of(reader, gear, "cutter_wheel_tool") : nullptr;
@@ -404,6 +407,14 @@ void write_gear(RexsReader& reader, const RexsGear& gear, const std::string& nam
   if (gear.internal) out.value("internal", "true", printable(c.type, 40));
   out.value("module_mm", of, gear.module);
   out.value("pressure_angle_deg", of, gear.angle);
+  if (gear.helix.value != 0) {
+    out.value("helix_angle_deg", of, {std::abs(gear.helix.value), gear.helix.origin, false});
+    const std::string hand = text("\"", gear.helix.value < 0 ? Hand::left : Hand::right, "\"");
+    if (gear.helix.assumed)
+      out.assumed("hand", of, hand, "the other hand of its mate; the model gives both the same sign");
+    else
+      out.value("hand", hand, "the sign of it: positive is right-hand");
+  }
   out.value("profile_shift", of, gear.shift);
   out.value(gear.tip.first, of, gear.tip.second);
   out.value(gear.root.first, of, gear.root.second);
@@ -425,7 +436,8 @@ std::string RexsMaterials::of(const RexsGear& gear, RexsWriter& out) {
       fail(Failure::input, reader_.path(), ": ", quoted_name(reader_.component(gear.id)),
            " has two materials, ", quoted_name(*found[0]), " and ", quoted_name(*other), "; take one out");
   const RexsComponent* material = found.empty() ? nullptr : found[0];
-  const std::string plane = gear.width.value <= 8 * gear.module.value ? "stress" : "strain";
+  const bool helical = gear.helix.value != 0;
+  const std::string plane = !helical && gear.width.value <= 8 * gear.module.value ? "stress" : "strain";
   std::string name = material ? text("material_", material->id) : text("steel_", plane_.size() + 1);
   if (const auto known = plane_.find(name); known != plane_.end() && known->second != plane)
     name += "_" + plane;
@@ -442,7 +454,9 @@ std::string RexsMaterials::of(const RexsGear& gear, RexsWriter& out) {
                             Constant{"density_kgm3", "density", kRexsDensity, 7850}})
     out.value(c.key, of,
               reader_.number(material, c.attribute, c.unit).value_or(RexsNumber{c.steel, "steel", true}));
-  out.value("plane", "\"" + plane + "\"", "by the width of the face: stress up to 8 modules");
+  out.value("plane", "\"" + plane + "\"",
+            helical ? "helical: the sections of a face hold each other"
+                    : "by the width of the face: stress up to 8 modules");
   return name;
 }
 

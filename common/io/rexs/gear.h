@@ -39,13 +39,15 @@ class RexsWriter {
 struct RexsGear {
   int id = -1;
   bool internal = false;
-  RexsNumber teeth, module, angle, shift;         // 1, mm, deg, modules
+  RexsNumber teeth, module, angle, shift;  // 1, mm, deg, modules
+  RexsNumber helix;  // deg, at the reference circle, positive: right-hand; its hand may be assumed
   std::pair<std::string, RexsNumber> tip, root;   // key of a scene (diameter or height) and its value
   RexsNumber root_radius, thinning, width, held;  // modules, mm; held: radius of bore or rim
+  double reference_radius() const;                // normal modules
   GearDesign design() const;
 };
 
-// shift: as profile_shifts. Throws Error(input) for helical gears and for what a gear cannot do without.
+// shift: as profile_shifts. Throws Error(input) for what a gear cannot do without.
 RexsGear read_gear(RexsReader& reader, int gear, const RexsNumber& shift);
 
 // Assumed heights of the tips of a pair become the largest, in steps of 0.05 modules, at which it runs; those that the model says stay.

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/tool.h"
+#include "gear/helix.h"
 #include "io/rexs/gear.h"
 #include "io/rexs/stage.h"
 #include "io/rexs/train.h"
@@ -165,6 +166,12 @@ void write_pair(RexsReader& reader, RexsStage stage, const MeshOfTrain& mesh, Re
   const std::array<RexsNumber, kSides> shift = profile_shifts(reader, stage);
   const RexsNumber distance = centre_distance(reader, stage);
   std::array gear{read_gear(reader, stage.gear[0], shift[0]), read_gear(reader, stage.gear[1], shift[1])};
+  if (gear[0].helix.value * gear[1].helix.value > 0) {  // some programs write the angle without its hand
+    gear[1].helix.value = -gear[1].helix.value;
+    gear[1].helix.assumed = true;
+  }
+  if (const std::string fault = helix_fault(gear[0].design(), gear[1].design()); !fault.empty())
+    fail(Failure::input, reader.path(), ": ", quoted_name(reader.component(stage.id)), ": ", fault);
   fit_tips(gear[0], gear[1], distance.value);
   RexsScene gears, materials;
   RexsWriter of_gears(gears), of_materials(materials), out(scene);
@@ -237,6 +244,11 @@ TrainGears gears_of(RexsReader& reader, const RexsTrain& train, const RexsTrain:
   TrainGears out{{read_gear(reader, train.sun, sun), read_gear(reader, planet.gear, own),
                   read_gear(reader, train.ring, ring)},
                  centre_distance(reader, planet.sun_mesh)};
+  for (const RexsGear& gear : out.gear)
+    if (gear.helix.value != 0)
+      fail(Failure::input, reader.path(), ": ", quoted_name(reader.component(gear.id)), " is helical (",
+           gear.helix.origin, " = ", gear.helix.value,
+           " degrees); of helical gears a cylindrical_stage is imported, as a pair");
   const RexsNumber other = centre_distance(reader, planet.ring_mesh);
   if (std::abs(other.value - out.distance.value) > 1e-6 * out.distance.value)
     fail(Failure::input, reader.path(), ": the axes of ", quoted_name(reader.component(planet.gear)), " are ",

@@ -17,7 +17,7 @@ struct RexsScene {
 // stage: id or name of a cylindrical_stage, which gives a pair, or of a planetary_stage, which gives a system; empty: the only one,
 // where the meshes of a planetary_stage do not count. Such a mesh gives a pair with its share of the torque and its speed against the
 // carrier. load_case: counts from 1; a model without any has none to choose. Throws Error(input), with component and attribute, for no
-// or several stages, helical gears, flanks that differ in pressure angle or profile shift, a number that is none or has an unknown
+// or several stages, helical gears of planetary stages, helices that do not mesh, flanks that differ in pressure angle or profile shift, a number that is none or has an unknown
 // unit, and what a gear cannot do without: teeth, module, pressure angle, face width, centre distance or positions.
 RexsScene scene_of_rexs(const RexsModel& model, const std::string& stage, int load_case);
 

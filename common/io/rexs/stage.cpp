@@ -137,6 +137,11 @@ RexsNumber pressure_angle_of(RexsReader& reader, int gear) {
        " have no 'normal_pressure_angle', which a scene cannot do without; add it to the model");
 }
 
+RexsNumber helix_of(RexsReader& reader, int gear) {
+  return reader.number(&reader.component(gear), "helix_angle_reference_diameter", kRexsDegree)
+      .value_or(RexsNumber{0, "", false});
+}
+
 RexsNumber shift_sum(RexsReader& reader, const RexsStage& stage) {
   const auto signed_teeth = [&](int gear) {
     return teeth_of(reader, gear).value * (is_internal(reader, gear) ? -1 : 1);
@@ -144,16 +149,18 @@ RexsNumber shift_sum(RexsReader& reader, const RexsStage& stage) {
   const double teeth = signed_teeth(stage.gear[0]) + signed_teeth(stage.gear[1]),
                module =
                    reader.required(reader.component(stage.gear[0]), "normal_module", kRexsMillimetre).value,
-               angle = pressure_angle_of(reader, stage.gear[0]).value * kOneDegree;
+               normal = pressure_angle_of(reader, stage.gear[0]).value * kOneDegree,
+               of_helix = std::cos(helix_of(reader, stage.gear[0]).value * kOneDegree),
+               angle = std::atan(std::tan(normal) / of_helix);
   const RexsNumber distance = centre_distance(reader, stage);
-  const double cosine = std::abs(teeth) * module * std::cos(angle) / (2 * distance.value);
+  const double cosine = std::abs(teeth) * module / of_helix * std::cos(angle) / (2 * distance.value);
   if (!(cosine > 0 && cosine <= 1))
     fail(Failure::input, reader.path(), ": at ", distance.value, " mm (", distance.origin,
          ") the base circles of ", quoted_name(reader.component(stage.gear[0])), " and ",
          quoted_name(reader.component(stage.gear[1])), " do not leave a line of action");
   constexpr double kRounded = 1e9;
   const double sum =
-      teeth * (involute_function(std::acos(cosine)) - involute_function(angle)) / (2 * std::tan(angle));
+      teeth * (involute_function(std::acos(cosine)) - involute_function(angle)) / (2 * std::tan(normal));
   return {std::round(sum * kRounded) / kRounded + 0.0, distance.origin, true};  // no -0
 }
 

@@ -43,7 +43,7 @@ struct RexsPlace {
 std::optional<RexsPlace> place_of(RexsReader& reader, int gear);
 
 // In modules, with the signs of ISO 21771 (x1 + x2 of the pair without backlash, an internal gear with its teeth below 0):
-//   x1 + x2 = (z1 + z2) (inv alpha_w - inv alpha) / (2 tan alpha), cos alpha_w = |z1 + z2| m cos alpha / (2 a).
+//   x1 + x2 = (z1 + z2) (inv alpha_wt - inv alpha_t) / (2 tan alpha_n), cos alpha_wt = |z1 + z2| m_t cos alpha_t / (2 a).
 RexsNumber shift_sum(RexsReader& reader, const RexsStage& stage);
 // As the flanks say; empty: they say none.
 std::optional<RexsNumber> shift_of(RexsReader& reader, int gear);
@@ -51,5 +51,7 @@ std::optional<RexsNumber> shift_of(RexsReader& reader, int gear);
 std::array<RexsNumber, kSides> profile_shifts(RexsReader& reader, const RexsStage& stage);
 
 RexsNumber pressure_angle_of(RexsReader& reader, int gear);  // deg; Error(input) where no flank says it
+RexsNumber helix_of(RexsReader& reader,
+                    int gear);  // deg at the reference circle, positive: right-hand; 0: a spur gear
 
 }  // namespace whine
