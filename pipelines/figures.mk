@@ -54,6 +54,7 @@ inputs_fig12 = $(foreach t,$(call each,$2),out/$1/T$t/static.h5)
 inputs_waterfall = $(call both_ways,$1,$(firstword $2),sweep)
 # What order cuts are made from.
 inputs_order-cuts = $(call both_ways,$1,$(firstword $2),response)
+inputs_face-load = $(call both_ways,$1,$(firstword $2),response)
 inputs_bearing-forces = $(call both_ways,$1,$(firstword $2),response) $(call impacts,$1,$(firstword $2))
 inputs_fig14 = $(foreach t,$(call each,$2),$(call both_ways,$1,$t/rectangular,sweep))
 inputs_fig15 = $(foreach m,rectangular-fig15 rectangular,out/$1/T$(firstword $2)/$m/down/sweep.h5)
@@ -101,6 +102,7 @@ history_figures = $(foreach f,histories history-loads,$(figure_folder)/$f-$(AT)H
 
 beside_figures := fig05 fig07 fig05-branches fig07-branches fig07-600 fig08 fig09 fig10 fig11 fig14-elastic
 paper_scenes_flank-load := $(helical_scene)
+paper_scenes_face-load := $(helical_scene)
 paper_scenes_sidebands := $(graded_scene)
 paper_scenes_crack := $(cracked_scene)
 paper_scenes_residual-signal := $(cracked_scene)
@@ -108,7 +110,7 @@ paper_scenes_bearing-forces := $(bearing_scene)
 paper_scenes_efficiency := $(friction_scene)
 paper_scenes_profile-chart := $(firstword $(relief_scenes))
 paper_scenes_relief-jumps := $(standard_scene) $(calibrated_scene) $(relief_scenes)
-at_150 := flank-load profile-chart relief-jumps waterfall order-cuts tooth-loads root-stress root-stress-branches flank-pressure bearing-forces fig03 fig05 fig05-branches multipliers fig08 fig09 fig10 fig11 fig15 error-budget sidebands crack residual-signal
+at_150 := flank-load face-load profile-chart relief-jumps waterfall order-cuts tooth-loads root-stress root-stress-branches flank-pressure bearing-forces fig03 fig05 fig05-branches multipliers fig08 fig09 fig10 fig11 fig15 error-budget sidebands crack residual-signal
 paper_torques = $(if $(filter $(at_150),$1),150,$(if $(filter fig07-600,$1),300 600,100 200 300))
 
 report_figures := fig01 fig03 fig05 fig07 fig12 fig13 fig14 fig14-elastic fig16
@@ -116,7 +118,7 @@ report_figures := fig01 fig03 fig05 fig07 fig12 fig13 fig14 fig14-elastic fig16
 paper_only := fig07-600 fig08 fig09 fig10 fig11 fig15
 paper_figures := $(sort $(report_figures) $(paper_only))
 # of any pair, none of the paper's
-other_figures := fig05-branches fig07-branches multipliers load-sharing waterfall order-cuts tooth-loads root-stress root-stress-branches flank-pressure efficiency bearing-forces error-budget profile-chart flank-load sidebands crack residual-signal
+other_figures := fig05-branches fig07-branches multipliers load-sharing waterfall order-cuts tooth-loads root-stress root-stress-branches flank-pressure efficiency bearing-forces error-budget profile-chart flank-load face-load sidebands crack residual-signal
 figures := $(paper_figures) $(other_figures) relief-jumps
 inputs_of_paper = $(call inputs,$1,$(or $(paper_scenes_$1),$(if $(filter $(beside_figures),$1),$(shown_scenes)),$(paper_scene)),$(paper_torques))
 
@@ -140,7 +142,7 @@ figure_folder := $(if $(SCENE),out/$(basename $(notdir $(SCENE)))/report,out/fig
 # AXIS=rpm:pinion: the speed of a gear, of a train also of its carrier, in place of the mesh frequency; DB=1e-6: RMS of the DTE and of its orders in dB re this length in m.
 AXIS ?=
 DB ?=
-speed_figures := $(foreach f,fig05 fig05-branches fig07 fig07-branches fig14 fig14-elastic fig16,$(call paired,$f,$(shown_names))) fig05 fig07 fig05-branches fig07-branches fig07-600 fig14 fig14-elastic fig16 relief-jumps waterfall order-cuts residual-signal tooth-loads bearing-forces efficiency root-stress root-stress-branches flank-pressure compare-motion runup-up runup-down campbell system-sweep branch
+speed_figures := $(foreach f,fig05 fig05-branches fig07 fig07-branches fig14 fig14-elastic fig16,$(call paired,$f,$(shown_names))) fig05 fig07 fig05-branches fig07-branches fig07-600 fig14 fig14-elastic fig16 relief-jumps waterfall order-cuts residual-signal tooth-loads face-load bearing-forces efficiency root-stress root-stress-branches flank-pressure compare-motion runup-up runup-down campbell system-sweep branch
 level_figures := order-cuts compare-motion runup-up runup-down system-sweep branch
 # A figure that would not take them is not drawn without them; `modes` draws the Campbell diagram, too, `branches` its figure, and `sweep`
 # that of a train.

@@ -48,7 +48,7 @@ drawn_of_scene = $(call of_goals,$1 out/figures/$1%,$2)
 scenes := $(sort $(compared) $(call of_goals,$(pair_goals) jump-folds bifurcations out/bodies/%,$(paper_scene)) $(if $(filter bifurcations,$(goals)),$(bifurcation_scenes)) \
   $(if $(filter sensitivity out/figures/sensitivity%,$(goals)),$(variant_scenes)) $(if $(filter scorecard docs out/figures/%,$(goals)),$(paper_scenes)) \
   $(call of_goals,$(figures) table1 figures,$(shown_scenes)) $(call of_goals,animation,$(calibrated_scene)) $(call drawn_of_scene,sidebands,$(graded_scene)) \
-  $(call drawn_of_scene,bearing-forces,$(bearing_scene)) $(call drawn_of_scene,efficiency,$(friction_scene)) $(call drawn_of_scene,crack,$(cracked_scene)) $(call drawn_of_scene,residual-signal,$(cracked_scene)) $(call drawn_of_scene,flank-load,$(helical_scene)) \
+  $(call drawn_of_scene,bearing-forces,$(bearing_scene)) $(call drawn_of_scene,efficiency,$(friction_scene)) $(call drawn_of_scene,crack,$(cracked_scene)) $(call drawn_of_scene,residual-signal,$(cracked_scene)) $(call drawn_of_scene,flank-load face-load,$(helical_scene)) \
   $(call of_goals,profile-chart relief-jumps out/figures/profile-chart% out/figures/relief-jumps%,$(relief_scenes) $(standard_scene) $(calibrated_scene)) \
   $(call of_goals,$(system_goals),$(system_scene)) \
   $(if $(filter bench bench-train,$(goals)),$(standard_scene)) $(call of_goals,bench-train,$(train_scene)) $(call of_goals,bench-stress,$(deep_scene) fzg-c) $(if $(filter bench-internal,$(goals)),$(internal_scene)) $(if $(filter work-precision,$(goals)),$(deep_scene)) \

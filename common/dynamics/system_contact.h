@@ -20,7 +20,7 @@ namespace whine {
 
 class FollowedContact {
  public:
-  static constexpr int kMost = 32;  // pairs that carry; more are left to solve_line_contact()
+  static constexpr int kMost = 64;  // pairs that carry; more are left to solve_line_contact()
 
   // Memory for so many pairs in reach, of which any may carry.
   void reserve(int pairs);

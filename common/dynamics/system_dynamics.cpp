@@ -122,6 +122,7 @@ void SystemDynamics::set_speed(double mesh_frequency, int steps) {
   propagate_by(1 / (mesh_frequency * steps));
   for (int i = 0; i <= steps_; ++i) close(positions_[static_cast<size_t>(i) * static_cast<size_t>(stride_)]);
   forces_.setZero(steps_ + 1, slots());
+  if (points_ > 1) tooth_forces_.setZero(steps_ + 1, meshes() * tooth_pairs());
 }
 
 // Elastic coordinates follow their force, z = (torque - h p) / w^2, so that they are compliances; rotations carry the load. Of a frame
@@ -166,8 +167,9 @@ SystemEquilibrium SystemDynamics::equilibrium_under(const VectorXd& frame, int i
     further = frame_.on_carriers(frame, coordinates_.inertia.size());
   }
   flexibility.head(coordinates_.rigid).setZero();
-  const MatrixXd compliance = position.instantaneous_compliance + position.relaxed + crack_at_rest(i) +
-                              modal_compliance(position, flexibility);
+  MatrixXd compliance = position.instantaneous_compliance + position.relaxed + crack_at_rest(i) +
+                        modal_compliance(position, flexibility);
+  if (points_ > 1) compliance += position.uneven;
   const VectorXd by_torque = flexibility.cwiseProduct(torque);
   for (int k = 0; k < position.size(); ++k) at.gap[k] -= moved(position, k, by_torque);
   ComplementaritySolver solver;
@@ -203,6 +205,11 @@ SystemDynamics::State SystemDynamics::rest(int i) {
   state.relaxed = VectorXd::Zero(relaxed_size());
   for (int k = 0; k < position.size(); ++k) state.p[position.contact[static_cast<size_t>(k)].slot] = at.p[k];
   load(position, at.p, state.relaxed);
+  if (points_ > 1) {
+    state.line_load = VectorXd::Zero(slots());
+    for (int k = 0; k < position.size(); ++k)
+      state.line_load[position.contact[static_cast<size_t>(k)].slot] = at.p[k] / position.width[k];
+  }
   return state;
 }
 
@@ -253,6 +260,7 @@ bool SystemDynamics::record(const Position& position, int sample, Period& period
   if (slides() && motion_.output >= 0)  // torques of the drives alone are in balance
     period.drift -= motion_.loss.dot(friction_) / radius_[static_cast<size_t>(motion_.output)] *
                     coordinates_.rolling.row(motion_.output).transpose();
+  if (points_ > 1) record_face(position, sample, period);
   for (Index c = 0; c < period.drift.size(); ++c)
     period.drift_force = std::max(period.drift_force, std::abs(period.drift[c]));
   record_bearings(sample, period);
@@ -294,6 +302,7 @@ void SystemDynamics::resize(Period& period, int steps) const {
   period.contact_torque.resize(coordinates_.inertia.size(), steps);
   period.bearing_force.resize(system_.layout.bodies.size());
   for (Eigen::Matrix2Xd& x : period.bearing_force) x.resize(2, steps);
+  period.face.assign(points_ > 1 ? static_cast<size_t>(meshes()) : 0, {});
   period.drift.resize(coordinates_.rolling.cols());
   period.drift_force = period.least_gap = period.least_force = period.friction_coupling = 0;
 }
@@ -304,6 +313,7 @@ bool SystemDynamics::integrate(State& state, Period& period, SystemEnergyBalance
   take(state, at(0));
   resize(period, steps_);
   forces_.row(0) = p_of_slot_;
+  if (points_ > 1) tooth_forces_.row(0) = p_of_tooth_;
   SystemEnergyRecord record_of(*this, balance);
   int i = 0;
   try {
@@ -312,6 +322,7 @@ bool SystemDynamics::integrate(State& state, Period& period, SystemEnergyBalance
       put_gap(i * stride_, state.period);
       step(at(i));
       forces_.row(i) = p_of_slot_;
+      if (points_ > 1) tooth_forces_.row(i) = p_of_tooth_;
       require_range(at(i), p_.head(at(i).size()));
       if (!record(at(i), i % steps_, period)) return false;
       if (balance) record_of.step(at(i));
@@ -325,6 +336,7 @@ bool SystemDynamics::integrate(State& state, Period& period, SystemEnergyBalance
   state.v = v_.head(coordinates_.size());
   state.relaxed = relaxed_;
   state.p = p_of_slot_;
+  state.line_load = line_load_;
   state.period = (state.period + 1) % hunting_;
   return true;
 }
@@ -351,18 +363,28 @@ bool SystemDynamics::integrate_fixed(int i, State& state, double seconds, int st
     fail_as(error, "in free motion at mesh phase ",
             static_cast<double>(i) / static_cast<double>(positions_.size() - 1), " ", error.what());
   }
-  state = {z_.head(coordinates_.size()), v_.head(coordinates_.size()), relaxed_, p_of_slot_, state.period};
+  state = {z_.head(coordinates_.size()),
+           v_.head(coordinates_.size()),
+           relaxed_,
+           p_of_slot_,
+           line_load_,
+           state.period};
   return true;
 }
 
 SystemDynamics::State SystemDynamics::fitted(const State& state, const SystemDynamics& of) const {
   State out = state;
   out.p = VectorXd::Zero(slots());
+  out.line_load = VectorXd::Zero(points_ > 1 ? slots() : 0);
   out.relaxed = VectorXd::Zero(relaxed_size());
   const int blocks = relaxed_size() / (tooth_pairs() * kFields);
   for (int pair = std::max(first_, of.first_); pair <= std::min(last_, of.last_); ++pair) {
-    for (int m = 0; m < meshes(); ++m)
-      out.p[m * tooth_pairs() + pair - first_] = state.p[m * of.tooth_pairs() + pair - of.first_];
+    for (int m = 0; m < meshes(); ++m) {
+      const Index to = (static_cast<Index>(m) * tooth_pairs() + pair - first_) * points_,
+                  from = (static_cast<Index>(m) * of.tooth_pairs() + pair - of.first_) * points_;
+      out.p.segment(to, points_) = state.p.segment(from, points_);
+      if (points_ > 1) out.line_load.segment(to, points_) = state.line_load.segment(from, points_);
+    }
     for (int block = 0; block < blocks; ++block)
       out.relaxed.segment<kFields>((block * tooth_pairs() + pair - first_) * kFields) =
           state.relaxed.segment<kFields>((block * of.tooth_pairs() + pair - of.first_) * kFields);
@@ -392,6 +414,7 @@ FixedPhaseMesh SystemDynamics::frozen(int i) {
   out.gap = VectorXd::Zero(static_cast<Index>(active.size()));
   out.local = (position.instantaneous_compliance + crack_at_rest(i))(active, active);
   out.residual = position.relaxed(active, active);
+  if (points_ > 1) out.residual += position.uneven(active, active);
   out.participation.resize(static_cast<Index>(active.size()), coordinates_.size());
   for (Index a = 0; a < out.gap.size(); ++a) {
     const Index k = active[static_cast<size_t>(a)];

@@ -1,4 +1,4 @@
-// A system of elastic bodies and meshes in motion at constant mean speed: one force per pair of teeth, Hertz's law.
+// A system of elastic bodies and meshes in motion at constant mean speed: one force per pair of teeth and slice of the face, Hertz's law.
 //
 // With z of system_coordinates.h, h_k what z moves at contact k, p_k its force, F_b the relaxed loads of body b in kFields fields
 // of each flank that may touch, W_k what a contact reads of them,
@@ -12,6 +12,11 @@
 // in place of h_k; mu of each mesh is that of the speed, s and T those of the nominal kinematics. The matrix of a step's contact,
 // A + h (bq / 2) L^T, is then not symmetric; Newton's method takes it as it is. rest() is without friction. Where the frame turns, the forces of
 // turning_frame.h come in addition, at rest too.
+//
+// In slices (system/face_mesh.h) the points of a contact line are contacts of their own, and sections give way each by itself in addition:
+//   d_k += sum_l E_kl w_l g_l,   eta g' + g = p / w
+// over the points of its mesh, g the relaxed line loads (N m-1) and w the lengths of face that the points stand for. Points move with the
+// ends of their line; g moves with them, and begins at 0 where a line comes in. A slot is then (mesh, pair, point).
 //
 // Pairs of a mesh are numbered by the mesh period of the system: a pair that is number i in one is i + 1 in the next. At the end
 // of a mesh period relaxed loads move on by one tooth, and doublets that turn with their gear turn back by one. A slot is
@@ -38,6 +43,7 @@
 #include "dynamics/system_energy.h"
 #include "dynamics/turning_frame.h"
 #include "gear/layout.h"
+#include "system/face_mesh.h"
 #include "system/system_statics.h"
 
 namespace whine {
@@ -50,11 +56,18 @@ class SystemDynamics {
   // rest has to be cleared: coefficients are those of the speed, of [friction] of the meshes.
   SystemDynamics(const SystemModel& system, const SystemMotion& motion);
 
+  // Load over the face of a mesh period in slices.
+  struct FacePeak {
+    double tooth_load = 0;   // N: largest of a pair of teeth
+    double load_factor = 0;  // K_Hbeta there: face_load_factor() of its line loads at that instant
+    double line_load = 0;    // N m-1: largest in the inner 90 % of face and path
+  };
   struct State {
-    Eigen::VectorXd z, v;     // (coordinate)
-    Eigen::VectorXd relaxed;  // (body, slot, field): relaxed loads
-    Eigen::VectorXd p;        // (slot) N
-    int period = 0;           // mesh periods since the start of a hunting period
+    Eigen::VectorXd z, v;       // (coordinate)
+    Eigen::VectorXd relaxed;    // (body, slot, field): relaxed loads
+    Eigen::VectorXd p;          // (slot) N
+    Eigen::VectorXd line_load;  // (slot) N m-1: relaxed, in slices; else empty
+    int period = 0;             // mesh periods since the start of a hunting period
   };
   // What one mesh period showed; sample i at phase i / steps, sample 0 that of its end.
   struct Period {
@@ -63,6 +76,7 @@ class SystemDynamics {
     Eigen::MatrixXd
         mesh_force;  // (mesh, step) N: torque of normal forces on the driving body over its base radius
     Eigen::MatrixXd largest_tooth_force;  // (mesh, step) N
+    std::vector<FacePeak> face;           // [mesh] in slices, over the period; else empty
     // [body] (xy, step) N, of the body on what carries it: k x + c x' of an elastic bearing, on the ground k x + c (x' + Omega J x); of
     // a planet on a rigid pin of a carrier that moves F = sum of the contact forces - (P' + mu P), P = m X' + G^T q' its momentum in the
     // frame of the carrier and mu the damping by mass, less the inertia forces of the frame; on other rigid axes the sum of the contact
@@ -102,7 +116,8 @@ class SystemDynamics {
   const SystemModel& system() const { return system_; }
   const SystemCoordinates& coordinates() const { return coordinates_; }
   int meshes() const { return static_cast<int>(system_.mesh.size()); }
-  int slots() const { return meshes() * tooth_pairs(); }
+  int slots() const { return meshes() * tooth_pairs() * points_; }
+  int points() const { return points_; }                  // of a contact line; 1: one slice
   int tooth_pairs() const { return last_ - first_ + 1; }  // of a mesh
   int first_pair() const { return first_; }
   int relaxed_size() const { return relaxed_first_.back(); }
@@ -120,6 +135,8 @@ class SystemDynamics {
   const Eigen::VectorXd& mean_load() const { return load_of_mesh_; }  // (mesh) N
   // (step + 1, slot) N: forces at the ends of the steps of the period integrated last, in its names; row 0: at its start.
   const MatrixRM& forces() const { return forces_; }
+  // (step + 1, mesh and within it pair) N: the same of pairs of teeth, summed over their slices.
+  const MatrixRM& tooth_forces() const { return points_ > 1 ? tooth_forces_ : forces_; }
   // J: what the coordinates of a state store, kinetic energy included, rigid rotations as at the axis frequency; of a difference
   // of states a squared distance. Relaxed loads are not in it.
   double energy(const State& difference) const;
@@ -144,6 +161,7 @@ class SystemDynamics {
   };
   struct Contact {
     int mesh = 0, slot = 0;         // slot of all
+    int tooth = 0;                  // (mesh, pair) of all
     std::array<int, 2> body{};      // [side]
     std::array<int, 2> load_at{};   // [side] place of its fields among all relaxed loads
     std::array<double, 2> lever{};  // [side] closing per r theta of its body
@@ -192,6 +210,10 @@ class SystemDynamics {
         friction;  // (contact, contact) m N-1: what friction adds to it, not symmetric; empty without
     Eigen::MatrixXd drift, drift_slide;      // (null vector, contact): of normal forces; of friction per mu
     std::vector<double> next_gap, lost_gap;  // (mesh) m, see PairsInReach
+    // In slices: (contact) m, w; [mesh] points; (contact, contact) m N-1, E, and (contact in whole lanes, contact) m2 N-1, E w.
+    Eigen::VectorXd width;
+    std::vector<std::shared_ptr<const FaceMesh>> face;
+    Eigen::MatrixXd uneven, uneven_reading;
     FollowedContact followed;
     int size() const { return static_cast<int>(contact.size()); }
   };
@@ -212,6 +234,7 @@ class SystemDynamics {
   void put_rows(Position& position);
   size_t place(int numbers);
   void relate(Position& position, const SystemPosition& at) const;
+  void put_uneven(const SystemPosition& at, Position& position) const;
   Eigen::MatrixXd residual(int b, const ElasticGear& gear, const ToothFlank& read,
                            const ToothFlank& loaded) const;
   void put_slide(const ContactSegment& segment, const Contact& contact, Position& position);
@@ -290,6 +313,10 @@ class SystemDynamics {
       }
   }
   bool record(const Position& position, int sample, Period& period);
+  void record_face(const Position& position, int sample, Period& period) const;
+  void read_uneven(const Position& position);
+  void load_uneven(const Position& position);
+  void sum_teeth();
   void record_bearings(int sample, Period& period) const;
   void rename();
   const Position& at(int step) const {  // of the speed's steps
@@ -318,6 +345,7 @@ class SystemDynamics {
   // (contact, contact) m N-1 of a mesh period and position at which a tooth near a cracked one is in reach
   std::map<std::pair<int, int>, Eigen::MatrixXd> crack_;
   int first_ = 0, last_ = 0;                 // pairs that may touch
+  int points_ = 1;                           // of a contact line
   std::vector<std::vector<int>> meshes_of_;  // [body]
   std::vector<int> relaxed_first_;           // (body + 1)
   std::vector<Eigen::MatrixXd> fields_;      // [body] (flank, field) V
@@ -338,9 +366,12 @@ class SystemDynamics {
 
   // The state of a step; coordinates as those of the propagators.
   Eigen::VectorXd z_, v_, force_, relaxed_, load_;
-  // [mesh]; (slot) N: as large as relaxed loads can be there, below a share of the load of the meshes they are dropped.
+  // [mesh]; (mesh, pair) N: as large as relaxed loads can be there, below a share of the load of the meshes they are dropped.
   std::vector<Live> live_;
   Eigen::VectorXd remembered_;
+  Eigen::VectorXd p_of_tooth_;  // (mesh, pair) N
+  // (slot) N m-1, in slices: relaxed and present line loads, and room for the next; (contact in whole lanes) N m-1
+  Eigen::VectorXd line_load_, present_line_load_, next_line_load_, read_line_load_;
   std::vector<double> sums_;  // (contact, lane)
   Eigen::VectorXd rate_;      // (coordinate) z" + mu z', mu the damping by mass; of trains with rigid pins
   Eigen::VectorXd e_, p_, d_, p_of_slot_;  // e_, p_, d_: (contact)
@@ -350,7 +381,7 @@ class SystemDynamics {
   Eigen::VectorXd turned_;    // (body) m: r theta
   Eigen::Matrix2Xd shifted_;  // (xy, body) m: of its hub
   Certificate certificate_;
-  MatrixRM forces_;
+  MatrixRM forces_, tooth_forces_;
 };
 
 }  // namespace whine

@@ -85,7 +85,7 @@ void SystemEnergyRecord::fill(Instant& now, const SystemDynamics::Position& posi
   now.moved.setZero(of_.relaxed_size());
   std::vector<SystemDynamics::Live> wanted = now.live;
   for (const SystemDynamics::Contact& contact : position.contact) {
-    const int pair = contact.slot - contact.mesh * of_.tooth_pairs();
+    const int pair = contact.tooth - contact.mesh * of_.tooth_pairs();
     SystemDynamics::Live& in = wanted[static_cast<size_t>(contact.mesh)];
     in = in.hull({pair, pair + 1});
   }
@@ -95,12 +95,21 @@ void SystemEnergyRecord::fill(Instant& now, const SystemDynamics::Position& posi
   now.local = position.instantaneous_compliance * now.p;
   if (position.crack.size() > 0) now.local += position.crack * now.p;
   now.stored = 0.5 * now.p.dot(now.local);
+  if (of_.points_ > 1) {
+    now.line_load = of_.line_load_;
+    now.present = of_.present_line_load_;
+    VectorXd own(n);
+    for (int k = 0; k < n; ++k)
+      own[k] = position.width[k] * now.line_load[position.contact[static_cast<size_t>(k)].slot];
+    now.opening = position.uneven * own;
+  }
   now.d.resize(n);
   for (int k = 0; k < n; ++k) {
     const HertzLine& law = position.law[static_cast<size_t>(k)];
     now.stored += step_work::stored(law, now.p[k]);
     now.d[k] = position.gap[k] - of_.moved(position, k, now.z) + field_at(position, k, now.field) +
                now.local[k] + step_work::at(law, now.p[k]).indentation;
+    if (of_.points_ > 1) now.d[k] += now.opening[k];
   }
 }
 
@@ -204,6 +213,55 @@ double SystemEnergyRecord::relaxation(const Instant& a, const Instant& b) {
   return stored + damping + averaging;
 }
 
+// Relaxed line loads g of slices, as relaxed loads: energy g E g / 2 with E = w E w between line loads p / w, dissipation eta g' E g'. In
+// a step E is the mean of those at its ends; by what it differs from them the prescribed rolling works. exchange_: work of the mean line
+// loads on what the relaxed ones move.
+double SystemEnergyRecord::uneven(const Instant& a, const Instant& b) {
+  std::vector<int> slots;
+  for (const Instant* at : {&a, &b})
+    for (const SystemDynamics::Contact& contact : at->position->contact)
+      if (std::find(slots.begin(), slots.end(), contact.slot) == slots.end()) slots.push_back(contact.slot);
+  const auto n = static_cast<Index>(slots.size());
+  const auto between = [&](const Instant& at) {
+    const SystemDynamics::Position& p = *at.position;
+    MatrixXd out = MatrixXd::Zero(n, n);
+    std::vector<Index> place;
+    place.reserve(p.contact.size());
+    for (const SystemDynamics::Contact& contact : p.contact)
+      place.push_back(std::find(slots.begin(), slots.end(), contact.slot) - slots.begin());
+    out(place, place) = p.width.asDiagonal() * p.uneven * p.width.asDiagonal();
+    return out;
+  };
+  const MatrixXd from = between(a), to = between(b), mean = 0.5 * (from + to);
+  const VectorXd old = a.line_load(slots), next = b.line_load(slots), load = a.present(slots),
+                 change = b.present(slots) - load, behind = load - old;
+  const VectorXd relaxed = of_.relaxed_step_.decay * old + of_.relaxed_step_.from_old * load +
+                           of_.relaxed_step_.from_new * b.present(slots);
+  const VectorXd moved_behind = mean * behind, moved_change = mean * change,
+                 exchange = (load + 0.5 * change).cwiseProduct(mean * (relaxed - old));
+  double damping = 0, exact = (load + 0.5 * change).dot(moved_change);
+  if (of_.relaxation_ > 0) {
+    damping = decay2_ * behind.dot(moved_behind) + 2 * mixed2_ * behind.dot(moved_change) +
+              growth2_ * change.dot(moved_change);
+    exact = decay_ * load.dot(moved_behind) + growth_ * load.dot(moved_change) +
+            late_decay_ * change.dot(moved_behind) + late_growth_ * change.dot(moved_change);
+  }
+  const VectorXd carried = 0.5 * (next.cwiseProduct(to * next) - old.cwiseProduct(from * old) -
+                                  relaxed.cwiseProduct(mean * relaxed) + old.cwiseProduct(mean * old));
+  const double stored = 0.5 * (next.dot(to * next) - old.dot(from * old)), averaging = exchange.sum() - exact;
+  exchange_.setZero(of_.slots());
+  carried_.setZero(of_.meshes());
+  for (Index i = 0; i < n; ++i) {
+    const int slot = slots[static_cast<size_t>(i)];
+    exchange_[slot] = exchange[i];
+    carried_[slot / (of_.tooth_pairs() * of_.points_)] += carried[i];
+  }
+  balance_->residual += stored;
+  balance_->relaxation_damping += damping;
+  balance_->averaging += averaging;
+  return stored + damping + averaging;
+}
+
 // With p . d = 0 at both ends the mean force does no work on d but where contact opens or closes within the step (switching); what
 // gaps, h and W change by themselves is rolling. p . d of a solved step is booked nowhere: it is imbalance. That of the state in which
 // the period starts is `dropped`. Contacts are those of one slot at both ends.
@@ -214,8 +272,9 @@ double SystemEnergyRecord::contact(const Instant& a, const Instant& b) {
       if (in.contact[static_cast<size_t>(k)].slot == slot) return k;
     return -1;
   };
-  double all = 0;
-  VectorXd rolled = VectorXd::Zero(of_.meshes());
+  const bool slices = of_.points_ > 1;
+  VectorXd rolled = slices ? carried_ : VectorXd::Zero(of_.meshes());
+  double all = rolled.sum();
   for (int k = 0; k < from.size(); ++k) {
     const SystemDynamics::Contact& contact = from.contact[static_cast<size_t>(k)];
     const HertzLine& law = from.law[static_cast<size_t>(k)];
@@ -223,8 +282,8 @@ double SystemEnergyRecord::contact(const Instant& a, const Instant& b) {
     const int l = find(to, contact.slot);
     if (l < 0) {
       if (p0 == 0) continue;
-      const double cut =
-          bent(law, p0, 0) + 0.5 * p0 * (from.gap[k] - old_z1 + field_at(from, k, b.field) - a.d[k]);
+      double cut = bent(law, p0, 0) + 0.5 * p0 * (from.gap[k] - old_z1 + field_at(from, k, b.field) - a.d[k]);
+      if (slices) cut += 0.5 * p0 * a.opening[k] + exchange_[contact.slot];
       balance_->cutting[contact.mesh] += cut;
       all += cut;
       continue;
@@ -239,6 +298,7 @@ double SystemEnergyRecord::contact(const Instant& a, const Instant& b) {
                       p1 * (field_at(to, l, a.field) - field_at(from, k, a.field)));
     rolling -= 0.5 * (p0 + p1) * (to.gap[l] - from.gap[k]) + 0.5 * (p0 * b.local[l] - p1 * a.local[k]);
     rolling += law_rolling;
+    if (slices) rolling += exchange_[contact.slot] - 0.5 * (p0 + p1) * (b.opening[l] - a.opening[k]);
     const double switching = law_switching + 0.5 * (p0 * b.d[l] - p1 * a.d[k]),
                  of_start = first_step_ ? -0.5 * p0 * a.d[k] : 0;
     rolled[contact.mesh] += rolling;
@@ -250,8 +310,9 @@ double SystemEnergyRecord::contact(const Instant& a, const Instant& b) {
     const SystemDynamics::Contact& contact = to.contact[static_cast<size_t>(l)];
     const double p1 = b.p[l];
     if (p1 == 0 || find(from, contact.slot) >= 0) continue;
-    const double cut = bent(to.law[static_cast<size_t>(l)], 0, p1) -
-                       0.5 * p1 * (to.gap[l] - of_.moved(to, l, a.z) + field_at(to, l, a.field) - b.d[l]);
+    double cut = bent(to.law[static_cast<size_t>(l)], 0, p1) -
+                 0.5 * p1 * (to.gap[l] - of_.moved(to, l, a.z) + field_at(to, l, a.field) - b.d[l]);
+    if (slices) cut += exchange_[contact.slot] - 0.5 * p1 * b.opening[l];
     balance_->cutting[contact.mesh] += cut;
     all += cut;
   }
@@ -335,7 +396,8 @@ void SystemEnergyRecord::step(const SystemDynamics::Position& position) {
   fill(now_, position);
   displace(now_, before_.rows);
   displace(before_, now_.rows);
-  sum_ += modes(before_, now_) + relaxation(before_, now_) - contact(before_, now_);
+  const double sections = of_.points_ > 1 ? uneven(before_, now_) : 0;  // before contact(), which needs it
+  sum_ += modes(before_, now_) + relaxation(before_, now_) + sections - contact(before_, now_);
   const double local = now_.stored - before_.stored;
   balance_->local += local;
   sum_ += local;

@@ -25,6 +25,7 @@ class SystemEnergyRecord {
     std::vector<SystemDynamics::Live> live;  // [mesh] outside which relaxed and load are 0
     Eigen::VectorXd p, d, local;             // (contact) N, m, m
     double stored = 0;                       // J: at once
+    Eigen::VectorXd line_load, present, opening;  // (slot) N m-1, (slot) N m-1, (contact) m: in slices
     Eigen::VectorXd normal, slide;  // (body) N m, with friction: moments of normal forces, of friction
     Eigen::VectorXd momentum;  // (body) N m s: of rigid rotations, with what the dampers of the axes took
     Eigen::VectorXd sliding;   // (mesh) W: mu s N v of the kinematics
@@ -33,6 +34,7 @@ class SystemEnergyRecord {
   void displace(Instant& at, const std::vector<SystemDynamics::Live>& wanted) const;
   double modes(const Instant& a, const Instant& b);
   double relaxation(const Instant& a, const Instant& b);
+  double uneven(const Instant& a, const Instant& b);
   double contact(const Instant& a, const Instant& b);
   void fill_friction(Instant& now) const;
   void find_pivots();
@@ -44,6 +46,7 @@ class SystemEnergyRecord {
   SystemEnergyBalance* balance_;
   Instant before_, now_;
   double sum_ = 0;
+  Eigen::VectorXd exchange_, carried_;  // (slot), (mesh) J: of the step, see uneven()
   bool first_step_ = true;
   std::vector<Eigen::Index>
       pivot_;                // gears that what holds the mean speed follows from, one for each rolling

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/dense.h"
 #include "base/error.h"
@@ -19,7 +20,7 @@ SystemPeriodMap::SystemPeriodMap(SystemDynamics& dynamics, int steps) : dynamics
   const SystemDynamics::State rest = dynamics.rest();
   const Index n = rest.z.size(), loads = rest.relaxed.size(), slots = rest.p.size();
   const double scale = std::sqrt(2 * dynamics.energy(rest));
-  unit_.resize(2 * n + loads + slots);
+  unit_.resize(2 * n + loads + slots + rest.line_load.size());
   const SystemCoordinates& coordinates = dynamics.coordinates();
   for (Index i = 0; i < n; ++i)
     unit_[i] = scale / (i < coordinates.rigid ? dynamics.motion_.axis_frequency : coordinates.frequency[i]);
@@ -32,7 +33,8 @@ SystemPeriodMap::SystemPeriodMap(SystemDynamics& dynamics, int steps) : dynamics
     unit_.segment(2 * n + dynamics.relaxed_first_[b], own.size()) =
         scale * own.cwiseMax(most > 0 ? kLeast * most : 1).cwiseSqrt().cwiseInverse();
   }
-  unit_.tail(slots).setConstant(rest.p.maxCoeff());
+  unit_.segment(2 * n + loads, slots).setConstant(rest.p.maxCoeff());
+  if (rest.line_load.size() > 0) unit_.tail(slots).setConstant(rest.line_load.maxCoeff());
   rest_ = flat(rest);
 }
 
@@ -43,7 +45,7 @@ void SystemPeriodMap::set_parameter(double mesh_frequency) {
 
 VectorXd SystemPeriodMap::flat(const SystemDynamics::State& state) const {
   VectorXd y(unit_.size());
-  y << state.z, state.v, state.relaxed, state.p;
+  y << state.z, state.v, state.relaxed, state.p, state.line_load;
   return y.cwiseQuotient(unit_);
 }
 
@@ -51,8 +53,9 @@ SystemDynamics::State SystemPeriodMap::state(const VectorXd& y) const {
   if (y.size() != unit_.size())
     fail(Failure::numerical, "a state of ", y.size(), " numbers does not fit positions with ", unit_.size());
   const VectorXd own = y.cwiseProduct(unit_);
-  const Index n = dynamics_.coordinates().size(), loads = dynamics_.relaxed_size();
-  return {own.head(n), own.segment(n, n), own.segment(2 * n, loads), own.tail(own.size() - 2 * n - loads)};
+  const Index n = dynamics_.coordinates().size(), loads = dynamics_.relaxed_size(), slots = dynamics_.slots();
+  return {own.head(n), own.segment(n, n), own.segment(2 * n, loads), own.segment(2 * n + loads, slots),
+          own.tail(own.size() - 2 * n - loads - slots)};
 }
 
 VectorXd SystemPeriodMap::apply(const VectorXd& y) {
@@ -77,7 +80,8 @@ MatrixXd SystemPeriodMap::tangent() {
 }
 
 // Changes of the contact forces (slot, direction) at the end of step i, of coordinates and relaxed loads without them.
-void SystemPeriodMap::solve_contacts(int i, const MatrixXd& z, const MatrixXd& relaxed, MatrixXd& p) const {
+void SystemPeriodMap::solve_contacts(int i, const MatrixXd& z, const MatrixXd& relaxed,
+                                     const MatrixXd& line_load, MatrixXd& p) const {
   const SystemDynamics& of = dynamics_;
   const SystemDynamics::Position& position = of.at(i);
   std::vector<Index> active;
@@ -101,6 +105,9 @@ void SystemPeriodMap::solve_contacts(int i, const MatrixXd& z, const MatrixXd& r
                       relaxed.middleRows<SystemDynamics::kFields>(at);
     }
   }
+  if (of.points() > 1)
+    for (int l = 0; l < position.size(); ++l)
+      e += position.uneven_reading(active, l) * line_load.row(position.contact[static_cast<size_t>(l)].slot);
   p.setZero();
   if (!active.empty()) {
     const MatrixXd forces = of.slides() ? MatrixXd(-lu_solve(tangent, e)) : MatrixXd(-tangent.llt().solve(e));
@@ -122,13 +129,18 @@ MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
               many = directions.cols();
   const MatrixXd start = unit_.asDiagonal() * directions;
   MatrixXd z = start.topRows(n), v = start.middleRows(n, n), relaxed = start.middleRows(2 * n, loads),
-           force = MatrixXd::Zero(n, many), load = MatrixXd::Zero(loads, many), p = start.bottomRows(slots);
+           force = MatrixXd::Zero(n, many), load = MatrixXd::Zero(loads, many),
+           p = start.middleRows(2 * n + loads, slots),
+           line_load = start.bottomRows(start.rows() - 2 * n - loads - slots),
+           present = MatrixXd::Zero(line_load.rows(), many);
   const auto spread = [&](const SystemDynamics::Position& position) {  // of p
     force.setZero();
     load.setZero();
+    present.setZero();
     for (int k = 0; k < position.size(); ++k) {
       const SystemDynamics::Contact& contact = position.contact[static_cast<size_t>(k)];
       if (p.row(contact.slot).isZero(0)) continue;
+      if (of.points() > 1) present.row(contact.slot) = p.row(contact.slot) / position.width[k];
       of.each_part(
           position, k,
           [&](Index first, const auto& h) { force.middleRows(first, h.size()) -= h * p.row(contact.slot); },
@@ -158,11 +170,12 @@ MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
     z = a11.asDiagonal() * old + a12.asDiagonal() * v + (0.5 * bq).asDiagonal() * force;
     v = (a21.asDiagonal() * old + a22.asDiagonal() * v + (0.5 * a12).asDiagonal() * force).eval();
     relaxed = of.relaxed_step_.decay * relaxed + of.relaxed_step_.from_old * load;
+    line_load = of.relaxed_step_.decay * line_load + of.relaxed_step_.from_old * present;
     if (turns) {
       of_frame = close(frame.motions(z));
       before = frame.motions(z);
     }
-    solve_contacts(i, z, relaxed, p);
+    solve_contacts(i, z, relaxed, line_load, p);
     spread(position);
     z += (0.5 * bq).asDiagonal() * force;
     v += (0.5 * a12).asDiagonal() * force;
@@ -172,6 +185,13 @@ MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
       frame.turn(v);
     }
     relaxed += of.relaxed_step_.from_new * load;
+    if (of.points() > 1) {  // of lines that have gone nothing is left
+      MatrixXd next = MatrixXd::Zero(slots, many);
+      for (const SystemDynamics::Contact& contact : position.contact)
+        next.row(contact.slot) =
+            line_load.row(contact.slot) + of.relaxed_step_.from_new * present.row(contact.slot);
+      line_load = std::move(next);
+    }
   }
   MatrixXd out(directions.rows(), many);
   for (Index c = 0; c < many; ++c) {
@@ -179,8 +199,9 @@ MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
     of.v_.head(n) = v.col(c);
     of.relaxed_ = relaxed.col(c);
     of.p_of_slot_ = p.col(c);
+    of.line_load_ = line_load.col(c);
     of.rename();
-    out.col(c) = flat({of.z_.head(n), of.v_.head(n), of.relaxed_, of.p_of_slot_});
+    out.col(c) = flat({of.z_.head(n), of.v_.head(n), of.relaxed_, of.p_of_slot_, of.line_load_});
   }
   return out;
 }

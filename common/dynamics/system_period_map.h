@@ -47,7 +47,7 @@ class SystemPeriodMap : public PeriodMap {
 
  private:
   void solve_contacts(int i, const Eigen::MatrixXd& z, const Eigen::MatrixXd& relaxed,
-                      Eigen::MatrixXd& p) const;
+                      const Eigen::MatrixXd& line_load, Eigen::MatrixXd& p) const;
   SystemDynamics& dynamics_;
   int steps_;
   bool left_zone_ = false, left_last_ = false, applied_ = false;

@@ -59,6 +59,11 @@ SystemPosition SystemDynamics::positioned(int i) const {
   meshes.reserve(system_.mesh.size());
   for (int m = 0; m < this->meshes(); ++m) {
     const MeshInstant at = mesh_instant(system_, m, phase, 0);
+    if (!system_.face.empty()) {
+      meshes.push_back(face_mesh_position(*system_.face[static_cast<size_t>(m)], at.phase,
+                                          corner_gap_[static_cast<size_t>(m)], load_of_mesh_[m]));
+      continue;
+    }
     meshes.push_back(make_line_position(system_.mesh[static_cast<size_t>(m)], at.phase,
                                         corner_gap_[static_cast<size_t>(m)], depth_,
                                         shared_force(load_of_mesh_[m]), at.period));
@@ -91,6 +96,7 @@ MatrixXd SystemDynamics::residual(int b, const ElasticGear& gear, const ToothFla
 void SystemDynamics::find_slots(const std::vector<SystemPosition>& placed) {
   first_ = last_ = 0;
   most_contacts_ = 0;
+  points_ = placed[0].mesh[0].face ? placed[0].mesh[0].face->points.per_line : 1;
   for (const SystemPosition& at : placed) {
     most_contacts_ = std::max(most_contacts_, static_cast<int>(at.segment.size()));
     for (const ContactSegment& segment : at.segment) {
@@ -189,7 +195,8 @@ void SystemDynamics::put_contacts(const SystemPosition& at, int shift, Position&
     contact.mesh = segment.mesh;
     contact.normal = segment.normal;
     const int pair = segment.pair - mesh_instant(system_, segment.mesh, at.phase, 0).period - shift;
-    contact.slot = segment.mesh * tooth_pairs() + pair - first_;
+    contact.tooth = segment.mesh * tooth_pairs() + pair - first_;
+    contact.slot = contact.tooth * points_ + segment.slice;
     contact.part = {0, 0, 0, -1};
     for (size_t s = 0; s < 2; ++s) {
       const int b = system_.layout.meshes[m].side[s].body;
@@ -366,6 +373,7 @@ SystemDynamics::Position SystemDynamics::filled(const SystemPosition& at, int sh
     if (sliding_) put_slide(segment, contact, out);
   }
   relate(out, at);
+  if (points_ > 1) put_uneven(at, out);
   out.compliance = MatrixXd::Zero(padded(static_cast<int>(n)), n);
   out.followed.reserve(static_cast<int>(n));
   return out;
@@ -485,7 +493,8 @@ void SystemDynamics::set_positions(const std::vector<double>& corner_gap, int st
   list_parts();
   constexpr double kMostMemory = 12e9;  // bytes
   const double in_stream = numbers(placed),
-               memory = 8 * (in_stream + 4.0 * steps * most_contacts_ * padded(most_contacts_));
+               memory = 8 * (in_stream +
+                             (points_ > 1 ? 8.0 : 4.0) * steps * most_contacts_ * padded(most_contacts_));
   if (memory > kMostMemory)
     fail(Failure::input, "the positions of ", steps, " steps of a mesh period need ", 1e-9 * memory,
          " GB, at most ", 1e-9 * kMostMemory,
@@ -506,6 +515,7 @@ void SystemDynamics::set_positions(const std::vector<double>& corner_gap, int st
   carrying_forces_.assign(static_cast<size_t>(most_contacts_), 0);
   const int sums = kLanes * padded(most_contacts_);
   sums_.assign(static_cast<size_t>(sums), 0);
+  read_line_load_.setZero(padded(most_contacts_));
   steps_ = 0;
 }
 

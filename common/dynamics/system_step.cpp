@@ -96,7 +96,10 @@ void SystemDynamics::propagate_by(double seconds) {
   }
   relaxed_step_ = relaxation_step(relaxation_, step_);
   for (VectorXd* x : {&relaxed_, &load_}) x->setZero(relaxed_size());
-  for (VectorXd* x : {&p_of_slot_, &remembered_}) x->setZero(slots());
+  p_of_slot_.setZero(slots());
+  for (VectorXd* x : {&p_of_tooth_, &remembered_}) x->setZero(meshes() * tooth_pairs());
+  if (points_ > 1)
+    for (VectorXd* x : {&line_load_, &present_line_load_, &next_line_load_}) x->setZero(slots());
   live_.assign(static_cast<size_t>(meshes()), {});
 }
 
@@ -106,6 +109,7 @@ void SystemDynamics::close(Position& position) const {
   auto whole = position.compliance.topRows(position.size());
   whole = position.instantaneous_compliance + relaxed_step_.from_new * position.relaxed +
           modal_compliance(position, 0.5 * bq_);
+  if (points_ > 1) whole += relaxed_step_.from_new * position.uneven;
   const auto in_frame = [&](Place of) {
     const Index n = coordinates_.size();
     MatrixXd rows(n, position.size());
@@ -130,7 +134,8 @@ void SystemDynamics::close(Position& position) const {
 
 void SystemDynamics::take(const State& state, const Position& position) {
   const Index n = coordinates_.size();
-  if (state.z.size() != n || state.relaxed.size() != relaxed_size() || state.p.size() != slots())
+  if (state.z.size() != n || state.relaxed.size() != relaxed_size() || state.p.size() != slots() ||
+      state.line_load.size() != line_load_.size())
     fail(Failure::input, "the start state, of ", state.z.size(), " coordinates and ", state.p.size(),
          " slots, is of another system or of other positions: here there are ", n, " and ", slots());
   z_.head(n) = state.z;
@@ -142,6 +147,13 @@ void SystemDynamics::take(const State& state, const Position& position) {
   for (int k = 0; k < position.size(); ++k)
     if (p_[k] != 0) push(position, k, p_[k], force_, pushing());
   if (frame_.turns()) frame_.add(frame_.stiffness() * frame_.motions(z_.head(n)), force_.head(n));
+  sum_teeth();
+  line_load_ = state.line_load;
+  if (points_ > 1) {
+    present_line_load_.setZero();
+    for (int k = 0; k < position.size(); ++k)
+      present_line_load_[position.contact[static_cast<size_t>(k)].slot] = p_[k] / position.width[k];
+  }
   load_.setZero();
   load(position, p_, load_);
   find_live();
@@ -182,7 +194,9 @@ void SystemDynamics::propagate() {
     lanes(z + i) = lanes(a11 + i) * before + lanes(a12 + i) * speed + lanes(bq + i) * mean;
     lanes(v + i) = lanes(a21 + i) * before + lanes(a22 + i) * speed + lanes(a12 + i) * mean;  // bv = a12
   }
-  remembered_ = relaxed_step_.decay * remembered_ + relaxed_step_.from_old * p_of_slot_.cwiseAbs();
+  remembered_ = relaxed_step_.decay * remembered_ + relaxed_step_.from_old * p_of_tooth_.cwiseAbs();
+  if (points_ > 1)
+    line_load_ = relaxed_step_.decay * line_load_ + relaxed_step_.from_old * present_line_load_;
   each_live([&](double* f, const double* l, int count) {
     for (const double* end = f + count; f < end; f += kLanes, l += kLanes)
       lanes(f) = relaxed_step_.decay * lanes(f) + relaxed_step_.from_old * lanes(l);
@@ -226,6 +240,7 @@ void SystemDynamics::read_gaps(const Position& position) {
     lanes(&e_[k]) = whine::sums(lanes(four), lanes(four + 4), lanes(four + 8), lanes(four + 12));
   }
   for (int k = n; k < whole; ++k) e_[k] = 0;
+  if (points_ > 1) read_uneven(position);
 }
 
 // Contact forces, from what the coordinates and relaxed loads are without them.
@@ -236,6 +251,7 @@ void SystemDynamics::solve(Position& position) {
       position.followed.solve(position.compliance, position.law, e_, p_.head(n), d_, position.friction);
   p_of_slot_.setZero();
   for (int k = 0; k < n; ++k) p_of_slot_[position.contact[static_cast<size_t>(k)].slot] = p_[k];
+  sum_teeth();
 }
 
 // What contact forces move of the coordinates at the end of a step; parts follow one another, so what a row's whole lanes
@@ -301,10 +317,10 @@ void SystemDynamics::load_all(const Position& position) {
 // Slots with new force are live; those at the ends of which nothing is left no longer.
 void SystemDynamics::keep_live() {
   const double least = kLeastRelaxed * load_of_mesh_.mean();
-  remembered_ += relaxed_step_.from_new * p_of_slot_;
+  remembered_ += relaxed_step_.from_new * p_of_tooth_;
   for (int m = 0; m < meshes(); ++m) {
     const double* most = &remembered_[m * tooth_pairs()];
-    const double* p = &p_of_slot_[m * tooth_pairs()];
+    const double* p = &p_of_tooth_[m * tooth_pairs()];
     const auto left = [&](int pair) { return most[pair] > least || p[pair] > 0; };
     Live &live = live_[static_cast<size_t>(m)], before = live;
     live = {0, tooth_pairs()};
@@ -356,6 +372,7 @@ void SystemDynamics::step(Position& position) {
     frame_.turn(v_.head(n));
   }
   load_all(position);
+  if (points_ > 1) load_uneven(position);
   if (coordinates_.rigid_pins) {
     rate_ = force_.head(n).array() - coordinates_.frequency.array().square() * z_.head(n).array() -
             (coordinates_.damping.array() - motion_.damping.rayleigh_mass) * v_.head(n).array();
@@ -379,7 +396,10 @@ void SystemDynamics::rename() {
     std::copy_backward(of, of + (tooth_pairs() - 1) * size, of + tooth_pairs() * size);
     std::fill(of, of + size, 0.0);
   };
-  for (int m = 0; m < meshes(); ++m) shift(&p_of_slot_[m * tooth_pairs()], 1);
+  for (int m = 0; m < meshes(); ++m) {
+    shift(&p_of_slot_[m * tooth_pairs() * points_], points_);
+    if (points_ > 1) shift(&line_load_[m * tooth_pairs() * points_], points_);
+  }
   for (int block = 0; block * tooth_pairs() * kFields < relaxed_size(); ++block)
     shift(&relaxed_[block * tooth_pairs() * kFields], kFields);
 }

@@ -38,4 +38,13 @@ void describe_names(Codec& c, bool of_train, std::vector<std::string>& meshes,
   c(bodies, "/body", "body", "bodies by name; of a pair the driver, then the driven gear");
 }
 
+void describe_face_load(Codec& c, MatrixRM& load_factor, MatrixRM& line_load) {
+  if (!c.optional("/face_load_factor", load_factor.size() > 0)) return;
+  c(load_factor, "/face_load_factor", "1", ranges::kPositive, "mesh_frequency mesh",
+    "face load factor in motion: largest line load over its mean, ends of the line included, of the tooth pair and the instant of the largest tooth load; left out of one slice",
+    "K_Hbeta = w_max / w_mean");
+  c(line_load, "/line_load_max", "N m-1", ranges::kStiff, "mesh_frequency mesh",
+    "largest line load of all instants within the inner 90 % of face and path of contact; left out of one slice");
+}
+
 }  // namespace whine

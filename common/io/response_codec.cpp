@@ -100,6 +100,7 @@ void describe(Codec& c, ResponseResult& a) {
     "mesh frequency, in the order in which they were computed");
   describe_vibration(c, a);
   describe_loads(c, a);
+  describe_face_load(c, a.face_load_factor, a.line_load_max);
   if (c.optional("/loss_factor", a.loss_factor.size() > 0))
     c(a.loss_factor, "/loss_factor", "1", kPositive, kSpeeds,
       "mean power lost by sliding over the power carried, per unit coefficient of friction");

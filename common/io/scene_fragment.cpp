@@ -127,7 +127,7 @@ std::string scene_fragment(const Scene& scene, const std::string& path, const st
   bool modified = false;
   for (const std::string& gear : scene.mesh.gear)
     modified |= scene.gear(gear).modification != FlankModification{};
-  const bool rings_down = scene.fidelity.contact == ContactModel::strips &&
+  const bool rings_down = scene.fidelity.contact == ContactModel::strips && !able.slices &&
                           scene.fidelity.body != BodyModel::full && !able.teeth_differ && !able.cracked;
   Fragment out(path, stem);
   out("KIND", "pair");

@@ -11,6 +11,10 @@ namespace {
 
 // Goals of pairs that take more than one slice over the face: helices, misalignment, lead modifications, width = "slices".
 constexpr std::array kGoalsOfFace{"mesh", "reduce", "static", "flank-load"};
+// And in motion, where width in [fidelity] asks for them.
+constexpr std::array kGoalsOfSlices{
+    "sweep",     "fig05", "fig07", "fig14-elastic", "order-cuts",     "waterfall",      "tooth-loads",
+    "face-load", "sound", "runup", "branches",      "fig05-branches", "fig07-branches", "multipliers"};
 
 // What a system must have for a goal; goals that do not stand here are of pairs alone.
 enum class Needs { nothing, elastic_gears, speeds, planets };
@@ -61,13 +65,15 @@ void check_teeth(const SceneAbilities& pair, const std::string& which) {
 }
 
 void check_face(const std::string& goal, const SceneAbilities& pair, const std::string& which) {
-  const auto takes = [&](const char* own) { return goal == own; };
-  if (pair.face.empty() || std::any_of(kGoalsOfFace.begin(), kGoalsOfFace.end(), takes)) return;
+  if (pair.face.empty()) return;
+  std::vector<std::string> goals(kGoalsOfFace.begin(), kGoalsOfFace.end());
+  if (pair.slices) goals.insert(goals.end(), kGoalsOfSlices.begin(), kGoalsOfSlices.end());
+  if (std::find(goals.begin(), goals.end(), goal) != goals.end()) return;
   std::string others;
-  for (const char* own : kGoalsOfFace) others += text(" ", own);
+  for (const std::string& own : goals) others += " " + own;
   fail(Failure::input, goal, ": in ", which, " ", pair.face, ", and ", goal,
        " is computed in one slice over the face, of spur gears under even load; for it there is: make ",
-       which, others);
+       which, others, pair.slices ? "" : "; with width = \"slices\" in [fidelity] also its sweep");
 }
 
 }  // namespace
@@ -76,7 +82,8 @@ SceneAbilities abilities(const Scene& scene) {
   SceneAbilities out;
   out.face =
       face_words(scene.mesh, scene.gear(scene.mesh.gear[0]).design, scene.gear(scene.mesh.gear[1]).design);
-  if (out.face.empty() && scene.fidelity.width != WidthModel::one)
+  out.slices = scene.fidelity.width != WidthModel::one;
+  if (out.face.empty() && out.slices)
     out.face = text("[fidelity] has width = \"", scene.fidelity.width, "\"");
   for (const std::string& gear : scene.mesh.gear) {
     out.teeth_differ |= !scene.gear(gear).errors.none();

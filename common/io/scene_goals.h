@@ -13,6 +13,7 @@ struct SceneAbilities {
   bool pair = true;
   bool teeth_differ = false, cracked = false;
   std::string face = {};  // what of a pair one slice over the face does not hold, in words; "": nothing
+  bool slices = false;    // of a pair: its contact is in slices over the face
   bool elastic = false, planets = false, moves = false;  // of a system
 };
 SceneAbilities abilities(const Scene& scene);

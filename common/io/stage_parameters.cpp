@@ -71,12 +71,13 @@ void walk(StageParameters& s, StaticParameters& p, TimeDiscretisation* moving = 
 struct MotionStage {
   StageFile file;
   bool damping, speeds, body_model, time;
+  bool slices;  // or in one slice over the face alone
 };
-constexpr MotionStage kImpact{{"params/impact.toml", "the ring-down"}, true, false, true, false},
-    kSweep{{"params/sweep.toml", "a sweep"}, true, true, true, true},
-    kMap{{"params/map.toml", "a map of jumps"}, true, false, true, true},
-    kLumped{{"params/lumped.toml", "a sweep of a lumped model"}, false, true, false, true},
-    kLumpedMap{{"params/lumped_map.toml", "a map of a lumped model"}, false, false, false, true};
+constexpr MotionStage kImpact{{"params/impact.toml", "the ring-down"}, true, false, true, false, false},
+    kSweep{{"params/sweep.toml", "a sweep"}, true, true, true, true, true},
+    kMap{{"params/map.toml", "a map of jumps"}, true, false, true, true, false},
+    kLumped{{"params/lumped.toml", "a sweep of a lumped model"}, false, true, false, true, false},
+    kLumpedMap{{"params/lumped_map.toml", "a map of a lumped model"}, false, false, false, true, false};
 
 struct Motion {
   SweepParameters p;
@@ -193,10 +194,13 @@ SweepParameters motion_from(const Source& source, const MotionStage& stage) {
   Motion out;
   StageParameters in(source);
   in(motion_keys(out, stage));
-  if (out.p.fidelity.width != WidthModel::one)
-    source.reject(
-        "has width = \"", out.p.fidelity.width, "\", and ", stage.file.stage,
-        " is computed in one slice over the face; write width = \"one\" in [fidelity] of the scene");
+  if (out.p.fidelity.width != WidthModel::one) {
+    out.p.fidelity.contact = ContactModel::line;
+    if (!stage.slices)
+      source.reject(
+          "has width = \"", out.p.fidelity.width, "\", and ", stage.file.stage,
+          " is computed in one slice over the face; write width = \"one\" in [fidelity] of the scene");
+  }
   out.p.reference_torque = out.torques.front();
   return out.p;
 }

@@ -138,6 +138,7 @@ void describe(Codec& c, SweepResult& a) {
   describe_meshes(c, a);
   describe_bodies(c, a, c.lists() ? std::vector<std::string>{"<body>"} : a.body_names, lumped);
   describe_root_stress(c, a);
+  describe_face_load(c, a.face_load_factor, a.line_load_max);
   describe_speed_by_speed(c, a);
   describe_friction(c, a.friction);
   if (!a.of_train()) {

@@ -20,5 +20,7 @@ void describe_source(Codec& codec, MotionSource& source, bool time = true);
 // /mesh and /body, the coordinates of the axes mesh and body: of a pair one mesh and two bodies, else those of the layout.
 void describe_names(Codec& codec, bool of_train, std::vector<std::string>& meshes,
                     std::vector<std::string>& bodies);
+// Load over the face in slices, (speed, mesh); left out of what has one slice.
+void describe_face_load(Codec& codec, MatrixRM& load_factor, MatrixRM& line_load);
 
 }  // namespace whine

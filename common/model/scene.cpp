@@ -64,7 +64,7 @@ void require_one_slice(const GearMeshSpec& mesh, const GearDesign& driver, const
   if (const std::string words = face_words(mesh, driver, driven); !words.empty())
     fail(
         Failure::input, words,
-        ", and what is asked for is computed in one slice over the face, of spur gears under even load; the pair at rest is computed with width = \"slices\" in [fidelity]");
+        ", and what is asked for is computed in one slice over the face, of spur gears under even load; the pair at rest, its sweeps, branches and run-ups are computed with width = \"slices\" in [fidelity]");
 }
 
 }  // namespace whine

@@ -55,6 +55,8 @@ struct SystemSweepParameters : SystemStaticParameters {
   Damping damping;
   double frequency_from = 0, frequency_to = 0, frequency_step = 0;  // mesh frequency, Hz
   TimeDiscretisation time;
+  // N m-1 of a pair in slices, to which the dampers of its axes refer: mean mesh stiffness at the reference torque; 0: of its own statics.
+  double axis_stiffness = 0;
 };
 
 // What gear-variant reads: the stage parameters of one variant.

@@ -309,6 +309,13 @@ Drawings drawings_of_motions() {
           const auto captions = read_responses(in);
           return bearing_force_figure(captions.sweeps, captions.background);
         }}},
+      {"face-load",
+       {"face load factor and line load of a pair in slices against mesh frequency",
+        "response.h5 of sweeps up and down of one torque", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          const auto captions = read_responses(in);
+          return face_load_figure(captions.sweeps, captions.background);
+        }}},
   };
 }
 

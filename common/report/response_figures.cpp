@@ -356,4 +356,51 @@ Figure bearing_force_figure(const std::vector<ResponseResult>& sweeps, const Cap
   return figure;
 }
 
+Figure face_load_figure(const std::vector<ResponseResult>& sweeps, const CaptionSources& background) {
+  const auto panels = panels_of(sweeps, background);
+  const auto& curve = only_curve(panels, "load over the face against speed");
+  if (curve.up->face_load_factor.size() == 0 || curve.down->face_load_factor.size() == 0)
+    fail(
+        Failure::input,
+        "face-load: these sweeps are of one slice over the face, whose load is the same all over it; write width = \"slices\" in [fidelity] of the scene");
+  Figure figure;
+  constexpr double kPerMillimetre = 1e-3;  // N m-1 -> N/mm
+  figure.title = "Load over the face against mesh frequency, " + torque_words(curve.up->torque);
+  figure.notes = {
+      operating_words(panels[0], background), panels[0].choices,
+      "K_{Hβ}: largest over mean line load of the tooth pair with the largest load, at that instant"};
+  figure.shafts = shafts_of_all(sweeps);
+  Panel factor{.heading = "face load factor K_{Hβ}",
+               .x = {.label = "Mesh frequency (Hz)", .speed = true},
+               .y = {.label = "K_{Hβ}"},
+               .rules = {{'x', curve.up->natural_frequency, "f_n"}}},
+      largest = factor;
+  largest.heading = "largest line load, inner 90 % of face and path";
+  largest.y = {.label = "Line load (N/mm)", .from_zero = true};
+  for (const ResponseResult* r : {curve.up, curve.down}) {
+    const std::string name = text(r->direction);
+    FigureBlock block{name,
+                      {"mesh_frequency [Hz]", "face_load_factor", "line_load_max [N/mm]"},
+                      {},
+                      "load over the face",
+                      name};
+    const std::vector<bool> broken = broken_after(*r, r == curve.up ? curve.down : curve.up);
+    for (Eigen::Index i = 0; i < r->mesh_frequency.size(); ++i) {
+      block.rows.push_back(
+          {r->mesh_frequency[i], r->face_load_factor(i, 0), r->line_load_max(i, 0) * kPerMillimetre});
+      if (broken[static_cast<size_t>(i)]) block.rows.emplace_back();
+    }
+    figure.blocks.push_back(block);
+    PanelCurve line{.colour = r == curve.up ? 1 : 2, .width = r == curve.up ? 4.4 : 1.6};
+    line.block = name;
+    line.label = r == curve.up ? "rising speed" : "falling";
+    for (Panel* panel : {&factor, &largest}) {
+      line.y = panel == &factor ? 2 : 3;
+      panel->curves.push_back(line);
+    }
+  }
+  for (const Panel* panel : {&factor, &largest}) figure.panels.push_back(*panel);
+  return figure;
+}
+
 }  // namespace whine

@@ -16,6 +16,9 @@ Figure response_figure(const std::vector<ResponseResult>& sweeps, const CaptionS
 // else as response_figure.
 Figure bearing_force_figure(const std::vector<ResponseResult>& sweeps, const CaptionSources& background = {});
 
+// K_Hbeta and the largest line load of a pair in slices over the face against speed, both ways. Throws Error(input) for one slice.
+Figure face_load_figure(const std::vector<ResponseResult>& sweeps, const CaptionSources& background = {});
+
 // Ranges of neighbouring speeds at which a sweep loses contact, in Hz times a scale: "2820 to 2980, 3100", or "nowhere".
 std::string loss_ranges(const ResponseResult& sweep, double scale = 1);
 

@@ -31,8 +31,9 @@ struct ResponseResult : MotionSource {
   std::vector<MatrixRM> mesh_force_harmonic;  // [speed] (harmonic 1.., mesh) N, amplitude
   // (speed, mesh) 1: largest share, at one instant, of the meshes that come from one [[mesh]]; empty unless one has several
   MatrixRM load_share_max;
-  MatrixRM separation_fraction;     // (speed, mesh) share of the period without force
-  MatrixRM separations_per_period;  // (speed, mesh) 1
+  MatrixRM face_load_factor, line_load_max;  // (speed, mesh) as in the sweep
+  MatrixRM separation_fraction;              // (speed, mesh) share of the period without force
+  MatrixRM separations_per_period;           // (speed, mesh) 1
   // (speed, body) N: largest force on its bearing, and RMS of what of it oscillates; 0 of the gears of a pair on rigid bearings,
   // empty if both are
   MatrixRM bearing_force_max, bearing_force_rms;

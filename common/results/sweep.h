@@ -79,6 +79,9 @@ struct SweepResult : MotionSource {
   std::vector<MatrixRM> tooth_load;       // [speed] (sample, mesh and within it tooth_pair) N
   // [body][speed] (sample, xy) N: as in static.h5, with the bearing's damper; empty for a rigid bearing of a pair
   std::vector<std::vector<MatrixRM>> bearing_force = std::vector<std::vector<MatrixRM>>(kSides);
+  // In slices over the face, (speed, mesh), else empty; over all steps. 1: K_Hbeta = w_max / w_mean of the tooth pair and the instant of the
+  // largest tooth load, as face_load_factor() of system/face_points.h reads it; N m-1: largest line load w in the inner 90 % of face and path
+  MatrixRM face_load_factor, line_load_max;
   MatrixRM holding_torque;  // (speed, body) N m, of a train: mean, of what holds the body; 0 of free ones
   // [speed] (sample, mesh and within it side) Pa: largest tangential stress of the teeth that carry load, along the root beside the
   // loaded flank, quasi-static in the loads of their mesh; 0 of a mesh of which it is not known, empty if it is of none

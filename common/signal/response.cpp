@@ -246,11 +246,13 @@ ResponseResult response(const SweepResult& s) {
   r.remarks = s.remarks;
   r.natural_frequency = s.natural_frequency;
   r.backlash_left = s.backlash_left;
+  r.face_load_factor = s.face_load_factor;
+  r.line_load_max = s.line_load_max;
   size_meshes(per_period, speeds, meshes, r);
   const auto borne = [](const std::vector<MatrixRM>& force) { return !force.empty(); };
   if (std::any_of(s.bearing_force.begin(), s.bearing_force.end(), borne)) size_bearings(s.bodies(), r);
   add_root_stress(s, r);
-  if (s.of_train() || !s.root_stress.empty())
+  if (s.of_train() || !s.root_stress.empty() || s.face_load_factor.size() > 0)
     for (MatrixRM* x : {&r.tooth_load_sustained, &r.mesh_force_sustained}) x->resize(speeds, meshes);
   // Of the meshes of one [[mesh]].
   const std::set<int> sections(s.train.section.begin(), s.train.section.end());

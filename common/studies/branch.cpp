@@ -7,8 +7,10 @@
 
 #include "base/error.h"
 #include "gear/body_inertia.h"
+#include "gear/helix.h"
 #include "signal/response.h"
 #include "signal/spectrum.h"
+#include "studies/face_sweep.h"
 #include "studies/motion_statistics.h"
 #include "studies/sustained_peaks.h"
 
@@ -205,12 +207,39 @@ BranchResult followed(BranchFollower<Rig>& follower, const BranchPlan& plan, con
   return a;
 }
 
+MotionSource source_of(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
+                       const SweepParameters& settings) {
+  MotionSource out;
+  set_motion(out, {driver, driven}, statics, settings);
+  out.time = settings.time;
+  out.torque = statics.torque;
+  out.name_parts();
+  return out;
+}
+
+// As a train of one mesh, whose mesh force is that in the transverse section.
+BranchResult branch_of_slices(const ReducedBody& driver, const ReducedBody& driven,
+                              const StaticResult& statics, double mean_stiffness,
+                              const SweepParameters& settings, const BranchReport& report,
+                              const BranchPlan& plan) {
+  const SystemSweepParameters train = train_of_slices(driver, driven, statics, mean_stiffness, settings);
+  BranchResult out = system_branch(train, {driver, driven}, report, plan);
+  static_cast<MotionSource&>(out) = source_of(driver, driven, statics, settings);
+  out.fidelity.contact = ContactModel::line;
+  const double cosine = std::cos(base_helix_angle(driver.design));
+  for (MatrixRM* x : {&out.mesh_force_max, &out.mesh_force_sustained}) *x /= cosine;
+  out.bearing_force_rms.resize(0, 0);
+  return out;
+}
+
 }  // namespace
 
 BranchResult pair_branch(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
                          double mean_stiffness, const SweepParameters& settings, const BranchReport& report,
                          const BranchPlan& plan) {
   require_inertia(statics.mesh, {driver.inertia, driven.inertia}, settings.inertia);
+  if (settings.fidelity.width != WidthModel::one)
+    return branch_of_slices(driver, driven, statics, mean_stiffness, settings, report, plan);
   const GearMeshModel model(driver, driven, statics.mesh);
   RollingDynamics dynamics(model,
                            dynamic_parameters(statics, mean_stiffness, settings, settings.frequency_to));
@@ -224,12 +253,7 @@ BranchResult pair_branch(const ReducedBody& driver, const ReducedBody& driven, c
     const auto loads = [&](Index) -> const Eigen::MatrixXd& { return period.tooth_pair_load; };
     return orbit.take(period, loads, number, periods);
   });
-  MotionSource source;
-  set_motion(source, {driver, driven}, statics, settings);
-  source.time = settings.time;
-  source.torque = statics.torque;
-  source.name_parts();
-  return followed(follower, plan, report, orbit, std::move(source));
+  return followed(follower, plan, report, orbit, source_of(driver, driven, statics, settings));
 }
 
 BranchResult system_branch(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
@@ -244,7 +268,7 @@ BranchResult system_branch(const SystemSweepParameters& settings, const std::vec
   follower.measure([&](const SystemDynamics::Period& period, int number, int periods) {
     const SystemDynamics& dynamics = rig.train().dynamics();
     const auto loads = [&](Index m) -> Eigen::MatrixXd {
-      const MatrixRM& forces = dynamics.forces();  // (step + 1, slot)
+      const MatrixRM& forces = dynamics.tooth_forces();  // (step + 1, mesh and within it pair)
       return forces.block(0, m * dynamics.tooth_pairs(), forces.rows() - 1, dynamics.tooth_pairs())
           .transpose();
     };

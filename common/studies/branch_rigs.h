@@ -74,7 +74,8 @@ class TrainRig {
   bool fit(State& /*state*/, int /*periods*/) { return true; }
   std::pair<int, int> place_of(int slot) {
     const SystemDynamics& dynamics = train_.dynamics();
-    return {slot / dynamics.tooth_pairs(), slot % dynamics.tooth_pairs() + dynamics.first_pair()};
+    const int tooth = slot / dynamics.points();
+    return {tooth / dynamics.tooth_pairs(), tooth % dynamics.tooth_pairs() + dynamics.first_pair()};
   }
 
  private:

@@ -12,6 +12,7 @@
 #include "gear/layout.h"
 #include "gear/system_layout.h"
 #include "signal/uniform_sampler.h"
+#include "studies/face_sweep.h"
 #include "studies/runup_motion.h"
 #include "studies/sweep.h"
 #include "studies/train_in_motion.h"
@@ -328,7 +329,6 @@ void runup(const ReducedBody& driver, const ReducedBody& driven, const StaticRes
            RunupSink& sink, const std::function<void(long, long, const std::string&)>& report) {
   require_ramp(wanted, settings.time);
   require_inertia(statics.mesh, {driver.inertia, driven.inertia}, settings.inertia);
-  const GearMeshModel model(driver, driven, statics.mesh);
   RunupResult head = head_of(wanted, statics.gear[0].design.teeth);
   set_motion(head, {driver, driven}, statics, settings);
   head.time = settings.time;
@@ -337,6 +337,19 @@ void runup(const ReducedBody& driver, const ReducedBody& driven, const StaticRes
   head.name_parts();
   head.input = statics.mesh.gear[0];
   const auto [lowest, highest] = std::minmax(wanted.ramp.from, wanted.ramp.to);
+  if (settings.fidelity.width != WidthModel::one) {
+    head.fidelity.contact = ContactModel::line;
+    SystemSweepParameters train = train_of_slices(driver, driven, statics, mean_stiffness, settings);
+    train.frequency_from = lowest;
+    train.frequency_to = highest;
+    const std::vector<ReducedBody> bodies{driver, driven};
+    const SliceAxes axes = axes_of_slices(train, bodies);
+    head.natural_frequency = axes.natural_frequency;
+    head.bearing_damper = axes.bearing_damper;
+    TrainRunup motion(train, bodies, true);
+    return Runner(motion, settings.time, wanted, head, sink, report).run();
+  }
+  const GearMeshModel model(driver, driven, statics.mesh);
   PairRunup motion(model, dynamic_parameters(statics, mean_stiffness, settings, highest), statics, settings,
                    lowest);
   Runner(motion, settings.time, wanted, head, sink, report).run();

@@ -113,6 +113,10 @@ void PairRunup::read(long k) {
 }
 
 int TrainRunup::begin(RunupResult& head) {
+  if (of_pair_) {
+    const SystemDynamics& dynamics = rig_.train().dynamics();
+    return reach_ = std::max(-dynamics.first_pair(), dynamics.first_pair() + dynamics.tooth_pairs() - 1);
+  }
   static_cast<MotionSource&>(head) = rig_.train().source();
   return -1;
 }
@@ -148,13 +152,28 @@ void TrainRunup::read() {
   for (Index m = 0; m < meshes; ++m) {
     out_.separation[m] = static_cast<double>((period_.largest_tooth_force.row(m).array() <= 0).count()) /
                          static_cast<double>(steps);
-    out_.tooth_load_max[m] =
-        sustained_tooth_load(dynamics.forces().middleCols(m * pairs, pairs).bottomRows(steps).transpose());
+    out_.tooth_load_max[m] = sustained_tooth_load(
+        dynamics.tooth_forces().middleCols(m * pairs, pairs).bottomRows(steps).transpose());
   }
   out_.bearing_force = period_.bearing_force;
   out_.least_gap = period_.least_gap;
   out_.least_force = period_.least_force;
   out_.drift_force = period_.drift_force;
+  if (of_pair_) read_pair();
+}
+
+// Loads of tooth pairs; the mesh force of a pair is their sum.
+void TrainRunup::read_pair() {
+  const SystemDynamics& dynamics = rig_.train().dynamics();
+  const Index steps = period_.mesh_force.cols();
+  out_.tooth_load.setZero(2 * reach_ + 1, steps);
+  for (Index i = 1; i <= steps; ++i)
+    for (int pair = 0; pair < dynamics.tooth_pairs(); ++pair)
+      if (const int row = reach_ + dynamics.first_pair() + pair; row >= 0 && row <= 2 * reach_)
+        out_.tooth_load(row, i % steps) = dynamics.tooth_forces()(i, pair);
+  out_.mesh_force.col(0) = out_.tooth_load.colwise().sum().transpose();
+  out_.bearing_force.assign(kSides, {});
+  least_closing_ = std::min(least_closing_, period_.transmission_error.minCoeff());
 }
 
 }  // namespace whine

@@ -68,18 +68,29 @@ class PairRunup : public RunupMotion {
 
 class TrainRunup : public RunupMotion {
  public:
-  TrainRunup(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies)
-      : settings_(settings), rig_(settings, bodies) {}
+  // of_pair: it is a pair in slices, whose head says so and whose tooth loads are recorded.
+  TrainRunup(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
+             bool of_pair = false)
+      : settings_(settings), rig_(settings, bodies), of_pair_(of_pair) {}
   int begin(RunupResult& head) override;
   bool settle(double mesh_frequency, int steps) override;
   const RunupPeriod& integrate(long k, double mesh_frequency, int steps, bool fresh) override;
 
+  double backlash_margin() const override {
+    return of_pair_ ? rig_.train().system().mesh[0].kinematics.backlash() + least_closing_
+                    : std::numeric_limits<double>::infinity();
+  }
+
  private:
   void read();
+  void read_pair();
 
   const SystemSweepParameters& settings_;
   TrainRig rig_;
   TrainRig::State state_, trial_;
+  bool of_pair_;
+  int reach_ = -1;
+  double least_closing_ = std::numeric_limits<double>::infinity();
   SystemDynamics::Period period_;
   RunupPeriod out_;
 };

@@ -22,6 +22,7 @@
 #include "signal/branches.h"
 #include "signal/jumps.h"
 #include "signal/response.h"
+#include "studies/face_sweep.h"
 #include "studies/speed_sweep.h"
 #include "studies/sweep_root_stress.h"
 #include "studies/zone_levels.h"
@@ -414,6 +415,8 @@ SweepResult sweep(const ReducedBody& driver, const ReducedBody& driven, const St
                   double mean_stiffness, const SweepParameters& settings, Direction direction,
                   const std::function<void(long, long, const std::string&)>& report,
                   std::vector<BranchPoint>* left_early, double jump_width) {
+  if (settings.fidelity.width != WidthModel::one)
+    return face_sweep(driver, driven, statics, mean_stiffness, settings, direction, report, jump_width);
   const std::vector<double> speed =
       swept_speeds(settings.frequency_from, settings.frequency_to, settings.frequency_step, direction);
   const auto speeds = static_cast<int>(speed.size());

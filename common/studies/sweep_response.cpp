@@ -9,7 +9,7 @@ namespace whine {
 ResponseResult sweep_response(const SweepResult& sweep) {
   ResponseResult out = response(sweep);
   out.friction = sweep.friction;
-  if (sweep.of_train()) return out;
+  if (sweep.of_train() || sweep.face_load_factor.size() > 0) return out;
   out.loss_factor = loss_factors(sweep);
   add_flank_pressure(sweep, out);
   return out;

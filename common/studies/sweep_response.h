@@ -5,7 +5,7 @@
 
 namespace whine {
 
-// Throws as response() does. Of lumped models and trains without loss factors and pressures.
+// Throws as response() does. Of lumped models, trains and pairs in slices without loss factors and pressures.
 ResponseResult sweep_response(const SweepResult& sweep);
 
 }  // namespace whine

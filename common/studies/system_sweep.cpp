@@ -34,6 +34,7 @@ struct TrainMotion {
   // Over the recorded periods: (sample, mesh), (sample, mesh and within it tooth_pair) from first_pair on, [body] (sample, xy)
   MatrixRM transmission_error, mesh_deflection, mesh_force, tooth_load;
   int first_pair = 0;
+  std::vector<SystemDynamics::FacePeak> face;  // [mesh] in slices
   std::vector<MatrixRM> bearing_force;
   // J: by line of kEnergyLines, mesh, body; N m, by body
   Eigen::RowVectorXd energy, rolling, bearing_damping, holding_torque;
@@ -137,6 +138,7 @@ class TrainSweepRig {
       statistics.take(period);
       if (!whole) continue;
       take_samples(period, n, motion);
+      take_face(period, motion);
       take(energy, motion);
       take_holding(period, static_cast<double>(periods), motion);
       motion.imbalance += energy.imbalance;
@@ -156,7 +158,7 @@ class TrainSweepRig {
                 bodies = static_cast<Index>(settings_.layout.bodies.size());
     for (MatrixRM* x : {&motion.transmission_error, &motion.mesh_deflection, &motion.mesh_force})
       x->setZero(samples, meshes);
-    motion.tooth_load.setZero(samples, rig_.train().dynamics().slots());
+    motion.tooth_load.setZero(samples, meshes * rig_.train().dynamics().tooth_pairs());
     motion.first_pair = rig_.train().dynamics().first_pair();
     motion.bearing_force.assign(static_cast<size_t>(bodies), MatrixRM::Zero(samples, 2));
     motion.energy.setZero(static_cast<Index>(kEnergyLines.size()));
@@ -180,13 +182,26 @@ class TrainSweepRig {
       put(period.bearing_force[b], motion.bearing_force[b]);
   }
 
+  static void take_face(const SystemDynamics::Period& period, Motion& motion) {
+    motion.face.resize(period.face.size());
+    for (size_t m = 0; m < motion.face.size(); ++m) {
+      SystemDynamics::FacePeak peak = period.face[m], &most = motion.face[m];
+      peak.line_load = std::max(peak.line_load, most.line_load);
+      if (most.tooth_load > peak.tooth_load) {
+        peak.tooth_load = most.tooth_load;
+        peak.load_factor = most.load_factor;
+      }
+      most = peak;
+    }
+  }
+
   // Pairs are numbered as at rest, from the reference pair of the mesh's own period; in the dynamics by the period of the system. The end
   // of a mesh period is the start of the next one, in which a pair has a number that is higher by one.
   void take_loads(int k, Index stride, Motion& motion) {
     const SystemDynamics& dynamics = rig_.train().dynamics();
     const Index samples = settings_.time.steps_per_period, pairs = dynamics.tooth_pairs();
     for (Index i = 1; i <= samples; ++i) {
-      const auto forces = dynamics.forces().row(i * stride);
+      const auto forces = dynamics.tooth_forces().row(i * stride);
       auto row = motion.tooth_load.row((k * samples + i) % motion.tooth_load.rows());
       const double phase = static_cast<double>(i % samples) / static_cast<double>(samples);
       for (int m = 0; m < dynamics.meshes(); ++m) {
@@ -258,6 +273,10 @@ std::string store(TrainMotion& motion, Index row, SweepResult& out) {
   out.mesh_force[at] = std::move(motion.mesh_force);
   for (size_t b = 0; b < out.bearing_force.size(); ++b)
     out.bearing_force[b][at] = std::move(motion.bearing_force[b]);
+  for (size_t m = 0; m < motion.face.size(); ++m) {
+    out.face_load_factor(row, static_cast<Index>(m)) = motion.face[m].load_factor;
+    out.line_load_max(row, static_cast<Index>(m)) = motion.face[m].line_load;
+  }
   out.energy.row(row) = motion.energy;
   out.rolling.row(row) = motion.rolling;
   out.bearing_damping.row(row) = motion.bearing_damping;
@@ -350,6 +369,8 @@ SweepResult empty_sweep(const TrainInMotion& rig, const std::vector<double>& spe
   out.mesh_frequency = Eigen::Map<const VectorXd>(speeds.data(), n);
   out.rolling.setZero(n, meshes);
   for (MatrixRM* x : {&out.bearing_damping, &out.holding_torque}) x->setZero(n, bodies);
+  if (out.train.fidelity.width != WidthModel::one)
+    for (MatrixRM* x : {&out.face_load_factor, &out.line_load_max}) x->setZero(n, meshes);
   out.energy.setZero(n, static_cast<Index>(kEnergyLines.size()));
   for (VectorXd* x : {&out.residual, &out.energy_imbalance, &out.drift_force}) x->setZero(n);
   if (out.train.friction().acts())

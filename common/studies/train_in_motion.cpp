@@ -9,6 +9,8 @@
 #include "base/model_range.h"
 #include "gear/layout.h"
 #include "gear/system_layout.h"
+#include "system/face_mesh.h"
+#include "system/face_statics.h"
 #include "system/system_rest.h"
 
 namespace whine {
@@ -23,6 +25,16 @@ constexpr int kMostRestPositions = 2048,
               kFewestRestPositions = 4;  // in all of a hunting period; in a mesh period
 constexpr double kBeyondStatics = 2.5;   // deflection that tip edges are looked for, over that of rest
 constexpr int kMostWidenings = 5;
+
+SystemModel in_motion(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies) {
+  if (settings.fidelity.width == WidthModel::one) return elastic_system(settings, bodies);
+  const System& layout = settings.layout;
+  const auto body = [&](size_t side) -> const ReducedBody& {
+    return body_of(settings, bodies, settings.gear[static_cast<size_t>(layout.meshes[0].side[side].body)]);
+  };
+  return sliced_system(layout, body(0), body(1), settings.mesh[0], settings.fidelity.width,
+                       face_points_of(settings.mesh[0], settings.contact), settings.damping.undamped_depth);
+}
 
 }  // namespace
 
@@ -42,15 +54,33 @@ void require_like_teeth(const SystemStaticParameters& settings, const std::vecto
 
 TrainInMotion::TrainInMotion(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
                              int positions)
-    : system_(elastic_system(settings, bodies)), settings_(settings), positions_(positions) {
+    : system_(in_motion(settings, bodies)), settings_(settings), positions_(positions) {
   take_masses(settings, bodies, system_.layout);
+  if (system_.face.empty())
+    take_rest();
+  else
+    take_rest_in_slices(bodies);
+  // A mesh without load has a tenth of the deflection of the most loaded one.
+  const double most = *std::max_element(deflection_.begin(), deflection_.end());
+  for (double& deflection : deflection_) deflection = std::max(deflection, 0.1 * most);
+  motion_.damping = settings.damping;
+  motion_.fidelity = settings.fidelity;
+  motion_.fidelity.contact = ContactModel::line;
+  motion_.axis_frequency = axis_frequency(
+      system_, settings.axis_stiffness > 0 ? MatrixXd::Constant(1, 1, settings.axis_stiffness) : stiffness_);
+  motion_.frame_turns = frame_turns(system_.layout);
+  dynamics_ = placed();
+}
+
+// Of a mesh in one slice.
+void TrainInMotion::take_rest() {
   const auto meshes = static_cast<Index>(system_.mesh.size());
   stiffness_ = MatrixXd::Zero(meshes, meshes);
   deflection_.assign(system_.mesh.size(), 0);
   SystemModel still = system_;
   motion_.output = hold_output(still);
   const std::vector<SystemSolution> rest = rest_over_period(
-      still, ContactModel::line, settings.contact.strips,
+      still, ContactModel::line, settings_.contact.strips,
       std::clamp(kMostRestPositions / hunting_periods(system_), kFewestRestPositions, kRestPositions));
   for (const SystemSolution& at : rest) {
     stiffness_ += at.mesh_stiffness / static_cast<double>(rest.size());
@@ -58,15 +88,19 @@ TrainInMotion::TrainInMotion(const SystemSweepParameters& settings, const std::v
       deflection_[m] = std::max(deflection_[m], at.deflection[m]);
   }
   take_losses(still, rest);
-  // A mesh without load has a tenth of the deflection of the most loaded one.
-  const double most = *std::max_element(deflection_.begin(), deflection_.end());
-  for (double& deflection : deflection_) deflection = std::max(deflection, 0.1 * most);
-  motion_.damping = settings.damping;
-  motion_.fidelity = settings.fidelity;
-  motion_.fidelity.contact = ContactModel::line;
-  motion_.axis_frequency = axis_frequency(system_, stiffness_);
-  motion_.frame_turns = frame_turns(system_.layout);
-  dynamics_ = placed();
+}
+
+// The one mesh of a pair.
+void TrainInMotion::take_rest_in_slices(const std::vector<ReducedBody>& bodies) {
+  StaticParameters rest{settings_.mesh[0], settings_.fidelity, settings_.contact};
+  rest.contact.positions = kRestPositions;
+  const auto& side = system_.layout.meshes[0].side;
+  const StaticResult at =
+      face_transmission(body_of(settings_, bodies, settings_.gear[static_cast<size_t>(side[0].body)]),
+                        body_of(settings_, bodies, settings_.gear[static_cast<size_t>(side[1].body)]), rest,
+                        mesh_loads(system_)[0] * system_.base_radius(side[0].body));
+  stiffness_ = MatrixXd::Constant(1, 1, at.mean_stiffness);
+  deflection_ = {at.transmission_error.maxCoeff()};
 }
 
 // Losses at rest over the coefficients there, on the body that gives what is left; those in motion go with the speed.

@@ -37,6 +37,8 @@ class TrainInMotion {
   void widen(const std::vector<SystemDynamics::State*>& states);
 
  private:
+  void take_rest();
+  void take_rest_in_slices(const std::vector<ReducedBody>& bodies);
   void take_losses(const SystemModel& still, const std::vector<SystemSolution>& rest);
   std::unique_ptr<SystemDynamics> placed() const;  // with the tip edges that `widenings_` asks for
   SystemModel system_;

@@ -15,10 +15,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-namespace {
-
-// The spur gear of the transverse section. On bodies in three dimensions it is as wide as the common face,
-// and what stands beyond it is in the tables over the width.
 ReducedBody section_of(const ReducedBody& body, WidthModel width, double common) {
   ReducedBody out = body;
   out.design = transverse_section(body.design);
@@ -36,6 +32,8 @@ GearMeshSpec even(GearMeshSpec mesh) {
   for (FlankModification& modification : mesh.modification) modification.lead = {};
   return mesh;
 }
+
+namespace {
 
 // What bodies in three dimensions need.
 void require_width(const GearMeshSpec& mesh, size_t g, const ReducedBody& body) {
@@ -72,7 +70,7 @@ const GearMeshSpec& taken(const GearMeshSpec& mesh, WidthModel width, const Redu
 }  // namespace
 
 FaceContact::FaceContact(const ReducedBody& driver, const ReducedBody& driven, const GearMeshSpec& mesh,
-                         WidthModel width, int points)
+                         WidthModel width, int points, double depth)
     : gears_(driver.design, driven.design, mesh.centre_distance),
       section_(section_of(driver, width, gears_.face_width()), section_of(driven, width, gears_.face_width()),
                even(taken(mesh, width, driver, driven))),
@@ -80,8 +78,13 @@ FaceContact::FaceContact(const ReducedBody& driver, const ReducedBody& driven, c
       middle_(contact_middle(driver.design, driven.design, mesh.face_offset)),
       points_(points),
       cosine_(std::cos(gears_.base_helix_angle())),
-      depth_(this->mesh().gear[0].contact_depth()) {
-  for (size_t g = 0; g < kSides; ++g) table_[g] = compliance_tables(this->mesh().gear[g], depth_);
+      depth_(depth > 0 ? depth : this->mesh().gear[0].contact_depth()) {
+  for (size_t g = 0; g < kSides; ++g) {
+    const ElasticGear& gear = this->mesh().gear[g];
+    table_[g] = compliance_tables(gear, depth_);
+    if (depth > 0)
+      shallow_[g] = (gear.compliance(0, depth_) - gear.compliance(0, gear.contact_depth()))(0, 0);
+  }
   if (width != WidthModel::body) return;
   const ReducedBody* const bodies[] = {&driver, &driven};
   for (size_t g = 0; g < kSides; ++g)
@@ -96,6 +99,13 @@ FaceContact FaceContact::with(int points, int degree) const {
       out.kernel_[g] = std::make_shared<const WidthKernel>(gears_.gear(static_cast<int>(g)),
                                                            cut_to_degree(kernel_[g]->tables(), degree));
   return out;
+}
+
+bool FaceContact::inside(double path, double z) const {
+  constexpr double kInside = 0.9;
+  const double middle = 0.5 * (gears_.path_start() + gears_.path_end()),
+               reach = 0.5 * kInside * (gears_.path_end() - gears_.path_start());
+  return std::abs(z) <= 0.5 * kInside * gears_.face_width() && std::abs(path - middle) <= reach;
 }
 
 // Of a spur pair all pairs in reach, tip edges off the line of action too: every section is at the same place of its path.
@@ -128,11 +138,11 @@ FacePosition FaceContact::at(double phase, double corner_gap, double load) const
   points = face_points(gears_, gap_, lines, phase, points_);
   const double width = gears_.face_width();
   const Index n = points.size();
-  std::array<MatrixXd, 2> roll;  // [gear] (point, 1) rad
-  for (MatrixXd& of : roll) of.resize(n, 1);
+  for (MatrixXd& of : out.roll) of.resize(n, 1);
   out.gap.resize(n);
   out.approach.resize(n);
   out.law.reserve(static_cast<size_t>(n));
+  out.contact.reserve(static_cast<size_t>(n));
   for (Index q = 0; q < n; ++q) {
     const PairContact contact = this->contact(
         reach, points.line[static_cast<size_t>(points.line_of(static_cast<int>(q)))], points.path[q]);
@@ -144,10 +154,11 @@ FacePosition FaceContact::at(double phase, double corner_gap, double load) const
     out.gap[q] = point.gap + points.gap[q];
     out.approach[q] = points.approach[q] * contact.lever[0] / gears_.gear(0).base_radius();
     out.law.push_back(point.law);
-    for (size_t g = 0; g < kSides; ++g) roll[g](q, 0) = point.roll[g];
+    for (size_t g = 0; g < kSides; ++g) out.roll[g](q, 0) = point.roll[g];
+    out.contact.push_back(contact);
   }
-  add_sections(out, roll);
-  if (kernel_[0]) add_width(out, roll);
+  add_sections(out, out.roll);
+  if (kernel_[0]) add_width(out, out.roll);
   return out;
 }
 
@@ -173,7 +184,8 @@ void FaceContact::add_sections(FacePosition& position, const std::array<MatrixXd
     for (int q = 0; q < points.size(); ++q) {
       const Eigen::RowVectorXd row = gear.table().weights(roll[g](q, 0));
       position.compliance(q, q) +=
-          plane[q] / points.weight[q] * row.dot(table_[g][static_cast<size_t>(most)] * row.transpose());
+          plane[q] / points.weight[q] * row.dot(table_[g][static_cast<size_t>(most)] * row.transpose()) +
+          (1 / cosine_ - 1) * plane[q] / points.weight[q] * shallow_[g];
     }
     if (kernel_[g]) continue;
     for (int i = 0; i < lines; ++i)

@@ -34,21 +34,31 @@ namespace whine {
 struct FacePosition {
   double phase = 0;  // mesh periods
   FacePoints points;
-  Eigen::VectorXd gap;         // (point) m, along the normal
-  Eigen::VectorXd approach;    // (point) 1
-  std::vector<HertzLine> law;  // (point)
-  Eigen::MatrixXd compliance;  // (point, point) m N-1
-  double next_corner_gap = 0;  // m, see PairsInReach
+  Eigen::VectorXd gap;                  // (point) m, along the normal
+  Eigen::VectorXd approach;             // (point) 1
+  std::vector<HertzLine> law;           // (point)
+  Eigen::MatrixXd compliance;           // (point, point) m N-1
+  std::vector<PairContact> contact;     // (point) of the transverse section
+  std::array<Eigen::MatrixXd, 2> roll;  // [gear] (point, 1) rad: where the tables are read
+  double next_corner_gap = 0;           // m, see PairsInReach
   double lost_corner_gap = 0;
 };
 
+// The body as the spur gear of its transverse section. On bodies in three dimensions it is as wide as the common face (m), and what
+// stands beyond it is in the tables over the width.
+ReducedBody section_of(const ReducedBody& body, WidthModel width = WidthModel::slices, double common = 0);
+// The mesh under a load that is even over the face: without misalignment and lead modifications.
+GearMeshSpec even(GearMeshSpec mesh);
+
 class FaceContact {
  public:
-  // width: slices or body; points: of each contact line. Throws Error(input) for what slices do not take: internal gears, elastic bearings, friction, teeth that
-  // differ, cracks, and helical gears whose bodies are in plane stress; of width = body also for bodies in plane stress or without tables
-  // over the width.
+  // width: slices or body; points: of each contact line; depth: m, to which the half-planes of the laws go, of motions that of what is not
+  // damped; 0: as ElasticGear::contact_depth(). Below it the half-planes down to there are part of the tables' term, with cos beta_b as those
+  // of the laws, so that the sum does not depend on it. Throws Error(input) for what slices do not take: internal gears, elastic bearings, friction, teeth that
+  // differ, cracks, and helical gears whose bodies are in plane stress; of width = body also for bodies in plane stress or without
+  // tables over the width.
   FaceContact(const ReducedBody& driver, const ReducedBody& driven, const GearMeshSpec& mesh,
-              WidthModel width, int points);
+              WidthModel width, int points, double depth = 0);
 
   const GearPair& gears() const { return gears_; }  // with their helix
   const FaceGap& face_gap() const { return gap_; }
@@ -62,6 +72,11 @@ class FaceContact {
 
   // phase: mesh periods; corner_gap: m, of tip edges of spur pairs that are left out as too far; load: N, transverse.
   FacePosition at(double phase, double corner_gap, double load) const;
+  // Whether a point lies in the inner 90 % of face and path: in the corners where a line comes in, the load of a line model has no limit.
+  bool inside(double path, double z) const;
+  double cosine() const { return cosine_; }  // 1: cos beta_b
+  // m N-1, of gear g: tables[offset + max] (flank, flank) of the section, see compliance_tables().
+  const std::vector<Eigen::MatrixXd>& tables(size_t g) const { return table_[g]; }
   // m: transmission error without load, 0 for flanks as they are designed.
   double unloaded_transmission_error(double phase, double corner_gap) const;
 
@@ -76,6 +91,8 @@ class FaceContact {
   std::array<double, 2> middle_;  // m: of the common face from that of each gear
   int points_;
   double cosine_, depth_;  // 1: cos beta_b; m: of the laws
+  std::array<double, 2>
+      shallow_{};  // [gear] m N-1: of the half-plane of the whole face from depth_ to contact_depth()
   std::array<std::vector<Eigen::MatrixXd>, 2> table_;
   std::array<std::shared_ptr<const WidthKernel>, 2> kernel_;  // of width = body
 };

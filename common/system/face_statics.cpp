@@ -98,22 +98,12 @@ std::vector<FaceSolution> solve_phases(const FaceContact& contact, int positions
   return out;
 }
 
-// Of the place of a point: inside nine tenths of face and path. In the corners where a line comes in, the load of a line model has
-// no limit.
-bool well_inside(const GearPair& gears, const FacePoints& points, Index q) {
-  constexpr double kInside = 0.9;
-  const double middle = 0.5 * (gears.path_start() + gears.path_end()),
-               reach = 0.5 * kInside * (gears.path_end() - gears.path_start());
-  return std::abs(points.z[q]) <= 0.5 * kInside * gears.face_width() &&
-         std::abs(points.path[q] - middle) <= reach;
-}
-
 // m: half-width of the widest contact well inside.
 double widest_contact(const FaceContact& contact, const std::vector<FaceSolution>& period) {
   double most = 0;
   for (const FaceSolution& at : period)
     for (Index q = 0; q < at.position.points.size(); ++q)
-      if (at.equilibrium.p[q] > 0 && well_inside(contact.gears(), at.position.points, q))
+      if (at.equilibrium.p[q] > 0 && contact.inside(at.position.points.path[q], at.position.points.z[q]))
         most = std::max(most, 0.5 * at.position.law[static_cast<size_t>(q)].width(at.equilibrium.p[q]));
   return most;
 }
@@ -173,9 +163,6 @@ void store_lines(const FaceContact& contact, const FaceSolution& at, Index row, 
   for (const ContactLine& line : points.line) face.contact_line_length[row] += line.length() / cosine;
 }
 
-// At the very end of a face the load of teeth in three dimensions falls off, which no polynomial holds.
-constexpr double kInnerFace = 0.8;
-
 // K_Hbeta of the reference pair where it has a line, else 0.
 double load_factor(const FaceContact& contact, const FaceSolution& at) {
   const FacePoints& points = at.position.points;
@@ -221,7 +208,8 @@ void store_face(const FaceContact& contact, const std::vector<FaceSolution>& per
       const double force = at.equilibrium.p[q],
                    path = std::clamp(p.path[q], gears.path_start(), gears.path_end());
       lost += force * std::abs(gears.sliding(path));
-      if (well_inside(gears, p, q)) face.line_load_max = std::max(face.line_load_max, force / p.weight[q]);
+      if (contact.inside(p.path[q], p.z[q]))
+        face.line_load_max = std::max(face.line_load_max, force / p.weight[q]);
     }
   result.loss_factor = lost / (static_cast<double>(period.size()) * result.torque);
 }

@@ -203,6 +203,8 @@ PairsInReach pairs_in_reach(const GearMeshModel& model, double phase, double cor
 // all pairs' gaps, each over its driving lever. 0 for flanks that do not deviate. Exact to 1e-13 m.
 double unloaded_transmission_error(const GearMeshModel& model, double phase, int period = 0);
 
+struct FaceMesh;
+
 // All that contact needs at one phase; strips and nodes of all pairs in one row, pair after pair. With one contact line
 // per pair a line is a pair's only strip and only node.
 struct MeshPosition {
@@ -215,6 +217,10 @@ struct MeshPosition {
   std::array<Eigen::VectorXd, 2> strip_lever;    // (strip) m
   std::array<Eigen::VectorXd, 2> node_lever;     // (node) m
   std::array<Eigen::MatrixXd, 2> table_weights;  // (node, flank) 1: the S of load and reading
+  double transverse =
+      1;  // cos beta_b: of a force along the normal in the transverse section, where levers and normals are
+  // Of a mesh in slices (system/face_mesh.h), each point of which is a line in `pairs`; null: one slice.
+  std::shared_ptr<const FaceMesh> face;
   double next_corner_gap =
       std::numeric_limits<double>::infinity();  // m, least gap of a tip edge left out as too far
   double lost_corner_gap =

@@ -196,12 +196,14 @@ SystemPosition join(const SystemModel& system, double phase, int period,
       ContactSegment segment;
       segment.mesh = static_cast<int>(m);
       segment.pair = strips.pair;
+      if (j > 0 && position.face && out.segment.back().pair == strips.pair)
+        segment.slice = out.segment.back().slice + 1;
       for (size_t s = 0; s < kSides; ++s)
         segment.tooth[s] = model.layout.side[s].tooth(strips.pair - at.period);
       segment.flank = model.layout.side[0].flank;
       segment.phase = at.phase + strips.pair;
       segment.gap = strips.contact.gap;
-      segment.normal = model.outward_in_system(0, strips.contact);
+      segment.normal = position.transverse * model.outward_in_system(0, strips.contact);
       segment.lever = strips.contact.lever;
       if (model.friction.acts())
         segment.sliding = sliding_of(model.kinematics, strips.contact, model.friction.smoothing);

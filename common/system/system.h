@@ -19,11 +19,15 @@
 
 namespace whine {
 
+class FaceContact;
+
 struct SystemModel {
   System layout;                        // gears before carriers
   std::vector<double> friction;         // [mesh] 1: coefficients of friction; empty: none acts
   std::vector<SideGears::Shared> body;  // the gears in their whole width
   std::vector<GearMeshModel> mesh;
+  // [mesh] Contact in slices over the face, of which `mesh` and `body` are the transverse sections; empty: in one slice.
+  std::vector<std::shared_ptr<const FaceContact>> face;
 
   // The one pair of a scene.
   SystemModel(const ReducedBody& driver, const ReducedBody& driven, const GearMeshSpec& mesh);

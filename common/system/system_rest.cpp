@@ -19,16 +19,12 @@ namespace whine {
 
 using Eigen::Index;
 
-namespace {
-
 const ReducedBody& body_of(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies,
                            const std::string& gear) {
   for (size_t g = 0; g < settings.body.size() && g < bodies.size(); ++g)
     if (settings.body[g].first == gear) return bodies[g];
   fail(Failure::input, "[gear.", gear, "] has no body");
 }
-
-}  // namespace
 
 int hunting_periods(const SystemStaticParameters& settings, const std::vector<int>& cracked) {
   std::vector<int> teeth;

@@ -18,6 +18,10 @@ void check_at_rest(const SystemScene& scene, const System& layout);
 // Mesh periods after which the same teeth meet, as hunting_periods() of the system; cracked: teeth of the gears with a crack.
 int hunting_periods(const SystemStaticParameters& settings, const std::vector<int>& cracked = {});
 
+// Of bodies ([gear] of settings.body) that of a gear, by its name.
+const ReducedBody& body_of(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies,
+                           const std::string& gear);
+
 // The system that the settings describe, with friction as its meshes have it; bodies: [gear] of settings.body.
 SystemModel elastic_system(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies);
 

@@ -82,7 +82,7 @@ TEST_CASE("what helical scenes are refused with") {
 TEST_CASE("goals of make that a helical or misaligned scene does not reach are named") {
   const SceneFile file;
   const SceneAbilities helical = abilities(file.read(helical_scene()));
-  check_goals({"mesh", "reduce", "static"}, helical, "x.toml");
+  check_goals({"mesh", "reduce", "static", "sweep", "face-load"}, helical, "x.toml");
   CHECK(names(message_of_input([&] { check_goals({"report"}, helical, "x.toml"); }),
               {"report", "[gear.pinion]", 12, "static"}));
   const SceneAbilities askew = abilities(
@@ -92,11 +92,13 @@ TEST_CASE("goals of make that a helical or misaligned scene does not reach are n
   check_goals({"sweep"}, abilities(file.read(kScene)), "x.toml");
 }
 
-TEST_CASE("stages of motion refuse what was asked in slices, and a system what is helical") {
+TEST_CASE("sweeps take slices, a ring-down does not, and a system nothing helical") {
   const SceneFile file;
   const Scene scene = file.read(std::string(kScene) + "[fidelity]\nwidth = \"slices\"\n");
-  const std::string path = file.path(sweep_parameters(scene), "sweep.toml");
-  CHECK(names(message_of_input([&] { read_sweep_parameters(path); }), {"width = \"slices\"", "one"}));
+  CHECK(read_sweep_parameters(file.path(sweep_parameters(scene), "sweep.toml")).fidelity.contact ==
+        ContactModel::line);
+  const std::string path = file.path(impact_parameters(scene), "impact.toml");
+  CHECK(names(message_of_input([&] { read_impact_parameters(path); }), {"width = \"slices\"", "one"}));
   const std::string drive = "[[drive]]\ngear = \"pinion\"\nkind = \"torque\"\ntorque_Nm = 1\n";
   std::string train = helical_scene() + drive;
   train.erase(train.find("[operation]"), train.find("[fidelity]") - train.find("[operation]"));

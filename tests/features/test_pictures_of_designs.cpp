@@ -88,6 +88,12 @@ TEST_CASE("pictures of teeth that differ, cracks, bearings, relief: no text is c
   std::vector<ResponseResult> on_bearings = both_ways(9999);
   for (ResponseResult& r : on_bearings) r.mesh.bearing = {Bearing{1234.5e6, 0, 0}, Bearing{2345.6e6, 0, 0}};
   check(bearing_force_figure(on_bearings, background_of(on_bearings)), "bearing-forces");
+  std::vector<ResponseResult> in_slices = both_ways(9999);
+  for (ResponseResult& r : in_slices) {
+    r.face_load_factor = MatrixRM::Constant(r.mesh_frequency.size(), 1, 1.2345);
+    r.line_load_max = MatrixRM::Constant(r.mesh_frequency.size(), 1, 1.2345e6);
+  }
+  check(face_load_figure(in_slices, background_of(in_slices)), "face-load");
   StaticResult relieved = at_rest(9999);
   for (FlankModification& m : relieved.mesh.modification) m.tip = {123e-6, 0, 0, 2e-3};
   check(profile_figure(relieved), "profile");
