@@ -62,6 +62,7 @@ inputs_fig16 = $(foreach t,$(call each,$2),$(call both_ways,$1,$t/secant,sweep))
 inputs_flank-load = out/$1/T$(firstword $2)/static.h5
 inputs_profile-chart = out/$1/T$(firstword $2)/static.h5
 inputs_error-budget = out/$1/T$(firstword $2)/error_budget.h5
+inputs_motion-errors = $(call both_ways,$1,$(firstword $2),sweep_errors)
 inputs_sidebands = out/$1/T$(firstword $2)/static.h5 out/$1/T$(firstword $2)/up/response.h5
 inputs_root-stress = out/$1/T$(firstword $2)/static.h5 $(call both_ways,$1,$(firstword $2),response)
 inputs_root-stress-branches = $(inputs_root-stress) out/$1/T$(firstword $2)/branch.h5
@@ -110,7 +111,7 @@ paper_scenes_bearing-forces := $(bearing_scene)
 paper_scenes_efficiency := $(friction_scene)
 paper_scenes_profile-chart := $(firstword $(relief_scenes))
 paper_scenes_relief-jumps := $(standard_scene) $(calibrated_scene) $(relief_scenes)
-at_150 := flank-load face-load profile-chart relief-jumps waterfall order-cuts tooth-loads root-stress root-stress-branches flank-pressure bearing-forces fig03 fig05 fig05-branches multipliers fig08 fig09 fig10 fig11 fig15 error-budget sidebands crack residual-signal
+at_150 := flank-load face-load profile-chart relief-jumps waterfall order-cuts tooth-loads root-stress root-stress-branches flank-pressure bearing-forces fig03 fig05 fig05-branches multipliers fig08 fig09 fig10 fig11 fig15 error-budget motion-errors sidebands crack residual-signal
 paper_torques = $(if $(filter $(at_150),$1),150,$(if $(filter fig07-600,$1),300 600,100 200 300))
 
 report_figures := fig01 fig03 fig05 fig07 fig12 fig13 fig14 fig14-elastic fig16
@@ -118,7 +119,7 @@ report_figures := fig01 fig03 fig05 fig07 fig12 fig13 fig14 fig14-elastic fig16
 paper_only := fig07-600 fig08 fig09 fig10 fig11 fig15
 paper_figures := $(sort $(report_figures) $(paper_only))
 # of any pair, none of the paper's
-other_figures := fig05-branches fig07-branches multipliers load-sharing waterfall order-cuts tooth-loads root-stress root-stress-branches flank-pressure efficiency bearing-forces error-budget profile-chart flank-load face-load sidebands crack residual-signal
+other_figures := fig05-branches fig07-branches multipliers load-sharing waterfall order-cuts tooth-loads root-stress root-stress-branches flank-pressure efficiency bearing-forces error-budget motion-errors profile-chart flank-load face-load sidebands crack residual-signal
 figures := $(paper_figures) $(other_figures) relief-jumps
 inputs_of_paper = $(call inputs,$1,$(or $(paper_scenes_$1),$(if $(filter $(beside_figures),$1),$(shown_scenes)),$(paper_scene)),$(paper_torques))
 
@@ -226,7 +227,7 @@ teeth = $(filter $2,$(SCENE_$1_TEETH))
 BRANCHES ?= no
 system_shows = system $(if $2,system-static) $(if $(and $2,$(filter yes,$(SCENE_$1_PLANETS))),load-sharing) modes campbell $(if $(filter yes,$(SCENE_$1_MOVES)),system-sweep order-cuts $(if $(call teeth,$1,alike),,residual-signal))
 system_artifacts = $(if $2,$(inputs_system-static)) out/$1/modes.h5 $(if $(filter yes,$(SCENE_$1_MOVES)),$(inputs_system-sweep))
-system_figures := system system-static load-sharing modes campbell system-sweep order-cuts residual-signal ring-down branch multipliers harris-map
+system_figures := system system-static load-sharing modes campbell system-sweep motion-errors order-cuts residual-signal ring-down branch multipliers harris-map
 report_shows = system finite-elements $(if $(filter yes,$(SCENE_$1_MODIFIED)),profile-chart) \
   $(if $(call teeth,$1,alike),transmission-error mesh-stiffness load-sharing error-budget) \
   $(if $(call teeth,$1,cracked),$(if $(call teeth,$1,differ),,crack)) responses-by-torque \

@@ -115,8 +115,9 @@ $(moving:%=%/impact.h5): $$(call params,impact) $$(bodies) $$(at_rest) $(call id
 
 sweep_inputs = $(call params,sweep) $(bodies) $(at_rest)
 # jumps.h5: the sweep with its jumps enclosed to 0.05 Hz, for `jump-folds`: a quarter more CPU.
-$(ways:%=%/sweep.h5) $(ways:%=%/jumps.h5): $$(sweep_inputs) $(call id,gear-sweep) | $(B)/bin/gear-sweep
-	$(call run,sweep) --params $< $(by_static) --direction $(notdir $(@D))$(if $(filter %/jumps.h5,$@), --jump-width 0.05) --output $@ $(call landed,sweep)
+sweep_options = $(if $(filter %/jumps.h5,$@), --jump-width 0.05)$(if $(filter %/sweep_errors.h5,$@), --errors)
+$(ways:%=%/sweep.h5) $(ways:%=%/jumps.h5) $(ways:%=%/sweep_errors.h5): $$(sweep_inputs) $(call id,gear-sweep) | $(B)/bin/gear-sweep
+	$(call run,sweep) --params $< $(by_static) --direction $(notdir $(@D))$(sweep_options) --output $@ $(call landed,sweep)
 
 $(moving:%=%/branch.h5): $$(sweep_inputs) $(call id,gear-orbit) | $(B)/bin/gear-orbit
 	$(call run,orbit) --params $< $(by_static) --output $@ $(call landed,orbit)

@@ -7,8 +7,7 @@
 //                     forces on bearings and pins, too
 // Equations: Eq. 1-6 in modes of the hub-fixed gears, Newmark (Eq. 8) or exact propagators, Eq. 13-20 at every step
 // Of a pair, with --next-level: beside sweep.h5, in words, what the same sweep gives on the next model level of contact and on that
-// of body.
-#include <sstream>
+// of body. With --errors, in place of sweep.h5, sweep_errors.h5: what refining each discretisation alone changes.
 #include <string>
 #include <vector>
 
@@ -18,33 +17,17 @@
 #include "io/compatibility.h"
 #include "io/pair_inputs.h"
 #include "io/stage_command.h"
+#include "io/sweep_words.h"
 #include "io/system_scene.h"
 #include "results/sweep.h"
 #include "signal/jump_words.h"
 #include "studies/next_level.h"
 #include "studies/sweep.h"
+#include "studies/sweep_errors.h"
 #include "studies/system_sweep.h"
 
 namespace {
 using namespace whine;
-
-std::string in_words(const LevelChange& change) {
-  std::ostringstream out;
-  out << change.largest * 100 << " % at most (" << change.at << " Hz), " << change.rms * 100 << " % RMS";
-  return out.str();
-}
-
-void tell_change(const NextSweep& next, const SweepResult& here, const SweepResult& there) {
-  const SweepChange change = sweep_change(here, there);
-  const std::string level =
-      text("gear-sweep: ", next.key, " = \"", next.from, "\" against \"", next.to, "\"");
-  log_line(level, " at ", change.compared, " speeds: RMS of the transmission error off by ",
-           in_words(change.dte_rms), "; its mean by ", in_words(change.dte_mean), "; peak tooth load by ",
-           in_words(change.tooth_load));
-  log_line(level, ": jumps ", jump_words(here.jump_frequency, here.jump_width), " against ",
-           jump_words(there.jump_frequency, there.jump_width), "; on different branches at ", change.apart,
-           " speeds, with other periods or none at ", change.uneven);
-}
 
 void tell_remarks(const std::vector<Remark>& remarks) {
   for (const Remark& remark : remarks)
@@ -95,24 +78,42 @@ void sweep_pair(const StageCommand& stage, const Provenance& made, Direction dir
   tell_remarks(result.remarks);
   for (const NextSweep& s : next)
     if (s.missing.empty())
-      tell_change(s, result, run(s.body[0], s.body[1], s.statics, s.mean_stiffness, s.settings, " " + s.to));
+      for (const std::string& line : change_words(
+               s, result, run(s.body[0], s.body[1], s.statics, s.mean_stiffness, s.settings, " " + s.to)))
+        log_line("gear-sweep: ", line);
     else
       log_line("gear-sweep: ", s.key, " = \"", s.from, "\" against \"", s.to,
                "\" is not compared: ", s.missing);
+}
+
+SweepErrorsResult errors_of(const StageCommand& stage, Direction direction) {
+  const StepsDone steps(text("gear-sweep ", direction, " errors"));
+  if (stage.of_train()) {
+    const SystemSweepParameters settings = read_system_sweep_parameters(stage.params());
+    return sweep_errors(settings, read_bodies(stage.bodies(), settings), direction, steps);
+  }
+  SweepParameters settings = read_sweep_parameters(stage.params());
+  const auto [pair, at_torque, at_reference] =
+      read_pair_inputs(stage.bodies(), stage.statics(), stage.reference(), settings);
+  return sweep_errors(pair[0], pair[1], at_torque, at_reference, settings, direction, steps);
 }
 
 void body(int argc, char** argv) {
   Options options{"Speed sweep of the dynamic response, with contact solved at every step", "gear-sweep"};
   StageCommand stage(options, "sweep.toml", StageCommand::Reads::bodies_and_rest);
   std::string way;
-  bool next_level = false;
+  bool next_level = false, errors = false;
   double jump_width = 0;
   options.add("--direction", way, "up or down").required().one_of({"up", "down"});
   options.add("--jump-width", jump_width,
               "enclose jumps to this width in Hz or less (default: 1/64 of the step of the speeds)");
-  stage.flag(
-      "--next-level", next_level,
-      "sweep with the next level of [fidelity] contact and with that of body as well, and say what they change");
+  const Option of_errors =
+      stage.flag("--errors", errors, "refine one discretisation at a time and write sweep_errors.h5 instead");
+  stage
+      .flag(
+          "--next-level", next_level,
+          "sweep with the next level of [fidelity] contact and with that of body as well, and say what they change")
+      .excludes(of_errors);
   stage.add_output("sweep.h5").required();
   options.footer(
       "Examples:\n"
@@ -122,6 +123,11 @@ void body(int argc, char** argv) {
   const Direction direction = choice_of<Direction>(way).value();
   const bool train = stage.of_train();
   const Provenance made = stage.made_by(argc, argv);
+  if (errors) {
+    const SweepErrorsResult result = errors_of(stage, direction);
+    write(stage.output(), result, made);
+    return log_line("gear-sweep: ", sweep_errors_words(result), " -> ", stage.output());
+  }
   if (train) return sweep_train(stage, made, direction, jump_width);
   sweep_pair(stage, made, direction, jump_width, next_level);
 }

@@ -289,6 +289,21 @@ void show_motions(SummaryLines& lines, const SweepResult& a) {
   add(lines, "mean speed held by", "at most ", a.drift_force.maxCoeff(), " N from the output");
 }
 
+void show(SummaryLines& lines, const SweepErrorsResult& a) {
+  add(lines, "operating point", a.of_train() ? "" : text(a.torque, " N m on ", a.mesh.gear[0], ", "),
+      a.direction, ", ", range_of(a.mesh_frequency));
+  for (size_t e = 0; e < a.entry.size(); ++e) {
+    const double order = a.order[static_cast<Eigen::Index>(e)];
+    add(lines, a.entry[e], "RMS ", a.dte_rms_change[e].cwiseAbs().maxCoeff() * 100, " % at most, tooth load ",
+        a.tooth_load_change[e].cwiseAbs().maxCoeff() * 100, " %",
+        order > 0 ? text(", order ", std::round(order * 100) / 100) : "");
+  }
+  add(lines, "error in all", "RMS ", a.dte_rms_error.maxCoeff() * 100, " % at most, tooth load ",
+      a.tooth_load_error.maxCoeff() * 100, " %");
+  for (Eigen::Index j = 0; j < a.jump_frequency.size(); ++j)
+    add(lines, "jump", a.jump_frequency[j], " Hz, to ", a.jump_error[j], " Hz");
+}
+
 void show(SummaryLines& lines, const SweepResult& a) {
   add(lines, "operating point", a.of_train() ? "" : text(a.torque, " N m on ", a.mesh.gear[0], ", "),
       a.direction, ", ", range_of(a.mesh_frequency));

@@ -32,6 +32,7 @@
 #include "report/sensitivity_figure.h"
 #include "report/static_figures.h"
 #include "report/study_figure.h"
+#include "report/sweep_errors_figure.h"
 #include "report/system_figures.h"
 #include "report/system_picture.h"
 #include "report/system_sweep_figure.h"
@@ -174,6 +175,12 @@ Drawings drawings_at_rest() {
         1, 0,
         [](const Paths& in, const Frequencies&) {
           return error_budget_figure(read<ErrorBudgetResult>(in[0]));
+        }}},
+      {"motion-errors",
+       {"errors of the motions over speed: what refining each discretisation alone changes",
+        "sweep_errors.h5 of the sweeps up and down, of one torque", 0, 0,
+        [](const Paths& in, const Frequencies&) {
+          return sweep_errors_figure(read_all(in, read<SweepErrorsResult>));
         }}},
       {"crack",
        {"the mark of a cracked tooth in the static transmission error, its orders, and the root stress of the teeth about it",

@@ -8,6 +8,7 @@
 #include "signal/spectrum.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
+#include "studies/refinement.h"
 #include "system/flank_pressure.h"
 #include "system/statics.h"
 
@@ -54,17 +55,6 @@ StaticChanges changes(const NamedOutcomes& others, const Outcome& reference) {
     result.harmonic_change.row(i) = (other.harmonic - reference.harmonic).transpose() / reference.harmonic[0];
   }
   return result;
-}
-
-// "strips 8 to 16": what was refined, from which value of the driver or the pair to which.
-std::string from_to(const char* name, double from, double to, const char* unit = "") {
-  return text(name, " ", from, " to ", to, unit);
-}
-
-// A length (m) in mm, to three digits.
-double shown_length(double length) {
-  const double unit = std::pow(10, std::floor(std::log10(length * 1e3)) - 2);
-  return std::round(length * 1e3 / unit) * unit;
 }
 
 // The pair at rest, solved in other ways than the settings say.

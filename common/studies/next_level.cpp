@@ -85,8 +85,7 @@ std::vector<NextSweep> next_sweeps(const ReducedBody& driver, const ReducedBody&
   return sweeps;
 }
 
-SweepChange sweep_change(const SweepResult& here, const SweepResult& next) {
-  const ResponseResult a = response(here), b = response(next);
+std::vector<SpeedCompared> compared_speeds(const ResponseResult& a, const ResponseResult& b) {
   const Eigen::Index speeds = a.mesh_frequency.size();
   if (b.mesh_frequency.size() != speeds || a.mesh_frequency != b.mesh_frequency)
     fail(Failure::input, "two sweeps of ", speeds, " and ", b.mesh_frequency.size(),
@@ -95,20 +94,31 @@ SweepChange sweep_change(const SweepResult& here, const SweepResult& next) {
   for (const ResponseResult* r : {&a, &b})
     for (const Eigen::Index i : rows_before_jumps(*r))
       if (i >= 0) jumped[static_cast<size_t>(i) + 1] = true;
-  SweepChange change;
+  std::vector<SpeedCompared> out(static_cast<size_t>(speeds), SpeedCompared::yes);
   bool apart = false;
   for (Eigen::Index i = 0; i < speeds; ++i) {
-    apart = (apart || jumped[static_cast<size_t>(i)]) && like_a_jump(a.dte_rms(i, 0), b.dte_rms(i, 0));
-    if (a.period_multiple[i] < 1 || a.period_multiple[i] != b.period_multiple[i]) {
-      ++change.uneven;
-    } else if (apart) {
-      ++change.apart;
-    } else {
-      ++change.compared;
-      add(change.dte_rms, a.dte_rms(i, 0) / b.dte_rms(i, 0) - 1, a.mesh_frequency[i]);
-      add(change.dte_mean, a.dte_mean(i, 0) / b.dte_mean(i, 0) - 1, a.mesh_frequency[i]);
-      add(change.tooth_load, a.tooth_load_max(i, 0) / b.tooth_load_max(i, 0) - 1, a.mesh_frequency[i]);
-    }
+    apart = (apart || jumped[static_cast<size_t>(i)]) &&
+            like_a_jump(a.dte_rms.row(i).norm(), b.dte_rms.row(i).norm());
+    if (a.period_multiple[i] < 1 || a.period_multiple[i] != b.period_multiple[i])
+      out[static_cast<size_t>(i)] = SpeedCompared::uneven;
+    else if (apart)
+      out[static_cast<size_t>(i)] = SpeedCompared::apart;
+  }
+  return out;
+}
+
+SweepChange sweep_change(const SweepResult& here, const SweepResult& next) {
+  const ResponseResult a = response(here), b = response(next);
+  const std::vector<SpeedCompared> speeds = compared_speeds(a, b);
+  SweepChange change;
+  change.apart = static_cast<int>(std::count(speeds.begin(), speeds.end(), SpeedCompared::apart));
+  change.uneven = static_cast<int>(std::count(speeds.begin(), speeds.end(), SpeedCompared::uneven));
+  change.compared = static_cast<int>(std::count(speeds.begin(), speeds.end(), SpeedCompared::yes));
+  for (Eigen::Index i = 0; i < a.mesh_frequency.size(); ++i) {
+    if (speeds[static_cast<size_t>(i)] != SpeedCompared::yes) continue;
+    add(change.dte_rms, a.dte_rms(i, 0) / b.dte_rms(i, 0) - 1, a.mesh_frequency[i]);
+    add(change.dte_mean, a.dte_mean(i, 0) / b.dte_mean(i, 0) - 1, a.mesh_frequency[i]);
+    add(change.tooth_load, a.tooth_load_max(i, 0) / b.tooth_load_max(i, 0) - 1, a.mesh_frequency[i]);
   }
   for (LevelChange* c : {&change.dte_rms, &change.dte_mean, &change.tooth_load})
     c->rms = change.compared > 0 ? std::sqrt(c->rms / change.compared) : 0;

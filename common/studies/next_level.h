@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "results/reduced_body.h"
+#include "results/response.h"
 #include "results/static.h"
 #include "results/sweep.h"
 
@@ -40,8 +41,14 @@ struct SweepChange {
   LevelChange dte_rms, dte_mean, tooth_load;
 };
 
-// Both of the same speeds in the same order; throws Error(input) otherwise. After a jump of either sweep speeds count as
-// apart for as long as the RMS of the two differ as across a jump.
+// Whether two motions at a speed can be compared: not where one sweep has left a branch that the other is on, nor where one is not
+// periodic or they have orbits of other lengths.
+enum class SpeedCompared { yes, apart, uneven };
+// (speed) Both of the same speeds in the same order; throws Error(input) otherwise. After a jump of either sweep speeds count as
+// apart for as long as the RMS of the two over the meshes differ as across a jump.
+std::vector<SpeedCompared> compared_speeds(const ResponseResult& a, const ResponseResult& b);
+
+// Of mesh 0 at the speeds that compared_speeds() lets compare.
 SweepChange sweep_change(const SweepResult& here, const SweepResult& next);
 
 }  // namespace whine

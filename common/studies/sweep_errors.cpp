@@ -1,0 +1,240 @@
+#include "studies/sweep_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/error.h"
+#include "signal/response.h"
+#include "solid/mesher.h"
+#include "solid/reduce.h"
+#include "studies/next_level.h"
+#include "studies/refinement.h"
+#include "studies/sweep.h"
+#include "studies/system_sweep.h"
+#include "system/statics.h"
+
+namespace whine {
+
+using Eigen::Index;
+using Report = std::function<void(long, long, const std::string&)>;
+
+namespace {
+
+// Sizes of a discretisation over those of the scene.
+struct Sizes {
+  double element = 1, flank_spacing = 1, strip = 1, step = 1, periodicity = 1;
+  double modes = 1;  // their number
+
+  bool of_bodies() const { return element != 1 || flank_spacing != 1 || modes != 1; }
+};
+
+// One discretisation: refined, and where its order can show also coarser, by the same factor of 2.
+struct Entry {
+  std::string name;
+  Sizes finer;
+  std::vector<Sizes> coarser = {};  // none or one
+};
+
+using SweepWith = std::function<SweepResult(const Sizes&)>;
+
+std::vector<ReducedBody> resized(const std::vector<ReducedBody>& bodies, const Sizes& sizes) {
+  std::vector<ReducedBody> out;
+  out.reserve(bodies.size());
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    const auto alike =
+        std::find_if(bodies.begin(), bodies.begin() + static_cast<std::ptrdiff_t>(i),
+                     [&](const ReducedBody& b) { return b.compliance == bodies[i].compliance; });
+    if (const auto known = static_cast<size_t>(alike - bodies.begin()); known < i) {
+      out.push_back(out[known]);
+      continue;
+    }
+    BodyDiscretisation with = bodies[i].discretisation;
+    with.element_size *= sizes.element;
+    const int modes =
+        with.modes == kAllModes ? kAllModes : static_cast<int>(std::lround(with.modes * sizes.modes));
+    const auto points = static_cast<int>(
+        std::lround(static_cast<double>(bodies[i].flank_position.size()) / sizes.flank_spacing));
+    out.push_back(reduce(make_sector_mesh(bodies[i].design, with), bodies[i].material, modes, points));
+  }
+  return out;
+}
+
+TimeDiscretisation resized(TimeDiscretisation time, const Sizes& sizes) {
+  time.steps_per_period = static_cast<int>(std::lround(time.steps_per_period / sizes.step));
+  time.min_sample_rate /= sizes.step;
+  time.periodicity *= sizes.periodicity;
+  return time;
+}
+
+// Fewer speeds, from end to end.
+double judged_step(double from, double to, double step) {
+  const double most = std::floor((to - from) / step);
+  return step * std::max(1.0, std::ceil(most / (kJudgedSpeeds - 1)));
+}
+
+std::vector<Entry> entries_of(const ReducedBody& first, const TimeDiscretisation& time) {
+  constexpr int kLeastSteps = 16;
+  std::vector<Entry> out;
+  Entry steps{from_to("steps", time.steps_per_period, 2 * time.steps_per_period), {.step = 0.5}};
+  if (time.steps_per_period % 2 == 0 && time.steps_per_period >= 2 * kLeastSteps)
+    steps.coarser.push_back({.step = 2});
+  out.push_back(std::move(steps));
+  const double element = first.discretisation.element_size;
+  out.push_back({from_to("elements", shown_length(element), shown_length(element / 2), " mm"),
+                 {.element = 0.5},
+                 {{.element = 2}}});
+  const auto points = static_cast<double>(first.flank_position.size());
+  out.push_back({from_to("flank table", points, 2 * points, " points"), {.flank_spacing = 0.5}});
+  if (first.discretisation.modes != kAllModes)
+    out.push_back({from_to("modes", first.discretisation.modes,
+                           static_cast<double>(std::lround(1.5 * first.discretisation.modes))),
+                   {.modes = 1.5}});
+  out.push_back({from_to("periodicity", time.periodicity, time.periodicity / 10), {.periodicity = 0.1}});
+  return out;
+}
+
+// (speed, mesh) 1, relative to b, of the speeds that are compared.
+MatrixRM change_of(const MatrixRM& a, const MatrixRM& b, const Eigen::VectorXi& compared) {
+  MatrixRM out = MatrixRM::Zero(a.rows(), a.cols());
+  for (Index i = 0; i < a.rows(); ++i)
+    for (Index m = 0; m < a.cols(); ++m)
+      if (compared[i] && b(i, m) > 0) out(i, m) = a(i, m) / b(i, m) - 1;
+  return out;
+}
+
+Eigen::VectorXi comparable(const ResponseResult& a, const ResponseResult& b) {
+  const std::vector<SpeedCompared> speeds = compared_speeds(a, b);
+  Eigen::VectorXi out(static_cast<Index>(speeds.size()));
+  for (Index i = 0; i < out.size(); ++i) out[i] = speeds[static_cast<size_t>(i)] == SpeedCompared::yes;
+  return out;
+}
+
+// RMS over the speeds that all three have in common, of the changes from the coarser to the base and from the base to the finer.
+double order_by(const ResponseResult& coarser, const ResponseResult& base, const ResponseResult& finer) {
+  const Eigen::VectorXi common = comparable(coarser, base).cwiseProduct(comparable(base, finer));
+  return order_of(change_of(coarser.dte_rms, base.dte_rms, common).norm(),
+                  change_of(base.dte_rms, finer.dte_rms, common).norm());
+}
+
+void compare_jumps(const ResponseResult& base, const ResponseResult& finer, double near, Index entry,
+                   SweepErrorsResult& out) {
+  for (Index j = 0; j < base.jump_frequency.size(); ++j) {
+    double least = near;
+    for (const double f : finer.jump_frequency)
+      if (std::abs(f - base.jump_frequency[j]) <= std::abs(least)) {
+        least = base.jump_frequency[j] - f;
+        out.jump_found(entry, j) = 1;
+      }
+    if (out.jump_found(entry, j)) out.jump_change(entry, j) = least;
+  }
+}
+
+SweepErrorsResult measured(const std::vector<Entry>& entries, const SweepWith& sweep_with, double step,
+                           const Report& report) {
+  long total = 1, done = 0;
+  for (const Entry& entry : entries) total += 1 + static_cast<long>(entry.coarser.size());
+  const auto run = [&](const Sizes& sizes, const std::string& note) {
+    report(done, total, note);
+    const SweepResult out = sweep_with(sizes);
+    report(++done, total, note);
+    return out;
+  };
+  const SweepResult sweep = run({}, "as the scene says");
+  const ResponseResult base = response(sweep);
+  SweepErrorsResult out;
+  static_cast<MotionSource&>(out) = sweep;
+  out.direction = sweep.direction;
+  out.natural_frequency = sweep.natural_frequency;
+  out.mesh_frequency = base.mesh_frequency;
+  out.dte_rms = base.dte_rms;
+  out.tooth_load_max = base.tooth_load_max;
+  out.jump_frequency = base.jump_frequency;
+  const auto count = static_cast<Index>(entries.size());
+  const Index speeds = base.mesh_frequency.size(), jumps = base.jump_frequency.size();
+  out.order.setZero(count);
+  out.compared.setZero(count, speeds);
+  out.jump_change = MatrixRM::Zero(count, jumps);
+  out.jump_found.setZero(count, jumps);
+  out.dte_rms_error = out.tooth_load_error = MatrixRM::Zero(speeds, base.dte_rms.cols());
+  out.jump_error.setZero(jumps);
+  for (Index e = 0; e < count; ++e) {
+    const Entry& entry = entries[static_cast<size_t>(e)];
+    out.entry.push_back(entry.name);
+    const ResponseResult finer = response(run(entry.finer, entry.name));
+    for (const Sizes& coarser : entry.coarser)
+      out.order[e] = order_by(response(run(coarser, entry.name + ", its order")), base, finer);
+    out.compared.row(e) = comparable(base, finer).transpose();
+    const Eigen::VectorXi compared = out.compared.row(e);
+    out.dte_rms_change.push_back(change_of(base.dte_rms, finer.dte_rms, compared));
+    out.tooth_load_change.push_back(change_of(base.tooth_load_max, finer.tooth_load_max, compared));
+    compare_jumps(base, finer, 2 * step, e, out);
+    const double factor = error_of(1, out.order[e]);
+    out.dte_rms_error += factor * out.dte_rms_change.back().cwiseAbs();
+    out.tooth_load_error += factor * out.tooth_load_change.back().cwiseAbs();
+    out.jump_error += factor * out.jump_change.row(e).cwiseAbs().transpose();
+  }
+  return out;
+}
+
+void quiet(long /*done*/, long /*total*/, const std::string& /*note*/) {}
+
+}  // namespace
+
+double order_of(double coarser_change, double finer_change) {
+  if (!(finer_change > 0)) return 0;
+  const double order = std::log2(coarser_change / finer_change);
+  return order >= 0.5 && order <= 6 ? order : 0;
+}
+
+double error_of(double change, double order) {
+  return std::abs(change) / (order > 0 ? 1 - std::exp2(-order) : 1);
+}
+
+SweepErrorsResult sweep_errors(const ReducedBody& driver, const ReducedBody& driven,
+                               const StaticResult& statics, const StaticResult& reference,
+                               const SweepParameters& settings, Direction direction, const Report& report) {
+  const double step = judged_step(settings.frequency_from, settings.frequency_to, settings.frequency_step);
+  std::vector<Entry> entries = entries_of(driver, settings.time);
+  if (settings.fidelity.contact == ContactModel::strips) {
+    const int strips = statics.contact.strips;
+    Entry entry{from_to("strips", strips, 2 * strips), {.strip = 0.5}};
+    if (strips % 2 == 0 && strips >= 4) entry.coarser.push_back({.strip = 2});
+    entries.push_back(std::move(entry));
+  }
+  const std::vector<ReducedBody> bodies{driver, driven};
+  const auto sweep_with = [&](const Sizes& sizes) {
+    const std::vector<ReducedBody> with = sizes.of_bodies() ? resized(bodies, sizes) : bodies;
+    SweepParameters moved = settings;
+    moved.frequency_step = step;
+    moved.time = resized(settings.time, sizes);
+    StaticParameters rest;
+    rest.mesh = statics.mesh;
+    rest.fidelity = statics.fidelity;
+    rest.contact = statics.contact;
+    rest.contact.strips = static_cast<int>(std::lround(rest.contact.strips / sizes.strip));
+    const StaticResult at = static_transmission(with[0], with[1], rest, statics.torque);
+    const double stiffness =
+        reference.torque == statics.torque
+            ? at.mean_stiffness
+            : static_transmission(with[0], with[1], rest, reference.torque).mean_stiffness;
+    return sweep(with[0], with[1], at, stiffness, moved, direction, quiet, nullptr,
+                 settings.frequency_step / 64);
+  };
+  return measured(entries, sweep_with, step, report);
+}
+
+SweepErrorsResult sweep_errors(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
+                               Direction direction, const Report& report) {
+  const double step = judged_step(settings.frequency_from, settings.frequency_to, settings.frequency_step);
+  const auto sweep_with = [&](const Sizes& sizes) {
+    SystemSweepParameters moved = settings;
+    moved.frequency_step = step;
+    moved.time = resized(settings.time, sizes);
+    return system_sweep(moved, sizes.of_bodies() ? resized(bodies, sizes) : bodies, direction, quiet,
+                        settings.frequency_step / 64);
+  };
+  return measured(entries_of(bodies.at(0), settings.time), sweep_with, step, report);
+}
+
+}  // namespace whine
