@@ -162,8 +162,7 @@ figure_of = $(or $(strip $(foreach f,histories history-loads compare-rest compar
 scene_of_figure = $(patsubst %/report/,%,$(filter %/report/,$(dir $1)))
 inputs_of_figure = $(if $(filter compare/%,$1),$(call inputs,$2,$(compared),$(compared_torque)),$(if $(filter histories history-loads runup-%,$2),$(call inputs,$2,$(own_scene),$(TORQUE)),\
   $(if $3,$(if $(if $(call is_pair,$3),$(filter-out system-% modes campbell,$2),$(filter $2,$(system_figures))),$(call inputs,$2,$3,$(SCENE_$3_TORQUES))),$(call inputs_of_paper,$2))))
-# Load sharing of a pair is among its teeth, of a train among its planets.
-drawing = $(call drawn_as,$(if $(filter $3,$(systems)),$(patsubst load-sharing,system-load-sharing,$2),$2))
+drawing = $(call drawn_as,$2)
 fragments = $(foreach s,$(or $3,$(if $(filter compare/%,$1),$(compared))),$(B)/scenes/$s.mk)
 of_figure = $(call $1,$2,$(call figure_of,$2),$(call scene_of_figure,$2))
 needs_of_figure = $(or $(strip $(inputs_of_figure)),no-such-figure) $(fragments) $(call titles,$(inputs_of_figure)) $(call template,$(drawing)) $(axis_plan)

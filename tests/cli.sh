@@ -227,7 +227,7 @@ rejected "a sweep of a system without its statics in a report" 3 'static.h5' "$b
 rejected "two sweeps of a system in one direction in a report" 3 "two up" "$bin/gear-report" out/scene-inline/T60/static.h5 out/scene-inline/modes.h5 out/scene-inline/T60/up/response.h5 out/scene-inline/../scene-inline/T60/up/response.h5 --output x.html
 rejected "artifacts of a pair in the report of a system" 3 'out/scene/T100/static.h5 scene' "$bin/gear-report" out/scene-inline/modes.h5 out/scene/T100/static.h5 --output x.html
 rejected "artifacts of two systems in a report" 3 'scene-train scene-inline' "$bin/gear-report" out/scene-inline/T60/static.h5 out/scene-train/modes.h5 --output x.html
-rejected "load sharing of a system without planets" 3 'planets' "$bin/gear-plot" system-load-sharing --plots "$plots" out/scene-inline/T60/static.h5 --output x
+rejected "load sharing of a system without planets" 3 'planets' "$bin/gear-plot" load-sharing --plots "$plots" out/scene-inline/T60/static.h5 --output x
 rejected "two static.h5 of one torque in a report" 3 'static.h5 100 twice' "$bin/gear-report" out/scene/T100/static.h5 out/scene/../scene/T100/static.h5 --output x.html
 mkdir -p other_scene/params other_scene/T100 && cp out/scene/T100/static.h5 other_scene/T100 && echo Other > other_scene/params/title.txt
 rejected "two scenes in an export" 3 'other_scene/T100/static.h5 other_scene Other scene' "$bin/gear-export" --model "$scene_of_paper" \

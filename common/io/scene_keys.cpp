@@ -103,37 +103,41 @@ std::string in_scene_unit(const Key& key) {
   return word == "[]" ? "" : word;
 }
 
-template <class Artifact>
-std::vector<SceneKey> scene_keys_in(const Artifact& a) {
-  View driver = view_of(a, 0), driven = view_of(a, 1);
-  const bool moves = requires {
-    a.damping;
-  };
-  const std::vector<GearRow> first = rows_of(driver, moves), second = rows_of(driven, moves);
-  std::vector<SceneKey> out;
-  for (size_t i = 0; i < first.size(); ++i) {
-    if (!first[i].stands && !second[i].stands) continue;
-    const Key& key = first[i].key;
-    const std::string section(key.section), one = in_scene_unit(key), other = in_scene_unit(second[i].key);
-    const bool of_gears = section != "mesh" && section != "friction" && section != "damping" &&
-                          section != "fidelity" && section != "discretisation";
-    if (!one.empty() || !other.empty())
-      out.push_back({section, key.name, {one, of_gears || one != other ? other : ""}, key.meaning});
+// Of the gears of a pair, or of a train, whose friction and meshes stand apart. A section that one gear of a pair has is told of both.
+SceneKeys keys_of_views(std::vector<std::string> gears, std::vector<View> views, bool moves, bool train) {
+  std::vector<std::vector<GearRow>> of;
+  of.reserve(views.size());
+  for (View& view : views) of.push_back(rows_of(view, moves));
+  const bool modified = std::any_of(
+      views.begin(), views.end(), [](const View& view) { return view.modification != FlankModification{}; });
+  SceneKeys out{std::move(gears), {}};
+  for (size_t i = 0; !of.empty() && i < of.front().size(); ++i) {
+    const Key& key = of.front()[i].key;
+    SceneKeys::Row row{key.section, key.name, {}, key.meaning};
+    const auto in = [&](auto... names) { return ((row.section == names) || ...); };
+    if (train && (in("mesh", "friction") || of_pairs(key))) continue;
+    const bool any = std::any_of(of.begin(), of.end(), [&](const auto&gear) { return gear[i].stands; }),
+               both = train ? (in("modification") && modified) || key.called("total_inertia_kgm2") : any;
+    row.value.reserve(of.size());
+    for (const std::vector<GearRow>& gear : of)
+      row.value.push_back(both || (train && gear[i].stands) ? in_scene_unit(gear[i].key) : "");
+    const auto all = [&](const std::string& word) {
+      return std::all_of(row.value.begin(), row.value.end(), [&](const auto& own) { return own == word; });
+    };
+    if (all("")) continue;
+    if (all(row.value.front()) && in("mesh", "friction", "damping", "fidelity", "discretisation"))
+      row.value.resize(1);
+    out.rows.push_back(row);
   }
   return out;
 }
 
-}  // namespace
-
-std::vector<SceneKey> scene_keys_of(const StaticResult& a) {
-  return scene_keys_in(a);
+template <class Artifact>
+SceneKeys keys_of_pair(const Artifact& a) {
+  return keys_of_views(
+      {a.mesh.gear.begin(), a.mesh.gear.end()}, {view_of(a, 0), view_of(a, 1)}, requires { a.damping; },
+      false);
 }
-
-std::vector<SceneKey> scene_keys_of(const ResponseResult& a) {
-  return scene_keys_in(a);
-}
-
-namespace {
 
 // One of the gears of a system, and what all of its meshes have in common.
 View view_of(const SystemStaticResult& a, size_t g, const SystemSweepParameters* moving) {
@@ -158,34 +162,19 @@ View view_of(const SystemStaticResult& a, size_t g, const SystemSweepParameters*
 
 }  // namespace
 
-SystemKeys scene_keys_of(const SystemStaticResult& a, const SystemSweepParameters* moving) {
-  SystemKeys out;
-  out.gears = a.settings.gears();
+SceneKeys scene_keys_of(const StaticResult& a) {
+  return keys_of_pair(a);
+}
+
+SceneKeys scene_keys_of(const ResponseResult& a) {
+  return keys_of_pair(a);
+}
+
+SceneKeys scene_keys_of(const SystemStaticResult& a, const SystemSweepParameters* moving) {
   std::vector<View> views;
-  std::vector<std::vector<GearRow>> of;
-  views.reserve(out.gears.size());  // rows point at views
-  for (size_t g = 0; g < out.gears.size(); ++g)
-    of.push_back(rows_of(views.emplace_back(view_of(a, g, moving)), moving != nullptr));
-  const bool modified = std::any_of(
-      views.begin(), views.end(), [](const View& view) { return view.modification != FlankModification{}; });
-  for (size_t i = 0; !of.empty() && i < of.front().size(); ++i) {
-    const Key& key = of.front()[i].key;
-    const std::string section(key.section);
-    if (section == "mesh" || section == "friction" || of_pairs(key)) continue;
-    SystemKeys::Row row{section, key.name, {}, key.meaning};
-    row.value.reserve(of.size());
-    for (const std::vector<GearRow>& gear : of) {
-      const bool always = (section == "modification" && modified) || key.called("total_inertia_kgm2");
-      row.value.push_back(always || gear[i].stands ? in_scene_unit(gear[i].key) : "");
-    }
-    const bool alike = std::all_of(row.value.begin(), row.value.end(),
-                                   [&](const std::string& value) { return value == row.value.front(); });
-    const bool of_all = section == "damping" || section == "fidelity" || section == "discretisation";
-    if (alike && of_all) row.value.resize(1);
-    const bool said = std::any_of(row.value.begin(), row.value.end(),
-                                  [](const std::string& value) { return !value.empty(); });
-    if (said) out.rows.push_back(row);
-  }
+  views.reserve(a.settings.body.size());
+  for (size_t g = 0; g < a.settings.body.size(); ++g) views.push_back(view_of(a, g, moving));
+  SceneKeys out = keys_of_views(a.settings.gears(), std::move(views), moving != nullptr, true);
   if (Friction friction = a.settings.friction(); friction.acts())
     for (const Key& key : keys(friction))
       out.rows.push_back({"friction", key.name, {in_scene_unit(key)}, key.meaning});

@@ -1,6 +1,5 @@
 // What an artifact was made from, in the keys and units of a scene.
 #pragma once
-#include <array>
 #include <string>
 #include <vector>
 
@@ -11,22 +10,10 @@
 
 namespace whine {
 
-// A key of a scene with its value as a scene would have it, in the unit of its name. Keys of gears and materials have a value
-// for driver and driven gear each, others one.
-struct SceneKey {
-  std::string section, name;
-  std::array<std::string, kSides> value;  // of driver and driven gear
-  std::string meaning;
-};
-
-// What an artifact was made from, but for torques and speeds; of a static.h5 without what concerns motion. Sections that
-// neither gear has (modification, error, crack) are left out.
-std::vector<SceneKey> scene_keys_of(const StaticResult& artifact);
-std::vector<SceneKey> scene_keys_of(const ResponseResult& artifact);
-
-// The same of a system: a value for each gear, or one of all. Sections of a mesh are "mesh sun-planet".
-struct SystemKeys {
-  std::vector<std::string> gears;
+// Keys of a scene with their values as a scene would have them, in the unit of their names: keys of gears and materials have a value
+// for each gear, "" where it has none, others one. Sections of a mesh of a train are "mesh sun-planet".
+struct SceneKeys {
+  std::vector<std::string> gears;  // of a pair driver and driven gear
   struct Row {
     std::string section, name;
     std::vector<std::string> value;  // [gear], or one
@@ -34,8 +21,13 @@ struct SystemKeys {
   };
   std::vector<Row> rows;
 };
+
+// What an artifact was made from, but for torques and speeds; of a static.h5 without what concerns motion. Sections that
+// no gear has (modification, error, crack) are left out.
+SceneKeys scene_keys_of(const StaticResult& artifact);
+SceneKeys scene_keys_of(const ResponseResult& artifact);
 // moving: with what concerns motion; nullptr: without. Positions, torques and what is held are left out.
-SystemKeys scene_keys_of(const SystemStaticResult& artifact, const SystemSweepParameters* moving);
+SceneKeys scene_keys_of(const SystemStaticResult& artifact, const SystemSweepParameters* moving);
 
 // What two maps were made from that differs, in a scene's keys and units: "bore_radius_mm 40 -> 35"; "" if nothing
 // does. Gears by the driver's, if both gears changed alike.

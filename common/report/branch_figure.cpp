@@ -1,4 +1,4 @@
-#include "report/branch_figure.h"
+#include "report/figure_list.h"
 
 #include <algorithm>
 

@@ -14,7 +14,6 @@
 #include "report/report_page.h"
 #include "report/report_remarks.h"
 #include "report/report_results.h"
-#include "report/report_tables.h"
 #include "report/system_report_tables.h"
 #include "signal/result_quantities.h"
 
@@ -210,34 +209,29 @@ std::vector<Difference> train_differences(const std::vector<Design>& designs) {
   return out;
 }
 
+SceneKeys scene_keys_in(const Design& d) {
+  if (d.train)
+    return scene_keys_of(*d.train->rest, d.train->sweeps.empty() ? nullptr : &d.train->sweeps[0].train);
+  const ReportContent& c = d.content;
+  return c.sweeps.empty() ? scene_keys_of(c.statics.at(0)) : scene_keys_of(c.sweeps[0]);
+}
+
 // Of each gear of a pair or of a train: "gear.teeth, sun".
 std::vector<Difference> train_scene_differences(const std::vector<Design>& designs) {
   Rows rows(designs.size());
   for (size_t d = 0; d < designs.size(); ++d) {
-    const auto put = [&](const std::string& section, const std::string& name, const std::string& gear,
-                         const std::string& value) {
-      if (!value.empty())
-        rows.put(d, "", section + "." + name + (gear.empty() ? "" : ", " + gear), "", value);
+    const auto put = [&](const std::string& key, const std::string& gear, const std::string& value) {
+      if (!value.empty()) rows.put(d, "", key + (gear.empty() ? "" : ", " + gear), "", value);
     };
-    if (designs[d].train) {
-      const SystemReport& r = *designs[d].train;
-      const SystemSweepParameters* const moving = r.sweeps.empty() ? nullptr : &r.sweeps[0].train;
-      const SystemKeys keys = scene_keys_of(*r.rest, moving);
-      for (const SystemKeys::Row& row : keys.rows)
-        for (size_t g = 0; g < row.value.size(); ++g)
-          put(row.section, row.name, row.value.size() == 1 ? "" : keys.gears[g], row.value[g]);
-      for (const System::Drive& drive : r.rest->settings.layout.drives)
-        put("drive", "torque_Nm", r.rest->settings.layout.bodies[static_cast<size_t>(drive.body)].name,
-            drive.torque != 0 ? shown(drive.torque, 6) : "");
-      continue;
-    }
-    const ReportContent& c = designs[d].content;
-    const auto keys = c.sweeps.empty() ? scene_keys_of(c.statics.at(0)) : scene_keys_of(c.sweeps[0]);
-    for (const SceneKey& key : keys) {
-      const bool one = key.value[1].empty();
-      for (size_t g = 0; g < (one ? 1 : kSides); ++g)
-        put(key.section, key.name, one ? "" : c.statics[0].mesh.gear[g], key.value[g]);
-    }
+    const SceneKeys keys = scene_keys_in(designs[d]);
+    for (const SceneKeys::Row& row : keys.rows)
+      for (size_t g = 0; g < row.value.size(); ++g)
+        put(row.section + "." + row.name, row.value.size() == 1 ? "" : keys.gears[g], row.value[g]);
+    if (!designs[d].train) continue;
+    const System& layout = designs[d].train->rest->settings.layout;
+    for (const System::Drive& drive : layout.drives)
+      put("drive.torque_Nm", layout.bodies[static_cast<size_t>(drive.body)].name,
+          drive.torque != 0 ? shown(drive.torque, 6) : "");
   }
   return rows.differing();
 }
@@ -267,11 +261,9 @@ std::vector<Difference> scene_differences(const std::vector<Design>& designs) {
   if (any_train(designs)) return train_scene_differences(designs);
   Rows rows(designs.size());
   for (size_t d = 0; d < designs.size(); ++d) {
-    const ReportContent& c = designs[d].content;
-    const auto keys = c.sweeps.empty() ? scene_keys_of(c.statics.at(0)) : scene_keys_of(c.sweeps[0]);
-    for (const SceneKey& key : keys) {
-      const bool one = key.value[1].empty() || key.value[1] == key.value[0];
-      rows.put(d, "", key.section + "." + key.name, "", key.value[0] + (one ? "" : " / " + key.value[1]));
+    for (const auto& [section, name, value, meaning] : scene_keys_in(designs[d]).rows) {
+      const bool one = value.back().empty() || value.back() == value.front();
+      rows.put(d, "", section + "." + name, "", value.front() + (one ? "" : " / " + value.back()));
     }
   }
   // A section that a scene does not have is as good as one of zeros.

@@ -1,8 +1,7 @@
-#include "report/efficiency_figure.h"
+#include "report/figure_list.h"
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 #include <optional>
 
 #include "base/error.h"

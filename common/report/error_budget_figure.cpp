@@ -1,4 +1,4 @@
-#include "report/error_budget_figure.h"
+#include "report/figure_list.h"
 
 #include <algorithm>
 #include <array>

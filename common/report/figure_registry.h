@@ -1,5 +1,6 @@
 // The figures by name, and the artifacts that each is drawn from.
 #pragma once
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -9,14 +10,17 @@
 
 namespace whine {
 
+struct DrawnFrom {
+  const std::vector<std::string>& inputs;       // paths
+  const std::vector<double>& mesh_frequencies;  // Hz
+  const PrintedJumps& printed;                  // what a publication states beside maps of jumps
+};
+
 struct Drawing {
-  const char* shows;
-  const char* inputs;
-  size_t count;        // of inputs; 0: any number
-  size_t frequencies;  // most mesh frequencies (Hz) that it may be given; 0: none, else one is needed
-  Figure (*draw)(const std::vector<std::string>& inputs, const std::vector<double>& mesh_frequencies);
-  // In its place, of figures beside which a publication's statements can stand.
-  Figure (*draw_beside)(const std::vector<std::string>& inputs, const PrintedJumps& printed) = nullptr;
+  const char *shows, *inputs;
+  std::function<Figure(const DrawnFrom&)> draw;
+  size_t count = 0;        // of inputs; 0: any number
+  size_t frequencies = 0;  // most mesh frequencies that it may be given; 0: none, else one is needed
 };
 
 const std::map<std::string, Drawing>& drawings();

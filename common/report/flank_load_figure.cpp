@@ -1,4 +1,4 @@
-#include "report/flank_load_figure.h"
+#include "report/figure_list.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,9 @@
-#include "report/flank_pressure_figure.h"
+#include "report/figure_list.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
-#include <utility>
 
 #include "base/error.h"
 #include "base/units.h"

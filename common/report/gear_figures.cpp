@@ -1,4 +1,4 @@
-#include "report/gear_figures.h"
+#include "report/figure_list.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,7 +1,6 @@
-#include "report/harris_figure.h"
+#include "report/figure_list.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 #include "base/error.h"

@@ -8,7 +8,6 @@
 #include "base/error.h"
 #include "gear/iso6336.h"
 #include "gear/pair.h"
-#include "report/figure_words.h"
 
 namespace whine {
 

@@ -1,4 +1,4 @@
-#include "report/jump_map_figures.h"
+#include "report/figure_list.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "report/motion_figures.h"
+#include "report/figure_list.h"
 
 #include <algorithm>
 #include <array>

@@ -1,11 +1,10 @@
-#include "report/multiplier_figure.h"
+#include "report/figure_list.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
 #include "base/units.h"
-#include "report/figure_words.h"
 #include "signal/jump_words.h"
 
 namespace whine {

@@ -1,6 +1,5 @@
 #include "report/report.h"
 
-#include <algorithm>
 #include <numbers>
 
 #include "base/error.h"
@@ -47,14 +46,7 @@ void require_whole(const ReportContent& c) {
   if (c.statics.empty())
     fail(Failure::input, "report: no static.h5 given; that of the scene's first torque is the least");
   require_one_pair(c);
-  const std::vector<std::string> known = report_figures();
-  for (size_t i = 0; i < c.pictures.size(); ++i) {
-    const std::string& name = c.pictures[i].name;
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      fail(Failure::input, "report: there are no words for a figure '", name, "'; known are ", listed(known));
-    for (size_t j = 0; j < i; ++j)
-      if (c.pictures[j].name == name) fail(Failure::input, "report: figure ", name, " is given twice");
-  }
+  require_known_pictures(c.pictures, report_figures());
 }
 
 }  // namespace

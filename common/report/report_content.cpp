@@ -67,6 +67,10 @@ double peak_to_peak(const Eigen::VectorXd& v) {
   return v.maxCoeff() - v.minCoeff();
 }
 
+double tip_edge_load(const StaticResult& mesh) {
+  return (mesh.contact_pressure.array() == 0).select(mesh.tooth_load, 0.0).maxCoeff();
+}
+
 double first_order_of_force(const MatrixRM& force, int periods) {
   if (resolved_harmonics(force.rows(), 1, periods) < 1) return 0;
   return std::hypot(harmonics(force.col(0), 1, periods).amplitude[0],

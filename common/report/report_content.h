@@ -52,6 +52,8 @@ TurningMember driver_of(const ReportContent& c);
 
 double static_force(const StaticResult& s);  // N: T / r_b
 double peak_to_peak(const Eigen::VectorXd& v);
+// N: largest load of a pair of a mesh whose tip edge touches, off the line of action.
+double tip_edge_load(const StaticResult& mesh);
 
 // N: amplitude of the first order of a force (phase, xy) that repeats after these mesh periods, x and y together.
 double first_order_of_force(const MatrixRM& force, int periods = 1);

@@ -1,7 +1,6 @@
 #include "report/report_figures.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 
 #include "base/error.h"
@@ -141,17 +140,12 @@ std::string budget_caption(const ReportContent& c) {
               " % at most.");
 }
 
-struct ExplainedFigure {
-  const char *name, *section, *title;
-  std::function<std::string(const ReportContent&)> words;
-};
-
 std::function<std::string(const ReportContent&)> same_words(const char* words) {
   return [words](const ReportContent&) { return std::string(words); };
 }
 
-const std::vector<ExplainedFigure>& explained_figures() {
-  static const std::vector<ExplainedFigure>
+const std::vector<ExplainedFigure<ReportContent>>& explained_figures() {
+  static const std::vector<ExplainedFigure<ReportContent>>
       all{{"system", "opening", "The gears",
            same_words(
                "The gears at their places, unloaded at mesh phase 0, with the teeth of their drawings, and the teeth about the pitch point. Check it against your drawing.")},
@@ -205,7 +199,8 @@ const std::vector<ExplainedFigure>& explained_figures() {
 }
 
 // By its name, which is that of its files: numbers of the page would be taken for those of a publication's figures.
-std::string figure(const ReportContent& c, const ReportPicture& picture, const ExplainedFigure& kind) {
+std::string figure(const ReportContent& c, const ReportPicture& picture,
+                   const ExplainedFigure<ReportContent>& kind) {
   std::string words = html::escaped(with_rpm(driver_of(c), kind.words(c)));
   if (!picture.printed.empty())
     words += text(" ", picture.name, " shows of this pair what ", picture.printed, " of its own.");
@@ -215,14 +210,12 @@ std::string figure(const ReportContent& c, const ReportPicture& picture, const E
 }  // namespace
 
 std::vector<std::string> report_figures() {
-  std::vector<std::string> names;
-  for (const ExplainedFigure& kind : explained_figures()) names.push_back(kind.name);
-  return names;
+  return names_of(explained_figures());
 }
 
 std::string figures_of(const ReportContent& c, const std::string& section) {
   std::string out;
-  for (const ExplainedFigure& kind : explained_figures())
+  for (const ExplainedFigure<ReportContent>& kind : explained_figures())
     for (const ReportPicture& picture : c.pictures)
       if (section == kind.section && picture.name == kind.name) out += figure(c, picture, kind);
   return out;

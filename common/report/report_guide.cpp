@@ -1,7 +1,6 @@
 #include "report/report_guide.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "base/error.h"

@@ -50,6 +50,23 @@ void take_source(const std::string& path, Content& content) {
          "; give artifacts of one scene");
 }
 
+// take(path, schema): of each artifact, in order. Pictures last: they know the scene of the artifacts.
+template <class Content>
+void read_content(const std::vector<std::string>& paths, const char* unnamed, Content& content,
+                  const auto& take) {
+  std::vector<std::string> pictures;
+  for (const std::string& path : paths) {
+    if (path.ends_with(".png")) {
+      pictures.push_back(path);
+      continue;
+    }
+    take_source(path, content);
+    take(path, content.sources.back().origin.schema);
+  }
+  for (const std::string& path : pictures) content.pictures.push_back(read_picture(path, content.scene));
+  if (content.scene.empty()) content.scene = unnamed;
+}
+
 }  // namespace
 
 bool is_of_system(const std::vector<std::string>& paths) {
@@ -84,19 +101,12 @@ void require_one_origin(const std::vector<ReportSource>& sources) {
 
 SystemReport read_system_report(const std::vector<std::string>& paths) {
   SystemReport report;
-  std::vector<std::string> pictures;
-  for (const std::string& path : paths) {
-    if (path.ends_with(".png")) {
-      pictures.push_back(path);
-      continue;
-    }
-    take_source(path, report);
-    const std::string& schema = report.sources.back().origin.schema;
+  read_content(paths, "system of gears", report, [&](const std::string& path, const std::string& schema) {
+    const bool rest = schema == "whine/static";
     if (schema == "whine/response") {
       report.sweeps.push_back(read<ResponseResult>(path));
-      continue;
+      return;
     }
-    const bool rest = schema == "whine/static";
     if (!rest && schema != "whine/modes")
       fail(Failure::usage, path, ": is ", schema,
            "; the report of a system is made of static.h5, modes.h5 and response.h5");
@@ -106,40 +116,28 @@ SystemReport read_system_report(const std::vector<std::string>& paths) {
       report.rest = read<SystemStaticResult>(path);
     else
       report.modes = read<ModesResult>(path);
-  }
+  });
   require_one_origin(report.sources);
-  for (const std::string& path : pictures) report.pictures.push_back(read_picture(path, report.scene));
-  if (report.scene.empty()) report.scene = "system of gears";
   return report;
 }
 
 ReportContent read_report_content(const std::vector<std::string>& paths) {
-  // Sweeps last: each has its statics.
   ReportContent content;
-  std::vector<std::string> sweeps, pictures;
-  for (const std::string& path : paths) {
-    if (path.ends_with(".png")) {
-      pictures.push_back(path);
-      continue;
-    }
-    take_source(path, content);
-    const std::string& schema = content.sources.back().origin.schema;
-    if (schema == "whine/static") {
+  std::vector<std::string> sweeps;  // last: each has its statics
+  read_content(paths, "gear pair", content, [&](const std::string& path, const std::string& schema) {
+    if (schema == "whine/static")
       content.statics.push_back(read_pair_statics(path));
-    } else if (schema == "whine/impact") {
+    else if (schema == "whine/impact")
       content.impacts.push_back(read_pair_impact(path));
-    } else if (schema == "whine/error_budget") {
+    else if (schema == "whine/error_budget")
       content.budget = read<ErrorBudgetResult>(path);
-    } else if (schema == "whine/response") {
+    else if (schema == "whine/response")
       sweeps.push_back(path);
-    } else {
+    else
       fail(Failure::usage, path, ": is ", schema,
            "; a report is made of static.h5, impact.h5, response.h5 and error_budget.h5");
-    }
-  }
+  });
   for (const std::string& path : sweeps) content.sweeps.push_back(read_response_of(content, path));
-  for (const std::string& path : pictures) content.pictures.push_back(read_picture(path, content.scene));
-  if (content.scene.empty()) content.scene = "gear pair";
   require_one_pair(content);
   return content;
 }

@@ -1,9 +1,7 @@
 #include "report/report_opening.h"
 
-#include <algorithm>
 #include <map>
 
-#include "base/error.h"
 #include "report/figures.h"
 #include "report/iso_comparison.h"
 #include "report/opening.h"

@@ -37,6 +37,18 @@ std::string picture_html(const ReportPicture& picture, const std::string& title,
                       words + " <span class=\"files\">" + files + "</span>");
 }
 
+void require_known_pictures(const std::vector<ReportPicture>& pictures,
+                            const std::vector<std::string>& figures, const std::string& whose) {
+  for (size_t i = 0; i < pictures.size(); ++i) {
+    const std::string& name = pictures[i].name;
+    if (std::find(figures.begin(), figures.end(), name) == figures.end())
+      fail(Failure::input, "report: there are no words for a figure '", name, "'", whose, "; known are ",
+           listed(figures));
+    for (size_t j = 0; j < i; ++j)
+      if (pictures[j].name == name) fail(Failure::input, "report: figure ", name, " is given twice");
+  }
+}
+
 std::string remark_items(const std::string& where, const std::vector<Remark>& remarks,
                          const TurningMember& member) {
   constexpr size_t kMost = 12;  // of one artifact

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
 #include "base/error.h"
@@ -284,26 +283,43 @@ std::string budget_table(const ErrorBudgetResult& b) {
          (b.choice_missing.empty() ? "" : html::paragraph("Not computed: " + b.choice_missing + "."));
 }
 
-std::string parameters_table(const ReportContent& c) {
-  const std::vector<SceneKey> keys =
-      c.sweeps.empty() ? scene_keys_of(c.statics[0]) : scene_keys_of(c.sweeps[0]);
+html::Rows speed_rows(const std::vector<ResponseResult>& sweeps) {
+  if (sweeps.empty()) return {};
+  const Eigen::VectorXd& f = sweeps.front().mesh_frequency;
+  return {{"operation", "mesh_frequency_Hz",
+           text(shown(f.minCoeff(), 6), " to ", shown(f.maxCoeff(), 6), ", ", f.size(), " speeds"),
+           "speeds of a sweep"}};
+}
+
+std::string scene_table(const std::string& caption, const SceneKeys& keys, const html::Rows& more) {
   html::Rows rows;
-  for (const SceneKey& key : keys)
-    rows.push_back({key.section, key.name, key.value[0], key.value[1], key.meaning});
+  const auto add = [&](std::vector<std::string> row, const std::string& meaning) {
+    row.resize(keys.gears.size() + 2);
+    row.push_back(meaning);
+    rows.push_back(std::move(row));
+  };
+  for (const SceneKeys::Row& key : keys.rows) {
+    std::vector<std::string> row{key.section, key.name};
+    row.insert(row.end(), key.value.begin(), key.value.end());
+    add(std::move(row), key.meaning);
+  }
+  for (const std::vector<std::string>& row : more) add({row.begin(), row.end() - 1}, row.back());
+  std::vector<std::string> head{"section", "key"};
+  head.insert(head.end(), keys.gears.begin(), keys.gears.end());
+  if (keys.gears.size() > 1) head[2] += ", or all";
+  head.emplace_back("meaning");
+  return html::table(caption, head, rows, "small");
+}
+
+std::string parameters_table(const ReportContent& c) {
   std::string torques;
   for (const auto& s : c.statics) torques += (torques.empty() ? "" : ", ") + shown(s.torque, 6);
-  rows.push_back(
-      {"operation", "torque_Nm", torques, "", "torque on the driver; the first sets the bearing dampers"});
-  if (!c.sweeps.empty()) {
-    const Eigen::VectorXd& f = c.sweeps[0].mesh_frequency;
-    rows.push_back({"operation", "mesh_frequency_Hz",
-                    text(shown(f.minCoeff(), 6), " to ", shown(f.maxCoeff(), 6), ", ", f.size(), " speeds"),
-                    "", "speeds of a sweep"});
-  }
-  return html::table(
+  html::Rows more = speed_rows(c.sweeps);
+  more.insert(more.begin(), {"operation", "torque_Nm", torques,
+                             "torque on the driver; the first sets the bearing dampers"});
+  return scene_table(
       "Every value of the scene that went into the results, defaults included, in the scene's units.",
-      {"section", "key", c.statics[0].mesh.gear[0] + ", or all", c.statics[0].mesh.gear[1], "meaning"}, rows,
-      "small");
+      c.sweeps.empty() ? scene_keys_of(c.statics[0]) : scene_keys_of(c.sweeps[0]), more);
 }
 
 }  // namespace whine

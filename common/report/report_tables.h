@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "gear/pair.h"
+#include "io/scene_keys.h"
 #include "report/html.h"
 #include "report/report_content.h"
 
@@ -17,7 +18,9 @@ std::string stiffness_tables(const ReportContent& c);
 std::string class_table(const ReportContent& c);
 std::string natural_frequencies_table(const ReportContent& c);
 std::string budget_table(const ErrorBudgetResult& b);
-// Values of driver and driven gear side by side, of what is no gear's in the first column.
+// Values of gears side by side, of what is no gear's in the first column; then what stands in no artifact's keys; of sweeps their speeds.
+html::Rows speed_rows(const std::vector<ResponseResult>& sweeps);
+std::string scene_table(const std::string& caption, const SceneKeys& keys, const html::Rows& more);
 std::string parameters_table(const ReportContent& c);
 
 }  // namespace whine

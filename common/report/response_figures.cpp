@@ -6,7 +6,6 @@
 
 #include "base/error.h"
 #include "gear/pair.h"
-#include "io/summary.h"
 #include "report/figure_words.h"
 #include "report/response_panels.h"
 #include "signal/jump_cause.h"

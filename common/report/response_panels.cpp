@@ -4,7 +4,6 @@
 #include <array>
 
 #include "base/error.h"
-#include "report/figure_words.h"
 
 namespace whine {
 namespace {

@@ -1,7 +1,6 @@
-#include "report/root_stress_figure.h"
+#include "report/figure_list.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <optional>
 #include <string>

@@ -1,4 +1,4 @@
-#include "report/sensitivity_figure.h"
+#include "report/figure_list.h"
 
 #include <algorithm>
 #include <array>
@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "io/scene_keys.h"
-#include "io/summary.h"
 
 namespace whine {
 namespace {

@@ -1,8 +1,5 @@
 #include "report/stiffness_table.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "base/error.h"
 #include "gear/iso6336.h"
 #include "report/figures.h"

@@ -1,7 +1,6 @@
 #include "report/sweep_panels.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <tuple>

@@ -1,12 +1,13 @@
-#include "report/system_figures.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "base/error.h"
 #include "base/units.h"
 #include "gear/layout.h"
+#include "report/alike_meshes.h"
+#include "report/figure_list.h"
 #include "report/figure_words.h"
+#include "report/period_curves.h"
 #include "report/system_picture.h"
 #include "signal/spectrum.h"
 
@@ -15,11 +16,6 @@ namespace whine {
 using Eigen::Index;
 
 namespace {
-
-struct DrawnCurve {
-  std::string name;
-  Eigen::VectorXd values;  // (phase)
-};
 
 // Over the mesh period, or over the hunting period of teeth that differ.
 PanelAxis phase_axis(const SystemStaticResult& a) {
@@ -38,38 +34,23 @@ PanelCurve alike_curve(const std::string& block, size_t i, size_t curves, bool d
 // One row of the figure: curves over the mesh period, or over the hunting period of teeth that differ, and their harmonics of the mesh
 // frequency.
 void add_row(const SystemStaticResult& a, const std::string& quantity, const std::string& axis,
-             const std::string& short_axis, const std::string& unit, std::vector<DrawnCurve> curves,
+             const std::string& short_axis, const std::string& unit, std::vector<PeriodCurve> curves,
              Figure& figure) {
   if (curves.size() > kMostLines) {
     figure.notes.push_back(text(axis, ": the first ", kMostLines, " of ", curves.size(), " curves"));
     curves.resize(kMostLines);
   }
-  FigureBlock period{quantity, {"mesh_phase [1]"}, {}, "period " + quantity},
-      spectrum{quantity + " harmonics", {"harmonic [1]"}, {}, "harmonics " + quantity};
-  std::vector<Harmonics> of;
-  of.reserve(curves.size());
-  const Index n = a.mesh_phase.size();
-  const int count = resolved_harmonics(n, kShownHarmonics, a.hunting_periods);
+  const int count = resolved_harmonics(a.mesh_phase.size(), kShownHarmonics, a.hunting_periods);
   double low = curves[0].values.minCoeff(), high = curves[0].values.maxCoeff(), most = 0;
-  for (const DrawnCurve& curve : curves) {
-    period.columns.push_back(text(quantity, " ", curve.name, " [", unit, "]"));
-    spectrum.columns.push_back(text("amplitude ", curve.name, " [", unit, "]"));
-    of.push_back(harmonics(curve.values, count, a.hunting_periods));
+  for (PeriodCurve& curve : curves) {
+    curve.amplitudes = harmonics(curve.values, count, a.hunting_periods).amplitude;
     low = std::min(low, curve.values.minCoeff());
     high = std::max(high, curve.values.maxCoeff());
-    if (count > 0) most = std::max(most, of.back().amplitude.maxCoeff());
+    if (count > 0) most = std::max(most, curve.amplitudes.maxCoeff());
   }
-  // The first point again at the end, so that the period closes.
-  for (Index i = 0; i <= n; ++i) {
-    std::vector<double> row{i < n ? a.mesh_phase[i] : a.hunting_periods};
-    for (const DrawnCurve& curve : curves) row.push_back(curve.values[i < n ? i : 0]);
-    period.rows.push_back(row);
-  }
-  for (int k = 1; k <= count; ++k) {
-    std::vector<double> row{static_cast<double>(k)};
-    for (const Harmonics& h : of) row.push_back(h.amplitude[k - 1]);
-    spectrum.rows.push_back(row);
-  }
+  const FigureBlock period = period_block(quantity, unit, a.mesh_phase, a.hunting_periods, curves,
+                                          "period " + quantity),
+                    spectrum = spectrum_block(quantity, unit, curves, "harmonics " + quantity);
   figure.blocks.push_back(period);
   figure.blocks.push_back(spectrum);
   // Curves that are constant but for round-off are drawn as a line, not as their noise.
@@ -119,34 +100,10 @@ void add_hunting(const SystemStaticResult& a, const char* more, Figure& figure) 
   plain_captions(figure.notes.size(), figure);
 }
 
-}  // namespace
-
-std::vector<LoadSharing> load_sharing(const SystemStaticResult& a) {
-  std::vector<LoadSharing> out;
-  const std::vector<int>& section = a.settings.section;
-  for (size_t k = 0; k < a.settings.mesh.size(); ++k) {
-    const auto& gears = a.settings.mesh[k].gear;
-    LoadSharing of{gears[0] + "-" + gears[1], {}, 0, 0};
-    for (size_t m = 0; m < section.size(); ++m)
-      if (section[m] == static_cast<int>(k)) of.meshes.push_back(m);
-    const auto alike = static_cast<double>(of.meshes.size());
-    if (alike < 2) continue;
-    for (const size_t m : of.meshes) {
-      const auto share = a.load_share.col(static_cast<Index>(m));
-      of.factor = std::max(of.factor, share.maxCoeff() * alike);
-      of.mean_factor = std::max(of.mean_factor, share.mean() * alike);
-    }
-    out.push_back(of);
-  }
-  return out;
-}
-
-namespace {
-
 // MPa, of each body whose roots are known: largest in any of its meshes at each phase.
-std::vector<DrawnCurve> root_stresses(const SystemStaticResult& a) {
+std::vector<PeriodCurve> root_stresses(const SystemStaticResult& a) {
   const System& s = a.settings.layout;
-  std::vector<DrawnCurve> out;
+  std::vector<PeriodCurve> out;
   for (size_t b = 0; b < s.bodies.size(); ++b) {
     Eigen::VectorXd most = Eigen::VectorXd::Zero(a.mesh_phase.size());
     for (size_t m = 0; m < a.mesh.size(); ++m)
@@ -154,7 +111,7 @@ std::vector<DrawnCurve> root_stresses(const SystemStaticResult& a) {
         if (const MatrixRM& stress = a.mesh[m].root_stress[g];
             stress.size() > 0 && s.meshes[m].side[g].body == static_cast<int>(b))
           most = most.cwiseMax(stress.rowwise().maxCoeff() * kInMegapascals);
-    if (most.maxCoeff() > 0) out.push_back({s.bodies[b].name, most});
+    if (most.maxCoeff() > 0) out.push_back({s.bodies[b].name, most, {}});
   }
   return out;
 }
@@ -174,27 +131,27 @@ Figure system_static_figure(const SystemStaticResult& a) {
       "mesh stiffness: secant, mesh force over what it adds to the transmission error, without bearings");
   figure.notes.emplace_back(
       "bearing force: its magnitude; on a rigid axis the sum of the contact forces; root stress: the largest beside the loaded flanks of a gear");
-  std::vector<DrawnCurve> errors, stiffnesses, forces, bearings;
+  std::vector<PeriodCurve> errors, stiffnesses, forces, bearings;
   errors.reserve(s.meshes.size());
   stiffnesses.reserve(s.meshes.size());
   forces.reserve(s.meshes.size());
   bearings.reserve(s.bodies.size());
   for (size_t m = 0; m < s.meshes.size(); ++m) {
-    errors.push_back({mesh_name(s, m), a.mesh[m].transmission_error * kMicro});
-    stiffnesses.push_back({mesh_name(s, m), a.mesh[m].stiffness_secant * kMega});
-    forces.push_back({mesh_name(s, m), a.mesh_force.col(static_cast<Index>(m))});
+    errors.push_back({mesh_name(s, m), a.mesh[m].transmission_error * kMicro, {}});
+    stiffnesses.push_back({mesh_name(s, m), a.mesh[m].stiffness_secant * kMega, {}});
+    forces.push_back({mesh_name(s, m), a.mesh_force.col(static_cast<Index>(m)), {}});
   }
   for (size_t b = 0; b < s.bodies.size(); ++b) {
     Eigen::VectorXd size(a.mesh_phase.size());
     for (Index i = 0; i < size.size(); ++i)
       size[i] = a.bearing_force[static_cast<size_t>(i)].row(static_cast<Index>(b)).norm();
-    bearings.push_back({s.bodies[b].name + (s.bodies[b].on != System::kGround ? " (pin)" : ""), size});
+    bearings.push_back({s.bodies[b].name + (s.bodies[b].on != System::kGround ? " (pin)" : ""), size, {}});
   }
   add_row(a, "transmission_error", "Transmission error", "Error", "µm", std::move(errors), figure);
   add_row(a, "mesh_stiffness", "Mesh stiffness", "Stiffness", "N/µm", std::move(stiffnesses), figure);
   add_row(a, "mesh_force", "Mesh force", "Force", "N", std::move(forces), figure);
   add_row(a, "bearing_force", "Bearing force", "Force", "N", std::move(bearings), figure);
-  if (std::vector<DrawnCurve> stresses = root_stresses(a); !stresses.empty())
+  if (std::vector<PeriodCurve> stresses = root_stresses(a); !stresses.empty())
     add_row(a, "root_stress", "Root stress", "Stress", "MPa", std::move(stresses), figure);
   figure.columns = 2;
   add_hunting(a, "over which all is drawn; harmonics are those of the mesh frequency", figure);
@@ -261,20 +218,13 @@ FigureBlock pair_loads(const SystemStaticResult& a, size_t m, const std::string&
 // The shares of the meshes of one [[mesh]], `shown` of them, over the mesh period.
 FigureBlock shares_block(const SystemStaticResult& a, const LoadSharing& of, size_t shown,
                          const std::string& table) {
-  const Index n = a.mesh_phase.size();
-  FigureBlock shares{table, {"mesh_phase [1]"}, {}, table};
-  shares.columns.reserve(shown + 1);
-  for (size_t i = 0; i < shown; ++i)
-    shares.columns.push_back("share of the load " + mesh_name(a.settings.layout, of.meshes[i]) + " [%]");
-  shares.rows.reserve(static_cast<size_t>(n) + 1);
-  for (Index i = 0; i <= n; ++i) {
-    std::vector<double> values{i < n ? a.mesh_phase[i] : a.hunting_periods};
-    values.reserve(shown + 1);
-    for (size_t j = 0; j < shown; ++j)
-      values.push_back(a.load_share(i < n ? i : 0, static_cast<Index>(of.meshes[j])) * kPercent);
-    shares.rows.push_back(values);
+  std::vector<PeriodCurve> shares(shown);
+  std::vector<std::string> columns(shown);
+  for (size_t i = 0; i < shown; ++i) {
+    shares[i].values = a.load_share.col(static_cast<Index>(of.meshes[i])) * kPercent;
+    columns[i] = "share of the load " + mesh_name(a.settings.layout, of.meshes[i]) + " [%]";
   }
-  return shares;
+  return period_block(table, columns, a.mesh_phase, a.hunting_periods, shares, table);
 }
 
 // Shares of all meshes, and the loads of the tooth pairs of the first.

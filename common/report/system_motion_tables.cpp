@@ -6,8 +6,6 @@
 #include <numeric>
 
 #include "base/error.h"
-#include "base/units.h"
-#include "gear/layout.h"
 #include "report/figures.h"
 #include "report/html.h"
 #include "report/system_opening.h"

@@ -6,32 +6,15 @@
 #include <tuple>
 
 #include "base/error.h"
+#include "report/alike_meshes.h"
 #include "report/figures.h"
 #include "report/one_system.h"
 #include "report/opening.h"
-#include "report/system_figures.h"
 
 namespace whine {
 namespace {
 
 using Eigen::Index;
-
-// The meshes of each [[mesh]], with its name.
-struct AlikeMeshes {
-  std::string name;
-  std::vector<Index> meshes;
-};
-
-std::vector<AlikeMeshes> alike_meshes(const SystemStaticParameters& settings) {
-  std::vector<AlikeMeshes> out;
-  out.reserve(settings.mesh.size());
-  for (size_t k = 0; k < settings.mesh.size(); ++k) {
-    out.push_back({settings.mesh[k].gear[0] + "-" + settings.mesh[k].gear[1], {}});
-    for (size_t m = 0; m < settings.section.size(); ++m)
-      if (settings.section[m] == static_cast<int>(k)) out.back().meshes.push_back(static_cast<Index>(m));
-  }
-  return out;
-}
 
 std::string driving_load(const SystemReport& r, const std::string& driver) {
   const System& s = layout_of(r);
@@ -48,8 +31,8 @@ std::string train_excitation(const SystemReport& r, const TurningMember& driver)
   std::vector<MeshExcitation> out;
   for (const AlikeMeshes& section : alike_meshes(a.settings)) {
     MeshExcitation& e = out.emplace_back(MeshExcitation{section.name, {1e30, 0}, {1e30, 0}});
-    for (const Index m : section.meshes) {
-      const StaticResult& mesh = a.mesh[static_cast<size_t>(m)];
+    for (const size_t m : section.meshes) {
+      const StaticResult& mesh = a.mesh[m];
       const double swing = peak_to_peak(mesh.transmission_error),
                    first =
                        mesh.transmission_error_harmonic.size() > 1 ? mesh.transmission_error_harmonic[1] : 0;
@@ -116,8 +99,9 @@ std::string train_parting(const SystemReport& r, const TurningMember& driver) {
     (a.direction == Direction::up ? out.rising : out.falling) =
         Parting::Sweep{marked_ranges(apart_at(a)), {a.jump_frequency.begin(), a.jump_frequency.end()}};
     for (const AlikeMeshes& section : alike_meshes(r.rest->settings))
-      if (std::any_of(section.meshes.begin(), section.meshes.end(),
-                      [&](Index m) { return a.separation_fraction.col(m).maxCoeff() > 0; }) &&
+      if (std::any_of(
+              section.meshes.begin(), section.meshes.end(),
+              [&](size_t m) { return a.separation_fraction.col(static_cast<Index>(m)).maxCoeff() > 0; }) &&
           std::find(names.begin(), names.end(), section.name) == names.end())
         names.push_back(section.name);
   }
@@ -135,7 +119,8 @@ std::string train_dynamic_factor(const SystemReport& r, const TurningMember& dri
     for (const AlikeMeshes& section : alike_meshes(r.rest->settings)) {
       DynamicFactor most{section.name, 0, 0, {}};
       for (const ResponseResult& a : r.sweeps)
-        for (const Index m : section.meshes) {
+        for (const size_t number : section.meshes) {
+          const auto m = static_cast<Index>(number);
           const double rest = r.rest->mesh_force.col(m).mean();
           Index at = 0;
           const double factor = rest > 0 ? a.mesh_force_max.col(m).maxCoeff(&at) / rest : 0;
@@ -150,11 +135,11 @@ std::string train_dynamic_factor(const SystemReport& r, const TurningMember& dri
 void add_relief(const SystemStaticResult& a, const AlikeMeshes& section, Advice& out) {
   constexpr double kSmall = 0.01;  // of the largest load of a pair
   double edge = 0, load = 0, deflection = 0;
-  for (const Index m : section.meshes) {
-    deflection = std::max(deflection, a.mesh_deflection.col(m).maxCoeff());
-    const StaticResult& mesh = a.mesh[static_cast<size_t>(m)];
+  for (const size_t m : section.meshes) {
+    deflection = std::max(deflection, a.mesh_deflection.col(static_cast<Index>(m)).maxCoeff());
+    const StaticResult& mesh = a.mesh[m];
     load = std::max(load, mesh.tooth_load.maxCoeff());
-    edge = std::max(edge, (mesh.contact_pressure.array() == 0).select(mesh.tooth_load, 0.0).maxCoeff());
+    edge = std::max(edge, tip_edge_load(mesh));
   }
   if (edge > kSmall * load) out.relief.push_back({section.name, deflection, edge});
 }

@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "base/error.h"
 #include "gear/layout.h"
+#include "report/alike_meshes.h"
 #include "report/figures.h"
 #include "report/html.h"
 #include "report/one_system.h"
 #include "report/opening.h"
 #include "report/report_page.h"
-#include "report/system_figures.h"
 #include "report/system_motion_tables.h"
 #include "report/system_opening.h"
 #include "report/system_picture.h"
@@ -95,14 +94,9 @@ std::string of_residual(const SystemReport&) {
          "sidebands beside those of the mesh; RMS and kurtosis of the residual signal over speed.";
 }
 
-struct ExplainedSystemFigure {
-  const char *name, *section, *title;
-  std::function<std::string(const SystemReport&)> words;
-};
-
 // A figure of another stage is a row here, its words above, and its name in report_shows of pipelines/figures.mk.
-const std::vector<ExplainedSystemFigure>& explained_system_figures() {
-  static const std::vector<ExplainedSystemFigure> all{
+const std::vector<ExplainedFigure<SystemReport>>& explained_system_figures() {
+  static const std::vector<ExplainedFigure<SystemReport>> all{
       {"system", "opening", "The system", of_picture},
       {"system-static", "rest", "The system at rest", of_rest},
       {"load-sharing", "rest", "Load sharing among planets", of_sharing},
@@ -117,7 +111,7 @@ const std::vector<ExplainedSystemFigure>& explained_system_figures() {
 
 std::string figures_in(const SystemReport& r, const std::string& section) {
   std::string out;
-  for (const ExplainedSystemFigure& kind : explained_system_figures())
+  for (const ExplainedFigure<SystemReport>& kind : explained_system_figures())
     for (const ReportPicture& picture : r.pictures)
       if (section == kind.section && picture.name == kind.name)
         out += picture_html(picture, kind.title, html::escaped(with_rpm(driving_member(r), kind.words(r))));
@@ -195,15 +189,7 @@ void require_whole_system(const SystemReport& r) {
   if (r.rest && !one_system(r.rest->settings.layout, r.modes->layout))
     fail(Failure::input, "report: static.h5 and modes.h5 are of two systems; give artifacts of one scene");
   require_sweeps(r);
-  const std::vector<std::string> known = system_report_figures();
-  for (size_t i = 0; i < r.pictures.size(); ++i) {
-    const std::string& name = r.pictures[i].name;
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      fail(Failure::input, "report: there are no words for a figure '", name, "' of a system; known are ",
-           listed(known));
-    for (size_t j = 0; j < i; ++j)
-      if (r.pictures[j].name == name) fail(Failure::input, "report: figure ", name, " is given twice");
-  }
+  require_known_pictures(r.pictures, system_report_figures(), " of a system");
 }
 
 const System& layout_of(const SystemReport& r) {
@@ -216,10 +202,7 @@ bool has_planets(const System& system) {
 }
 
 std::vector<std::string> system_report_figures() {
-  std::vector<std::string> names;
-  names.reserve(explained_system_figures().size());
-  for (const ExplainedSystemFigure& kind : explained_system_figures()) names.emplace_back(kind.name);
-  return names;
+  return names_of(explained_system_figures());
 }
 
 std::string system_report_tsv(const SystemReport& r) {

@@ -12,13 +12,13 @@
 #include "gear/pair.h"
 #include "gear/system_layout.h"
 #include "io/scene_keys.h"
+#include "report/alike_meshes.h"
 #include "report/figures.h"
 #include "report/html.h"
 #include "report/one_system.h"
 #include "report/report_page.h"
 #include "report/report_results.h"
 #include "report/report_tables.h"
-#include "report/system_figures.h"
 #include "report/system_motion_tables.h"
 #include "report/system_opening.h"
 
@@ -32,11 +32,6 @@ bool shares_load(const SystemStaticResult& a, size_t m) {
 namespace {
 
 using Eigen::Index;
-
-// N: largest load of a pair of a mesh whose tip edge touches, off the line of action.
-double tip_edge_load(const StaticResult& mesh) {
-  return (mesh.contact_pressure.array() == 0).select(mesh.tooth_load, 0.0).maxCoeff();
-}
 
 struct Force {
   double mean_x, mean_y, mean, most, rms;  // N; rms: of the oscillating part
@@ -342,32 +337,9 @@ std::string modes_table(const SystemReport& r) {
 
 std::string settings_table(const SystemReport& r) {
   if (!r.rest) return "";
-  const SystemKeys keys = scene_keys_of(*r.rest, r.sweeps.empty() ? nullptr : &r.sweeps.front().train);
-  html::Rows rows;
-  rows.reserve(keys.rows.size() + 1);
-  for (const SystemKeys::Row& key : keys.rows) {
-    rows.push_back({key.section, key.name});
-    for (size_t g = 0; g < keys.gears.size(); ++g)
-      rows.back().push_back(g < key.value.size() ? key.value[g] : "");
-    rows.back().push_back(key.meaning);
-  }
-  if (!r.sweeps.empty()) {
-    const Eigen::VectorXd& f = r.sweeps.front().mesh_frequency;
-    rows.push_back({"operation", "mesh_frequency_Hz",
-                    text(shown(f.minCoeff(), 6), " to ", shown(f.maxCoeff(), 6), ", ", f.size(), " speeds")});
-    rows.back().resize(keys.gears.size() + 2);
-    rows.back().emplace_back("speeds of a sweep");
-  }
-  std::vector<std::string> head{"section", "key"};
-  head.reserve(keys.gears.size() + 3);
-  for (size_t g = 0; g < keys.gears.size(); ++g)
-    head.push_back(keys.gears[g] + (g == 0 && keys.gears.size() > 1 ? ", or all" : ""));
-  head.emplace_back("meaning");
-  return html::table(
-      text("Every value of the scene that went into the results, defaults included, in the scene's ",
-           "units; inertias and masses that the scene leaves out are those of the bodies. Torques and ",
-           "what is held: under At rest."),
-      head, rows, "small");
+  return scene_table(
+      "Every value of the scene that went into the results, defaults included, in the scene's units; inertias and masses that the scene leaves out are those of the bodies. Torques and what is held: under At rest.",
+      scene_keys_of(*r.rest, r.sweeps.empty() ? nullptr : &r.sweeps.front().train), speed_rows(r.sweeps));
 }
 
 namespace {
@@ -396,12 +368,9 @@ void remark_rest(const SystemStaticResult& a, std::vector<Remark>& out) {
   constexpr double kSmall = 0.01;   // of the largest load of a pair
   constexpr double kUnequal = 1.3;  // of an equal share
   out = a.remarks;
-  // Once for all meshes of a [[mesh]].
-  for (size_t k = 0; k < a.settings.mesh.size(); ++k) {
-    const std::string name = a.settings.mesh[k].gear[0] + "-" + a.settings.mesh[k].gear[1];
+  for (const auto& [name, meshes] : alike_meshes(a.settings)) {
     double pressure = 0, edge = 0, most = 0;
-    for (size_t m = 0; m < s.meshes.size(); ++m) {
-      if (a.settings.section[m] != static_cast<int>(k)) continue;
+    for (const size_t m : meshes) {
       pressure = std::max(pressure, a.mesh[m].contact_pressure.maxCoeff());
       edge = std::max(edge, tip_edge_load(a.mesh[m]));
       most = std::max(most, a.mesh[m].tooth_load.maxCoeff());

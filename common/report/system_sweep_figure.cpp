@@ -1,4 +1,4 @@
-#include "report/system_sweep_figure.h"
+#include "report/figure_list.h"
 
 #include <algorithm>
 #include <numeric>

@@ -2,18 +2,14 @@
 #include "solid/crack.h"
 
 #include <Eigen/Geometry>
-#include <cmath>
 #include <complex>
-#include <map>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 #include "base/dense.h"
 #include "base/error.h"
 #include "solid/elements.h"
 #include "solid/factor.h"
-#include "solid/reduce.h"
 #include "solid/root_stress.h"
 
 namespace whine {

@@ -4,11 +4,8 @@
 #include <cmath>
 #include <complex>
 #include <ctime>
-#include <functional>
-#include <map>
 #include <memory>
 #include <numbers>
-#include <utility>
 
 #include "base/dense.h"
 #include "base/error.h"
@@ -17,7 +14,6 @@
 #include "elastic_train.h"
 #include "gear/system_layout.h"
 #include "gear/train.h"
-#include "io/system_scene.h"
 #include "memory.h"
 #include "orbits/periodic_motion.h"
 #include "orbits/periodic_orbit.h"

@@ -3,16 +3,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 
 #include "paper_pair.h"
 #include "refusal.h"
-#include "report/efficiency_figure.h"
+#include "report/figure_list.h"
 #include "report/gnuplot.h"
 #include "report/plot_file.h"
 #include "report/response_figures.h"
-#include "report/static_figures.h"
 #include "system/rectangular_wave.h"
 
 using namespace whine;

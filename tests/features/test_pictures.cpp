@@ -8,16 +8,10 @@
 
 #include "picture_inputs.h"
 #include "refusal.h"
-#include "report/efficiency_figure.h"
 #include "report/engineering_axes.h"
+#include "report/figure_list.h"
 #include "report/figure_registry.h"
-#include "report/flank_pressure_figure.h"
-#include "report/impact_figure.h"
-#include "report/motion_figures.h"
-#include "report/order_figure.h"
 #include "report/response_figures.h"
-#include "report/root_stress_figure.h"
-#include "report/static_figures.h"
 #include "report/system_picture.h"
 
 using namespace whine;

@@ -1,18 +1,10 @@
 // No text in the pictures of trains is cut at an edge or lies on other text, with eight meshes.
 #include <doctest/doctest.h>
 
-#include "gear/system_layout.h"
 #include "picture_inputs.h"
-#include "report/branch_figure.h"
-#include "report/campbell_figure.h"
 #include "report/engineering_axes.h"
-#include "report/impact_figure.h"
-#include "report/modes_figure.h"
-#include "report/multiplier_figure.h"
-#include "report/order_figure.h"
-#include "report/system_figures.h"
+#include "report/figure_list.h"
 #include "report/system_picture.h"
-#include "report/system_sweep_figure.h"
 #include "small_system.h"
 #include "system/natural_modes.h"
 
@@ -41,7 +33,7 @@ TEST_CASE("pictures of trains: no text is cut or lies on other text, eight meshe
     all = 12345 * (MatrixRM::Random(all.rows(), all.cols()).array() + 2);
   REQUIRE(rest.settings.layout.meshes.size() == 8);
   check(system_static_figure(rest), "system-static");
-  check(system_load_sharing_figure(rest), "system-load-sharing");
+  check(system_load_sharing_figure(rest), "load-sharing");
   check(system_picture(rest), "system");
   const std::vector<ResponseResult> sweeps{small_response(rest, Direction::up),
                                            small_response(rest, Direction::down)};

@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numbers>
 
@@ -122,7 +121,7 @@ TEST_CASE("a face too wide for plane stress is warned of, by gear") {
 
 TEST_CASE("the keys of a result hold the tip and root diameters that addendum and dedendum gave") {
   std::map<std::string, std::string> values;
-  for (const SceneKey& key : scene_keys_of(at_rest(40e-3))) values[key.name] = key.value[0];
+  for (const SceneKeys::Row& key : scene_keys_of(at_rest(40e-3)).rows) values[key.name] = key.value[0];
   CHECK(values["tip_diameter_mm"] == "156");
   CHECK(values["root_diameter_mm"] == "142.5");
   CHECK(values["addendum"] == "1");

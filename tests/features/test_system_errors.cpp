@@ -3,12 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 
-#include "base/error.h"
 #include "dynamics/system_dynamics.h"
 #include "figure_block.h"
 #include "gear/flank_deviation.h"
@@ -23,7 +19,7 @@
 #include "planetary_train.h"
 #include "refusal.h"
 #include "relative.h"
-#include "report/system_figures.h"
+#include "report/figure_list.h"
 #include "results/static.h"
 #include "results/sweep.h"
 #include "scene_file.h"

@@ -4,13 +4,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <numeric>
 
-#include "base/error.h"
 #include "dynamics/steady_state.h"
 #include "gear/tooth_errors.h"
 #include "paper_pair.h"

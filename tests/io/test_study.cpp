@@ -9,9 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <map>
 #include <numbers>
 #include <set>
 
@@ -20,8 +18,8 @@
 #include "picture_inputs.h"
 #include "refusal.h"
 #include "relative.h"
+#include "report/figure_list.h"
 #include "report/gnuplot.h"
-#include "report/study_figure.h"
 
 using namespace whine;
 

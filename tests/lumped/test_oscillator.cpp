@@ -7,7 +7,6 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
-#include <optional>
 #include <vector>
 
 #include "base/error.h"
@@ -19,7 +18,7 @@
 #include "paper_pair.h"
 #include "refusal.h"
 #include "relative.h"
-#include "report/motion_figures.h"
+#include "report/figure_list.h"
 #include "report/response_figures.h"
 #include "signal/response.h"
 #include "system/rectangular_wave.h"

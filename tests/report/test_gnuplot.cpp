@@ -4,14 +4,12 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <numbers>
 #include <tuple>
 
 #include "base/error.h"
 #include "figure_block.h"
 #include "gear/pair.h"
-#include "lumped/stiffness.h"
 #include "own_folder.h"
 #include "paper/beside.h"
 #include "paper/table1.h"
@@ -19,14 +17,10 @@
 #include "refusal.h"
 #include "relative.h"
 #include "report/engineering_axes.h"
-#include "report/error_budget_figure.h"
-#include "report/fold_curve_figure.h"
-#include "report/gear_figures.h"
+#include "report/figure_list.h"
 #include "report/gnuplot.h"
-#include "report/motion_figures.h"
 #include "report/plot_file.h"
 #include "report/response_figures.h"
-#include "report/static_figures.h"
 #include "report/wireframe.h"
 #include "signal/spectrum.h"
 #include "system/rectangular_wave.h"

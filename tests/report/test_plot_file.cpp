@@ -14,9 +14,9 @@
 #include "own_folder.h"
 #include "refusal.h"
 #include "relative.h"
+#include "report/figure_list.h"
 #include "report/figures.h"
 #include "report/gnuplot.h"
-#include "report/harris_figure.h"
 #include "report/plot_file.h"
 #include "report/wireframe.h"
 

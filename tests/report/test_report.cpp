@@ -19,13 +19,11 @@
 #include "paper_pair.h"
 #include "refusal.h"
 #include "relative.h"
-#include "report/motion_figures.h"
+#include "report/figure_list.h"
 #include "report/report.h"
 #include "report/report_figures.h"
 #include "report/report_guide.h"
 #include "report/report_remarks.h"
-#include "report/report_tables.h"
-#include "report/static_figures.h"
 #include "report/system_report_guide.h"
 #include "signal/response.h"
 #include "signal/spectrum.h"
@@ -557,13 +555,13 @@ TEST_CASE(
 }
 
 TEST_CASE("keys of a scene from its artifacts: in the scene's units, motion only where there is one") {
-  const auto value = [](const std::vector<SceneKey>& keys, const std::string& name) {
-    for (const SceneKey& key : keys)
-      if (key.name == name) return key.value[0] + "|" + key.value[1];
+  const auto value = [](const SceneKeys& keys, const std::string& name) {
+    for (const SceneKeys::Row& key : keys.rows)
+      if (key.name == name) return key.value[0] + "|" + (key.value.size() > 1 ? key.value[1] : "");
     return std::string("none");
   };
   StaticResult s = statics_of_paper(100);
-  const std::vector<SceneKey> keys = scene_keys_of(s);
+  const SceneKeys keys = scene_keys_of(s);
   CHECK(value(keys, "teeth") == "50|50");
   CHECK(value(keys, "youngs_modulus_GPa") == "207|207");
   CHECK(value(keys, "pressure_angle_deg") == "20|20");

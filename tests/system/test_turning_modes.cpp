@@ -11,7 +11,7 @@
 #include "planetary_train.h"
 #include "refusal.h"
 #include "relative.h"
-#include "report/campbell_figure.h"
+#include "report/figure_list.h"
 #include "system/natural_modes.h"
 
 using namespace whine;
