@@ -12,6 +12,8 @@
 #include "base/dense.h"
 #include "base/error.h"
 #include "gear/body_inertia.h"
+#include "gear/train.h"
+#include "system/natural_modes.h"
 #include "system/rolling_mesh.h"
 
 namespace whine {
@@ -441,8 +443,17 @@ ImpactResult frozen_impact(const ReducedBody& driver, const ReducedBody& driven,
 ImpactResult impact(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
                     double mean_stiffness, const ImpactParameters& settings, const ImpactPlan& plan,
                     const std::function<void(long, long)>& report) {
-  return FixedPhasePair(driver, driven, statics, mean_stiffness, settings, plan)
-      .run(settings.damping.rayleigh_stiffness, report);
+  ImpactResult out = FixedPhasePair(driver, driven, statics, mean_stiffness, settings, plan)
+                         .run(settings.damping.rayleigh_stiffness, report);
+  System rigid = pair_system(statics.mesh, driver.design, driven.design);
+  rigid.drives.clear();  // both gears are free to turn
+  for (size_t g = 0; g < kSides; ++g) {
+    rigid.bodies[g].inertia = settings.inertia[g];
+    double& mass = rigid.bodies[g].bearing.mass;
+    if (!(mass > 0)) mass = (g == 0 ? driver : driven).mass;
+  }
+  out.rigid_frequency = rigid_frequencies(rigid, MatrixXd::Constant(1, 1, statics.mean_stiffness));
+  return out;
 }
 
 ImpactResult calibrate(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,

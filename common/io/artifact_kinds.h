@@ -42,7 +42,7 @@ inline constexpr std::tuple kArtifactKinds{
     ArtifactKind<SystemStaticResult>{"static", 8, "static.h5", "static"},
     ArtifactKind<ErrorBudgetResult>{"error_budget", 4, "error_budget.h5", "error_budget"},
     ArtifactKind<LoadedResult>{"loaded", 2, "loaded_<phase>.h5", "loaded_*"},
-    ArtifactKind<ImpactResult>{"impact", 2, "impact.h5", "impact"},
+    ArtifactKind<ImpactResult>{"impact", 3, "impact.h5", "impact"},
     ArtifactKind<SweepResult>{"sweep", 9, "sweep.h5", "sweep"},
     ArtifactKind<SweepErrorsResult>{"sweep_errors", 1, "sweep_errors.h5", "sweep_errors"},
     ArtifactKind<ResponseResult>{"response", 11, "response.h5", "response"},

@@ -63,12 +63,11 @@ void describe(Codec& c, ImpactResult& a) {
   describe_source(c, a, false);
   describe_names(c, a.of_train(), a.mesh_names, a.body_names);
   describe_modes(c, a);
-  if (c.lists() || a.of_train()) {
+  c(a.rigid_frequency, "/rigid_frequency", "Hz", kFrequency, "rigid_mode",
+    "natural frequencies of rigid gears on the mean stiffnesses of the meshes, free motions left out");
+  if (c.lists() || a.of_train())
     c(a.impulse, "/parameters/impulse", "1", kShare, "",
       "root of the kinetic energy of the impulse over what the equilibrium stores");
-    c(a.rigid_frequency, "/rigid_frequency", "Hz", kFrequency, "rigid_mode",
-      "of trains: natural frequencies of rigid gears on the mean stiffnesses of the meshes, free motions left out");
-  }
   if (a.of_train()) return;
   describe_bearing_dampers(c, a.mean_stiffness, a.bearing_damper);
   c(a.torque_step, "/parameters/operation/torque_step", "1", kShare, "",

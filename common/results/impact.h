@@ -45,7 +45,7 @@ struct ImpactResult : MotionSource {
   double impulse = 0;         // 1, of a train: see SystemImpactPlan
   double mean_stiffness = 0;  // N m-1 that sets the bearing dampers of a pair
   std::array<double, kSides> bearing_damper = {};  // N m s
-  // (rigid_mode) Hz: of rigid gears on the mean stiffnesses of the meshes; of trains
+  // (rigid_mode) Hz: of rigid gears on the mean stiffnesses of the meshes, free motions left out
   Eigen::VectorXd rigid_frequency;
   Eigen::VectorXd mesh_phase;   // (phase) 1
   MatrixRMi loaded_pairs;       // (phase, mesh) tooth pairs that carry load in static equilibrium

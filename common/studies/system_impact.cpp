@@ -65,13 +65,6 @@ void measure(SystemDynamics& dynamics, int i, const SystemImpactPlan& plan, Impa
   }
 }
 
-// Hz: of rigid gears on the mean stiffnesses, without free motions.
-VectorXd rigid_frequencies(const TrainInMotion& rig, const System& layout) {
-  const VectorXd all = natural_modes(layout, rig.mean_stiffness()).natural_frequency;
-  const auto free = static_cast<Index>((all.array() == 0).count());  // they come first
-  return all.tail(all.size() - free);
-}
-
 }  // namespace
 
 SystemRingDown ring_down(SystemDynamics& dynamics, int i, const VectorXd& shape, double speed, double seconds,
@@ -137,7 +130,7 @@ ImpactResult system_impact(const SystemSweepParameters& settings, const std::vec
   ImpactResult out;
   static_cast<MotionSource&>(out) = rig.source();
   out.impulse = plan.impulse;
-  out.rigid_frequency = rigid_frequencies(rig, out.train.layout);
+  out.rigid_frequency = rigid_frequencies(out.train.layout, rig.mean_stiffness());
   const Index phases = plan.phases, modes = std::min<Index>(plan.modes, dynamics.coordinates().size());
   out.mesh_phase.setZero(phases);
   out.loaded_pairs.setZero(phases, dynamics.meshes());

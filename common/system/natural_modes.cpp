@@ -313,6 +313,11 @@ void take_types(const ModesResult& alike, ModesResult& out) {
 
 }  // namespace
 
+Eigen::VectorXd rigid_frequencies(const System& layout, const MatrixXd& mesh_stiffness) {
+  const Eigen::VectorXd all = natural_modes(layout, mesh_stiffness).natural_frequency;
+  return all.tail((all.array() > 0).count());  // free motions come first
+}
+
 ModesResult elastic_modes(const SystemStaticResult& at_rest) {
   if (at_rest.mesh_stiffness.empty()) fail(Failure::input, "the statics hold no phase");
   const auto meshes = static_cast<Index>(at_rest.settings.layout.meshes.size());

@@ -21,6 +21,8 @@ inline constexpr double kFreeMotion = 1e-11;
 // coordinate that moves most in the pair is at rest in the second; signs make that coordinate positive. Throws as rigid_system, and
 // Error(numerical) if the eigenproblem is not solved. mesh_stiffness: see rigid_system.
 ModesResult natural_modes(const System& layout, const Eigen::MatrixXd& mesh_stiffness = {});
+// (mode) Hz, ascending: their natural frequencies without those of free motions.
+Eigen::VectorXd rigid_frequencies(const System& layout, const Eigen::MatrixXd& mesh_stiffness);
 
 // Of elastic gears that do not vibrate themselves: M of the gears as rigid bodies, and the frozen stiffness of contact and
 // bodies that their statics have, averaged over the mesh period (modes) and at each phase (frozen_frequency). Planets whose meshes

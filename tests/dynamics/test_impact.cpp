@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "dynamics/impact.h"
+#include "gear/pair.h"
 #include "paper_pair.h"
 #include "refusal.h"
 #include "relative.h"
@@ -248,6 +249,12 @@ TEST_CASE("pair at a fixed phase: one and two pairs, their mean, and no dependen
   CHECK(a.states.natural_frequency[2] < a.states.natural_frequency[1]);
   CHECK(a.states.natural_frequency[2] == relative(a.natural_frequency.mean(), 1e-14));
   CHECK(a.states.damping_ratio[2] == relative(a.damping_ratio.mean(), 1e-14));
+  // Of rigid gears, in closed form.
+  const StaticResult statics = coarse_statics(150);
+  const double inverse_mass = std::pow(GearPair(statics).gear(0).base_radius(), 2) *
+                              (1 / coarse_impact().inertia[0] + 1 / coarse_impact().inertia[1]);
+  REQUIRE(a.rigid_frequency.size() == 1);
+  CHECK(a.rigid_frequency[0] == relative(std::sqrt(statics.mean_stiffness * inverse_mass) / (2 * kPi), 1e-9));
   // The first sample is the static difference, the last has decayed by the damping ratio.
   const double oscillations = a.states.time[a.states.time.size() - 1] * a.states.natural_frequency[1];
   const VectorXd two = a.states.transmission_error.row(1);

@@ -350,6 +350,11 @@ TEST_CASE(
     CHECK(branch.dte_rms(0, m) == relative(sweep.dte_rms(0, m), 1e-4));
     CHECK(branch.dte_rms(last, m) == relative(sweep.dte_rms(2, m), 1e-4));
     CHECK(branch.mesh_force_max(last, m) == relative(sweep.mesh_force_max(2, m), 1e-4));
+    CHECK(branch.tooth_load_max(last, m) == relative(sweep.tooth_load_max(2, m), 1e-4));
+    CHECK(branch.mesh_force_sustained(last, m) == relative(sweep.mesh_force_sustained(2, m), 0.02));
+    CHECK(branch.tooth_load_sustained(last, m) == relative(sweep.tooth_load_sustained(2, m), 0.02));
+    CHECK(branch.dte_harmonic[static_cast<size_t>(last)](0, m) ==
+          relative(sweep.dte_harmonic[2](0, m), 1e-3));
   }
   for (Index b = 0; b < 6; ++b)
     CHECK(branch.bearing_force_rms(last, b) == relative(sweep.bearing_force_rms(2, b), 1e-3));
