@@ -80,7 +80,7 @@ KeyList keys(Fidelity& f) {
   k.choice(f.contact, "contact", "strips", "contact of a tooth pair: one force and Hertz's closed law, or pressure on strips");
   k.choice(f.integrator, "integrator", "exact", "time integration: Newmark (Eq. 8), or modal propagators");
   k.begin_group(f.width != WidthModel::one);
-  k.choice(f.width, "width", "one", "contact over the face width: one slice under even load, of spur pairs; slices: points along each contact line, which the teeth carry each by itself, what helical gears, leads and misalignment need; body: the same points on bodies in three dimensions, of spur gears, which width_degree in [discretisation] gives them");
+  k.choice(f.width, "width", "one", "contact over the face width: one slice under even load, of spur pairs; slices: points along each contact line, which the teeth carry each by itself; body: the same points on bodies in three dimensions, in plane strain; default: body for helical pairs, misalignment, face offset and lead modifications, else one");
   return k;
 }
 
@@ -98,7 +98,7 @@ KeyList keys(BodyDiscretisation& b) {
 
 KeyList keys(WidthDiscretisation& w) {
   KeyList k("discretisation");
-  k.add(&w.degree, "width_degree", kNone, "0", {1, 24, false, "a body of degree 0 is the plane one; 0 stands for that", true}, "degree of the polynomials over the face width by which a body has a third dimension, its material in plane strain; 0: a plane body. 8 hold smooth loads to 0.1 % up to a width of 10 modules, 12 up to 15, beyond them 0.8 widths in modules");
+  k.add(&w.degree, "width_degree", kNone, "0", {1, 24, false, "a body of degree 0 is the plane one; 0 stands for that", true}, "degree of the polynomials over the face width by which a body has a third dimension, its material in plane strain; 0: a plane body, or with width = \"body\" what holds smooth loads to 0.1 %: 8 up to a width of 10 modules, 12 up to 15, beyond them 0.8 widths in modules, at most 24. Contact takes P <= sqrt(b / 2a) of them");
   k.add(&w.section_size, "section_element_mm", kMillimetre, "module / 3", {0, 100, true}, "element size of the section that the third dimension is computed on, apart from element_mm: it hardly changes the result; of width_degree alone");
   return k;
 }

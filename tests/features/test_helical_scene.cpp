@@ -45,6 +45,23 @@ TEST_CASE("a helical scene: helix, hand and level, in the scene and in stage par
   CHECK(read_body_parameters(body).design.helix_angle == scene.gear("wheel").design.helix_angle);
 }
 
+TEST_CASE("a scene that leaves the level over the face open: one slice, or bodies in three dimensions") {
+  const SceneFile file;
+  CHECK(file.read(kScene).fidelity.width == WidthModel::one);
+  CHECK(file.read(kScene).body.width.degree == 0);
+  std::string helical = helical_scene();
+  CHECK(file.read(helical).body.width.degree == 0);
+  helical.erase(helical.find("[fidelity]"));
+  const Scene open = file.read(helical);
+  CHECK(open.fidelity.width == WidthModel::body);
+  CHECK(open.body.width.degree == 8);
+  const Scene given = file.read(helical + "[discretisation]\nwidth_degree = 5\n");
+  CHECK(given.body.width.degree == 5);
+  const Scene askew =
+      file.read(scene_with("centre_distance_mm = 150", "centre_distance_mm = 150\nmisalignment_um = 10"));
+  CHECK(askew.fidelity.width == WidthModel::body);
+}
+
 TEST_CASE("a tip diameter of a helical gear is that of its transverse section") {
   const SceneFile file;
   std::string scene = helical_scene();

@@ -220,6 +220,39 @@ TEST_CASE(
              "tip_relief 51 of cylindrical_gear_flank 20: a flank of a scene has one tip_relief"));
 }
 
+TEST_CASE(
+    "REXS: a helical stage: angle, hands, tips and shifts of the normal section, crowning of the lead") {
+  const Folder folder;
+  Gearbox box = first_pair();
+  const double beta = 20 * std::acos(-1.0) / 180, distance = 94.5 / std::cos(beta);
+  set(box, 10, "helix_angle_reference_diameter", "deg", "20");
+  set(box, 11, "helix_angle_reference_diameter", "deg", "-20");
+  set(box, 12, "center_distance", "mm", text(distance));
+  // Reference diameter, 0.25 of shift and an addendum of 1.
+  set(box, 10, "tip_diameter", "mm", text(2.5 * (30 / std::cos(beta) + 2.5)));
+  box.parts.push_back({50,
+                       "helix_crowning",
+                       "",
+                       {{"helix_crowning_amount_datum_face", "mum", "6"},
+                        {"helix_crowning_amount_non_datum_face", "mum", "6"}}});
+  for (const int flank : {20, 21})
+    box.links.push_back({"reference", {{"origin", flank}, {"referenced", 50}}});
+  const auto read = [&] { return read_scene(folder.file("pair.toml", scene_in(folder, box).text)); };
+  const Scene scene = read();
+  const GearDesign& pinion = scene.gears[0].design;
+  CHECK(pinion.helix_angle == relative(beta, 1e-12));
+  CHECK(pinion.hand == Hand::right);
+  CHECK(scene.gears[1].design.hand == Hand::left);
+  CHECK(pinion.addendum == relative(1, 1e-4));
+  CHECK(!scene.gears[0].material.plane_stress);
+  CHECK(scene.gears[0].modification.lead.crowning == relative(6e-6, 1e-12));
+  CHECK(scene.fidelity.width == WidthModel::body);
+  // Angles without their hand.
+  set(box, 11, "helix_angle_reference_diameter", "deg", "20");
+  CHECK(read().gears[1].design.hand == Hand::left);
+  CHECK(contains(scene_in(folder, box).text, "ASSUMED: the other hand of its mate"));
+}
+
 TEST_CASE("REXS: what a model says and a scene cannot hold is listed; texts of the model are data") {
   const Folder folder;
   Gearbox box = first_pair();
