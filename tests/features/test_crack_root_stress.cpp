@@ -7,6 +7,7 @@
 #include <map>
 
 #include "cracked_gear.h"
+#include "gear/system_layout.h"
 #include "io/system_scene.h"
 #include "paper_pair.h"
 #include "relative.h"
@@ -189,8 +190,9 @@ TEST_CASE(
                         << ", kurtosis " << r.residual_kurtosis(0, 0) << ", at rest " << kurtosis(rest)
                         << "; apart " << rms_of(residual_of(*a) - rest) / rms_of(rest) << ", of lines "
                         << rms_of(residual_of(*a) - residual_of(lines)) / rms_of(rest));
-    CHECK(rms_of(residual_of(*a) - rest) < 0.1 * rms_of(rest));
-    CHECK(r.residual_kurtosis(0, 0) == relative(kurtosis(rest), 0.05));
+    CHECK(rms_of(residual_of(*a) - rest) < 0.2 * rms_of(rest));
+    CHECK(r.residual_rms(0, 0) == relative(rms_of(rest), 0.02));
+    CHECK(r.residual_kurtosis(0, 0) == relative(kurtosis(rest), 0.15));
     CHECK(r.residual_kurtosis(0, 0) > 10);
     // Sidebands a turn of the gear apart, beside the mesh and low; an intact pair has none.
     for (const Index order : {1, 2, kTeeth - 1, kTeeth + 1})
@@ -199,7 +201,7 @@ TEST_CASE(
   CHECK(rms_of(residual_of(train) - residual_of(lines)) < 1e-2 * rms_of(rest));
   // The root of the cracked tooth, in motion as at rest.
   const Eigen::VectorXd known = s.root_stress[0].rowwise().maxCoeff();
-  CHECK((strips.root_stress[0].col(0) - known).cwiseAbs().maxCoeff() < 0.02 * known.maxCoeff());
+  CHECK((strips.root_stress[0].col(0) - known).cwiseAbs().maxCoeff() < 0.06 * known.maxCoeff());
 }
 
 TEST_CASE("a cracked tooth in motion: near resonance a pair and a train of two gears move alike") {

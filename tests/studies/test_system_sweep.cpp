@@ -249,8 +249,17 @@ TEST_CASE("losses of a planetary train in motion: the work of friction, and what
   Eigen::VectorXd torque = a.holding_torque.row(0).transpose();
   torque[0] = 300;
   const double by_torques = efficiency_at_rest(a.train.layout, torque, -1);
-  INFO(a.friction.efficiency[0] << " by losses, " << by_torques << " by torques");
-  CHECK(1 - a.friction.efficiency[0] == relative(1 - by_torques, 0.02));
+  // What dampers take of the vibration comes from the drives, too.
+  double damped_away = 0;
+  for (const Index line :
+       {energy_line("modal_damping"), energy_line("bearing_damping"), energy_line("relaxation_damping")})
+    damped_away += a.energy(0, line) * f;
+  const double put_in = 300 * 2 * std::numbers::pi * f / 26,
+               loss = 1 - a.friction.efficiency[0] + damped_away / put_in;
+  INFO(a.friction.efficiency[0] << " by losses, " << loss << " with damping, " << by_torques
+                                << " by torques");
+  CHECK(a.friction.power[0] == relative((1 - a.friction.efficiency[0]) * put_in, 1e-9));
+  CHECK(loss == relative(1 - by_torques, 0.01));
   const SceneFile place;
   const std::string path = place.path("") + ".h5";
   write(path, sweep_response(a), Provenance());
@@ -308,7 +317,7 @@ TEST_CASE(
   const double pass = a.train.layout.bodies[5].sense / 100.0;
   for (const double order : {1 - 1.0 / kPlanet, 1 + 1.0 / kPlanet}) {
     CHECK(line(order + pass) > 1e4 * line(order));
-    CHECK(line(order + pass) > 1e4 * line(order + 1.5 * pass));
+    CHECK(line(order + pass) > 1e4 * line(order + 2 * pass));
   }
 }
 
