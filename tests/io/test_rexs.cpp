@@ -237,7 +237,8 @@ TEST_CASE(
                         {"helix_crowning_amount_non_datum_face", "mum", "6"}}});
   for (const int flank : {20, 21})
     box.links.push_back({"reference", {{"origin", flank}, {"referenced", 50}}});
-  const auto read = [&] { return read_scene(folder.file("pair.toml", scene_in(folder, box).text)); };
+  const auto imported = [&] { return scene_of_rexs(read_rexs(folder.file("pair.rexs", xml(box))), "", 1); };
+  const auto read = [&] { return read_scene(folder.file("pair.toml", imported().text)); };
   const Scene scene = read();
   const GearDesign& pinion = scene.gears[0].design;
   CHECK(pinion.helix_angle == relative(beta, 1e-12));
@@ -250,7 +251,7 @@ TEST_CASE(
   // Angles without their hand.
   set(box, 11, "helix_angle_reference_diameter", "deg", "20");
   CHECK(read().gears[1].design.hand == Hand::left);
-  CHECK(contains(scene_in(folder, box).text, "ASSUMED: the other hand of its mate"));
+  CHECK(contains(imported().text, "ASSUMED: the other hand of its mate"));
 }
 
 TEST_CASE("REXS: what a model says and a scene cannot hold is listed; texts of the model are data") {
