@@ -181,7 +181,11 @@ void walk(StageParameters& s, SystemStaticParameters& p, SystemSweepParameters* 
   }
   for (size_t m = 0; (reads && m == 0) || s.has(text("mesh_", m), m < p.mesh.size()); ++m) {
     if (reads) p.mesh.emplace_back();
-    s(keys(p.mesh[m]).section("mesh").without({"misalignment_um", "face_offset_mm"}).all().labelled(text("mesh_", m)));
+    s(keys(p.mesh[m])
+          .section("mesh")
+          .without({"misalignment_um", "face_offset_mm"})
+          .all()
+          .labelled(text("mesh_", m)));
   }
   if (Friction friction = p.friction(); s.has("friction", friction.acts())) {
     s(keys(friction));

@@ -26,7 +26,7 @@ struct SweepErrorsResult : MotionSource {
   std::vector<MatrixRM> dte_rms_change, tooth_load_change;
   // (entry, speed) 1: both motions repeat after as many periods and are on one branch; else 0, and there is no change to tell
   MatrixRMi compared;
-  MatrixRM jump_change;        // (entry, jump) Hz; 0 where `jump_found` is 0
+  MatrixRM jump_change;  // (entry, jump) Hz; 0 where `jump_found` is 0
   MatrixRMi jump_found;  // (entry, jump) 1: the refined sweep jumps near by; else 0
 
   // The errors that follow: sum over the entries of |change| / (1 - 2^-p), or of |change| where no order shows.
