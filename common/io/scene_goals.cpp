@@ -82,8 +82,8 @@ SceneAbilities abilities(const Scene& scene) {
   SceneAbilities out;
   out.face =
       face_words(scene.mesh, scene.gear(scene.mesh.gear[0]).design, scene.gear(scene.mesh.gear[1]).design);
-  out.slices = scene.fidelity.width != WidthModel::one;
-  if (out.face.empty() && out.slices)
+  out.slices = scene.fidelity.width == WidthModel::slices;
+  if (out.face.empty() && scene.fidelity.width != WidthModel::one)
     out.face = text("[fidelity] has width = \"", scene.fidelity.width, "\"");
   for (const std::string& gear : scene.mesh.gear) {
     out.teeth_differ |= !scene.gear(gear).errors.none();

@@ -191,7 +191,8 @@ TEST_CASE("energy of slices in motion closes, with and without loss of contact")
     for (const double frequency : {2900.0, 900.0}) {
       CAPTURE(overlap);
       CAPTURE(frequency);
-      Pair pair({overlap, Hand::right, 15e-6, 6}, 64, 2e-6);
+      // Misaligned teeth come in so softly that they do not part.
+      Pair pair({overlap, Hand::right, overlap < 0.4 ? 0 : 15e-6, 6}, 64, 2e-6);
       pair.run(frequency, 64, 20);
       SystemEnergyBalance energy;
       for (int n = 0; n < 3; ++n) {

@@ -132,7 +132,8 @@ TEST_CASE("an artifact of another schema or version is rejected with what it is 
   CHECK(refused([] { read<SweepResult>("out/static.h5"); }, Failure::input,
                 {"whine/static", "whine/sweep", "make out/static.h5"}));
   write_like("out/old.h5", [](h5::Writer& file) { put_schema(file, "whine/static", 0); });
-  CHECK(unread_static("out/old.h5", Failure::input, {"version", 0, 8, "make out/old.h5"}));
+  CHECK(unread_static("out/old.h5", Failure::input,
+                      {"version", 0, kind_of<SystemStaticResult>().version, "make out/old.h5"}));
   write_like("out/alien.h5", [](h5::Writer& file) { file.group("/data"); });
   CHECK(unread_static("out/alien.h5", Failure::input, {"out/alien.h5"}));
 }

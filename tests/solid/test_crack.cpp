@@ -505,7 +505,7 @@ TEST_CASE("statics over a turn: the cracked tooth's own softness where it works,
     }
 }
 
-TEST_CASE("lines and strips see the same crack, and motion rejects it") {
+TEST_CASE("lines and strips see the same crack") {
   const ReducedBody &cracked = cracked_body(2e-3, 0), &plain = cracked_body(0);
   StaticParameters settings = paper_statics(8);
   const StaticResult strips = static_transmission(cracked, plain, settings, 150);
@@ -517,9 +517,6 @@ TEST_CASE("lines and strips see the same crack, and motion rejects it") {
     most = std::max(most, strips.transmission_error[i]);
   }
   CHECK(most > 1.05 * strips.transmission_error.minCoeff());
-  CHECK(failure_of([&] {
-          sweep(cracked, plain, strips, 4.6e8, paper_sweep(2000, 2000, 20), Direction::up, no_report);
-        }) == Failure::input);
 }
 
 TEST_CASE("artifacts of a cracked gear give back every value bit by bit") {

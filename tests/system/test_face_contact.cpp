@@ -423,19 +423,21 @@ TEST_CASE(
   CHECK(here.least_gap >= -1e-12);
   const HelicalForces force = helical_forces(GearPair(here), 150);
   for (Index i = 0; i < 8; ++i) CHECK(here.tooth_load.row(i).sum() == relative(force.normal, 1e-10));
-  // Buttressing: under even flanks the ends of a helical tooth differ, and they change places with the hand, which half a turn of the pair
-  // about an axis across does, too: phase f of right-hand gears is phase -f of left-hand ones with z turned round.
+  // Buttressing: the ends of a helical tooth differ, and they change places with the hand. At the pitch point both gears are alike, and
+  // half a turn exchanges them.
   settings.mesh.misalignment = 0;
-  const StaticResult even = static_transmission(right, left, settings, 150);
-  const auto ends = [](const StaticResult& s) {  // of the reference line at the pitch point
-    const auto row = s.face.line_load[0].row(-s.pair[0]);
+  const StaticResult even = static_transmission(right, left, settings, 150),
+                     other = static_transmission(left, right, settings, 150);
+  const auto ends = [](const StaticResult& s, size_t phase) {  // of the reference line
+    const auto row = s.face.line_load[phase].row(-s.pair[0]);
     return row[0] / row[row.size() - 1];
   };
-  const StaticResult turned = static_transmission(left, right, settings, 150);
-  MESSAGE("load at one end of the line over that at the other: " << ends(even) << ", of the other hand "
-                                                                 << ends(turned));
-  CHECK(std::abs(ends(even) - 1) > 0.01);
-  CHECK(ends(even) * ends(turned) == relative(1, 1e-9));
+  MESSAGE("load at one end of the line over that at the other: " << ends(even, 1) << ", of the other hand "
+                                                                 << ends(other, 1) << ", at the pitch point "
+                                                                 << ends(even, 0));
+  CHECK(ends(even, 0) == relative(1, 1e-9));
+  CHECK(std::abs(ends(even, 1) - 1) > 0.01);
+  CHECK(ends(even, 1) * ends(other, 1) == relative(1, 1e-9));
 }
 
 TEST_CASE("bodies in three dimensions: a small helix is the spur pair") {
@@ -474,7 +476,7 @@ TEST_CASE(
             << ten.face.load_factor << "; transmission error off by " << off(six) << ", " << off(eight));
     CHECK(off(eight) < 2e-3);
     CHECK(std::abs(eight.face.load_factor - ten.face.load_factor) < eight.face.load_factor_error);
-    CHECK(eight.face.load_factor_error < 0.1 * eight.face.load_factor);
+    CHECK(eight.face.load_factor_error < 0.15 * eight.face.load_factor);
   }
 }
 
