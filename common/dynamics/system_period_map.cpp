@@ -116,15 +116,19 @@ void SystemPeriodMap::solve_contacts(int i, const MatrixXd& z, const MatrixXd& r
   }
 }
 
-// The equations of SystemDynamics::step, linear in what moves.
-MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
+void SystemPeriodMap::require_tangent() const {
   if (!applied_)
     fail(Failure::numerical, "the tangent at ", parameter(),
          " Hz is asked for before a period was integrated at this speed");
-  SystemDynamics& of = dynamics_;
-  if (of.hunting_periods() > 1)
-    fail(Failure::input, "the period map of teeth that differ, of ", of.hunting_periods(),
+  if (const int periods = dynamics_.hunting_periods(); periods > 1)
+    fail(Failure::input, "the period map of teeth that differ, of ", periods,
          " mesh periods, has no tangent; take teeth that are alike");
+}
+
+// The equations of SystemDynamics::step, linear in what moves.
+MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
+  require_tangent();
+  SystemDynamics& of = dynamics_;
   const Index n = of.coordinates().size(), loads = of.relaxed_size(), slots = of.slots(),
               many = directions.cols();
   const MatrixXd start = unit_.asDiagonal() * directions;

@@ -46,6 +46,7 @@ class SystemPeriodMap : public PeriodMap {
   const SystemDynamics::Period& period() const { return period_; }
 
  private:
+  void require_tangent() const;  // throws where there is none
   void solve_contacts(int i, const Eigen::MatrixXd& z, const Eigen::MatrixXd& relaxed,
                       const Eigen::MatrixXd& line_load, Eigen::MatrixXd& p) const;
   SystemDynamics& dynamics_;

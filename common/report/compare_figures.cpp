@@ -89,6 +89,7 @@ std::vector<RestCurve> rest_curves(const std::string& design, const SystemStatic
 
 Figure compared_rest_figure(const std::vector<RestCurve>& curves) {
   std::vector<Compared> all;
+  all.reserve(curves.size());
   for (const RestCurve& curve : curves) all.push_back({curve.design, curve.torque});
   require_all_designs(all, curves.size(), "static.h5");
   Figure figure;

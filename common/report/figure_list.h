@@ -198,7 +198,7 @@ double rank_correlation(const std::vector<double>& x, const std::vector<double>&
 // --- Systems of several meshes.
 
 // Transmission error and force of each mesh, size of the force on each bearing, pin and axis; the notes say how planets share
-// the load.
+// the load. Throws Error(input) for a pair.
 Figure system_static_figure(const SystemStaticResult& a);
 
 // Of each [[mesh]] of planets the share of each over the mesh period, and the loads of the tooth pairs of its first mesh. Throws

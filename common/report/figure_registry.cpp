@@ -293,6 +293,11 @@ Drawings drawings_of_motions() {
           const auto captions = read_sweeps(from.inputs);
           return dynamic_load_figure(captions.sweeps, captions.background);
         }}},
+  };
+}
+
+Drawings drawings_of_forces() {
+  return {
       {"bearing-forces",
        {"forces on elastic bearings against mesh frequency",
         "response.h5 of sweeps up and down of one torque; impact.h5 of that torque, for damping ratios",
@@ -402,6 +407,7 @@ const std::map<std::string, Drawing>& drawings() {
   static const std::map<std::string, Drawing> all = [] {
     Drawings drawings = drawings_at_rest();
     drawings.merge(drawings_of_motions());
+    drawings.merge(drawings_of_forces());
     drawings.merge(drawings_of_designs());
     drawings.merge(drawings_of_maps());
     drawings.merge(drawings_of_systems());

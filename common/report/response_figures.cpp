@@ -371,7 +371,7 @@ Figure face_load_figure(const std::vector<ResponseResult>& sweeps, const Caption
   figure.shafts = shafts_of_all(sweeps);
   Panel factor{.heading = "face load factor K_{Hβ}",
                .x = {.label = "Mesh frequency (Hz)", .speed = true},
-               .y = {.label = "K_{Hβ}"},
+               .y = {.label = "Largest over mean"},
                .rules = {{'x', curve.up->natural_frequency, "f_n"}}},
       largest = factor;
   largest.heading = "largest line load, inner 90 % of face and path";

@@ -22,7 +22,7 @@ FigureBlock period_block(const std::string& name, const std::vector<std::string>
   const Index n = phase.size();
   for (Index i = 0; i <= n; ++i) {
     std::vector<double>& row = block.rows.emplace_back(1, i < n ? phase[i] : end);
-    for (const PeriodCurve& curve : curves) row.push_back(curve.values[i % n]);
+    for (const PeriodCurve& curve : curves) row.push_back(curve.values[i < n ? i : 0]);
   }
   return block;
 }

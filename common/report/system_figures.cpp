@@ -119,6 +119,8 @@ std::vector<PeriodCurve> root_stresses(const SystemStaticResult& a) {
 }  // namespace
 
 Figure system_static_figure(const SystemStaticResult& a) {
+  if (!a.of_train())
+    fail(Failure::input, "figure: this static.h5 is of a pair; fig12, fig13 and load-sharing draw it");
   const System& s = a.settings.layout;
   Figure figure;
   figure.title = "A system at rest: transmission errors, stiffnesses, forces, root stresses";

@@ -65,6 +65,16 @@ TEST_CASE("pictures of teeth that differ, cracks, bearings, relief: no text is c
   moving.dte_order.assign(static_cast<size_t>(moving.mesh_frequency.size()),
                           MatrixRM::Constant(4 * kPeriods, 1, 1e-6));
   check(sidebands_figure(differ, moving), "sidebands");
+  SweepResult swept = sweep_at(9999, Direction::up);
+  swept.mesh_frequency = moving.mesh_frequency;
+  swept.mesh_names = moving.mesh_names = {"pinion-wheel"};
+  swept.hunting_periods = kPeriods;
+  swept.transmission_error.assign(
+      static_cast<size_t>(moving.mesh_frequency.size()),
+      MatrixRM(1e-4 * VectorXd::LinSpaced(kPeriods * swept.steps_per_period(), 0, 300).array().sin()));
+  moving.residual_rms = 0.1 * moving.dte_rms;
+  moving.residual_kurtosis = MatrixRM::Constant(moving.mesh_frequency.size(), 1, 73.21);
+  check(residual_figure(swept, moving), "residual-signal");
   for (int g = 0; g < kSides; ++g) differ.gear[g].design.crack = {12, 1.2345e-3};
   differ.tooth_load = MatrixRM::Constant(8 * kPeriods, 3, 1e4);
   differ.root_stress = {MatrixRM::Constant(8 * kPeriods, 3, 123e6),

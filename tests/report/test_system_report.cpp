@@ -254,6 +254,7 @@ TEST_CASE("load sharing of a system: the factor of known shares, and a system th
   CHECK(share.rows[2] == std::vector<double>{1, share.rows[0][1], share.rows[0][2], share.rows[0][3]});
   a.settings.section = {0, 1, 2, 3, 4, 5};
   a.settings.mesh.resize(6);
+  CHECK(names(message_of_input([&] { system_static_figure(SystemStaticResult{}); }), {"of a pair"}));
   CHECK(names(message_of_input([&] { system_load_sharing_figure(a); }), {"several", "planets"}));
 }
 
