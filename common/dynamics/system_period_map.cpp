@@ -125,6 +125,16 @@ void SystemPeriodMap::require_tangent() const {
          " mesh periods, has no tangent; take teeth that are alike");
 }
 
+// Relaxed line loads after a step; of lines that have gone nothing is left.
+MatrixXd SystemPeriodMap::moved_on(const SystemDynamics::Position& position, const MatrixXd& line_load,
+                                   const MatrixXd& present) const {
+  MatrixXd next = MatrixXd::Zero(dynamics_.slots(), line_load.cols());
+  for (const SystemDynamics::Contact& contact : position.contact)
+    next.row(contact.slot) =
+        line_load.row(contact.slot) + dynamics_.relaxed_step_.from_new * present.row(contact.slot);
+  return next;
+}
+
 // The equations of SystemDynamics::step, linear in what moves.
 MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
   require_tangent();
@@ -189,13 +199,7 @@ MatrixXd SystemPeriodMap::tangent_times(const MatrixXd& directions) {
       frame.turn(v);
     }
     relaxed += of.relaxed_step_.from_new * load;
-    if (of.points() > 1) {  // of lines that have gone nothing is left
-      MatrixXd next = MatrixXd::Zero(slots, many);
-      for (const SystemDynamics::Contact& contact : position.contact)
-        next.row(contact.slot) =
-            line_load.row(contact.slot) + of.relaxed_step_.from_new * present.row(contact.slot);
-      line_load = std::move(next);
-    }
+    if (of.points() > 1) line_load = moved_on(position, line_load, present);
   }
   MatrixXd out(directions.rows(), many);
   for (Index c = 0; c < many; ++c) {

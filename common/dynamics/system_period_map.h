@@ -47,6 +47,8 @@ class SystemPeriodMap : public PeriodMap {
 
  private:
   void require_tangent() const;  // throws where there is none
+  Eigen::MatrixXd moved_on(const SystemDynamics::Position& position, const Eigen::MatrixXd& line_load,
+                           const Eigen::MatrixXd& present) const;
   void solve_contacts(int i, const Eigen::MatrixXd& z, const Eigen::MatrixXd& relaxed,
                       const Eigen::MatrixXd& line_load, Eigen::MatrixXd& p) const;
   SystemDynamics& dynamics_;
