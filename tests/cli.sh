@@ -534,7 +534,7 @@ if [ "$(readlink $cracked/wheel)" = "$(readlink out/scene/wheel)" ] && [ "$(read
   wrong "a cracked tooth: mesh, body, statics over a turn and its figure" "$(tail -n 1 said)"; fi
 rejected "the mesh of a gear without the crack" 3 "tooth 0 3" "$bin/gear-reduce" \
   --params $cracked/pinion/body.toml --mesh out/scene/pinion/mesh.h5 --output $cracked/pinion/body.h5
-rejected "a ring-down with a cracked tooth" 3 "pinion crack" "$bin/gear-impact" --params $cracked/params/impact.toml "${cracked_pair[@]}" \
+rejected "a ring-down with a cracked tooth" 3 "gear.pinion.crack cracked" "$bin/gear-impact" --params $cracked/params/impact.toml "${cracked_pair[@]}" \
   --static $cracked/T100/static.h5 --reference-static $cracked/T100/static.h5 --output $cracked/T100/impact.h5
 rejected "a lumped model of a cracked tooth" 3 "gear.pinion.crack cracked" "$bin/gear-lumped" --model secant --static $cracked/T100/static.h5 \
   --params $cracked/params/sweep.toml --direction up --output $cracked/T100/lumped.h5
