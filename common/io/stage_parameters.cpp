@@ -200,9 +200,6 @@ SweepParameters motion_from(const Source& source, const MotionStage& stage) {
       source.reject(
           "has width = \"", out.p.fidelity.width, "\", and ", stage.file.stage,
           " is computed in one slice over the face; write width = \"one\" in [fidelity] of the scene");
-    if (out.p.fidelity.width == WidthModel::body)
-      source.reject("has width = \"body\", and ", stage.file.stage,
-                    " is computed in slices or in one; write width = \"slices\" in [fidelity] of the scene");
   }
   out.p.reference_torque = out.torques.front();
   return out.p;

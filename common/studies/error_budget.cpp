@@ -6,8 +6,6 @@
 
 #include "base/error.h"
 #include "signal/spectrum.h"
-#include "solid/mesher.h"
-#include "solid/reduce.h"
 #include "studies/refinement.h"
 #include "system/flank_pressure.h"
 #include "system/statics.h"
@@ -73,8 +71,7 @@ struct Alternatives {
     const auto again = [&](const ReducedBody& body) {
       BodyDiscretisation other = body.discretisation;
       change(other);
-      return reduce(make_sector_mesh(body.design, other), body.material, kModes,
-                    finer * static_cast<int>(body.flank_position.size()));
+      return reduced_again(body, other, kModes, finer * static_cast<int>(body.flank_position.size()));
     };
     const bool alike = driver.compliance == driven.compliance;  // one body serves both gears
     const ReducedBody first = again(driver);

@@ -5,8 +5,7 @@
 
 #include "base/error.h"
 #include "signal/response.h"
-#include "solid/mesher.h"
-#include "solid/reduce.h"
+#include "studies/refinement.h"
 #include "studies/sweep.h"
 #include "system/statics.h"
 
@@ -25,8 +24,7 @@ StaticResult statics_with(const ReducedBody& driver, const ReducedBody& driven, 
 }
 
 ReducedBody with_all_modes(const ReducedBody& body) {
-  return reduce(make_sector_mesh(body.design, body.discretisation), body.material, kAllModes,
-                static_cast<int>(body.flank_position.size()));
+  return reduced_again(body, body.discretisation, kAllModes, static_cast<int>(body.flank_position.size()));
 }
 
 void add(LevelChange& change, double relative, double frequency) {

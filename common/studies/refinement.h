@@ -1,11 +1,20 @@
-// How refinements are called.
+// Bodies in another discretisation, and how refinements are called.
 #pragma once
 #include <cmath>
 #include <string>
 
 #include "base/error.h"
+#include "results/reduced_body.h"
+#include "solid/mesher.h"
+#include "solid/reduce.h"
 
 namespace whine {
+
+// The gear of a body, meshed and reduced with another discretisation; modes: as reduce() takes them. Errors as of make_sector_mesh(), reduce().
+inline ReducedBody reduced_again(const ReducedBody& body, const BodyDiscretisation& with, int modes,
+                                 int flank_points) {
+  return reduce(make_sector_mesh(body.design, with), body.material, modes, flank_points);
+}
 
 // "strips 8 to 16": what was refined, from which value to which.
 inline std::string from_to(const char* name, double from, double to, const char* unit = "") {

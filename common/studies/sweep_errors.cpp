@@ -6,8 +6,6 @@
 
 #include "base/error.h"
 #include "signal/response.h"
-#include "solid/mesher.h"
-#include "solid/reduce.h"
 #include "studies/next_level.h"
 #include "studies/refinement.h"
 #include "studies/sweep.h"
@@ -55,7 +53,7 @@ std::vector<ReducedBody> resized(const std::vector<ReducedBody>& bodies, const S
         with.modes == kAllModes ? kAllModes : static_cast<int>(std::lround(with.modes * sizes.modes));
     const auto points = static_cast<int>(
         std::lround(static_cast<double>(bodies[i].flank_position.size()) / sizes.flank_spacing));
-    out.push_back(reduce(make_sector_mesh(bodies[i].design, with), bodies[i].material, modes, points));
+    out.push_back(reduced_again(bodies[i], with, modes, points));
   }
   return out;
 }
@@ -213,9 +211,12 @@ SweepErrorsResult sweep_errors(const ReducedBody& driver, const ReducedBody& dri
     rest.fidelity = statics.fidelity;
     rest.contact = statics.contact;
     rest.contact.strips = static_cast<int>(std::lround(rest.contact.strips / sizes.strip));
-    const StaticResult at = static_transmission(with[0], with[1], rest, statics.torque);
+    // What refines neither bodies nor contact leaves the statics as they are.
+    const bool as_given = !sizes.of_bodies() && sizes.strip == 1;
+    const StaticResult at = as_given ? statics : static_transmission(with[0], with[1], rest, statics.torque);
     const double stiffness =
-        reference.torque == statics.torque
+        as_given ? reference.mean_stiffness
+        : reference.torque == statics.torque
             ? at.mean_stiffness
             : static_transmission(with[0], with[1], rest, reference.torque).mean_stiffness;
     return sweep(with[0], with[1], at, stiffness, moved, direction, quiet, nullptr,

@@ -78,6 +78,11 @@ MeshPosition face_mesh_position(const FaceContact& contact, double phase, double
 
 SystemModel sliced_system(const System& layout, const ReducedBody& driver, const ReducedBody& driven,
                           const GearMeshSpec& mesh, WidthModel width, int points, double depth) {
+  if (width != WidthModel::slices)
+    fail(
+        Failure::input, "width = \"", width,
+        "\" in [fidelity]: what sections of a body in three dimensions hold each other by has no inertia yet, and motion is computed in "
+        "slices; write width = \"slices\"");
   if (layout.meshes.size() != 1)
     fail(Failure::input, "width = \"", width, "\" of ", layout.meshes.size(),
          " meshes: a train in motion has one slice over the face; write width = \"one\" in [fidelity]");

@@ -17,6 +17,7 @@
 #include "gear/train.h"
 #include "orbits/periodic_motion.h"
 #include "paper_pair.h"
+#include "refusal.h"
 #include "relative.h"
 #include "system/face_mesh.h"
 #include "system/face_statics.h"
@@ -184,6 +185,15 @@ TEST_CASE("the other hand and the other sign of misalignment move alike") {
   CHECK((x - y).cwiseAbs().maxCoeff() < 1e-9 * peak_to_peak(x));
   CHECK(right.period.face[0].load_factor == relative(left.period.face[0].load_factor, 1e-8));
   CHECK(right.period.face[0].load_factor > 1.1);
+}
+
+TEST_CASE("motion is in slices: bodies in three dimensions and trains are refused by their key") {
+  const ReducedBody& gear = body_of_overlap(0, Hand::right);
+  const auto refused = [&](WidthModel width) {
+    return message_of_input([&] { sliced_system({}, gear, gear, {}, width, 3, kDepth); });
+  };
+  CHECK(names(refused(WidthModel::body), {"width = \"body\"", "slices"}));
+  CHECK(names(refused(WidthModel::slices), {"width = \"slices\"", 0, "one"}));
 }
 
 TEST_CASE("energy of slices in motion closes, with and without loss of contact") {
