@@ -1,4 +1,4 @@
-// Hard cases of the dynamics with known answers: `make hard-cases` prints what each expects and what the library finds.
+// Hard cases of the dynamics with known answers.
 //
 // Expected values are closed forms, published formulas or the same quantity computed another way. The numbers H7 ... H32
 // are those of a longer list of cases, the rest of which stands in tests/*/test_*.cpp.
@@ -20,16 +20,16 @@
 #include "dynamics/dynamics.h"
 #include "dynamics/fixed_phase_motion.h"
 #include "dynamics/newmark.h"
+#include "hard_cases/gears.h"
+#include "hard_cases/table.h"
 #include "lumped_wave.h"
-#include "paper_pair.h"
 #include "signal/spectrum.h"
 #include "solid/elements.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
-#include "studies/sweep.h"
-#include "system/statics.h"
 
 using namespace whine;
+using namespace whine::hard_cases;
 using Eigen::Matrix2d;
 using Eigen::MatrixXd;
 using Eigen::Vector2d;
@@ -38,62 +38,6 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-
-// --- the table
-
-class Table {
- public:
-  explicit Table(std::string id) : id_(std::move(id)) {}
-
-  void relative(const std::string& what, double expected, double found, double allowed) {
-    row(what, number(expected), number(found), number(allowed) + " rel.",
-        std::abs(found - expected) <= allowed * std::abs(expected));
-  }
-  void absolute(const std::string& what, double expected, double found, double allowed) {
-    row(what, number(expected), number(found), number(allowed) + " abs.",
-        std::abs(found - expected) <= allowed);
-  }
-  void at_most(const std::string& what, double bound, double found) {
-    row(what, "<= " + number(bound), number(found), "", found <= bound);
-  }
-  void at_least(const std::string& what, double bound, double found) {
-    row(what, ">= " + number(bound), number(found), "", found >= bound);
-  }
-  // `pattern`: part of the message of Error.
-  void rejected(const std::string& what, const std::string& pattern, const std::function<void()>& run) {
-    std::string message = "accepted";
-    try {
-      run();
-    } catch (const Error& e) {
-      message = e.what();
-    }
-    const bool rejection = message.find(pattern) != std::string::npos;
-    row(what, "refused", rejection ? "refused" : message, "", rejection);
-  }
-  void broken(const std::string& message) { row("the case came to its end", "yes", message, "", false); }
-
-  static void head() {
-    std::printf("%-5s %-8s %-88s %14s %14s  %s\n", "", "case", "what", "expected", "found",
-                "allowed difference");
-  }
-  static int passed, failed;
-
- private:
-  static std::string number(double x) {
-    char buffer[32];
-    std::snprintf(buffer, sizeof buffer, "%.9g", x);
-    return buffer;
-  }
-  void row(const std::string& what, const std::string& expected, const std::string& found,
-           const std::string& allowed, bool pass) {
-    std::printf("%-5s %-8s %-88s %14s %14s  %s\n", pass ? "pass" : "FAIL", id_.c_str(), what.c_str(),
-                expected.c_str(), found.c_str(), allowed.c_str());
-    std::fflush(stdout);
-    ++(pass ? passed : failed);
-  }
-  std::string id_;
-};
-int Table::passed = 0, Table::failed = 0;
 
 // --- systems with known answers
 
@@ -112,84 +56,10 @@ FixedPhaseMesh one_mass(double torque, double local, double residual = 0, double
   return mesh;
 }
 
-double rms(const VectorXd& samples) {
-  return std::sqrt((samples.array() - samples.mean()).square().mean());
-}
-
-// --- the gears of P2000 with elements of 0.8 mm, whose flank flexibility differs by 0.1 % from finer ones
-
-const double kBaseRadius = 75e-3 * std::cos(20 * kPi / 180);
-constexpr double kFaceWidth = 25.4e-3, kYoung = 207e9, kPoisson = 0.3;
-
-const SectorGrid& paper_mesh() {
-  static const SectorGrid mesh = [] {
-    BodyDiscretisation discretisation;
-    discretisation.element_size = 0.8e-3;
-    return make_sector_mesh(paper_gear(), discretisation);
-  }();
-  return mesh;
-}
-Material steel(bool plane_stress) {
-  return {kYoung, kPoisson, 7600, plane_stress};
-}
-const ReducedBody& paper_body() {
-  static const ReducedBody body = reduce(paper_mesh(), steel(true), 5);
-  return body;
-}
-
-StaticParameters static_parameters(int positions, bool corner) {
-  StaticParameters settings;
-  settings.mesh.gear[0] = "pinion";
-  settings.mesh.gear[1] = "wheel";
-  settings.mesh.centre_distance = 0.150;
-  settings.mesh.corner.enabled = corner;
-  settings.contact.positions = positions;
-  return settings;
-}
-StaticResult statics(double torque, int positions = 128, bool corner = true) {
-  return static_transmission(paper_body(), paper_body(), static_parameters(positions, corner), torque);
-}
-
-SweepParameters sweep_parameters(double from, double to, double step, double rayleigh_stiffness) {
-  SweepParameters settings;
-  settings.inertia[0] = settings.inertia[1] = 0.0148;
-  settings.damping.rayleigh_stiffness = rayleigh_stiffness;
-  settings.reference_torque = 100;
-  settings.frequency_from = from;
-  settings.frequency_to = to;
-  settings.frequency_step = step;
-  return settings;
-}
-SweepResult run_sweep(const SweepParameters& settings, double torque, Direction direction = Direction::up,
-                      const ReducedBody& body = paper_body()) {
-  const StaticResult at = static_transmission(body, body, static_parameters(128, true), torque);
-  return sweep(body, body, at, 463e6, settings, direction, [](long, long, const std::string&) {});
-}
-
-struct Rolling {
-  Rolling(double torque, int steps, double rayleigh_stiffness = 7.7e-6, double bearing_ratio = 0.005)
-      : model(paper_body(), paper_body(), static_parameters(1, true).mesh), dynamics(model, [&] {
-          DynamicParameters p;
-          p.torque = torque;
-          p.inertia = {0.0148, 0.0148};
-          p.mean_stiffness = 463e6;
-          p.damping.rayleigh_stiffness = rayleigh_stiffness;
-          p.damping.bearing_ratio = bearing_ratio;
-          return p;
-        }()) {
-    const double load = 150 / kBaseRadius;  // the strips are the same at any torque
-    dynamics.set_zone(candidate_zone(model.kinematics, model.gear[0].half_plane(), model.gear[1].half_plane(),
-                                     15, load / model.kinematics.contact_ratio(), 2.5 * load, 2e-5),
-                      steps);
-  }
-  GearMeshModel model;
-  RollingDynamics dynamics;
-};
-
 // --- the cases
 
 void rigid_rotation(Table& table) {
-  const SectorGrid& mesh = paper_mesh();
+  const SectorGrid& mesh = coarse_mesh();
   const PlaneSystem system = assemble(mesh.node_position, mesh.element_node, steel(true), kFaceWidth);
   const VectorXd turn = rotation_field(mesh.node_position);
   table.at_most("rigid rotation makes no force: |K phi| / (|K| |phi|)", 1e-13,
@@ -223,7 +93,7 @@ void rigid_rotation(Table& table) {
   table.relative("energy of spin at 1 rad/s, J: half the polar moment by quadrature",
                  0.5 * 50 * 7600 * kFaceWidth * moment, 0.5 * 50 * turn.dot(system.mass * turn), 1e-8);
   table.relative("inertia that the reduced body reports, kg m2", 50 * 7600 * kFaceWidth * moment,
-                 paper_body().inertia, 1e-8);
+                 coarse_body().inertia, 1e-8);
 }
 
 // A clamped block of 3 x 4 elements pushed against a wall that two of its top nodes can touch.
@@ -328,7 +198,7 @@ void all_modes(Table& table) {
 }
 
 void wide_contact(Table& table) {
-  const ReducedBody strain = reduce(paper_mesh(), steel(false), 1);
+  const ReducedBody strain = reduce(coarse_mesh(), steel(false), 1);
   // 1 / R: pitch point, both flanks r_b tan 20 deg.
   const double radius = 0.5 * 75e-3 * std::sin(20 * kPi / 180),
                modulus = kYoung / (2 * (1 - kPoisson * kPoisson));
@@ -775,7 +645,6 @@ void uneven_records(Table& table) {
   table.absolute("amplitude of a line on a bin", 1, harmonics(sine(1000, 0.3), 1000).amplitude[999], 1e-12);
 }
 
-// All that a step of the dynamics starts from, each block over its size.
 void perturbation(Table& table) {
   Rolling pair(150, 128);
   RollingDynamics& dynamics = pair.dynamics;
@@ -783,44 +652,12 @@ void perturbation(Table& table) {
   dynamics.set_speed(3200, 128);
   RollingDynamics::Period period;
   for (int i = 0; i < 150; ++i) dynamics.integrate(state, period);
-  const auto blocks = [](RollingDynamics::State& s) {
-    using Map = Eigen::Map<VectorXd>;
-    std::vector<Map> all;
-    for (VectorXd* v : {&s.z, &s.v, &s.force}) all.emplace_back(v->data(), v->size());
-    for (int g = 0; g < kSides; ++g)
-      for (MatrixXd* m : {&s.relaxed[g], &s.load[g]}) all.emplace_back(m->data(), m->size());
-    return all;
-  };
   RollingDynamics::State steady = state;
   dynamics.integrate(steady, period);
   table.at_most("gears at 3200 Hz after 150 mesh periods: change over one period", 1e-12,
                 dynamics.distance(state, steady));
 
-  // Monodromy matrix by differences.
-  const double increment = 1e-7;
-  auto base = blocks(steady);
-  Eigen::Index size = 0;
-  for (const auto& block : base) size += block.size();
-  MatrixXd monodromy(size, size);
-  RollingDynamics::State image = steady;
-  dynamics.integrate(image, period);
-  const auto image_blocks = blocks(image);
-  Eigen::Index column = 0;
-  for (size_t b = 0; b < base.size(); ++b)
-    for (Eigen::Index i = 0; i < base[b].size(); ++i, ++column) {
-      RollingDynamics::State moved = steady;
-      blocks(moved)[b][i] += increment * base[b].norm();
-      dynamics.integrate(moved, period);
-      const auto moved_blocks = blocks(moved);
-      Eigen::Index row = 0;
-      for (size_t k = 0; k < base.size(); ++k) {
-        monodromy.col(column).segment(row, base[k].size()) =
-            (moved_blocks[k] - image_blocks[k]) / (increment * base[k].norm());
-        row += base[k].size();
-      }
-    }
-  const double multiplier = general_eigenvalues(monodromy).values.cwiseAbs().maxCoeff();
-
+  const double multiplier = largest_multiplier(pair, steady, 1e-7);
   RollingDynamics::State a = steady, b = steady;
   b.z[0] *= 1 + 1e-10;
   const double begins = dynamics.distance(a, b);
@@ -924,7 +761,7 @@ void ten_times_the_torque(Table& table) {
 }
 
 void many_modes(Table& table) {
-  const ReducedBody body = reduce(paper_mesh(), steel(true), 61);
+  const ReducedBody body = reduce(coarse_mesh(), steel(true), 61);
   table.at_least("body with 61 modes: modes", 61, static_cast<double>(body.eigenfrequency.size()));
   SweepParameters settings = sweep_parameters(2800, 2900, 100, 5.5e-6);
   const SweepResult many = run_sweep(settings, 150, Direction::down, body),
@@ -939,24 +776,12 @@ void many_modes(Table& table) {
 
 }  // namespace
 
-int main() {
-  const std::pair<const char*, void (*)(Table&)> cases[] = {
-      {"H7", rigid_rotation},       {"H13", all_modes},         {"H18", wide_contact},
-      {"H19", torque_without_size}, {"H20", elastic_bar},       {"H21", undamped_bounce},
-      {"H22", step_lengths},        {"H23", stiff_mode},        {"H24", restitution_of_dashpot},
-      {"H25", bouncing_ball},       {"H26", preload},           {"H27", meissner},
-      {"H30", scale_invariance},    {"H31", uneven_records},    {"H32", perturbation},
-      {"fold", near_fold},          {"damping", stiff_damping}, {"torque", ten_times_the_torque},
-      {"modes", many_modes}};
-  Table::head();
-  for (const auto& [id, run] : cases) {
-    Table table(id);
-    try {
-      run(table);
-    } catch (const std::exception& e) {
-      table.broken(e.what());
-    }
-  }
-  std::printf("%d passed, %d failed\n", Table::passed, Table::failed);
-  return Table::failed > 0;
+std::vector<HardCase> whine::known_answers() {
+  return {{"H7", rigid_rotation},       {"H13", all_modes},         {"H18", wide_contact},
+          {"H19", torque_without_size}, {"H20", elastic_bar},       {"H21", undamped_bounce},
+          {"H22", step_lengths},        {"H23", stiff_mode},        {"H24", restitution_of_dashpot},
+          {"H25", bouncing_ball},       {"H26", preload},           {"H27", meissner},
+          {"H30", scale_invariance},    {"H31", uneven_records},    {"H32", perturbation},
+          {"fold", near_fold},          {"damping", stiff_damping}, {"torque", ten_times_the_torque},
+          {"modes", many_modes}};
 }
