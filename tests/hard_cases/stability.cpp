@@ -76,8 +76,7 @@ void near_grazing(Table& table) {
   const double before = largest_multiplier(pair, settled(holds - 0.02), 1e-8),
                beyond = largest_multiplier(pair, settled(parts + 0.02), 1e-8);
   table.at_most("largest multiplier 0.02 Hz below the speed at which teeth begin to part", 1, before);
-  table.relative("the same 0.02 Hz above: a force without a step keeps it continuous", before, beyond,
-                 0.02);
+  table.relative("the same 0.02 Hz above: a force without a step keeps it continuous", before, beyond, 0.02);
 }
 
 void damping_of_all_sizes(Table& table) {
