@@ -79,7 +79,7 @@ void describe_width(Codec& c, ReducedBody& a) {
     w.face_width = a.design.face_width;
     w.flank_position = a.flank_position;
   }
-  c(w.helix, "/width/helix", "m-1", kLength, "",
+  c(w.helix, "/width/helix", "m-1", kSigned, "",
     "turn (rad) of the section per length along the axis, of a right-hand gear above 0");
   for (const char* axis : {"width_position", "loaded_width_position"}) c.axis(axis, points * all);
   c(w.flexibility, "/width/flexibility", "m2 N-1", kFlexibility,
