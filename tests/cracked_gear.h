@@ -1,13 +1,8 @@
 // Gears with a crack in one tooth, as several tests make them.
 #pragma once
-#include <map>
 #include <numbers>
-#include <utility>
 
-#include "model/gear.h"
-#include "results/reduced_body.h"
-#include "solid/mesher.h"
-#include "solid/reduce.h"
+#include "kept_body.h"
 
 namespace whine {
 
@@ -34,14 +29,9 @@ inline SectorGrid sector_of(const GearDesign& design, double element, int order 
 
 // With elements of 1 mm.
 inline const ReducedBody& cracked_body(double depth, int tooth = 0) {
-  static std::map<std::pair<double, int>, ReducedBody> cache;
-  const auto [found, fresh] = cache.try_emplace({depth, tooth});
-  if (fresh) {
-    GearDesign design = cracked_gear(depth);
-    design.crack.tooth = tooth;
-    found->second = reduce(sector_of(design, 1e-3), kSteel, 1);
-  }
-  return found->second;
+  GearDesign design = cracked_gear(depth);
+  design.crack.tooth = tooth;
+  return kept_body(design, kSteel, 1e-3, 1);
 }
 
 }  // namespace whine

@@ -5,17 +5,14 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <map>
-#include <utility>
 #include <vector>
 
 #include "dynamics/system_dynamics.h"
 #include "dynamics/system_period_map.h"
 #include "gear/system_layout.h"
+#include "kept_body.h"
 #include "planetary_train.h"
 #include "relative.h"
-#include "solid/mesher.h"
-#include "solid/reduce.h"
 #include "system/system_statics.h"
 
 inline constexpr double kTrainTorque = 300, kTrainModule = 2.776e-3;
@@ -31,19 +28,12 @@ inline whine::SystemMotion motion_of(const whine::SystemModel& system, double st
   return motion;
 }
 
-// Coarse bodies, each reduced once.
+// Coarse bodies.
 inline const whine::ReducedBody& train_body(int teeth, bool internal) {
   using namespace whine;
-  static std::map<std::pair<int, bool>, ReducedBody> known;
-  const auto at = known.find({teeth, internal});
-  if (at != known.end()) return at->second;
   GearDesign design = rigid_gear(teeth, internal);
   if (!internal) design.bore_radius = (0.5 * teeth - 5) * kTrainModule;
-  BodyDiscretisation coarse;
-  coarse.element_size = 2.5e-3;
-  coarse.modes = 15;
-  return known[{teeth, internal}] =
-             reduce(make_sector_mesh(design, coarse), Material{206e9, 0.3, 7850, true}, coarse.modes);
+  return kept_body(design, Material{206e9, 0.3, 7850, true}, 2.5e-3, 15);
 }
 
 // Sun, planets and ring; the sun floats, planets stand on elastic pins; ring and carrier are held. change: of the scene.

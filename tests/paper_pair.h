@@ -1,21 +1,12 @@
 // The paper's gear pair, for tests that need no scene.
 #pragma once
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <map>
 #include <numbers>
-#include <string>
-#include <tuple>
 
-#include "base/error.h"
 #include "dynamics/dynamics.h"
-#include "io/artifacts.h"
-#include "results/reduced_body.h"
+#include "kept_body.h"
 #include "results/sweep.h"
 #include "signal/spectrum.h"
-#include "solid/mesher.h"
-#include "solid/reduce.h"
 #include "studies/sweep.h"
 #include "system/statics.h"
 
@@ -36,27 +27,9 @@ inline Material paper_steel() {
   return {207e9, 0.3, 7600, true};
 }
 
-// The paper's gear at the default discretisation but for the number of modes, which statics do not see; reduced once per
-// bore, element size and number of modes. WHINE_TEST_BODIES, which tests/run sets, is a folder in which one run of the test
-// program finds the bodies of another.
+// The paper's gear at the default discretisation but for the number of modes, which statics do not see.
 inline const ReducedBody& paper_body(double bore = 40e-3, double element = 0.4e-3, int modes = 5) {
-  static std::map<std::tuple<double, double, int>, ReducedBody> cache;
-  const auto key = std::make_tuple(bore, element, modes);
-  if (!cache.count(key)) {
-    const char* folder = std::getenv("WHINE_TEST_BODIES");
-    const std::string kept =
-        folder ? text(folder, "/", bore * 1e3, "-", element * 1e3, "-", modes, ".h5") : std::string();
-    if (folder && std::filesystem::exists(kept)) {
-      cache[key] = read<ReducedBody>(kept);
-    } else {
-      BodyDiscretisation discretisation;
-      discretisation.element_size = element;
-      discretisation.modes = modes;
-      cache[key] = reduce(make_sector_mesh(paper_gear(50, bore), discretisation), paper_steel(), modes);
-      if (folder) write(kept, cache[key], Provenance());
-    }
-  }
-  return cache[key];
+  return kept_body(paper_gear(50, bore), paper_steel(), element, modes);
 }
 
 inline StaticParameters paper_statics(int positions) {

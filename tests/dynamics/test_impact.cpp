@@ -94,10 +94,7 @@ struct UnequalPair {
     design.profile_shift = shift;
     design.tooth_thinning = 0.1e-3;
     design.face_width = 44e-3;
-    BodyDiscretisation discretisation;
-    discretisation.element_size = element;
-    discretisation.modes = 21;
-    return reduce(make_sector_mesh(design, discretisation), paper_steel(), 21);
+    return kept_body(design, paper_steel(), element, 21);
   }
   ImpactResult ring(double torque_step, int phases = 8) const {
     return impact(pinion, wheel, statics, statics.mean_stiffness, settings, {torque_step, phases}, no_report);

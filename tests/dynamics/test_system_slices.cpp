@@ -40,16 +40,9 @@ GearDesign helical_gear(double overlap, Hand hand) {
 }
 
 const ReducedBody& body_of_overlap(double overlap, Hand hand) {
-  static std::map<std::pair<double, Hand>, ReducedBody> known;
-  const auto at = known.find({overlap, hand});
-  if (at != known.end()) return at->second;
-  BodyDiscretisation coarse;
-  coarse.element_size = 1.2e-3;
-  coarse.modes = 12;
   Material steel = paper_steel();
   steel.plane_stress = false;
-  return known[{overlap, hand}] =
-             reduce(make_sector_mesh(helical_gear(overlap, hand), coarse), steel, coarse.modes);
+  return kept_body(helical_gear(overlap, hand), steel, 1.2e-3, 12);
 }
 
 struct Design {
@@ -138,7 +131,7 @@ TEST_CASE("slices of a spur pair under even load move as one slice") {
   for (const double frequency : {2900.0, 1300.0}) {
     SystemEnergyBalance a, b;
     for (Pair* pair : {&one, &four}) {
-      pair->run(frequency, 64, 30);
+      pair->run(frequency, 64, 15);
       REQUIRE(pair->dynamics->integrate(pair->state, pair->period, pair == &one ? &a : &b));
     }
     const VectorXd x = one.period.transmission_error.row(0), y = four.period.transmission_error.row(0);
@@ -197,7 +190,7 @@ TEST_CASE("motion is in slices: bodies in three dimensions and trains are refuse
 }
 
 TEST_CASE("energy of slices in motion closes, with and without loss of contact") {
-  for (const double overlap : {0.0, 0.2, 0.5})
+  for (const double overlap : {0.2, 0.5})
     for (const double frequency : {2900.0, 900.0}) {
       CAPTURE(overlap);
       CAPTURE(frequency);
@@ -224,9 +217,9 @@ TEST_CASE("the tangent of a period in slices is that of central differences") {
 }
 
 TEST_CASE("the motion converges in the number of points, and overlap takes the loss of contact away") {
-  const double fine = Pair({0.5, Hand::right, 0, 16}).settled_rms(2500, 64);
+  const double fine = Pair({0.5, Hand::right, 0, 12}).settled_rms(2500, 64);
   std::vector<double> off;
-  for (const int points : {3, 4, 6, 8}) {
+  for (const int points : {3, 8}) {
     off.push_back(std::abs(Pair({0.5, Hand::right, 0, points}).settled_rms(2500, 64) / fine - 1));
     MESSAGE(points << " points: RMS off by " << off.back());
   }

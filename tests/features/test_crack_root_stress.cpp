@@ -113,14 +113,9 @@ namespace {
 
 // With modes for motion; the crack is in tooth 3.
 const ReducedBody& moving_body(bool cracked) {
-  static std::map<bool, ReducedBody> cache;
-  const auto [found, fresh] = cache.try_emplace(cracked);
-  if (fresh) {
-    GearDesign design = cracked_gear(cracked ? 2e-3 : 0);
-    design.crack.tooth = 3;
-    found->second = reduce(sector_of(design, 1.2e-3), kSteel, 7);
-  }
-  return found->second;
+  GearDesign design = cracked_gear(cracked ? 2e-3 : 0);
+  design.crack.tooth = 3;
+  return kept_body(design, kSteel, 1.2e-3, 7);
 }
 
 // The driver has the crack; 64 steps a mesh period.

@@ -34,15 +34,7 @@ GearDesign external(int teeth) {
 }
 
 const ReducedBody& body_of(const GearDesign& design) {
-  static std::map<std::pair<int, bool>, ReducedBody> cache;
-  const auto key = std::make_pair(design.teeth, design.internal);
-  if (!cache.count(key)) {
-    BodyDiscretisation discretisation;
-    discretisation.element_size = 1.2e-3;
-    discretisation.modes = 7;
-    cache[key] = reduce(make_sector_mesh(design, discretisation), paper_steel(), 7);
-  }
-  return cache[key];
+  return kept_body(design, paper_steel(), 1.2e-3, 7);
 }
 
 // Two gears in mesh, the driver first.

@@ -33,15 +33,7 @@ constexpr size_t kSun = 0, kRing = 4, kCarrier = 5;
 
 // A gear of 20 or 30 teeth of the standard form.
 const ReducedBody& gear_of(int teeth) {
-  static std::map<int, ReducedBody> known;
-  if (!known.count(teeth)) {
-    BodyDiscretisation coarse;
-    coarse.element_size = 1.2e-3;
-    coarse.modes = 7;
-    known[teeth] =
-        reduce(make_sector_mesh(paper_gear(teeth, teeth < 25 ? 15e-3 : 25e-3), coarse), paper_steel(), 7);
-  }
-  return known[teeth];
+  return kept_body(paper_gear(teeth, teeth < 25 ? 15e-3 : 25e-3), paper_steel(), 1.2e-3, 7);
 }
 
 double rms_of(const VectorXd& x) {

@@ -29,14 +29,7 @@ constexpr double kPi = std::numbers::pi, kMicro = 1e-6;
 constexpr int kPlanet = 35, kRing = 99;
 
 const ReducedBody& coarse(const GearDesign& design) {
-  static std::array<ReducedBody, 2> known;
-  ReducedBody& body = known[design.internal ? 1 : 0];
-  if (body.flank_mode.size() == 0) {
-    BodyDiscretisation elements;
-    elements.element_size = 3e-3;
-    body = reduce(make_sector_mesh(design, elements), {206e9, 0.3, 7850, true}, 3);
-  }
-  return body;
+  return kept_body(design, {206e9, 0.3, 7850, true}, 3e-3, 3);
 }
 
 GearMeshSpec spec_of(const ToothErrors& of_planet, const ToothErrors& of_ring, bool ring_drives = false) {

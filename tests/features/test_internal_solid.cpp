@@ -153,12 +153,10 @@ TEST_CASE(
 namespace {
 
 const ReducedBody& planet_body() {
-  static const ReducedBody body = reduce(make_sector_mesh(planet_gear(), elements(1.2e-3)), kSteel, 1);
-  return body;
+  return kept_body(planet_gear(), kSteel, 1.2e-3, 1);
 }
 const ReducedBody& ring_body() {
-  static const ReducedBody body = reduce(make_sector_mesh(ring_gear(), elements(1.2e-3)), kSteel, 1);
-  return body;
+  return kept_body(ring_gear(), kSteel, 1.2e-3, 1);
 }
 
 StaticParameters at_rest(int positions, ContactModel contact = ContactModel::strips) {
@@ -255,8 +253,7 @@ GearDesign sun_gear() {
 }
 
 const ReducedBody& sun_body() {
-  static const ReducedBody body = reduce(make_sector_mesh(sun_gear(), elements(1.2e-3)), kSteel, 1);
-  return body;
+  return kept_body(sun_gear(), kSteel, 1.2e-3, 1);
 }
 
 }  // namespace

@@ -78,16 +78,12 @@ SystemScene line(ContactModel contact = ContactModel::line) {
   return scene;
 }
 
-const std::vector<ReducedBody>& line_bodies() {
-  static const std::vector<ReducedBody> bodies = [] {
-    std::vector<ReducedBody> out;
-    const SystemScene scene = line();
-    out.reserve(scene.gears.size());
-    for (const SystemScene::Gear& gear : scene.gears)
-      out.push_back(reduce(make_sector_mesh(gear.design, scene.body), gear.material, scene.body.modes));
-    return out;
-  }();
-  return bodies;
+std::vector<ReducedBody> line_bodies() {
+  std::vector<ReducedBody> out;
+  const SystemScene scene = line();
+  for (const SystemScene::Gear& gear : scene.gears)
+    out.push_back(kept_body(gear.design, gear.material, scene.body));
+  return out;
 }
 
 SystemStaticResult rest_of(const SystemScene& scene) {

@@ -24,15 +24,11 @@ constexpr double kPi = std::numbers::pi;
 
 // 20 teeth on a thin rim, four-node elements as coarse as they get; reduced once per number of modes.
 const ReducedBody& coarse_body(int modes) {
-  static std::map<int, ReducedBody> cache;
-  if (!cache.count(modes)) {
-    BodyDiscretisation discretisation;
-    discretisation.element_size = 3e-3;
-    discretisation.element_order = 1;
-    discretisation.modes = modes;
-    cache[modes] = reduce(make_sector_mesh(paper_gear(20, 20e-3), discretisation), paper_steel(), modes);
-  }
-  return cache[modes];
+  BodyDiscretisation discretisation;
+  discretisation.element_size = 3e-3;
+  discretisation.element_order = 1;
+  discretisation.modes = modes;
+  return kept_body(paper_gear(20, 20e-3), paper_steel(), discretisation);
 }
 
 StaticParameters coarse_statics(ContactModel contact) {

@@ -64,8 +64,7 @@ const Train& train() {
       gear.material = {206e9, 0.3, 7850, true};
       gear.equivalent_mass = 0;
       gear.bearing = {stiffness[g], stiffness[g] > 0 ? 500.0 : 0.0, 0};
-      train.bodies.push_back(
-          reduce(make_sector_mesh(gear.design, scene.body), gear.material, scene.body.modes));
+      train.bodies.push_back(kept_body(gear.design, gear.material, scene.body));
     }
     scene.carriers[0].bearing = {};
     for (SystemScene::Mesh& mesh : scene.meshes) mesh.spec.centre_distance = 0.5 * 63 * kModule;

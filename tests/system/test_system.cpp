@@ -32,16 +32,8 @@ GearDesign train_gear(size_t b) {
 }
 
 const std::vector<ReducedBody>& train_bodies() {
-  static const std::vector<ReducedBody> bodies = [] {
-    std::vector<ReducedBody> out;
-    for (size_t b = 0; b < 3; ++b) {
-      BodyDiscretisation discretisation;
-      discretisation.element_size = 1.5e-3;
-      discretisation.modes = 1;
-      out.push_back(reduce(make_sector_mesh(train_gear(b), discretisation), paper_steel(), 1));
-    }
-    return out;
-  }();
+  static const auto body = [](size_t b) { return kept_body(train_gear(b), paper_steel(), 1.5e-3, 1); };
+  static const std::vector<ReducedBody> bodies{body(0), body(1), body(2)};
   return bodies;
 }
 

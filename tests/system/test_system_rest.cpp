@@ -40,14 +40,7 @@ GearDesign elastic_gear(int teeth, bool internal) {
 
 // Coarse bodies, each reduced once.
 const ReducedBody& body_of(int teeth, bool internal) {
-  static std::map<int, ReducedBody> known;
-  const auto at = known.find(teeth);
-  if (at != known.end()) return at->second;
-  BodyDiscretisation coarse;
-  coarse.element_size = 2.5e-3;
-  coarse.modes = 1;
-  return known[teeth] = reduce(make_sector_mesh(elastic_gear(teeth, internal), coarse),
-                               Material{206e9, 0.3, 7850, true}, 1);
+  return kept_body(elastic_gear(teeth, internal), Material{206e9, 0.3, 7850, true}, 2.5e-3, 1);
 }
 
 // Sun, three planets and ring; the sun floats, planets stand on elastic pins; ring and carrier are held.
@@ -399,15 +392,9 @@ SystemStaticResult coarsely_at_rest(SystemScene scene, ContactModel contact) {
   scene.contact = {4, kPositions};
   scene.body.element_size = 2.5e-3;
   scene.body.modes = 1;
-  static std::map<std::string, ReducedBody> known;
   std::vector<ReducedBody> bodies;
-  for (const SystemScene::Gear& gear : scene.gears) {
-    std::ostringstream key;
-    key << gear.design.teeth << ' ' << gear.design.dedendum;
-    if (!known.count(key.str()))
-      known[key.str()] = reduce(make_sector_mesh(gear.design, scene.body), gear.material, 1);
-    bodies.push_back(known[key.str()]);
-  }
+  for (const SystemScene::Gear& gear : scene.gears)
+    bodies.push_back(kept_body(gear.design, gear.material, scene.body));
   return system_at_rest(static_parameters_of(scene, layout_of(scene)), bodies);
 }
 
