@@ -16,6 +16,7 @@
 #include "base/number_list.h"
 #include "base/progress.h"
 #include "base/tool.h"
+#include "dynamics/lines_motion.h"
 #include "gear/body_inertia.h"
 #include "io/artifacts.h"
 #include "io/compatibility.h"
@@ -26,7 +27,6 @@
 #include "results/harris_map.h"
 #include "results/static.h"
 #include "studies/harris_plan.h"
-#include "studies/train_in_motion.h"
 #include "system/load_balance.h"
 
 namespace {

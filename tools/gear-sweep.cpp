@@ -24,7 +24,6 @@
 #include "studies/next_level.h"
 #include "studies/sweep.h"
 #include "studies/sweep_errors.h"
-#include "studies/system_sweep.h"
 
 namespace {
 using namespace whine;

@@ -43,6 +43,7 @@
 #include "base/dense.h"
 #include "dynamics/energy_balance.h"
 #include "dynamics/fixed_phase_motion.h"
+#include "dynamics/motion_period.h"
 #include "dynamics/newmark.h"
 #include "dynamics/step_kernel.h"
 #include "results/static.h"
@@ -109,6 +110,7 @@ class RollingDynamics {
     double least_gap = 0, least_force = 0;  // m, N: worst of the steps' certificates
     int fallbacks = 0;                      // steps that block pivoting alone could not solve
     double friction_coupling = 0;           // m: of their certificates, largest
+    void show(MotionPeriod& out) const;
   };
 
   // Builds the strips, or the lines, at `steps` phases; keeps nothing of an earlier range. Of a range lines use the

@@ -28,6 +28,34 @@ RollingDynamics::StepSizes RollingDynamics::step_sizes(int i) const {
   return sizes;
 }
 
+void RollingDynamics::Period::show(MotionPeriod& out) const {
+  out.transmission_error = transmission_error.transpose();
+  out.mesh_force = tooth_pair_load.colwise().sum();
+  out.largest_tooth_force = tooth_pair_load.colwise().maxCoeff();
+  out.tooth_load = tooth_pair_load;
+  out.first_pair = -static_cast<int>(tooth_pair_load.rows()) / 2;
+  out.bearing_force.resize(bearing_force.size());
+  for (size_t g = 0; g < bearing_force.size(); ++g)
+    if (bearing_force[g].size() > 0) out.bearing_force[g] = bearing_force[g];
+  out.drift_force = drift_force;
+  out.least_gap = least_gap;
+  out.least_force = least_force;
+  out.fallbacks = fallbacks;
+  out.friction_coupling = friction_coupling;
+}
+
+void MotionPeriod::begin_with_end_of(const MotionPeriod& before) {
+  const auto put = [](const auto& from, auto& to) {
+    if (to.cols() > 0 && from.cols() > 0 && from.rows() == to.rows()) to.col(0) = from.col(0);
+  };
+  put(before.transmission_error, transmission_error);
+  put(before.mesh_deflection, mesh_deflection);
+  put(before.mesh_force, mesh_force);
+  put(before.largest_tooth_force, largest_tooth_force);
+  put(before.tooth_load, tooth_load);
+  for (size_t b = 0; b < bearing_force.size(); ++b) put(before.bearing_force[b], bearing_force[b]);
+}
+
 std::vector<RollingDynamics::ContactProblem> RollingDynamics::contact_problems(State& state) {
   std::vector<ContactProblem> problems;
   Period period;

@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 using State = RollingDynamics::State;
 
 RollingPeriodMap::RollingPeriodMap(RollingDynamics& dynamics, int steps)
-    : dynamics_(dynamics), steps_(steps) {
+    : MotionMap(steps), dynamics_(dynamics) {
   if (dynamics.hunting_periods() > 1)
     fail(Failure::input, "the period map of teeth that differ is that of ", dynamics.hunting_periods(),
          " mesh periods, which is not available; take the tooth errors out of the scene");
@@ -117,6 +117,12 @@ VectorXd RollingPeriodMap::apply(const VectorXd& y) {
                        " Hz contact leaves the candidate contact zone; take a wider one");
   }
   return flat(state);
+}
+
+MotionPeriod RollingPeriodMap::shown() const {
+  MotionPeriod out;
+  period_.show(out);
+  return out;
 }
 
 std::vector<std::vector<int>> RollingPeriodMap::active_sets() const {

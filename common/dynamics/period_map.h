@@ -16,17 +16,15 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
-#include <functional>
 #include <utility>
 #include <vector>
 
 #include "contact/lanes.h"
-#include "dynamics/dynamics.h"
-#include "orbits/period_map.h"
+#include "dynamics/motion.h"
 
 namespace whine {
 
-class RollingPeriodMap : public PeriodMap {
+class RollingPeriodMap : public MotionMap {
  public:
   // dynamics: with its range set; nobody else may change range or speed as long as the map lives. steps: per period, a
   // divisor of those of the range. Throws Error(input) for teeth that differ, whose motion repeats after a hunting period only,
@@ -35,7 +33,6 @@ class RollingPeriodMap : public PeriodMap {
 
   static constexpr int kMostSize = 3000;
   int size() const override { return static_cast<int>(unit_.size()); }
-  int steps() const { return steps_; }
   void set_parameter(double mesh_frequency) override;
   double parameter() const override { return mesh_frequency_; }
   // Throws ModelRangeError(numerical) if contact leaves the candidate zone (take_left_zone() says so) or Error(numerical) as
@@ -47,18 +44,16 @@ class RollingPeriodMap : public PeriodMap {
   }
   std::vector<ContactEvent> events() const override;
   Eigen::VectorXd observable() const override { return period_.transmission_error; }
-  // What peaks() are of a period and those before it, with its number and those of the orbit.
-  using Measure = std::function<Eigen::VectorXd(const RollingDynamics::Period&, int, int)>;
-  void measure(Measure of) { measure_ = std::move(of); }
-  Eigen::VectorXd peaks(int number, int periods) override {
-    return measure_ ? measure_(period_, number, periods) : Eigen::VectorXd();
+  MotionPeriod shown() const override;
+  Eigen::VectorXd flat_of(const MotionState& state) const override {
+    return flat(std::get<RollingDynamics::State>(state));
   }
+  MotionState state_of(const Eigen::VectorXd& y) const override { return state(y); }
+  std::pair<int, int> place_of(int contact) const override { return {0, contact}; }
 
   // The same period cut at the end of step `cut` (0 to steps - 1): its tangent as if the first steps were those of the period
   // after it. Of an orbit all have the same multipliers.
   Eigen::MatrixXd tangent_from(int cut);
-  // Whether contact left the zone in any period since the last call.
-  bool take_left_zone() { return std::exchange(left_zone_, false); }
   const RollingDynamics::Period& period() const { return period_; }
   // (step) of the period applied last: the strips, or the pairs, that carry force.
   std::vector<std::vector<int>> active_sets() const;
@@ -105,12 +100,11 @@ class RollingPeriodMap : public PeriodMap {
   void rename();
 
   RollingDynamics& dynamics_;
-  int steps_, coordinates_ = 0, fields_ = 0;  // fields of all gears; 0 without relaxation
+  int coordinates_ = 0, fields_ = 0;  // fields of all gears; 0 without relaxation
   double mesh_frequency_ = 0;
-  bool left_zone_ = false, prepared_ = false;  // prepared: replay_ is of the period applied last
-  Eigen::VectorXd unit_;                       // (size) of phase 0
+  bool prepared_ = false;  // replay_ is of the period applied last
+  Eigen::VectorXd unit_;   // (size) of phase 0
   RollingDynamics::Period period_;
-  Measure measure_;
   std::vector<double> coefficients_;  // (coordinate, kCoefficients)
   std::vector<Replay> replay_;        // (sample)
   std::vector<double> numbers_;       // of all steps

@@ -307,6 +307,22 @@ void SystemDynamics::resize(Period& period, int steps) const {
   period.drift_force = period.least_gap = period.least_force = period.friction_coupling = 0;
 }
 
+void SystemDynamics::take_tooth_loads(Period& period) const {
+  const MatrixRM& forces = tooth_forces();
+  const Index pairs = tooth_pairs(), steps = forces.rows() - 1;
+  period.first_pair = first_;
+  period.tooth_load = forces.topRows(steps).transpose();
+  // A pair that is number i in a mesh period is i + 1 in the next.
+  for (int m = 0; m < meshes(); ++m) {
+    period.tooth_load(m * pairs, 0) = 0;
+    period.tooth_load.col(0).segment(m * pairs + 1, pairs - 1) =
+        forces.row(steps).segment(m * pairs, pairs - 1).transpose();
+  }
+  // Contact normals of slices do not lie in the transverse section, in which torques act.
+  for (int m = 0; points_ > 1 && m < meshes(); ++m)
+    period.mesh_force.row(m) = period.tooth_load.middleRows(m * pairs, pairs).colwise().sum();
+}
+
 bool SystemDynamics::integrate(State& state, Period& period, SystemEnergyBalance* balance) {
   if (steps_ == 0) fail(Failure::input, "a period is integrated at a speed; set it first");
   put_gap(0, state.period);

@@ -37,6 +37,7 @@
 #include "base/matrix.h"
 #include "contact/lanes.h"
 #include "dynamics/fixed_phase_motion.h"
+#include "dynamics/motion_period.h"
 #include "dynamics/newmark.h"
 #include "dynamics/system_contact.h"
 #include "dynamics/system_coordinates.h"
@@ -56,12 +57,6 @@ class SystemDynamics {
   // rest has to be cleared: coefficients are those of the speed, of [friction] of the meshes.
   SystemDynamics(const SystemModel& system, const SystemMotion& motion);
 
-  // Load over the face of a mesh period in slices.
-  struct FacePeak {
-    double tooth_load = 0;   // N: largest of a pair of teeth
-    double load_factor = 0;  // K_Hbeta there: face_load_factor() of its line loads at that instant
-    double line_load = 0;    // N m-1: largest in the inner 90 % of face and path
-  };
   struct State {
     Eigen::VectorXd z, v;       // (coordinate)
     Eigen::VectorXd relaxed;    // (body, slot, field): relaxed loads
@@ -69,27 +64,7 @@ class SystemDynamics {
     Eigen::VectorXd line_load;  // (slot) N m-1: relaxed, in slices; else empty
     int period = 0;             // mesh periods since the start of a hunting period
   };
-  // What one mesh period showed; sample i at phase i / steps, sample 0 that of its end.
-  struct Period {
-    Eigen::MatrixXd transmission_error;  // (mesh, step) m: of rotations
-    Eigen::MatrixXd mesh_deflection;     // (mesh, step) m: what flanks close by, motion of the hubs included
-    Eigen::MatrixXd
-        mesh_force;  // (mesh, step) N: torque of normal forces on the driving body over its base radius
-    Eigen::MatrixXd largest_tooth_force;  // (mesh, step) N
-    std::vector<FacePeak> face;           // [mesh] in slices, over the period; else empty
-    // [body] (xy, step) N, of the body on what carries it: k x + c x' of an elastic bearing, on the ground k x + c (x' + Omega J x); of
-    // a planet on a rigid pin of a carrier that moves F = sum of the contact forces - (P' + mu P), P = m X' + G^T q' its momentum in the
-    // frame of the carrier and mu the damping by mass, less the inertia forces of the frame; on other rigid axes the sum of the contact
-    // forces, without the inertia of the body's own modes. Of a carrier on a rigid axis the sum of those of its planets.
-    std::vector<Eigen::Matrix2Xd> bearing_force;
-    // (body, step) N m, in the body's sense: what balances its contact forces. Of a held body its mean over a periodic motion is
-    // that of the torque that holds it, the inertia of the body's own modes being 0 in the mean.
-    Eigen::MatrixXd contact_torque;
-    Eigen::VectorXd drift;                  // (null vector) N: of the last sample
-    double drift_force = 0;                 // N: largest force that must be supplied to hold the mean speed
-    double least_gap = 0, least_force = 0;  // m, N: worst of the steps' certificates
-    double friction_coupling = 0;           // m: of their certificates, largest
-  };
+  using Period = MotionPeriod;
 
   // corner_gap: [mesh] m, tip edges that are farther off are left out; steps: positions of a mesh period. Throws Error(input)
   // if the positions take more than 12 GB or the gaps of teeth that differ more than 2 GB, Error(numerical) if the fields leave more than 1e-3 of a residual flexibility.
@@ -137,6 +112,8 @@ class SystemDynamics {
   const MatrixRM& forces() const { return forces_; }
   // (step + 1, mesh and within it pair) N: the same of pairs of teeth, summed over their slices.
   const MatrixRM& tooth_forces() const { return points_ > 1 ? tooth_forces_ : forces_; }
+  // Those forces as tooth_load of that period.
+  void take_tooth_loads(Period& period) const;
   // J: what the coordinates of a state store, kinetic energy included, rigid rotations as at the axis frequency; of a difference
   // of states a squared distance. Relaxed loads are not in it.
   double energy(const State& difference) const;

@@ -16,7 +16,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-SystemPeriodMap::SystemPeriodMap(SystemDynamics& dynamics, int steps) : dynamics_(dynamics), steps_(steps) {
+SystemPeriodMap::SystemPeriodMap(SystemDynamics& dynamics, int steps)
+    : MotionMap(steps), dynamics_(dynamics) {
   const SystemDynamics::State rest = dynamics.rest();
   const Index n = rest.z.size(), loads = rest.relaxed.size(), slots = rest.p.size();
   const double scale = std::sqrt(2 * dynamics.energy(rest));
@@ -224,6 +225,17 @@ std::vector<ContactEvent> SystemPeriodMap::events() const {
         out.push_back({static_cast<int>(slot), now > 0, static_cast<double>(i) / steps_});
     }
   return out;
+}
+
+MotionPeriod SystemPeriodMap::shown() const {
+  MotionPeriod out = period_;
+  dynamics_.take_tooth_loads(out);
+  return out;
+}
+
+std::pair<int, int> SystemPeriodMap::place_of(int slot) const {
+  const int tooth = slot / dynamics_.points(), pairs = dynamics_.tooth_pairs();
+  return {tooth / pairs, tooth % pairs + dynamics_.first_pair()};
 }
 
 VectorXd SystemPeriodMap::observable() const {

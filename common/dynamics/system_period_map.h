@@ -5,15 +5,13 @@
 // that hardly move anything 1e-10 of the largest), contact forces relative to the largest of rest: as that of pairs.
 // The tangent is one replay of the period with its contacts kept and each Hertz's law by its slope.
 #pragma once
-#include <functional>
 #include <utility>
 
-#include "dynamics/system_dynamics.h"
-#include "orbits/period_map.h"
+#include "dynamics/motion.h"
 
 namespace whine {
 
-class SystemPeriodMap : public PeriodMap {
+class SystemPeriodMap : public MotionMap {
  public:
   // The positions of `dynamics` are those of the map as long as it lives; steps divide their number.
   SystemPeriodMap(SystemDynamics& dynamics, int steps);
@@ -27,18 +25,15 @@ class SystemPeriodMap : public PeriodMap {
   Eigen::MatrixXd tangent_times(const Eigen::MatrixXd& directions) override;
   std::vector<ContactEvent> events() const override;  // contact: the slot
   Eigen::VectorXd observable() const override;        // transmission error of the first mesh
-  // What `measure` gives of a period and those before it, with its number and those of the orbit; empty without.
-  Eigen::VectorXd peaks(int number, int periods) override {
-    return measure_ ? measure_(period_, number, periods) : Eigen::VectorXd();
+  MotionPeriod shown() const override;
+  Eigen::VectorXd flat_of(const MotionState& state) const override {
+    return flat(std::get<SystemDynamics::State>(state));
   }
-  using Measure = std::function<Eigen::VectorXd(const SystemDynamics::Period&, int, int)>;
-  void measure(Measure of) { measure_ = std::move(of); }
+  MotionState state_of(const Eigen::VectorXd& y) const override { return state(y); }
+  std::pair<int, int> place_of(int slot) const override;
 
   // Whether the period applied last left the tip edges that are looked at.
   bool left_last() const { return left_last_; }
-  // Whether any period did since this was asked last.
-  bool take_left_zone() { return std::exchange(left_zone_, false); }
-  int steps() const { return steps_; }
   Eigen::VectorXd rest() const { return rest_; }
   Eigen::VectorXd flat(const SystemDynamics::State& state) const;
   SystemDynamics::State state(const Eigen::VectorXd& y) const;
@@ -52,9 +47,7 @@ class SystemPeriodMap : public PeriodMap {
   void solve_contacts(int i, const Eigen::MatrixXd& z, const Eigen::MatrixXd& relaxed,
                       const Eigen::MatrixXd& line_load, Eigen::MatrixXd& p) const;
   SystemDynamics& dynamics_;
-  int steps_;
-  bool left_zone_ = false, left_last_ = false, applied_ = false;
-  Measure measure_;
+  bool left_last_ = false, applied_ = false;
   Eigen::VectorXd unit_, rest_;
   SystemDynamics::Period period_;
 };

@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "base/error.h"
-#include "gear/body_inertia.h"
-#include "gear/helix.h"
+#include "dynamics/lines_motion.h"
 #include "signal/response.h"
 #include "signal/spectrum.h"
-#include "studies/face_sweep.h"
 #include "studies/motion_statistics.h"
+#include "studies/pair_in_motion.h"
 #include "studies/sustained_peaks.h"
+#include "studies/sweep.h"
 
 namespace whine {
 
@@ -50,14 +50,13 @@ class MeasuredOrbit {
     row_.dte_harmonic = {MatrixRM::Zero(harmonics_, meshes)};
   }
 
-  // loads(mesh): (pair, step) N. Values of the orbit, columns_of() one after the other and the harmonics, when its last period has come.
-  template <class Period, class Loads>
-  VectorXd take(const Period& period, const Loads& loads, int number, int periods) {
+  // Values of the orbit, columns_of() one after the other and the harmonics, when its last period has come.
+  VectorXd take(const MotionPeriod& period, int number, int periods) {
     if (number == 0) statistics_.clear();
     statistics_.take(period);
     const auto meshes = static_cast<Index>(peaks_.size());
     for (Index m = 0; m < meshes; ++m)
-      take_peaks(peaks_[static_cast<size_t>(m)].so_far(loads(m), number, periods), m);
+      take_peaks(peaks_[static_cast<size_t>(m)].so_far(period.loads_of(m), number, periods), m);
     if (number + 1 < periods) return {};
     for (Index m = 0; m < meshes; ++m) {
       const Harmonics dte = statistics_.dte(m, harmonics_, periods);
@@ -118,8 +117,7 @@ class MeasuredOrbit {
   BranchResult row_;
 };
 
-template <class State>
-void store_points(const std::vector<BranchSegment<State>>& segments, MeasuredOrbit& orbit, BranchResult& a) {
+void store_points(const std::vector<BranchSegment>& segments, MeasuredOrbit& orbit, BranchResult& a) {
   Index points = 0;
   for (const auto& s : segments) points += static_cast<Index>(s.branch.points.size());
   orbit.size(points, a);
@@ -158,8 +156,7 @@ Eigen::RowVectorXd rms_at(const OrbitBranch& branch, const SpecialPoint& fold, I
 }
 
 // All points being stored.
-template <class State>
-void store_special(const std::vector<BranchSegment<State>>& segments, BranchResult& a) {
+void store_special(const std::vector<BranchSegment>& segments, BranchResult& a) {
   std::vector<SpecialPoint> special;
   for (const auto& s : segments)
     special.insert(special.end(), s.branch.special.begin(), s.branch.special.end());
@@ -193,9 +190,21 @@ void store_special(const std::vector<BranchSegment<State>>& segments, BranchResu
   }
 }
 
-template <class Rig>
-BranchResult followed(BranchFollower<Rig>& follower, const BranchPlan& plan, const BranchReport& report,
-                      MeasuredOrbit& orbit, MotionSource source) {
+// source: of what moves.
+BranchResult followed(Motion& motion, MotionSource source, const BranchSpeeds& speeds, const BranchPlan& plan,
+                      const BranchReport& report) {
+  BranchFollower follower(motion, speeds);
+  const int steps = speeds.time.steps_per_period;
+  const bool of_strips = !source.of_train() && motion.system().face.empty();
+  std::vector<SustainedPeaks> peaks;
+  peaks.reserve(motion.system().mesh.size());
+  for (const GearMeshModel& mesh : motion.system().mesh)
+    of_strips ? peaks.emplace_back(mesh, steps) : peaks.emplace_back(steps);
+  MeasuredOrbit orbit(std::move(peaks), source.of_train() || source.mesh.on_bearings() ? source.bodies() : 0,
+                      steps);
+  follower.measure([&orbit](const MotionPeriod& period, int number, int periods) {
+    return orbit.take(period, number, periods);
+  });
   const auto& segments = follower.follow(plan, report);
   BranchResult a;
   static_cast<MotionSource&>(a) = std::move(source);
@@ -207,74 +216,21 @@ BranchResult followed(BranchFollower<Rig>& follower, const BranchPlan& plan, con
   return a;
 }
 
-MotionSource source_of(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
-                       const SweepParameters& settings) {
-  MotionSource out;
-  set_motion(out, {driver, driven}, statics, settings);
-  out.time = settings.time;
-  out.torque = statics.torque;
-  out.name_parts();
-  return out;
-}
-
-// As a train of one mesh, whose mesh force is that in the transverse section.
-BranchResult branch_of_slices(const ReducedBody& driver, const ReducedBody& driven,
-                              const StaticResult& statics, double mean_stiffness,
-                              const SweepParameters& settings, const BranchReport& report,
-                              const BranchPlan& plan) {
-  const SystemSweepParameters train = train_of_slices(driver, driven, statics, mean_stiffness, settings);
-  BranchResult out = system_branch(train, {driver, driven}, report, plan);
-  static_cast<MotionSource&>(out) = source_of(driver, driven, statics, settings);
-  out.fidelity.contact = ContactModel::line;
-  const double cosine = std::cos(base_helix_angle(driver.design));
-  for (MatrixRM* x : {&out.mesh_force_max, &out.mesh_force_sustained}) *x /= cosine;
-  out.bearing_force_rms.resize(0, 0);
-  return out;
-}
-
 }  // namespace
 
 BranchResult pair_branch(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
                          double mean_stiffness, const SweepParameters& settings, const BranchReport& report,
                          const BranchPlan& plan) {
-  require_inertia(statics.mesh, {driver.inertia, driven.inertia}, settings.inertia);
-  if (settings.fidelity.width != WidthModel::one)
-    return branch_of_slices(driver, driven, statics, mean_stiffness, settings, report, plan);
-  const GearMeshModel model(driver, driven, statics.mesh);
-  RollingDynamics dynamics(model,
-                           dynamic_parameters(statics, mean_stiffness, settings, settings.frequency_to));
-  PairRig rig(dynamics, model, statics, settings);
-  BranchFollower<PairRig> follower(rig, speeds_of(settings));
-  const int steps = settings.time.steps_per_period;
-  std::vector<SustainedPeaks> peaks;
-  peaks.emplace_back(model, steps);
-  MeasuredOrbit orbit(std::move(peaks), model.on_bearings() ? kSides : 0, steps);
-  follower.measure([&orbit](const RollingDynamics::Period& period, int number, int periods) {
-    const auto loads = [&](Index) -> const Eigen::MatrixXd& { return period.tooth_pair_load; };
-    return orbit.take(period, loads, number, periods);
-  });
-  return followed(follower, plan, report, orbit, source_of(driver, driven, statics, settings));
+  const PairInMotion pair(driver, driven, statics, mean_stiffness, settings);
+  return followed(*pair.motion, pair.source, speeds_of(settings), plan, report);
 }
 
 BranchResult system_branch(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
                            const BranchReport& report, const BranchPlan& plan) {
   require_like_teeth(settings, bodies, "a branch of a system");
   require_relaxation_range(settings.damping, settings.fidelity.body, settings.frequency_to);
-  TrainRig rig(settings, bodies);
-  BranchFollower<TrainRig> follower(rig, speeds_of(settings));
-  const int steps = settings.time.steps_per_period;
-  MeasuredOrbit orbit(std::vector<SustainedPeaks>(settings.layout.meshes.size(), SustainedPeaks(steps)),
-                      static_cast<Index>(settings.layout.bodies.size()), steps);
-  follower.measure([&](const SystemDynamics::Period& period, int number, int periods) {
-    const SystemDynamics& dynamics = rig.train().dynamics();
-    const auto loads = [&](Index m) -> Eigen::MatrixXd {
-      const MatrixRM& forces = dynamics.tooth_forces();  // (step + 1, mesh and within it pair)
-      return forces.block(0, m * dynamics.tooth_pairs(), forces.rows() - 1, dynamics.tooth_pairs())
-          .transpose();
-    };
-    return orbit.take(period, loads, number, periods);
-  });
-  return followed(follower, plan, report, orbit, rig.train().source());
+  LinesMotion motion(settings, bodies, steps_at(settings.time, settings.frequency_from));
+  return followed(motion, motion.source(), speeds_of(settings), plan, report);
 }
 
 }  // namespace whine

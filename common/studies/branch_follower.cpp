@@ -58,13 +58,10 @@ BranchSettings branch_settings(const BranchSpeeds& speeds, int steps, bool at_fo
 
 }  // namespace
 
-template <class Rig>
-BranchFollower<Rig>::BranchFollower(Rig& rig, const BranchSpeeds& speeds, Look look, double tolerance)
-    : rig_(rig), speeds_(speeds), look_(look), tolerance_(tolerance) {}
+BranchFollower::BranchFollower(Motion& motion, const BranchSpeeds& speeds, Look look, double tolerance)
+    : motion_(motion), speeds_(speeds), look_(look), tolerance_(tolerance) {}
 
-template <class Rig>
-auto BranchFollower<Rig>::follow(const BranchPlan& plan, const Report& report)
-    -> const std::vector<Segment>& {
+auto BranchFollower::follow(const BranchPlan& plan, const Report& report) -> const std::vector<Segment>& {
   if (plan.most_periods != 1 && plan.most_periods != 2 && plan.most_periods != 4)
     fail(Failure::input, "orbits of ", plan.most_periods, " mesh periods are not followed; give 1, 2 or 4");
   if (!(plan.tolerance >= 1e-12 && plan.tolerance <= 1e-3))
@@ -78,16 +75,14 @@ auto BranchFollower<Rig>::follow(const BranchPlan& plan, const Report& report)
   return segments_;
 }
 
-template <class Rig>
-auto BranchFollower<Rig>::follow(const Report& report) -> const std::vector<Segment>& {
+auto BranchFollower::follow(const Report& report) -> const std::vector<Segment>& {
   const int steps = steps_at(speeds_.time, speeds_.to);
   begin(speeds_.to, steps);
   run(steps, -1, 0, report);
   return segments_;
 }
 
-template <class Rig>
-auto BranchFollower<Rig>::follow_from_sweep(Direction direction, double at, const Report& report)
+auto BranchFollower::follow_from_sweep(Direction direction, double at, const Report& report)
     -> const std::vector<Segment>& {
   if (!(at >= speeds_.from && at <= speeds_.to))
     fail(Failure::input, "a branch cannot begin at ", at, " Hz: mesh_frequency_Hz is from ", speeds_.from,
@@ -95,7 +90,7 @@ auto BranchFollower<Rig>::follow_from_sweep(Direction direction, double at, cons
   begin_swept(direction, at);
   const int steps = map_->steps();
   const VectorXd start = orbit_.start;
-  kept_ = map_->state(start);
+  kept_ = map_->state_of(start);
   run(steps, -1, 0, report);
   if (closed_) return segments_;
   resume(*kept_, start, at, steps, true);
@@ -104,8 +99,7 @@ auto BranchFollower<Rig>::follow_from_sweep(Direction direction, double at, cons
 }
 
 // From the orbit at hand, from segment to segment.
-template <class Rig>
-void BranchFollower<Rig>::run(int steps, int direction, int part, const Report& report) {
+void BranchFollower::run(int steps, int direction, int part, const Report& report) {
   const double low = speeds_.from, high = speeds_.to, scale = 0.5 * (low + high);
   const long total = std::max(1l, std::lround((high - low) / speeds_.step));
   const VectorXd first = orbit_.start;
@@ -135,15 +129,15 @@ void BranchFollower<Rig>::run(int steps, int direction, int part, const Report& 
                          steps, multiple_, part});
     const OrbitBranch& branch = segments_.back().branch;
     for (const SpecialPoint& p : branch.special) {
-      segments_.back().special_state.push_back(map_->state(p.start));
-      segments_.back().special_place.push_back(rig_.place_of(p.event.contact));
+      segments_.back().special_state.push_back(map_->state_of(p.start));
+      segments_.back().special_place.push_back(map_->place_of(p.event.contact));
     }
     const BranchPosition& last = branch.points.back();
     const double at = last.parameter;
     direction = branch.reached_limit != 0 ? branch.reached_limit : last.turn > 0 ? 1 : -1;
     if (branch.stopped) return;
     if (segments_.size() - before == kMostSegments) return note_most_segments(segments_.back().branch);
-    State state = map_->state(last.start);  // while the contacts are the map's own
+    State state = map_->state_of(last.start);  // while the contacts are the map's own
     if (branch.reached_limit == 0) {
       if (!map_->take_left_zone()) return;
       widen(state);
@@ -162,8 +156,7 @@ void BranchFollower<Rig>::run(int steps, int direction, int part, const Report& 
   }
 }
 
-template <class Rig>
-void BranchFollower<Rig>::follow_flips(int most, const Report& report) {
+void BranchFollower::follow_flips(int most, const Report& report) {
   // Segments that are added have flips of their own.
   for (size_t i = 0; i < segments_.size(); ++i) {
     if (2 * segments_[i].multiple > most) continue;
@@ -172,8 +165,7 @@ void BranchFollower<Rig>::follow_flips(int most, const Report& report) {
   }
 }
 
-template <class Rig>
-void BranchFollower<Rig>::follow_flip(size_t of, size_t which, const Report& report) {
+void BranchFollower::follow_flip(size_t of, size_t which, const Report& report) {
   const Segment from = segments_[of];
   const SpecialPoint& flip = from.branch.special[which];
   const int part = segments_.back().part + 1;
@@ -205,67 +197,67 @@ void BranchFollower<Rig>::follow_flip(size_t of, size_t which, const Report& rep
 }
 
 // The next set of candidate contacts, which all states that are kept fit then.
-template <class Rig>
-void BranchFollower<Rig>::widen(State& state) {
+void BranchFollower::widen(State& state) {
   std::vector<State*> all{&state};
   if (kept_) all.push_back(&*kept_);
   for (Segment& segment : segments_)
     for (State& special : segment.special_state) all.push_back(&special);
-  rig_.widen(all);
+  motion_.widen(all);
 }
 
-template <class Rig>
-void BranchFollower<Rig>::new_map(double at, int steps) {
-  map_ = rig_.map(steps);
+void BranchFollower::new_map(double at, int steps) {
+  map_ = motion_.map(steps);
   map_->measure(measure_);
   map_->set_parameter(at);
 }
 
+std::optional<MotionRecord> BranchFollower::settle(State& state, double at, int steps, SteadyState method) {
+  return motion_.settle(state, at, steps, {speeds_.time.periodicity, method, {}, false});
+}
+
 // The orbit into which the motion settles.
-template <class Rig>
-void BranchFollower<Rig>::begin(double at, int steps) {
-  rig_.begin();
+void BranchFollower::begin(double at, int steps) {
+  motion_.restore(0);
   for (;;) {
     new_map(at, steps);
-    State state = rig_.rest();
-    const auto settled = rig_.settle(state, at, steps, SteadyState::extrapolate);
+    State state = motion_.rest();
+    const auto settled = settle(state, at, steps, SteadyState::extrapolate);
     if (settled) {
       if (settled->multiple != 1)
         fail(Failure::numerical, "at ", at, " Hz, where the branch begins, the motion ",
-             settled->multiple == 0 ? text("does not repeat within ", settled->turns, " mesh periods")
+             settled->multiple == 0 ? text("does not repeat within ", settled->periods, " mesh periods")
                                     : text("repeats after ", settled->multiple, " mesh periods"),
              "; give mesh_frequency_Hz another upper end");
-      if (found(map_->flat(state), at, steps)) return;
+      if (found(map_->flat_of(state), at, steps)) return;
     }
     widen(state);
   }
 }
 
 // The motion of a sweep, speed by speed.
-template <class Rig>
-void BranchFollower<Rig>::begin_swept(Direction direction, double at) {
-  rig_.begin();
-  State state = rig_.rest();
+void BranchFollower::begin_swept(Direction direction, double at) {
+  motion_.restore(0);
+  State state = motion_.rest();
   const double sign = direction == Direction::up ? 1 : -1;
   double speed = direction == Direction::up ? speeds_.from : speeds_.to;
   for (;; speed += sign * speeds_.step) {
     if (sign * (speed - at) > 0) speed = at;
     State start = state;
-    std::optional<Settled> settled;
-    while (!(settled = rig_.settle(state, speed, steps_at(speeds_.time, speed), speeds_.time.steady_state))) {
+    std::optional<MotionRecord> settled;
+    while (!(settled = settle(state, speed, steps_at(speeds_.time, speed), speeds_.time.steady_state))) {
       widen(start);
       state = start;
     }
     if (speed != at) continue;
     if (settled->multiple == 0)
       fail(Failure::numerical, "at ", at, " Hz the motion of the sweep does not repeat within ",
-           settled->turns, " mesh periods; begin the branch at another speed");
+           settled->periods, " mesh periods; begin the branch at another speed");
     multiple_ = settled->multiple;
     break;
   }
   const int steps = steps_at(speeds_.time, at);
   new_map(at, steps);
-  const VectorXd start = map_->flat(state);
+  const VectorXd start = map_->flat_of(state);
   if (!found(start, at, steps)) {
     widen(state);
     resume(state, start, at, steps, true);
@@ -273,12 +265,11 @@ void BranchFollower<Rig>::begin_swept(Direction direction, double at) {
 }
 
 // With other steps or other candidate contacts: the orbit near that of before.
-template <class Rig>
-void BranchFollower<Rig>::resume(State state, const VectorXd& start, double at, int steps, bool wider) {
+void BranchFollower::resume(State state, const VectorXd& start, double at, int steps, bool wider) {
   for (;;) {
     new_map(at, steps);
     State near = state;
-    if (rig_.fit(near, multiple_) && found(map_->flat(near), at, steps)) break;
+    if (motion_.fit(near, multiple_) && found(map_->flat_of(near), at, steps)) break;
     widen(state);
     wider = true;
   }
@@ -288,8 +279,7 @@ void BranchFollower<Rig>::resume(State state, const VectorXd& start, double at, 
 }
 
 // Newton's method; false where contact leaves the candidates.
-template <class Rig>
-bool BranchFollower<Rig>::found(const VectorXd& start, double at, int steps) {
+bool BranchFollower::found(const VectorXd& start, double at, int steps) {
   OrbitSettings settings;
   settings.tolerance = tolerance_;
   const OrbitSearch search = newton_orbit(*map_, start, multiple_, settings);
@@ -303,7 +293,12 @@ bool BranchFollower<Rig>::found(const VectorXd& start, double at, int steps) {
        " steps is found from that at hand: ", search.failure);
 }
 
-template class BranchFollower<PairRig>;
-template class BranchFollower<TrainRig>;
+std::string ends_of(const std::vector<BranchSegment>& segments) {
+  std::string words;
+  for (size_t k = 0; k < segments.size(); ++k)
+    if (k + 1 == segments.size() || segments[k + 1].part != segments[k].part)
+      words += (words.empty() ? "" : "; ") + segments[k].branch.end;
+  return words;
+}
 
 }  // namespace whine

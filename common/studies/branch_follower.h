@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "dynamics/motion.h"
 #include "model/stages.h"
 #include "orbits/branch.h"
-#include "studies/branch_rigs.h"
 
 namespace whine {
 
@@ -48,31 +48,27 @@ BranchSpeeds speeds_of(const Stage& stage) {
   return {stage.time, stage.frequency_from, stage.frequency_to, stage.frequency_step};
 }
 
-template <class State>
 struct BranchSegment {
   OrbitBranch branch;
   int steps = 0;     // per period
   int multiple = 1;  // periods after which its orbits repeat
   int part = 0;      // segments of one part follow each other along the arc
   // (special) of branch.special: the state there, which any set of candidate contacts can go on from
-  std::vector<State> special_state{};
+  std::vector<MotionState> special_state{};
   // (special) mesh, from 0, and tooth pair of the contact of its event, by the names of these candidate contacts
   std::vector<std::pair<int, int>> special_place{};
 };
 
-// Rig: of branch_rigs.h.
-template <class Rig>
 class BranchFollower {
  public:
-  using Map = typename Rig::Map;
-  using State = typename Rig::State;
-  using Segment = BranchSegment<State>;
+  using State = MotionState;
+  using Segment = BranchSegment;
   using Report = std::function<void(long, long, const std::string&)>;
   // How closely: with all that happens on the way, or for a first look at the folds, with long steps, no grazing orbits and
   // folds to 1e-5 of their speed.
   enum class Look { close, at_folds };
-  // The rig must live as long as this.
-  BranchFollower(Rig& rig, const BranchSpeeds& speeds, Look look = Look::close,
+  // The motion must live as long as this.
+  BranchFollower(Motion& motion, const BranchSpeeds& speeds, Look look = Look::close,
                  double tolerance = kOrbitTolerance);
   static constexpr double kOrbitTolerance = 1e-9;  // of an orbit's residual
 
@@ -92,7 +88,7 @@ class BranchFollower {
   // (change of steps) relative change of the orbit there.
   const std::vector<double>& mismatch() const { return mismatch_; }
   // Of each orbit, its peaks; to be said before the branch is followed.
-  void measure(typename Map::Measure of) { measure_ = std::move(of); }
+  void measure(MotionMap::Measure of) { measure_ = std::move(of); }
 
  private:
   void run(int steps, int direction, int part, const Report& report);
@@ -100,18 +96,19 @@ class BranchFollower {
   void follow_flip(size_t of, size_t flip, const Report& report);
   void widen(State& state);
   void new_map(double at, int steps);
+  std::optional<MotionRecord> settle(State& state, double at, int steps, SteadyState method);
   void begin(double at, int steps);
   void resume(State state, const Eigen::VectorXd& start, double at, int steps, bool wider);
   bool found(const Eigen::VectorXd& start, double at, int steps);
 
-  Rig& rig_;
+  Motion& motion_;
   const BranchSpeeds speeds_;
   Look look_;
   double tolerance_;
   int multiple_ = 1;
   bool closed_ = false;  // the part followed last, on itself
-  std::unique_ptr<Map> map_;
-  typename Map::Measure measure_;
+  std::unique_ptr<MotionMap> map_;
+  MotionMap::Measure measure_;
   PeriodicOrbit orbit_;
   std::vector<double> mismatch_;
   std::vector<Segment> segments_;
@@ -119,13 +116,6 @@ class BranchFollower {
 };
 
 // Why each part of a branch ends, one after the other.
-template <class State>
-std::string ends_of(const std::vector<BranchSegment<State>>& segments) {
-  std::string words;
-  for (size_t k = 0; k < segments.size(); ++k)
-    if (k + 1 == segments.size() || segments[k + 1].part != segments[k].part)
-      words += (words.empty() ? "" : "; ") + segments[k].branch.end;
-  return words;
-}
+std::string ends_of(const std::vector<BranchSegment>& segments);
 
 }  // namespace whine

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/model_range.h"
-#include "dynamics/period_map.h"
+#include "dynamics/strips_motion.h"
 #include "gear/pair.h"
 #include "orbits/fold_curve.h"
 #include "signal/branches.h"
@@ -29,11 +29,10 @@ constexpr int kWiderZones = 1;  // than the branch needed, for folds with larger
 // The pair with one value of the quantity.
 struct PairAt {
   PairAt(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& at_rest,
-         const DynamicParameters& parameters)
-      : statics(at_rest), model(driver, driven, statics.mesh), dynamics(model, parameters) {}
+         const DynamicParameters& parameters, int positions)
+      : statics(at_rest), motion(driver, driven, statics, parameters, positions) {}
   StaticResult statics;
-  GearMeshModel model;
-  RollingDynamics dynamics;
+  StripsMotion motion;
 };
 
 class Family {
@@ -73,33 +72,31 @@ class Family {
   }
   double bearing_stiffness() const { return bearing_stiffness_; }
   const StaticResult& statics() const { return own_statics_; }
-  // The pair at a raw value; its zone is not set.
+  // The pair at a raw value.
   std::unique_ptr<PairAt> at(double raw) {
     own(raw);
     DynamicParameters p = dynamic_parameters(own_statics_, bearing_stiffness_, settings_, 0);
     if (plan_.quantity == FoldQuantity::damping) p.damping.rayleigh_stiffness = raw;
     require_relaxation_range(p.damping, p.fidelity.body, plan_.to);
-    return std::make_unique<PairAt>(driver_, driven_, own_statics_, p);
+    return std::make_unique<PairAt>(driver_, driven_, own_statics_, p, steps_at(settings_.time, plan_.from));
   }
   // For motions near a speed, with a zone of a level that holds them.
-  std::unique_ptr<RollingPeriodMap> map(double raw, double speed, int level) {
+  std::unique_ptr<MotionMap> map(double raw, double speed, int level) {
     if (!current_ || raw != current_raw_) {
       current_ = at(raw);
       current_raw_ = raw;
-      current_->dynamics.set_zone(zone_of_level(current_->model, current_->statics, level),
-                                  steps_at(settings_.time, plan_.from));
+      current_->motion.restore(level);
     }
-    return std::make_unique<RollingPeriodMap>(current_->dynamics, steps(speed));
+    return current_->motion.map(steps(speed));
   }
   // A state of another zone in coordinates of that map: a period puts the contact forces where this zone has its strips.
-  VectorXd moved(double raw, double speed, int level, RollingDynamics::State state) {
+  VectorXd moved(double raw, double speed, int level, MotionState state) {
     const auto map = this->map(raw, speed, level);
     map->set_parameter(speed);
-    RollingDynamics::Period period;
-    if (!current_->dynamics.integrate(state, period))
+    if (!current_->motion.fit(state, 1))
       fail_outside_range(Failure::numerical, "at ", speed,
                          " Hz contact leaves a zone wider than the branch needs");
-    return map->flat(state);
+    return map->flat_of(state);
   }
   int steps(double speed) const {  // per period
     return std::min(steps_at(settings_.time, speed), steps_at(settings_.time, plan_.from));
@@ -138,8 +135,8 @@ class Family {
 
 // Of a branch: neighbours between which it is unstable, in the order of the arc, as states of a zone of a level. `end` names a last
 // fold without another.
-std::vector<std::pair<Fold, Fold>> pairs_of(const std::vector<BranchSegment<PairRig::State>>& segments,
-                                            double value, int level, Family& family, std::string& end) {
+std::vector<std::pair<Fold, Fold>> pairs_of(const std::vector<BranchSegment>& segments, double value,
+                                            int level, Family& family, std::string& end) {
   std::vector<std::pair<Fold, Fold>> pairs;
   std::vector<Fold> open;
   for (const auto& segment : segments)
@@ -268,8 +265,7 @@ FoldCurvesResult fold_curves(const ReducedBody& driver, const ReducedBody& drive
 
   const double first = family.raw(plan.first);
   const std::unique_ptr<PairAt> pair = family.at(first);
-  PairRig rig(pair->dynamics, pair->model, pair->statics, settings);
-  BranchFollower<PairRig> follower(rig, speeds_of(settings), BranchFollower<PairRig>::Look::at_folds);
+  BranchFollower follower(pair->motion, speeds_of(settings), BranchFollower::Look::at_folds);
   const auto values = static_cast<long>(plan.values.size());
   const auto& segments = follower.follow(
       [&](long done, long total, const std::string& note) { report(done, total * (1 + 2 * values), note); });
@@ -291,7 +287,7 @@ FoldCurvesResult fold_curves(const ReducedBody& driver, const ReducedBody& drive
   fold_settings.tolerance = 1e-5;
   fold_settings.orbit.tolerance = 1e-8;
   fold_settings.one_map = [&](double one, double other) { return family.steps(one) == family.steps(other); };
-  const int level = std::min(rig.level() + kWiderZones, kMostZoneLevel);
+  const int level = std::min(pair->motion.level() + kWiderZones, kMostZoneLevel);
   const MapFamily maps = [&](double raw, double speed) { return family.map(raw, speed, level); };
   Rows rows;
   int number = 0;

@@ -17,32 +17,14 @@ void append(const Eigen::Ref<const Eigen::MatrixXd>& of_steps, Rows& rows) {
   rows.bottomRows(of_steps.cols()) = of_steps.transpose();
 }
 
-template <class Forces>
-void append_bearings(const Forces& of_bodies, std::vector<MatrixRM>& rows) {
-  rows.resize(of_bodies.size());
-  for (size_t b = 0; b < rows.size(); ++b) append(of_bodies[b], rows[b]);
-}
-
 }  // namespace
 
-void MotionStatistics::take(const RollingDynamics::Period& period) {
-  append(Eigen::MatrixXd(period.transmission_error.transpose()), error_);
-  append(Eigen::MatrixXd(period.tooth_pair_load.colwise().sum()), force_);
-  append(Eigen::MatrixXd(period.tooth_pair_load.colwise().maxCoeff()), tooth_);
-  append_bearings(period.bearing_force, bearing_);
-}
-
-void MotionStatistics::take(const SystemDynamics::Period& period) {
+void MotionStatistics::take(const MotionPeriod& period) {
   append(period.transmission_error, error_);
   append(period.mesh_force, force_);
   append(period.largest_tooth_force, tooth_);
-  append_bearings(period.bearing_force, bearing_);
-}
-
-VectorXd MotionStatistics::dte_rms() const {
-  VectorXd out(error_.cols());
-  for (Index m = 0; m < out.size(); ++m) out[m] = oscillating_rms({error_.col(m)});
-  return out;
+  bearing_.resize(period.bearing_force.size());
+  for (size_t b = 0; b < bearing_.size(); ++b) append(period.bearing_force[b], bearing_[b]);
 }
 
 VectorXd MotionStatistics::separation_fraction() const {

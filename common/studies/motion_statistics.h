@@ -4,8 +4,7 @@
 #include <vector>
 
 #include "base/matrix.h"
-#include "dynamics/dynamics.h"
-#include "dynamics/system_dynamics.h"
+#include "dynamics/motion_period.h"
 #include "signal/spectrum.h"
 
 namespace whine {
@@ -13,13 +12,11 @@ namespace whine {
 class MotionStatistics {
  public:
   void clear() { *this = {}; }
-  void take(const RollingDynamics::Period& period);
-  void take(const SystemDynamics::Period& period);
+  void take(const MotionPeriod& period);
   // Of the transmission error of a mesh, of `periods` mesh periods that were taken.
   Harmonics dte(Eigen::Index mesh, int count, int periods) const {
     return harmonics(error_.col(mesh), count, periods);
   }
-  Eigen::VectorXd dte_rms() const;                                                            // (mesh) m
   Eigen::VectorXd mesh_force_max() const { return force_.colwise().maxCoeff().transpose(); }  // (mesh) N
   Eigen::VectorXd tooth_load_max() const {
     return tooth_.colwise().maxCoeff().transpose();

@@ -8,14 +8,15 @@
 #include <vector>
 
 #include "base/error.h"
-#include "gear/body_inertia.h"
+#include "dynamics/lines_motion.h"
 #include "gear/layout.h"
+#include "gear/pair.h"
 #include "gear/system_layout.h"
+#include "signal/branches.h"
 #include "signal/uniform_sampler.h"
-#include "studies/face_sweep.h"
-#include "studies/runup_motion.h"
+#include "studies/pair_in_motion.h"
+#include "studies/sustained_peaks.h"
 #include "studies/sweep.h"
-#include "studies/train_in_motion.h"
 
 namespace whine {
 namespace {
@@ -55,20 +56,23 @@ struct SpeedBlock {
 
 class Runner {
  public:
-  Runner(RunupMotion& motion, const TimeDiscretisation& time, const RunupSettings& wanted, RunupResult& head,
-         RunupSink& sink, const std::function<void(long, long, const std::string&)>& report)
+  // head: says what is moved, and whether pairs up to `reach` are recorded; -1: no loads of pairs are.
+  Runner(Motion& motion, int reach, const TimeDiscretisation& time, const RunupSettings& wanted,
+         RunupResult& head, RunupSink& sink,
+         const std::function<void(long, long, const std::string&)>& report)
       : motion_(motion),
         time_(time),
         wanted_(wanted),
         clock_(wanted.ramp, head.mesh_acceleration),
         head_(head),
         sink_(sink),
-        report_(report) {}
+        report_(report),
+        reach_(reach) {}
 
   void run() {
     begin();
     // Without a periodic motion the record would begin with a transient of no known cause.
-    if (!motion_.settle(wanted_.ramp.from, steps_at(time_, wanted_.ramp.from)))
+    if (!settle())
       fail(Failure::numerical, "no periodic motion is found at ", wanted_.ramp.from,
            " Hz, where the ramp starts: from rest the motion does not repeat to ", time_.periodicity,
            "; start at a mesh frequency at which the sweep has a periodic motion (--from, FROM= of make)");
@@ -85,8 +89,9 @@ class Runner {
       hand_on(false);
     }
     hand_on(true);
-    head_.backlash_margin =
-        head_.tooth_thinning() > 0 ? motion_.backlash_margin() : std::numeric_limits<double>::infinity();
+    head_.backlash_margin = !head_.of_train() && head_.tooth_thinning() > 0
+                                ? motion_.system().mesh[0].kinematics.backlash() + least_closing_
+                                : std::numeric_limits<double>::infinity();
     sink_.end(head_);
   }
 
@@ -103,7 +108,9 @@ class Runner {
            periods, " mesh periods, ", kMost, " of each at most; raise the rate");
     samples_ = static_cast<Index>(samples);  // no such number before the limits are checked
     periods_ = static_cast<Index>(periods);
-    reach_ = motion_.begin(head_);
+    if (!head_.of_train() && motion_.system().face.empty())
+      peaks_.emplace(motion_.system().mesh[0], time_.steps_per_period);
+    head_.root_stress = peaks_ && peaks_->root_stress();
     if (reach_ >= 0) head_.pair = Eigen::VectorXi::LinSpaced(2 * reach_ + 1, -reach_, reach_);
     for (size_t b = 0; b < head_.body_names.size(); ++b)
       if (head_.has_bearing(b)) borne_.push_back(b);
@@ -124,14 +131,67 @@ class Runner {
     return {k, static_cast<int>(std::clamp(most, 1.0, kMost)), steps_at(time_, f)};
   }
 
-  const RunupPeriod& integrated(long k, const SpeedBlock& block) {
+  // From rest; false if the motion does not repeat.
+  bool settle() {
+    const double f = wanted_.ramp.from;
+    try {
+      for (;; motion_.widen({})) {
+        state_ = motion_.rest();
+        if (const auto found = motion_.settle(state_, f, steps_at(time_, f),
+                                              {time_.periodicity, time_.steady_state, {}, false}))
+          return found->multiple != 0;
+      }
+    } catch (const Error& error) {
+      fail_as(error, "at ", f, " Hz, ", error.what());
+    }
+  }
+
+  bool try_period() {
+    trial_ = state_;
+    if (!motion_.integrate(trial_, period_)) return false;
+    std::swap(state_, trial_);
+    return true;
+  }
+
+  // Mesh period k at a speed (Hz) that may be a new one (`fresh`), on the candidate contacts of before or more; fewer are tried now and then.
+  void integrate(long k, double mesh_frequency, int steps, bool fresh) {
+    constexpr long kPatience = 64;  // mesh periods on a level before the one below it is tried
+    const auto widen = [&] {
+      motion_.widen({&state_});
+      level_since_ = k;
+      motion_.pass_speed(mesh_frequency, steps);
+    };
+    if (fresh) motion_.pass_speed(mesh_frequency, steps);
+    if (k - level_since_ >= kPatience && motion_.narrow()) {
+      level_since_ = k;
+      motion_.pass_speed(mesh_frequency, steps);
+      if (try_period()) return;
+      widen();
+    }
+    while (!try_period()) widen();
+  }
+
+  const MotionPeriod& integrated(long k, const SpeedBlock& block) {
     const double start = clock_.time(static_cast<double>(block.first)),
                  end = clock_.time(static_cast<double>(block.end()));
     try {
-      return motion_.integrate(k, block.periods / (end - start), block.steps, k == block.first);
+      integrate(k, block.periods / (end - start), block.steps, k == block.first);
+      if (!head_.of_train()) least_closing_ = std::min(least_closing_, closing().minCoeff());
+      return period_;
     } catch (const Error& error) {
       fail_as(error, "at ", clock_.frequency(clock_.time(static_cast<double>(k))), " Hz, ", error.what());
     }
+  }
+
+  // (step) m: of a pair the transmission error without what bearings give way.
+  VectorXd closing() const {
+    VectorXd out = period_.transmission_error.row(0).transpose();
+    const GearMeshModel& mesh = motion_.system().mesh[0];
+    for (size_t g = 0; g < kSides; ++g)
+      if (const Bearing& bearing = mesh.bearing[g]; bearing.elastic())
+        out += (g == 0 ? 1 : -1) / bearing.stiffness *
+               (period_.bearing_force[g].transpose() * contact_normal(mesh.kinematics));
+    return out;
   }
 
   // s: weights of the instants i of period k for the trapezoidal rule. Where the number of steps changes, the rules of
@@ -155,24 +215,21 @@ class Runner {
   }
 
   // Channels: transmission errors, mesh forces, forces on bearings, loads of pairs.
-  void fill_row(const RunupPeriod& period, Index at, long named) {
+  void fill_row(const MotionPeriod& period, Index at, long named) {
     std::fill(row_.begin(), row_.end(), 0.0);
     size_t next = 0;
     for (const Eigen::MatrixXd* of : {&period.transmission_error, &period.mesh_force})
-      for (Index m = 0; m < of->cols(); ++m) row_[next++] = (*of)(at, m);
+      for (Index m = 0; m < of->rows(); ++m) row_[next++] = (*of)(m, at);
     for (const size_t b : borne_)
       for (int xy = 0; xy < 2; ++xy) row_[next++] = period.bearing_force[b](xy, at);
-    const Index pairs = period.tooth_load.rows();
-    for (Index j = 0; reach_ >= 0 && j < pairs; ++j)
-      row_[next + static_cast<size_t>(pair_channel(static_cast<long>(j - pairs / 2), named))] =
-          period.tooth_load(j, at);
+    for (int j = 0; reach_ >= 0 && j < period.pairs(); ++j)
+      row_[next + static_cast<size_t>(pair_channel(period.first_pair + j, named))] = period.tooth_load(j, at);
   }
 
   // Samples i = 1 to steps of a period; the last one is the first of the next.
-  void record(const RunupPeriod& period, long k, int steps, int before, int after) {
-    if (reach_ >= 0 && period.tooth_load.rows() / 2 > reach_)
-      fail(Failure::numerical, "pairs up to ", period.tooth_load.rows() / 2, " touch, ", reach_,
-           " are foreseen");
+  void record(const MotionPeriod& period, long k, int steps, int before, int after) {
+    if (reach_ >= 0 && period.pairs() / 2 > reach_)
+      fail(Failure::numerical, "pairs up to ", period.pairs() / 2, " touch, ", reach_, " are foreseen");
     for (int i = 1; i <= steps; ++i) {
       // The state at the end has the names of the next period.
       fill_row(period, i % steps, i < steps ? k : k + 1);
@@ -189,19 +246,20 @@ class Runner {
       period_rows_.insert(period_rows_.end(), x.data(), x.data() + x.size());
     };
     const Index meshes = head_.meshes();
-    VectorXd rms(meshes), mean(meshes);
+    VectorXd rms(meshes), mean(meshes), sustained(meshes), parted(meshes);
     for (Index m = 0; m < meshes; ++m) {
-      const auto error = period.transmission_error.col(m);
+      sustained[m] = sustained_load(period.loads_of(m).transpose(), steps);
+      parted[m] = static_cast<double>((period.largest_tooth_force.row(m).array() <= 0).count()) / steps;
+      const auto error = period.transmission_error.row(m);
       mean[m] = error.mean();
       double squares = 0;
       for (int i = 1; i <= steps; ++i) squares += (error[i % steps] - mean[m]) * (error[i % steps] - mean[m]);
       rms[m] = std::sqrt(squares / steps);
     }
     put(Eigen::Vector2d(start, clock_.frequency(start)));
-    for (const auto& x :
-         {std::cref(rms), std::cref(mean), std::cref(period.tooth_load_max), std::cref(period.separation)})
-      put(x);
-    if (head_.root_stress) put(period.root_stress);
+    for (const auto& x : {std::cref(rms), std::cref(mean), std::cref(sustained), std::cref(parted)}) put(x);
+    if (head_.root_stress)
+      put(peaks_->of(period.tooth_load, static_cast<int>(k), SustainedPeaks::kNever).segment(2, kSides));
   }
 
   // Whole blocks to the sink, at last what is left.
@@ -260,14 +318,19 @@ class Runner {
     return out;
   }
 
-  RunupMotion& motion_;
+  Motion& motion_;
   const TimeDiscretisation& time_;
   const RunupSettings& wanted_;
   RampClock clock_;
   RunupResult& head_;
   RunupSink& sink_;
   const std::function<void(long, long, const std::string&)>& report_;
-  int reach_ = -1, channels_ = 0;  // reach: largest |pair| whose load is recorded, -1: none is
+  int reach_, channels_ = 0;
+  MotionState state_, trial_;
+  MotionPeriod period_;
+  long level_since_ = 0;
+  std::optional<SustainedPeaks> peaks_;
+  double least_closing_ = std::numeric_limits<double>::infinity();  // m
   Index period_columns_ = 0;
   std::vector<size_t> borne_;  // bodies whose force on the bearing is recorded
   Index periods_ = 0, samples_ = 0, first_ = 0;
@@ -328,38 +391,21 @@ void runup(const ReducedBody& driver, const ReducedBody& driven, const StaticRes
            double mean_stiffness, const SweepParameters& settings, const RunupSettings& wanted,
            RunupSink& sink, const std::function<void(long, long, const std::string&)>& report) {
   require_ramp(wanted, settings.time);
-  require_inertia(statics.mesh, {driver.inertia, driven.inertia}, settings.inertia);
+  SweepParameters of_ramp = settings;
+  of_ramp.frequency_from = std::min(wanted.ramp.from, wanted.ramp.to);
+  of_ramp.frequency_to = std::max(wanted.ramp.from, wanted.ramp.to);
+  const PairInMotion pair(driver, driven, statics, mean_stiffness, of_ramp);
   RunupResult head = head_of(wanted, statics.gear[0].design.teeth);
-  set_motion(head, {driver, driven}, statics, settings);
-  head.time = settings.time;
-  head.torque = statics.torque;
-  head.mean_stiffness = mean_stiffness;
-  head.name_parts();
+  pair.describe(head);
   head.input = statics.mesh.gear[0];
-  const auto [lowest, highest] = std::minmax(wanted.ramp.from, wanted.ramp.to);
-  if (settings.fidelity.width != WidthModel::one) {
-    head.fidelity.contact = ContactModel::line;
-    SystemSweepParameters train = train_of_slices(driver, driven, statics, mean_stiffness, settings);
-    train.frequency_from = lowest;
-    train.frequency_to = highest;
-    const std::vector<ReducedBody> bodies{driver, driven};
-    const SliceAxes axes = axes_of_slices(train, bodies);
-    head.natural_frequency = axes.natural_frequency;
-    head.bearing_damper = axes.bearing_damper;
-    TrainRunup motion(train, bodies, true);
-    return Runner(motion, settings.time, wanted, head, sink, report).run();
-  }
-  const GearMeshModel model(driver, driven, statics.mesh);
-  PairRunup motion(model, dynamic_parameters(statics, mean_stiffness, settings, highest), statics, settings,
-                   lowest);
-  Runner(motion, settings.time, wanted, head, sink, report).run();
+  // With more candidates one more on either side may touch.
+  Runner(*pair.motion, pair.motion->reach() + 1, settings.time, wanted, head, sink, report).run();
 }
 
 void runup(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
            const RunupSettings& wanted, RunupSink& sink,
            const std::function<void(long, long, const std::string&)>& report) {
   require_ramp(wanted, settings.time);
-  require_like_teeth(settings, bodies, "a run-up");
   const TrainSpeeds speeds = train_speeds(settings.layout);
   const size_t input = input_of(settings.layout, speeds);
   RunupResult head = head_of(wanted, 1 / std::abs(speeds.turns[input]));
@@ -367,8 +413,9 @@ void runup(const SystemSweepParameters& settings, const std::vector<ReducedBody>
   SystemSweepParameters of_ramp = settings;
   of_ramp.frequency_from = std::min(wanted.ramp.from, wanted.ramp.to);
   of_ramp.frequency_to = std::max(wanted.ramp.from, wanted.ramp.to);
-  TrainRunup motion(of_ramp, bodies);
-  Runner(motion, settings.time, wanted, head, sink, report).run();
+  LinesMotion motion(of_ramp, bodies, steps_at(of_ramp.time, of_ramp.frequency_from));
+  static_cast<MotionSource&>(head) = motion.source();
+  Runner(motion, -1, settings.time, wanted, head, sink, report).run();
 }
 
 }  // namespace whine

@@ -47,7 +47,7 @@ void runup(const ReducedBody& driver, const ReducedBody& driven, const StaticRes
            double mean_stiffness, const SweepParameters& settings, const RunupSettings& wanted,
            RunupSink& sink, const std::function<void(long, long, const std::string&)>& report);
 // The same of a train, whose input is the body of the first drive that gives power. bodies: as of system_sweep(). Throws
-// Error(input) for teeth that differ too, and where nothing turns.
+// Error(input) where nothing turns.
 void runup(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
            const RunupSettings& wanted, RunupSink& sink,
            const std::function<void(long, long, const std::string&)>& report);

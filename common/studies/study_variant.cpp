@@ -7,7 +7,6 @@
 #include "signal/response.h"
 #include "signal/result_quantities.h"
 #include "studies/sweep.h"
-#include "studies/system_sweep.h"
 #include "system/statics.h"
 #include "system/system_rest.h"
 

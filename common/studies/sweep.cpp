@@ -2,33 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <limits>
-#include <map>
-#include <numbers>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include "base/error.h"
-#include "base/format.h"
 #include "base/memory.h"
 #include "base/model_range.h"
-#include "dynamics/dynamics.h"
-#include "dynamics/steady_state.h"
-#include "gear/body_inertia.h"
+#include "dynamics/lines_motion.h"
 #include "gear/pair.h"
-#include "gear/scene_geometry.h"
-#include "signal/branches.h"
-#include "signal/jumps.h"
-#include "signal/response.h"
-#include "studies/face_sweep.h"
+#include "studies/pair_in_motion.h"
 #include "studies/speed_sweep.h"
 #include "studies/sweep_root_stress.h"
-#include "studies/zone_levels.h"
+#include "studies/turning_carrier.h"
 
 namespace whine {
 
+using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -49,338 +39,327 @@ int steps_at(const TimeDiscretisation& time, double mesh_frequency) {
 
 namespace {
 
-// All motions, and the state that each speed ended with, are kept until the sweep is written.
-void require_memory(int hunting, int speeds, const SweepParameters& settings, int pairs, double state) {
-  constexpr double kMostMemory = 4e9;  // bytes
-  double samples = 0;
-  for (int i = 0; i < speeds; ++i)
-    samples += settings.time.steps_per_period +
-               steps_at(settings.time, settings.frequency_from + i * settings.frequency_step);
-  constexpr int kRows = 2 + kSides;  // transmission error, mesh force; root stress of both gears
-  const double memory = 8.0 * (samples * hunting * (kRows + pairs) + speeds * state);
-  if (memory > kMostMemory)
-    fail(Failure::input,
-         hunting > 1 ? text("teeth that differ meet again after ", hunting, " mesh periods; ") : "", speeds,
-         hunting > 1 ? " speeds of that length need " : " speeds need ", memory * 1e-9, " GB, at most ",
-         kMostMemory * 1e-9,
-         " are allowed; give fewer mesh_frequency_Hz, or lower steps_per_period and min_sample_rate_kHz");
-  log_memory(text("the motions at ", speeds, " speeds"), memory);
-}
-
-// The pair, on the lowest level of candidate contact zones that holds its motion, whatever the speeds before it wanted; the rig of
-// a SpeedSweep.
-class PairSweepRig {
+// A motion from speed to speed, on the least candidate contacts that hold it; the rig of a SpeedSweep.
+class MotionRig {
  public:
-  using State = RollingDynamics::State;
-  using Motion = Orbit;
-  using Acceleration = RollingAcceleration;
+  using State = MotionState;
+  using Motion = MotionRecord;
+  using Acceleration = MotionAcceleration;
 
-  PairSweepRig(const GearMeshModel& model, const DynamicParameters& parameters, const StaticResult& statics,
-               const SweepParameters& settings)
-      : settings_(settings),
-        finest_(steps_at(settings.time, settings.frequency_from)),
-        levels_(model, parameters, statics, finest_) {
-    state_ = levels_.at(0).rest();
-    hunting_ = dynamics().hunting_periods();
-  }
+  MotionRig(whine::Motion& motion, const TimeDiscretisation& time)
+      : motion_(motion), time_(time), state_(motion.rest()) {}
 
-  RollingDynamics& dynamics() { return levels_.at(level_); }
-  int single() const { return hunting_; }
-  static bool finds_jumps() { return true; }
-  static void watch(const std::function<std::vector<State*>()>& /*states*/) {}  // they fit every level
-  int reach() const { return levels_.reach(); }
-  double natural_frequency() { return levels_.natural_frequency(); }
+  int single() const { return motion_.hunting_periods(); }
+  bool finds_jumps() const { return motion_.system().mesh.size() == 1 || single() == 1; }
+  void watch(std::function<std::vector<State*>()> states) { states_ = std::move(states); }
   const State& state() const { return state_; }
   Acceleration& acceleration() { return acceleration_; }
 
-  // Runs at this speed from the present state until the state repeats, or as iterate_to_orbit() has it.
-  Orbit run(double mesh_frequency, const RmsRange& looked_for = {}) {
-    const RollingDynamics::State start = state_;
-    for (;; ++level_) {
-      levels_.require(level_, mesh_frequency);
-      if (auto orbit = try_level(mesh_frequency, looked_for))
-        return on_lowest_level(mesh_frequency, std::move(*orbit));
-      state_ = start;
-    }
-  }
-
-  Orbit run_from(const State& predicted, double mesh_frequency) {
-    const State present = state_;
-    const int level = level_;
-    state_ = predicted;
-    // Returned behind the catch, or clang-tidy takes what follows for never reached.
-    std::optional<Orbit> orbit;
-    try {
-      orbit = run(mesh_frequency);
-    } catch (const Error& error) {
-      if (error.kind() != Failure::numerical) throw;
-    }
-    if (orbit) return std::move(*orbit);
+  MotionRecord run(double frequency) { return run(frequency, {}, nullptr); }
+  MotionRecord run_from(const State& predicted, double frequency) {
+    State present = std::exchange(state_, predicted);
+    const int level = motion_.level();
+    if (auto found = tried(frequency, {}, &present)) return std::move(*found);
     state_ = present;
-    level_ = level;
+    motion_.restore(level);
     acceleration_.forget();
-    return run(mesh_frequency);
+    return run(frequency);
   }
-  Orbit follow(const State& predicted, const State& /*last*/, double mesh_frequency,
-               const RmsRange& looked_for) {
+  // A motion that fails is none of the branch.
+  MotionRecord follow(const State& predicted, const State& last, double frequency,
+                      const RmsRange& looked_for) {
+    const int level = motion_.level();
     state_ = predicted;
-    return run(mesh_frequency, looked_for);
+    for (int trial = 0; trial < 2; ++trial) {
+      if (auto found = tried(frequency, looked_for, nullptr)) return std::move(*found);
+      state_ = last;
+      motion_.restore(level);
+    }
+    return {};
   }
-  State predicted(const std::vector<KnownOrbit<State>>& known, double mesh_frequency) {
-    return whine::predicted(RollingStates{dynamics()}, known, mesh_frequency);
+  State predicted(const std::vector<KnownOrbit<State>>& known, double frequency) {
+    return motion_.predicted(known, frequency, steps_at(time_, frequency));
   }
-  static BranchMotion motion_at(double mesh_frequency, const Orbit& orbit) {
-    return {mesh_frequency, orbit.rms, orbit.multiple};
+  static BranchMotion motion_at(double frequency, const MotionRecord& found) {
+    return {frequency, found.rms, found.multiple};
   }
-  static BranchPoint point_at(double mesh_frequency, const Orbit& orbit) {
-    BranchPoint point{mesh_frequency, orbit.rms, 0, 0, false};
-    for (const RollingDynamics::Period& period : orbit.record) {
-      point.tooth_load_max = std::max(point.tooth_load_max, period.tooth_pair_load.maxCoeff());
+  static BranchPoint point_at(double frequency, const MotionRecord& found) {
+    BranchPoint point{frequency, found.rms, 0, 0, false};
+    for (const MotionPeriod& period : found.record) {
+      point.tooth_load_max = std::max(point.tooth_load_max, period.tooth_load.maxCoeff());
       point.sustained_load =
-          std::max(point.sustained_load, sustained_load(period.tooth_pair_load.transpose(),
-                                                        static_cast<int>(period.tooth_pair_load.cols())));
-      point.parted = point.parted || !(period.tooth_pair_load.colwise().sum().minCoeff() > 0);
+          std::max(point.sustained_load, sustained_load(period.tooth_load.transpose(), period.steps()));
+      point.parted = point.parted || !(period.mesh_force.minCoeff() > 0);
     }
     return point;
   }
 
  private:
-  std::optional<Orbit> try_level(double mesh_frequency, const RmsRange& looked_for = {}) {
+  std::optional<MotionRecord> settle(double frequency, const RmsRange& looked_for) {
+    return motion_.settle(state_, frequency, steps_at(time_, frequency),
+                          {time_.periodicity, time_.steady_state, looked_for}, &acceleration_);
+  }
+
+  std::optional<MotionRecord> tried(double frequency, const RmsRange& looked_for, State* beside) {
     try {
-      RollingDynamics& dynamics = levels_.at(level_);
-      dynamics.set_speed(mesh_frequency, steps_at(settings_.time, mesh_frequency));
-      return iterate_to_orbit(dynamics, state_, settings_.time.periodicity, settings_.time.steady_state,
-                              looked_for, &acceleration_);
+      return run(frequency, looked_for, beside);
     } catch (const Error& error) {
-      fail_as(error, "at ", mesh_frequency, " Hz, ", error.what());
+      if (error.kind() != Failure::numerical) throw;
+      return std::nullopt;
+    }
+  }
+
+  // beside: a state that has to fit as well, where there are more candidates.
+  MotionRecord run(double frequency, const RmsRange& looked_for, State* beside) {
+    State start = state_;
+    try {
+      for (;;) {
+        if (auto found = settle(frequency, looked_for)) return on_lowest_level(frequency, std::move(*found));
+        std::vector<State*> states = states_();
+        states.push_back(&start);
+        if (beside) states.push_back(beside);
+        motion_.widen(states);
+        state_ = start;
+      }
+    } catch (const Error& error) {
+      fail_as(error, "at ", frequency, " Hz, ", error.what());
     }
   }
 
   // A transient may have wanted more than the orbit does.
-  Orbit on_lowest_level(double mesh_frequency, Orbit orbit) {
-    while (level_ > 0 && !levels_.keeps_one() && orbit.multiple > 0) {
-      const RollingDynamics::State reached = state_;
-      --level_;
-      std::optional<Orbit> lower;
+  MotionRecord on_lowest_level(double frequency, MotionRecord found) {
+    while (found.multiple > 0) {
+      const State reached = state_;
+      const int level = motion_.level();
+      if (!motion_.narrow()) break;
+      std::optional<MotionRecord> lower;
       try {
-        lower = try_level(mesh_frequency);
+        lower = settle(frequency, {});
       } catch (const Error& error) {  // the orbit on the level above stands
         if (error.kind() != Failure::numerical) throw;
       }
-      if (!lower || lower->multiple != orbit.multiple) {
+      if (!lower || lower->multiple != found.multiple) {
         state_ = reached;
-        ++level_;
+        motion_.restore(level);
         break;
       }
-      lower->periods += orbit.periods;
-      orbit = std::move(*lower);
+      lower->periods += found.periods;
+      found = std::move(*lower);
     }
-    return orbit;
+    return found;
   }
 
-  const SweepParameters& settings_;
-  int finest_ = 0, level_ = 0, hunting_ = 1;
-  ZoneLevels levels_;
-  RollingDynamics::State state_;
-  RollingAcceleration acceleration_;
+  whine::Motion& motion_;
+  const TimeDiscretisation& time_;
+  State state_;
+  Acceleration acceleration_;
+  std::function<std::vector<State*>()> states_ = [] { return std::vector<State*>(); };
 };
 
-}  // namespace
+// All samples, and the state that each speed ended with, are kept until the sweep is written.
+void require_memory(const SweepResult& a, Index speeds, int samples, const MotionState& state) {
+  constexpr double kMostMemory =
+      4e9;  // bytes; of a mesh three quantities, five pairs in reach, two sides of roots
+  const double numbers = 2 * static_cast<double>(std::visit([](const auto& s) { return s.z.size(); }, state));
+  const double memory =
+      8.0 * static_cast<double>(speeds) *
+      (numbers + static_cast<double>(a.hunting_periods) * samples *
+                     (10.0 * static_cast<double>(a.meshes()) + 2.0 * static_cast<double>(a.bodies())));
+  if (memory > kMostMemory)
+    fail(Failure::input,
+         a.hunting_periods > 1
+             ? text("the same teeth meet again after ", a.hunting_periods, " mesh periods; ")
+             : "",
+         "the samples of ", speeds, " speeds need ", memory * 1e-9, " GB, at most ", kMostMemory * 1e-9,
+         " are allowed; give fewer mesh_frequency_Hz, or lower steps_per_period",
+         a.hunting_periods > 1 ? ", or give errors to fewer gears" : "");
+  log_memory(text("the samples of ", speeds, " speeds"), memory);
+}
 
-double stiffness_damping_ratio(const StaticResult& statics, const Damping& damping,
-                               const std::array<double, kSides>& inertia) {
-  double inverse_mass = 0;
-  for (int g = 0; g < kSides; ++g) {
-    const double r = ToothGeometry(statics.gear[g].design).base_radius();
-    inverse_mass += r * r / inertia[g];
+// What the dynamics of a speed had in reach: loads (sample, mesh and within it pair) and the number of the first pair.
+struct ToothLoads {
+  MatrixRM rows;
+  int first = 0;
+};
+
+// Loads of all speeds on one axis: up to |pair| = reach; without one from the first pair that carries load, the reference pair or before, to
+// the last.
+void store_tooth_loads(std::vector<ToothLoads>&& speeds, int reach, SweepResult& out) {
+  const Index meshes = out.meshes();
+  int first = -std::max(0, reach), last = std::max(0, reach);
+  for (const ToothLoads& own : speeds)
+    for (Index slot = 0; slot < own.rows.cols(); ++slot)
+      if (const int pair = own.first + static_cast<int>(slot % (own.rows.cols() / meshes));
+          reach < 0 && (pair < first || pair > last) && own.rows.col(slot).maxCoeff() > 0) {
+        first = std::min(first, pair);
+        last = std::max(last, pair);
+      }
+  out.pair = Eigen::VectorXi::LinSpaced(last - first + 1, first, last);
+  for (ToothLoads& own : speeds) {
+    const Index pairs = own.rows.cols() / meshes, count = out.pair.size();
+    MatrixRM& loads = out.tooth_load.emplace_back(MatrixRM::Zero(own.rows.rows(), meshes * count));
+    for (Index m = 0; m < meshes; ++m)
+      for (Index p = 0; p < pairs; ++p)
+        if (const Index to = own.first + p - first; to >= 0 && to < count)
+          loads.col(m * count + to) = own.rows.col(m * pairs + p);
+    own.rows.resize(0, 0);
   }
-  return 0.5 * damping.rayleigh_stiffness * std::sqrt(statics.mean_stiffness * inverse_mass);
 }
 
-double steps_per_oscillation(const SweepResult& sweep) {
-  double rate = std::numeric_limits<double>::infinity();  // Hz, of time steps
-  for (const double f : sweep.mesh_frequency) rate = std::min(rate, f * steps_at(sweep.time, f));
-  return rate / sweep.natural_frequency;
-}
-
-namespace {
-
-// m, (speed): by how little the flanks close along the line of action at least: the transmission error less what elastic
-// bearings give way. Their dampers' forces are taken for those of their springs.
-VectorXd least_closing(const SweepResult& s) {
-  VectorXd least(s.mesh_frequency.size());
-  if (!s.mesh.on_bearings()) {
-    for (Eigen::Index i = 0; i < least.size(); ++i)
-      least[i] = s.transmission_error[static_cast<size_t>(i)].minCoeff();
-    return least;
-  }
-  const GearPair gears(s);
-  for (Eigen::Index i = 0; i < least.size(); ++i) {
-    VectorXd closing = s.transmission_error[static_cast<size_t>(i)].col(0);
-    for (size_t g = 0; g < s.bearing_force.size(); ++g)
-      if (!s.bearing_force[g].empty())
-        closing += (g == 0 ? 1 : -1) / s.mesh.bearing[g].stiffness *
-                   (s.bearing_force[g][static_cast<size_t>(i)] * contact_normal(gears));
-    least[i] = closing.minCoeff();
-  }
-  return least;
-}
-
-}  // namespace
-
-Eigen::VectorXd backlash_left(const SweepResult& s) {
-  // By the samples that are stored: between them a motion swings back further by the square of their distance.
-  const VectorXd least = least_closing(s);
-  return least.array() - least.minCoeff() + s.backlash_margin;
-}
-
-namespace {
-
-// The eta that a scene without [damping] gets is that of P2000's pair; others it damps by what nobody chose.
-std::optional<Remark> damping_remark(const StaticResult& statics, const std::array<double, kSides>& inertia,
-                                     const Damping& damping) {
-  const auto of_paper = [](const BodyParameters& gear) {
-    return gear.design.teeth == 50 && std::abs(gear.design.module - 3e-3) < 1e-9;
+// Motions of fewer mesh periods than the longest one repeat.
+void fill_rows(SweepResult& a) {
+  Index longest = 0;
+  for (const MatrixRM& rows : a.transmission_error) longest = std::max(longest, rows.rows());
+  const auto fill = [&](std::vector<MatrixRM>& of_speeds) {
+    for (MatrixRM& rows : of_speeds) {
+      const Index own = rows.rows();
+      rows.conservativeResize(longest, rows.cols());
+      for (Index i = own; i < longest; ++i) rows.row(i) = rows.row(i - own);
+    }
   };
-  const double ratio = stiffness_damping_ratio(statics, damping, inertia);
-  const bool fits =
-      ratio >= 0.01 && ratio <= 0.12 && std::all_of(statics.gear.begin(), statics.gear.end(), of_paper);
-  if (damping.rayleigh_stiffness != kDefaultRayleighStiffness || fits) return {};
-  std::ostringstream percent;
-  percent << std::setprecision(3) << ratio * 100;
-  return remark(
-      true, "rayleigh_stiffness_s = ", damping.rayleigh_stiffness,
-      ", the default, is for the gears of P2000; these it gives a damping ratio of about ", percent.str(),
-      " % (eta w / 2 on the mean mesh stiffness). `make SCENE=path/to/scene.toml calibrate DAMPING=0.07` prints the value for 7 %, to be put into [damping]");
+  for (auto* x : {&a.transmission_error, &a.mesh_deflection, &a.mesh_force, &a.tooth_load}) fill(*x);
+  for (auto& of_body : a.bearing_force) fill(of_body);
 }
 
-}  // namespace
-
-std::vector<Remark> setup_remarks(const StaticResult& statics, const std::array<double, kSides>& inertia,
-                                  const Damping& damping, const Fidelity& fidelity) {
-  std::vector<Remark> out;
-  if (fidelity.body != BodyModel::rigid && fidelity.body != BodyModel::quasi_static)
-    if (const auto damped = damping_remark(statics, inertia, damping)) out.push_back(*damped);
-  for (int g = 0; g < kSides; ++g) {
-    const std::string words =
-        flywheel(statics.gear[g].design, statics.gear[g].material, inertia[g], statics.mesh.gear[g]);
-    if (!words.empty()) out.push_back(remark(true, words));
+// Rows for the speeds.
+void size_rows(const std::vector<double>& speeds, const SystemModel& system, SweepResult& out) {
+  const auto n = static_cast<Index>(speeds.size());
+  const Index meshes = out.meshes(), bodies = out.bodies();
+  out.mesh_frequency = Eigen::Map<const VectorXd>(speeds.data(), n);
+  if (out.of_train()) {
+    out.rolling.setZero(n, meshes);
+    for (MatrixRM* x : {&out.bearing_damping, &out.holding_torque}) x->setZero(n, bodies);
+    out.mesh_deflection.resize(speeds.size());
   }
-  return out;
+  if (!system.face.empty())
+    for (MatrixRM* x : {&out.face_load_factor, &out.line_load_max}) x->setZero(n, meshes);
+  out.energy.setZero(n, static_cast<Index>(kEnergyLines.size()));
+  for (VectorXd* x : {&out.residual, &out.energy_imbalance, &out.drift_force}) x->setZero(n);
+  if (out.of_train() ? out.train.friction().acts() : out.mesh.friction.acts())
+    for (VectorXd* x : {&out.friction.coefficient, &out.friction.power, &out.friction.efficiency})
+      x->setZero(n);
+  out.periods.setZero(n);
+  out.period_multiple.setZero(n);
+  for (auto* x : {&out.transmission_error, &out.mesh_force}) x->resize(speeds.size());
+  out.bearing_force.assign(static_cast<size_t>(bodies), {});
+  for (size_t b = 0; b < out.bearing_force.size(); ++b)
+    if (out.of_train() || out.mesh.bearing[b].elastic()) out.bearing_force[b].resize(speeds.size());
 }
 
-std::vector<Remark> remarks(const SweepResult& s, const StaticResult& statics) {
-  constexpr double kFewestSteps = 8;  // an oscillation in so few steps is 5 % off its frequency
-  std::vector<Remark> out;
-  const auto add = [&](bool warning, const auto&... parts) { out.push_back(remark(warning, parts...)); };
-  // Said once of a pair of sweeps, by the one of rising speed.
-  if (s.direction == Direction::up && elastic(s)) {
-    out = setup_remarks(statics, s.inertia, s.damping, s.fidelity);
-    if (s.mesh_frequency.size() > 0) {
-      const std::vector<Remark> more =
-          schlenk_speed_remarks(s, s.mesh_frequency.minCoeff(), s.mesh_frequency.maxCoeff());
-      out.insert(out.end(), more.begin(), more.end());
+// The samples of a motion. Pairs are numbered as at rest, from the reference pair of the mesh's own period; in the dynamics by the period of
+// the system.
+ToothLoads store_samples(const SystemModel& system, const MotionRecord& motion, size_t row,
+                         SweepResult& out) {
+  const Index samples = out.steps_per_period(), meshes = out.meshes();
+  const auto rows = static_cast<Index>(motion.record.size()) * samples;
+  const auto every = [&](const auto& rows_of) {
+    MatrixRM all;
+    for (size_t k = 0; k < motion.record.size(); ++k) {
+      const MotionPeriod& period = motion.record[k];
+      const Index stride = period.steps() / samples;
+      const auto& own = rows_of(period);
+      if (k == 0) all.setZero(rows, own.rows());
+      for (Index i = 0; i < samples; ++i)
+        all.row(static_cast<Index>(k) * samples + i) = own.col(i * stride).transpose();
+    }
+    return all;
+  };
+  out.transmission_error[row] = every([](const MotionPeriod& p) -> auto& { return p.transmission_error; });
+  out.mesh_force[row] = every([](const MotionPeriod& p) -> auto& { return p.mesh_force; });
+  if (!out.mesh_deflection.empty())
+    out.mesh_deflection[row] = every([](const MotionPeriod& p) -> auto& { return p.mesh_deflection; });
+  for (size_t b = 0; b < out.bearing_force.size(); ++b)
+    if (!out.bearing_force[b].empty())
+      out.bearing_force[b][row] = every([b](const MotionPeriod& p) -> auto& { return p.bearing_force[b]; });
+  ToothLoads loads{every([](const MotionPeriod& p) -> auto& { return p.tooth_load; }),
+                   motion.record[0].first_pair};
+  const Index pairs = motion.record[0].pairs();
+  for (Index m = 0; m < meshes; ++m)
+    for (Index i = 0; i < rows; ++i) {
+      const double phase = static_cast<double>(i % samples) / static_cast<double>(samples);
+      auto own = loads.rows.row(i).segment(m * pairs, pairs);
+      for (int later = mesh_instant(system, static_cast<int>(m), phase, 0).period; later > 0; --later) {
+        for (Index pair = pairs - 1; pair > 0; --pair) own[pair] = own[pair - 1];
+        own[0] = 0;
+      }
+    }
+  return loads;
+}
+
+// A motion into its row, but for its samples; the note that the sweep reports of it.
+std::string store(const MotionRecord& motion, Index row, SweepResult& out) {
+  const MotionEnergy& energy = motion.energy;
+  out.periods[row] = motion.periods;
+  out.period_multiple[row] = motion.multiple;
+  out.residual[row] = motion.residual;
+  out.energy.row(row) = energy.lines;
+  out.energy_imbalance[row] = energy.imbalance / energy.lines[energy_line("throughput")];
+  if (out.of_train()) {
+    out.rolling.row(row) = energy.rolling;
+    out.bearing_damping.row(row) = energy.bearing_damping;
+    out.holding_torque.row(row) = motion.holding_torque;
+  }
+  std::vector<FacePeak> face(motion.record[0].face.size());
+  for (const MotionPeriod& period : motion.record) {
+    out.drift_force[row] = std::max(out.drift_force[row], period.drift_force);
+    out.least_gap = std::min(out.least_gap, period.least_gap);
+    out.least_force = std::min(out.least_force, period.least_force);
+    out.fallbacks += period.fallbacks;
+    out.friction_coupling = std::max(out.friction_coupling, period.friction_coupling);
+    for (size_t m = 0; m < face.size(); ++m) {
+      const double line_load = std::max(face[m].line_load, period.face[m].line_load);
+      if (period.face[m].tooth_load > face[m].tooth_load) face[m] = period.face[m];
+      face[m].line_load = line_load;
     }
   }
-  if (const double steps = steps_per_oscillation(s); steps < kFewestSteps)
-    add(true, "a time step is too long for the contact: ", steps,
-        " steps per oscillation at its natural frequency of ", s.natural_frequency, " Hz, ", kFewestSteps,
-        " are needed to follow it; raise min_sample_rate_kHz or steps_per_period");
-  constexpr double kImbalance = 1e-6;  // of the energy that goes in: what rounding leaves is below 1e-9
-  if (Eigen::Index worst = 0;
-      s.energy_imbalance.size() > 0 && s.energy_imbalance.cwiseAbs().maxCoeff(&worst) > kImbalance)
-    add(true, "the energy balance does not close: at ", s.mesh_frequency[worst], " Hz it is off by ",
-        shown_number(std::abs(s.energy_imbalance[worst])), " of the energy that goes in, at most ",
-        kImbalance, " is right; do not rely on this sweep, and check [damping]");
-  for (Eigen::Index i = 0; i < s.mesh_frequency.size(); ++i)
-    if (s.period_multiple[i] == 0)
-      add(true, "at ", s.mesh_frequency[i], " Hz the motion is not periodic after ", s.periods[i],
-          " mesh periods; the state still changes by ", s.residual[i], " per period");
-    else if (s.period_multiple[i] > s.hunting_periods)
-      add(false, "at ", s.mesh_frequency[i], " Hz the motion is subharmonic: it repeats after ",
-          s.period_multiple[i], " mesh periods");
-  // Against the least transmission error at which unloaded teeth touch.
-  const double least = least_closing(s).minCoeff() - statics.unloaded_error.minCoeff();
-  if (least < 0 && !std::isfinite(s.backlash_margin))
-    add(false, "the teeth swing ", std::round(-least * 1e7) / 10,
-        " µm apart; tooth_thinning_mm = 0 counts no backlash, so back flanks are left out");
-  if (s.backlash_margin <= 0) {
-    std::map<double, bool> beyond;
-    const Eigen::VectorXd left = backlash_left(s);
-    for (Eigen::Index i = 0; i < left.size(); ++i) beyond[s.mesh_frequency[i]] = left[i] <= 0;
-    add(true, "at ", speed_ranges(beyond), " Hz the motion goes up to ",
-        std::round(-s.backlash_margin * 1e8) / 100,
-        " µm beyond the backlash; back flanks would touch there, which is not modelled");
+  for (size_t m = 0; m < face.size(); ++m) {
+    out.face_load_factor(row, static_cast<Index>(m)) = face[m].load_factor;
+    out.line_load_max(row, static_cast<Index>(m)) = face[m].line_load;
   }
-  return out;
-}
-
-namespace {
-
-// What one speed shows but for its samples, into its row.
-void store_orbit(const Orbit& orbit, double mesh_frequency, Eigen::Index row, SweepResult& a) {
-  a.mesh_frequency[row] = mesh_frequency;
-  a.periods[row] = orbit.periods;
-  a.residual[row] = orbit.residual;
-  a.period_multiple[row] = orbit.multiple;
-  const EnergyBalance& l = orbit.energy_balance;
-  a.energy_imbalance[row] = l.imbalance / l.throughput;
-  a.energy.row(row) << l.kinetic, l.modal, l.residual, l.local, l.torque, l.rolling, l.friction_rolling, 0,
-      l.modal_damping, 0, l.relaxation_damping, l.friction, l.switching, l.cutting, l.averaging, l.dropped,
-      l.throughput;  // kEnergyLines
-  if (a.friction.power.size() == 0) return;
-  a.friction.power[row] = l.friction * mesh_frequency / static_cast<double>(orbit.record.size());
-  const double turning = 2 * std::numbers::pi * mesh_frequency / a.gear[0].design.teeth;  // rad s-1
-  a.friction.efficiency[row] = 1 - a.friction.power[row] / (a.torque * turning);
-}
-
-// The samples of one speed, pairs up to `reach`; its orbit repeats to fill a row of `longest` mesh periods.
-void store_samples(const Orbit& orbit, size_t longest, int reach, SweepResult& a) {
-  const int samples = a.time.steps_per_period;
-  const auto width = static_cast<Eigen::Index>(longest) * samples;
-  MatrixRM loads = MatrixRM::Zero(width, 2 * reach + 1), error(width, 1), force(width, 1);
-  for (size_t g = 0; g < kSides; ++g)
-    if (a.mesh.bearing[g].elastic()) a.bearing_force[g].emplace_back(width, 2);
-  for (size_t k = 0; k < longest; ++k) {
-    const RollingDynamics::Period& period = orbit.record[k % orbit.record.size()];
-    const int stride = static_cast<int>(period.transmission_error.size()) / samples;
-    const int own_reach = static_cast<int>(period.tooth_pair_load.rows()) / 2;
-    for (int n = 0; n < samples; ++n) {
-      const Eigen::Index at = static_cast<Eigen::Index>(k) * samples + n;
-      error(at, 0) = period.transmission_error[n * stride];
-      loads.row(at).segment(reach - own_reach, 2 * own_reach + 1) =
-          period.tooth_pair_load.col(n * stride).transpose();
-      force(at, 0) = loads.row(at).sum();
-      for (size_t g = 0; g < kSides; ++g)
-        if (a.mesh.bearing[g].elastic())
-          a.bearing_force[g].back().row(at) = period.bearing_force[g].col(n * stride).transpose();
-    }
+  if (out.friction.power.size() > 0 && motion.coefficient.size() > 0) {
+    const double all = energy.friction.sum();
+    out.friction.coefficient[row] =
+        out.meshes() == 1 ? motion.coefficient[0] : energy.friction.dot(motion.coefficient) / all;
+    out.friction.power[row] = all * out.mesh_frequency[row] / static_cast<double>(motion.record.size());
+    out.friction.efficiency[row] = motion.power_in > 0 ? 1 - out.friction.power[row] / motion.power_in : 0;
   }
-  a.tooth_load.push_back(std::move(loads));
-  a.transmission_error.push_back(std::move(error));
-  a.mesh_force.push_back(std::move(force));
+  return text(motion.periods, " periods",
+              motion.multiple == 0                    ? ", not periodic"
+              : motion.multiple > out.hunting_periods ? text(", repeats after ", motion.multiple)
+                                                      : "");
 }
 
-// The motions of all speeds, in rows of one length. m: the least transmission error.
-double store_motions(const std::vector<Orbit>& steady, int reach, SweepResult& a) {
-  size_t longest = 1;
-  for (const Orbit& orbit : steady) longest = std::max(longest, orbit.record.size());
-  const auto speeds = static_cast<Eigen::Index>(steady.size());
-  a.pair = Eigen::VectorXi::LinSpaced(2 * reach + 1, -reach, reach);
-  a.drift_force = VectorXd::Zero(speeds);
+struct SweepPlan {
+  const std::vector<double>& speeds;
+  const std::function<void(long, long, const std::string&)>& report;
+  std::vector<BranchPoint>* left_early;
+  double jump_width;
+};
+
+// `out` has what is moved and the direction. Returns m: the least transmission error of all steps.
+double swept(Motion& motion, const SweepPlan& plan, SweepResult& out) {
+  const SystemModel& system = motion.system();
+  const TimeDiscretisation& time = out.of_train() ? out.train.time : out.time;
+  MotionRig rig(motion, time);
+  out.hunting_periods = motion.hunting_periods();
+  require_memory(out, static_cast<Index>(plan.speeds.size()), time.steps_per_period, rig.state());
+  size_rows(plan.speeds, system, out);
+  std::vector<ToothLoads> loads;
+  loads.reserve(plan.speeds.size());
   double least_error = std::numeric_limits<double>::infinity();
-  for (Eigen::Index i = 0; i < speeds; ++i) {
-    const Orbit& orbit = steady[static_cast<size_t>(i)];
-    for (const RollingDynamics::Period& period : orbit.record) {
+  SpeedSweep<MotionRig> sweep(rig, time.steady_state);
+  sweep.run(plan.speeds, plan.report, [&](long i, MotionRecord&& found) {
+    loads.push_back(store_samples(system, found, static_cast<size_t>(i), out));
+    for (const MotionPeriod& period : found.record)
       least_error = std::min(least_error, period.transmission_error.minCoeff());
-      a.drift_force[i] = std::max(a.drift_force[i], period.drift_force);
-      a.least_gap = std::min(a.least_gap, period.least_gap);
-      a.least_force = std::min(a.least_force, period.least_force);
-      a.fallbacks += period.fallbacks;
-      a.friction_coupling = std::max(a.friction_coupling, period.friction_coupling);
-    }
-    store_samples(orbit, longest, reach, a);
-  }
+    return store(found, i, out);
+  });
+  store_jumps(sweep.jumps(plan.jump_width, plan.left_early, plan.report), out.jump_frequency, out.jump_width);
+  store_tooth_loads(std::move(loads), out.of_train() || !system.face.empty() ? -1 : motion.reach(), out);
+  if (!out.of_train())
+    for (size_t i = 0; i < plan.speeds.size(); ++i) out.mesh_force[i] = out.tooth_load[i].rowwise().sum();
+  fill_rows(out);
+  add_root_stress(system, out);
   return least_error;
 }
 
@@ -415,61 +394,39 @@ SweepResult sweep(const ReducedBody& driver, const ReducedBody& driven, const St
                   double mean_stiffness, const SweepParameters& settings, Direction direction,
                   const std::function<void(long, long, const std::string&)>& report,
                   std::vector<BranchPoint>* left_early, double jump_width) {
-  if (settings.fidelity.width != WidthModel::one)
-    return face_sweep(driver, driven, statics, mean_stiffness, settings, direction, report, jump_width);
-  const std::vector<double> speed =
+  const std::vector<double> speeds =
       swept_speeds(settings.frequency_from, settings.frequency_to, settings.frequency_step, direction);
-  const auto speeds = static_cast<int>(speed.size());
   require_jump_width(jump_width);
-  require_inertia(statics.mesh, {driver.inertia, driven.inertia}, settings.inertia);
-  const SystemModel system(driver, driven, statics.mesh);
-  const GearMeshModel& model = system.mesh[0];
-  report(0, speeds, "candidate contact zone");
-  PairSweepRig rig(model, dynamic_parameters(statics, mean_stiffness, settings, settings.frequency_to),
-                   statics, settings);
+  report(0, static_cast<long>(speeds.size()), "at rest");
+  const PairInMotion pair(driver, driven, statics, mean_stiffness, settings);
+  SweepResult out;
+  pair.describe(out);
+  out.direction = direction;
+  double least_error = swept(*pair.motion, {speeds, report, left_early, jump_width}, out);
+  if (out.mesh.on_bearings()) least_error = least_closing(out).minCoeff();
+  out.backlash_margin = out.tooth_thinning() > 0 ? GearPair(out).backlash() + least_error
+                                                 : std::numeric_limits<double>::infinity();
+  out.backlash_left = backlash_left(out);
+  out.remarks = remarks(out, statics);
+  return out;
+}
 
-  SweepResult result;
-  set_motion(result, {driver, driven}, statics, settings);
-  result.time = settings.time;
-  result.name_parts();
-  result.torque = statics.torque;
-  result.mean_stiffness = mean_stiffness;
-  for (int g = 0; g < kSides; ++g) result.bearing_damper[g] = rig.dynamics().bearing_damper(g);
-  result.natural_frequency = rig.natural_frequency();
-  result.hunting_periods = rig.single();
-  require_memory(result.hunting_periods, speeds, settings,
-                 2 * rig.dynamics().reach() + 1 + (model.on_bearings() ? 4 : 0),
-                 static_cast<double>(rig.dynamics().difference(rig.state(), rig.state()).size()));
-  result.direction = direction;
-  for (VectorXd* v : {&result.mesh_frequency, &result.residual, &result.energy_imbalance}) v->resize(speeds);
-  for (Eigen::VectorXi* v : {&result.periods, &result.period_multiple}) v->resize(speeds);
-  result.energy.resize(speeds, kEnergyLines.size());
-  if (model.friction.acts())
-    for (VectorXd* v : {&result.friction.coefficient, &result.friction.power, &result.friction.efficiency})
-      v->resize(speeds);
-
-  std::vector<Orbit> steady;
-  steady.reserve(speed.size());
-  SpeedSweep<PairSweepRig> sweep(rig, settings.time.steady_state);
-  sweep.run(speed, report, [&](long i, Orbit&& orbit) {
-    const double f = speed[static_cast<size_t>(i)];
-    store_orbit(orbit, f, i, result);
-    if (model.friction.acts())
-      result.friction.coefficient[i] = model.coefficient_of_friction(statics.torque, f);
-    steady.push_back(std::move(orbit));
-    return text(steady.back().periods, " periods");
-  });
-  const std::vector<BranchJump> jumps = sweep.jumps(jump_width, left_early, report);
-
-  double least_error = store_motions(steady, rig.reach(), result);
-  add_root_stress(system, result);
-  if (model.on_bearings()) least_error = least_closing(result).minCoeff();
-  result.backlash_margin = result.tooth_thinning() > 0 ? model.kinematics.backlash() + least_error
-                                                       : std::numeric_limits<double>::infinity();
-  store_jumps(jumps, result.jump_frequency, result.jump_width);
-  result.backlash_left = backlash_left(result);
-  result.remarks = remarks(result, statics);
-  return result;
+SweepResult system_sweep(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
+                         Direction direction,
+                         const std::function<void(long, long, const std::string&)>& report,
+                         double jump_width) {
+  const std::vector<double> speeds =
+      swept_speeds(settings.frequency_from, settings.frequency_to, settings.frequency_step, direction);
+  require_jump_width(jump_width);
+  require_relaxation_range(settings.damping, settings.fidelity.body, settings.frequency_to);
+  report(0, static_cast<long>(speeds.size()), "at rest");
+  LinesMotion motion(settings, bodies, steps_at(settings.time, settings.frequency_from));
+  SweepResult out;
+  static_cast<MotionSource&>(out) = motion.source();
+  out.direction = direction;
+  swept(motion, {speeds, report, nullptr, jump_width}, out);
+  out.remarks = remarks_on_carriers(out, bodies);
+  return out;
 }
 
 }  // namespace whine

@@ -1,4 +1,4 @@
-// Speed sweeps of a pair: the state is carried from speed to speed, as on a test rig, and each speed runs until it is periodic, by
+// Speed sweeps of pairs and trains: the state is carried from speed to speed, as on a test rig, and each speed runs until it is periodic, by
 // SpeedSweep of studies/speed_sweep.h.
 #pragma once
 #include <functional>
@@ -26,6 +26,14 @@ SweepResult sweep(const ReducedBody& driver, const ReducedBody& driven, const St
                   const std::function<void(long, long, const std::string&)>& report,
                   std::vector<BranchPoint>* left_early = nullptr, double jump_width = 0);
 
+// The same of a train. bodies: [gear] of settings.body. Statics of lines come first: they give the mean stiffnesses, to which the dampers of
+// the axes refer, and how far tip edges are looked for. Jumps are looked for where the RMS over the meshes steps; of several meshes with teeth
+// that differ they are not. Throws as system_at_rest() and SystemDynamics, with the speed.
+SweepResult system_sweep(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
+                         Direction direction,
+                         const std::function<void(long, long, const std::string&)>& report,
+                         double jump_width = 0);
+
 // Hz: the speeds of a range in the order of the direction. Throws Error(input) if it is empty.
 std::vector<double> swept_speeds(double from, double to, double step, Direction direction);
 // Throws Error(input) for a width of jumps (Hz) that is neither 0, which stands for 1/64 of the step, nor 1e-5 or more.
@@ -50,6 +58,10 @@ std::vector<Remark> setup_remarks(const StaticResult& statics, const std::array<
 // gears, steps too long for the contact, motions that do not repeat or after several mesh periods, backlash used up. `statics`
 // is of the same torque.
 std::vector<Remark> remarks(const SweepResult& sweep, const StaticResult& statics);
+
+// (speed) m: by how little the flanks of a pair close along the line of action at least, of its samples: the transmission error less what
+// elastic bearings give way. Their dampers' forces are taken for those of their springs.
+Eigen::VectorXd least_closing(const SweepResult& sweep);
 
 // (speed) m: backlash that the motion leaves, below 0 where back flanks would touch, which is not modelled; infinite where the
 // scene counts no backlash.

@@ -9,7 +9,6 @@
 #include "studies/next_level.h"
 #include "studies/refinement.h"
 #include "studies/sweep.h"
-#include "studies/system_sweep.h"
 #include "system/statics.h"
 
 namespace whine {

@@ -10,7 +10,7 @@
 #include "base/model_range.h"
 #include "base/units.h"
 #include "dynamics/impact.h"
-#include "studies/train_in_motion.h"
+#include "dynamics/lines_motion.h"
 #include "system/natural_modes.h"
 
 namespace whine {
@@ -125,7 +125,7 @@ ImpactResult system_impact(const SystemSweepParameters& settings, const std::vec
          " phases with an impulse of ", plan.impulse,
          "; give at least one mode and phase, and an impulse in (0, 0.1]");
   require_like_teeth(settings, bodies, "a ring-down of a system");
-  TrainInMotion rig(settings, bodies, plan.phases);
+  LinesMotion rig(settings, bodies, plan.phases);
   SystemDynamics& dynamics = rig.dynamics();
   ImpactResult out;
   static_cast<MotionSource&>(out) = rig.source();

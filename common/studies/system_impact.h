@@ -39,7 +39,7 @@ SystemRingDown ring_down(SystemDynamics& dynamics, int i, const Eigen::VectorXd&
 std::vector<DampedRoot> damped_roots(SystemDynamics& dynamics, int i, const Eigen::VectorXd& frequency);
 
 // bodies: [gear] of settings.body. report(done, total) is called after each phase. Throws Error(input) for a plan without modes or
-// phases, or an impulse outside (0, 0.1]; else as TrainInMotion and ring_down().
+// phases, or an impulse outside (0, 0.1]; else as LinesMotion and ring_down().
 ImpactResult system_impact(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
                            const SystemImpactPlan& plan, const std::function<void(long, long)>& report);
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/tool.h"
+#include "dynamics/lines_motion.h"
 #include "gear/system_layout.h"
 #include "io/artifacts.h"
 #include "io/compatibility.h"
@@ -20,7 +21,6 @@
 #include "io/system_scene.h"
 #include "rolling.h"
 #include "signal/rms.h"
-#include "studies/train_in_motion.h"
 #include "system/rolling_mesh.h"
 
 namespace {
@@ -76,7 +76,7 @@ SystemSweepParameters as_train(const std::array<ReducedBody, kSides>& body, cons
 }
 
 // A train that has settled at a speed (Hz).
-Row train_row(const std::string& name, TrainInMotion& train, SystemDynamics::State& state,
+Row train_row(const std::string& name, LinesMotion& train, SystemDynamics::State& state,
               SystemDynamics::Period& period, const TimeDiscretisation& time, double frequency) {
   SystemDynamics& dynamics = train.dynamics();
   Row row{name, dynamics.meshes(), dynamics.coordinates().size(), steps_at(time, frequency), 0, 0, {}, 1, {}};
@@ -157,16 +157,16 @@ void body(int argc, char** argv) {
     rows.push_back(
         pair_row(contact == ContactModel::strips ? "pair, strips" : "pair, lines", *rigs.back(), frequency));
   }
-  TrainInMotion told(as_train(pair, settings, motion, torque), {pair[0], pair[1]},
-                     steps_at(motion.time, frequency));
+  LinesMotion told(as_train(pair, settings, motion, torque), {pair[0], pair[1]},
+                   steps_at(motion.time, frequency));
   SystemDynamics::State told_state;
   SystemDynamics::Period told_period;
   rows.push_back(train_row("the pair as a train", told, told_state, told_period, motion.time, frequency));
 
   const SystemSweepParameters of_train = read_system_sweep_parameters(train_params);
   const double middle = 0.5 * (of_train.frequency_from + of_train.frequency_to);
-  TrainInMotion train(of_train, read_bodies(NamedFiles("--train-body", train_bodies), of_train),
-                      steps_at(of_train.time, middle));
+  LinesMotion train(of_train, read_bodies(NamedFiles("--train-body", train_bodies), of_train),
+                    steps_at(of_train.time, middle));
   SystemDynamics::State state;
   SystemDynamics::Period period;
   rows.push_back(train_row("train", train, state, period, of_train.time, middle));

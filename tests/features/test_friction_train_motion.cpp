@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "dynamics/dynamics.h"
+#include "dynamics/lines_motion.h"
 #include "dynamics/system_dynamics.h"
 #include "dynamics/system_period_map.h"
 #include "elastic_train.h"
@@ -17,7 +18,6 @@
 #include "paper_pair.h"
 #include "relative.h"
 #include "solid/mesher.h"
-#include "studies/train_in_motion.h"
 #include "system/system_rest.h"
 
 using namespace whine;

@@ -12,7 +12,6 @@
 #include "studies/branch.h"
 #include "studies/runup.h"
 #include "studies/sweep.h"
-#include "studies/system_sweep.h"
 #include "system/statics.h"
 
 using namespace whine;

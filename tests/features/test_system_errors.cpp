@@ -25,8 +25,8 @@
 #include "scene_file.h"
 #include "signal/response.h"
 #include "studies/branch.h"
+#include "studies/sweep.h"
 #include "studies/system_impact.h"
-#include "studies/system_sweep.h"
 #include "system/system_rest.h"
 #include "system/system_statics.h"
 

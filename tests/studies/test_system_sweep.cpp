@@ -10,6 +10,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "dynamics/lines_motion.h"
 #include "gear/system_layout.h"
 #include "io/artifacts.h"
 #include "io/publish.h"
@@ -26,12 +27,9 @@
 #include "solid/mesher.h"
 #include "solid/reduce.h"
 #include "studies/branch.h"
-#include "studies/branch_rigs.h"
 #include "studies/sweep.h"
 #include "studies/sweep_response.h"
 #include "studies/system_impact.h"
-#include "studies/system_sweep.h"
-#include "studies/train_in_motion.h"
 #include "system/system_rest.h"
 
 using namespace whine;
@@ -405,20 +403,20 @@ TEST_CASE("orbits of a planetary train: where a contact begins to come or go its
   const BranchResult branch = system_branch(settings, train().bodies, [](auto&&...) {});
   MESSAGE(branch.grazing_frequency.size() << " grazing orbits; " << branch.end);
   REQUIRE(branch.grazing_frequency.size() > 0);
-  TrainRig rig(settings, train().bodies);
+  const int positions = steps_at(settings.time, settings.frequency_from);
+  LinesMotion rig(settings, train().bodies, positions);
   const int steps = steps_at(settings.time, settings.frequency_to);
   // Orbits a little below and above it, by Newton's method from the motion that integration settles into.
   const auto events_at = [&](double frequency, int mesh) {
-    SystemDynamics::State state = rig.rest();
-    REQUIRE(rig.settle(state, frequency, steps, SteadyState::extrapolate));
-    SystemPeriodMap map(rig.train().dynamics(), steps);
-    map.set_parameter(frequency);
-    const OrbitSearch orbit = newton_orbit(map, map.flat(state), 1, {});
+    MotionState state = rig.rest();
+    REQUIRE(rig.settle(state, frequency, steps, {settings.time.periodicity}));
+    const std::unique_ptr<MotionMap> map = rig.map(steps);
+    map->set_parameter(frequency);
+    const OrbitSearch orbit = newton_orbit(*map, map->flat_of(state), 1, {});
     REQUIRE(orbit.found());
-    map.apply(orbit.orbit.start);
+    map->apply(orbit.orbit.start);
     int count = 0;
-    for (const ContactEvent& event : map.events())
-      count += event.contact / rig.train().dynamics().tooth_pairs() == mesh;
+    for (const ContactEvent& event : map->events()) count += map->place_of(event.contact).first == mesh;
     return count;
   };
   const double at = branch.grazing_frequency[0];
@@ -436,7 +434,7 @@ TEST_CASE("without contact loss the largest multiplier is the decay of the slowe
   settings.frequency_step = 10;
   const BranchResult branch = system_branch(settings, train().bodies, [](auto&&...) {});
   REQUIRE(branch.separation_fraction.maxCoeff() == 0);
-  TrainInMotion rig(settings, train().bodies, 6);
+  LinesMotion rig(settings, train().bodies, 6);
   double slowest = 0;  // s-1
   for (int i = 0; i < 6; ++i) {
     double least = 1e9;
@@ -473,7 +471,7 @@ TEST_CASE("ring-down of a planetary train: damping by stiffness is the energy th
   constexpr double kEta = 1e-7;
   const SystemSweepParameters settings = damped(kEta, 0);
   const ImpactResult a = system_impact(settings, train().bodies, {6, 1, 1e-4}, [](auto&&...) {});
-  TrainInMotion rig(settings, train().bodies, 1);
+  LinesMotion rig(settings, train().bodies, 1);
   const FixedPhaseMesh mesh = rig.dynamics().frozen(0);
   const SystemDynamics::FrozenModes modes = rig.dynamics().frozen_modes(0);
   for (Index k = 0; k < 6; ++k) {
