@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "base/error.h"
 #include "io/artifacts.h"
@@ -20,17 +21,13 @@ inline const ReducedBody& kept_body(const GearDesign& design, const Material& ma
                                     const BodyDiscretisation& discretisation) {
   static std::map<std::string, ReducedBody> known;
   const std::string key = body_hash(body_parameters({design, material, discretisation}));
-  const auto [at, fresh] = known.try_emplace(key);
-  if (!fresh) return at->second;
+  if (const auto at = known.find(key); at != known.end()) return at->second;
   const char* folder = std::getenv("WHINE_TEST_BODIES");
   const std::string kept = folder ? text(folder, "/", key, ".h5") : std::string();
-  if (folder && std::filesystem::exists(kept)) {
-    at->second = read<ReducedBody>(kept);
-  } else {
-    at->second = reduce(make_sector_mesh(design, discretisation), material, discretisation.modes);
-    if (folder) write(kept, at->second, Provenance());
-  }
-  return at->second;
+  if (folder && std::filesystem::exists(kept)) return known[key] = read<ReducedBody>(kept);
+  ReducedBody body = reduce(make_sector_mesh(design, discretisation), material, discretisation.modes);
+  if (folder) write(kept, body, Provenance());
+  return known[key] = std::move(body);
 }
 
 inline const ReducedBody& kept_body(const GearDesign& design, const Material& material, double element_size,

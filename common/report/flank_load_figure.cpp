@@ -54,7 +54,8 @@ Figure flank_load_figure(const StaticResult& s) {
   figure.notes.push_back(pair_words(s));
   figure.notes.push_back(
       text("overlap ratio ", rounded(s.face.overlap_ratio, 3), ", K_{Hβ} ", rounded(s.face.load_factor, 3),
-           " of the reference pair at mesh phase 0, ", s.face.line_load[0].cols(),
+           " ± ", shown(s.face.load_factor_error, 1), " of the reference pair at mesh phase 0, ",
+           s.face.line_load[0].cols(),
            " points along each contact line, a quarter of a mesh period between the lines, misalignment ",
            rounded(s.mesh.misalignment * kMicro, 2), " µm"));
   constexpr int kAcross = 61, kAlong = 81;
@@ -81,6 +82,7 @@ Figure flank_load_figure(const StaticResult& s) {
     }
   figure.blocks.push_back(lines);
   std::string labels;
+  double line_most = 0;  // N m-1
   int curves = 0;
   for (Index k = 0; k < s.pair.size() && curves < static_cast<int>(kMostCurves); ++k) {
     if (!(s.face.width[0](k, 0) > 0) || !(s.tooth_load(0, k) > 0)) continue;
@@ -89,6 +91,7 @@ Figure flank_load_figure(const StaticResult& s) {
                       {},
                       "line load at mesh phase 0",
                       text("pair ", s.pair[k])};
+    line_most = std::max(line_most, s.face.line_load[0].row(k).maxCoeff());
     for (Index q = 0; q < s.face.line_load[0].cols(); ++q)
       curve.rows.push_back(
           {s.face.position[0](k, q) * kMilli, s.face.line_load[0](k, q) * kNewtonPerMillimetre});
@@ -101,6 +104,7 @@ Figure flank_load_figure(const StaticResult& s) {
   figure.numbers.emplace_back("path_start", pair.path_start() * kMilli);
   figure.numbers.emplace_back("path_end", pair.path_end() * kMilli);
   figure.numbers.emplace_back("largest", most * kNewtonPerMillimetre);
+  figure.numbers.emplace_back("line_largest", line_most * kNewtonPerMillimetre);
   return figure;
 }
 

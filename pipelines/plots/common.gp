@@ -28,7 +28,7 @@ foot_labels = 'foot_row = 0; foot_end = int(lift * height / 24 + 0.5); foot_numb
   . 'foot_words = sprintf(foot_name, foot_number); many = exists(foot_rows(foot_number)) ? int(value(foot_rows(foot_number))) : 1; ' \
   . 'do for [r = 1:many] { foot_row = foot_row + 1; ' \
   . 'foot_text = many > 1 ? value(sprintf("row%d_%s", r, foot_words)) : value(foot_words); ' \
-  . 'set label 900 + foot_row foot_text at screen 0.5, screen lift + (2 - 24.0 * foot_row + 12) / height center font ",12" } }'
+  . 'set label 900 + foot_row foot_text at screen 0.5, screen lift + (6 - 24.0 * foot_row + 12) / height center font ",12" } }'
 below = 'unset label; unset arrow; unset object; unset border; unset tics; unset grid; unset key; ' \
   . 'unset title; unset xlabel; unset ylabel; unset y2label; unset xzeroaxis; unset logscale; unset colorbox; ' \
   . 'set lmargin at screen 0; set rmargin at screen 1; set bmargin at screen 0; set tmargin at screen 1; ' \

@@ -1,6 +1,6 @@
 # Load over the flank of a pair in slices: line load over face and path of contact as colours (a), and of each tooth pair over the face at
 # mesh phase 0 (b).
-# Variables from gear-plot: tsv, heading, note1, note2, labels, curves, half_face, path_start, path_end, largest, height.
+# Variables from gear-plot: tsv, heading, note1, note2, labels, curves, half_face, path_start, path_end, largest, line_largest, height.
 load plots . "/common.gp"
 unset grid
 set datafile separator whitespace
@@ -25,12 +25,12 @@ plot tsv index "[flank]" using 1:2:3 with image, \
 
 unset colorbox
 set border 3
-set lmargin at screen 0.62
+set lmargin at screen 0.66
 set rmargin at screen 0.97
 set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
 set xlabel "Along the face, from its middle (mm)\n{/:Bold (b)} mesh phase 0"
 set ylabel "Line load (N/mm of face)"
-set yrange [0:*]
+set yrange [0:1.35 * line_largest]  # room for the key
 set key top right Right samplen 2.5 spacing 1.2 font ",14"
 plot for [i = 1:curves] tsv index "[pair ".i."]" using 1:2 with linespoints lw 2.8 pt 7 ps 0.8 lc rgb colour[(i + 4) % 6 + 1] title word(labels, i)
 eval(below)

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "gear/face_width.h"
+#include "own_folder.h"
 #include "paper_pair.h"
 #include "refusal.h"
 #include "relative.h"
@@ -510,4 +511,13 @@ TEST_CASE(
   settings.mesh.face_offset = 3.5e-3;
   CHECK(refused([&] { static_transmission(wide, spur_3d(), settings, 150); }, Failure::input,
                 {"face_offset_mm", 3.5, 3}));
+}
+
+TEST_CASE(
+    "bodies in three dimensions: the turn of a small gear with a steep helix is read as it was written") {
+  const TemporaryFolder folder;
+  ReducedBody body = helical_3d(Hand::right);
+  body.width.helix = -20.63469945;  // m-1: 17 teeth of module 1.95 mm, 20 degrees
+  write(folder / "body.h5", body, Provenance());
+  CHECK(read<ReducedBody>(folder / "body.h5").width.helix == body.width.helix);
 }
