@@ -35,6 +35,9 @@ both_ways = $(foreach s,$1,$(foreach t,$2,$(foreach d,up down,out/$s/T$t/$d/$3.h
 of_gears = $(foreach g,$(SCENE_$1_DRIVER) $(SCENE_$1_DRIVEN),out/$1/$g/$2.h5)
 # $(call impacts,scenes,torques): for damping ratios, where there are ring-downs
 impacts = $(foreach s,$1,$(if $(filter no,$(SCENE_$s_RINGS_DOWN)),,$(foreach t,$2,out/$s/T$t/impact.h5)))
+# ERRORS=yes: with the errors of the motions at the first torque, which take about as long as ten sweeps.
+ERRORS ?= no
+measured_errors = $(if $(filter yes,$(ERRORS)),$(call both_ways,$1,$(firstword $2),sweep_errors))
 # $(call titles,inputs): what figures call the scenes of their inputs
 titles = $(sort $(foreach f,$1,out/$(word 2,$(subst /, ,$f))/params/title.txt))
 # $(call each,torques): those that get a curve each; six can be told apart
@@ -43,8 +46,8 @@ each = $(wordlist 1,6,$1)
 # inputs_<figure>: $1 scenes, $2 torques. What is drawn at one torque takes the first.
 inputs_fig01 = $(call of_gears,$1,mesh) out/$1/T$(firstword $2)/static.h5
 inputs_fig03 = $(inputs_fig01)
-inputs_fig05 = $(call both_ways,$1,$(firstword $2),response) $(call impacts,$1,$(firstword $2))
-inputs_fig07 = $(call both_ways,$1,$(call each,$2),response) $(call impacts,$1,$(call each,$2))
+inputs_fig05 = $(call both_ways,$1,$(firstword $2),response) $(call impacts,$1,$(firstword $2)) $(call measured_errors,$1,$2)
+inputs_fig07 = $(call both_ways,$1,$(call each,$2),response) $(call impacts,$1,$(call each,$2)) $(call measured_errors,$1,$2)
 # The same with the orbits that no sweep finds.
 inputs_fig05-branches = $(inputs_fig05) $(foreach s,$1,out/$s/T$(firstword $2)/branch.h5)
 inputs_fig07-branches = $(inputs_fig07) $(foreach s,$1,$(foreach t,$(call each,$2),out/$s/T$t/branch.h5))
@@ -172,7 +175,7 @@ axis_plan = $(if $(filter $2,$(speed_figures)),$(B)/plans/axes/out/$1)
 .PRECIOUS: out/%.tsv out/%.svg out/%.png out/%.wav out/%/table1.tsv out/%/table1.txt $(B)/plans/axes/%
 out/%.tsv out/%.svg out/%.png: $$(call of_figure,needs_of_figure,$$*) pipelines/plots/common.gp $(call id,gear-plot) | $(B)/bin/gear-plot $(with_deps)
 	$(strip $(B)/bin/gear-plot $(call of_figure,drawing,$*) --output out/$* $(call options,$(call figure_of,$*)) $(call axis_options,$(call figure_of,$*)) $(if $(filter figures/fig%,$*),--paper-figure $(notdir $*)) $(filter %.h5,$+))
-plan_of_axes = $(strip figure $(subst ',,$(call axis_options,$(call figure_of,$@))))
+plan_of_axes = $(strip figure $(subst ',,$(call axis_options,$(call figure_of,$@))) $(if $(filter yes,$(ERRORS)),$(filter fig05 fig07 response responses-by-torque,$(call figure_of,$@))))
 $(B)/plans/axes/%: $$(call differs,$$@,$$(plan_of_axes))
 	$(call write_plan,$(plan_of_axes))
 
@@ -227,13 +230,15 @@ BRANCHES ?= no
 system_shows = system $(if $2,system-static) $(if $(and $2,$(filter yes,$(SCENE_$1_PLANETS))),load-sharing) modes campbell $(if $(filter yes,$(SCENE_$1_MOVES)),system-sweep order-cuts $(if $(call teeth,$1,alike),,residual-signal))
 system_artifacts = $(if $2,$(inputs_system-static)) out/$1/modes.h5 $(if $(filter yes,$(SCENE_$1_MOVES)),$(inputs_system-sweep))
 system_figures := system system-static load-sharing modes campbell system-sweep motion-errors order-cuts residual-signal ring-down branch multipliers harris-map
+over_face = $(filter slices body,$(SCENE_$1_WIDTH))
+motion_shows = responses-by-torque $(if $(call teeth,$1,alike),$(if $(filter yes,$(BRANCHES)),response-branches multipliers)) order-cuts waterfall tooth-loads \
+  $(if $(call over_face,$1),face-load,$(if $(call teeth,$1,alike),root-stress,residual-signal))
 report_shows = system finite-elements $(if $(filter yes,$(SCENE_$1_MODIFIED)),profile-chart) \
-  $(if $(call teeth,$1,alike),transmission-error mesh-stiffness load-sharing error-budget) \
-  $(if $(call teeth,$1,cracked),$(if $(call teeth,$1,differ),,crack)) responses-by-torque \
-  $(if $(call teeth,$1,alike),$(if $(filter yes,$(BRANCHES)),response-branches multipliers)) order-cuts waterfall tooth-loads $(if $(call teeth,$1,alike),root-stress,residual-signal) \
+  $(if $(call teeth,$1,alike),transmission-error mesh-stiffness load-sharing error-budget) $(if $(call over_face,$1),flank-load) \
+  $(if $(call teeth,$1,cracked),$(if $(call teeth,$1,differ),,crack)) $(if $(filter yes,$(SCENE_$1_MOVES)),$(call motion_shows,$1)) \
   $(if $(filter yes,$(SCENE_$1_FRICTION)),efficiency) $(if $(filter elastic,$(SCENE_$1_BEARINGS)),bearing-forces) $(if $(call teeth,$1,differ),sidebands)
 report_artifacts = $(foreach t,$2,out/$1/T$t/static.h5) $(call impacts,$1,$2) \
-  $(call both_ways,$1,$2,response) $(if $(call teeth,$1,alike),out/$1/T$(firstword $2)/error_budget.h5)
+  $(if $(filter yes,$(SCENE_$1_MOVES)),$(call both_ways,$1,$2,response)) $(if $(call teeth,$1,alike),out/$1/T$(firstword $2)/error_budget.h5) $(call measured_errors,$1,$2)
 of_report = $(call $(if $(filter $2,$(systems)),system,report)_$1,$2,$(SCENE_$2_TORQUES))
 page_inputs = $(call of_report,artifacts,$1) $(patsubst %,out/$1/report/%.png,$(call of_report,shows,$1))
 # $(call report_figure,scene,figures)
@@ -255,7 +260,7 @@ teeth_page := out/$(if $(SCENE),$(basename $(notdir $(SCENE))),figures)/teeth/in
 stands = $(if $(findstring n,$(firstword -$(MAKEFLAGS)))$(findstring q,$(firstword -$(MAKEFLAGS))),,$(info $1))
 
 .PHONY: figures teeth $(figures) table1 scorecard animation report export histories sound runup
-report: out/$$(own_scene)/report/index.html ## figures, tables and one HTML page of SCENE (default: the paper's), out/<scene>/report/index.html; BRANCHES=yes
+report: out/$$(own_scene)/report/index.html ## figures, tables and one HTML page of SCENE (default: the paper's), out/<scene>/report/index.html; BRANCHES=yes, ERRORS=yes
 	$(call stands,report: open $< in a browser; results.tsv beside it holds its numbers)
 export: $(if $(filter export,$(goals)),$$(export_file)) ## results of SCENE as custom attributes of a copy of the REXS model that it was imported from: MODEL=stage.rexs STAGE=12 (id or name; where it has several)
 	$(call stands,export: $(export_file))

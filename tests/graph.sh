@@ -269,6 +269,7 @@ make_ report; grep -q '^report: .*out/parker2000/report/index.html' "$log" && ok
 mkdir -p mine
 sed -E 's/^torque_Nm = .*/torque_Nm = [90, 120]/' scene.original > mine/plain.toml
 plans "a report of a scene: every torque both ways, ring-downs, one error budget" "gear-impact*2 gear-plot*11 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4" SCENE=mine/plain.toml report
+plans "with errors of the motions: two sweeps of refinements more" "gear-impact*2 gear-plot*11 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*6" SCENE=mine/plain.toml ERRORS=yes report
 plans "with branches: one branch, two figures more" "gear-impact*2 gear-orbit*1 gear-plot*13 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4" SCENE=mine/plain.toml BRANCHES=yes report
 sed -E 's/^contact = .*/contact = "line"/' mine/plain.toml > mine/lines.toml; plans "contact in lines: no ring-down" "gear-plot*11 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4" SCENE=mine/lines.toml report
 sed -E 's/^\[gear.wheel\]/[gear.pinion.modification]\ntip_relief_um = 10\ntip_relief_start_deg = 22\n&/' mine/plain.toml > mine/relief.toml; plans "relief: a profile chart" "gear-impact*2 gear-plot*12 gear-report*1 gear-spectra*4 gear-static*3 gear-sweep*4" SCENE=mine/relief.toml report

@@ -117,9 +117,6 @@ void at_rest(const StageCommand& stage, const Provenance& made, double torque, b
 
 void error_budget_of(const StageCommand& stage, const Provenance& made, double torque) {
   const StaticParameters settings = read_static_parameters(stage.params());
-  if (settings.fidelity.width != WidthModel::one)
-    fail(Failure::input, "--error-budget is of contact in one slice, and width = \"", settings.fidelity.width,
-         "\" in [fidelity]; leave the option out");
   const auto [driver, driven] = read_bodies(stage.bodies(), settings);
   std::optional<StepsShown> steps(std::in_place, "gear-static");
   const ErrorBudgetResult errors = error_budget(driver, driven, settings, torque);

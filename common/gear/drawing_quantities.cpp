@@ -38,6 +38,14 @@ double tip_clearance_to_root(const GearPair& pair, int g) {
   return pair.ring() == g ? tip - centres - root : root - centres - tip;
 }
 
+double normal_force(const GearPair& pair, double torque) {
+  return torque / (pair.gear(0).base_radius() * std::cos(pair.base_helix_angle()));
+}
+
+double normal_backlash(const GearPair& pair) {
+  return pair.backlash() * std::cos(pair.base_helix_angle());
+}
+
 double circumferential_backlash(const GearPair& pair) {
   return pair.backlash() / std::cos(pair.working_pressure_angle());
 }

@@ -29,7 +29,11 @@ std::optional<Span> span_measurement(const ToothGeometry& gear);
 // m: from the tips of gear g to the root circle of its mate; it is the root clearance of the mate.
 double tip_clearance_to_root(const GearPair& pair, int g);
 
-// m: circumferential backlash on the working pitch circles; that along the line of action, the normal one, is backlash().
+// N: of all tooth pairs at rest along their normals, T / (r_b cos beta_b). torque: N m on the driver.
+double normal_force(const GearPair& pair, double torque);
+
+// m: backlash along the normal of the flanks; on the working pitch circles.
+double normal_backlash(const GearPair& pair);
 double circumferential_backlash(const GearPair& pair);
 
 // [gear] 1, at a place on the line of action (m from the pitch point): 0 at the pitch point, below 0 where the mate's flank is the faster

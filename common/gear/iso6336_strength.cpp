@@ -9,7 +9,11 @@
 namespace whine {
 namespace {
 
-void require_external_pair(const GearPair& pair) {
+void require_external_spur_pair(const GearPair& pair) {
+  if (pair.base_helix_angle() != 0)
+    fail(
+        Failure::input,
+        "the formulas of ISO 6336-2 and -3, method B, are used here for spur gears only, and these are helical; take the computed line load and pressure alone");
   if (pair.internal())
     fail(Failure::input,
          "the formulas of ISO 6336-3, method B, are used here for external gears only, and gear ",
@@ -31,7 +35,7 @@ double outer_single_contact(const GearPair& pair, int g) {
 }  // namespace
 
 IsoRoot iso_6336_root(const GearPair& pair, int g) {
-  require_external_pair(pair);
+  require_external_spur_pair(pair);
   require_two_pairs(pair, "the root stress of ISO 6336-3, method B,");
   const ToothGeometry& tooth = pair.gear(g);
   const GearDesign& d = tooth.design();
@@ -81,7 +85,7 @@ double iso_6336_root_stress(const GearPair& pair, int g, double tangential_force
 
 double iso_6336_flank_pressure(const GearPair& pair, const std::array<Material, 2>& material,
                                double tangential_force) {
-  require_external_pair(pair);
+  require_external_spur_pair(pair);
   require_two_pairs(pair, "the flank pressure of ISO 6336-2");
   const int pinion = pair.gear(0).design().teeth <= pair.gear(1).design().teeth ? 0 : 1;
   const GearDesign &d1 = pair.gear(pinion).design(), &d2 = pair.gear(1 - pinion).design();
@@ -101,7 +105,7 @@ double loss_factor_of_rigid_teeth(const GearPair& pair) {
   const double last = pair.path_end() / pair.base_pitch(), first = -pair.path_start() / pair.base_pitch();
   // sliding over the angle of the driver, per length along the path: (u + 1) / u of an external pinion that drives
   const double per_path = pair.sliding(pair.base_pitch()) / pair.base_pitch();
-  return kPi * per_path / pair.gear(0).design().teeth *
+  return kPi * per_path / (pair.gear(0).design().teeth * std::cos(pair.base_helix_angle())) *
          (1 - pair.contact_ratio() + last * last + first * first);
 }
 

@@ -32,7 +32,7 @@ struct IsoRoot {
 };
 
 // pair: of external gears. g: 0 the driver, 1 the driven gear. Throws Error(input) for an internal pair and for a contact ratio of 2
-// or more, Error(numerical) if the section is not found.
+// or more, for helical gears, Error(numerical) if the section is not found.
 IsoRoot iso_6336_root(const GearPair& pair, int g);
 
 // Pa, sigma_F0 of gear g. tangential_force: N, F_t.
@@ -44,7 +44,7 @@ double iso_6336_flank_pressure(const GearPair& pair, const std::array<Material, 
                                double tangential_force);
 
 // H_V of Ohlendorf, rigid teeth, two pairs share the load evenly:
-//   H_V = pi (u + 1) / (z_1 u) (1 - eps_alpha + eps_1^2 + eps_2^2)
+//   H_V = pi (u + 1) / (z_1 u cos beta_b) (1 - eps_alpha + eps_1^2 + eps_2^2)
 // so that the mean power lost is mu H_V times the power carried. eps_1, eps_2: addendum contact ratios. An internal pair has
 // u - 1 in place of u + 1 with teeth of both counted positive. Throws Error(input) for a contact ratio of 2 or more.
 double loss_factor_of_rigid_teeth(const GearPair& pair);

@@ -44,7 +44,7 @@ inline constexpr std::tuple kArtifactKinds{
     ArtifactKind<LoadedResult>{"loaded", 2, "loaded_<phase>.h5", "loaded_*"},
     ArtifactKind<ImpactResult>{"impact", 3, "impact.h5", "impact"},
     ArtifactKind<SweepResult>{"sweep", 9, "sweep.h5", "sweep"},
-    ArtifactKind<SweepErrorsResult>{"sweep_errors", 1, "sweep_errors.h5", "sweep_errors"},
+    ArtifactKind<SweepErrorsResult>{"sweep_errors", 2, "sweep_errors.h5", "sweep_errors"},
     ArtifactKind<ResponseResult>{"response", 11, "response.h5", "response"},
     ArtifactKind<BranchResult>{"branch", 7, "branch.h5", "branch"},
     ArtifactKind<RunupResult>{"runup", 5, "runup_<rate>.h5", "runup_*"},

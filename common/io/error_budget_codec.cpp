@@ -20,6 +20,9 @@ void describe_changes(Codec& c, const std::string& group, StaticChanges& a, cons
   if (c.optional(group + "/root_stress_change", a.root_stress_change.size() > 0))
     c(a.root_stress_change, group + "/root_stress_change", "1", kSigned, axis,
       "relative change of the largest root stress, of the gear where it is larger");
+  if (c.optional(group + "/load_factor_change", a.load_factor_change.size() > 0))
+    c(a.load_factor_change, group + "/load_factor_change", "1", kSigned, axis,
+      "relative change of the face load factor K_Hbeta of the reference pair at mesh phase 0");
   c(a.harmonic_change, group + "/harmonic_change", "1", kSigned, axis + " harmonic",
     "change of the first harmonics of the transmission error over its first harmonic");
 }

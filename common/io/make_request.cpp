@@ -36,7 +36,7 @@ constexpr Group kGroups[] = {
     {GivenAs::list, false,
      "BESIDE JUMP_MAP_TORQUES JUMP_MAP_CORNERS JUMP_MAP_MODELS JUMP_MAP_RATIOS FOLD_RATIOS FOLD_TORQUES FOLD_RELIEFS FOLD_CURVE_TORQUES"},
     {GivenAs::word, false,
-     "TORQUE MESH PHASE DAMPING STATE AT DB RATE FROM TO WAY BRANCHES JUMP_MAP JUMP_MAP_STEP JUMP_MAP_LOADS_AT JUMP_MAP_CELLS SENSITIVITY SENSITIVITY_FACTOR SENSITIVITY_RATIO SENSITIVITY_STEP HARRIS_DYNAMIC FOLDS_OVER FOLD_FIRST READING_PARTS FAULT_KILLS STRESS_PROBLEMS STRESS_SCENES STRESS_SEED FUZZ_SECONDS LAUNCH_WAIT FREEZE SANITIZE"}};
+     "TORQUE MESH PHASE DAMPING STATE AT DB RATE FROM TO WAY BRANCHES ERRORS JUMP_MAP JUMP_MAP_STEP JUMP_MAP_LOADS_AT JUMP_MAP_CELLS SENSITIVITY SENSITIVITY_FACTOR SENSITIVITY_RATIO SENSITIVITY_STEP HARRIS_DYNAMIC FOLDS_OVER FOLD_FIRST READING_PARTS FAULT_KILLS STRESS_PROBLEMS STRESS_SCENES STRESS_SEED FUZZ_SECONDS LAUNCH_WAIT FREEZE SANITIZE"}};
 // Commands themselves, which nobody judges.
 const std::vector<std::string> kCommands{"LAUNCH", "B", "CXX", "ARCH", "CXXFLAGS", "LDFLAGS"};
 const Variable kTarget{"target", GivenAs::list, true};
@@ -178,6 +178,7 @@ bool positive(const std::string& value) {
 void check_choices(const MakeRequest& request) {
   static const std::pair<const char*, std::pair<Words, const char*>> kChoices[] = {
       {"BRANCHES", {{"yes", "no"}, "it is yes or no"}},
+      {"ERRORS", {{"yes", "no"}, "it is yes or no"}},
       {"WAY", {{"up", "down"}, "it is up or down"}},
       {"JUMP_MAP", {{"coarse", "fine"}, "it is coarse or fine"}},
       {"SENSITIVITY", {{"coarse", "fine"}, "it is coarse or fine"}},

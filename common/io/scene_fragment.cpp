@@ -127,14 +127,15 @@ std::string scene_fragment(const Scene& scene, const std::string& path, const st
   bool modified = false;
   for (const std::string& gear : scene.mesh.gear)
     modified |= scene.gear(gear).modification != FlankModification{};
-  const bool rings_down = scene.fidelity.contact == ContactModel::strips && !able.slices &&
+  const bool rings_down = scene.fidelity.contact == ContactModel::strips && able.face.empty() &&
                           scene.fidelity.body != BodyModel::full && !able.teeth_differ && !able.cracked;
   Fragment out(path, stem);
   out("KIND", "pair");
   out.gears(bodies, scene.operation.torques);
   out("DRIVER", scene.mesh.gear[0]);
   out("DRIVEN", scene.mesh.gear[1]);
-  out.yes_or_no("MOVES", true);
+  out.yes_or_no("MOVES", able.pair_moves());
+  out("WIDTH", able.face.empty() ? WidthModel::one : scene.fidelity.width);
   out.yes_or_no("RINGS_DOWN", rings_down);
   out("TEETH", teeth_words(able));
   out.yes_or_no("MODIFIED", modified);

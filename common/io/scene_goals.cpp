@@ -9,71 +9,92 @@
 namespace whine {
 namespace {
 
-// Goals of pairs that take more than one slice over the face: helices, misalignment, lead modifications, width = "slices".
-constexpr std::array kGoalsOfFace{"mesh", "reduce", "static", "flank-load"};
-// And in motion, where width in [fidelity] asks for them.
-constexpr std::array kGoalsOfSlices{
-    "sweep",     "fig05", "fig07", "fig14-elastic", "order-cuts",     "waterfall",      "tooth-loads",
-    "face-load", "sound", "runup", "branches",      "fig05-branches", "fig07-branches", "multipliers"};
+// Over the face of a pair: one slice alone, of spur gears under even load; any level, at rest; slices, in motion.
+enum class Width { one, rest, motion };
+// What a system must have.
+enum class Needs { no_system, nothing, elastic_gears, speeds, planets };
 
-// What a system must have for a goal; goals that do not stand here are of pairs alone.
-enum class Needs { nothing, elastic_gears, speeds, planets };
-struct SystemGoal {
+struct Goal {
   const char* name;
-  Needs needs;
-  bool of_pairs;
+  Width width;
+  Needs system;
+  bool of_pairs = true, like_teeth = false;
 };
-constexpr std::array kSystemGoals{SystemGoal{"report", Needs::nothing, true},
-                                  SystemGoal{"mesh", Needs::elastic_gears, true},
-                                  SystemGoal{"reduce", Needs::elastic_gears, true},
-                                  SystemGoal{"static", Needs::elastic_gears, true},
-                                  SystemGoal{"sweep", Needs::speeds, true},
-                                  SystemGoal{"impact", Needs::speeds, true},
-                                  SystemGoal{"branches", Needs::speeds, true},
-                                  SystemGoal{"multipliers", Needs::speeds, true},
-                                  SystemGoal{"order-cuts", Needs::speeds, true},
-                                  SystemGoal{"runup", Needs::speeds, true},
-                                  SystemGoal{"residual-signal", Needs::speeds, true},
-                                  SystemGoal{"sound", Needs::speeds, true},
-                                  SystemGoal{"teeth", Needs::elastic_gears, true},
-                                  SystemGoal{"load-sharing", Needs::planets, true},
-                                  SystemGoal{"harris-map", Needs::elastic_gears, true},
-                                  SystemGoal{"compare", Needs::elastic_gears, true},
-                                  SystemGoal{"modes", Needs::nothing, false},
-                                  SystemGoal{"mode-shapes", Needs::nothing, false}};
 
-bool has(const SceneAbilities& system, Needs needs) {
-  return needs == Needs::nothing ||
-         (system.elastic &&
-          (needs == Needs::elastic_gears || (needs == Needs::speeds ? system.moves : system.planets)));
+// What each kind of scene can reach. Goals that do not stand here are of pairs in one slice alone.
+constexpr std::array kGoals{Goal{"report", Width::rest, Needs::nothing},
+                            Goal{"mesh", Width::rest, Needs::elastic_gears},
+                            Goal{"reduce", Width::rest, Needs::elastic_gears},
+                            Goal{"static", Width::rest, Needs::elastic_gears},
+                            Goal{"flank-load", Width::rest, Needs::no_system},
+                            Goal{"fig01", Width::rest, Needs::no_system},
+                            Goal{"fig12", Width::rest, Needs::no_system},
+                            Goal{"fig13", Width::rest, Needs::no_system},
+                            Goal{"profile-chart", Width::rest, Needs::no_system},
+                            Goal{"error-budget", Width::rest, Needs::no_system},
+                            Goal{"load-sharing", Width::rest, Needs::planets},
+                            Goal{"sweep", Width::motion, Needs::speeds},
+                            Goal{"face-load", Width::motion, Needs::no_system},
+                            Goal{"fig05", Width::motion, Needs::no_system},
+                            Goal{"fig07", Width::motion, Needs::no_system},
+                            Goal{"fig14-elastic", Width::motion, Needs::no_system},
+                            Goal{"tooth-loads", Width::motion, Needs::no_system},
+                            Goal{"order-cuts", Width::motion, Needs::speeds},
+                            Goal{"waterfall", Width::motion, Needs::no_system},
+                            Goal{"histories", Width::motion, Needs::no_system},
+                            Goal{"sound", Width::motion, Needs::speeds},
+                            Goal{"runup", Width::motion, Needs::speeds},
+                            Goal{"branches", Width::motion, Needs::speeds},
+                            Goal{"fig05-branches", Width::motion, Needs::no_system},
+                            Goal{"fig07-branches", Width::motion, Needs::no_system},
+                            Goal{"multipliers", Width::motion, Needs::speeds},
+                            Goal{"impact", Width::one, Needs::speeds},
+                            Goal{"sidebands", Width::one, Needs::no_system},
+                            Goal{"crack", Width::one, Needs::no_system},
+                            Goal{"residual-signal", Width::one, Needs::speeds},
+                            Goal{"teeth", Width::one, Needs::elastic_gears, true, true},
+                            Goal{"harris-map", Width::one, Needs::elastic_gears},
+                            Goal{"compare", Width::one, Needs::elastic_gears},
+                            Goal{"modes", Width::one, Needs::nothing, false},
+                            Goal{"mode-shapes", Width::one, Needs::nothing, false}};
+
+// What the pair is that the goal does not take, in words; "": nothing.
+std::string pair_lacks(const Goal& goal, const SceneAbilities& pair) {
+  if (!goal.of_pairs)
+    return "is a pair, and natural modes are of systems, scenes of several meshes, carriers or drives";
+  if (!pair.face.empty() && goal.width == Width::one)
+    return text("is more than one slice over the face: ", pair.face, ", and ", goal.name,
+                " is of spur gears under even load");
+  if (!pair.pair_moves() && goal.width == Width::motion)
+    return text("has bodies in three dimensions over the face (", pair.face, "), and ", goal.name,
+                " is of motion, which takes slices: write width = \"slices\" in [fidelity]");
+  if (goal.like_teeth && (pair.teeth_differ || pair.cracked))
+    return text("has teeth that ", pair.teeth_differ ? "differ" : "are cracked",
+                ", and root stress, load sharing and error budget are of intact, equal teeth");
+  return "";
+}
+
+std::string system_lacks(const Goal& goal, const SceneAbilities& system) {
+  if (goal.system == Needs::no_system) return "is a system of several meshes, carriers or drives";
+  if (goal.system == Needs::nothing) return "";
+  if (!system.elastic) return "is of rigid gears, which have natural modes alone";
+  if (goal.system == Needs::planets && !system.planets) return "is without planets that share a load";
+  if (goal.system == Needs::speeds && !system.moves)
+    return "is without speeds, [operation] with mesh_frequency_Hz = { from = 500, to = 5000, step = 50 }";
+  return "";
+}
+
+std::string lacks(const Goal& goal, const SceneAbilities& scene) {
+  return scene.pair ? pair_lacks(goal, scene) : system_lacks(goal, scene);
 }
 
 // "report, or of it static ..."
-std::string of_system(const SceneAbilities& system) {
+std::string instead(const SceneAbilities& scene) {
   std::string out;
-  for (const SystemGoal& goal : kSystemGoals)
-    if (has(system, goal.needs))
-      out += text(out.empty() ? "" : out == kSystemGoals.front().name ? ", or of it " : " ", goal.name);
+  for (const Goal& goal : kGoals)
+    if (lacks(goal, scene).empty())
+      out += text(out.empty() ? "" : out == kGoals.front().name ? ", or of it " : " ", goal.name);
   return out;
-}
-
-void check_teeth(const SceneAbilities& pair, const std::string& which) {
-  if (!pair.teeth_differ && !pair.cracked) return;
-  fail(Failure::input, "teeth: ", which, " has teeth that ", pair.teeth_differ ? "differ" : "are cracked",
-       ", and root stress, load sharing and error budget are of intact, equal teeth; for it there is: make ",
-       which, " ", pair.teeth_differ ? "tooth-loads sidebands" : "crack", " residual-signal");
-}
-
-void check_face(const std::string& goal, const SceneAbilities& pair, const std::string& which) {
-  if (pair.face.empty()) return;
-  std::vector<std::string> goals(kGoalsOfFace.begin(), kGoalsOfFace.end());
-  if (pair.slices) goals.insert(goals.end(), kGoalsOfSlices.begin(), kGoalsOfSlices.end());
-  if (std::find(goals.begin(), goals.end(), goal) != goals.end()) return;
-  std::string others;
-  for (const std::string& own : goals) others += " " + own;
-  fail(Failure::input, goal, ": in ", which, " ", pair.face, ", and ", goal,
-       " is computed in one slice over the face, of spur gears under even load; for it there is: make ",
-       which, others, pair.slices ? "" : "; with width = \"slices\" in [fidelity] also its sweep");
 }
 
 }  // namespace
@@ -105,27 +126,13 @@ SceneAbilities abilities(const SystemScene& scene, const System& layout) {
 void check_goals(const std::vector<std::string>& goals, const SceneAbilities& scene,
                  const std::string& path) {
   const std::string which = "SCENE=" + path;
-  for (const std::string& goal : goals) {
-    const auto* const known = std::find_if(kSystemGoals.begin(), kSystemGoals.end(),
-                                           [&](const SystemGoal& own) { return goal == own.name; });
-    if (scene.pair) {
-      if (known != kSystemGoals.end() && !known->of_pairs)
-        fail(Failure::input, goal, ": ", which,
-             " is a pair, and natural modes are of systems, scenes of several meshes, carriers or drives");
-      check_face(goal, scene, which);
-      if (goal == "teeth") check_teeth(scene, which);
-      continue;
-    }
-    const char* const lacks =
-        known == kSystemGoals.end() ? "a system of several meshes, carriers or drives"
-        : has(scene, known->needs)  ? ""
-        : !scene.elastic            ? "of rigid gears, which have natural modes alone"
-        : known->needs == Needs::planets
-            ? "without planets that share a load"
-            : "without speeds, [operation] with mesh_frequency_Hz = { from = 500, to = 5000, step = 50 }";
-    if (*lacks)
-      fail(Failure::input, goal, ": ", which, " is ", lacks, "; for it there is: make ", which, " ",
-           of_system(scene));
+  for (const std::string& name : goals) {
+    const auto* const known =
+        std::find_if(kGoals.begin(), kGoals.end(), [&](const Goal& own) { return name == own.name; });
+    const Goal goal = known != kGoals.end() ? *known : Goal{name.c_str(), Width::one, Needs::no_system};
+    if (const std::string why = lacks(goal, scene); !why.empty())
+      fail(Failure::input, name, ": ", which, " ", why, "; for it there is: make ", which, " ",
+           instead(scene));
   }
 }
 

@@ -15,6 +15,7 @@ struct SceneAbilities {
   std::string face = {};  // what of a pair one slice over the face does not hold, in words; "": nothing
   bool slices = false;    // of a pair: its contact is in slices over the face
   bool elastic = false, planets = false, moves = false;  // of a system
+  bool pair_moves() const { return face.empty() || slices; }
 };
 SceneAbilities abilities(const Scene& scene);
 SceneAbilities abilities(const SystemScene& scene, const System& layout);

@@ -1,6 +1,7 @@
 #include "io/scene_keys.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "base/error.h"
@@ -25,13 +26,14 @@ struct View {
   TimeDiscretisation time;
 };
 
-// m: d_a = m (z + 2 x + 2 h_a), d_f = m (z + 2 x - 2 h_f); of an internal gear, whose tips lie inside, with the other signs.
+// m: d_a = m (z / cos beta + 2 x + 2 h_a), d_f = m (z / cos beta + 2 x - 2 h_f); of an internal gear, whose tips lie inside, with the other signs.
 void set_drawing(View& view, const BodyParameters& drawing) {
   view.design = drawing.design;
   view.material = drawing.material;
   view.body = drawing.discretisation;
   const GearDesign& gear = view.design;
-  const double outwards = gear.internal ? -1 : 1, middle = gear.teeth + outwards * 2 * gear.profile_shift;
+  const double outwards = gear.internal ? -1 : 1,
+               middle = gear.teeth / std::cos(gear.helix_angle) + outwards * 2 * gear.profile_shift;
   view.words.tip_diameter = gear.module * (middle + outwards * 2 * gear.addendum);
   view.words.root_diameter = gear.module * (middle - outwards * 2 * gear.dedendum);
 }

@@ -294,12 +294,12 @@ void show(SummaryLines& lines, const SweepErrorsResult& a) {
       a.direction, ", ", range_of(a.mesh_frequency));
   for (size_t e = 0; e < a.entry.size(); ++e) {
     const double order = a.order[static_cast<Eigen::Index>(e)];
-    add(lines, a.entry[e], "RMS ", a.dte_rms_change[e].cwiseAbs().maxCoeff() * 100, " % at most, tooth load ",
-        a.tooth_load_change[e].cwiseAbs().maxCoeff() * 100, " %",
+    add(lines, a.entry[e], "RMS ", a.dte_rms.change[e].cwiseAbs().maxCoeff() * 100, " % at most, tooth load ",
+        a.tooth_load_max.change[e].cwiseAbs().maxCoeff() * 100, " %",
         order > 0 ? text(", order ", std::round(order * 100) / 100) : "");
   }
-  add(lines, "error in all", "RMS ", a.dte_rms_error.maxCoeff() * 100, " % at most, tooth load ",
-      a.tooth_load_error.maxCoeff() * 100, " %");
+  add(lines, "error in all", "RMS ", a.dte_rms.error.maxCoeff() * 100, " % at most, tooth load ",
+      a.tooth_load_max.error.maxCoeff() * 100, " %");
   for (Eigen::Index j = 0; j < a.jump_frequency.size(); ++j)
     add(lines, "jump", a.jump_frequency[j], " Hz, to ", a.jump_error[j], " Hz");
 }

@@ -1,6 +1,7 @@
 #include "io/sweep_words.h"
 
 #include "base/error.h"
+#include "base/format.h"
 #include "signal/jump_words.h"
 
 namespace whine {
@@ -23,11 +24,11 @@ std::vector<std::string> change_words(const NextSweep& next, const SweepResult& 
 
 std::string sweep_errors_words(const SweepErrorsResult& errors) {
   Eigen::Index speed = 0, mesh = 0;
-  const double most = errors.dte_rms_error.maxCoeff(&speed, &mesh);
+  const double most = errors.dte_rms.error.maxCoeff(&speed, &mesh);
   return text(errors.direction, ", errors of the discretisation at ", errors.mesh_frequency.size(),
-              " speeds: RMS ", most * 100, " % at most (", errors.mesh_frequency[speed],
-              " Hz), peak tooth load ", errors.tooth_load_error.maxCoeff() * 100, " %, jumps ",
-              errors.jump_error.size() > 0 ? text(errors.jump_error.maxCoeff(), " Hz") : "none");
+              " speeds: RMS ", shown(most * 100, 2), " % at most (", errors.mesh_frequency[speed],
+              " Hz), peak tooth load ", shown(errors.tooth_load_max.error.maxCoeff() * 100, 2), " %, jumps ",
+              errors.jump_error.size() > 0 ? shown(errors.jump_error.maxCoeff(), 2) + " Hz" : "none");
 }
 
 }  // namespace whine

@@ -42,9 +42,13 @@ Figure error_budget_figure(const ErrorBudgetResult& budget) {
   figure.notes.push_back(
       text("each discretisation alone twice as fine; sum of the changes of the mean stiffness ",
            shown(budget.refinement.mean_stiffness_change.cwiseAbs().sum() * kPercent, 3), " %"));
-  figure.notes.push_back(text(
-      "contact = ", budget.fidelity.contact, ", near field by ", budget.gear[0].discretisation.near_field,
-      "; beyond the line what another choice changes, which is no error of this one"));
+  const bool over_face = budget.fidelity.width != WidthModel::one;
+  figure.notes.push_back(
+      text(over_face ? text("width = ", budget.fidelity.width) : text("contact = ", budget.fidelity.contact),
+           ", near field by ", budget.gear[0].discretisation.near_field,
+           budget.fidelity.width == WidthModel::body
+               ? "; degree: what two degrees less change"
+               : "; beyond the line what another choice changes, which is no error of this one"));
   const FigureBlock roots = root_levels(budget, figure.notes);
   double largest = 1;  // %
   Panel panel{.y = {.label = "Change (%)", .from = 1e-5, .log = true}, .key = PanelKey::below, .height = 560};
@@ -58,12 +62,15 @@ Figure error_budget_figure(const ErrorBudgetResult& budget) {
     if (pressure) block.columns.emplace_back("flank_pressure [%]");
     const bool stress = changes->root_stress_change.size() > 0;
     if (stress) block.columns.emplace_back("root_stress [%]");
+    const bool face = changes->load_factor_change.size() > 0;
+    if (face) block.columns.emplace_back("load_factor [%]");
     std::vector<std::pair<std::string, int>> shown{{"mean stiffness", kBlue}, {"peak to peak", kVermilion}};
     constexpr std::array kGreys{kBlack, kDark, kMedium, kGrey, kLight};
     for (Eigen::Index n = 1; n <= changes->harmonic_change.cols(); ++n)
       shown.emplace_back(text("harmonic ", n), kGreys.at(static_cast<size_t>(n - 1)));
     if (pressure) shown.emplace_back("flank pressure", kGreen);
     if (stress) shown.emplace_back("root stress", kPurple);
+    if (face) shown.emplace_back("K_{Hβ}", kPurple);
     for (size_t k = 0; k < shown.size(); ++k)
       panel.curves.push_back(
           {.block = name,
@@ -81,6 +88,7 @@ Figure error_budget_figure(const ErrorBudgetResult& budget) {
         row.push_back(std::abs(changes->harmonic_change(i, n)) * kPercent);
       if (pressure) row.push_back(std::abs(changes->pressure_change[i]) * kPercent);
       if (stress) row.push_back(std::abs(changes->root_stress_change[i]) * kPercent);
+      if (face) row.push_back(std::abs(changes->load_factor_change[i]) * kPercent);
       block.rows.push_back(row);
       largest = std::max(largest, *std::max_element(row.begin() + 1, row.end()));
       const size_t comma = rest.find(", ");

@@ -97,8 +97,8 @@ struct Captioned {
 Captioned<ResponseResult> read_responses(const Paths& inputs) {
   Captioned<ResponseResult> captions;
   Paths others;
-  std::tie(captions.background.impacts, captions.background.branches, others) =
-      by_kind<ImpactResult, BranchResult>(inputs);
+  std::tie(captions.background.impacts, captions.background.branches, captions.background.errors, others) =
+      by_kind<ImpactResult, BranchResult, SweepErrorsResult>(inputs);
   for (const std::string& path : others)
     if (read_origin(path).schema == kind_of<SweepResult>().schema()) {
       const SweepResult sweep = read_pair_sweep(path);

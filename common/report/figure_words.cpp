@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "gear/drawing_quantities.h"
 #include "report/text_width.h"
 
 namespace whine {
@@ -58,8 +59,13 @@ ShownUnit shown_units(const std::string& units) {
   return {units == "1" ? "" : "Hz", 1};
 }
 
-PanelRule rest_rule(double force) {
-  return {'y', force, text("T / r_b = ", fixed(force, 0), " N"), kGreen, 2, true};
+std::string rest_force_name(const GearPair& pair) {
+  return pair.base_helix_angle() == 0 ? "T / r_b" : "T / (r_b cos β_b)";
+}
+
+PanelRule rest_rule(const GearPair& pair, double torque) {
+  const double force = normal_force(pair, torque);
+  return {'y', force, text(rest_force_name(pair), " = ", fixed(force, 0), " N"), kGreen, 2, true};
 }
 
 void plain_captions(size_t plain, Figure& figure) {

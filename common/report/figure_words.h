@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "gear/pair.h"
 #include "report/figures.h"
 
 namespace whine {
@@ -27,8 +28,10 @@ struct ShownUnit {
 };
 ShownUnit shown_units(const std::string& units);
 
-// The force at which the torque is carried at rest: "T / r_b = 2128 N" in the key.
-PanelRule rest_rule(double force);
+// The force at which the torque (N m) is carried at rest: "T / r_b = 2128 N" in the key.
+PanelRule rest_rule(const GearPair& pair, double torque);
+// "T / r_b", of helical gears "T / (r_b cos β_b)".
+std::string rest_force_name(const GearPair& pair);
 
 // Captions of notes: the first `plain` as they stand, behind them notes with the marks of gnuplot.
 void plain_captions(size_t plain, Figure& figure);

@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/visible.h"
+#include "gear/pair.h"
 #include "results/static.h"
 
 namespace whine {
@@ -30,10 +31,16 @@ std::string corner_words(const CornerRule& corner) {
 }
 
 std::string pair_words(const StaticResult& s) {
-  return text(s.gear[0].design.teeth, "/", s.gear[1].design.teeth, " teeth, module ",
-              shown(s.gear[0].design.module * kMilli, 4), " mm, centre distance ",
-              shown(s.mesh.centre_distance * kMilli, 6), " mm, contact ratio ", fixed(s.contact_ratio, 4),
-              ", ", corner_words(s.mesh.corner));
+  const GearDesign& driver = s.gear[0].design;
+  const bool helical = driver.helical();
+  return text(
+      driver.teeth, "/", s.gear[1].design.teeth, " teeth, ", helical ? "normal " : "", "module ",
+      shown(driver.module * kMilli, 4), " mm, ",
+      helical ? text("helix angle ", shown(driver.helix_angle * 180 / std::numbers::pi, 4), "°, ") : "",
+      "centre distance ", shown(s.mesh.centre_distance * kMilli, 6), " mm, ", helical ? "transverse " : "",
+      "contact ratio ", fixed(s.contact_ratio, 4), ", ",
+      helical ? text("overlap ratio ", fixed(GearPair(s).overlap_ratio(), 3), ", ") : "",
+      corner_words(s.mesh.corner));
 }
 
 std::string without_markup(const std::string& words) {

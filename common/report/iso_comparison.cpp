@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "gear/drawing_quantities.h"
 #include "gear/iso6336.h"
 #include "gear/pair.h"
 
@@ -58,7 +59,7 @@ IsoComparison iso_comparison(const StaticResult& s, const std::array<double, kSi
         const double base = pair.gear(static_cast<int>(g)).base_radius();
         inverse_mass += base * base / inertia[g];
       }
-      out.dynamics.contact_ratio = s.contact_ratio;
+      out.dynamics.contact_ratio = s.contact_ratio + pair.overlap_ratio();
       out.dynamics.line_load = stiffness.line_load;
       out.dynamics.single_stiffness = stiffness.single;
       out.dynamics.relief = std::min(s.mesh.modification[0].tip.amount, s.mesh.modification[1].tip.amount);
@@ -77,7 +78,7 @@ DynamicFactorPeak largest_dynamic_factor(const StaticResult& s, const ResponseRe
   const Eigen::VectorXd force =
       r.mesh_force_sustained.size() > 0 ? r.mesh_force_sustained.col(0) : r.mesh_force_max.col(0);
   DynamicFactorPeak out;
-  out.factor = force.maxCoeff(&out.row) * ToothGeometry(s.gear[0].design).base_radius() / s.torque;
+  out.factor = force.maxCoeff(&out.row) / normal_force(GearPair(s), s.torque);
   if (!(r.inertia[0] > 0 && r.inertia[1] > 0)) {
     out.why_none = "the inertias are not known";
     return out;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "gear/drawing_quantities.h"
 #include "gear/pair.h"
 #include "report/figure_words.h"
 #include "report/response_figures.h"
@@ -100,10 +101,6 @@ void set_motion_title(Figure& figure, const std::string& what, const std::vector
 // Shown of tooth loads: mesh periods about the middle one, teeth from two before tooth i to three after it.
 constexpr int kFirstPeriod = -1, kPeriods = 3, kFirstTooth = -2, kLastTooth = 3;
 
-double force_at_rest(const SweepResult& s) {
-  return s.torque / ToothGeometry(s.gear[0].design).base_radius();
-}
-
 // A panel with the loads of successive teeth and of all of them; shaded: contact lost. Blocks begin with `letter`, the heading with
 // `title`, behind which stands the result in words.
 void add_tooth_loads(Figure& figure, const std::string& letter, const Motion& m, const std::string& title) {
@@ -131,7 +128,7 @@ void add_tooth_loads(Figure& figure, const std::string& letter, const Motion& m,
                     .from = kFirstPeriod,
                     .to = kFirstPeriod + kPeriods},
               .y = {.label = "Force (N)", .from_zero = true},
-              .rules = {rest_rule(force_at_rest(*m.sweep))}};
+              .rules = {rest_rule(GearPair(*m.sweep), m.sweep->torque)}};
   if (!lost.rows.empty())
     panel.curves.push_back(
         {.block = lost.name, .style = PanelStyle::spans, .colour = kShade, .label = "contact lost"});
@@ -172,8 +169,10 @@ void add_tooth_loads(Figure& figure, const std::string& letter, const Motion& m,
   const Separations apart = separations(force);
   const double most = loads.topRows(force.size()).maxCoeff(), largest = std::max(most, force.maxCoeff());
   panel.y.to = 1.08 * (largest > 0 ? largest : 1);
+  const GearPair pair(*m.sweep);
   panel.heading = title + text("largest tooth load ", fixed(most, 0),
-                               " N = ", fixed(most / force_at_rest(*m.sweep), 2), " T / r_b; ");
+                               " N = ", fixed(most / normal_force(pair, m.sweep->torque), 2), " ",
+                               rest_force_name(pair), "; ");
   panel.heading += apart.intervals == 0
                        ? "contact is never lost"
                        : text("contact lost ", shown(static_cast<double>(apart.intervals) / m.periods, 3),
@@ -377,7 +376,7 @@ Figure dynamic_load_figure(const std::vector<SweepResult>& sweeps, CaptionSource
   figure.panels.push_back(load_over_speed(
       std::max(both[0].tooth_load_max.maxCoeff(), both[1].tooth_load_max.maxCoeff()),
       curve.up->mesh_frequency.size(), lost, !speeds_beyond_backlash({&both[0], &both[1]}).empty()));
-  figure.panels[0].rules = {rest_rule(force_at_rest(*curve.up)), {'x', speed, "(b)"}};
+  figure.panels[0].rules = {rest_rule(GearPair(*curve.up), curve.up->torque), {'x', speed, "(b)"}};
   add_tooth_loads(
       figure, "b", worst,
       text("at ", shown(speed, 6), " Hz, speed ",
@@ -467,11 +466,11 @@ Figure mesh_force_figure(const std::vector<SweepResult>& sweeps,
   Figure figure;
   const double torque = sweeps[0].torque;
   figure.title = text("Net mesh force of one degree of freedom (Eq. 23), ", torque_words(torque));
-  const double at_rest = force_at_rest(sweeps[0]);
+  const PanelRule at_rest = rest_rule(GearPair(sweeps[0]), torque);
   for (size_t k = 0; k < mesh_frequencies.size(); ++k)
     figure.panels.push_back({.x = {.label = "Time (mesh periods, 0: pitch point)", .from = 0, .to = 2},
                              .y = {.label = k ? "" : "Net mesh force (N)"},
-                             .rules = {rest_rule(at_rest)},
+                             .rules = {at_rest},
                              .key = PanelKey::below,
                              .height = 380});
   figure.columns = figure.panels.size();

@@ -7,6 +7,7 @@
 #include "base/format.h"
 #include "report/figures.h"
 #include "report/html.h"
+#include "report/measured_errors.h"
 #include "report/report_content.h"
 
 namespace whine {
@@ -18,6 +19,8 @@ constexpr size_t kMostNatural = 3;  // that are named
 
 std::string micrometres(const Spread& s) {
   const std::string least = significant(s.least * kMicro, 3), most = significant(s.most * kMicro, 3);
+  if (s.error >= 0 && s.least == s.most)
+    return told(s.most * kMicro, s.error * kMicro, kToldDigits).words() + " µm";
   return (least == most ? most : least + " to " + most) + " µm";
 }
 
@@ -26,6 +29,12 @@ std::string rows_of_speeds(const TurningMember& member, const std::vector<double
   single.reserve(speeds.size());
   for (const double f : speeds) single.push_back({f, f});
   return speed_words(member, single);
+}
+
+std::string natural_words(const CriticalSpeeds::Natural& natural) {
+  return (natural.error < 0 ? fixed(natural.frequency, 0)
+                            : told(natural.frequency, natural.error, kToldDigits).words()) +
+         " Hz";
 }
 
 bool within(double f, const std::optional<SpeedRange>& speeds) {
@@ -52,7 +61,7 @@ std::string critical_speed_line(const CriticalSpeeds& c) {
       if (const double f = natural.frequency / order; within(f, c.speeds))
         orders.push_back(text("order ", order, " at ", speed_words(c.member, f)));
     if (!orders.empty() && met.size() < kMostNatural)
-      met.push_back(text(natural.name, " (", fixed(natural.frequency, 0), " Hz) is met by ", listed(orders)));
+      met.push_back(text(natural.name, " (", natural_words(natural), ") is met by ", listed(orders)));
   }
   const std::string of = c.member.turns > 0 ? " Speeds are those of " + c.member.name + "." : "";
   std::string out;
@@ -61,9 +70,8 @@ std::string critical_speed_line(const CriticalSpeeds& c) {
     out = c.natural.empty()
               ? "no natural frequency is computed"
               : text("no order up to ", kOrders, " meets ",
-                     c.natural.size() == 1
-                         ? c.natural[0].name + text(" (", fixed(c.natural[0].frequency, 0), " Hz)")
-                         : "a natural frequency",
+                     c.natural.size() == 1 ? text(c.natural[0].name, " (", natural_words(c.natural[0]), ")")
+                                           : "a natural frequency",
                      " within ", c.speeds ? speed_words(c.member, {*c.speeds}) : "the speeds");
   out[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(out[0])));
   if (c.speeds)
@@ -123,12 +131,12 @@ std::string dynamic_factor_line(const TurningMember& member, const std::vector<D
   bool standard = false;
   for (const DynamicFactor& m : meshes) {
     standard = standard || m.standard;
-    parts.push_back(text(fixed(m.factor, 2), " times its mean at rest", m.mesh.empty() ? "" : " in " + m.mesh,
-                         ", at ", speed_words(member, m.at),
-                         m.standard
-                             ? text(", where K_v of ISO 6336-1 (method B, gears without deviations) is ",
-                                    fixed(*m.standard, 2))
-                             : ""));
+    parts.push_back(text(
+        m.error < 0 ? fixed(m.factor, 2) : told(m.factor, m.error, kToldDigits).words(),
+        " times its mean at rest", m.mesh.empty() ? "" : " in " + m.mesh, ", at ", speed_words(member, m.at),
+        m.standard ? text(", where K_v of ISO 6336-1 (method B, gears without deviations) is ",
+                          fixed(*m.standard, 2))
+                   : ""));
   }
   return text(
       "The mesh force reaches ", listed(parts), ".",

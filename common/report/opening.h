@@ -12,6 +12,7 @@ namespace whine {
 // Of meshes that are alike, such as those of planets, the least and the largest.
 struct Spread {
   double least = 0, most = 0;
+  double error = -1;  // of `most`; below 0: not known
 };
 
 struct MeshExcitation {
@@ -24,7 +25,8 @@ std::string excitation_line(const std::string& load, const std::vector<MeshExcit
 struct CriticalSpeeds {
   struct Natural {
     double frequency = 0;
-    std::string name;  // "the natural frequency", "mode 5 (rotational)"
+    std::string name;   // "the natural frequency", "mode 5 (rotational)"
+    double error = -1;  // Hz; below 0: not known
   };
   TurningMember member;
   std::optional<SpeedRange> speeds;  // those that are computed; none: gears at rest alone
@@ -54,6 +56,7 @@ struct DynamicFactor {
   double factor = 0;               // largest mesh force over the mean one at rest
   double at = 0;                   // where
   std::optional<double> standard;  // K_v there
+  double error = -1;               // of the factor; below 0: not known
 };
 // meshes: none, nothing moves. no_standard: why there is no K_v.
 std::string dynamic_factor_line(const TurningMember& member, const std::vector<DynamicFactor>& meshes,

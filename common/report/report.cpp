@@ -6,6 +6,7 @@
 #include "gear/pair.h"
 #include "report/figures.h"
 #include "report/html.h"
+#include "report/measured_errors.h"
 #include "report/opening.h"
 #include "report/report_figures.h"
 #include "report/report_geometry.h"
@@ -22,15 +23,22 @@ namespace {
 std::string introduction(const ReportContent& c) {
   const StaticResult& s = c.statics[0];
   const GearPair pair(s);
+  const bool helical = s.gear[0].design.helical();
   std::vector<std::string> torques;
   for (const auto& a : c.statics) torques.push_back(shown(a.torque, 6));
-  std::string out =
-      text(s.mesh.gear[0], " (", s.gear[0].design.teeth, " teeth) drives ", s.mesh.gear[1], " (",
-           s.gear[1].design.teeth, " teeth), module ", shown(s.gear[0].design.module * kMilli, 4),
-           " mm, at a centre distance of ", shown(pair.centre_distance() * kMilli, 7), " mm: contact ratio ",
-           fixed(s.contact_ratio, 3), ", working pressure angle ",
-           fixed(pair.working_pressure_angle() * 180 / std::numbers::pi, 2),
-           "°. Torque on the driver: ", listed(torques), " N m.");
+  std::string out = text(
+      s.mesh.gear[0], " (", s.gear[0].design.teeth, " teeth) drives ", s.mesh.gear[1], " (",
+      s.gear[1].design.teeth, " teeth), ", helical ? "normal " : "", "module ",
+      shown(s.gear[0].design.module * kMilli, 4), " mm, ",
+      helical ? text("helix angle ", fixed(s.gear[0].design.helix_angle * 180 / std::numbers::pi, 2), "°, ")
+              : "",
+      "at a centre distance of ", shown(pair.centre_distance() * kMilli, 7), " mm: ",
+      helical ? text("transverse contact ratio ", fixed(s.contact_ratio, 3), ", overlap ratio ",
+                     fixed(pair.overlap_ratio(), 3), ", in all ",
+                     fixed(s.contact_ratio + pair.overlap_ratio(), 3))
+              : "contact ratio " + fixed(s.contact_ratio, 3),
+      ", working pressure angle ", fixed(pair.working_pressure_angle() * 180 / std::numbers::pi, 2),
+      "°. Torque on the driver: ", listed(torques), " N m.");
   if (!c.sweeps.empty()) {
     const Eigen::VectorXd& f = c.sweeps[0].mesh_frequency;
     const double rpm = 60.0 / s.gear[0].design.teeth;
@@ -39,7 +47,8 @@ std::string introduction(const ReportContent& c) {
   } else {
     out += " Without motion: only gears at rest are computed for such a scene.";
   }
-  return html::paragraph(out);
+  const std::string errors = words_on_errors(c);
+  return html::paragraph(out) + (errors.empty() ? "" : html::paragraph(errors));
 }
 
 void require_whole(const ReportContent& c) {
@@ -53,19 +62,21 @@ void require_whole(const ReportContent& c) {
 
 std::string report_tsv(const ReportContent& c) {
   require_whole(c);
-  std::string out = "# " + c.scene + "\ntorque [N m]\tquantity\tvalue\tunit\tremark\n";
+  std::string out = "# " + c.scene + "\ntorque [N m]\tquantity\tvalue\tunit\tremark\terror\n";
   for (const GeometryNumber& g : pair_geometry(c.statics[0]))
-    out += text("\t", g.quantity, "\t", g.value, "\t", g.unit, "\t\n");
+    out += text("\t", g.quantity, "\t", g.value, "\t", g.unit, "\t\t\n");
   const auto add = [&](const ReportNumber& r, const std::string& quantity, const std::string& unit,
-                       const std::string& value) {
+                       const std::string& value, const std::string& error) {
     // A column that holds numbers alone is read as numbers: words stand in the remark.
     const bool words = value.find_first_not_of("+-.0123456789e") != std::string::npos;
     const std::string remark = text(words ? value : "", words && !r.remark.empty() ? "; " : "", r.remark);
-    out += text(shown(r.torque, 6), "\t", quantity, "\t", words ? "" : value, "\t", unit, "\t", remark, "\n");
+    out += text(shown(r.torque, 6), "\t", quantity, "\t", words ? "" : value, "\t", unit, "\t", remark, "\t",
+                error, "\n");
   };
   for (const ReportNumber& r : report_numbers(c)) {
-    add(r, r.quantity, r.unit, r.value);
-    if (!r.rpm.empty() && r.rpm != r.value) add(r, r.quantity + ", as rotation of the driver", "rpm", r.rpm);
+    add(r, r.quantity, r.unit, r.value, r.error);
+    if (!r.rpm.empty() && r.rpm != r.value)
+      add(r, r.quantity + ", as rotation of the driver", "rpm", r.rpm, "");
   }
   return out;
 }
@@ -80,7 +91,7 @@ std::string report_html(const ReportContent& c) {
   add("remarks", "Warnings and remarks", remarks_list(c));
   add("guide", "What the numbers mean", guide_to_numbers(c));
   add("gears", "The gears", gears_table(c) + figures_of(c, "gears"));
-  add("rest", "At rest", stiffness_tables(c) + class_table(c) + figures_of(c, "rest"));
+  add("rest", "At rest", face_level(c) + stiffness_tables(c) + class_table(c) + figures_of(c, "rest"));
   add("frequencies", "Natural frequencies and damping",
       c.impacts.empty() ? "" : natural_frequencies_table(c));
   add("motion", "In motion", figures_of(c, "motion"));

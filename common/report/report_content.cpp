@@ -8,8 +8,10 @@
 #include <set>
 
 #include "base/error.h"
+#include "gear/drawing_quantities.h"
 #include "gear/pair.h"
 #include "io/summary.h"
+#include "report/figure_words.h"
 #include "report/figures.h"
 #include "signal/response.h"
 #include "signal/spectrum.h"
@@ -52,6 +54,7 @@ void require_one_pair(const ReportContent& c) {
   for (const auto& a : c.impacts) take(a, "an impact.h5");
   for (const auto& s : c.sweeps) take(s, text("a response.h5 ", s.direction));
   if (c.budget) take(*c.budget, "the error_budget.h5");
+  for (const auto& errors : c.errors) take(errors, text("a sweep_errors.h5 ", errors.direction));
 }
 
 TurningMember driver_of(const ReportContent& c) {
@@ -60,7 +63,11 @@ TurningMember driver_of(const ReportContent& c) {
 }
 
 double static_force(const StaticResult& s) {
-  return s.torque / ToothGeometry(s.gear[0].design).base_radius();
+  return normal_force(GearPair(s), s.torque);
+}
+
+std::string plain_force_name(const StaticResult& s) {
+  return rest_force_name(GearPair(s));
 }
 
 double peak_to_peak(const Eigen::VectorXd& v) {

@@ -10,6 +10,7 @@
 #include "results/impact.h"
 #include "results/response.h"
 #include "results/static.h"
+#include "results/sweep_errors.h"
 
 namespace whine {
 
@@ -33,6 +34,7 @@ struct ReportContent {
   std::vector<ImpactResult> impacts;
   std::vector<ResponseResult> sweeps;
   std::optional<ErrorBudgetResult> budget;
+  std::vector<SweepErrorsResult> errors = {};  // of one torque, one of each direction
   std::vector<ReportPicture> pictures;
   std::vector<ReportSource> sources;
   std::string figure_folder =
@@ -50,7 +52,8 @@ void require_one_pair(const ReportContent& c);
 // Whose rotation stands beside mesh frequencies; of content without statics one whose rotation is not known.
 TurningMember driver_of(const ReportContent& c);
 
-double static_force(const StaticResult& s);  // N: T / r_b
+double static_force(const StaticResult& s);           // N: normal_force()
+std::string plain_force_name(const StaticResult& s);  // "T / r_b", of helical gears "T / (r_b cos β_b)"
 double peak_to_peak(const Eigen::VectorXd& v);
 // N: largest load of a pair of a mesh whose tip edge touches, off the line of action.
 double tip_edge_load(const StaticResult& mesh);

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "base/error.h"
+#include "gear/pair.h"
 #include "report/figures.h"
 #include "report/html.h"
 #include "report/report_page.h"
@@ -30,7 +31,12 @@ std::string transmission_error_caption(const ReportContent& c) {
 }
 
 std::string stiffness_caption(const ReportContent& c) {
-  return "Mesh stiffness, the load over what it adds to the transmission error, over a mesh period and its harmonics; black: the rectangular wave that lumped models take instead. Its mean is " +
+  return text(
+             "Mesh stiffness, the load over what it adds to the transmission error, over a mesh period and its harmonics",
+             c.statics[0].gear[0].design.helical()
+                 ? ""
+                 : "; black: the rectangular wave that lumped models take instead",
+             ". Its mean is ") +
          at_torques(c, [](const auto& s) { return fixed(s.mean_stiffness * 1e-6, 1) + " N/µm"; }) + ".";
 }
 
@@ -38,9 +44,12 @@ std::string load_sharing_caption(const ReportContent& c) {
   const StaticResult& s = c.statics[0];
   return text(
       "The share of the load that a tooth pair carries on its way from the root of the driver's tooth to its tip (left), and the loads of all pairs over a mesh period at ",
-      torque_words(s.torque),
-      " (right). Grey lines: where contact begins and ends on the line of action, and between them the part with one pair; load beyond them is carried by tip edges. The contact ratio is ",
-      fixed(s.contact_ratio, 3), ".");
+      torque_words(s.torque), " (right). Grey lines: where contact begins and ends on the line of action, ",
+      s.gear[0].design.helical()
+          ? "and between them where the contact line reaches over the whole face, if it does"
+          : "and between them the part with one pair",
+      "; load beyond them is carried by tip edges. The contact ratio is ",
+      fixed(s.contact_ratio + GearPair(s).overlap_ratio(), 3), ".");
 }
 
 // Where sweeps at a torque (0: at any) go beyond the backlash; "" if none does.
@@ -106,7 +115,8 @@ std::string tooth_loads_caption(const ReportContent& c) {
   if (up && down) {
     const double load = std::max(up->tooth_load_max.maxCoeff(), down->tooth_load_max.maxCoeff());
     out += text(" At ", torque_words(s.torque), " it reaches ", fixed(load, 0), " N, ",
-                fixed(load / static_force(s), 2), " times T / r_b = ", fixed(static_force(s), 0), " N.");
+                fixed(load / static_force(s), 2), " times ", plain_force_name(s), " = ",
+                fixed(static_force(s), 0), " N.");
   }
   return out + beyond_words(c, s.torque);
 }
@@ -128,6 +138,30 @@ std::string bearings_caption(const ReportContent& c) {
 std::string losses_caption(const ReportContent& c) {
   return "Efficiency of the mesh (a) and the mean power that friction between the flanks takes (b) over speed, rising and falling; dotted: the efficiency at rest, by kinematics. Moments of friction about the two axes while the teeth pass through the mesh at rest (c). Oil, bearings and windage are left out, and so is what the dampers of the vibration take." +
          beyond_words(c, 0);
+}
+
+std::string flank_load_caption(const ReportContent& c) {
+  const StaticResult& s = c.statics[0];
+  return text(
+      "Load over the flank of the driver at ", torque_words(s.torque),
+      ", as a contact pattern shows it: line load over face and path of contact, root below and tip above (left); red: lines of contact, a quarter of a mesh period apart. Line load of each tooth pair over the face at mesh phase 0 (right). The face counts from its middle towards the viewer who sees the driver turn counter-clockwise. K_Hβ of the reference pair is ",
+      at_torques(c,
+                 [](const StaticResult& a) {
+                   return text(fixed(a.face.load_factor, 3), " ± ", significant(a.face.load_factor_error, 1));
+                 }),
+      ".");
+}
+
+std::string face_load_caption(const ReportContent& c) {
+  double most = 0;
+  for (const ResponseResult& s : c.sweeps)
+    if (s.torque == c.statics[0].torque && s.face_load_factor.size() > 0)
+      most = std::max(most, s.face_load_factor.maxCoeff());
+  return text("Face load factor K_Hβ and largest line load against speed at ",
+              torque_words(c.statics[0].torque),
+              ", of the tooth pair with the largest load at its instant. K_Hβ is ",
+              fixed(c.statics[0].face.load_factor, 3), " at rest and reaches ", fixed(most, 3), " in motion.",
+              beyond_words(c, c.statics[0].torque));
 }
 
 std::string budget_caption(const ReportContent& c) {
@@ -160,6 +194,7 @@ const std::vector<ExplainedFigure<ReportContent>>& explained_figures() {
                "Contact zone of the reference pair at the pitch point: strips, gap and pressure, beside Hertz's.")},
           {"transmission-error", "rest", "Static transmission error", transmission_error_caption},
           {"mesh-stiffness", "rest", "Mesh stiffness", stiffness_caption},
+          {"flank-load", "rest", "Load over the flank", flank_load_caption},
           {"load-sharing", "rest", "Load sharing", load_sharing_caption},
           {"sidebands", "rest", "Sidebands",
            same_words(
@@ -185,6 +220,7 @@ const std::vector<ExplainedFigure<ReportContent>>& explained_figures() {
            same_words(
                "Order cuts: amplitudes of the first orders of the mesh frequency in the dynamic transmission error against speed, rising and falling. Where the two differ there are two motions, and the order that is heard depends on where the speed came from.")},
           {"tooth-loads", "motion", "Tooth loads in motion", tooth_loads_caption},
+          {"face-load", "motion", "Load over the face in motion", face_load_caption},
           {"root-stress", "motion", "Root stress and dynamic factors", same_words("Largest tension along the roots beside the loaded flanks: while a tooth passes through the mesh at rest (a), and over speed (b). Dynamic factors (c) are the largest mesh force, tooth load and root stress at a speed, each sustained for 1/64 of a mesh period, over T / r_b or over the largest at rest; K_v is what ISO 6336-1, method B, says of gears without deviations.")},
           {"root-stress-branches", "motion", "Root stress along the branch",
            same_words(

@@ -21,13 +21,19 @@ std::vector<GeometryNumber> pair_geometry(const StaticResult& s) {
   };
   const auto degrees = [](double rad) { return fixed(rad * 180 / std::numbers::pi, 4); };
   const auto millimetres = [](double m) { return fixed(std::abs(m) < 1e-9 ? 0.0 : m * kMilli, 4); };
-  add("contact ratio", "1", fixed(pair.contact_ratio(), 4));
+  const bool helical = pair.base_helix_angle() != 0;
+  add(helical ? "transverse contact ratio" : "contact ratio", "1", fixed(pair.contact_ratio(), 4));
+  if (helical) {
+    add("overlap ratio", "1", fixed(pair.overlap_ratio(), 4));
+    add("helix angle at the reference circle", "deg", degrees(s.gear[0].design.helix_angle));
+    add("base helix angle", "deg", degrees(std::abs(pair.base_helix_angle())));
+  }
   add("centre distance", "mm", millimetres(pair.centre_distance()));
   add("working pressure angle", "deg", degrees(pair.working_pressure_angle()));
   add("base pitch", "mm", millimetres(pair.base_pitch()));
   add("path of contact, length", "mm", millimetres(pair.path_end() - pair.path_start()));
   add("path of contact before the pitch point", "mm", millimetres(-pair.path_start()));
-  add("normal backlash, along the line of action", "mm", millimetres(pair.backlash()));
+  add("normal backlash, along the line of action", "mm", millimetres(normal_backlash(pair)));
   add("circumferential backlash", "mm", millimetres(circumferential_backlash(pair)));
   const auto points = path_points(pair);
   for (int g = 0; g < kSides; ++g) {
@@ -41,8 +47,10 @@ std::vector<GeometryNumber> pair_geometry(const StaticResult& s) {
     add("tip diameter" + of, "mm", millimetres(2 * gear.tip_radius()));
     add("root diameter" + of, "mm", millimetres(2 * gear.root_radius()));
     add("SAP diameter, where the active profile starts" + of, "mm", at(g == 0 ? 0 : 4));
-    add("diameter d_B" + of, "mm", at(1));
-    add("diameter d_D" + of, "mm", at(3));
+    if (!helical) {
+      add("diameter d_B" + of, "mm", at(1));
+      add("diameter d_D" + of, "mm", at(3));
+    }
     add("form diameter, where the involute begins" + of, "mm",
         millimetres(2 * std::hypot(1.0, gear.form_roll_angle()) * gear.base_radius()));
     if (gear.undercut() > 0) {

@@ -11,7 +11,7 @@ namespace whine {
 namespace {
 
 // What is needed for a row to stand on the page.
-enum class Needs { nothing, rest, ring_down, motion, budget };
+enum class Needs { nothing, rest, ring_down, motion, one_slice, face, face_in_motion, budget };
 
 struct PairGuideRow {
   Needs needs;
@@ -40,6 +40,14 @@ constexpr PairGuideRow kRows[] = {
     {Needs::rest, "load-sharing", "Load sharing, static tooth load",
      "The part of the load that each pair carries. Load beyond the grey lines is carried by tip edges of bent teeth.",
      "0.1 to 0.2 %, tip edges included.", "Load at a tip edge: relieve the tips."},
+    {Needs::face, "flank-load", "Load over the face, K_Hβ at rest",
+     "Line load over face and path, as a contact pattern. K_Hβ is the largest over the mean line load of the reference pair at the pitch point; ISO 6336-1 has it of the whole mesh.",
+     "Of bodies in three dimensions 2 % of finite elements away from the ends of the face; of slices K_Hβ - 1 is half to two thirds of that. Shafts and bearings are rigid: give misalignment_um.",
+     "Lead crowning or end relief lower the ends; a lead slope takes up a misalignment."},
+    {Needs::face_in_motion, "face-load", "K_Hβ in motion",
+     "The same of the tooth pair with the largest load at the instant of that load, with speed rising and falling.",
+     "Slices, as at rest: compare it with K_Hβ of slices at rest. The load itself is as good as the vibration.",
+     "A factor that grows near a resonance goes with less load on a part of the face: look at the contact lost there."},
     {Needs::rest, "contact-zone", "Static contact pressure",
      "Largest pressure on a strip of the contact, inside a flank.",
      "2 % of Hertz's with 8 strips, 0.6 % with 15. At the kink of a linear relief and at tip edges it grows with the number of strips: there it is a warning, not a number.",
@@ -73,11 +81,11 @@ constexpr PairGuideRow kRows[] = {
      "Which frequencies sound at which speed. Orders of the mesh frequency run along rays; teeth that differ add orders of the shafts around them.",
      "Amplitudes as the RMS; below 1/1000 of the largest they are numerical.",
      "make histories AT=1250 shows the motion at one speed."},
-    {Needs::motion, "root-stress root-stress-branches", "Root stress, loss factor",
+    {Needs::one_slice, "root-stress root-stress-branches", "Root stress, loss factor",
      "Tension in the roots, at rest and in motion; sigma_F0 is that of ISO 6336-3, method B, with its own assumptions (one pair carries the load, a beam with a notch).",
      "At rest as the line root stress of the error budget; in motion as the tooth load, from which it follows as at rest: the inertia of the body, kept modes included, adds none.",
      "Raise element_order or lower element_mm if its line is above 1 %."},
-    {Needs::motion, "flank-pressure", "Flank pressure",
+    {Needs::one_slice, "flank-pressure", "Flank pressure",
      "Hertz's pressure of the load that a pair sustains inside its flanks for 1/64 of a mesh period. Over a tip edge the pressure is singular: the load is stated there, apart, and the map is grey; it is white where no load is sustained.",
      "Half of the relative error of the tooth load; strips at rest are within 2.1 % of it. Edges are sharp here and round in metal.",
      "A load over an edge asks for tip relief: make harris-map."},
@@ -115,6 +123,7 @@ bool has_picture(const ReportContent& c, const std::string& names) {
 }  // namespace
 
 std::string guide_to_numbers(const ReportContent& c) {
+  const bool over_face = !c.statics.front().face.none();
   const auto there = [&](const PairGuideRow& row) {
     const bool only_a_picture = !*row.next && *row.figures;
     if (only_a_picture) return has_picture(c, row.figures);
@@ -126,6 +135,12 @@ std::string guide_to_numbers(const ReportContent& c) {
         return !c.impacts.empty();
       case Needs::motion:
         return !c.sweeps.empty();
+      case Needs::one_slice:
+        return !c.sweeps.empty() && !over_face;
+      case Needs::face:
+        return over_face;
+      case Needs::face_in_motion:
+        return !c.sweeps.empty() && over_face;
       case Needs::budget:
         return c.budget.has_value();
     }

@@ -131,11 +131,13 @@ ReportContent read_report_content(const std::vector<std::string>& paths) {
       content.impacts.push_back(read_pair_impact(path));
     else if (schema == "whine/error_budget")
       content.budget = read<ErrorBudgetResult>(path);
+    else if (schema == "whine/sweep_errors")
+      content.errors.push_back(read<SweepErrorsResult>(path));
     else if (schema == "whine/response")
       sweeps.push_back(path);
     else
       fail(Failure::usage, path, ": is ", schema,
-           "; a report is made of static.h5, impact.h5, response.h5 and error_budget.h5");
+           "; a report is made of static.h5, impact.h5, response.h5, error_budget.h5 and sweep_errors.h5");
   });
   for (const std::string& path : sweeps) content.sweeps.push_back(read_response_of(content, path));
   require_one_pair(content);

@@ -4,6 +4,7 @@
 
 #include "report/figures.h"
 #include "report/iso_comparison.h"
+#include "report/measured_errors.h"
 #include "report/opening.h"
 
 namespace whine {
@@ -16,7 +17,11 @@ struct FirstTorque {
   const ResponseResult *up, *down;  // nullptr: none
   const ImpactResult* ring_down;    // likewise
   TurningMember driver;
+  const SweepErrorsResult *up_errors, *down_errors;  // likewise
 
+  const SweepErrorsResult* errors_of(const ResponseResult* r) const {
+    return r == up ? up_errors : down_errors;
+  }
   const ResponseResult* sweep() const { return up ? up : down; }
   std::optional<SpeedRange> speeds() const {
     if (!sweep()) return std::nullopt;
@@ -45,17 +50,22 @@ bool parts_at_torque(const ReportContent& c, double torque) {
   return false;
 }
 
-std::string pair_excitation(const StaticResult& s) {
+std::string pair_excitation(const StaticResult& s, const ErrorBudgetResult* budget) {
   const double swing = peak_to_peak(s.transmission_error),
                first = s.transmission_error_harmonic.size() > 1 ? s.transmission_error_harmonic[1] : 0;
-  return excitation_line(torque_words(s.torque), {{"", {swing, swing}, {first, first}}});
+  return excitation_line(torque_words(s.torque),
+                         {{"",
+                           {swing, swing, swing * sum_of(budget, &StaticChanges::peak_to_peak_change)},
+                           {first, first, harmonic_error(budget, 1, first)}}});
 }
 
 std::string pair_critical_speeds(const FirstTorque& t) {
   CriticalSpeeds out{t.driver, t.speeds(), {}, {}};
   const ResponseResult* r = t.sweep();
   if (r && r->natural_frequency > 0)
-    out.natural.push_back({r->natural_frequency, "the natural frequency of the mesh"});
+    out.natural.push_back(
+        {r->natural_frequency, "the natural frequency of the mesh",
+         t.errors_of(r) ? t.errors_of(r)->natural_frequency_error * r->natural_frequency : kNoError});
   else if (t.ring_down && t.ring_down->states.natural_frequency.size() > 0)
     out.natural.push_back(
         {t.ring_down->states.natural_frequency[t.ring_down->states.natural_frequency.size() - 1],
@@ -92,7 +102,9 @@ std::string pair_dynamic_factor(const FirstTorque& t) {
     of = r;
   }
   if (!most) return dynamic_factor_line(t.driver, {}, "");
-  return dynamic_factor_line(t.driver, {{"", most->factor, of->mesh_frequency[most->row], most->standard}},
+  const double at = of->mesh_frequency[most->row],
+               error = error_near(t.errors_of(of), &SweepErrorsResult::mesh_force_max, at);
+  return dynamic_factor_line(t.driver, {{"", most->factor, at, most->standard, error * most->factor}},
                              most->why_none);
 }
 
@@ -143,10 +155,15 @@ std::string pair_advice(const FirstTorque& t) {
 
 std::vector<std::string> opening_lines(const ReportContent& c) {
   const StaticResult& s = c.statics.front();
-  const FirstTorque t{s, sweep_of(c, s.torque, Direction::up), sweep_of(c, s.torque, Direction::down),
-                      impact_of(c, s.torque), driver_of(c)};
-  return {pair_excitation(s), pair_critical_speeds(t), pair_parting(c, t), pair_dynamic_factor(t),
-          pair_advice(t)};
+  const FirstTorque t{s,
+                      sweep_of(c, s.torque, Direction::up),
+                      sweep_of(c, s.torque, Direction::down),
+                      impact_of(c, s.torque),
+                      driver_of(c),
+                      errors_of(c, s.torque, Direction::up),
+                      errors_of(c, s.torque, Direction::down)};
+  return {pair_excitation(s, budget_of(c, s.torque)), pair_critical_speeds(t), pair_parting(c, t),
+          pair_dynamic_factor(t), pair_advice(t)};
 }
 
 }  // namespace whine

@@ -12,13 +12,15 @@ struct ReportNumber {
   double torque;      // N m, of a train on the driving gear of the mesh
   std::string quantity, unit, value;
   std::string remark = "";
-  std::string way = "";  // end of `quantity` that says the direction of the sweep: ", speed rising"
-  std::string rpm = "";  // of mesh frequencies: the same as the rotation of the driver
-  size_t column = 0;     // which torque, which mesh
+  std::string way = "";    // end of `quantity` that says the direction of the sweep: ", speed rising"
+  std::string rpm = "";    // of mesh frequencies: the same as the rotation of the driver
+  size_t column = 0;       // which torque, which mesh
+  std::string error = "";  // of `value`, in its unit; "": not known
 };
 
-// What one mesh at rest says: excitation, loads, stress, losses.
-std::vector<ReportNumber> mesh_at_rest(const StaticResult& s, size_t column);
+// What one mesh at rest says: excitation, loads, stress, losses; with the errors of the budget (nullptr: none).
+std::vector<ReportNumber> mesh_at_rest(const StaticResult& s, size_t column,
+                                       const ErrorBudgetResult* budget = nullptr);
 
 // In the order of the torques.
 std::vector<ReportNumber> report_numbers(const ReportContent& c);

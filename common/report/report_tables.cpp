@@ -10,6 +10,7 @@
 #include "base/units.h"
 #include "gear/body_inertia.h"
 #include "gear/drawing_quantities.h"
+#include "gear/helix.h"
 #include "gear/pair.h"
 #include "gear/path_points.h"
 #include "io/scene_keys.h"
@@ -58,8 +59,10 @@ void add_meeting_rows(const GearPair& pair, html::Rows& rows) {
                     fixed(points[driven].diameter[1] * kMilli, 3)});
   };
   diameter("diameter where the active profile starts (SAP)", 0, 4);
-  diameter("diameter at B, from where one pair carries alone", 1, 1);
-  diameter("diameter at D, up to where it does", 3, 3);
+  if (pair.base_helix_angle() == 0) {
+    diameter("diameter at B, from where one pair carries alone", 1, 1);
+    diameter("diameter at D, up to where it does", 3, 3);
+  }
   for (const auto& [what, at] : {std::pair{"specific sliding where a pair comes into contact", 0},
                                  std::pair{"specific sliding where it leaves", 4}}) {
     const auto sliding = specific_sliding(pair, points[static_cast<size_t>(at)].path);
@@ -98,9 +101,19 @@ html::Rows drawing_rows(const std::vector<ToothGeometry>& gears) {
   if (std::any_of(gears.begin(), gears.end(), [](G g) { return g.internal(); }))
     all("kind", "–", [](G g) { return std::string(g.internal() ? "internal" : "external"); });
   all("teeth", "–", [](G g) { return text(g.design().teeth); });
-  all("module", "mm", [](G g) { return shown(g.design().module * kMilli, 7); });
-  all("pressure angle of the rack", "deg",
+  const bool helical = std::any_of(gears.begin(), gears.end(), [](G g) { return g.design().helical(); });
+  all(helical ? "normal module" : "module", "mm", [](G g) { return shown(g.design().module * kMilli, 7); });
+  all(helical ? "normal pressure angle of the rack" : "pressure angle of the rack", "deg",
       [](G g) { return shown(g.design().pressure_angle * kInDegrees, 6); });
+  if (helical) {
+    all("helix angle at the reference circle, hand", "deg",
+        [](G g) { return text(shown(g.design().helix_angle * kInDegrees, 6), ", ", g.design().hand); });
+    all("transverse module", "mm",
+        [](G g) { return shown(transverse_section(g.design()).module * kMilli, 6); });
+    all("transverse pressure angle", "deg",
+        [&](G g) { return degrees(transverse_section(g.design()).pressure_angle); });
+    all("base helix angle", "deg", [&](G g) { return degrees(std::abs(base_helix_angle(g.design()))); });
+  }
   all("profile shift", "modules", [](G g) { return shown(g.design().profile_shift, 6); });
   all("base diameter", "mm", [&](G g) { return mm(2 * g.base_radius()); });
   all("reference diameter", "mm", [&](G g) { return mm(2 * g.pitch_radius()); });
@@ -114,8 +127,12 @@ html::Rows drawing_rows(const std::vector<ToothGeometry>& gears) {
   all("roll angle where the involute begins", "deg", [&](G g) { return degrees(g.form_roll_angle()); });
   all("roll angle at the tip", "deg", [&](G g) { return degrees(g.tip_roll_angle()); });
   all("tooth thickness at the tip", "mm", [&](G g) { return mm(g.thickness_at_radius(g.tip_radius())); });
-  all("tooth thickness at the reference circle (transverse and normal)", "mm",
-      [&](G g) { return mm(reference_thickness(g)); });
+  all(helical ? "transverse tooth thickness at the reference circle"
+              : "tooth thickness at the reference circle (transverse and normal)",
+      "mm", [&](G g) { return mm(reference_thickness(g)); });
+  if (helical)
+    all("normal tooth thickness there", "mm",
+        [&](G g) { return mm(reference_thickness(g) * std::cos(g.design().helix_angle)); });
   all("span W_k over k teeth", "mm", [&](G g) {
     const std::optional<Span> span = span_measurement(g);
     return span ? text(mm(span->length), ", k = ", span->teeth) : html::kNoValue;
@@ -140,10 +157,18 @@ html::Rows mesh_rows(const std::vector<GearPair>& meshes) {
   all("centre distance", "mm", [](P p) { return shown(p.centre_distance() * kMilli, 7); });
   all("working pressure angle", "deg", [](P p) { return fixed(p.working_pressure_angle() * kInDegrees, 3); });
   all("base pitch", "mm", [](P p) { return fixed(p.base_pitch() * kMilli, 4); });
-  all("contact ratio", "–", [](P p) { return fixed(p.contact_ratio(), 4); });
+  const bool helical =
+      std::any_of(meshes.begin(), meshes.end(), [](P p) { return p.base_helix_angle() != 0; });
+  all(helical ? "transverse contact ratio" : "contact ratio", "–",
+      [](P p) { return fixed(p.contact_ratio(), 4); });
+  if (helical) {
+    all("overlap ratio", "–", [](P p) { return fixed(p.overlap_ratio(), 4); });
+    all("total contact ratio", "–", [](P p) { return fixed(p.contact_ratio() + p.overlap_ratio(), 4); });
+  }
   all("path of contact before the pitch point", "mm", [](P p) { return fixed(-p.path_start() * kMilli, 3); });
   all("path of contact after it", "mm", [](P p) { return fixed(p.path_end() * kMilli, 3); });
-  all("normal backlash, along the line of action", "mm", [&](P p) { return backlash(p, p.backlash()); });
+  all("normal backlash, along the line of action", "mm",
+      [&](P p) { return backlash(p, normal_backlash(p)); });
   all("circumferential backlash, on the working pitch circles", "mm",
       [&](P p) { return backlash(p, circumferential_backlash(p)); });
   return rows;
@@ -208,6 +233,31 @@ std::string stiffness_tables(const ReportContent& c) {
   return out;
 }
 
+std::string face_level(const ReportContent& c) {
+  const StaticResult& s = c.statics.front();
+  if (s.face.none()) return "";
+  std::string out = text(
+      "Load over the face: contact at ", s.face.line_load[0].cols(), " points along each contact line, on ",
+      s.face.degree > 0 ? text("bodies in three dimensions, polynomials to degree ", s.face.degree)
+                        : "teeth that carry each section by itself (width = \"slices\")",
+      ". K_Hβ, the largest over the mean line load of the reference pair at the pitch point, is ",
+      fixed(s.face.load_factor, 3), " ± ", shown(s.face.load_factor_error, 1), " at ", torque_words(s.torque),
+      ".");
+  if (c.budget && c.budget->choice.load_factor_change.size() > 0) {
+    const StaticChanges& next = c.budget->choice;
+    const auto percent = [](double share) {
+      return text(share < 0 ? "" : "+", fixed(share * kPercent, 1), " %");
+    };
+    out += text(" The next level over the face, bodies in three dimensions, makes it ",
+                fixed(s.face.load_factor * (1 + next.load_factor_change[0]), 3),
+                ", and changes the mean stiffness by ", percent(next.mean_stiffness_change[0]),
+                ", the peak-to-peak transmission error by ", percent(next.peak_to_peak_change[0]),
+                " and its first harmonic by ", percent(next.harmonic_change(0, 0)),
+                ": width = \"body\" in [fidelity] takes it, of gears at rest.");
+  }
+  return html::paragraph(out);
+}
+
 std::string natural_frequencies_table(const ReportContent& c) {
   const TurningMember driver = driver_of(c);
   html::Rows rows;
@@ -257,6 +307,7 @@ std::string root_refinement_table(const ErrorBudgetResult& b) {
 
 std::string budget_table(const ErrorBudgetResult& b) {
   html::Rows rows;
+  const bool over_face = b.fidelity.width != WidthModel::one;
   const auto add = [&](const StaticChanges& changes, const std::string& what) {
     std::string rest = changes.entry;
     for (Index i = 0; i < changes.mean_stiffness_change.size(); ++i) {
@@ -266,9 +317,12 @@ std::string budget_table(const ErrorBudgetResult& b) {
         return fixed(std::abs(share * kPercent) < 5e-5 ? 0 : share * kPercent, 4);
       };
       rows.push_back({what, rest.substr(0, comma), percent(changes.mean_stiffness_change[i]),
-                      percent(changes.peak_to_peak_change[i]), percent(changes.harmonic_change(i, 0)),
-                      i < changes.pressure_change.size() ? percent(changes.pressure_change[i]) : "–",
-                      i < changes.root_stress_change.size() ? percent(changes.root_stress_change[i]) : "–"});
+                      percent(changes.peak_to_peak_change[i]), percent(changes.harmonic_change(i, 0))});
+      const auto known = [&](const Eigen::VectorXd& change) {
+        rows.back().push_back(i < change.size() ? percent(change[i]) : "–");
+      };
+      known(changes.pressure_change);
+      known(over_face ? changes.load_factor_change : changes.root_stress_change);
       rest = comma == std::string::npos ? "" : rest.substr(comma + 2);
     }
   };
@@ -277,7 +331,7 @@ std::string budget_table(const ErrorBudgetResult& b) {
   return html::table("What each refinement alone changes in the statics at " + torque_words(b.torque) +
                          ". Another model is no error of this one and in no sum.",
                      {"", "change", "mean stiffness (%)", "peak to peak (%)", "harmonic 1 (%)",
-                      "flank pressure (%)", "root stress (%)"},
+                      "flank pressure (%)", over_face ? "K_Hβ (%)" : "root stress (%)"},
                      rows) +
          root_refinement_table(b) +
          (b.choice_missing.empty() ? "" : html::paragraph("Not computed: " + b.choice_missing + "."));

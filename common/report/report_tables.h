@@ -16,6 +16,8 @@ std::string gears_table(const ReportContent& c);
 std::string stiffness_tables(const ReportContent& c);
 // What classes of ISO 1328-1 may add to the peak-to-peak transmission error; of gears outside of its formulas why not.
 std::string class_table(const ReportContent& c);
+// Which model level over the face the first torque has, K_Hbeta with its error, and what the next level changes; "" of one slice.
+std::string face_level(const ReportContent& c);
 std::string natural_frequencies_table(const ReportContent& c);
 std::string budget_table(const ErrorBudgetResult& b);
 // Values of gears side by side, of what is no gear's in the first column; then what stands in no artifact's keys; of sweeps their speeds.

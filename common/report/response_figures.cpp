@@ -136,6 +136,20 @@ std::string cause_words(const ChoicePanel<ResponseResult>::Curve& curve, const B
   return words;
 }
 
+// RMS at the judged speeds with its discretisation error either way.
+FigureBlock error_block(const std::string& name, const SweepErrorsResult& errors) {
+  FigureBlock block{name,
+                    {"mesh_frequency [Hz]", "dte_rms [µm]", "least [µm]", "most [µm]"},
+                    {},
+                    "discretisation errors",
+                    name};
+  for (Eigen::Index i = 0; i < errors.mesh_frequency.size(); ++i) {
+    const double rms = errors.dte_rms.value(i, 0) * kMicro, off = rms * errors.dte_rms.error(i, 0);
+    block.rows.push_back({errors.mesh_frequency[i], rms, std::max(0.0, rms - off), rms + off});
+  }
+  return block;
+}
+
 // One torque or flank of a panel: both directions, the branch beside them, its natural frequency. "150 N m: jumps rising 2645,
 // falling 1819 Hz"
 std::string add_curve(Figure& figure, const std::string& letter, const std::string& label,
@@ -152,6 +166,10 @@ std::string add_curve(Figure& figure, const std::string& letter, const std::stri
     p.peak = std::max(p.peak, r->dte_rms.maxCoeff() * kMicro);
     p.lost |= r->separation_fraction.maxCoeff() > 0;
     p.jumps |= r->jump_frequency.size() > 0;
+    if (const SweepErrorsResult* errors = errors_of(*r, background)) {
+      figure.blocks.push_back(error_block(text(name, "errors ", r->direction), *errors));
+      p.errors.push_back(figure.blocks.back().name);
+    }
   }
   const BranchResult* branch = branch_of(*curve.up, background);
   if (branch) {
@@ -346,8 +364,7 @@ Figure bearing_force_figure(const std::vector<ResponseResult>& sweeps, const Cap
       }
     }
   }
-  const double at_rest = curve.up->torque / GearPair(*curve.up).gear(0).base_radius();
-  largest.rules.push_back({'y', at_rest, text("T / r_b = ", fixed(at_rest, 0), " N"), kGreen, 2, true});
+  largest.rules.push_back(rest_rule(GearPair(*curve.up), curve.up->torque));
   for (Panel* panel : {&oscillating, &largest}) {
     panel->curves.push_back({.colour = kDark, .label = "dashed: falling", .dash = 3});
     figure.panels.push_back(*panel);

@@ -122,6 +122,7 @@ void add_key(const std::vector<std::string>& labels, ResponsePanels& p) {
   if (p.jumps) entry(line, "jump", kDark, 2, 0), entry(line, "to the end of the branch", kDark, 6, 0);
   if (p.lost) entry(points, "contact lost", kDark, 1, 5, 0.8);
   if (p.beyond) entry(points, "beyond the backlash, where back flanks would touch", kBlack, 1, 6);
+  if (!p.errors.empty()) entry(PanelStyle::ranges, "discretisation error", kBlack, 1, 0, 0);
   if (!p.branches) return;
   const int colour = p.alone ? kGreen : kDark;
   entry(line, "stable orbits", colour, 1, 0);
@@ -173,6 +174,14 @@ void draw_response(bool with_branch, ResponsePanels& p) {
 
 void finish(const std::vector<std::string>& labels, const std::vector<double>& natural_frequency,
             ResponsePanels& p) {
+  for (const std::string& block : p.errors)
+    p.rms.curves.push_back({.block = block,
+                            .style = PanelStyle::ranges,
+                            .colour = kBlack,
+                            .width = 1.6,
+                            .mark = 0,
+                            .size = 0,
+                            .box = {1, 1, 3, 4}});
   draw_losses(p);
   add_key(labels, p);
   add_resonances(natural_frequency, p);

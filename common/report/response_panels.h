@@ -9,10 +9,11 @@
 namespace whine {
 
 struct ResponsePanels {
-  Panel rms, mean;                 // over the same speeds
-  std::vector<std::string> names;  // of its curves: how their blocks begin
-  int stride = 1;                  // between marks: of neighbours they would run into each other
-  double peak = 0;                 // µm, of the RMS
+  Panel rms, mean;                       // over the same speeds
+  std::vector<std::string> names;        // of its curves: how their blocks begin
+  std::vector<std::string> errors = {};  // blocks of discretisation errors
+  int stride = 1;                        // between marks: of neighbours they would run into each other
+  double peak = 0;                       // µm, of the RMS
   bool alone = true, lost = false, beyond = false, jumps = false, branches = false;
 };
 

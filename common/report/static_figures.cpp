@@ -168,9 +168,12 @@ Figure mesh_stiffness_figure(const std::vector<StaticResult>& statics) {
   figure.title = text("Mesh stiffness: torque / (base radius × (static − unloaded transmission error",
                       bearings ? " − that of the bearings" : "", "))");
   figure.notes.push_back(pair_words(statics[0]));
-  figure.notes.push_back(
-      text("rectangular wave: levels at the middle of the zones of few and of many pairs at ",
-           torque_label(first), ", steps where pairs come and go without load"));
+  // Of a helical pair loads come and go along the face, and no lumped model takes such a wave.
+  const bool waved = !first.gear[0].design.helical();
+  if (waved)
+    figure.notes.push_back(
+        text("rectangular wave: levels at the middle of the zones of few and of many pairs at ",
+             torque_label(first), ", steps where pairs come and go without load"));
 
   const std::string unit = "N/µm";
   FigureBlock rectangle{"rectangular wave", {"mesh_phase [1]", "mesh_stiffness [" + unit + "]"}, {}};
@@ -188,8 +191,8 @@ Figure mesh_stiffness_figure(const std::vector<StaticResult>& statics) {
   for (const auto& row : spectrum.rows)
     rectangle_spectrum.rows.push_back({row[0], wave.amplitude(static_cast<int>(row[0])) * kMega});
 
-  figure.blocks = {period_block("mesh_stiffness", unit, first.mesh_phase, 1, curves), rectangle, spectrum,
-                   rectangle_spectrum};
+  figure.blocks = {period_block("mesh_stiffness", unit, first.mesh_phase, 1, curves), spectrum};
+  if (waved) figure.blocks = {figure.blocks[0], rectangle, spectrum, rectangle_spectrum};
   std::vector<std::string> labels;
   labels.reserve(statics.size());
   for (const auto& s : statics)
@@ -201,10 +204,11 @@ Figure mesh_stiffness_figure(const std::vector<StaticResult>& statics) {
                          .width = 1.6,
                          .mark = 3,
                          .size = 2};
-  figure.panels = {period_panel("Mesh stiffness (N/µm)", "mesh_stiffness", labels),
-                   harmonics_panel("Amplitude (N/µm)", "mesh_stiffness harmonics", labels, black)};
+  figure.panels = {
+      period_panel("Mesh stiffness (N/µm)", "mesh_stiffness", labels),
+      harmonics_panel("Amplitude (N/µm)", "mesh_stiffness harmonics", labels, waved ? black : PanelCurve{})};
   std::vector<PanelCurve>& drawn = figure.panels[0].curves;
-  drawn.insert(drawn.begin(), {.block = rectangle.name, .colour = kBlack, .width = 3});
+  if (waved) drawn.insert(drawn.begin(), {.block = rectangle.name, .colour = kBlack, .width = 3});
   figure.columns = 2;
   return figure;
 }
@@ -226,7 +230,7 @@ Panel loads_panel(const StaticResult& first, int from, int to) {
                                            : text(j > 0 ? "preceding pair" : "following pair",
                                                   std::abs(j) > 1 ? text(" ", std::abs(j)) : ""),
                            .width = 2.6});
-  each.rules = {rest_rule(first.torque / ToothGeometry(first.gear[0].design).base_radius())};
+  each.rules = {rest_rule(GearPair(first), first.torque)};
   return each;
 }
 
@@ -280,8 +284,9 @@ Figure load_sharing_figure(const std::vector<StaticResult>& statics) {
     for (int j = from; j <= to; ++j) row.push_back(i < n ? load(first, i, j) : load(first, 0, j + 1));
     loads.rows.push_back(row);
   }
-  const double pitch = pair.base_pitch(), path_start = pair.path_start() / pitch,
-               path_end = pair.path_end() / pitch;
+  // Half of the overlap, by which a contact line reaches beyond the middle of the face.
+  const double pitch = pair.base_pitch(), overlap = 0.5 * pair.overlap_ratio(),
+               path_start = pair.path_start() / pitch - overlap, path_end = pair.path_end() / pitch + overlap;
   Panel shares{.x = {.label = "Phase of the pair (mesh periods, 0: pitch point)",
                      .from = path_start - 0.35,
                      .to = path_end + 0.35},
@@ -300,12 +305,18 @@ Figure load_sharing_figure(const std::vector<StaticResult>& statics) {
                              .width = 1.8 + 1.1 * static_cast<double>(statics.size() - 1 - i)});
     alone += text(alone.empty() ? "" : ", ", percent, " % at ", torque_label(statics[i]));
   }
-  // On the line of action: first and last contact, and between them the part with one pair alone.
+  // On the line of action: first and last contact, and between them the part with one pair alone, of helical pairs that with a line over
+  // the whole face.
   for (const double end : {path_start, path_end}) shares.rules.push_back({'x', end, "", kDark});
-  for (const double end : {path_end - 1, path_start + 1}) shares.rules.push_back({'x', end, "", kGrey});
+  const double whole = overlap > 0 ? 2 * overlap : 1;
+  if (overlap == 0 || path_end - path_start > 2 * whole)
+    for (const double end : overlap > 0 ? std::array{path_start + whole, path_end - whole}
+                                        : std::array{path_end - 1, path_start + 1})
+      shares.rules.push_back({'x', end, "", kGrey});
   figure.notes.push_back(text("one pair alone carries the load for ", alone,
                               " of the mesh period; on the line of action alone it would for ",
-                              fixed(kPercent * std::max(0.0, 2 - first.contact_ratio), 0), " %"));
+                              fixed(kPercent * std::max(0.0, 2 - first.contact_ratio - 2 * overlap), 0),
+                              " %"));
   figure.blocks = {share, loads};
   figure.panels = {shares, loads_panel(first, from, to)};
   figure.columns = 2;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/format.h"
 #include "report/figure_words.h"
 
 namespace whine {
@@ -26,9 +27,9 @@ FigureBlock errors_block(const SweepErrorsResult& a) {
   std::sort(order.begin(), order.end(),
             [&](Index i, Index j) { return a.mesh_frequency[i] < a.mesh_frequency[j]; });
   for (const Index i : order) {
-    std::vector<double> row{a.mesh_frequency[i], a.dte_rms_error.row(i).maxCoeff() * kPercent};
+    std::vector<double> row{a.mesh_frequency[i], a.dte_rms.error.row(i).maxCoeff() * kPercent};
     for (size_t e = 0; e < a.entry.size(); ++e)
-      row.push_back(a.dte_rms_change[e].row(i).cwiseAbs().maxCoeff() * kPercent);
+      row.push_back(a.dte_rms.change[e].row(i).cwiseAbs().maxCoeff() * kPercent);
     block.rows.push_back(std::move(row));
   }
   return block;
@@ -41,8 +42,13 @@ FigureBlock rms_block(const SweepErrorsResult& a) {
                     "motion",
                     name_of(a.direction)};
   for (Index i = 0; i < a.mesh_frequency.size(); ++i) {
-    const double rms = a.dte_rms(i, 0) * kMicro, off = rms * a.dte_rms_error(i, 0);
+    const double rms = a.dte_rms.value(i, 0) * kMicro, off = rms * a.dte_rms.error(i, 0);
     block.rows.push_back({a.mesh_frequency[i], rms, std::max(0.0, rms - off), rms + off});
+    const double next = i + 1 < a.mesh_frequency.size() ? a.mesh_frequency[i + 1] : a.mesh_frequency[i];
+    if ((a.jump_frequency.array() > std::min(a.mesh_frequency[i], next) &&
+         a.jump_frequency.array() < std::max(a.mesh_frequency[i], next))
+            .any())
+      block.rows.emplace_back();
   }
   return block;
 }
@@ -51,7 +57,7 @@ FigureBlock rms_block(const SweepErrorsResult& a) {
 std::string jumps_note(const SweepErrorsResult& a) {
   std::string words = text("jumps, speed ", a.direction == Direction::up ? "rising" : "falling", ":");
   for (Index j = 0; j < a.jump_frequency.size(); ++j)
-    words += text(j ? ", " : " ", fixed(a.jump_frequency[j], 1), " ± ", shown(a.jump_error[j], 2), " Hz",
+    words += text(j ? ", " : " ", told(a.jump_frequency[j], a.jump_error[j], 6).words(), " Hz",
                   a.jump_found.col(j).minCoeff() == 0 ? "*" : "");
   return a.jump_frequency.size() > 0 ? words : words + " none";
 }
@@ -83,16 +89,18 @@ Figure sweep_errors_figure(const std::vector<SweepErrorsResult>& sweeps) {
     fail(Failure::input, "motion-errors: takes one sweep_errors.h5, or one of each direction");
   Figure figure;
   figure.title = "Discretisation errors of the motion";
+  if (!sweeps[0].of_train()) figure.title += ", " + torque_words(sweeps[0].torque);
   Panel motion{.x = {.speed = true}, .y = {.label = "RMS of DTE (µm)", .from_zero = true, .level = true}};
   for (const SweepErrorsResult& a : sweeps) {
     figure.blocks.push_back(rms_block(a));
     const int colour = a.direction == Direction::up ? kBlue : kVermilion;
+    motion.curves.push_back({.block = figure.blocks.back().name, .colour = colour, .width = 1.2});
     motion.curves.push_back({.block = figure.blocks.back().name,
                              .style = PanelStyle::ranges,
                              .colour = colour,
                              .label = a.direction == Direction::up ? "speed rising" : "speed falling",
                              .size = 0.8,
-                             .box = {0, 0, 3, 4}});
+                             .box = {1, 1, 3, 4}});
     figure.notes.push_back(jumps_note(a));
   }
   figure.panels.push_back(std::move(motion));

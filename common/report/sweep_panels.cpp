@@ -160,15 +160,28 @@ std::string curve_label(const ChoicePanel<Sweep>& panel, const Sweep& s) {
   return flanks + (torques ? ", " + torque_words(s.torque) : "");
 }
 
-const BranchResult* branch_of(const ResponseResult& r, const CaptionSources& background) {
+namespace {
+
+template <class Artifact>
+const Artifact* found_for(const ResponseResult& r, const std::vector<Artifact>& all, const auto& also) {
   if (!elastic(r)) return nullptr;
-  const auto found =
-      std::find_if(background.branches.begin(), background.branches.end(), [&](const BranchResult& b) {
-        return b.torque == r.torque && gears_with_model(b) == gears_with_model(r) &&
-               b.mesh.modification == r.mesh.modification && b.fidelity.body == r.fidelity.body &&
-               b.fidelity.contact == r.fidelity.contact && b.fidelity.integrator == r.fidelity.integrator;
-      });
-  return found == background.branches.end() ? nullptr : &*found;
+  for (const Artifact& a : all)
+    if (a.torque == r.torque && gears_with_model(a) == gears_with_model(r) &&
+        a.mesh.modification == r.mesh.modification && a.fidelity.body == r.fidelity.body &&
+        a.fidelity.contact == r.fidelity.contact && a.fidelity.integrator == r.fidelity.integrator && also(a))
+      return &a;
+  return nullptr;
+}
+
+}  // namespace
+
+const BranchResult* branch_of(const ResponseResult& r, const CaptionSources& background) {
+  return found_for(r, background.branches, [](const BranchResult&) { return true; });
+}
+
+const SweepErrorsResult* errors_of(const ResponseResult& r, const CaptionSources& background) {
+  return found_for(r, background.errors,
+                   [&](const SweepErrorsResult& errors) { return errors.direction == r.direction; });
 }
 
 template <class Sweep>

@@ -5,6 +5,7 @@
 #include "results/impact.h"
 #include "results/response.h"
 #include "results/sweep.h"
+#include "results/sweep_errors.h"
 
 namespace whine {
 
@@ -14,7 +15,8 @@ struct CaptionSources {
   std::vector<LumpedParameters> lumped = {};  // of each sweep, empty for elastic gears; or none
   std::vector<ImpactResult> impacts =
       {};  // for damping ratios, of any gears and torques; found by what they were made from
-  std::vector<BranchResult> branches = {};  // for unstable orbits and folds; found likewise
+  std::vector<BranchResult> branches = {};     // for unstable orbits and folds; found likewise
+  std::vector<SweepErrorsResult> errors = {};  // for bars of the RMS; found likewise
 };
 
 // Sweeps of the same choices, both directions of each curve. Curves, of other torques or flanks, stand in the order in which they
@@ -61,7 +63,8 @@ std::string operating_words(const ChoicePanel<Sweep>& panel, const CaptionSource
 template <class Sweep>
 std::string curve_label(const ChoicePanel<Sweep>& panel, const Sweep& s);
 
-// The branch of a sweep's pair at its torque; none if it is not among them.
+// The branch of a sweep's pair at its torque; none if it is not among them. Its errors, likewise.
+const SweepErrorsResult* errors_of(const ResponseResult& r, const CaptionSources& background);
 const BranchResult* branch_of(const ResponseResult& r, const CaptionSources& background);
 
 }  // namespace whine

@@ -18,6 +18,8 @@ struct StaticChanges {
   MatrixRM harmonic_change;  // (entry, harmonic 1..5) 1, of the transmission error, over its first harmonic
   // (entry) 1, relative, of the largest root stress of both gears: the change that is larger; empty: not known
   Eigen::VectorXd root_stress_change = {};
+  // (entry) 1, relative, of K_Hbeta of the reference pair at mesh phase 0; empty: of one slice over the face
+  Eigen::VectorXd load_factor_change = {};
 };
 
 // Largest root stress at rest, read from meshes with elements of several sizes on the roots; from coarse, those of the result, to fine.

@@ -7,6 +7,8 @@
 #include "base/error.h"
 #include "signal/spectrum.h"
 #include "studies/refinement.h"
+#include "studies/width_levels.h"
+#include "system/face_points.h"
 #include "system/flank_pressure.h"
 #include "system/statics.h"
 
@@ -22,14 +24,15 @@ struct Outcome {
   double mean_stiffness, peak_to_peak, pressure;
   VectorXd harmonic;
   VectorXd root_stress;  // (gear) Pa, empty: not known
+  double load_factor;    // 0: of one slice
 };
 
 using NamedOutcomes = std::vector<std::pair<std::string, Outcome>>;
 
 Outcome outcome(const StaticResult& s) {
-  return {s.mean_stiffness, s.transmission_error.maxCoeff() - s.transmission_error.minCoeff(),
+  return {s.mean_stiffness,        s.transmission_error.maxCoeff() - s.transmission_error.minCoeff(),
           s.flank_pressure.smooth, harmonics(s.transmission_error, kJudgedHarmonics).amplitude,
-          s.root_stress_max};
+          s.root_stress_max,       s.face.none() ? 0 : s.face.load_factor};
 }
 
 StaticChanges changes(const NamedOutcomes& others, const Outcome& reference) {
@@ -40,12 +43,15 @@ StaticChanges changes(const NamedOutcomes& others, const Outcome& reference) {
   result.harmonic_change.resize(count, kJudgedHarmonics);
   if (reference.pressure > 0) result.pressure_change.resize(count);
   if (reference.root_stress.size() > 0) result.root_stress_change.resize(count);
+  if (reference.load_factor > 0) result.load_factor_change.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto& [name, other] = others[i];
     result.entry += (i ? ", " : "") + name;
     result.mean_stiffness_change[i] = other.mean_stiffness / reference.mean_stiffness - 1;
     result.peak_to_peak_change[i] = other.peak_to_peak / reference.peak_to_peak - 1;
     if (reference.pressure > 0) result.pressure_change[i] = other.pressure / reference.pressure - 1;
+    if (reference.load_factor > 0)
+      result.load_factor_change[i] = other.load_factor / reference.load_factor - 1;
     if (reference.root_stress.size() > 0) {
       const Eigen::ArrayXd change = other.root_stress.array() / reference.root_stress.array() - 1;
       result.root_stress_change[i] = std::abs(change[0]) > std::abs(change[1]) ? change[0] : change[1];
@@ -61,7 +67,17 @@ struct Alternatives {
   const StaticParameters& settings;
   double torque;  // N m
 
-  bool strips() const { return settings.fidelity.contact == ContactModel::strips; }
+  bool one_slice() const { return settings.fidelity.width == WidthModel::one; }
+  bool strips() const { return one_slice() && settings.fidelity.contact == ContactModel::strips; }
+  // One plane body serves both gears, whatever the hands of their helices.
+  bool alike() const { return driver.compliance == driven.compliance; }
+  // The plane body of a gear with the tables over its face, which have refinements of their own.
+  static ReducedBody over_face(ReducedBody plane, const ReducedBody& of) {
+    plane.design = of.design;
+    plane.width = of.width;
+    plane.discretisation.width = of.discretisation.width;
+    return plane;
+  }
   Outcome with(const StaticParameters& other, double zone_factor = 1) const {
     return outcome(static_transmission(driver, driven, other, torque, zone_factor));
   }
@@ -70,12 +86,22 @@ struct Alternatives {
     constexpr int kModes = 1;  // statics ask for none
     const auto again = [&](const ReducedBody& body) {
       BodyDiscretisation other = body.discretisation;
+      other.width = {};
       change(other);
       return reduced_again(body, other, kModes, finer * static_cast<int>(body.flank_position.size()));
     };
-    const bool alike = driver.compliance == driven.compliance;  // one body serves both gears
     const ReducedBody first = again(driver);
-    return outcome(static_transmission(first, alike ? first : again(driven), settings, torque));
+    return outcome(static_transmission(over_face(first, driver),
+                                       over_face(alike() ? first : again(driven), driven), settings, torque));
+  }
+  // Bodies in three dimensions on sections with elements of this share of their size.
+  Outcome of_sections(double share) const {
+    const auto again = [share](ReducedBody body) {
+      const WidthDiscretisation& width = body.discretisation.width;
+      add_width({width.degree, share * width.section_size}, body);
+      return body;
+    };
+    return outcome(static_transmission(again(driver), again(driven), settings, torque));
   }
   // (gear) Pa: largest root stress with elements on the roots that are `share` times as large; size (m) becomes the driver's.
   VectorXd with_root_elements(double share, double& size) const {
@@ -84,15 +110,30 @@ struct Alternatives {
       size = refine_root_stress(make_sector_mesh(body.design, body.discretisation), share, finer);
       return finer;
     };
-    const bool alike = driver.compliance == driven.compliance;
     const ReducedBody second = again(driven);  // the driver last: it leaves its size
-    const ReducedBody first = alike ? second : again(driver);
+    const ReducedBody first = alike() ? second : again(driver);
     return static_transmission(first, second, settings, torque).root_stress_max;
   }
 };
 
-NamedOutcomes refinements(const Alternatives& pair) {
+// Of contact over the face: its points and, of bodies in three dimensions, their section and degree.
+void refine_over_face(const Alternatives& pair, const StaticResult& base, NamedOutcomes& refined) {
+  constexpr int kMostPoints = 64;
+  const int points = face_points_of(pair.settings.mesh, pair.settings.contact);
+  StaticParameters finer = pair.settings;
+  finer.contact.face_points = std::min(kMostPoints, 2 * points);
+  refined.emplace_back(from_to("face points", points, finer.contact.face_points), pair.with(finer));
+  if (pair.settings.fidelity.width != WidthModel::body) return;
+  const double section = pair.driver.discretisation.width.section_size;
+  refined.emplace_back(from_to("section", shown_length(section), shown_length(0.5 * section), " mm"),
+                       pair.of_sections(0.5));
+  refined.emplace_back(from_to("degree", base.face.degree, base.face.degree - 2),
+                       outcome(next_width_level(pair.driver, pair.driven, pair.settings, base)));
+}
+
+NamedOutcomes refinements(const Alternatives& pair, const StaticResult& base) {
   NamedOutcomes refined;
+  if (!pair.one_slice()) refine_over_face(pair, base, refined);
   if (pair.strips()) {
     StaticParameters finer = pair.settings;
     finer.contact.strips *= 2;
@@ -118,7 +159,7 @@ NamedOutcomes refinements(const Alternatives& pair) {
 }
 
 // What is no refinement. A choice has limits of its own: `missing` says why one cannot be made.
-NamedOutcomes other_choices(const Alternatives& pair, std::string& missing) {
+NamedOutcomes other_choices(const Alternatives& pair, const StaticResult& base, std::string& missing) {
   NamedOutcomes chosen;
   const auto choose = [&](const std::string& name, const std::function<Outcome()>& instead) {
     try {
@@ -127,6 +168,12 @@ NamedOutcomes other_choices(const Alternatives& pair, std::string& missing) {
       missing += text(missing.empty() ? "" : "; ", name, ": ", error.what());
     }
   };
+  if (!pair.one_slice()) {
+    if (pair.settings.fidelity.width == WidthModel::slices)
+      choose("width body",
+             [&] { return outcome(next_width_level(pair.driver, pair.driven, pair.settings, base)); });
+    return chosen;
+  }
   const BodyDiscretisation& present = pair.driver.discretisation;
   const bool matched = present.near_field == NearField::matching;
   choose(matched ? "subtraction" : text("matching at ", shown_length(present.matching_depth), " mm"), [&] {
@@ -167,9 +214,9 @@ ErrorBudgetResult error_budget(const ReducedBody& driver, const ReducedBody& dri
   ErrorBudgetResult budget;
   static_cast<GearPairParameters&>(budget) = base;
   budget.torque = torque;
-  budget.refinement = changes(refinements(pair), reference);
+  budget.refinement = changes(refinements(pair, base), reference);
   budget.root = root_levels(pair, reference);
-  budget.choice = changes(other_choices(pair, budget.choice_missing), reference);
+  budget.choice = changes(other_choices(pair, base, budget.choice_missing), reference);
   return budget;
 }
 

@@ -12,9 +12,10 @@ namespace whine {
 // elements: second), search range twice as wide (how far from the touching point contact is looked for), positions (twice as
 // many). The pressure is that of contacts clear of ridges (system/flank_pressure.h). The largest root stress is also
 // computed with elements on the roots once, half, a quarter and an eighth as large, for its error and its order of convergence.
-// One contact line per pair has neither strips nor a search range. Choices, of which none is an error of the other: the other
-// near field (matching at the body's matching_depth, or subtraction) and the other model level of contact; one that cannot be
-// computed is named in choice_missing with its reason.
+// One contact line per pair has neither strips nor a search range. Of contact over the face in points: twice the points and, of bodies in
+// three dimensions, elements of their section half the size and two degrees less. Choices, of which none is an error of the other: the other
+// near field (matching at the body's matching_depth, or subtraction) and the other model level of contact; of slices over the face
+// bodies in three dimensions alone. One that cannot be computed is named in choice_missing with its reason.
 // Errors of all else as static_transmission, make_sector_mesh and reduce.
 ErrorBudgetResult error_budget(const ReducedBody& driver, const ReducedBody& driven,
                                const StaticParameters& settings, double torque);

@@ -1,6 +1,7 @@
 #include "studies/sweep_errors.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -127,6 +128,51 @@ void compare_jumps(const ResponseResult& base, const ResponseResult& finer, doub
   }
 }
 
+// A quantity of a response and where it goes.
+struct Taken {
+  SweepErrorsResult::Judged SweepErrorsResult::*judged;
+  MatrixRM (*of)(const ResponseResult&);
+};
+MatrixRM first_order(const ResponseResult& r) {
+  MatrixRM out = MatrixRM::Zero(r.dte_rms.rows(), r.dte_rms.cols());
+  for (Index i = 0; i < out.rows() && r.harmonics() > 0; ++i)
+    out.row(i) = r.dte_harmonic[static_cast<size_t>(i)].row(0);
+  return out;
+}
+MatrixRM sustained(const ResponseResult& r) {
+  return r.tooth_load_sustained.size() > 0 ? r.tooth_load_sustained
+                                           : MatrixRM::Zero(r.dte_rms.rows(), r.dte_rms.cols());
+}
+const std::array kTaken{
+    Taken{&SweepErrorsResult::dte_rms, [](const ResponseResult& r) { return r.dte_rms; }},
+    Taken{&SweepErrorsResult::dte_first_order, first_order},
+    Taken{&SweepErrorsResult::tooth_load_max, [](const ResponseResult& r) { return r.tooth_load_max; }},
+    Taken{&SweepErrorsResult::tooth_load_sustained, sustained},
+    Taken{&SweepErrorsResult::mesh_force_max, [](const ResponseResult& r) { return r.mesh_force_max; }}};
+
+// The result before anything is refined.
+SweepErrorsResult begun(const SweepResult& sweep, const ResponseResult& base, Index entries) {
+  SweepErrorsResult out;
+  static_cast<MotionSource&>(out) = sweep;
+  out.direction = sweep.direction;
+  out.natural_frequency = sweep.natural_frequency;
+  out.mesh_frequency = base.mesh_frequency;
+  out.jump_frequency = base.jump_frequency;
+  const Index speeds = base.mesh_frequency.size(), jumps = base.jump_frequency.size();
+  for (const Taken& taken : kTaken) {
+    SweepErrorsResult::Judged& judged = out.*taken.judged;
+    judged.value = taken.of(base);
+    judged.error = MatrixRM::Zero(speeds, base.dte_rms.cols());
+  }
+  out.order.setZero(entries);
+  out.natural_frequency_change.setZero(entries);
+  out.compared.setZero(entries, speeds);
+  out.jump_change = MatrixRM::Zero(entries, jumps);
+  out.jump_found.setZero(entries, jumps);
+  out.jump_error.setZero(jumps);
+  return out;
+}
+
 SweepErrorsResult measured(const std::vector<Entry>& entries, const SweepWith& sweep_with, double step,
                            const Report& report) {
   long total = 1, done = 0;
@@ -139,36 +185,26 @@ SweepErrorsResult measured(const std::vector<Entry>& entries, const SweepWith& s
   };
   const SweepResult sweep = run({}, "as the scene says");
   const ResponseResult base = response(sweep);
-  SweepErrorsResult out;
-  static_cast<MotionSource&>(out) = sweep;
-  out.direction = sweep.direction;
-  out.natural_frequency = sweep.natural_frequency;
-  out.mesh_frequency = base.mesh_frequency;
-  out.dte_rms = base.dte_rms;
-  out.tooth_load_max = base.tooth_load_max;
-  out.jump_frequency = base.jump_frequency;
-  const auto count = static_cast<Index>(entries.size());
-  const Index speeds = base.mesh_frequency.size(), jumps = base.jump_frequency.size();
-  out.order.setZero(count);
-  out.compared.setZero(count, speeds);
-  out.jump_change = MatrixRM::Zero(count, jumps);
-  out.jump_found.setZero(count, jumps);
-  out.dte_rms_error = out.tooth_load_error = MatrixRM::Zero(speeds, base.dte_rms.cols());
-  out.jump_error.setZero(jumps);
-  for (Index e = 0; e < count; ++e) {
+  SweepErrorsResult out = begun(sweep, base, static_cast<Index>(entries.size()));
+  for (Index e = 0; e < out.order.size(); ++e) {
     const Entry& entry = entries[static_cast<size_t>(e)];
     out.entry.push_back(entry.name);
-    const ResponseResult finer = response(run(entry.finer, entry.name));
+    const SweepResult refined = run(entry.finer, entry.name);
+    const ResponseResult finer = response(refined);
     for (const Sizes& coarser : entry.coarser)
       out.order[e] = order_by(response(run(coarser, entry.name + ", its order")), base, finer);
     out.compared.row(e) = comparable(base, finer).transpose();
     const Eigen::VectorXi compared = out.compared.row(e);
-    out.dte_rms_change.push_back(change_of(base.dte_rms, finer.dte_rms, compared));
-    out.tooth_load_change.push_back(change_of(base.tooth_load_max, finer.tooth_load_max, compared));
     compare_jumps(base, finer, 2 * step, e, out);
     const double factor = error_of(1, out.order[e]);
-    out.dte_rms_error += factor * out.dte_rms_change.back().cwiseAbs();
-    out.tooth_load_error += factor * out.tooth_load_change.back().cwiseAbs();
+    for (const Taken& taken : kTaken) {
+      SweepErrorsResult::Judged& judged = out.*taken.judged;
+      judged.change.push_back(change_of(judged.value, taken.of(finer), compared));
+      judged.error += factor * judged.change.back().cwiseAbs();
+    }
+    if (refined.natural_frequency > 0)
+      out.natural_frequency_change[e] = out.natural_frequency / refined.natural_frequency - 1;
+    out.natural_frequency_error += factor * std::abs(out.natural_frequency_change[e]);
     out.jump_error += factor * out.jump_change.row(e).cwiseAbs().transpose();
   }
   return out;

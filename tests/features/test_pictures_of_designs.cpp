@@ -138,8 +138,8 @@ TEST_CASE("pictures of the errors of motions: no text is cut or lies on other te
     a.mesh_names = {"pinion-wheel"};
     a.natural_frequency = 5432.1;
     a.mesh_frequency = VectorXd::LinSpaced(kSpeeds, 1000, 9000);
-    a.dte_rms = MatrixRM::Constant(kSpeeds, 1, 12e-6);
-    a.tooth_load_max = MatrixRM::Constant(kSpeeds, 1, 12345);
+    a.dte_rms.value = MatrixRM::Constant(kSpeeds, 1, 12e-6);
+    a.tooth_load_max.value = MatrixRM::Constant(kSpeeds, 1, 12345);
     a.jump_frequency = a.jump_error = Eigen::Vector4d(2345.6, 3456.7, 5678.9, 7890.1);
     a.entry = {"steps 128 to 256", "elements 0.333 to 0.167 mm", "flank table 401 to 802 points",
                "modes 61 to 92",   "periodicity 1e-05 to 1e-06", "strips 8 to 16"};
@@ -149,9 +149,8 @@ TEST_CASE("pictures of the errors of motions: no text is cut or lies on other te
     a.jump_found = MatrixRMi::Zero(entries, 4);
     a.jump_change = MatrixRM::Constant(entries, 4, 12.3);
     for (Index e = 0; e < entries; ++e)
-      a.dte_rms_change.push_back(MatrixRM::Constant(kSpeeds, 1, std::pow(10, -6.0 + static_cast<double>(e))));
-    a.tooth_load_change = a.dte_rms_change;
-    a.dte_rms_error = a.tooth_load_error = MatrixRM::Constant(kSpeeds, 1, 0.3);
+      a.dte_rms.change.push_back(MatrixRM::Constant(kSpeeds, 1, std::pow(10, -6.0 + static_cast<double>(e))));
+    a.dte_rms.error = MatrixRM::Constant(kSpeeds, 1, 0.3);
   }
   sweeps[1].direction = Direction::down;
   check(sweep_errors_figure(sweeps), "motion-errors");

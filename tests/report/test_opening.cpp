@@ -1,8 +1,10 @@
 // The five lines that open a report, from numbers that are given; the same numbers from content.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <string>
 
+#include "base/format.h"
 #include "refusal.h"
 #include "report/opening.h"
 #include "report/speed_words.h"
@@ -57,6 +59,27 @@ TEST_CASE("excitation: peak to peak and first order, of meshes that are alike th
       "At 400 N m on sun the transmission error swings from peak to peak by 2.00 to 2.50 µm of sun-planet (first order "
       "1.00 µm) and 3.00 µm of planet-ring (first order 0.500 to 0.750 µm).");
   CHECK(contains(excitation_line("", {}), "rigid"));
+}
+
+TEST_CASE("numbers with errors: no digit more than the error allows, errors rounded up") {
+  const auto words = [](double value, double error) { return told(value, error, 6).words(); };
+  CHECK(words(369.977, 0.0131) == "369.977 ± 0.014");
+  CHECK(words(369.977, 0.13) == "369.98 ± 0.13");
+  CHECK(words(369.977, 0.131) == "369.98 ± 0.14");
+  CHECK(words(369.977, 0.26) == "370.0 ± 0.3");
+  CHECK(words(369.977, 0.197) == "370.0 ± 0.2");
+  CHECK(words(1234, 87) == "1230 ± 90");
+  CHECK(words(1234, 130) == "1230 ± 130");
+  CHECK(words(0.0123, 0.5) == "0.0 ± 0.5");
+  CHECK(words(2.5, 1e-9) == "2.50000 ± 0.00001");
+  CHECK(words(2.5, 0) == "2.50000 ± 0.00001");
+  CHECK(words(-4.56, 0.1) == "-4.56 ± 0.10");
+  CHECK(words(0, 0.02) == "0.00 ± 0.02");
+  CHECK(words(2.5, -1) == "2.50000");
+  CHECK(words(2.5, std::nan("")) == "2.50000");
+  CHECK(
+      excitation_line("150 N m", {{"", {2.743e-6, 2.743e-6, 0.004e-6}, {0.9041e-6, 0.9041e-6}}}) ==
+      "At 150 N m the transmission error swings from peak to peak by 2.743 ± 0.004 µm (first order 0.904 µm).");
 }
 
 TEST_CASE(

@@ -20,10 +20,12 @@
 #include "refusal.h"
 #include "relative.h"
 #include "report/figure_list.h"
+#include "report/measured_errors.h"
 #include "report/report.h"
 #include "report/report_figures.h"
 #include "report/report_guide.h"
 #include "report/report_remarks.h"
+#include "report/report_results.h"
 #include "report/system_report_guide.h"
 #include "signal/response.h"
 #include "signal/spectrum.h"
@@ -259,16 +261,16 @@ TEST_CASE("report: numbers of the artifacts, words that are no marks, figures on
       "mesh frequency of that tooth load, rising / falling</td><td>Hz<br>rpm</td><td class=\"number\">1300 / 1000<br>1560 / 1200</td>"));
 
   const std::string table = report_tsv(content);
-  CHECK(contains(table, "150\tlargest tooth load, speed rising\t130\tN\t\n"));
+  CHECK(contains(table, "150\tlargest tooth load, speed rising\t130\tN\t\t\n"));
   CHECK(!contains(table, "100\tlargest tooth load"));
   CHECK(contains(
       table,
-      "150\tmesh frequency of that tooth load, speed rising\t1300\tHz\t\n"
-      "150\tmesh frequency of that tooth load, speed rising, as rotation of the driver\t1560\trpm\t\n"));
+      "150\tmesh frequency of that tooth load, speed rising\t1300\tHz\t\t\n"
+      "150\tmesh frequency of that tooth load, speed rising, as rotation of the driver\t1560\trpm\t\t\n"));
   // Loads jump by 5 N in the second of two periods at 1100 Hz alone: no order of the mesh frequency.
   CHECK(contains(table, "150\tlargest first order of the mesh force, speed rising\t"));
-  CHECK(contains(table, "150\tcontact lost, speed rising\t\tHz\tnowhere\n"));
-  CHECK(contains(table, "150\tcontact lost, speed falling\t\tHz\tnowhere\n"));
+  CHECK(contains(table, "150\tcontact lost, speed rising\t\tHz\tnowhere\t\n"));
+  CHECK(contains(table, "150\tcontact lost, speed falling\t\tHz\tnowhere\t\n"));
 
   const auto rejected = [&](auto change) {
     ReportContent other = content;
@@ -404,6 +406,61 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("report: measured errors stand beside numbers of their torque, rounded up, and nowhere else") {
+  ReportContent content;
+  content.scene = "pair: gears";
+  content.statics = {statics_of_paper(150), statics_of_paper(100)};
+  const SweepResult sweep = some_sweep(Direction::up);
+  content.sweeps = {response(sweep)};
+  CHECK(words_on_errors(content).empty());
+  const ResponseResult& r = content.sweeps[0];
+  const Eigen::Index speeds = r.mesh_frequency.size();
+  ErrorBudgetResult budget;
+  static_cast<GearPairParameters&>(budget) = content.statics[0];
+  budget.torque = 150;
+  budget.refinement = {"strips, elements",
+                       Eigen::Vector2d(1e-3, -2e-3),
+                       Eigen::Vector2d(3e-3, 1e-3),
+                       {},
+                       MatrixRM::Constant(2, 5, 5e-3)};
+  content.budget = budget;
+  CHECK(contains(words_on_errors(content), "make motion-errors"));
+  SweepErrorsResult errors;
+  static_cast<MotionSource&>(errors) = r;
+  errors.direction = Direction::up;
+  errors.mesh_frequency = r.mesh_frequency;
+  errors.compared = MatrixRMi::Ones(1, speeds);
+  errors.natural_frequency_error = 2e-3;
+  for (auto quantity :
+       {&SweepErrorsResult::dte_rms, &SweepErrorsResult::dte_first_order, &SweepErrorsResult::tooth_load_max,
+        &SweepErrorsResult::tooth_load_sustained, &SweepErrorsResult::mesh_force_max})
+    (errors.*quantity).error = MatrixRM::Constant(speeds, 1, 0.013);
+  content.errors = {errors};
+  const auto number = [&](double torque, const std::string& quantity) {
+    for (const ReportNumber& n : report_numbers(content))
+      if (n.torque == torque && n.quantity == quantity) return n;
+    FAIL("there is no ", quantity);
+    return ReportNumber{};
+  };
+  const StaticResult& s = content.statics[0];
+  const ReportNumber stiffness = number(150, "mean mesh stiffness");
+  CHECK(stiffness.value == told(s.mean_stiffness * 1e-6, 3e-3 * s.mean_stiffness * 1e-6, 5).value);
+  CHECK(std::stod(stiffness.error) >= 3e-3 * s.mean_stiffness * 1e-6);
+  CHECK(std::stod(stiffness.error) < 6.1e-3 * s.mean_stiffness * 1e-6);
+  CHECK(number(100, "mean mesh stiffness").error.empty());
+  // 130 N with 1.3 %: 1.69 N, rounded up.
+  CHECK(number(150, "largest tooth load, speed rising").value == "130.0");
+  CHECK(number(150, "largest tooth load, speed rising").error == "1.7");
+  CHECK(number(150, "natural frequency f_n, contact frozen, mean over the period").error == "6");
+  const std::string page = report_html(content);
+  CHECK(contains(page, "130.0 ± 1.7"));
+  CHECK(contains(page, "(2900 ± 6 Hz)"));
+  CHECK(contains(report_tsv(content), "largest tooth load, speed rising\t130.0\tN\t\t1.7\n"));
+  // Where a refined sweep is on another branch nothing is told.
+  content.errors[0].compared.setZero();
+  CHECK(number(150, "largest tooth load, speed rising").error.empty());
+}
+
 TEST_CASE("results: one line of names, geometry without a torque, as many cells in each line") {
   ReportContent content;
   content.scene = "pair: gears";
@@ -420,10 +477,10 @@ TEST_CASE("results: one line of names, geometry without a torque, as many cells 
         cells.emplace_back();
       else
         cells.back() += c;
-    REQUIRE(cells.size() == 5);
+    REQUIRE(cells.size() == 6);
     rows.push_back(cells);
   }
-  CHECK(rows[0] == std::vector<std::string>{"torque [N m]", "quantity", "value", "unit", "remark"});
+  CHECK(rows[0] == std::vector<std::string>{"torque [N m]", "quantity", "value", "unit", "remark", "error"});
   const auto value = [&](const std::string& quantity) {
     for (const auto& row : rows)
       if (row[1] == quantity && row[0].empty()) return std::stod(row[2]);
