@@ -38,8 +38,8 @@ double tip_clearance_to_root(const GearPair& pair, int g) {
   return pair.ring() == g ? tip - centres - root : root - centres - tip;
 }
 
-double normal_force(const GearPair& pair, double torque) {
-  return torque / (pair.gear(0).base_radius() * std::cos(pair.base_helix_angle()));
+double normal_force(const GearDesign& driver, double torque) {
+  return torque / (ToothGeometry(driver).base_radius() * std::cos(base_helix_angle(driver)));
 }
 
 double normal_backlash(const GearPair& pair) {

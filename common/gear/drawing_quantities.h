@@ -30,7 +30,7 @@ std::optional<Span> span_measurement(const ToothGeometry& gear);
 double tip_clearance_to_root(const GearPair& pair, int g);
 
 // N: of all tooth pairs at rest along their normals, T / (r_b cos beta_b). torque: N m on the driver.
-double normal_force(const GearPair& pair, double torque);
+double normal_force(const GearDesign& driver, double torque);
 
 // m: backlash along the normal of the flanks; on the working pitch circles.
 double normal_backlash(const GearPair& pair);

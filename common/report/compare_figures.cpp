@@ -164,7 +164,7 @@ struct MotionCurve {
 // Rows over speed of one curve in one direction, parted where the response jumps to the branch of the other direction.
 FigureBlock motion_block(const ResponseResult& r, const ResponseResult* other, const MotionCurve& curve,
                          size_t number, bool trains) {
-  const double force = trains ? 1e3 : normal_force(GearPair(r), r.torque);
+  const double force = trains ? 1e3 : normal_force(r.gear[0].design, r.torque);
   FigureBlock block{text(number, " ", r.direction),
                     {"mesh_frequency [Hz]", "dte_rms [µm]", "dte_harmonic_1 [µm]",
                      trains ? "tooth_load_max [kN]" : "tooth_load_max [T / r_b]"},

@@ -59,13 +59,13 @@ ShownUnit shown_units(const std::string& units) {
   return {units == "1" ? "" : "Hz", 1};
 }
 
-std::string rest_force_name(const GearPair& pair) {
-  return pair.base_helix_angle() == 0 ? "T / r_b" : "T / (r_b cos β_b)";
+std::string rest_force_name(const GearDesign& driver) {
+  return !driver.helical() ? "T / r_b" : "T / (r_b cos β_b)";
 }
 
-PanelRule rest_rule(const GearPair& pair, double torque) {
-  const double force = normal_force(pair, torque);
-  return {'y', force, text(rest_force_name(pair), " = ", fixed(force, 0), " N"), kGreen, 2, true};
+PanelRule rest_rule(const GearDesign& driver, double torque) {
+  const double force = normal_force(driver, torque);
+  return {'y', force, text(rest_force_name(driver), " = ", fixed(force, 0), " N"), kGreen, 2, true};
 }
 
 void plain_captions(size_t plain, Figure& figure) {

@@ -29,9 +29,9 @@ struct ShownUnit {
 ShownUnit shown_units(const std::string& units);
 
 // The force at which the torque (N m) is carried at rest: "T / r_b = 2128 N" in the key.
-PanelRule rest_rule(const GearPair& pair, double torque);
+PanelRule rest_rule(const GearDesign& driver, double torque);
 // "T / r_b", of helical gears "T / (r_b cos β_b)".
-std::string rest_force_name(const GearPair& pair);
+std::string rest_force_name(const GearDesign& driver);
 
 // Captions of notes: the first `plain` as they stand, behind them notes with the marks of gnuplot.
 void plain_captions(size_t plain, Figure& figure);

@@ -78,7 +78,7 @@ DynamicFactorPeak largest_dynamic_factor(const StaticResult& s, const ResponseRe
   const Eigen::VectorXd force =
       r.mesh_force_sustained.size() > 0 ? r.mesh_force_sustained.col(0) : r.mesh_force_max.col(0);
   DynamicFactorPeak out;
-  out.factor = force.maxCoeff(&out.row) / normal_force(GearPair(s), s.torque);
+  out.factor = force.maxCoeff(&out.row) / normal_force(s.gear[0].design, s.torque);
   if (!(r.inertia[0] > 0 && r.inertia[1] > 0)) {
     out.why_none = "the inertias are not known";
     return out;

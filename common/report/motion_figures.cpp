@@ -128,7 +128,7 @@ void add_tooth_loads(Figure& figure, const std::string& letter, const Motion& m,
                     .from = kFirstPeriod,
                     .to = kFirstPeriod + kPeriods},
               .y = {.label = "Force (N)", .from_zero = true},
-              .rules = {rest_rule(GearPair(*m.sweep), m.sweep->torque)}};
+              .rules = {rest_rule(m.sweep->gear[0].design, m.sweep->torque)}};
   if (!lost.rows.empty())
     panel.curves.push_back(
         {.block = lost.name, .style = PanelStyle::spans, .colour = kShade, .label = "contact lost"});
@@ -169,10 +169,10 @@ void add_tooth_loads(Figure& figure, const std::string& letter, const Motion& m,
   const Separations apart = separations(force);
   const double most = loads.topRows(force.size()).maxCoeff(), largest = std::max(most, force.maxCoeff());
   panel.y.to = 1.08 * (largest > 0 ? largest : 1);
-  const GearPair pair(*m.sweep);
-  panel.heading = title + text("largest tooth load ", fixed(most, 0),
-                               " N = ", fixed(most / normal_force(pair, m.sweep->torque), 2), " ",
-                               rest_force_name(pair), "; ");
+  panel.heading =
+      title + text("largest tooth load ", fixed(most, 0),
+                   " N = ", fixed(most / normal_force(m.sweep->gear[0].design, m.sweep->torque), 2), " ",
+                   rest_force_name(m.sweep->gear[0].design), "; ");
   panel.heading += apart.intervals == 0
                        ? "contact is never lost"
                        : text("contact lost ", shown(static_cast<double>(apart.intervals) / m.periods, 3),
@@ -376,7 +376,7 @@ Figure dynamic_load_figure(const std::vector<SweepResult>& sweeps, CaptionSource
   figure.panels.push_back(load_over_speed(
       std::max(both[0].tooth_load_max.maxCoeff(), both[1].tooth_load_max.maxCoeff()),
       curve.up->mesh_frequency.size(), lost, !speeds_beyond_backlash({&both[0], &both[1]}).empty()));
-  figure.panels[0].rules = {rest_rule(GearPair(*curve.up), curve.up->torque), {'x', speed, "(b)"}};
+  figure.panels[0].rules = {rest_rule(curve.up->gear[0].design, curve.up->torque), {'x', speed, "(b)"}};
   add_tooth_loads(
       figure, "b", worst,
       text("at ", shown(speed, 6), " Hz, speed ",
@@ -466,7 +466,7 @@ Figure mesh_force_figure(const std::vector<SweepResult>& sweeps,
   Figure figure;
   const double torque = sweeps[0].torque;
   figure.title = text("Net mesh force of one degree of freedom (Eq. 23), ", torque_words(torque));
-  const PanelRule at_rest = rest_rule(GearPair(sweeps[0]), torque);
+  const PanelRule at_rest = rest_rule(sweeps[0].gear[0].design, torque);
   for (size_t k = 0; k < mesh_frequencies.size(); ++k)
     figure.panels.push_back({.x = {.label = "Time (mesh periods, 0: pitch point)", .from = 0, .to = 2},
                              .y = {.label = k ? "" : "Net mesh force (N)"},

@@ -63,11 +63,11 @@ TurningMember driver_of(const ReportContent& c) {
 }
 
 double static_force(const StaticResult& s) {
-  return normal_force(GearPair(s), s.torque);
+  return normal_force(s.gear[0].design, s.torque);
 }
 
 std::string plain_force_name(const StaticResult& s) {
-  return rest_force_name(GearPair(s));
+  return rest_force_name(s.gear[0].design);
 }
 
 double peak_to_peak(const Eigen::VectorXd& v) {

@@ -364,7 +364,7 @@ Figure bearing_force_figure(const std::vector<ResponseResult>& sweeps, const Cap
       }
     }
   }
-  largest.rules.push_back(rest_rule(GearPair(*curve.up), curve.up->torque));
+  largest.rules.push_back(rest_rule(curve.up->gear[0].design, curve.up->torque));
   for (Panel* panel : {&oscillating, &largest}) {
     panel->curves.push_back({.colour = kDark, .label = "dashed: falling", .dash = 3});
     figure.panels.push_back(*panel);

@@ -230,7 +230,7 @@ Panel loads_panel(const StaticResult& first, int from, int to) {
                                            : text(j > 0 ? "preceding pair" : "following pair",
                                                   std::abs(j) > 1 ? text(" ", std::abs(j)) : ""),
                            .width = 2.6});
-  each.rules = {rest_rule(GearPair(first), first.torque)};
+  each.rules = {rest_rule(first.gear[0].design, first.torque)};
   return each;
 }
 

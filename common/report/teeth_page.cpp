@@ -101,7 +101,7 @@ WordTable in_motion(const StaticResult& s, const GearPair& pair, const IsoCompar
           ": the largest over all speeds, sustained for 1/64 of a mesh period, with the mesh frequency at which it stands; of forces and of root stress, which goes with them, what it is over its value at rest (the dynamic factor), and K_v of ISO 6336-1, method B, at that speed; of root stress, where: tangent of the root against the tooth's centre line, phase of the tooth's pair from the pitch point."),
       {"", "speed", "largest", "at (Hz)", "where", "dynamic factor", "K_v there"},
       {}};
-  const double force = normal_force(pair, s.torque);
+  const double force = normal_force(s.gear[0].design, s.torque);
   enum class Factor { none, of_rest };
   for (size_t d = 0; d < sweeps.size(); ++d) {
     const ResponseResult& r = *sweeps[d];
