@@ -1,7 +1,7 @@
 # Speed beside other people's programs, which nothing else needs.
 #
 #   make deps-bench bench     tables on standard output; without Siconos or CalculiX their columns are left out
-#   make work-precision       out/figures/work-precision.{tsv,svg,png}; it holds times, so no two runs give the same bytes
+#   make work-precision       out/figures/work-precision.{tsv,svg,png}, with SCENE in its report/; it holds times, so no two runs give the same bytes
 
 .PHONY: bench
 bench: $(B)/bin/whine-bench $(call bodies_of,$(standard_scene)) ## speed and memory, beside Siconos and CalculiX if `deps-bench` has installed them
@@ -31,7 +31,13 @@ bench-train: $(B)/bin/whine-bench-train $(call bodies_of,$(standard_scene)) $(ca
 	@$< --params out/$(standard_scene)/params/static.toml --sweep-params out/$(standard_scene)/params/sweep.toml $(call named,--body,$(standard_scene),body) \
 	  --train-params out/$(bench_train)/params/sweep.toml $(call named,--train-body,$(bench_train),body)
 
+# Of SCENE, or of the first pair.
 .PHONY: work-precision
-work-precision: $(B)/bin/whine-work-precision $(call bodies_of,$(deep_scene)) ## error against CPU time of each numerical choice, at a damping with two branches
-	@$< --static-params out/$(deep_scene)/params/static.toml --sweep-params out/$(deep_scene)/params/sweep.toml \
-	  $(call named,--body,$(deep_scene),body) --torque 150 --rayleigh-stiffness 2.0e-6 --output out/figures/work-precision
+work-precision: $(B)/bin/whine-work-precision | $(with_deps) ## error against CPU time of the settings of a scene, with those that an accepted error chooses (minutes)
+	@$< --scene $(or $(SCENE),data/scenes/first-pair.toml) --output $(figure_folder)/work-precision
+
+# Pairs, trains and helical pairs that ship, and made-up ones.
+accuracy_scenes := first-pair fzg-c nasa28 internal-pair parker2000-standard-tooth parker2000-calibrated parker2000-deep-root parker2000-grade5 three-in-line oh58-planetary parker2000-helical-0_5 helical-17-67
+.PHONY: verify-accuracy
+verify-accuracy: $(B)/bin/whine-verify-accuracy | $(with_deps) ## errors accepted in [accuracy] beside true ones, of 40 scenes (hours)
+	@$< 2,0.5,0.2 $(accuracy_scenes:%=data/scenes/%.toml) random:20 random-helical:8

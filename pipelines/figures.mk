@@ -10,7 +10,7 @@ paper_scene := parker2000
 standard_scene := parker2000-standard-tooth
 calibrated_scene := parker2000-calibrated
 paper_scenes := $(paper_scene) $(standard_scene) $(calibrated_scene)
-# A deeper root, sharper: what `bench-stress` and `work-precision` measure.
+# A deeper root, sharper: what `bench-stress` measures.
 deep_scene := parker2000-deep-root
 # What figures of motions show below the paper's scene: BESIDE='parker2000-standard-tooth parker2000-calibrated'.
 BESIDE ?=

@@ -51,7 +51,7 @@ scenes := $(sort $(compared) $(call of_goals,$(pair_goals) jump-folds bifurcatio
   $(call drawn_of_scene,bearing-forces,$(bearing_scene)) $(call drawn_of_scene,efficiency,$(friction_scene)) $(call drawn_of_scene,crack,$(cracked_scene)) $(call drawn_of_scene,residual-signal,$(cracked_scene)) $(call drawn_of_scene,flank-load face-load,$(helical_scene)) \
   $(call of_goals,profile-chart relief-jumps out/figures/profile-chart% out/figures/relief-jumps%,$(relief_scenes) $(standard_scene) $(calibrated_scene)) \
   $(call of_goals,$(system_goals),$(system_scene)) \
-  $(if $(filter bench bench-train,$(goals)),$(standard_scene)) $(call of_goals,bench-train,$(train_scene)) $(call of_goals,bench-stress,$(deep_scene) fzg-c) $(if $(filter bench-internal,$(goals)),$(internal_scene)) $(if $(filter work-precision,$(goals)),$(deep_scene)) \
+  $(if $(filter bench bench-train,$(goals)),$(standard_scene)) $(call of_goals,bench-train,$(train_scene)) $(call of_goals,bench-stress,$(deep_scene) fzg-c) $(if $(filter bench-internal,$(goals)),$(internal_scene)) \
   $(foreach g,$(filter-out out/figures/% out/bodies/% out/studies/% out/reading/%,$(path_goals)),$(word 2,$(subst /, ,$g))))
 
 variants := $(filter $(variant_scenes) $(bifurcation_scenes),$(scenes))

@@ -9,6 +9,7 @@
 //            <out>/<scene>/<gear> -> ../bodies/<hash>    relative links
 //            --output                                    make fragment: gears, bodies, torques of the scene
 //            --variant: a scene with the changes of --set, and nothing else; --keys: prints the table of scene keys, units to SI;
+//            --plan: prints what a scene will compute with: settings, their errors, expected times and memory; writes nothing
 //            --goals: prints what is wrong with goals and variables of make, nothing if all is right
 #include <filesystem>
 #include <iostream>
@@ -24,6 +25,7 @@
 #include "io/scene.h"
 #include "io/scene_fragment.h"
 #include "io/scene_goals.h"
+#include "io/scene_plan.h"
 #include "io/scene_remarks.h"
 #include "io/system_scene.h"
 #include "io/variant.h"
@@ -90,7 +92,7 @@ void cut_pair(const std::string& path, const std::string& stem, const std::strin
 void body(int argc, char** argv) {
   std::string path, output, variant, ids, goals, folder = "out";
   std::vector<std::string> changes, given, of_scene;
-  bool keys = false;
+  bool keys = false, plan = false;
   whine::Options options{"Checks a scene and writes what each stage needs of it", "gear-scene"};
   Option scene_option = options.add("--scene", path, "scene file (TOML)");
   Option output_option = options.add(
@@ -108,6 +110,9 @@ void body(int argc, char** argv) {
   options.add("--given", given, "NAME=value, a variable of make, any number of times").needs(goals_option);
   options.add("--goal", of_scene,
               "a goal of make, any number of times: rejected if the scene cannot reach it");
+  Option plan_option = options.flag(
+      "--plan", plan, "print settings, their errors, expected CPU time and memory of a scene and end");
+  plan_option.needs(scene_option).excludes(output_option).excludes(variant_option);
   scene_option.excludes(keys_option).excludes(goals_option);
   output_option.needs(scene_option).excludes(variant_option);
   variant_option.needs(scene_option).needs(set_option);
@@ -117,16 +122,18 @@ void body(int argc, char** argv) {
       "  gear-scene --scene data/scenes/parker2000.toml --output build/scenes/parker2000.mk --out out\n"
       "  gear-scene --scene data/scenes/parker2000.toml --set bore_radius_mm=35 --variant out/parker2000/variants/bore35.toml\n"
       "  gear-scene --scene data/scenes/lin-parker-planetary.toml --output build/scenes/lin-parker-planetary.mk --out out\n"
+      "  gear-scene --plan --scene data/scenes/parker2000.toml\n"
       "  gear-scene --keys");
   options.parse(argc, argv);
   if (keys || !goals.empty()) {
     std::cout << (keys ? scene_key_table() : wrong_with(goals, given));
     return;
   }
-  if (!variant.empty()) {
-    publish_if_changed(variant, scene_variant(path, changes));
+  if (plan) {
+    std::cout << plan_words(path);
     return;
   }
+  if (!variant.empty()) return static_cast<void>(publish_if_changed(variant, scene_variant(path, changes)));
   if (path.empty() || output.empty())
     fail(Failure::usage, "--scene and --output are needed, or --keys; see --help");
   const std::string stem = checked_scene_stem(path);

@@ -353,12 +353,20 @@ void read_bearings(const Source& source, const std::vector<std::pair<std::string
 void read_levels(const Source& source, const KeyList& keys,
                  const std::function<void(const SectionReader&)>& check) {
   static const toml::table kNothing;
-  for (const char* name : {"fidelity", "discretisation", "damping", "operation"}) {
+  for (const char* name : {"fidelity", "discretisation", "damping", "operation", "accuracy"}) {
     const toml::table* table = source.section(name);
     const SectionReader reader(source, table ? *table : kNothing, name, name);
     check(reader);
     reader.read_all(keys.section(name));
   }
+}
+
+KeyGiven keys_given(const Source& source) {
+  return [&source](const std::string& key) {
+    for (const char* section : {"fidelity.", "discretisation."})
+      if (source.root().at_path(section + key).node()) return true;
+    return false;
+  };
 }
 
 namespace {
@@ -455,7 +463,7 @@ Scene scene_from(const Source& source) {
   }
   const SectionReader top(source, source.root(), "", "");
   top.reject_unknown({"gear", "material", "bearing", "mesh", "friction", "damping", "operation", "fidelity",
-                      "discretisation"});
+                      "discretisation", "accuracy"});
   std::vector<std::string> missing;
   for (const char* name : {"gear", "material", "mesh", "operation"}) {
     if (source.root().get(name)) continue;
@@ -491,6 +499,7 @@ Scene scene_from(const Source& source) {
   take_module(keys(scene.damping), scene.gear(scene.mesh.gear[0]).design.module);
   if (scene.fidelity.body == BodyModel::full) scene.body.modes = kAllModes;
   take_width(source, scene);
+  take_accuracy(source, scene);
   return scene;
 }
 

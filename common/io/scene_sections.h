@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "gear/accuracy.h"
 #include "io/section_reader.h"
 #include "model/scene.h"
 
@@ -20,10 +21,23 @@ void read_bearings(
     const Source& source, const std::vector<std::pair<std::string, Bearing*>>& of, const std::string& unknown,
     const std::function<void(const SectionReader&, const Bearing&, size_t)>& check = [](auto&&...) {});
 
-// [fidelity], [discretisation], [damping], [operation], each of which may be left out; check: before what it says is read.
+// [fidelity], [discretisation], [damping], [operation], [accuracy], each of which may be left out; check: before what it says is read.
 void read_levels(
     const Source& source, const KeyList& keys,
     const std::function<void(const SectionReader&)>& check = [](auto&&...) {});
+
+// Whether the scene gives a key of [fidelity] or [discretisation].
+KeyGiven keys_given(const Source& source);
+
+// What [accuracy] asks for, see gear/accuracy.h; its errors at the key.
+template <class AnyScene>
+void take_accuracy(const Source& source, AnyScene& scene) {
+  try {
+    choose_discretisation(scene, keys_given(source));
+  } catch (const Error& error) {
+    source.reject_value("rms_percent", *source.root().at_path("accuracy.rms_percent").node(), error.what());
+  }
+}
 
 // [friction], which may be left out.
 void read_friction(const Source& source, Friction& friction);

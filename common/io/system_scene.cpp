@@ -194,7 +194,7 @@ void take_fidelity(const Source& source, SystemScene& scene) {
   if (moves) all.append(speeds_key(speeds.frequency_from, speeds.frequency_to, speeds.frequency_step));
   read_levels(source, all, [&](const SectionReader& section) {
     if (source.root().get(section.label()) && scene.rigid() &&
-        (section.label() == "damping" || section.label() == "operation"))
+        (section.label() == "damping" || section.label() == "operation" || section.label() == "accuracy"))
       section.reject(" belongs to elastic gears in motion, and those of this scene are rigid; take it out");
   });
   if (moves && !scene.rigid()) reject_in_motion(source, scene.fidelity);
@@ -243,7 +243,7 @@ SystemScene system_scene_from(const Source& source) {
   require_one_train(source);
   const SectionReader top(source, source.root(), "", "");
   top.reject_unknown({"gear", "material", "bearing", "mesh", "carrier", "pin", "drive", "friction", "damping",
-                      "operation", "fidelity", "discretisation"});
+                      "operation", "fidelity", "discretisation", "accuracy"});
   for (const char* name : {"gear", "mesh"})
     if (!source.root().get(name))
       source.reject("the scene of a system lacks ",
@@ -263,6 +263,7 @@ SystemScene system_scene_from(const Source& source) {
   take_friction(source, scene);
   take_bearings(source, scene);
   take_drives(source, scene);
+  if (!scene.rigid()) take_accuracy(source, scene);
   return scene;
 }
 

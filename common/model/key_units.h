@@ -10,6 +10,7 @@ inline constexpr Unit kNone{"", "1"}, kDegree{"_deg", "rad", std::numbers::pi, 1
     kNewtonMetre{"_Nm", "N m"}, kNewtonPerMicrometre{"_N_um", "N m-1", 1e6}, kGigapascal{"_GPa", "Pa", 1e9},
     kDensity{"_kgm3", "kg m-3"}, kNewtonPerSquareMillimetre{"_N_mm2", "N m-2", 1e6},
     kPerSecond{"_per_s", "s-1"}, kSecond{"_s", "s"}, kHertzUnit{"_Hz", "Hz"}, kKilohertz{"_kHz", "Hz", 1000},
-    kNewtonSecondPerMetre{"_Ns_m", "N s m-1"}, kMillipascalSecond{"_mPas", "Pa s", 1, 1000};
+    kNewtonSecondPerMetre{"_Ns_m", "N s m-1"}, kMillipascalSecond{"_mPas", "Pa s", 1, 1000},
+    kPercentUnit{"_percent", "1", 1, 100};
 
 }  // namespace whine::units

@@ -118,6 +118,9 @@ KeyList keys(TimeDiscretisation& t) {
   k.add(&t.min_sample_rate, "min_sample_rate_kHz", kKilohertz, "250", {0, 1e6}, "least rate of time steps");
   k.add(&t.periodicity, "periodicity", kNone, "1e-5", {1e-12, 1}, "relative change of the state over a mesh period at which a speed counts as steady; round-off is 1e-14");
   k.choice(t.steady_state, "steady_state", "extrapolate", "start where the last speeds lead and, once close, skip the rest of a transient, or integrate all of it, as a rig would run it; the same orbits but for a speed or two at the end of a branch");
+  k.in_section("accuracy");
+  k.begin_group(t.accepted_error > 0);
+  k.add(&t.accepted_error, "rms_percent", kPercentUnit, "0.0", {0.2, 10, false, "the table of points on a flank alone is up to 0.11 % off", true}, "accepted discretisation error of the RMS of the transmission error in motion, at every speed: what [fidelity] and [discretisation] leave open of element_mm, modes, strips, face_points, min_sample_rate_kHz, steps_per_period and periodicity is chosen by it; 0: these have their defaults. gear-scene --plan tells what is chosen");
   return k;
 }
 // clang-format on

@@ -151,6 +151,8 @@ struct TimeDiscretisation {
   double min_sample_rate = 250e3;  // Hz; steps per period are doubled until it is reached
   double periodicity = 1e-5;       // relative change of the state at which a speed counts as steady
   SteadyState steady_state = SteadyState::extrapolate;
+  // 1: of the RMS of the transmission error in motion, for which gear/accuracy.h chose what the scene leaves open; 0: for none.
+  double accepted_error = 0;
 };
 
 struct Scene {

@@ -1,0 +1,252 @@
+#include "gear/accuracy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+#include "gear/face_width.h"
+#include "gear/helix.h"
+
+namespace whine {
+namespace {
+
+// e = bound (x / at)^power. share: of e^2, where the key is open; elements and modes take most of it, since the reduction takes most of
+// the time.
+struct Law {
+  const char* key;
+  double bound, at, power, share;
+
+  double error(double x) const { return bound * std::pow(x / at, power); }
+  double value(double error) const { return at * std::pow(error / bound, 1 / power); }
+};
+constexpr Law kStrips{"strips", 5.5e-3, 4, -1.6, 0.15}, kPoints{"face_points", 1.2e-3, 8, -1.4, 0.03},
+    kElements{"element_mm", 4.7e-2, 1, 2, 0.15}, kPeriodicity{"periodicity", 3e-4, 1e-4, 1, 0.02},
+    kModes{"modes", 1.2e-2, 21, -1.3, 0.40}, kSteps{"min_sample_rate_kHz", 22, 1, -2, 0.25},
+    kStepsOfMassDamping{"min_sample_rate_kHz", 100, 1, -2, 0.25};
+constexpr double kFlankTable = 1.1e-3;
+
+// N m-1 per m, c_gamma of steel gears as practice takes it.
+constexpr double kMeshStiffness = 20e9, kSteelModulus = 206e9;
+
+// m: r_b.
+double base_radius(const GearDesign& d) {
+  return 0.5 * d.module * d.teeth / std::cos(d.helix_angle) * std::cos(transverse_section(d).pressure_angle);
+}
+
+// kg-1: r_b^2 / I. An inertia that is left open is that of a disc from the bore to the pitch circle.
+template <class AnyGear>
+double inverse_mass(const AnyGear& gear) {
+  const GearDesign& d = gear.design;
+  const double pitch = 0.5 * d.module * d.teeth / std::cos(d.helix_angle),
+               disc = 0.5 * gear.material.density * std::numbers::pi * d.face_width *
+                      std::abs(std::pow(pitch, 4) - std::pow(d.clamped_radius(), 4)),
+               base = base_radius(d);
+  return base * base / (gear.total_inertia > 0 ? gear.total_inertia : disc);
+}
+
+template <class AnyGear>
+double natural_frequency_of(const AnyGear& a, const AnyGear& b) {
+  const double modulus = 2 * a.material.youngs_modulus * b.material.youngs_modulus /
+                         (a.material.youngs_modulus + b.material.youngs_modulus),
+               stiffness = kMeshStiffness * contact_width(a.design, b.design) * modulus / kSteelModulus;
+  return std::sqrt(stiffness * (inverse_mass(a) + inverse_mass(b))) / (2 * std::numbers::pi);
+}
+
+// What of a scene the laws are of.
+struct Settings {
+  const Fidelity& fidelity;
+  BodyDiscretisation& body;
+  ContactDiscretisation& contact;
+  TimeDiscretisation& time;
+  double natural_frequency, module, fastest;  // Hz, m, Hz
+  bool on_strips, mass_damped;
+  const KeyGiven& given;
+};
+
+// A setting under its law: x, and what makes x a setting again, rounded to the side of less error.
+struct Governed {
+  const Law* law;
+  double x;
+  std::function<double(double)> set;  // gives the x that it becomes
+  double shown;                       // in the key's unit
+};
+
+std::vector<Governed> governed(const Settings& s) {
+  std::vector<Governed> out;
+  const auto whole = [](int& held, double x, int least, int most, int step) {
+    held = std::clamp(step * static_cast<int>(std::ceil(x / step - 1e-9)), least, most);
+    return static_cast<double>(held);
+  };
+  if (s.on_strips) {
+    constexpr int kFour = 4, kMost = 64;  // a candidate zone holds whole fours
+    int& strips = s.contact.strips;
+    out.push_back({&kStrips, static_cast<double>(strips),
+                   [&, whole](double x) { return whole(strips, x, kFour, kMost, kFour); },
+                   static_cast<double>(strips)});
+  }
+  if (s.fidelity.width != WidthModel::one) {
+    constexpr int kLeast = 4, kMost = 64;
+    int& points = s.contact.face_points;
+    const int n = points > 0 ? points : kFacePoints;
+    out.push_back({&kPoints, static_cast<double>(n),
+                   [&, whole](double x) { return whole(points, x, kLeast, kMost, 1); },
+                   static_cast<double>(n)});
+  }
+  double& element = s.body.element_size;
+  const double size = element > 0 ? element : s.module / 7.5;  // the default of the key
+  out.push_back({&kElements, size / s.module,
+                 [&, module = s.module](double x) {
+                   constexpr double kFinest = 0.04, kCoarsest = 0.25;
+                   element = std::clamp(x, kFinest, kCoarsest) * module;
+                   return element / module;
+                 },
+                 size * 1e3});
+  double& periodicity = s.time.periodicity;
+  out.push_back({&kPeriodicity, periodicity,
+                 [&](double x) { return periodicity = std::clamp(x, 1e-9, 1e-3); }, periodicity});
+  if (s.fidelity.body == BodyModel::modal) {
+    constexpr int kLeast = 9, kMost = 1001;
+    int& modes = s.body.modes;
+    out.push_back({&kModes, static_cast<double>(modes),
+                   [&, whole](double x) { return whole(modes, x, kLeast, kMost, 1); },
+                   static_cast<double>(modes)});
+  }
+  double& rate = s.time.min_sample_rate;
+  out.push_back({s.mass_damped ? &kStepsOfMassDamping : &kSteps, rate / s.natural_frequency,
+                 [&, f = s.natural_frequency](double x) {
+                   rate = x * f;
+                   return x;
+                 },
+                 rate * 1e-3});
+  return out;
+}
+
+DiscretisationPlan plan_of(const Settings& s) {
+  DiscretisationPlan out;
+  out.natural_frequency = s.natural_frequency;
+  for (const Governed& one : governed(s))
+    out.settings.push_back(
+        {one.law->key, one.shown, one.law->error(one.x), s.given && s.given(one.law->key)});
+  out.settings.push_back({"flank table", 24, kFlankTable, false});
+  return out;
+}
+
+// Refuses what the bounds were not measured with.
+void require_lawful(const Settings& s) {
+  const auto refuse = [](const std::string& what) {
+    fail(Failure::input, "[accuracy] chooses settings for ", what,
+         "; change that, or take rms_percent out and give the settings of [discretisation] yourself");
+  };
+  if (s.body.element_order != 2)
+    refuse(text("elements of second order, and element_order = ", s.body.element_order));
+  if (s.body.near_field != NearField::subtraction)
+    refuse(text("near_field = \"subtraction\", and near_field = \"", s.body.near_field, "\""));
+  if (s.fidelity.integrator != Integrator::exact)
+    refuse(text("integrator = \"exact\", and integrator = \"", s.fidelity.integrator, "\""));
+}
+
+void choose(const Settings& s) {
+  const double accepted = s.time.accepted_error;
+  require_lawful(s);
+  std::vector<Governed> open;
+  double rest = accepted * accepted - kFlankTable * kFlankTable, shares = 0;
+  for (Governed& one : governed(s)) {
+    if (s.given(one.law->key)) {
+      const double error = one.law->error(one.x);
+      rest -= error * error;
+    } else {
+      shares += one.law->share;
+      open.push_back(std::move(one));
+    }
+  }
+  // What is given, or the flank table, may be above the accepted error alone; the rest then adds little to it.
+  constexpr double kLeast = 0.1;
+  rest = std::max(rest, kLeast * accepted * accepted);
+  for (const Governed& one : open) {  // those in steps first: what they leave goes to the next
+    const double x = one.set(one.law->value(std::sqrt(rest * one.law->share / shares))),
+                 error = one.law->error(x);
+    shares -= one.law->share;
+    rest = std::max(rest - error * error, kLeast * accepted * accepted * shares);
+  }
+  if (s.given("steps_per_period")) return;
+  // Fewer stored samples than 64 leave no load that lasts for 1/64 of a period.
+  constexpr int kFewest = 64;
+  if (s.fastest * s.time.steps_per_period > s.time.min_sample_rate) s.time.steps_per_period = kFewest;
+}
+
+template <class AnyScene>
+double smallest_module(const AnyScene& scene) {
+  double out = scene.gears.front().design.module;
+  for (const auto& gear : scene.gears) out = std::min(out, gear.design.module);
+  return out;
+}
+
+// Whether most of the damping at a frequency (Hz) is that of the mass, so that none is left for fast modes.
+bool mass_damped(const Damping& damping, double frequency) {
+  const double omega = 2 * std::numbers::pi * frequency;
+  return damping.rayleigh_mass > damping.rayleigh_stiffness * omega * omega;
+}
+
+template <class AnyScene>
+Settings settings_of(AnyScene& scene, bool on_strips, const KeyGiven& given) {
+  const double frequency = expected_natural_frequency(scene);
+  return {scene.fidelity,
+          scene.body,
+          scene.contact,
+          scene.time,
+          frequency,
+          smallest_module(scene),
+          scene.operation.frequency_to,
+          on_strips,
+          mass_damped(scene.damping, frequency),
+          given};
+}
+
+bool on_strips(const Scene& scene) {
+  return scene.fidelity.contact == ContactModel::strips && scene.fidelity.width == WidthModel::one;
+}
+
+}  // namespace
+
+double DiscretisationPlan::error() const {
+  double sum = 0;
+  for (const SettingError& one : settings) sum += one.error * one.error;
+  return std::sqrt(sum);
+}
+
+double expected_natural_frequency(const Scene& scene) {
+  return natural_frequency_of(scene.gear(scene.mesh.gear[0]), scene.gear(scene.mesh.gear[1]));
+}
+
+double expected_natural_frequency(const SystemScene& scene) {
+  double out = 0;
+  for (const SystemScene::Mesh& mesh : scene.meshes) {
+    const auto gear = [&](int g) {
+      return std::find_if(scene.gears.begin(), scene.gears.end(),
+                          [&](const SystemScene::Gear& own) { return own.name == mesh.spec.gear[g]; });
+    };
+    out = std::max(out, natural_frequency_of(*gear(0), *gear(1)));
+  }
+  return out;
+}
+
+DiscretisationPlan discretisation_plan(const Scene& scene, const KeyGiven& given) {
+  Scene s = scene;
+  return plan_of(settings_of(s, on_strips(s), given));
+}
+
+DiscretisationPlan discretisation_plan(const SystemScene& scene, const KeyGiven& given) {
+  SystemScene s = scene;
+  return plan_of(settings_of(s, false, given));
+}
+
+void choose_discretisation(Scene& scene, const KeyGiven& given) {
+  if (scene.time.accepted_error > 0) choose(settings_of(scene, on_strips(scene), given));
+}
+
+void choose_discretisation(SystemScene& scene, const KeyGiven& given) {
+  if (scene.time.accepted_error > 0) choose(settings_of(scene, false, given));
+}
+
+}  // namespace whine

@@ -1,0 +1,52 @@
+// The discretisation that an accepted error of the motion asks for, and the error that a discretisation stands for, before anything is
+// computed.
+//
+//   e^2 = sum e_i^2,   e_i: bounds of the RMS of the transmission error over all speeds, relative
+//   time steps     22 (f_n / r)^2          f_n: natural frequency of a mesh of 20 N/(mm um), r: least sample rate;
+//                  100 (f_n / r)^2       where most of the damping at f_n is of the mass, which damps no fast mode
+//   modes          1.2e-2 (21 / n)^1.3     n: of the whole gear
+//   strips         5.5e-3 (4 / n)^1.6      across the contact width; of pairs
+//   elements       4.7e-2 (h / m)^2        second order; h / m: in modules
+//   face points    1.2e-3 (8 / n)^1.4      along a contact line; of slices
+//   periodicity    3e-4 (p / 1e-4)
+//   flank table    1.1e-3                  24 points; no key changes it
+// Bounds of what refinements changed on five spur pairs and one helical pair (tests/README.md, "Errors before anything is computed").
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "model/scene.h"
+#include "model/system_scene.h"
+
+namespace whine {
+
+struct SettingError {
+  std::string key;   // "element_mm"; "flank table": no key
+  double value = 0;  // in the key's unit
+  double error = 0;  // 1: e_i
+  bool given = false;
+};
+
+struct DiscretisationPlan {
+  double natural_frequency = 0;  // Hz: f_n, the highest of all meshes
+  std::vector<SettingError> settings;
+  double error() const;  // 1: e
+};
+
+// Hz. Inertias that a scene leaves open are those of discs from the bore to the pitch circle.
+double expected_natural_frequency(const Scene& scene);
+double expected_natural_frequency(const SystemScene& scene);
+
+// Whether the scene gives a key of [fidelity] or [discretisation]: "modes".
+using KeyGiven = std::function<bool(const std::string& key)>;
+
+// The plan of a scene as it stands.
+DiscretisationPlan discretisation_plan(const Scene& scene, const KeyGiven& given);
+DiscretisationPlan discretisation_plan(const SystemScene& scene, const KeyGiven& given);
+
+// Chooses what the scene leaves open so that e is at most scene.time.accepted_error, if what it gives allows that; 0: changes nothing.
+void choose_discretisation(Scene& scene, const KeyGiven& given);
+void choose_discretisation(SystemScene& scene, const KeyGiven& given);
+
+}  // namespace whine

@@ -1,0 +1,71 @@
+#include "io/scene_plan.h"
+
+#include <cstdio>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/format.h"
+#include "gear/accuracy.h"
+#include "gear/scene_cost.h"
+#include "io/scene.h"
+#include "io/scene_sections.h"
+#include "io/system_scene.h"
+
+namespace whine {
+namespace {
+
+void add_row(std::ostringstream& out, const std::string& first, const std::string& second,
+             const std::string& third, const std::string& fourth) {
+  constexpr int kWide = 24, kNarrow = 14;
+  const auto padded = [](const std::string& word, size_t width) {
+    return word + std::string(word.size() < width ? width - word.size() : 1, ' ');
+  };
+  out << padded(first, kWide) << padded(second, kNarrow) << padded(third, kNarrow) << fourth << "\n";
+}
+
+template <class AnyScene>
+std::string words_of(const AnyScene& scene, const KeyGiven& given) {
+  constexpr double kPercent = 100, kMegabyte = 1e6;
+  const DiscretisationPlan plan = discretisation_plan(scene, given);
+  const double accepted = scene.time.accepted_error;
+  std::ostringstream out;
+  add_row(out, "setting", "value", "from", "error of the RMS in motion: a bound");
+  for (const SettingError& one : plan.settings)
+    add_row(out, one.key, shown(one.value, 4),
+            one.given                                  ? "scene"
+            : accepted > 0 && one.key != "flank table" ? "accuracy"
+                                                       : "default",
+            shown(one.error * kPercent, 2) + " %");
+  add_row(out, "root of their squares", "", "",
+          shown(plan.error() * kPercent, 2) + " %" +
+              (accepted > 0
+                   ? text("; accepted: ", shown(accepted * kPercent, 3), " %",
+                          plan.error() > accepted * (1 + 1e-9)
+                              ? ", which the settings that the scene gives do not allow"
+                              : "")
+                   : std::string("; [accuracy] rms_percent would choose settings by an accepted error")));
+  out << "mesh resonance expected near " << fixed(plan.natural_frequency, 0)
+      << " Hz, of 20 N/(mm um) and the inertias\n\n";
+  add_row(out, "stage", "runs", "CPU (s) each", "memory (MB)");
+  double all = 0;
+  for (const StageCost& cost : stage_costs(scene)) {
+    add_row(out, cost.stage, text(cost.runs), shown(cost.seconds, 2), fixed(cost.memory / kMegabyte, 0));
+    all += cost.seconds * cost.runs;
+  }
+  add_row(out, "all", "", shown(all, 2), "within a factor of 2; what is there already is not computed again");
+  return out.str();
+}
+
+}  // namespace
+
+std::string plan_words(const std::string& path) {
+  const Source source(path);
+  if (!is_system(source)) return words_of(read_scene(path), keys_given(source));
+  const SystemScene scene = read_system_scene(path);
+  if (scene.rigid())
+    fail(Failure::input, path,
+         ": gears of body = \"rigid\" have no discretisation; there is nothing to plan");
+  return words_of(scene, keys_given(source));
+}
+
+}  // namespace whine

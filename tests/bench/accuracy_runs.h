@@ -1,0 +1,140 @@
+// Sweeps of whole scenes, from the drawing to the RMS of the transmission error, at chosen settings and at far finer ones.
+//
+// Of a scene its gears, torque, damping and levels are taken; of its speeds a few from end to end, rising.
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "gear/accuracy.h"
+#include "gear/body_inertia.h"
+#include "gear/system_layout.h"
+#include "io/scene.h"
+#include "io/system_scene.h"
+#include "signal/response.h"
+#include "solid/mesher.h"
+#include "solid/reduce.h"
+#include "studies/next_level.h"
+#include "studies/sweep.h"
+#include "system/statics.h"
+
+namespace whine {
+
+inline constexpr int kJudgedSpeedsOfScene = 96;
+
+struct SceneRun {
+  ResponseResult response;
+  double seconds = 0;  // of CPU: meshes, reductions, statics, sweep
+};
+
+inline double cpu_seconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+template <class Read>
+auto through_file(const std::string& words, const Read& read) {
+  const std::string path = std::filesystem::temp_directory_path() / "whine-accuracy-run.toml";
+  std::ofstream(path) << words;
+  return read(path);
+}
+
+// Bodies of these stage parameters, alike ones once.
+inline std::vector<ReducedBody> bodies_of(const std::vector<std::string>& texts, int flank_points) {
+  std::vector<ReducedBody> out;
+  out.reserve(texts.size());
+  for (size_t i = 0; i < texts.size(); ++i) {
+    const auto same = static_cast<size_t>(std::find(texts.begin(), texts.end(), texts[i]) - texts.begin());
+    if (same < i) {
+      out.push_back(out[same]);
+      continue;
+    }
+    const BodyParameters p = through_file(texts[i], read_body_parameters);
+    out.push_back(reduce(make_sector_mesh(p.design, p.discretisation), p.material, p.discretisation.modes,
+                         flank_points));
+  }
+  return out;
+}
+
+inline void no_report(long /*done*/, long /*total*/, const std::string& /*note*/) {}
+
+inline SceneRun run_scene(const Scene& scene, int flank_points = kFlankPoints) {
+  const double start = cpu_seconds();
+  const std::vector<ReducedBody> body = bodies_of(
+      {body_parameters(scene, scene.mesh.gear[0]), body_parameters(scene, scene.mesh.gear[1])}, flank_points);
+  const StaticResult rest =
+      static_transmission(body[0], body[1], through_file(static_parameters(scene), read_static_parameters),
+                          scene.operation.torques.front());
+  SweepParameters settings = through_file(sweep_parameters(scene), read_sweep_parameters);
+  as_drawn(settings, {body[0].inertia, body[1].inertia});
+  const SweepResult swept =
+      sweep(body[0], body[1], rest, rest.mean_stiffness, settings, Direction::up, no_report);
+  return {response(swept), cpu_seconds() - start};
+}
+
+inline SceneRun run_scene(const SystemScene& scene, int flank_points = kFlankPoints) {
+  const double start = cpu_seconds();
+  std::vector<std::string> texts;
+  for (const auto& [gear, words] : body_parameters_of(scene)) texts.push_back(words);
+  const SystemSweepParameters settings = sweep_parameters_of(scene, layout_of(scene));
+  return {response(system_sweep(settings, bodies_of(texts, flank_points), Direction::up, no_report)),
+          cpu_seconds() - start};
+}
+
+template <class AnyScene>
+AnyScene at_few_speeds(AnyScene scene) {
+  Operation& speeds = scene.operation;
+  speeds.frequency_step = (speeds.frequency_to - speeds.frequency_from) / (kJudgedSpeedsOfScene - 1);
+  return scene;
+}
+
+// All settings left open, then chosen for an accepted error; 0: their defaults.
+template <class AnyScene>
+AnyScene accepting(AnyScene scene, double error) {
+  const AnyScene none;
+  scene.body = none.body;
+  scene.contact = none.contact;
+  scene.time = none.time;
+  scene.time.accepted_error = error;
+  choose_discretisation(scene, [](const std::string& /*key*/) { return false; });
+  return scene;
+}
+
+// Elements of module / 10, 121 modes, 32 strips, 24 points of a face, 330 steps in a natural period, periodicity 1e-7, to run with
+// kReferencePoints of a flank; 0.15 % by the bounds of gear/accuracy.h.
+inline constexpr int kReferencePoints = 48;
+template <class AnyScene>
+AnyScene reference_of(const AnyScene& of) {
+  AnyScene scene = accepting(of, 0);
+  double module = scene.gears.front().design.module;
+  for (const auto& gear : scene.gears) module = std::min(module, gear.design.module);
+  scene.body.element_size = module / 10;
+  scene.body.modes = 121;
+  scene.contact.strips = 32;
+  if (scene.fidelity.width != WidthModel::one) scene.contact.face_points = 24;
+  scene.time.min_sample_rate = 330 * expected_natural_frequency(scene);
+  scene.time.periodicity = 1e-7;
+  return scene;
+}
+
+// 1: largest relative difference of the RMS at the speeds where both are on one branch; where.
+struct RmsDifference {
+  double most = 0, mesh_frequency = 0;  // 1, Hz
+  int compared = 0;                     // speeds
+};
+inline RmsDifference difference(const ResponseResult& a, const ResponseResult& b) {
+  const std::vector<SpeedCompared> speeds = compared_speeds(a, b);
+  RmsDifference out;
+  for (Eigen::Index i = 0; i < a.dte_rms.rows(); ++i) {
+    if (speeds[static_cast<size_t>(i)] != SpeedCompared::yes) continue;
+    ++out.compared;
+    const double off = std::abs(a.dte_rms.row(i).norm() / b.dte_rms.row(i).norm() - 1);
+    if (off > out.most) out = {off, a.mesh_frequency[i], out.compared};
+  }
+  return out;
+}
+
+}  // namespace whine

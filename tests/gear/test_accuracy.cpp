@@ -1,0 +1,104 @@
+// What an accepted error chooses: bounds kept, keys that are given kept, refusals by name. What the bounds are worth on whole sweeps is in
+// tests/bench/verify_accuracy.cpp.
+#include "gear/accuracy.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <set>
+
+#include "paper_pair.h"
+#include "refusal.h"
+#include "relative.h"
+
+using namespace whine;
+
+namespace {
+
+Scene paper_scene(double accepted) {
+  Scene scene;
+  for (const char* name : {"pinion", "wheel"}) {
+    SceneGear gear;
+    gear.name = name;
+    gear.design = paper_gear();
+    gear.material = paper_steel();
+    gear.total_inertia = 0.0148;
+    scene.gears.push_back(gear);
+  }
+  scene.mesh = paper_statics(8).mesh;
+  scene.operation = {{100}, 600, 4000, 20};
+  scene.time.accepted_error = accepted;
+  return scene;
+}
+
+KeyGiven only(std::set<std::string> keys) {
+  return [keys = std::move(keys)](const std::string& key) { return keys.contains(key); };
+}
+
+}  // namespace
+
+TEST_CASE("an accepted error: the bounds of what is chosen stay below it and near it, finer for less") {
+  double element = 1, rate = 0;
+  int modes = 0;
+  for (const double accepted : {0.1, 0.02, 0.01, 0.005, 0.002}) {
+    CAPTURE(accepted);
+    Scene scene = paper_scene(accepted);
+    choose_discretisation(scene, only({}));
+    const double bound = discretisation_plan(scene, only({})).error();
+    CHECK(bound <= accepted * (1 + 1e-12));
+    CHECK(bound > 0.8 * accepted);
+    CHECK(scene.body.element_size <= element);
+    CHECK(scene.body.modes >= modes);
+    CHECK(scene.time.min_sample_rate > rate);
+    CHECK(scene.contact.strips % 4 == 0);
+    element = scene.body.element_size;
+    modes = scene.body.modes;
+    rate = scene.time.min_sample_rate;
+  }
+  Scene untold = paper_scene(0);
+  choose_discretisation(untold, only({}));
+  CHECK(untold.body.element_size == 0);
+  CHECK(untold.body.modes == Scene().body.modes);
+  CHECK(untold.time.min_sample_rate == Scene().time.min_sample_rate);
+}
+
+TEST_CASE("an accepted error: keys that the scene gives stay, and the others make up for them") {
+  Scene open = paper_scene(0.01), given = paper_scene(0.01);
+  given.body.modes = 31;
+  given.contact.strips = 5;
+  choose_discretisation(open, only({}));
+  choose_discretisation(given, only({"modes", "strips"}));
+  CHECK(given.body.modes == 31);
+  CHECK(given.contact.strips == 5);
+  CHECK(given.time.min_sample_rate > open.time.min_sample_rate);
+  CHECK(discretisation_plan(given, only({"modes", "strips"})).error() <= 0.01 * (1 + 1e-12));
+  Scene coarse = paper_scene(0.005);
+  coarse.body.modes = 9;
+  choose_discretisation(coarse, only({"modes"}));
+  CHECK(discretisation_plan(coarse, only({"modes"})).error() > 0.005);  // told, not hidden
+}
+
+TEST_CASE("an accepted error: points of a face in slices, no strips; refusals where no bound is known") {
+  Scene scene = paper_scene(0.005);
+  scene.fidelity.width = WidthModel::slices;
+  choose_discretisation(scene, only({}));
+  CHECK(scene.contact.face_points >= 4);
+  CHECK(scene.contact.strips == Scene().contact.strips);
+  const auto refused = [](auto change) {
+    Scene other = paper_scene(0.01);
+    change(other);
+    return message_of([&] { choose_discretisation(other, only({})); });
+  };
+  CHECK(names(refused([](Scene& s) { s.body.element_order = 1; }), {"element_order", 1, "rms_percent"}));
+  CHECK(names(refused([](Scene& s) { s.fidelity.integrator = Integrator::newmark; }), {"newmark"}));
+  CHECK(names(refused([](Scene& s) { s.body.near_field = NearField::matching; }), {"matching"}));
+}
+
+TEST_CASE(
+    "the natural frequency that settings are chosen for: that of P2000 within 6 %, as the root of the inertias") {
+  Scene scene = paper_scene(0);
+  CHECK(expected_natural_frequency(scene) == relative(2950, 0.06));
+  const double before = expected_natural_frequency(scene);
+  for (SceneGear& gear : scene.gears) gear.total_inertia *= 4;
+  CHECK(expected_natural_frequency(scene) == relative(before / 2, 1e-12));
+}
