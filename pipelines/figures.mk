@@ -229,7 +229,7 @@ teeth = $(filter $2,$(SCENE_$1_TEETH))
 BRANCHES ?= no
 system_shows = system $(if $2,system-static) $(if $(and $2,$(filter yes,$(SCENE_$1_PLANETS))),load-sharing) modes campbell $(if $(filter yes,$(SCENE_$1_MOVES)),system-sweep order-cuts $(if $(call teeth,$1,alike),,residual-signal))
 system_artifacts = $(if $2,$(inputs_system-static)) out/$1/modes.h5 $(if $(filter yes,$(SCENE_$1_MOVES)),$(inputs_system-sweep))
-system_figures := system system-static load-sharing modes campbell system-sweep motion-errors order-cuts residual-signal ring-down branch multipliers harris-map
+system_figures := system system-static load-sharing modes campbell system-sweep motion-errors order-cuts residual-signal ring-down branch multipliers harris-map fold-curves
 over_face = $(filter slices body,$(SCENE_$1_WIDTH))
 motion_shows = responses-by-torque $(if $(call teeth,$1,alike),$(if $(filter yes,$(BRANCHES)),response-branches multipliers)) order-cuts waterfall tooth-loads \
   $(if $(call over_face,$1),face-load,$(if $(call teeth,$1,alike),root-stress,residual-signal))

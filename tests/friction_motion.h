@@ -55,10 +55,4 @@ struct FrictionMotion {
   RollingDynamics::Period period;
 };
 
-// J: what the lines of an energy balance leave open.
-inline double left_over(const EnergyBalance& l) {
-  return l.storage() + l.modal_damping + l.relaxation_damping + l.friction - l.torque - l.rolling -
-         l.friction_rolling - l.switching - l.cutting - l.dropped + l.averaging;
-}
-
 }  // namespace whine

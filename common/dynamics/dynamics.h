@@ -46,6 +46,7 @@
 #include "dynamics/motion_period.h"
 #include "dynamics/newmark.h"
 #include "dynamics/step_kernel.h"
+#include "dynamics/step_work.h"
 #include "results/static.h"
 #include "system/rolling_mesh.h"
 
@@ -225,13 +226,6 @@ class RollingDynamics {
     Eigen::VectorXd frequency_squared, damping, torque;  // (coordinate), as in StepKernel::Vectors
     double balance = 0;
   };
-  // Integrals over one step that the energy balance's dampers need, by coordinate and for the relaxed loads.
-  struct DampingIntegrals {
-    Eigen::VectorXd speed, mixed, push;  // of a22^2, a22 s, s^2, v = a22 v0 + s (mean force - w^2 z0)
-    double decay2 = 0, mixed2 = 0,
-           growth2 = 0;  // of (a, b): load - relaxed = a (load0 - relaxed0) + b (load1 - load0)
-    double decay = 0, growth = 0, late_decay = 0, late_growth = 0;  // of a, b, t a, t b
-  };
   void size_energy_balance();
   void fill(Instant& now, const Instant* before, int position, const double* p, const double* d) const;
   void rename(Instant& instant) const;
@@ -255,7 +249,7 @@ class RollingDynamics {
   double torque_on_rolling(const Instant& before, const Instant& after) const;  // J
   double driver_speed() const;                                                  // rad s-1, mean
   void record_step(const Instant& before, const Instant& after, EnergyBalance& energy_balance);
-  DampingIntegrals damping_integrals() const;
+  step_work::DampingIntegrals damping_integrals() const;
   double relaxation() const { return relaxation_; }
   // Resizes the loads of a state of another range, whose candidate zone may reach more or fewer teeth.
   void fit_teeth(State& state) const;
@@ -346,7 +340,7 @@ class RollingDynamics {
   std::map<std::pair<int, int>, Eigen::MatrixXd> crack_;
   std::vector<Eigen::MatrixXd> intact_;  // [position] what is instantaneous without cracks
   std::vector<char> crack_is_put_;       // [position]
-  DampingIntegrals damping_;
+  step_work::DampingIntegrals damping_;
   double step_ = 0;                      // s
   std::vector<Eigen::MatrixXd> fields_;  // [gear] (flank, field) V, orthonormal
   // By position: what a pair's force does on the rigid rotation that is projected out; gaps of tip edges.

@@ -7,50 +7,46 @@
 
 #include "dynamics/dynamics.h"
 #include "dynamics/step_work.h"
+#include "results/sweep.h"
 
 namespace whine {
 
 using namespace step_work;
 
+using Eigen::Index;
 using Eigen::Matrix4Xd;
 using Eigen::Vector4d;
 using Eigen::VectorXd;
 
-RollingDynamics::DampingIntegrals RollingDynamics::damping_integrals() const {
-  DampingIntegrals result;
-  const int n = static_cast<int>(coordinates_.size());
-  result.speed = result.mixed = result.push = VectorXd::Zero(padded(n));
-  for (int c = 0; c < n; ++c) {
-    const double frequency = coordinates_[c].frequency, damping = coordinates_[c].damping;
-    if (c > 0 && frequency == coordinates_[c - 1].frequency && damping == coordinates_[c - 1].damping) {
-      for (VectorXd* x : {&result.speed, &result.mixed, &result.push}) (*x)[c] = (*x)[c - 1];
-      continue;
-    }
-    const auto add = [&](double t, double weight) {
-      const Propagator part = exact_propagator(frequency, damping, t);
-      result.speed[c] += weight * part.a22 * part.a22;
-      result.mixed[c] += weight * part.a22 * part.bv;
-      result.push[c] += weight * part.bv * part.bv;
-    };
-    // Every mode of a mesh: most of them are overdamped a thousandfold.
-    if (damping > 4 * frequency)
-      graded_quadrature(step_, frequency + damping, add);
-    else
-      quadrature(step_, frequency + damping, add);
+void EnergyBalance::begin(Index meshes, Index bodies) {
+  if (rolling.size() == meshes && drive.size() == bodies) return;
+  *this = {};
+  for (VectorXd* x : {&drive, &dragging, &bearing_damping}) x->setZero(bodies);
+  for (VectorXd* x : {&rolling, &switching, &cutting, &friction}) x->setZero(meshes);
+}
+
+double EnergyBalance::left_over() const {
+  return storage() + modal_damping + bearing_damping.sum() + relaxation_damping + friction.sum() -
+         drive.sum() - rolling.sum() - friction_rolling - centrifugal - dragging.sum() - switching.sum() -
+         cutting.sum() - dropped + averaging;
+}
+
+Eigen::RowVectorXd EnergyBalance::lines() const {
+  Eigen::RowVectorXd out(static_cast<Index>(kEnergyLines.size()));
+  out << kinetic, modal, residual, local, drive.sum(), rolling.sum(), friction_rolling,
+      centrifugal + dragging.sum(), modal_damping, bearing_damping.sum(), relaxation_damping, friction.sum(),
+      switching.sum(), cutting.sum(), averaging, dropped, throughput;  // kEnergyLines
+  return out;
+}
+
+step_work::DampingIntegrals RollingDynamics::damping_integrals() const {
+  const auto n = static_cast<Index>(coordinates_.size());
+  VectorXd frequency(n), damping(n);
+  for (Index c = 0; c < n; ++c) {
+    frequency[c] = coordinates_[static_cast<size_t>(c)].frequency;
+    damping[c] = coordinates_[static_cast<size_t>(c)].damping;
   }
-  const double eta = relaxation();
-  if (eta > 0)
-    quadrature(step_, 1 / eta, [&](double t, double weight) {
-      const double decay = std::exp(-t / eta), growth = -(eta / step_) * std::expm1(-t / eta);
-      result.decay2 += weight * decay * decay / eta;
-      result.mixed2 += weight * decay * growth / eta;
-      result.growth2 += weight * growth * growth / eta;
-      result.decay += weight * decay / eta;
-      result.growth += weight * growth / eta;
-      result.late_decay += weight * t / step_ * decay / eta;
-      result.late_growth += weight * t / step_ * growth / eta;
-    });
-  return result;
+  return {frequency, damping, relaxation(), step_, padded(static_cast<int>(n))};
 }
 
 void RollingDynamics::size_energy_balance() {
@@ -165,7 +161,7 @@ double RollingDynamics::record_friction(const Instant& a, const Instant& b,
   const double sliding = 0.5 * step_ * (a.sliding_power + b.sliding_power),
                vibration = 0.5 * (a.friction + b.friction).dot(b.at.z - a.at.z),
                rolling = torque_on_rolling(a, b);
-  energy_balance.friction += sliding + vibration;
+  energy_balance.friction[0] += sliding + vibration;
   energy_balance.friction_rolling += rolling;
   energy_balance.throughput += std::abs(rolling);
   return sliding + vibration - rolling;
@@ -344,12 +340,12 @@ void RollingDynamics::record_step(const Instant& a, const Instant& b, EnergyBala
   energy_balance.modal += modes.modal;
   energy_balance.residual += relaxed.residual;
   energy_balance.local += local;
-  energy_balance.torque += modes.torque;
-  energy_balance.rolling += contact.rolling;
+  energy_balance.drive[0] += modes.torque;
+  energy_balance.rolling[0] += contact.rolling;
   energy_balance.modal_damping += modes.damping;
   energy_balance.relaxation_damping += relaxed.damping;
-  energy_balance.switching += contact.switching;
-  energy_balance.cutting += contact.cutting;
+  energy_balance.switching[0] += contact.switching;
+  energy_balance.cutting[0] += contact.cutting;
   energy_balance.averaging += relaxed.averaging;
   energy_balance.dropped += contact.dropped;
   energy_balance.throughput += std::abs(modes.torque) + std::abs(contact.rolling);

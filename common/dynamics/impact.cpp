@@ -3,13 +3,10 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <complex>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
 
-#include "base/dense.h"
 #include "base/error.h"
 #include "gear/body_inertia.h"
 #include "gear/train.h"
@@ -29,13 +26,6 @@ constexpr int kSteps = 512, kSamples = 32, kOscillations = 8;
 // 5e-9, as many exponentials as its samples show; below this bound the damping ratio is that of the eigenvalue to 3e-5 of itself,
 // above it round-off in the samples (a torque step below 1e-9) moves it.
 constexpr double kMostFitResidual = 1e-5;
-// Where a strip opens or closes, the decay is no sum of exponentials; 80 of them fit it to 1e-7 with ratios that are meaningless. Of
-// 30000 such decays (100 to 300 N m, 1e-6 to 0.5 of it let go) those that this many fit to the same bound had the damping ratio
-// of the eigenvalue within 0.5 %, the others were up to 31 % off.
-constexpr int kMostExponentials = 12;
-// Im s / |s| below which a root counts as real: the equal real roots of the relaxed loads, -1/eta, come out as pairs, by the
-// root of round-off (1.5e-8) at most. A pair that does oscillate is then within 1e-10 of critical damping.
-constexpr double kReal = 1e-5;
 
 struct Rest {
   double x = 0;  // of the rigid rotation
@@ -207,15 +197,9 @@ class FixedPhasePair {
     for (int i = 0; i < plan_.phases; ++i) {
       const FixedPhaseMesh mesh = at(i, rayleigh_stiffness);
       const auto [trace, fit] = decay(mesh);
-      result.natural_frequency(i, 0) = fit.root.frequency;
-      result.damping_ratio(i, 0) = fit.root.damping_ratio;
-      result.fit_residual(i, 0) = fit.residual;
-      result.contact_changes(i, 0) = trace.contact_changes;
+      set_decay(fit, trace.contact_changes, i, 0, result);
       result.least_mesh_force = std::min(result.least_mesh_force, trace.least_mesh_force);
-      const DampedRoot root = frozen_root(mesh);
-      result.eigen_frequency(i, 0) = root.frequency;
-      result.eigen_damping_ratio(i, 0) = root.damping_ratio;
-      result.rayleigh_damping_ratio(i, 0) = rayleigh_ratio(result.damping, result.undamped_frequency(i, 0));
+      set_root(frozen_root(mesh), i, 0, result);
       Eigen::Index row = 0;
       for (const auto& state : state_phase_) {
         if (state.second == i) states.transmission_error.row(row) = trace.transmission_error.transpose();
@@ -284,9 +268,7 @@ class FixedPhasePair {
     RingDown trace = ring_down(mesh, plan_.torque_step, step_, static_cast<int>(blank_.states.time.size()),
                                kSteps / kSamples);
     const Decay fit =
-        trace.contact_changes > 0
-            ? fit_decay(trace.transmission_error, step_ * kSteps / kSamples, mesh.near, kMostExponentials)
-            : fit_decay(trace.transmission_error, step_ * kSteps / kSamples, mesh.near);
+        fit_ring_down(trace.transmission_error, step_ * kSteps / kSamples, mesh.near, trace.contact_changes);
     if (!(fit.residual <= kMostFitResidual)) fail_unresolved(mesh, trace, fit);
     return {std::move(trace), fit};
   }
@@ -365,57 +347,14 @@ RingDown ring_down(const FixedPhaseMesh& mesh, double torque_step, double step, 
   return result;
 }
 
-Eigen::VectorXcd frozen_roots(const FixedPhaseMesh& mesh, const std::vector<int>& touching) {
-  const MatrixXd h = mesh.participation(touching, Eigen::all), r = mesh.residual(touching, touching);
-  MatrixXd a = mesh.local(touching, touching);
-  const auto n = h.cols(), k = h.rows();
-  const bool relaxes = mesh.relaxation > 0;
-  if (!relaxes) a += r;
-  const Eigen::LDLT<MatrixXd> factor(a);
-  const double least = factor.vectorD().minCoeff();
-  if (factor.info() != Eigen::Success || !(least > 0))
-    fail(Failure::numerical, "at mesh phase ", mesh.phase, " the compliance of the ", k,
-         " strips that touch is not positive definite: pivot ", least,
-         " m/N; raise undamped_depth_mm or rebuild body.h5");
-  const MatrixXd coupling = factor.solve(h);
-  // In z, v / w and A P, which are of one size.
-  const double w = std::sqrt(h.col(0).dot(coupling.col(0)));
-  MatrixXd system = MatrixXd::Zero(2 * n + (relaxes ? k : 0), 2 * n + (relaxes ? k : 0));
-  system.block(0, n, n, n).diagonal().setConstant(w);
-  system.block(n, 0, n, n) = -h.transpose() * coupling / w;
-  system.block(n, 0, n, n).diagonal() -= mesh.frequency_squared / w;
-  system.block(n, n, n, n).diagonal() = -mesh.damping;
-  if (relaxes) {
-    const MatrixXd follow = r * factor.solve(MatrixXd::Identity(k, k));  // R P per A P
-    system.block(n, 2 * n, n, k) = coupling.transpose() * follow / w;
-    system.block(2 * n, 0, k, n) = h / mesh.relaxation;
-    system.block(2 * n, 2 * n, k, k) = -follow / mesh.relaxation;
-    system.block(2 * n, 2 * n, k, k).diagonal().array() -= 1 / mesh.relaxation;
-  }
-  const GeneralEigenvalues eigen = general_eigenvalues(system);
-  if (!eigen.converged)
-    fail(Failure::numerical, "at mesh phase ", mesh.phase, " the ", system.rows(),
-         " eigenvalues of the gears at a fixed phase were not found: its matrix has a norm of ",
-         system.norm(), " 1/s");
-  return eigen.values;
-}
-
 DampedRoot frozen_root(const FixedPhaseMesh& mesh) {
   ComplementaritySolver solver;
-  const Eigen::VectorXcd roots = frozen_roots(mesh, rest(mesh, 1, solver).active.strips);
-  // The slowest by its modulus, or the nearest: a high mode near critical damping has a small imaginary part, too.
-  DampedRoot lowest;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const std::complex<double>& s : roots) {
-    const double modulus = std::abs(s), away = std::abs(modulus - 2 * std::numbers::pi * mesh.near);
-    if (!(s.imag() > kReal * modulus) || away >= nearest) continue;
-    nearest = away;
-    lowest = {s.imag() / (2 * std::numbers::pi), -s.real() / modulus};
-  }
-  if (lowest.frequency == 0)
+  std::vector<std::complex<double>> roots = oscillating_roots(mesh, rest(mesh, 1, solver).active.strips);
+  if (roots.empty())
     fail(Failure::numerical,
          "no eigenvalue of the pair at a fixed phase oscillates: it is damped above critical");
-  return lowest;
+  // The slowest by its modulus, or the nearest: a high mode near critical damping has a small imaginary part, too.
+  return damped_root(*nearest_root(roots, mesh.near));
 }
 
 FixedPhaseMesh with_rayleigh_stiffness(FixedPhaseMesh mesh, double eta, BodyModel body) {

@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "dynamics/dynamics.h"
-#include "results/impact.h"
+#include "dynamics/ring_down.h"
 #include "results/reduced_body.h"
 #include "results/static.h"
-#include "signal/decay.h"
 
 namespace whine {
 
@@ -33,11 +32,6 @@ struct RingDown {
 // every `stride`-th is kept. Throws Error(input) for a torque step outside (0, 0.5], or one that parts the teeth;
 // Error(numerical) if contact comes to the end of a candidate zone or to a tip edge that the mesh does not hold.
 RingDown ring_down(const FixedPhaseMesh& mesh, double torque_step, double step, int samples, int stride);
-
-// s-1: all eigenvalues of gears at a fixed phase with these strips in contact: modes, relaxed loads and the local compliance as one
-// linear system z'' + c z' + w^2 z = -H^T p, eta P' + P = p, A p = H z - R P. The first coordinate is a rigid rotation that the
-// strips feel. Throws Error(numerical) if the contact has no stiffness, or if they are not found.
-Eigen::VectorXcd frozen_roots(const FixedPhaseMesh& mesh, const std::vector<int>& touching);
 
 // Lowest oscillating eigenvalue of the pair in static equilibrium with its contact frozen, see frozen_roots(). Throws
 // Error(numerical) if none oscillates, or if the contact has no stiffness.

@@ -169,6 +169,7 @@ bool RollingDynamics::integrate(State& state, Period& period, EnergyBalance* ene
   set_gap(0, state.period);
   std::array<Instant, 2>& instants = balance_work_.instants;
   balance_work_.balance = 0;
+  if (energy_balance) energy_balance->begin(1, kSides);
   if (energy_balance) fill(instants[0], nullptr, 0, state.p.data(), state.d.data());
   bool begun = false;
   for (int i = 1; i <= steps_; ++i) {

@@ -11,7 +11,6 @@
 #include "gear/layout.h"
 #include "gear/system_layout.h"
 #include "orbits/recurrence.h"
-#include "results/sweep.h"
 #include "signal/rms.h"
 #include "system/face_mesh.h"
 #include "system/face_statics.h"
@@ -28,20 +27,6 @@ constexpr int kRestPositions = 32;  // of the statics that come first, in each m
 constexpr int kMostRestPositions = 2048,
               kFewestRestPositions = 4;  // in all of a hunting period; in a mesh period
 constexpr double kBeyondStatics = 2.5;   // deflection that tip edges are looked for, over that of rest
-constexpr int kMostWidenings = 5;
-
-void add_energy(const SystemEnergyBalance& e, MotionEnergy& all) {
-  Eigen::RowVectorXd lines(all.lines.size());
-  lines << e.kinetic, e.modal, e.residual, e.local, e.drive.sum(), e.rolling.sum(), e.friction_rolling,
-      e.centrifugal + e.dragging.sum(), e.modal_damping, e.bearing_damping.sum(), e.relaxation_damping,
-      e.friction.sum(), e.switching.sum(), e.cutting.sum(), e.averaging, e.dropped,
-      e.throughput;  // kEnergyLines
-  all.lines += lines;
-  all.rolling += e.rolling;
-  all.friction += e.friction;
-  all.bearing_damping.head(e.bearing_damping.size()) += e.bearing_damping;
-  all.imbalance += e.imbalance;
-}
 
 // m: norm over the meshes of what oscillates of their transmission errors.
 double norm_of_rms(const std::vector<MotionPeriod>& record) {
@@ -179,7 +164,7 @@ void LinesMotion::widen(const std::vector<State*>& states) {
 
 double LinesMotion::natural_frequency() {
   constexpr int kPhases = 16;
-  const Eigen::VectorXd turning = dynamics_->coordinates().turning(0);
+  const Eigen::VectorXd turning = dynamics_->coordinates().turning(input_of(system_.layout));
   double sum = 0;
   for (int i = 0; i < kPhases; ++i) {
     const SystemDynamics::FrozenModes modes = dynamics_->frozen_modes(i * positions_ / kPhases);
@@ -241,19 +226,12 @@ bool LinesMotion::record(State& state, MotionRecord& out) {
                                        : Recurrence<Eigen::VectorXd>::kMostMultiple;
   MotionPeriod before = std::move(out.record[0]);
   out.record.resize(static_cast<size_t>(periods));
-  SystemEnergyBalance energy;
-  MotionEnergy& all = out.energy;
-  const auto meshes = static_cast<Index>(system_.mesh.size());
-  all.lines.setZero(static_cast<Index>(kEnergyLines.size()));
-  for (Eigen::RowVectorXd* x : {&all.rolling, &all.friction}) x->setZero(meshes);
-  all.bearing_damping.setZero(static_cast<Index>(system_.layout.bodies.size()));
   for (MotionPeriod& period : out.record) {
-    if (!dynamics_->integrate(std::get<SystemDynamics::State>(state), period, &energy)) return false;
+    if (!dynamics_->integrate(std::get<SystemDynamics::State>(state), period, &out.energy)) return false;
     dynamics_->take_tooth_loads(period);
     MotionPeriod end = period;
     if (periods > 1) period.begin_with_end_of(before);
     before = std::move(end);
-    add_energy(energy, all);
   }
   out.rms = norm_of_rms(out.record);
   take_holding(out);

@@ -23,6 +23,7 @@ void require_like_teeth(const SystemStaticParameters& settings, const std::vecto
 
 class LinesMotion : public Motion {
  public:
+  static constexpr int kMostWidenings = 5;
   // bodies: [gear] of settings.body; positions: of a mesh period, those of set_positions(). Contact is on lines whatever
   // settings.fidelity.contact says. Throws as rest_over_period() and SystemDynamics.
   LinesMotion(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies, int positions);
@@ -37,7 +38,7 @@ class LinesMotion : public Motion {
   int reach() const override {
     return std::max(-dynamics_->first_pair(), dynamics_->first_pair() + dynamics_->tooth_pairs() - 1);
   }
-  // Of the mode that gives way most to a torque on body 0.
+  // Throws Error(input) where nothing turns.
   double natural_frequency() override;
   double axis_damper(int g) override;
 
@@ -51,6 +52,7 @@ class LinesMotion : public Motion {
   // Looks for tip edges that are 1.6 times as far off as before, for which dynamics() is made anew. Throws ModelRangeError after 5 times.
   void widen(const std::vector<State*>& states) override;
   int level() const override { return widenings_; }
+  int most_level() const override { return kMostWidenings; }
 
  private:
   bool record(State& state, MotionRecord& out);

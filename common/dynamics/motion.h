@@ -30,14 +30,6 @@ namespace whine {
 // Of the stepper that made it.
 using MotionState = std::variant<RollingDynamics::State, SystemDynamics::State>;
 
-// J, over the recorded periods.
-struct MotionEnergy {
-  Eigen::RowVectorXd lines;              // (line of kEnergyLines)
-  Eigen::RowVectorXd rolling, friction;  // of these lines what is of each mesh
-  Eigen::RowVectorXd bearing_damping;    // and each body, of lines
-  double imbalance = 0;                  // largest |sum of the lines so far|
-};
-
 // What a motion settled into.
 struct MotionRecord {
   int multiple = 0;     // mesh periods after which it repeats; 0: it does not
@@ -46,7 +38,7 @@ struct MotionRecord {
   double rms = 0;       // m, of the oscillating transmission errors, norm over the meshes
   std::vector<MotionPeriod>
       record;  // one orbit, or the last periods; where there are several, each begins with its own start
-  MotionEnergy energy;
+  EnergyBalance energy;         // of the recorded periods
   Eigen::VectorXd coefficient;  // (mesh) 1: of friction; empty: none acts
   double power_in = 0;  // W, with friction: of what drives, and of what holds bodies that turn on the ground
   Eigen::RowVectorXd holding_torque;  // (body) N m, of lines: mean, of what holds the body; 0 of free ones
@@ -93,8 +85,10 @@ class Motion {
   virtual ~Motion() = default;
   virtual const SystemModel& system() const = 0;
   virtual int hunting_periods() const = 0;  // see hunting_periods() of the system
-  // Of a pair: Hz, mean over the mesh period with the contact frozen as the static load leaves it; N m s, damper of the axis of gear g.
+  // Hz: mean over the mesh period with the contact frozen as the static load leaves it; of lines that of the mode that gives way most to
+  // the torque of the input.
   virtual double natural_frequency() = 0;
+  // Of a pair: N m s, damper of the axis of gear g.
   virtual double axis_damper(int g) = 0;
 
   virtual int reach() const = 0;  // largest |pair| that the candidates so far can touch
@@ -123,6 +117,7 @@ class Motion {
   // The set before it. False where there is none, or where the present one computes the same.
   virtual bool narrow() { return false; }
   virtual int level() const { return 0; }
+  virtual int most_level() const = 0;
   virtual void restore(int /*level*/) {}  // after narrow() or widen(), where that can be undone
   // Contact forces where these candidates have their strips: an orbit puts them there in the periods after which it repeats, at the
   // speed of the map made last. False if contact leaves the candidates.

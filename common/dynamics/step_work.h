@@ -1,10 +1,12 @@
-// Work over one time step: quadrature of what decays within it, and of Hertz's law whose force and shape change.
+// Work over one time step: quadrature of what decays within it, of dampers, and of Hertz's law whose force and shape change.
 #pragma once
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "contact/hertz_line.h"
+#include "dynamics/newmark.h"
 
 namespace whine::step_work {
 
@@ -59,6 +61,52 @@ void graded_quadrature(double step, double rate, Function at) {
     for (int k = 0; k < kPoints; ++k) at(from + (to - from) * kNode[k], (to - from) * kWeight[k]);
     from = to;
   }
+}
+
+// Integrals over a step that dampers need, of each coordinate z'' + c z' + w^2 z = force and of the relaxed loads.
+struct DampingIntegrals {
+  DampingIntegrals() = default;
+  // frequency, damping: (coordinate) rad s-1, s-1; relaxation, step: s. The sums of the coordinates are filled up to `size` by 0.
+  DampingIntegrals(const Eigen::VectorXd& frequency, const Eigen::VectorXd& damping, double relaxation,
+                   double step, Eigen::Index size);
+  Eigen::VectorXd speed, mixed, push;  // of a22^2, a22 s, s^2, v = a22 v0 + s (mean force - w^2 z0)
+  // Of (a, b): load - relaxed = a (load0 - relaxed0) + b (load1 - load0); of a, b, t a, t b.
+  double decay2 = 0, mixed2 = 0, growth2 = 0;
+  double decay = 0, growth = 0, late_decay = 0, late_growth = 0;
+};
+
+inline DampingIntegrals::DampingIntegrals(const Eigen::VectorXd& frequency, const Eigen::VectorXd& damping,
+                                          double relaxation, double step, Eigen::Index size) {
+  for (Eigen::VectorXd* x : {&speed, &mixed, &push}) x->setZero(size);
+  for (Eigen::Index c = 0; c < frequency.size(); ++c) {
+    if (c > 0 && frequency[c] == frequency[c - 1] && damping[c] == damping[c - 1]) {
+      for (Eigen::VectorXd* x : {&speed, &mixed, &push}) (*x)[c] = (*x)[c - 1];
+      continue;
+    }
+    const auto add = [&](double t, double weight) {
+      const Propagator part = exact_propagator(frequency[c], damping[c], t);
+      speed[c] += weight * part.a22 * part.a22;
+      mixed[c] += weight * part.a22 * part.bv;
+      push[c] += weight * part.bv * part.bv;
+    };
+    // Every mode of a mesh: most of them are overdamped a thousandfold.
+    if (damping[c] > 4 * frequency[c])
+      graded_quadrature(step, frequency[c] + damping[c], add);
+    else
+      quadrature(step, frequency[c] + damping[c], add);
+  }
+  if (!(relaxation > 0)) return;
+  quadrature(step, 1 / relaxation, [&](double t, double weight) {
+    const double behind = std::exp(-t / relaxation),
+                 risen = -(relaxation / step) * std::expm1(-t / relaxation);
+    decay2 += weight * behind * behind / relaxation;
+    mixed2 += weight * behind * risen / relaxation;
+    growth2 += weight * risen * risen / relaxation;
+    decay += weight * behind / relaxation;
+    growth += weight * risen / relaxation;
+    late_decay += weight * t / step * behind / relaxation;
+    late_growth += weight * t / step * risen / relaxation;
+  });
 }
 
 }  // namespace whine::step_work

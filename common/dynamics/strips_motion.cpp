@@ -8,7 +8,6 @@
 #include "base/model_range.h"
 #include "contact/lanes.h"
 #include "dynamics/period_map.h"
-#include "results/sweep.h"
 #include "system/system_statics.h"
 
 namespace whine {
@@ -27,22 +26,6 @@ CandidateZone zone_of_level(const GearMeshModel& model, const StaticResult& stat
   range.half_zone = lowest.half_zone * range.strips / lowest.strips;
   return range;
 }
-
-namespace {
-
-MotionEnergy energy_of(const EnergyBalance& e) {
-  MotionEnergy out;
-  out.lines.resize(static_cast<Eigen::Index>(kEnergyLines.size()));
-  out.lines << e.kinetic, e.modal, e.residual, e.local, e.torque, e.rolling, e.friction_rolling, 0,
-      e.modal_damping, 0, e.relaxation_damping, e.friction, e.switching, e.cutting, e.averaging, e.dropped,
-      e.throughput;  // kEnergyLines
-  out.rolling.setConstant(1, e.rolling);
-  out.friction.setConstant(1, e.friction);
-  out.imbalance = e.imbalance;
-  return out;
-}
-
-}  // namespace
 
 StripsMotion::StripsMotion(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
                            const DynamicParameters& parameters, int positions)
@@ -92,7 +75,7 @@ std::optional<MotionRecord> StripsMotion::settle(State& state, double mesh_frequ
   MotionRecord out{orbit->multiple, orbit->periods, orbit->residual, orbit->rms, {}, {}, {}, 0, {}};
   out.record.resize(orbit->record.size());
   for (size_t k = 0; k < out.record.size(); ++k) orbit->record[k].show(out.record[k]);
-  out.energy = energy_of(orbit->energy_balance);
+  out.energy = orbit->energy_balance;
   if (model().friction.acts()) {
     out.coefficient.setConstant(1, dynamics.friction());
     const double turning =

@@ -42,6 +42,7 @@ class StripsMotion : public Motion {
   void widen(const std::vector<State*>& states) override;  // states fit every level
   bool narrow() override;
   int level() const override { return level_; }
+  int most_level() const override { return kMostZoneLevel; }
   void restore(int level) override { level_ = level; }
   bool fit(State& state, int periods) override;
 

@@ -323,7 +323,7 @@ void SystemDynamics::take_tooth_loads(Period& period) const {
     period.mesh_force.row(m) = period.tooth_load.middleRows(m * pairs, pairs).colwise().sum();
 }
 
-bool SystemDynamics::integrate(State& state, Period& period, SystemEnergyBalance* balance) {
+bool SystemDynamics::integrate(State& state, Period& period, EnergyBalance* balance) {
   if (steps_ == 0) fail(Failure::input, "a period is integrated at a speed; set it first");
   put_gap(0, state.period);
   take(state, at(0));

@@ -36,12 +36,12 @@
 #include "base/huge_pages.h"
 #include "base/matrix.h"
 #include "contact/lanes.h"
+#include "dynamics/energy_balance.h"
 #include "dynamics/fixed_phase_motion.h"
 #include "dynamics/motion_period.h"
 #include "dynamics/newmark.h"
 #include "dynamics/system_contact.h"
 #include "dynamics/system_coordinates.h"
-#include "dynamics/system_energy.h"
 #include "dynamics/turning_frame.h"
 #include "gear/layout.h"
 #include "system/face_mesh.h"
@@ -79,7 +79,7 @@ class SystemDynamics {
   // Integrates one mesh period and renames the teeth, so that the state can be compared with the one before. False if a mesh
   // deflects so far that a tip edge which was left out would touch; the state is then undefined. Throws Error(numerical), with the mesh
   // phase, if the contact of a step has no certified solution or is beyond Hertz's law.
-  bool integrate(State& state, Period& period, SystemEnergyBalance* balance = nullptr);
+  bool integrate(State& state, Period& period, EnergyBalance* balance = nullptr);
   // Free motion at phase i / positions, at which the gears stay: `steps` steps of `seconds` with contact solved at each, as in
   // integrate(). watch(z, p): coordinates, and forces (slot) N, after each. Returns and throws as integrate(); needs no speed, and
   // afterwards none is set.

@@ -16,43 +16,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-SystemEnergyRecord::SystemEnergyRecord(const SystemDynamics& dynamics, SystemEnergyBalance* balance)
+SystemEnergyRecord::SystemEnergyRecord(const SystemDynamics& dynamics, EnergyBalance* balance)
     : of_(dynamics), balance_(balance) {
   if (!balance) return;
   const Index bodies = of_.coordinates_.inertia.size();
-  *balance = {};
-  for (VectorXd* x : {&balance->drive, &balance->bearing_damping, &balance->dragging}) x->setZero(bodies);
-  for (VectorXd* x : {&balance->rolling, &balance->switching, &balance->cutting, &balance->friction})
-    x->setZero(of_.meshes());
+  balance->begin(of_.meshes(), bodies);
   if (of_.slides()) find_pivots();
-  // v = a22 v0 + bv (mean force - w^2 z0) within a step, and load - relaxed = a (load0 - relaxed0) + b (load1 - load0).
-  const Index n = of_.coordinates_.size();
-  for (VectorXd* x : {&speed_, &mixed_, &push_}) x->setZero(n);
-  const double step = of_.step_;
-  for (Index c = 0; c < n; ++c) {
-    const double frequency = of_.coordinates_.frequency[c], damping = of_.coordinates_.damping[c];
-    const auto add = [&](double t, double weight) {
-      const Propagator part = exact_propagator(frequency, damping, t);
-      speed_[c] += weight * part.a22 * part.a22;
-      mixed_[c] += weight * part.a22 * part.bv;
-      push_[c] += weight * part.bv * part.bv;
-    };
-    if (damping > 4 * frequency)
-      graded_quadrature(step, frequency + damping, add);
-    else
-      quadrature(step, frequency + damping, add);
-  }
-  if (const double eta = of_.relaxation_; eta > 0)
-    quadrature(step, 1 / eta, [&](double t, double weight) {
-      const double decay = std::exp(-t / eta), growth = -(eta / step) * std::expm1(-t / eta);
-      decay2_ += weight * decay * decay / eta;
-      mixed2_ += weight * decay * growth / eta;
-      growth2_ += weight * growth * growth / eta;
-      decay_ += weight * decay / eta;
-      growth_ += weight * growth / eta;
-      late_decay_ += weight * t / step * decay / eta;
-      late_growth_ += weight * t / step * growth / eta;
-    });
+  const SystemCoordinates& c = of_.coordinates_;
+  damping_ = {c.frequency, c.damping, of_.relaxation_, of_.step_, of_.coordinates_.size()};
 }
 
 // rad s-1, in the frame of the system.
@@ -156,10 +127,11 @@ double SystemEnergyRecord::modes(const Instant& a, const Instant& b) {
   const auto push = 0.5 * (a.force.array() + b.force.array()) - w2 * a.z.array();
   const auto start = a.start.array();
   // Integrals of v^2; Newmark's own velocity is the mean one.
-  const VectorXd squared = of_.motion_.fidelity.integrator == Integrator::newmark
-                               ? VectorXd((b.z - a.z).array().square() / of_.step_)
-                               : VectorXd(speed_.array() * start.square() +
-                                          2 * mixed_.array() * start * push + push_.array() * push.square());
+  const VectorXd squared =
+      of_.motion_.fidelity.integrator == Integrator::newmark
+          ? VectorXd((b.z - a.z).array().square() / of_.step_)
+          : VectorXd(damping_.speed.array() * start.square() + 2 * damping_.mixed.array() * start * push +
+                     damping_.push.array() * push.square());
   const double damping = (c.damping - c.of_bearing).dot(squared);
   double bearing = 0, drive = 0;
   for (Index n = 0; n < balance_->drive.size(); ++n) {
@@ -201,10 +173,10 @@ double SystemEnergyRecord::relaxation(const Instant& a, const Instant& b) {
     const VectorXd behind = a.load - a.relaxed, change = b.load - a.load, moved_behind = a.moved - a.field,
                    moved_change = b.moved - a.moved;
     const double change2 = change.dot(moved_change);
-    damping =
-        decay2_ * behind.dot(moved_behind) + 2 * mixed2_ * behind.dot(moved_change) + growth2_ * change2;
-    exact = decay_ * a.load.dot(moved_behind) + growth_ * a.load.dot(moved_change) +
-            late_decay_ * change.dot(moved_behind) + late_growth_ * change2;
+    damping = damping_.decay2 * behind.dot(moved_behind) + 2 * damping_.mixed2 * behind.dot(moved_change) +
+              damping_.growth2 * change2;
+    exact = damping_.decay * a.load.dot(moved_behind) + damping_.growth * a.load.dot(moved_change) +
+            damping_.late_decay * change.dot(moved_behind) + damping_.late_growth * change2;
   }
   const double averaging = mean.dot(b.field - a.field) - exact;
   balance_->residual += stored;
@@ -241,10 +213,10 @@ double SystemEnergyRecord::uneven(const Instant& a, const Instant& b) {
                  exchange = (load + 0.5 * change).cwiseProduct(mean * (relaxed - old));
   double damping = 0, exact = (load + 0.5 * change).dot(moved_change);
   if (of_.relaxation_ > 0) {
-    damping = decay2_ * behind.dot(moved_behind) + 2 * mixed2_ * behind.dot(moved_change) +
-              growth2_ * change.dot(moved_change);
-    exact = decay_ * load.dot(moved_behind) + growth_ * load.dot(moved_change) +
-            late_decay_ * change.dot(moved_behind) + late_growth_ * change.dot(moved_change);
+    damping = damping_.decay2 * behind.dot(moved_behind) + 2 * damping_.mixed2 * behind.dot(moved_change) +
+              damping_.growth2 * change.dot(moved_change);
+    exact = damping_.decay * load.dot(moved_behind) + damping_.growth * load.dot(moved_change) +
+            damping_.late_decay * change.dot(moved_behind) + damping_.late_growth * change.dot(moved_change);
   }
   const VectorXd carried = 0.5 * (next.cwiseProduct(to * next) - old.cwiseProduct(from * old) -
                                   relaxed.cwiseProduct(mean * relaxed) + old.cwiseProduct(mean * old));

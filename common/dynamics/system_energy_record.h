@@ -1,7 +1,8 @@
-// Keeps the energy balance of a period of SystemDynamics while it is integrated.
+// Adds to the energy balance of a period of SystemDynamics while it is integrated.
 #pragma once
 #include <vector>
 
+#include "dynamics/step_work.h"
 #include "dynamics/system_dynamics.h"
 
 namespace whine {
@@ -9,7 +10,7 @@ namespace whine {
 class SystemEnergyRecord {
  public:
   // balance: null records nothing.
-  SystemEnergyRecord(const SystemDynamics& dynamics, SystemEnergyBalance* balance);
+  SystemEnergyRecord(const SystemDynamics& dynamics, EnergyBalance* balance);
   void start(const SystemDynamics::Position& position);
   void step(const SystemDynamics::Position& position);
   void finish();  // after the teeth have been renamed
@@ -43,7 +44,7 @@ class SystemEnergyRecord {
   double field_at(const SystemDynamics::Position& position, int k, const Eigen::VectorXd& field) const;
 
   const SystemDynamics& of_;
-  SystemEnergyBalance* balance_;
+  EnergyBalance* balance_;
   Instant before_, now_;
   double sum_ = 0;
   Eigen::VectorXd exchange_, carried_;  // (slot), (mesh) J: of the step, see uneven()
@@ -51,8 +52,7 @@ class SystemEnergyRecord {
   std::vector<Eigen::Index>
       pivot_;                // gears that what holds the mean speed follows from, one for each rolling
   Eigen::MatrixXd holding_;  // (body, pivot) 1: D of each body by those of these gears
-  Eigen::VectorXd speed_, mixed_, push_;  // (coordinate) integrals over a step, see DampingIntegrals
-  double decay2_ = 0, mixed2_ = 0, growth2_ = 0, decay_ = 0, growth_ = 0, late_decay_ = 0, late_growth_ = 0;
+  step_work::DampingIntegrals damping_;
 };
 
 }  // namespace whine

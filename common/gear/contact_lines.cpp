@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/error.h"
 
@@ -31,6 +32,13 @@ double contact_line_length(const GearPair& pair, double phase) {
   double sum = 0;
   for (const ContactLine& line : contact_lines(pair, phase)) sum += line.length();
   return sum / std::cos(pair.base_helix_angle());
+}
+
+double contact_line_harmonic(double contact_ratio, double overlap_ratio) {
+  const auto sinc = [](double x) {
+    return x > 0 ? std::sin(std::numbers::pi * x) / (std::numbers::pi * x) : 1;
+  };
+  return 2 * std::abs(sinc(contact_ratio) * sinc(overlap_ratio));
 }
 
 HelicalForces helical_forces(const GearPair& pair, double torque) {

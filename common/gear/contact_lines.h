@@ -29,6 +29,11 @@ std::vector<ContactLine> contact_lines(const GearPair& pair, double phase);
 // m: L of all of them together, along the lines.
 double contact_line_length(const GearPair& pair, double phase);
 
+// 1: first harmonic over the mean of L over a mesh period, 2 |sinc(eps_alpha) sinc(eps_beta)| with sinc(x) = sin(pi x) / (pi x), of the
+// contact ratio and the overlap ratio (above or equal 0). One degree of freedom on a stiffness that goes with L loses contact where it is
+// above about twice the damping ratio.
+double contact_line_harmonic(double contact_ratio, double overlap_ratio);
+
 // Forces of a helical pair under a torque (N m) on the driver: transverse along the line of action, normal to the flanks, and along the
 // axis of the driver, positive along z; those on the driven gear are opposite.
 struct HelicalForces {

@@ -520,6 +520,18 @@ double ground_turns(const System& system, int b) {
   return (body.teeth > 0 ? 1.0 / body.teeth : 0.0) + body.sense * frame_turns(system);
 }
 
+int input_of(const System& system) {
+  const TrainSpeeds speeds = train_speeds(system);
+  for (const System::Drive& drive : system.drives)
+    if (drive.kind == System::DriveKind::torque && drive.torque > 0 &&
+        speeds.turns[static_cast<size_t>(drive.body)] != 0)
+      return drive.body;
+  for (size_t b = 0; b < speeds.turns.size(); ++b)
+    if (speeds.turns[b] != 0) return static_cast<int>(b);
+  fail(Failure::input,
+       "no body of the train turns, so it has no speed to change; give a drive its torque_Nm");
+}
+
 int output_of(const System& system) {
   int out = -1;
   double most = 0;

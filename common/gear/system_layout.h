@@ -62,6 +62,9 @@ TrainSpeeds train_speeds(const System& system);
 double frame_turns(const System& system);
 // 1: revolutions of a body on the ground in a mesh period, in its own sense, where the frame turns so.
 double ground_turns(const System& system, int b);
+// The body of the first drive that gives power, else the first body that turns. Throws Error(input) where nothing turns, and as
+// train_speeds().
+int input_of(const System& system);
 // The free body on the ground where most power leaves the train by its drive: with friction what it gives follows from the losses.
 // -1: none.
 int output_of(const System& system);

@@ -46,13 +46,13 @@ inline constexpr std::tuple kArtifactKinds{
     ArtifactKind<SweepResult>{"sweep", 9, "sweep.h5", "sweep"},
     ArtifactKind<SweepErrorsResult>{"sweep_errors", 2, "sweep_errors.h5", "sweep_errors"},
     ArtifactKind<ResponseResult>{"response", 11, "response.h5", "response"},
-    ArtifactKind<BranchResult>{"branch", 7, "branch.h5", "branch"},
-    ArtifactKind<RunupResult>{"runup", 5, "runup_<rate>.h5", "runup_*"},
-    ArtifactKind<FoldCurvesResult>{"fold_curves", 1, "fold_curves_*.h5", "fold_curves*"},
+    ArtifactKind<BranchResult>{"branch", 8, "branch.h5", "branch"},
+    ArtifactKind<RunupResult>{"runup", 6, "runup_<rate>.h5", "runup_*"},
+    ArtifactKind<FoldCurvesResult>{"fold_curves", 2, "fold_curves_*.h5", "fold_curves*"},
     ArtifactKind<JumpMapResult>{"jump_map", 2, "jump_map_*.h5", "jump_map* branches*"},
     ArtifactKind<HarrisMapResult>{"harris_map", 1, "harris_map.h5", "harris_*"},
-    ArtifactKind<VariantResult>{"variant", 3, "ab12....h5", ""},
-    ArtifactKind<StudyResult>{"study", 3, "study.h5", ""},
+    ArtifactKind<VariantResult>{"variant", 4, "ab12....h5", ""},
+    ArtifactKind<StudyResult>{"study", 4, "study.h5", ""},
     ArtifactKind<ModesResult>{"modes", 2, "modes.h5", "modes"},
     ArtifactKind<ReadingsResult>{"readings", 1, "readings.h5", ""}};
 

@@ -11,6 +11,7 @@ using namespace ranges;
 
 constexpr const char* kPointMesh = "point mesh";
 constexpr const char* kPointBody = "point body";
+constexpr const char* kPointMeshSide = "point mesh side";
 
 void describe_points(Codec& c, BranchResult& a) {
   c(a.mesh_frequency, "/mesh_frequency", "Hz", kSpeed, "point", "mesh frequency along the branch");
@@ -32,11 +33,11 @@ void describe_points(Codec& c, BranchResult& a) {
     c(a.bearing_force_rms, "/bearing_force_rms", "N", kLoad, kPointBody,
       "RMS of the oscillating part of the force of the body on its bearing, pin or axis, x and y together; 0 of a gear of a pair whose bearing is rigid");
   if (!c.optional("/root_stress_sustained", a.root_stress_sustained.size() > 0)) return;
-  c(a.root_stress_sustained, "/root_stress_sustained", "Pa", kStress, kPointBody,
-    "largest tangential stress along the roots beside the loaded flanks that is sustained for 1/64 of a mesh period, quasi-static in the tooth loads");
-  c(a.root_stress_angle, "/root_stress_angle", "1", kRoll, kPointBody,
+  c(a.root_stress_sustained, "/root_stress_sustained", "Pa", kStress, kPointMeshSide,
+    "largest tangential stress along the roots beside the loaded flanks that is sustained for 1/64 of a mesh period, quasi-static in the tooth loads; 0 of a mesh of which it is not known");
+  c(a.root_stress_angle, "/root_stress_angle", "1", kRoll, kPointMeshSide,
     "angle (rad) of the root's tangent there against the centre line of the tooth");
-  c(a.root_stress_phase, "/root_stress_phase", "1", kPlace, kPointBody,
+  c(a.root_stress_phase, "/root_stress_phase", "1", kPlace, kPointMeshSide,
     "mesh phase of the tooth's pair then, 0 at the pitch point");
 }
 

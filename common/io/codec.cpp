@@ -214,7 +214,7 @@ void Codec::put_record(const Dataset& d, const Member& member) {
   const auto* vector = std::get_if<Eigen::VectorXd*>(&member);
   const auto* matrix = std::get_if<MatrixRM*>(&member);
   if (!vector && !matrix) fail(Failure::numerical, "dataset ", d.name, " is no record of rows");
-  std::vector<Eigen::Index> shape = vector ? shape_of(**vector) : shape_of(**matrix);
+  std::vector<Eigen::Index> shape = vector ? shape_of(**vector) : shape_along(known_shape(d.axes), **matrix);
   const double* data = vector ? (*vector)->data() : (*matrix)->data();
   if (record_ == Record::append) {
     out_->file().append(d.name, data, static_cast<std::size_t>(rows_), static_cast<std::size_t>(shape[0]));

@@ -34,7 +34,7 @@ constexpr Group kGroups[] = {
     {GivenAs::options, true, "VARIANTS HARRIS_OPTIONS"},
     {GivenAs::options, false, "AXIS"},
     {GivenAs::list, false,
-     "BESIDE JUMP_MAP_TORQUES JUMP_MAP_CORNERS JUMP_MAP_MODELS JUMP_MAP_RATIOS FOLD_RATIOS FOLD_TORQUES FOLD_RELIEFS FOLD_CURVE_TORQUES"},
+     "BESIDE JUMP_MAP_TORQUES JUMP_MAP_CORNERS JUMP_MAP_MODELS JUMP_MAP_RATIOS FOLD_RATIOS FOLD_TORQUES FOLD_RELIEFS FOLD_STIFFNESSES FOLD_CURVE_TORQUES"},
     {GivenAs::word, false,
      "TORQUE MESH PHASE DAMPING STATE AT DB RATE FROM TO WAY BRANCHES ERRORS JUMP_MAP JUMP_MAP_STEP JUMP_MAP_LOADS_AT JUMP_MAP_CELLS SENSITIVITY SENSITIVITY_FACTOR SENSITIVITY_RATIO SENSITIVITY_STEP HARRIS_DYNAMIC FOLDS_OVER FOLD_FIRST READING_PARTS FAULT_KILLS STRESS_PROBLEMS STRESS_SCENES STRESS_SEED FUZZ_SECONDS LAUNCH_WAIT FREEZE SANITIZE"}};
 // Commands themselves, which nobody judges.
@@ -182,7 +182,9 @@ void check_choices(const MakeRequest& request) {
       {"WAY", {{"up", "down"}, "it is up or down"}},
       {"JUMP_MAP", {{"coarse", "fine"}, "it is coarse or fine"}},
       {"SENSITIVITY", {{"coarse", "fine"}, "it is coarse or fine"}},
-      {"FOLDS_OVER", {{"damping", "torque", "tip_relief"}, "it is damping, torque or tip_relief"}}};
+      {"FOLDS_OVER",
+       {{"damping", "torque", "bearing_stiffness", "tip_relief"},
+        "it is damping, torque, bearing_stiffness or tip_relief"}}};
   for (const auto& [name, choice] : kChoices)
     if (const std::string& value = request.value(name); !value.empty() && !listed_in(choice.first, value))
       refuse(name, value, choice.second);

@@ -69,8 +69,8 @@ void describe_periods(Codec& c, RunupPeriods& a, bool& root_stress) {
   const std::string name = at + "root_stress_sustained";
   root_stress = c.optional(name, root_stress);
   if (root_stress)
-    c(a.root_stress_sustained, name, "Pa", kStress, "mesh_period/time body",
-      "largest tangential stress along the roots beside the loaded flanks that is sustained for 1/64 of the mesh period, quasi-static in the tooth loads");
+    c(a.root_stress_sustained, name, "Pa", kStress, "mesh_period/time mesh side",
+      "largest tangential stress along the roots beside the loaded flanks that is sustained for 1/64 of the mesh period, quasi-static in the tooth loads; 0 of a mesh of which it is not known");
 }
 
 void describe_tail(Codec& c, RunupResult& a) {
@@ -134,7 +134,7 @@ void RunupFile::begin(const RunupResult& head, Index samples, Index periods) {
   for (MatrixRM* x :
        {&a.periods.dte_rms, &a.periods.dte_mean, &a.periods.tooth_load_max, &a.periods.separation_fraction})
     x->resize(0, meshes);
-  a.periods.root_stress_sustained.resize(0, static_cast<Index>(head.body_names.size()));
+  a.periods.root_stress_sustained.resize(0, kSides * meshes);
   file.codec.record(Codec::Record::reserve, samples);
   describe_samples(file.codec, a, a.samples);
   file.codec.record(Codec::Record::reserve, periods);

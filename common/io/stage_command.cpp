@@ -27,6 +27,7 @@ constexpr std::array kOptions{
     KindOption{"--torque", Kind::pair, true, kInDrives},
     KindOption{"--static", Kind::pair, true, kNoRest},
     KindOption{"--reference-static", Kind::pair, true, kNoRest},
+    KindOption{"--static-params", Kind::pair, true, "its --params say how it is at rest"},
     KindOption{"--error-budget", Kind::pair, false, kNotYet},
     KindOption{"--next-level", Kind::pair, false, kNotYet},
     KindOption{"--torque-step", Kind::pair, false, "its modes decay after an --impulse"},
@@ -51,6 +52,8 @@ StageCommand::StageCommand(Options& options, const std::string& params, Reads re
     add("--static", statics_, "static.h5 of the torque");
     add("--reference-static", reference_, "static.h5 whose mean stiffness sets the bearing dampers");
   }
+  if (reads == Reads::bodies_and_parameters)
+    add("--static-params", static_params_, "stage parameters of the scene: out/<scene>/params/static.toml");
 }
 
 std::string StageCommand::with_kind(const std::string& name, const std::string& help) {
@@ -83,6 +86,7 @@ bool StageCommand::of_train() const {
 
 Provenance StageCommand::made_by(int argc, char** argv) const {
   std::vector<std::string> inputs{"params=" + params_};
+  if (!static_params_.empty()) inputs.push_back("static_params=" + static_params_);
   if (!statics_.empty()) inputs.push_back("static=" + statics_);
   if (!reference_.empty()) inputs.push_back("reference_static=" + reference_);
   return whine::made_by(argc, argv, bodies().and_inputs(std::move(inputs)));

@@ -15,9 +15,9 @@ namespace whine {
 
 class StageCommand {
  public:
-  // Adds --params and --body; bodies_and_rest: of pairs also their results at rest, --static and --reference-static. params:
-  // "sweep.toml".
-  enum class Reads { bodies, bodies_and_rest };
+  // Adds --params and --body; bodies_and_rest: of pairs also their results at rest, --static and --reference-static, or of
+  // bodies_and_parameters what these depend on, --static-params. params: "sweep.toml".
+  enum class Reads { bodies, bodies_and_rest, bodies_and_parameters };
   StageCommand(Options& options, const std::string& params, Reads reads);
   StageCommand(const StageCommand&) = delete;
 
@@ -36,6 +36,7 @@ class StageCommand {
   const std::string& params() const { return params_; }
   const std::string& statics() const { return statics_; }
   const std::string& reference() const { return reference_; }
+  const std::string& static_params() const { return static_params_; }
   const std::string& output() const { return output_; }
   NamedFiles bodies() const { return {"--body", bodies_}; }  // throws as NamedFiles
   Provenance made_by(int argc, char** argv) const;           // with all that was read
@@ -46,7 +47,7 @@ class StageCommand {
 
   Options& options_;
   std::vector<std::pair<std::string, Option>> own_;  // those of one kind alone
-  std::string params_, statics_, reference_, output_;
+  std::string params_, static_params_, statics_, reference_, output_;
   std::vector<std::string> bodies_;
 };
 

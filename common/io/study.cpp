@@ -337,6 +337,23 @@ bool overlap(const KeyPlace& a, const KeyPlace& b) {
   return a.key == b.key && (a.owner == b.owner || a.owner.empty() || b.owner.empty());
 }
 
+// Cells over two of the keys or quantities of a grid in place of lines.
+void read_map(const StudyFile& file, const toml::table& table, Words sides, Study& study) {
+  const toml::node* map = table.get("map");
+  if (!map) return;
+  if (study.random || study.keys.size() != 2)
+    file.reject(*map, "'map' is of a grid in which two keys vary; this study is ",
+                study.random ? "a sample" : text("of ", study.keys.size()));
+  for (const char* other : {"keys", "colour"})
+    if (table.contains(other))
+      file.reject(*table.get(other), "'", other, "' is of lines, 'map' of cells; leave one of them out");
+  sides.insert(sides.end(), study.quantities.begin(), study.quantities.end());
+  study.figure_map = file.words(table, "map", {}, sides, "varied key or gathered response quantity");
+  if (study.figure_map.size() != 2)
+    file.reject(*map, "'map' names ", study.figure_map.size(),
+                "; it must be two, what runs along x and along y");
+}
+
 void read_figure(const StudyFile& file, Study& study) {
   const toml::node* node = study.keys.empty() ? nullptr : file.root().get("figure");
   // A seed is a number without a size: nothing is plotted against it unless nothing else varies.
@@ -353,7 +370,7 @@ void read_figure(const StudyFile& file, Study& study) {
   static const toml::table kNothing;
   const toml::table* table = node ? node->as_table() : &kNothing;
   if (!table) file.reject(*node, "'figure' must be a section: write [figure]");
-  file.require_known(*table, "[figure]", {"quantities", "keys", "colour"});
+  file.require_known(*table, "[figure]", {"quantities", "keys", "colour", "map"});
   study.figure_quantities = file.words(*table, "quantities", first(study.quantities), study.quantities,
                                        "gathered response quantity");
   study.figure_keys = file.words(*table, "keys", first(names), names, "varied key");
@@ -362,6 +379,7 @@ void read_figure(const StudyFile& file, Study& study) {
     if (list->size() > kMostPanels)
       file.reject(*table->get(what), "'", what, "' in [figure] names ", list->size(),
                   "; a figure has room for ", kMostPanels);
+  read_map(file, *table, names, study);
   study.figure_colour = file.word(*table, "colour", names.size() > 1 && !study.random ? names[1] : "");
   if (!study.figure_colour.empty() && !among(study.figure_colour, names))
     file.reject(*table->get("colour"), "'colour' = ", study.figure_colour,
@@ -525,17 +543,6 @@ Study read_study(const std::string& path) {
   return study;
 }
 
-std::vector<std::string> design_changes(const Study& study, size_t which) {
-  if (study.compared.empty())
-    fail(Failure::input, study.path,
-         ": marks no variants to compare; add compare = [0, 3], the numbers of two of them");
-  Words changes;
-  for (const auto& [name, value] : study.fixed) changes.push_back(name + "=" + value);
-  const Words values = variant_values(study, study.compared.at(which));
-  for (size_t k = 0; k < values.size(); ++k) changes.push_back(study.keys[k].name + "=" + values[k]);
-  return changes;
-}
-
 std::vector<std::string> variant_values(const Study& study, long index) {
   Words out;
   if (study.random) {
@@ -550,12 +557,6 @@ std::vector<std::string> variant_values(const Study& study, long index) {
     rest /= count;
   }
   return out;
-}
-
-std::string variant_name(const StudyPlan& study, long index, const std::vector<std::string>& values) {
-  std::string out = text("variant ", index, " (");
-  for (size_t k = 0; k < values.size(); ++k) out += text(k ? ", " : "", study.keys[k].name, " = ", values[k]);
-  return out + ")";
 }
 
 StudyVariant study_variant(const Study& study, long index, const std::vector<std::string>& values) {
@@ -591,10 +592,6 @@ StudyVariant study_variant(const Study& study, long index, const std::vector<std
     fail(error.kind() == Failure::io ? Failure::io : Failure::input, study.path, line, ": ",
          variant_name(study, index, values), ": ", error.what());
   }
-}
-
-std::string variant_file(const std::string& name) {
-  return "variants/" + name.substr(0, 2) + "/" + name;
 }
 
 }  // namespace whine

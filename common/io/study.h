@@ -20,6 +20,7 @@
 //   quantities = ["rms_max_up"]                  # one row of panels each, 4 at most
 //   keys = ["damping.rayleigh_stiffness_s"]   # one column of panels each, 4 at most
 //   colour = "operation.torque_Nm"
+//   map = ["overlap_ratio", "damping.rayleigh_stiffness_s"]  # in place of keys and colour, of a grid of two keys: cells over x and y
 #pragma once
 #include <optional>
 #include <string>
@@ -64,6 +65,8 @@ struct StudyPlan {
   std::vector<std::string> quantities;  // gathered
   std::vector<std::string> figure_quantities, figure_keys;
   std::string figure_colour;  // one of the keys, or ""
+  // What runs along x and y of a map of cells, keys or gathered quantities; empty: lines against figure_keys
+  std::vector<std::string> figure_map;
 };
 
 struct Study : StudyPlan {

@@ -45,6 +45,8 @@ void describe_plan(Codec& c, StudyPlan& plan) {
     "response quantities that the figure shows");
   c(plan.figure_keys, at + "figure_key", "figure_key", "keys against which it shows them");
   c(plan.figure_colour, at + "figure_colour", "", "key by which it colours them");
+  if (c.optional(at + "figure_map", !plan.figure_map.empty()))
+    c(plan.figure_map, at + "figure_map", "figure_side", "what runs along x and y of its cells");
   if (!c.in()) return;
   plan.random = kind == "sample";
   plan.keys.clear();

@@ -66,7 +66,8 @@ std::string plan_text(const StudyPlan& study, const std::vector<GatheredVariant>
       << "\nquantities = " << quoted(study.quantities) << "\nkeys = " << quoted(names)
       << "\nfigure_quantities = " << quoted(study.figure_quantities)
       << "\nfigure_keys = " << quoted(study.figure_keys)
-      << "\nfigure_colour = " << quoted(study.figure_colour) << "\nvariants = [\n";
+      << "\nfigure_colour = " << quoted(study.figure_colour) << "\nfigure_map = " << quoted(study.figure_map)
+      << "\nvariants = [\n";
   for (const GatheredVariant& variant : variants) {
     Words row{variant.name};
     row.insert(row.end(), variant.values.begin(), variant.values.end());
@@ -108,6 +109,7 @@ std::pair<StudyPlan, std::vector<GatheredVariant>> read_plan(const std::string& 
   plan.figure_quantities = words(root.get("figure_quantities"));
   plan.figure_keys = words(root.get("figure_keys"));
   plan.figure_colour = root["figure_colour"].value_or(std::string());
+  plan.figure_map = words(root.get("figure_map"));
   // gear-study finds response quantities and keys by their names.
   Words quantities, keys;
   const auto within = [](const Words& some, const Words& all) {
@@ -118,6 +120,10 @@ std::pair<StudyPlan, std::vector<GatheredVariant>> read_plan(const std::string& 
   for (const ResponseQuantity& kind : response_quantities(plan.directions, plan.train))
     quantities.push_back(kind.name);
   for (const VariedKey& key : plan.keys) keys.push_back(key.name);
+  Words sides = keys;
+  sides.insert(sides.end(), plan.quantities.begin(), plan.quantities.end());
+  if (!within(plan.figure_map, sides) || (plan.figure_map.size() != 0 && plan.figure_map.size() != 2))
+    reject();
   if (!within(plan.quantities, quantities) || !within(plan.figure_quantities, plan.quantities) ||
       !within(plan.figure_keys, keys) || (!plan.figure_colour.empty() && !within({plan.figure_colour}, keys)))
     reject();
@@ -130,6 +136,27 @@ std::pair<StudyPlan, std::vector<GatheredVariant>> read_plan(const std::string& 
     variants.push_back({all[0], Words(all.begin() + 1, all.end())});
   }
   return {plan, variants};
+}
+
+std::vector<std::string> design_changes(const Study& study, size_t which) {
+  if (study.compared.empty())
+    fail(Failure::input, study.path,
+         ": marks no variants to compare; add compare = [0, 3], the numbers of two of them");
+  Words changes;
+  for (const auto& [name, value] : study.fixed) changes.push_back(name + "=" + value);
+  const Words values = variant_values(study, study.compared.at(which));
+  for (size_t k = 0; k < values.size(); ++k) changes.push_back(study.keys[k].name + "=" + values[k]);
+  return changes;
+}
+
+std::string variant_name(const StudyPlan& study, long index, const std::vector<std::string>& values) {
+  std::string out = text("variant ", index, " (");
+  for (size_t k = 0; k < values.size(); ++k) out += text(k ? ", " : "", study.keys[k].name, " = ", values[k]);
+  return out + ")";
+}
+
+std::string variant_file(const std::string& name) {
+  return "variants/" + name.substr(0, 2) + "/" + name;
 }
 
 }  // namespace whine

@@ -321,17 +321,18 @@ void show(SummaryLines& lines, const SweepResult& a) {
   add(lines, "jumps", jump_words(a.jump_frequency, a.jump_width));
 }
 
+// Operating point and model of a pair or a train. over: speeds, or what varies.
+void show_motion(SummaryLines& lines, const MotionSource& a, const std::string& over) {
+  add(lines, "operating point", a.of_train() ? "" : text(a.torque, " N m on ", a.mesh.gear[0], ", "), over);
+  if (a.of_train()) return show_model(lines, a.train);
+  show_friction(lines, a.mesh);
+  add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
+      a.fidelity.integrator);
+  show_damping(lines, a.damping);
+}
+
 void show(SummaryLines& lines, const BranchResult& a) {
-  add(lines, "operating point", a.of_train() ? "" : text(a.torque, " N m on ", a.mesh.gear[0], ", "),
-      range_of(a.mesh_frequency));
-  if (a.of_train()) {
-    show_model(lines, a.train);
-  } else {
-    show_friction(lines, a.mesh);
-    add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
-        a.fidelity.integrator);
-    show_damping(lines, a.damping);
-  }
+  show_motion(lines, a, range_of(a.mesh_frequency));
   const Eigen::Index points = a.mesh_frequency.size();
   if (points > 0) {
     Eigen::Index worst = 0, mesh = 0;
@@ -358,10 +359,7 @@ void show(SummaryLines& lines, const BranchResult& a) {
 }
 
 void show(SummaryLines& lines, const FoldCurvesResult& a) {
-  add(lines, "operating point", a.torque, " N m on ", a.mesh.gear[0], ", over ", a.quantity);
-  show_friction(lines, a.mesh);
-  add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
-      a.fidelity.integrator);
+  show_motion(lines, a, text("over ", a.quantity));
   if (a.value.size() > 0)
     add(lines, "folds", a.value.size(), " on ", a.curve.maxCoeff() + 1, " curves, ",
         a.fold_frequency.minCoeff(), " to ", a.fold_frequency.maxCoeff(), " Hz");

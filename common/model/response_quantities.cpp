@@ -13,6 +13,7 @@ std::string speed_words(Direction direction) {
 std::vector<ResponseQuantity> quantities_of_pair(const std::vector<Direction>& directions) {
   std::vector<ResponseQuantity> kinds{
       {"contact_ratio", "1", "contact ratio of the unloaded pair"},
+      {"overlap_ratio", "1", "overlap ratio, 0 of spur gears"},
       {"mean_stiffness", "N m-1", "mean of the secant mesh stiffness"},
       {"te_mean", "m", "mean of the static transmission error"},
       {"te_peak_to_peak", "m", "static transmission error, peak to peak, over the whole hunting period"},
@@ -21,9 +22,11 @@ std::vector<ResponseQuantity> quantities_of_pair(const std::vector<Direction>& d
       {"te_harmonic_2", "m", "amplitude of harmonic 2 of the static transmission error"},
       {"te_harmonic_3", "m", "amplitude of harmonic 3 of the static transmission error"},
       {"tooth_load_static", "N", "largest tooth load at rest"}};
-  if (!directions.empty())
+  if (!directions.empty()) {
     kinds.push_back(
         {"natural_frequency", "Hz", "mean over the period, contact frozen under the static load"});
+    kinds.push_back({"rayleigh_damping_ratio", "1", "damping ratio of Eq. 21 at the natural frequency"});
+  }
   for (const Direction direction : directions) {
     const std::string d = name_of(direction), sweep = speed_words(direction);
     kinds.push_back({"rms_max_" + d, "m", "largest RMS of the dynamic transmission error" + sweep});

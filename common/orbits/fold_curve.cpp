@@ -185,7 +185,7 @@ FoldPair follow_folds(const MapFamily& family, const Fold& one, const Fold& othe
   const bool ordered = one.parameter < other.parameter;
   pair.low.push_back(ordered ? one : other);
   pair.high.push_back(ordered ? other : one);
-  const auto take = [&](double value) {
+  const auto found_at = [&](double value) {
     Fold found[2];
     for (int side = 0; side < 2; ++side) {
       const std::vector<Fold>& known = side == 0 ? pair.low : pair.high;
@@ -206,6 +206,16 @@ FoldPair follow_folds(const MapFamily& family, const Fold& one, const Fold& othe
     pair.high.push_back(std::move(found[1]));
     if (report) report(value);
     return true;
+  };
+  // A value of which there is no map ends the curve.
+  const auto take = [&](double value) {
+    try {
+      return found_at(value);
+    } catch (const Error& error) {
+      if (error.kind() != Failure::numerical) throw;
+      pair.end = error.what();
+      return false;
+    }
   };
   for (const double value : values) {
     double to = value;

@@ -128,9 +128,11 @@ std::string shape(const PanelCurve& c, const Using& of, const PanelPlace& place,
     case PanelStyle::ranges:
       return text("using ", of.x, ":", of.y, ":", of.box(place), " with ", filled);
     case PanelStyle::cells:
-      return text("using ", of.x, ":", of.y, ":(", number(0.5 * c.width), "):(", number(0.5 * c.size), ")",
-                  c.heat > 0 ? text(":", c.heat) : "", " with boxxyerror fs solid 1 noborder ",
-                  c.heat > 0 ? "lc palette" : rgb(c.colour));
+      return text(
+          "using ", of.x, ":", of.y, ":",
+          c.box[0] > 0 ? of.box(place) : text("(", number(0.5 * c.width), "):(", number(0.5 * c.size), ")"),
+          c.heat > 0 ? text(":", c.heat) : "", " with boxxyerror fs solid 1 noborder ",
+          c.heat > 0 ? "lc palette" : rgb(c.colour));
     case PanelStyle::arrows: {
       const auto change = [&](size_t k) {
         return text("(", of.edge(place, k + 1), " - ", of.edge(place, k), ")");

@@ -333,7 +333,7 @@ Drawings drawings_of_maps() {
        of_one("Floquet multipliers of a branch in the complex plane, and their largest modulus", "branch.h5",
               multiplier_figure)},
       {"fold-curves",
-       {"mesh frequencies of folds against damping, torque or tip relief, with their cusps",
+       {"mesh frequencies of folds against damping, torque, tip relief or bearing stiffness, with their cusps",
         "fold_curves.h5 of one quantity, one per torque; jump_map.h5 beside them, for the jumps of sweeps",
         [](const DrawnFrom& from) {
           const auto [curves, maps] = by_kind<FoldCurvesResult>(from.inputs);

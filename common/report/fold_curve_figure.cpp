@@ -16,18 +16,29 @@ bool over_damping(const FoldCurvesResult& a) {
   return a.quantity == FoldQuantity::damping;
 }
 
+// How the figure shows a quantity.
+struct Shown {
+  const char *axis, *column, *unit;
+  double factor;  // of the value; of damping of its ratio
+};
+Shown shown(FoldQuantity quantity) {
+  switch (quantity) {
+    case FoldQuantity::damping:
+      return {"Damping ratio (%)", "damping_ratio [%]", " %", kPercent};
+    case FoldQuantity::torque:
+      return {"Torque (N m)", "torque [N m]", " N m", 1};
+    case FoldQuantity::tip_relief:
+      return {"Linear tip relief, both gears (µm)", "tip_relief [um]", " µm", kMicro};
+    case FoldQuantity::bearing_stiffness:
+      return {"Stiffness of the bearings over that of the scene (1)", "bearing_stiffness [1]", "", 1};
+  }
+  return {};
+}
 double shown_value(const FoldCurvesResult& a, Index i) {
-  if (over_damping(a)) return a.damping_ratio[i] * kPercent;
-  return a.quantity == FoldQuantity::torque ? a.value[i] : a.value[i] * kMicro;
+  return shown(a.quantity).factor * (over_damping(a) ? a.damping_ratio : a.value)[i];
 }
 double shown_cusp(const FoldCurvesResult& a, Index i) {
-  if (over_damping(a)) return a.cusp_damping_ratio[i] * kPercent;
-  return a.quantity == FoldQuantity::torque ? a.cusp_value[i] : a.cusp_value[i] * kMicro;
-}
-
-std::string unit(const FoldCurvesResult& a) {
-  if (over_damping(a)) return " %";
-  return a.quantity == FoldQuantity::torque ? " N m" : " µm";
+  return shown(a.quantity).factor * (over_damping(a) ? a.cusp_damping_ratio : a.cusp_value)[i];
 }
 
 bool same_pair(const FoldCurvesResult& a, const JumpMapResult& m) {
@@ -130,13 +141,11 @@ Figure fold_curve_figure(const std::vector<FoldCurvesResult>& curves,
                          const std::vector<JumpMapResult>& maps) {
   require_one_quantity(curves);
   Figure figure;
-  const std::string axis = over_damping(curves[0]) ? "Damping ratio, two pairs in contact (%)"
-                           : curves[0].quantity == FoldQuantity::torque
-                               ? "Torque (N m)"
-                               : "Linear tip relief, both gears (µm)";
-  const std::string column = over_damping(curves[0])                      ? "damping_ratio [%]"
-                             : curves[0].quantity == FoldQuantity::torque ? "torque [N m]"
-                                                                          : "tip_relief [um]";
+  const Shown what = shown(curves[0].quantity);
+  const std::string column = what.column;
+  const bool two_pairs =
+      over_damping(curves[0]) && !curves[0].of_train() && curves[0].fidelity.width == WidthModel::one;
+  const std::string axis = two_pairs ? "Damping ratio, two pairs in contact (%)" : what.axis;
   figure.title = "Folds of the branches: between a pair of curves there are two stable motions";
   Panel panel{.x = {.label = "Mesh frequency (Hz)"}, .y = {.label = axis}, .height = 760};
   PanelCurve cusp_marks{.style = PanelStyle::points, .width = 2.4, .mark = 6, .size = 2.2},
@@ -144,8 +153,9 @@ Figure fold_curve_figure(const std::vector<FoldCurvesResult>& curves,
   Comparison comparison;
   for (size_t k = 0; k < curves.size(); ++k) {
     const FoldCurvesResult& a = curves[k];
-    const std::string number = text(k + 1),
-                      label = a.quantity == FoldQuantity::torque ? "folds" : torque_words(a.torque);
+    const std::string number = text(k + 1), label = a.quantity == FoldQuantity::torque || a.of_train()
+                                                        ? "folds"
+                                                        : torque_words(a.torque);
     FigureBlock folds = folds_block(a, number, column);
     folds.curve = label;
     FigureBlock cusps{"cusps" + number, {"mesh_frequency [Hz]", column}, {}};
@@ -182,7 +192,7 @@ Figure fold_curve_figure(const std::vector<FoldCurvesResult>& curves,
     for (FigureBlock* block : {&folds, &cusps, &jumps}) figure.blocks.push_back(std::move(*block));
     std::string words;
     for (Index i = 0; i < a.cusp_value.size(); ++i)
-      words += text(words.empty() ? "" : ", ", fixed(shown_cusp(a, i), 2), unit(a), " and ",
+      words += text(words.empty() ? "" : ", ", fixed(shown_cusp(a, i), 2), what.unit, " and ",
                     fixed(a.cusp_frequency[i], 1), " Hz");
     figure.notes.push_back((label == "folds" ? "" : label + ": ") +
                            (words.empty() ? "no cusp, " + a.end : "cusp at " + words));

@@ -44,7 +44,7 @@ enum class PanelStyle {
   spans,   // shaded from column x to column y over all of the panel
   boxes,   // rectangles over `box`
   ranges,  // points with bars over `box`
-  cells,   // rectangles about x and y, `width` by `size` in units of the axes
+  cells,   // rectangles about x and y over `box`, without one `width` by `size` in units of the axes
   arrows,  // from and to columns of `box`; size 0: lines without a head
   image    // pixels at x and y in the colours of column 3, on the axis Panel::colours
 };

@@ -8,138 +8,12 @@
 
 #include "base/error.h"
 #include "report/figure_words.h"
+#include "report/study_axes.h"
 
 namespace whine {
 namespace {
 
 using Eigen::Index;
-
-// Key values as an axis shows them: powers of ten of small numbers stand at the unit.
-struct AxisUnits {
-  std::string words;
-  double scale;
-};
-
-// The unit of a key as text has it: µm, where the key's name says um; "1" of a number without.
-std::string spelt_units(const VariedKey& key) {
-  static const std::map<std::string, std::string> spelt{
-      {"um", "µm"}, {"Nm", "N m"}, {"deg", "°"}, {"kgm2", "kg m²"}, {"per_s", "1/s"}, {"kgm3", "kg/m³"}};
-  const auto found = spelt.find(key.scene_units);
-  return found == spelt.end() ? key.scene_units : found->second;
-}
-
-AxisUnits axis_units(const VariedKey& key, double largest) {
-  if (!key.number) return {"", 1};
-  const std::string unit = key.scene_units == "1" ? "" : spelt_units(key);
-  if (!(largest > 0 && largest < 1e-2)) return {unit, 1};
-  const int power = 3 * static_cast<int>(std::floor(std::log10(largest) / 3));
-  return {text("10^{", power, "} ", unit), std::pow(10, -power)};
-}
-
-// What an engineer calls a key, where its name in a scene is not that.
-std::string axis_name(const VariedKey& key) {
-  static const std::map<std::string, std::string> known{{"rayleigh stiffness", "Rayleigh stiffness damping"},
-                                                        {"rayleigh mass", "Rayleigh mass damping"},
-                                                        {"bearing ratio", "damping ratio of the bearings"},
-                                                        {"youngs modulus", "Young's modulus"},
-                                                        {"poisson ratio", "Poisson's ratio"}};
-  const size_t comma = key.label.find(", ");  // after the gear or the material
-  const size_t at = comma == std::string::npos ? 0 : comma + 2;
-  const auto found = known.find(key.label.substr(at));
-  return found == known.end() ? key.label : key.label.substr(0, at) + found->second;
-}
-
-std::string with_unit(const std::string& name, const std::string& units) {
-  return units.empty() || units == "1" ? name : name + " (" + units + ")";
-}
-
-// "largest RMS, up" of rms_max_up; of a train with the mesh or body behind it.
-std::string label_of(const std::string& quantity) {
-  if (const size_t dot = quantity.find('.'); dot != std::string::npos)
-    return label_of(quantity.substr(0, dot)) + ", " + without_markup(quantity.substr(dot + 1));
-  static const std::map<std::string, std::string> known{
-      {"te_mean", "mean static TE"},
-      {"te_peak_to_peak", "static TE, peak to peak"},
-      {"te_peak_to_peak_mesh", "static TE, peak to peak in a mesh period"},
-      {"te_harmonic_1", "static TE, harm. 1"},
-      {"te_harmonic_2", "static TE, harm. 2"},
-      {"te_harmonic_3", "static TE, harm. 3"},
-      {"tooth_load_static", "largest static tooth load"},
-      {"load_sharing_factor", "load sharing factor K_γ"},
-      {"load_sharing_peak", "largest momentary load sharing"},
-      {"load_share_mean", "mean load share"},
-      {"mesh_force_static", "largest static mesh force"},
-      {"bearing_force_static", "largest static bearing force"},
-      {"rms_max", "largest RMS of DTE"},
-      {"rms_max_speed", "its mesh frequency"},
-      {"tooth_load_max", "largest tooth load"},
-      {"separation_max", "largest contact loss"},
-      {"load_share_max", "largest load share"},
-      {"bearing_force_max", "largest bearing force"},
-      {"bearing_force_rms_max", "largest RMS of bearing force"},
-      {"loss_from", "contact lost from"},
-      {"loss_to", "contact lost to"},
-      {"jump_frequency", "highest jump"},
-      {"unsteady", "unsteady speeds"}};
-  for (const char* end : {"_up", "_down"})
-    if (quantity.ends_with(end)) {
-      const std::string base = quantity.substr(0, quantity.size() - std::string(end).size());
-      const auto found = known.find(base);
-      return (found == known.end() ? base : found->second) + ", " + (end + 1);
-    }
-  const auto found = known.find(quantity);
-  if (found != known.end()) return found->second;
-  std::string words = quantity;
-  std::replace(words.begin(), words.end(), '_', ' ');
-  return words;
-}
-
-// Response quantities whose 0 says that there is none.
-bool absent(const std::string& quantity, double value) {
-  return value == 0 && (quantity.starts_with("jump_frequency_") || quantity.starts_with("loss_"));
-}
-
-// A number for each value of a key: itself, or the place of a word among the words, from 1.
-struct Axis {
-  std::vector<double> at;           // (variant)
-  std::vector<std::string> levels;  // ascending, or in order of the study
-};
-
-Axis axis_of(const StudyResult& a, size_t k) {
-  Axis axis;
-  const bool number = a.plan.keys[k].number;
-  for (const GatheredVariant& v : a.variants) {
-    const std::string& value = v.values[k];
-    auto found = std::find(axis.levels.begin(), axis.levels.end(), value);
-    if (found == axis.levels.end()) found = axis.levels.insert(axis.levels.end(), value);
-    axis.at.push_back(number ? std::strtod(value.c_str(), nullptr)
-                             : static_cast<double>(found - axis.levels.begin()) + 1);
-  }
-  if (number)
-    std::sort(axis.levels.begin(), axis.levels.end(), [](const std::string& x, const std::string& y) {
-      return std::strtod(x.c_str(), nullptr) < std::strtod(y.c_str(), nullptr);
-    });
-  return axis;
-}
-
-size_t key_of(const StudyResult& a, const std::string& name) {
-  for (size_t k = 0; k < a.plan.keys.size(); ++k)
-    if (a.plan.keys[k].name == name) return k;
-  fail(Failure::input, "the study varies no key '", name, "'");
-}
-
-Index quantity_of(const StudyResult& a, const std::string& name) {
-  const auto found = std::find(a.plan.quantities.begin(), a.plan.quantities.end(), name);
-  if (found == a.plan.quantities.end())
-    fail(Failure::input, "the study gathers no response quantity '", name, "'");
-  return found - a.plan.quantities.begin();
-}
-
-ResponseQuantity kind_of(const StudyResult& a, const std::string& name) {
-  for (const ResponseQuantity& kind : response_quantities(a.plan.directions, a.plan.train))
-    if (kind.name == name) return kind;
-  fail(Failure::input, "there is no response quantity '", name, "'");
-}
 
 constexpr size_t kFewLevels = 6;  // have a colour and a mark each
 
@@ -219,7 +93,7 @@ double percentile(const std::vector<double>& sorted, double share) {
                                : sorted[i];
 }
 
-FigureBlock table_of(const StudyResult& a, const std::vector<Axis>& axes) {
+FigureBlock table_of(const StudyResult& a, const std::vector<StudyAxis>& axes) {
   FigureBlock table{"variants", {"variant [1]", "outside_model [1]", "unsteady speeds [1]"}, {}};
   for (const VariedKey& key : a.plan.keys)
     table.columns.push_back(key.name +
@@ -233,7 +107,7 @@ FigureBlock table_of(const StudyResult& a, const std::vector<Axis>& axes) {
   for (size_t v = 0; v < a.variants.size(); ++v) {
     std::vector<double> row{static_cast<double>(v), a.rejection[v].empty() ? 0.0 : 1.0,
                             static_cast<double>(a.unsteady[static_cast<Index>(v)])};
-    for (const Axis& axis : axes) row.push_back(axis.at[v]);
+    for (const StudyAxis& axis : axes) row.push_back(axis.at[v]);
     for (size_t i = 0; i < scale.size(); ++i)
       row.push_back(a.quantity(static_cast<Index>(v), static_cast<Index>(i)) * scale[i]);
     table.rows.push_back(row);
@@ -262,7 +136,7 @@ std::string constant_words(const StudyResult& a, const ShownQuantities& quantiti
 }
 
 // What only the table says: values of keys that are no numbers, and reasons of errors, which may be long.
-void add_notes_of_table(const StudyResult& a, const std::vector<Axis>& axes, Figure& figure) {
+void add_notes_of_table(const StudyResult& a, const std::vector<StudyAxis>& axes, Figure& figure) {
   for (size_t k = 0; k < axes.size(); ++k)
     if (!a.plan.keys[k].number) {
       std::string list;
@@ -293,7 +167,7 @@ struct Colours {
 // The colour of a value between 0 and 1: by place among few levels, by value where there are many.
 class ColourScale {
  public:
-  explicit ColourScale(const Axis& axis)
+  explicit ColourScale(const StudyAxis& axis)
       : levels_(axis.levels.size()),
         least_(*std::min_element(axis.at.begin(), axis.at.end())),
         most_(*std::max_element(axis.at.begin(), axis.at.end())) {}
@@ -311,13 +185,13 @@ class ColourScale {
   double least_, most_;
 };
 
-Colours colours_of(const StudyResult& a, const std::vector<Axis>& axes) {
+Colours colours_of(const StudyResult& a, const std::vector<StudyAxis>& axes) {
   const size_t variants = a.variants.size();
   Colours found{!a.plan.figure_colour.empty(), 0, std::vector<double>(variants, colour(0.2)),
                 std::vector<double>(variants, mark(0))};
   if (!found.coloured) return found;
   found.by = key_of(a, a.plan.figure_colour);
-  const Axis& axis = axes[found.by];
+  const StudyAxis& axis = axes[found.by];
   const ColourScale scale(axis);
   const size_t levels = axis.levels.size();
   for (size_t v = 0; v < variants; ++v) {
@@ -351,7 +225,7 @@ Colours colours_of(const StudyResult& a, const std::vector<Axis>& axes) {
   return found;
 }
 
-PanelAxis axis_of_key(const StudyResult& a, const Axis& axis, size_t k) {
+PanelAxis axis_of_key(const StudyResult& a, const StudyAxis& axis, size_t k) {
   const VariedKey& key = a.plan.keys[k];
   const AxisUnits units = axis_units(key, *std::max_element(axis.at.begin(), axis.at.end()));
   PanelAxis out{.label = with_unit(axis_name(key), units.words)};
@@ -368,7 +242,7 @@ struct DrawnAnswer {
 };
 
 // Row r and column c from 1: the answer against key k. y: its axis.
-void add_quantity_panel(const StudyResult& a, const Axis& axis, const Colours& colours,
+void add_quantity_panel(const StudyResult& a, const StudyAxis& axis, const Colours& colours,
                         const DrawnAnswer& quantity, const PanelAxis& y_axis, size_t k, size_t r, size_t c,
                         Figure& figure) {
   // What the pair does at rest does not depend on how its motion ends.
@@ -490,7 +364,7 @@ Figure study_figure(const StudyResult& a) {
   if (rejected == variants)
     fail(Failure::input, "all ", variants,
          " variants of the study lie outside the model's range, the first because: ", a.rejection.at(0));
-  std::vector<Axis> axes;
+  std::vector<StudyAxis> axes;
   for (size_t k = 0; k < a.plan.keys.size(); ++k) axes.push_back(axis_of(a, k));
 
   Figure figure;
@@ -520,6 +394,10 @@ Figure study_figure(const StudyResult& a) {
   add_notes_of_table(a, axes, figure);
   figure.blocks.push_back(table_of(a, axes));
 
+  if (!a.plan.figure_map.empty()) {
+    add_study_map(a, quantities.rows, figure);
+    return figure;
+  }
   const Colours colours = colours_of(a, axes);
   std::vector<size_t> columns;  // their keys
   columns.reserve(columns_of.size());

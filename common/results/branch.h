@@ -21,10 +21,10 @@ struct BranchResult : MotionSource {
   MatrixRM separation_fraction;  // (point, mesh) 1
   // (point, body) N: RMS of what oscillates of the force on its bearing; 0 of a gear of a pair on a rigid bearing, empty if both are
   MatrixRM bearing_force_rms;
-  // (point, body) Pa: the root stress that is sustained likewise, quasi-static in the tooth loads; empty where bodies have no tables,
-  // and of trains
+  // (point, mesh and within it side) Pa: the root stress that is sustained likewise, quasi-static in the tooth loads; 0 of a mesh of which
+  // it is not known, empty if it is of none
   MatrixRM root_stress_sustained;
-  MatrixRM root_stress_angle, root_stress_phase;  // (point, body) where, as in the sweep
+  MatrixRM root_stress_angle, root_stress_phase;  // the same: where, as in the sweep
   std::vector<MatrixRM>
       floquet_multiplier;  // (point) (multiplier, 2) 1: real and imaginary part, largest modulus first
   Eigen::VectorXi stable;  // (point) 1: all multipliers lie inside the unit circle

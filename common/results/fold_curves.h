@@ -1,29 +1,30 @@
-// Folds of the branches of a pair over a second quantity.
+// Folds of the branches of a pair or of a train over a second quantity.
 #pragma once
 #include <Eigen/Core>
 #include <string>
 
 #include "base/choice.h"
 #include "base/matrix.h"
-#include "model/stages.h"
+#include "results/motion_source.h"
 
 namespace whine {
 
 // What a fold curve goes over, beside the mesh frequency.
-enum class FoldQuantity { damping, torque, tip_relief };
+enum class FoldQuantity { damping, torque, tip_relief, bearing_stiffness };
 template <>
-inline constexpr const char* kWordsOf<FoldQuantity> = "damping torque tip_relief";
+inline constexpr const char* kWordsOf<FoldQuantity> = "damping torque tip_relief bearing_stiffness";
 
 // fold_curves.h5: points in the order of their curves, along each in the order of `value`; two curves that meet in a cusp are
 // neighbours.
-struct FoldCurvesResult : MotionParameters {
-  double torque = 0;  // N m on the driver; where it varies that of the first folds
+struct FoldCurvesResult : MotionSource {  // of a pair `torque` is that of the first folds where it varies
   FoldQuantity quantity = FoldQuantity::damping;
   double first_value = 0;  // at which the folds were found along a branch
   Eigen::VectorXi curve;   // (point) 1: counted from 0
-  Eigen::VectorXd
-      value;  // (point) of the quantity: rayleigh_stiffness in s, N m, m of linear tip relief on both gears
-  Eigen::VectorXd damping_ratio;   // (point) 1: of two pairs, contact frozen
+  // (point) of the quantity: rayleigh_stiffness in s; N m, of a train on the body whose torque drives it; m of linear tip relief on both
+  // gears; stiffness of the elastic bearings over that of the scene
+  Eigen::VectorXd value;
+  // (point) 1: of two pairs, contact frozen; of slices and trains Rayleigh's, of the mode that gives way most to the driving torque
+  Eigen::VectorXd damping_ratio;
   Eigen::VectorXd fold_frequency;  // (point) Hz
   MatrixRM fold_multiplier;        // (point, 2) 1: real multiplier nearest to 1 on either side
   Eigen::VectorXi highest;  // (point) 1: the branch turns back from rising speed; 0: from falling speed

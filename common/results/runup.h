@@ -32,8 +32,8 @@ struct RunupPeriods {
   MatrixRM dte_rms, dte_mean;            // (mesh period, mesh) m
   MatrixRM tooth_load_max;       // (mesh period, mesh) N: largest that a pair sustains for 1/64 of the period
   MatrixRM separation_fraction;  // (mesh period, mesh) 1: share of the time without contact
-  // (mesh period, body) Pa: largest root stress that the teeth sustain for 1/64 of the period, quasi-static in their loads; empty where
-  // bodies have no tables, and of trains
+  // (mesh period, mesh and within it side) Pa: largest root stress that the teeth sustain for 1/64 of the period, quasi-static in their
+  // loads; 0 of a mesh of which it is not known, empty if it is of none
   MatrixRM root_stress_sustained;
   Eigen::Index size() const { return time.size(); }
 };

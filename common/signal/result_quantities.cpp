@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "results/impact.h"
 #include "signal/spectrum.h"
 
 namespace whine {
@@ -53,6 +54,7 @@ void add_harmonics(Quantities& quantities, const Eigen::VectorXd& te, int period
 void add_static(Quantities& quantities, const StaticResult& rest) {
   const Eigen::VectorXd& te = rest.transmission_error;
   quantities["contact_ratio"] = rest.contact_ratio;
+  quantities["overlap_ratio"] = rest.face.overlap_ratio;
   quantities["mean_stiffness"] = rest.mean_stiffness;
   add_harmonics(quantities, te, rest.hunting_periods, "");
   const Index positions = te.size() / rest.hunting_periods;
@@ -129,6 +131,7 @@ Quantities quantities_of(const ResponseResult& motion, const SystemStaticParamet
   if (!motion.of_train()) {
     add_mesh(out, motion, 0, "");
     out["natural_frequency"] = motion.natural_frequency;
+    out["rayleigh_damping_ratio"] = rayleigh_ratio(motion.damping_used(), motion.natural_frequency);
     return out;
   }
   for (size_t m = 0; m < motion.mesh_names.size(); ++m)

@@ -45,8 +45,10 @@ class MeasuredOrbit {
     const auto meshes = static_cast<Index>(peaks_.size());
     for (MatrixRM* x : columns_of(row_)) x->setZero(1, meshes);
     row_.bearing_force_rms.setZero(1, bodies);
+    const bool roots = std::any_of(peaks_.begin(), peaks_.end(),
+                                   [](const SustainedPeaks& mesh) { return mesh.root_stress(); });
     for (MatrixRM* x : {&row_.root_stress_sustained, &row_.root_stress_angle, &row_.root_stress_phase})
-      x->setZero(1, peaks_[0].root_stress() ? kSides : 0);
+      x->setZero(1, roots ? kSides * meshes : 0);
     row_.dte_harmonic = {MatrixRM::Zero(harmonics_, meshes)};
   }
 
@@ -56,7 +58,7 @@ class MeasuredOrbit {
     statistics_.take(period);
     const auto meshes = static_cast<Index>(peaks_.size());
     for (Index m = 0; m < meshes; ++m)
-      take_peaks(peaks_[static_cast<size_t>(m)].so_far(period.loads_of(m), number, periods), m);
+      take_peaks(peaks_[static_cast<size_t>(m)].so_far(period, number, periods), m);
     if (number + 1 < periods) return {};
     for (Index m = 0; m < meshes; ++m) {
       const Harmonics dte = statistics_.dte(m, harmonics_, periods);
@@ -92,10 +94,12 @@ class MeasuredOrbit {
   void take_peaks(const VectorXd& peaks, Index mesh) {
     row_.mesh_force_sustained(0, mesh) = peaks[0];
     row_.tooth_load_sustained(0, mesh) = peaks[1];
-    if (row_.root_stress_sustained.size() == 0) return;
-    row_.root_stress_sustained = peaks.segment<kSides>(2).transpose();
-    row_.root_stress_angle = peaks.segment<kSides>(2 + kSides).transpose();
-    row_.root_stress_phase = peaks.segment<kSides>(2 + 2 * kSides).transpose();
+    if (peaks.size() < SustainedPeaks::kRows) return;
+    Index at = 2;
+    for (MatrixRM* x : {&row_.root_stress_sustained, &row_.root_stress_angle, &row_.root_stress_phase}) {
+      x->middleCols<kSides>(kSides * mesh) = peaks.segment<kSides>(at).transpose();
+      at += kSides;
+    }
   }
 
   VectorXd packed() {
@@ -195,13 +199,8 @@ BranchResult followed(Motion& motion, MotionSource source, const BranchSpeeds& s
                       const BranchReport& report) {
   BranchFollower follower(motion, speeds);
   const int steps = speeds.time.steps_per_period;
-  const bool of_strips = !source.of_train() && motion.system().face.empty();
-  std::vector<SustainedPeaks> peaks;
-  peaks.reserve(motion.system().mesh.size());
-  for (const GearMeshModel& mesh : motion.system().mesh)
-    of_strips ? peaks.emplace_back(mesh, steps) : peaks.emplace_back(steps);
-  MeasuredOrbit orbit(std::move(peaks), source.of_train() || source.mesh.on_bearings() ? source.bodies() : 0,
-                      steps);
+  MeasuredOrbit orbit(sustained_peaks(motion.system(), steps),
+                      source.of_train() || source.mesh.on_bearings() ? source.bodies() : 0, steps);
   follower.measure([&orbit](const MotionPeriod& period, int number, int periods) {
     return orbit.take(period, number, periods);
   });

@@ -108,20 +108,18 @@ class Runner {
            periods, " mesh periods, ", kMost, " of each at most; raise the rate");
     samples_ = static_cast<Index>(samples);  // no such number before the limits are checked
     periods_ = static_cast<Index>(periods);
-    if (!head_.of_train() && motion_.system().face.empty())
-      peaks_.emplace(motion_.system().mesh[0], time_.steps_per_period);
-    head_.root_stress = peaks_ && peaks_->root_stress();
+    peaks_ = sustained_peaks(motion_.system(), time_.steps_per_period);
+    for (const SustainedPeaks& mesh : peaks_) head_.root_stress |= mesh.root_stress();
     if (reach_ >= 0) head_.pair = Eigen::VectorXi::LinSpaced(2 * reach_ + 1, -reach_, reach_);
     for (size_t b = 0; b < head_.body_names.size(); ++b)
       if (head_.has_bearing(b)) borne_.push_back(b);
     channels_ = 2 * static_cast<int>(head_.meshes()) + static_cast<int>(head_.pair.size()) +
                 2 * static_cast<int>(borne_.size());
-    period_columns_ = 2 + 4 * head_.meshes() + (head_.root_stress ? bodies() : 0);
+    period_columns_ = 2 + 4 * head_.meshes() + (head_.root_stress ? kSides * head_.meshes() : 0);
     sampler_.emplace(wanted_.sample_rate, samples_, channels_);
     sink_.begin(head_, samples_, periods_);
     row_.resize(static_cast<size_t>(channels_));
   }
-  Index bodies() const { return static_cast<Index>(head_.body_names.size()); }
 
   // The largest block from period k on within which the speed changes by no more than it may.
   SpeedBlock block_at(long k) const {
@@ -258,8 +256,11 @@ class Runner {
     }
     put(Eigen::Vector2d(start, clock_.frequency(start)));
     for (const auto& x : {std::cref(rms), std::cref(mean), std::cref(sustained), std::cref(parted)}) put(x);
-    if (head_.root_stress)
-      put(peaks_->of(period.tooth_load, static_cast<int>(k), SustainedPeaks::kNever).segment(2, kSides));
+    if (!head_.root_stress) return;
+    for (SustainedPeaks& mesh : peaks_) {
+      const VectorXd peaks = mesh.of(period, static_cast<int>(k), SustainedPeaks::kNever);
+      put(mesh.root_stress() ? VectorXd(peaks.segment(2, kSides)) : VectorXd::Zero(kSides));
+    }
   }
 
   // Whole blocks to the sink, at last what is left.
@@ -288,7 +289,7 @@ class Runner {
         *x = rows.middleCols(next, head_.meshes());
         next += head_.meshes();
       }
-      if (head_.root_stress) periods.root_stress_sustained = rows.middleCols(next, bodies());
+      if (head_.root_stress) periods.root_stress_sustained = rows.middleCols(next, kSides * head_.meshes());
       sink_.take(periods);
       drop(period_rows_, n * period_columns_);
     }
@@ -329,7 +330,7 @@ class Runner {
   MotionState state_, trial_;
   MotionPeriod period_;
   long level_since_ = 0;
-  std::optional<SustainedPeaks> peaks_;
+  std::vector<SustainedPeaks> peaks_;                               // [mesh]
   double least_closing_ = std::numeric_limits<double>::infinity();  // m
   Index period_columns_ = 0;
   std::vector<size_t> borne_;  // bodies whose force on the bearing is recorded
@@ -373,18 +374,6 @@ RunupResult head_of(const RunupSettings& wanted, double mesh_periods) {
   return head;
 }
 
-// The body of the first drive that gives power, or the first that turns.
-size_t input_of(const System& layout, const TrainSpeeds& speeds) {
-  for (const System::Drive& drive : layout.drives)
-    if (const auto b = static_cast<size_t>(drive.body);
-        drive.kind == System::DriveKind::torque && drive.torque > 0 && speeds.turns[b] != 0)
-      return b;
-  for (size_t b = 0; b < speeds.turns.size(); ++b)
-    if (speeds.turns[b] != 0) return b;
-  fail(Failure::input,
-       "no body of the train turns, so it has no speed to change; give a drive its torque_Nm");
-}
-
 }  // namespace
 
 void runup(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
@@ -406,9 +395,8 @@ void runup(const SystemSweepParameters& settings, const std::vector<ReducedBody>
            const RunupSettings& wanted, RunupSink& sink,
            const std::function<void(long, long, const std::string&)>& report) {
   require_ramp(wanted, settings.time);
-  const TrainSpeeds speeds = train_speeds(settings.layout);
-  const size_t input = input_of(settings.layout, speeds);
-  RunupResult head = head_of(wanted, 1 / std::abs(speeds.turns[input]));
+  const auto input = static_cast<size_t>(input_of(settings.layout));
+  RunupResult head = head_of(wanted, 1 / std::abs(train_speeds(settings.layout).turns[input]));
   head.input = settings.layout.bodies[input].name;
   SystemSweepParameters of_ramp = settings;
   of_ramp.frequency_from = std::min(wanted.ramp.from, wanted.ramp.to);

@@ -1,8 +1,6 @@
 #include "studies/sustained_peaks.h"
 
 #include <algorithm>
-#include <utility>
-#include <vector>
 
 #include "signal/branches.h"
 
@@ -18,34 +16,37 @@ int samples_of(int steps) {
   return steps;
 }
 
-std::vector<double> phases_of(int samples) {
-  std::vector<double> phases(static_cast<size_t>(samples));
-  for (int n = 0; n < samples; ++n) phases[static_cast<size_t>(n)] = static_cast<double>(n) / samples;
-  return phases;
-}
-
 }  // namespace
 
-SustainedPeaks::SustainedPeaks(const GearMeshModel& model, int steps)
-    : roots_(std::in_place, model, phases_of(samples_of(steps))), samples_(samples_of(steps)) {}
+SustainedPeaks::SustainedPeaks(const SystemModel& system, Eigen::Index mesh, int steps)
+    : mesh_(mesh), samples_(samples_of(steps)), roots_(system, mesh, samples_) {}
 
-SustainedPeaks::SustainedPeaks(int steps) : samples_(samples_of(steps)) {}
+std::vector<SustainedPeaks> sustained_peaks(const SystemModel& system, int steps) {
+  std::vector<SustainedPeaks> out;
+  out.reserve(system.mesh.size());
+  for (size_t m = 0; m < system.mesh.size(); ++m)
+    out.emplace_back(system, static_cast<Eigen::Index>(m), steps);
+  return out;
+}
 
-VectorXd SustainedPeaks::of(const Eigen::Ref<const Eigen::MatrixXd>& tooth_pair_load, int number,
-                            int periods) {
+VectorXd SustainedPeaks::of(const MotionPeriod& period, int number, int periods) {
+  const auto tooth_pair_load = period.loads_of(mesh_);
   const Eigen::Index pairs = tooth_pair_load.rows(), stride = tooth_pair_load.cols() / samples_;
-  const int reach = static_cast<int>(pairs) / 2;
-  pair_ = Eigen::VectorXi::LinSpaced(pairs, -reach, reach);
   load_.resize(samples_, pairs);
   along_.resize(samples_, root_stress() ? kRows - 1 : 1);
   for (Eigen::Index n = 0; n < samples_; ++n) {
     load_.row(n) = tooth_pair_load.col(n * stride).transpose();
     along_(n, 0) = load_.row(n).sum();
-    for (int g = 0; root_stress() && g < kSides; ++g) {
-      const RootStress at = roots_->largest(g, static_cast<size_t>(n), pair_, load_.row(n).transpose());
+    if (!root_stress()) continue;
+    const int first = period.first_pair + roots_.ahead(n), last = first + static_cast<int>(pairs) - 1;
+    const Eigen::VectorXi numbers = Eigen::VectorXi::LinSpaced(pairs, first, last);
+    // Sample 0 is that of the end.
+    const Eigen::Index sample = n + static_cast<Eigen::Index>(n == 0 ? number + 1 : number) * samples_;
+    for (int g = 0; g < kSides; ++g) {
+      const RootStress at = roots_.largest(g, sample, numbers, load_.row(n).transpose());
       along_(n, 1 + g) = at.stress;
       along_(n, 1 + kSides + g) = at.angle;
-      along_(n, 1 + 2 * kSides + g) = static_cast<double>(n) / samples_ + at.pair;
+      along_(n, 1 + 2 * kSides + g) = roots_.phase(n, at);
     }
   }
   const Eigen::Index seam = sustained_samples(samples_) - 1;
@@ -69,9 +70,8 @@ VectorXd SustainedPeaks::of(const Eigen::Ref<const Eigen::MatrixXd>& tooth_pair_
   return out;
 }
 
-VectorXd SustainedPeaks::so_far(const Eigen::Ref<const Eigen::MatrixXd>& tooth_pair_load, int number,
-                                int periods) {
-  const VectorXd own = of(tooth_pair_load, number, periods);
+VectorXd SustainedPeaks::so_far(const MotionPeriod& period, int number, int periods) {
+  const VectorXd own = of(period, number, periods);
   if (number == 0) return so_far_ = own;
   for (Eigen::Index k = 0; k < 2; ++k) so_far_[k] = std::max(so_far_[k], own[k]);
   for (Eigen::Index k = 2; k < own.size() && k < 2 + kSides; ++k)

@@ -1,43 +1,43 @@
 // The largest that a mesh period sustains for 1/64 of it: mesh force, tooth load and root stress of both gears.
 //
 // At up to 128 samples of the period: of what a sweep holds (signal/branches.h), which has all stored samples, within the change
-// of a load over 1/128 of a mesh period. Root stress is quasi-static in the tooth loads (system/root_stress.h).
+// of a load over 1/128 of a mesh period.
 #pragma once
 #include <Eigen/Core>
-#include <optional>
+#include <vector>
 
-#include "system/root_stress.h"
+#include "dynamics/motion_period.h"
+#include "studies/motion_root_stress.h"
 
 namespace whine {
 
 class SustainedPeaks {
  public:
-  // model is kept by reference. steps: per period, the least of those that will be asked for; those are multiples of it by powers
-  // of two.
-  SustainedPeaks(const GearMeshModel& model, int steps);
-  // Without root stress.
-  explicit SustainedPeaks(int steps);
-  bool root_stress() const { return roots_ && roots_->known(); }
-  // tooth_pair_load: (pair, step) N, pairs -reach..reach.
+  // Of a mesh of the system, which is kept by reference. steps: per period, the least of those that will be asked for; those are multiples
+  // of it by powers of two.
+  SustainedPeaks(const SystemModel& system, Eigen::Index mesh, int steps);
+  bool root_stress() const { return roots_.known(); }
   // (2, or kRows with root stress) N, N, Pa, Pa: mesh force, load of one pair, root stress of driver and driven gear; then where
   // either root stress occurs, as in a sweep: rad, angles of the roots' tangents; 1, mesh phases of the teeth's pairs. In mesh
   // period `number`, from 0, of a motion that repeats after `periods`, or never: kNever. Periods are given in their order: what is held
   // across the start of one counts with it, and across the end of the last with that. The load of one pair is not followed there.
   static constexpr int kNever = 0, kRows = 2 + 3 * kSides;
-  Eigen::VectorXd of(const Eigen::Ref<const Eigen::MatrixXd>& tooth_pair_load, int number = 0,
-                     int periods = 1);
+  Eigen::VectorXd of(const MotionPeriod& period, int number = 0, int periods = 1);
   // The largest of this period and those before it, from number 0 on.
-  Eigen::VectorXd so_far(const Eigen::Ref<const Eigen::MatrixXd>& tooth_pair_load, int number, int periods);
+  Eigen::VectorXd so_far(const MotionPeriod& period, int number, int periods);
 
  private:
-  std::optional<RootStresses> roots_;
+  Eigen::Index mesh_;
   int samples_;
-  Eigen::VectorXi pair_;
+  MotionRootStress roots_;
   MatrixRM load_;   // (sample, pair) N
   MatrixRM along_;  // (sample, quantity) of all pairs together, and the places of the root stresses
   MatrixRM first_, last_,
       joined_;  // (sample, quantity) start of period 0, end of the period before, all that is looked at
   Eigen::VectorXd so_far_;
 };
+
+// [mesh]
+std::vector<SustainedPeaks> sustained_peaks(const SystemModel& system, int steps);
 
 }  // namespace whine

@@ -11,9 +11,9 @@
 #include "base/model_range.h"
 #include "dynamics/lines_motion.h"
 #include "gear/pair.h"
+#include "studies/motion_root_stress.h"
 #include "studies/pair_in_motion.h"
 #include "studies/speed_sweep.h"
-#include "studies/sweep_root_stress.h"
 #include "studies/turning_carrier.h"
 
 namespace whine {
@@ -288,15 +288,15 @@ ToothLoads store_samples(const SystemModel& system, const MotionRecord& motion, 
 
 // A motion into its row, but for its samples; the note that the sweep reports of it.
 std::string store(const MotionRecord& motion, Index row, SweepResult& out) {
-  const MotionEnergy& energy = motion.energy;
+  const EnergyBalance& energy = motion.energy;
   out.periods[row] = motion.periods;
   out.period_multiple[row] = motion.multiple;
   out.residual[row] = motion.residual;
-  out.energy.row(row) = energy.lines;
-  out.energy_imbalance[row] = energy.imbalance / energy.lines[energy_line("throughput")];
+  out.energy.row(row) = energy.lines();
+  out.energy_imbalance[row] = energy.imbalance / energy.throughput;
   if (out.of_train()) {
-    out.rolling.row(row) = energy.rolling;
-    out.bearing_damping.row(row) = energy.bearing_damping;
+    out.rolling.row(row) = energy.rolling.transpose();
+    out.bearing_damping.row(row).head(energy.bearing_damping.size()) = energy.bearing_damping.transpose();
     out.holding_torque.row(row) = motion.holding_torque;
   }
   std::vector<FacePeak> face(motion.record[0].face.size());

@@ -2,15 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
-#include <limits>
-#include <numeric>
 
 #include "base/error.h"
 #include "base/model_range.h"
-#include "base/units.h"
-#include "dynamics/impact.h"
 #include "dynamics/lines_motion.h"
+#include "dynamics/ring_down.h"
 #include "system/natural_modes.h"
 
 namespace whine {
@@ -22,15 +18,13 @@ namespace {
 
 // Per oscillation of the mode: the averaged force lengthens it by (2 pi / steps)^2 / 12, 5e-5 here.
 constexpr int kSteps = 256, kSamples = 32, kOscillations = 8;
-constexpr int kMostExponentials = 12;  // where contact changes, as of pairs (dynamics/impact.cpp)
-constexpr double kReal = 1e-5;         // Im s / |s| below which a root counts as real
 
 void measure(SystemDynamics& dynamics, int i, const SystemImpactPlan& plan, ImpactResult& out) {
   const SystemDynamics::State rest = dynamics.rest(i);
   const SystemDynamics::FrozenModes modes = dynamics.frozen_modes(i);
   const Index count = out.undamped_frequency.cols();
   const VectorXd undamped = modes.frequency.head(count);
-  const std::vector<DampedRoot> roots = damped_roots(dynamics, i, undamped);
+  const std::vector<DampedRoot> roots = damped_roots(dynamics.frozen(i), undamped);
   const double speed = plan.impulse * std::sqrt(2 * dynamics.energy(rest));
   out.mesh_phase[i] = static_cast<double>(i) / plan.phases;
   for (int m = 0; m < dynamics.meshes(); ++m)
@@ -38,10 +32,8 @@ void measure(SystemDynamics& dynamics, int i, const SystemImpactPlan& plan, Impa
         (rest.p.segment(m * dynamics.tooth_pairs(), dynamics.tooth_pairs()).array() > 0).count());
   out.undamped_frequency.row(i) = undamped.transpose();
   for (Index k = 0; k < count; ++k) {
-    out.rayleigh_damping_ratio(i, k) = rayleigh_ratio(out.train.damping, undamped[k]);
     const DampedRoot& root = roots[static_cast<size_t>(k)];
-    out.eigen_frequency(i, k) = root.frequency;
-    out.eigen_damping_ratio(i, k) = root.damping_ratio;
+    set_root(root, i, k, out);
     if (root.frequency == 0) {
       out.damping_ratio(i, k) = 1;
       continue;
@@ -50,18 +42,12 @@ void measure(SystemDynamics& dynamics, int i, const SystemImpactPlan& plan, Impa
     const SystemRingDown trace = ring_down(dynamics, i, modes.shape.col(k), speed, seconds,
                                            kSamples * kOscillations, kSteps / kSamples);
     const double modulus = root.frequency / std::sqrt(1 - root.damping_ratio * root.damping_ratio);
-    const int most = trace.contact_changes > 0 ? kMostExponentials : std::numeric_limits<int>::max();
-    const Decay fit = [&] {
-      try {
-        return fit_decay(trace.samples, seconds * kSteps / kSamples, modulus, most);
-      } catch (const Error& error) {
-        fail_as(error, "at mesh phase ", out.mesh_phase[i], ", mode at ", undamped[k], " Hz: ", error.what());
-      }
-    }();
-    out.natural_frequency(i, k) = fit.root.frequency;
-    out.damping_ratio(i, k) = fit.root.damping_ratio;
-    out.fit_residual(i, k) = fit.residual;
-    out.contact_changes(i, k) = trace.contact_changes;
+    try {
+      set_decay(fit_ring_down(trace.samples, seconds * kSteps / kSamples, modulus, trace.contact_changes),
+                trace.contact_changes, i, k, out);
+    } catch (const Error& error) {
+      fail_as(error, "at mesh phase ", out.mesh_phase[i], ", mode at ", undamped[k], " Hz: ", error.what());
+    }
   }
 }
 
@@ -89,32 +75,6 @@ SystemRingDown ring_down(SystemDynamics& dynamics, int i, const VectorXd& shape,
     fail(
         Failure::numerical,
         "the ring-down reaches a tip edge that is left out as too far; take a smaller impulse or lower the torque");
-  return out;
-}
-
-std::vector<DampedRoot> damped_roots(SystemDynamics& dynamics, int i, const VectorXd& frequency) {
-  constexpr double kNear = 1.0 / 3;  // of the undamped frequency
-  const FixedPhaseMesh mesh = dynamics.frozen(i);
-  std::vector<int> all(static_cast<size_t>(mesh.gap.size()));
-  std::iota(all.begin(), all.end(), 0);
-  std::vector<std::complex<double>> roots;
-  const Eigen::VectorXcd found = frozen_roots(mesh, all);
-  roots.reserve(static_cast<size_t>(found.size()));
-  for (const std::complex<double>& s : found)
-    if (s.imag() > kReal * std::abs(s)) roots.push_back(s);
-  std::vector<DampedRoot> out;
-  out.reserve(static_cast<size_t>(frequency.size()));
-  for (const double f : frequency) {
-    const auto away = [&](const std::complex<double>& s) { return std::abs(std::abs(s) - kTwoPi * f); };
-    const auto nearest = std::min_element(roots.begin(), roots.end(),
-                                          [&](const auto& a, const auto& b) { return away(a) < away(b); });
-    if (nearest == roots.end() || away(*nearest) > kNear * kTwoPi * f) {
-      out.push_back({0, 1});
-      continue;
-    }
-    out.push_back({nearest->imag() / kTwoPi, -nearest->real() / std::abs(*nearest)});
-    roots.erase(nearest);
-  }
   return out;
 }
 

@@ -12,7 +12,6 @@
 #include "dynamics/system_dynamics.h"
 #include "results/impact.h"
 #include "results/reduced_body.h"
-#include "signal/decay.h"
 
 namespace whine {
 
@@ -32,11 +31,6 @@ struct SystemRingDown {
 // every `stride`-th is kept. Throws Error(numerical) where tip edges that are left out would touch, and as integrate_fixed().
 SystemRingDown ring_down(SystemDynamics& dynamics, int i, const Eigen::VectorXd& shape, double speed,
                          double seconds, int samples, int stride);
-
-// (mode) damped roots of the modes of these undamped frequencies (Hz, ascending), contact frozen at phase i / positions: to each the
-// root of nearest modulus that no other mode has. Frequency 0 and ratio 1 where none lies within a third: damped above
-// critical. Throws as frozen_roots().
-std::vector<DampedRoot> damped_roots(SystemDynamics& dynamics, int i, const Eigen::VectorXd& frequency);
 
 // bodies: [gear] of settings.body. report(done, total) is called after each phase. Throws Error(input) for a plan without modes or
 // phases, or an impulse outside (0, 0.1]; else as LinesMotion and ring_down().

@@ -52,11 +52,6 @@ struct Rig {
   RollingDynamics::Period period;
 };
 
-double left_over(const EnergyBalance& l) {
-  return l.storage() + l.modal_damping + l.relaxation_damping - l.torque - l.rolling - l.switching -
-         l.cutting - l.dropped + l.averaging;
-}
-
 }  // namespace
 
 TEST_CASE("the energy balance closes to 1e-9 of the input energy over 1e5 steps in which contact is lost") {
@@ -70,10 +65,10 @@ TEST_CASE("the energy balance closes to 1e-9 of the input energy over 1e5 steps 
       REQUIRE(rig.dynamics.integrate(rig.state, rig.period, &energy_balance));
       least = std::min(least, rig.period.tooth_pair_load.colwise().sum().minCoeff());
     }
-    INFO(contact << ": " << left_over(energy_balance) << " J of " << energy_balance.throughput);
+    INFO(contact << ": " << energy_balance.left_over() << " J of " << energy_balance.throughput);
     CHECK(least == 0);
     CHECK(energy_balance.throughput > 0.1);
-    CHECK(std::abs(left_over(energy_balance)) < 1e-9 * energy_balance.throughput);
+    CHECK(std::abs(energy_balance.left_over()) < 1e-9 * energy_balance.throughput);
     CHECK(energy_balance.imbalance < 1e-9 * energy_balance.throughput / kPeriods);
   }
 }
@@ -110,9 +105,9 @@ TEST_CASE(
       CHECK(rig.period.tooth_pair_load.colwise().sum().minCoeff() == 0);
       EnergyBalance energy_balance;
       REQUIRE(rig.dynamics.integrate(rig.state, rig.period, &energy_balance));
-      CHECK(energy_balance.cutting == 0);
+      CHECK(energy_balance.cutting[0] == 0);
       step.push_back(-std::log(steps));
-      switching.push_back(std::log(std::abs(energy_balance.switching) / energy_balance.throughput));
+      switching.push_back(std::log(std::abs(energy_balance.switching[0]) / energy_balance.throughput));
       averaging.push_back(std::log(std::abs(energy_balance.averaging) / energy_balance.throughput));
     }
     const auto order = [&](const std::vector<double>& line) {
@@ -130,6 +125,8 @@ TEST_CASE("a mesh period takes no memory, with an energy balance or without") {
     Rig rig(contact, 5.5e-6);
     rig.start(2900, 128, 5);
     EnergyBalance energy_balance;
+    REQUIRE(
+        rig.dynamics.integrate(rig.state, rig.period, &energy_balance));  // which takes memory for its lists
     for (EnergyBalance* kept : {static_cast<EnergyBalance*>(nullptr), &energy_balance}) {
       const long before = memory_requests;
       for (int i = 0; i < 5; ++i) REQUIRE(rig.dynamics.integrate(rig.state, rig.period, kept));

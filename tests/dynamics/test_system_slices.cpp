@@ -129,7 +129,7 @@ TEST_CASE("slices of a spur pair under even load move as one slice") {
   Pair one({0, Hand::right, 0, 0}), four({0, Hand::right, 0, 4});
   CHECK(four.dynamics->points() == 4);
   for (const double frequency : {2900.0, 1300.0}) {
-    SystemEnergyBalance a, b;
+    EnergyBalance a, b;
     for (Pair* pair : {&one, &four}) {
       pair->run(frequency, 64, 15);
       REQUIRE(pair->dynamics->integrate(pair->state, pair->period, pair == &one ? &a : &b));
@@ -197,8 +197,9 @@ TEST_CASE("energy of slices in motion closes, with and without loss of contact")
       // Misaligned teeth come in so softly that they do not part.
       Pair pair({overlap, Hand::right, overlap < 0.4 ? 0 : 15e-6, 6}, 64, 2e-6);
       pair.run(frequency, 64, 20);
-      SystemEnergyBalance energy;
+      EnergyBalance energy;
       for (int n = 0; n < 3; ++n) {
+        energy = {};
         REQUIRE(pair.dynamics->integrate(pair.state, pair.period, &energy));
         CHECK(energy.imbalance < 1e-9 * energy.throughput);
       }

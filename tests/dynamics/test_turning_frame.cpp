@@ -345,12 +345,13 @@ TEST_CASE(
     Turning rig(turning_train(2e8, pins), 1e-6, kSteps, 3);
     SystemDynamics& dynamics = rig.dynamics;
     SystemDynamics::Period period;
-    SystemEnergyBalance energy;
+    EnergyBalance energy;
     dynamics.set_speed(7000, kSteps);
     SystemDynamics::State state = dynamics.rest();
     for (int n = 0; n < 20; ++n) REQUIRE(dynamics.integrate(state, period));
     int parted = 0;
     for (int n = 0; n < 5; ++n) {
+      energy = {};
       REQUIRE(dynamics.integrate(state, period, &energy));
       parted += static_cast<int>((period.mesh_force.array() == 0).count());
       CHECK(energy.imbalance < 1e-11 * energy.throughput);
@@ -367,6 +368,7 @@ TEST_CASE(
     const PeriodicMotion motion = iterate_to_orbit(map, map.flat(dynamics.rest()), {1e-11, 3000, true});
     REQUIRE(motion.multiple == 1);
     state = map.state(motion.state);
+    energy = {};
     REQUIRE(dynamics.integrate(state, period, &energy));
     CHECK(energy.imbalance < 1e-11 * energy.throughput);
     CHECK(std::abs(energy.centrifugal) < 1e-8 * energy.throughput);

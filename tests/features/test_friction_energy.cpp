@@ -195,13 +195,13 @@ TEST_CASE("friction in motion: torques and angular momentum of unequal gears lea
           least = std::min(least, motion.period.tooth_pair_load.colwise().sum().minCoeff());
         }
         INFO(gears->driver.teeth << " drives " << gears->driven.teeth << ", " << contact << ", bearings "
-                                 << bearings << ": friction " << l.friction << " J, rolling "
+                                 << bearings << ": friction " << l.friction.sum() << " J, rolling "
                                  << l.friction_rolling << " J, imbalance " << l.imbalance
                                  << " J, least mesh force " << least << " N");
         if (!bearings) CHECK(least == 0);
-        CHECK(l.friction > 0);
-        CHECK(std::abs(left_over(l)) < 1e-9 * l.friction);
-        CHECK(l.imbalance < 1e-9 * l.friction);
+        CHECK(l.friction.sum() > 0);
+        CHECK(std::abs(l.left_over()) < 1e-9 * l.friction.sum());
+        CHECK(l.imbalance < 1e-9 * l.friction.sum());
       }
 }
 
@@ -252,12 +252,12 @@ TEST_CASE(
         corner += normal[0] * turn - normal[1] * turn * ratio;
       }
       INFO(gears->driver.teeth << " drives " << gears->driven.teeth << ", " << contact << ": "
-                               << balance.friction << " J, by the motion " << loss << " J of " << in - out
-                               << " J");
-      CHECK(balance.friction == relative(loss, 1e-9));
+                               << balance.friction.sum() << " J, by the motion " << loss << " J of "
+                               << in - out << " J");
+      CHECK(balance.friction.sum() == relative(loss, 1e-9));
       // The rest is what normal forces do on gaps that close and open: what torques put into the vibration and it does not keep.
       const double by_energy =
-          corner + balance.torque - balance.kinetic - balance.modal_damping + balance.friction_rolling;
+          corner + balance.drive.sum() - balance.kinetic - balance.modal_damping + balance.friction_rolling;
       CHECK(std::abs(in - out - by_energy) < 1e-9 * in);
     }
 }
@@ -275,7 +275,7 @@ TEST_CASE("friction in motion: losses of unequal gears are mu times the loss fac
         loss_factor(motion.model.kinematics, Eigen::VectorXi::LinSpaced(2 * reach + 1, -last, last),
                     VectorXd::LinSpaced(steps, 0, 1 - 1 / static_cast<double>(steps)),
                     MatrixRM(motion.period.tooth_pair_load.transpose()), 60);
-    const double taken = balance.friction / (60 * 2 * std::numbers::pi / gears->driver.teeth);
+    const double taken = balance.friction.sum() / (60 * 2 * std::numbers::pi / gears->driver.teeth);
     INFO(gears->driver.teeth << " drives " << gears->driven.teeth << ": " << taken << ", mu H_V "
                              << kFriction * factor);
     CHECK(taken == relative(kFriction * factor, 0.01));

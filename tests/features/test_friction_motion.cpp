@@ -61,16 +61,16 @@ TEST_CASE(
         least = std::min(least, rig.period.tooth_pair_load.colwise().sum().minCoeff());
         loads += rig.period.tooth_pair_load.sum() / 128;
       }
-      INFO(contact << ", bearings " << bearings << ": " << left_over(balance) << " J of "
-                   << balance.throughput << ", friction " << balance.friction << " J, rolling "
+      INFO(contact << ", bearings " << bearings << ": " << balance.left_over() << " J of "
+                   << balance.throughput << ", friction " << balance.friction.sum() << " J, rolling "
                    << balance.friction_rolling);
       if (!bearings) CHECK(least == 0);
-      CHECK(balance.friction > 0);
-      CHECK(std::abs(left_over(balance)) < 1e-9 * balance.friction);
+      CHECK(balance.friction.sum() > 0);
+      CHECK(std::abs(balance.left_over()) < 1e-9 * balance.friction.sum());
       CHECK(balance.imbalance < 1e-9 * balance.throughput);
       // The mean force is that of the torque, and the balance of the loss is no small part of it.
       CHECK(loads / 20 == relative(150 / rig.model.kinematics.gear(0).base_radius(), 0.05));
-      CHECK(balance.friction > 1e-3 * balance.throughput);
+      CHECK(balance.friction.sum() > 1e-3 * balance.throughput);
     }
 }
 
@@ -126,8 +126,8 @@ TEST_CASE(
       in += (a.driver + b.driver + a.first + b.first) * driver;
       out += (a.driven + b.driven + a.second + b.second) * driven;
     }
-    INFO(contact << ": " << balance.friction << " J, by the motion " << loss << " J");
-    CHECK(balance.friction == relative(loss, 1e-9));
+    INFO(contact << ": " << balance.friction.sum() << " J, by the motion " << loss << " J");
+    CHECK(balance.friction.sum() == relative(loss, 1e-9));
     // What the mesh takes: friction, and what the normal forces do on gaps that close and open.
     CHECK(in - out > 0.5 * loss);
   }
@@ -305,7 +305,7 @@ TEST_CASE("friction in motion: losses over mu tend to a limit of first order") {
     rig.start(2000, 64, 60);
     EnergyBalance balance;
     REQUIRE(rig.dynamics.integrate(rig.state, rig.period, &balance));
-    return balance.friction / mu;
+    return balance.friction.sum() / mu;
   };
   const double limit = loss(1e-5), fine = loss(0.01) - limit, coarse = loss(0.02) - limit;
   INFO("over mu " << limit << " J, off by " << fine << ", " << coarse);

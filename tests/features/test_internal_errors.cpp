@@ -302,9 +302,10 @@ TEST_CASE(
   }
   SystemDynamics::State state = dynamics.rest();
   SystemDynamics::Period period;
-  SystemEnergyBalance energy;
+  EnergyBalance energy;
   dynamics.set_speed(1000, kSteps);
   for (int n = 0; n < kTeeth[2]; ++n) {
+    energy = {};
     REQUIRE(dynamics.integrate(state, period, &energy));
     CHECK(energy.imbalance < 1e-12 * energy.throughput);
   }

@@ -189,11 +189,12 @@ TEST_CASE("a carrier that turns, contact lost: energy closes, its bearing takes 
   SystemDynamics& dynamics = turning().dynamics;
   SystemDynamics::State state = dynamics.rest();
   SystemDynamics::Period period;
-  SystemEnergyBalance energy;
+  EnergyBalance energy;
   dynamics.set_speed(7000, kSteps);
   for (int n = 0; n < 30; ++n) REQUIRE(dynamics.integrate(state, period));
   int parted = 0;
   for (int n = 0; n < 5; ++n) {
+    energy = {};
     REQUIRE(dynamics.integrate(state, period, &energy));
     parted += static_cast<int>((period.mesh_force.array() == 0).count());
     CHECK(energy.imbalance < 1e-12 * energy.throughput);

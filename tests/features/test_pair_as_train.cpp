@@ -7,9 +7,11 @@
 #include "gear/system_layout.h"
 #include "io/system_scene.h"
 #include "paper_pair.h"
+#include "refusal.h"
 #include "relative.h"
 #include "signal/response.h"
 #include "studies/branch.h"
+#include "studies/fold_curves.h"
 #include "studies/runup.h"
 #include "studies/sweep.h"
 #include "system/statics.h"
@@ -132,6 +134,17 @@ TEST_CASE("a pair as a train: the sweep jumps where that of the pair does, and w
   alike(branch.mesh_force_sustained, of_pair.mesh_force_sustained);
   alike(branch.tooth_load_sustained, of_pair.tooth_load_sustained);
   CHECK(branch.separation_fraction(0, 0) == of_pair.separation_fraction(0, 0));
+  // Root stress of the orbit is that of the sweep, within the sweep's periodicity.
+  const Eigen::Index speed = 4;
+  REQUIRE(train.mesh_frequency[speed] == relative(branch.mesh_frequency[0], 1e-9));
+  for (const auto& [sustained, known] :
+       {std::pair{&branch, &train_response}, std::pair{&of_pair, &pair_response}})
+    for (Eigen::Index side = 0; side < kSides; ++side) {
+      CHECK(sustained->root_stress_sustained(0, side) ==
+            relative(known->root_stress_sustained(speed, side), 1e-4));
+      CHECK(sustained->root_stress_angle(0, side) == relative(known->root_stress_angle(speed, side), 1e-3));
+      CHECK(sustained->root_stress_phase(0, side) == known->root_stress_phase(speed, side));
+    }
   // A sweep in steps ends at the fold, or at a kink a little before.
   CHECK(std::abs(train.jump_frequency[0] - branch.fold_frequency[0]) <
         branch.fold_width[0] + train.jump_width[0]);
@@ -170,6 +183,7 @@ TEST_CASE("a pair as a train: run-ups lose contact in the same mesh periods and 
   const auto off = [](const MatrixRM& x, const MatrixRM& y) { return (x - y).norm() / y.norm(); };
   CHECK(off(train.periods.dte_rms, pair.periods.dte_rms) < 0.02);
   CHECK(off(train.periods.tooth_load_max, pair.periods.tooth_load_max) < 0.02);
+  CHECK(off(train.periods.root_stress_sustained, pair.periods.root_stress_sustained) < 0.02);
   CHECK(off(train.force, pair.force) < 0.02);
 }
 
@@ -182,4 +196,48 @@ TEST_CASE("a pair as a train: orbits of two mesh periods begin at the same speed
   check_alike(train.flip_frequency, pair.flip_frequency);
   CHECK(train.period_multiple.maxCoeff() == 2);
   CHECK(train.residual.maxCoeff() < 1e-6);
+}
+
+// The lower fold is where 1 % of damping moves the end of the branch by 40 Hz; the two damp by other fields.
+TEST_CASE(
+    "a pair as a train: its folds go over the torque as those of the pair, and are those of its branches") {
+  Both both(2400, 3000, 6.5e-6);
+  both.pair.time.steps_per_period = both.train.time.steps_per_period = 128;
+  FoldCurvesPlan plan{.quantity = FoldQuantity::torque, .first = 150, .values = {150, 165}};
+  plan.from = 2400;
+  plan.to = 3000;
+  StaticParameters at_rest = paper_statics(64);
+  at_rest.fidelity.contact = ContactModel::line;
+  const FoldCurvesResult pair = fold_curves(body(), body(), at_rest, 150, both.pair, plan, no_report);
+  const FoldCurvesResult train = fold_curves(both.train, {body(), body()}, plan, no_report);
+  INFO(pair.end, "; ", train.end);
+  REQUIRE(pair.value.size() >= 4);
+  REQUIRE(train.value.size() >= 4);
+  SystemSweepParameters at_165 = both.train;
+  for (System::Drive& drive : at_165.layout.drives) drive.torque *= 1.1;
+  const BranchResult branch = system_branch(at_165, {body(), body()}, no_report);
+  REQUIRE(branch.fold_frequency.size() == 2);
+  // Values that are gone through on the way to one may differ.
+  const auto fold_at = [](const FoldCurvesResult& of, double torque, int highest) {
+    for (Eigen::Index i = 0; i < of.value.size(); ++i)
+      if (of.value[i] == torque && of.highest[i] == highest) return of.fold_frequency[i];
+    return 0.0;
+  };
+  for (const double torque : {150.0, 165.0})
+    for (const int highest : {0, 1}) {
+      CAPTURE(torque);
+      CAPTURE(highest);
+      const double own = fold_at(train, torque, highest);
+      CHECK(own == relative(fold_at(pair, torque, highest), highest == 1 ? 1e-3 : 1e-2));
+      if (torque == 165) CHECK((branch.fold_frequency.array() - own).abs().minCoeff() < 1e-4 * own);
+    }
+  // The factor of a damping ratio is Rayleigh's, an estimate from above.
+  CHECK(train.damping_ratio[0] > pair.damping_ratio[0]);
+  CHECK(train.damping_ratio[0] < 1.3 * pair.damping_ratio[0]);
+  const auto refusal = [&](FoldQuantity quantity) {
+    plan.quantity = quantity;
+    return message_of([&] { fold_curves(both.train, {body(), body()}, plan, no_report); });
+  };
+  CHECK(names(refusal(FoldQuantity::tip_relief), {"tip_relief", "pairs"}));
+  CHECK(names(refusal(FoldQuantity::bearing_stiffness), {"bearing_stiffness", "stiffness_N_um"}));
 }

@@ -2,8 +2,11 @@
 #include <doctest/doctest.h>
 
 #include "bench/work_precision_panels.h"
+#include "gear/contact_lines.h"
 #include "paper/reading_figure.h"
 #include "picture_inputs.h"
+#include "refusal.h"
+#include "relative.h"
 #include "report/animation.h"
 #include "report/compare_figures.h"
 #include "report/engineering_axes.h"
@@ -336,6 +339,56 @@ TEST_CASE("pictures of studies: no text is cut or lies on other text") {
   check(study_figure(a), "study");
   a.plan.random = true;
   check(study_figure(a), "study");
+}
+
+TEST_CASE(
+    "picture of a study as a map of cells: they tile, limits of contact loss; no text is cut or lies on other text") {
+  const TemporaryFolder folder;
+  StudyResult a;
+  const Study study = read_study(folder.file(
+      "study.toml",
+      "scene = '" + std::filesystem::absolute("data/scenes/parker2000-helical-0_5.toml").string() +
+          "'\nstage = 'sweep'\ntitle = 'Contact loss over overlap ratio and damping ratio of the second variant'\n"
+          "quantities = ['contact_ratio', 'overlap_ratio', 'rayleigh_damping_ratio', 'te_mean', 'te_harmonic_1',\n"
+          "  'separation_max_up', 'separation_max_down']\n"
+          "[[vary]]\nkey = 'gear.pinion.face_width_mm'\nvalues = [12.5, 25, 50]\n"
+          "[[vary]]\nkey = 'damping.rayleigh_stiffness_s'\nvalues = [4e-6, 2e-6]\n"
+          "[figure]\nquantities = ['separation_max_up', 'separation_max_down']\n"
+          "map = ['overlap_ratio', 'rayleigh_damping_ratio']\n"));
+  a.plan = study;
+  a.quantity.resize(6, 7);
+  for (long v = 0; v < 6; ++v) {
+    a.variants.push_back({text("ab", v), variant_values(study, v)});
+    const double overlap = 0.25 * std::pow(2, v / 2);
+    a.quantity.row(v) << 1.5, overlap, v % 2 ? 0.02 : 0.04, 4e-6, 1e-7, v == 1 ? 0.123 : 0,
+        v == 1 ? 0.456 : 0;
+  }
+  a.rejection.assign(6, "");
+  a.unsteady = Eigen::VectorXi::Zero(6);
+  a.unsteady[1] = 3;
+  const Figure figure = study_figure(a);
+  check(figure, "study");
+  const auto rows = [&](const std::string& name) {
+    for (const FigureBlock& block : figure.blocks)
+      if (block.name == name) return block.rows;
+    return std::vector<std::vector<double>>();
+  };
+  const auto cells = rows("map separation_max_up"), lines = rows("contact lines"), still = rows("static TE");
+  REQUIRE(cells.size() == 6);
+  const double edge[] = {0.125, 0.375, 0.75, 1.25};
+  for (size_t v = 0; v < 6; ++v) {
+    CHECK(cells[v][3] == relative(edge[v / 2], 1e-12));
+    CHECK(cells[v][4] == relative(edge[v / 2 + 1], 1e-12));
+    CHECK(cells[v][5] == relative(v % 2 ? 0.01 : 0.03, 1e-12));
+    CHECK(cells[v][6] == relative(v % 2 ? 0.03 : 0.05, 1e-12));
+  }
+  CHECK(cells[1][2] == 0.123);
+  REQUIRE(lines.size() > 2);
+  CHECK(lines.front()[1] == relative(0.5 * contact_line_harmonic(1.5, 0.125), 1e-12));
+  REQUIRE(still.size() == 3);
+  CHECK(still[0][1] == relative(0.0125, 1e-12));
+  a.plan.figure_map = {"overlap_ratio", "contact_ratio"};
+  CHECK(names(message_of([&] { study_figure(a); }), {"contact_ratio", "map", "[figure]"}));
 }
 
 TEST_CASE("pictures of readings and of work and precision: no text is cut or lies on other text") {

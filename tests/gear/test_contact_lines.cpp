@@ -203,3 +203,25 @@ TEST_CASE("ISO 6336-1 method B of a helical pair: example 1 of ISO/TR 6336-30") 
   CHECK(iso.mesh * 1e-9 == relative(17.465, 2e-3));
   CHECK(iso.line_load * 0.1 == relative(127352, 1e-4));
 }
+
+TEST_CASE("first harmonic of the contact lines: by hand, and of their length over a mesh period") {
+  // sinc(1.5) = -2 / (3 pi), sinc(0.5) = 2 / pi.
+  CHECK(contact_line_harmonic(1.5, 0.5) == relative(8 / (3 * std::numbers::pi * std::numbers::pi), 1e-14));
+  CHECK(contact_line_harmonic(1.5, 0) == relative(4 / (3 * std::numbers::pi), 1e-14));
+  CHECK(contact_line_harmonic(1.5, 1) < 1e-15);
+  CHECK(contact_line_harmonic(2, 0.3) < 1e-15);
+  for (const double overlap : {0.25, 0.5, 1.3}) {
+    const GearPair pair = helical_pair(20, width_of_overlap(overlap, 20));
+    constexpr int kPhases = 4096;
+    double mean = 0, cosine = 0, sine = 0;
+    for (int i = 0; i < kPhases; ++i) {
+      const double turn = 2 * std::numbers::pi * i / kPhases,
+                   length = contact_line_length(pair, static_cast<double>(i) / kPhases);
+      mean += length / kPhases;
+      cosine += 2 * length * std::cos(turn) / kPhases;
+      sine += 2 * length * std::sin(turn) / kPhases;
+    }
+    CHECK(std::hypot(cosine, sine) / mean ==
+          relative(contact_line_harmonic(pair.contact_ratio(), pair.overlap_ratio()), 1e-5));
+  }
+}

@@ -145,7 +145,8 @@ TEST_CASE("numbers and words of goals say their range") {
   CHECK(begins(said("", {"AXIS=order:1"}), "AXIS=order:1: it is rpm:<gear>"));
   CHECK(begins(said("", {"DB=0"}), "DB=0: it is the length in m that is 0 dB"));
   CHECK(begins(said("", {"JUMP_MAP=finer"}), "JUMP_MAP=finer: it is coarse or fine"));
-  CHECK(begins(said("", {"FOLDS_OVER=x"}), "FOLDS_OVER=x: it is damping, torque or tip_relief"));
+  CHECK(begins(said("", {"FOLDS_OVER=x"}),
+               "FOLDS_OVER=x: it is damping, torque, bearing_stiffness or tip_relief"));
   CHECK(begins(said("", {"VARIANTS=../.."}), "VARIANTS: ../..: write name:key=value"));
   CHECK(begins(said("", {"VARIANTS=../..:a=1"}), "VARIANTS: ../..:a=1: the name '../..' becomes a folder"));
   CHECK(said("calibrate histories loaded runup out/a/T62.5/static.h5 out/a/T1e+06/static.h5",
@@ -234,12 +235,12 @@ TEST_CASE("goals that a scene cannot reach name what there is of it") {
         begins(said({goal}, elastic),
                std::string(goal) + ": SCENE=my.toml is without speeds, [operation] with mesh_frequency_Hz"));
   CHECK(begins(said({"compare"}, rigid), "compare: SCENE=my.toml is of rigid gears"));
-  for (const char* goal : {"histories", "fig05", "lumped", "fold-curves"}) {
+  for (const char* goal : {"histories", "fig05", "lumped", "error-budget"}) {
     CHECK(begins(said({"static", goal}, train),
                  std::string(goal) + ": SCENE=my.toml is a system of several meshes, carriers or drives; "));
     CHECK(
         said({goal}, train)
             .ends_with(
-                "report, or of it mesh reduce static load-sharing sweep order-cuts sound runup branches multipliers impact residual-signal teeth harris-map compare modes mode-shapes"));
+                "report, or of it mesh reduce static load-sharing sweep order-cuts sound runup branches multipliers fold-curves impact residual-signal teeth harris-map compare modes mode-shapes"));
   }
 }

@@ -120,6 +120,12 @@ TEST_CASE("a study that says nothing sensible is rejected by line, value and lim
   rejects("[figure]\nkeys = ['gear.pinion.error.seed']\n" + kDamping +
               "[[vary]]\nkey = 'gear.pinion.error.seed'\nvalues = [1, 2]\n",
           {"varied", "key"});
+  const std::string torque = "[[vary]]\nkey = 'operation.torque_Nm'\nvalues = [1, 2]\n",
+                    map = "[figure]\nmap = ['te_mean', 'damping.rayleigh_stiffness_s']\n";
+  rejects(map + kDamping, {":3", "map", "two", 1});
+  rejects(map + "colour = 'operation.torque_Nm'\n" + kDamping + torque, {":4", "colour", "map"});
+  rejects("[figure]\nmap = ['te_mean']\n" + kDamping + torque, {":3", "map", "two", 1});
+  rejects("[figure]\nmap = ['te_mean', 'te_meen']\n" + kDamping + torque, {":3", "te_meen", "te_mean"});
   rejects("tilte = 'x'\n" + kDamping, {":2", "tilte", "title"});
   rejects(
       "plan = 'sample'\nsamples = 5\n[[vary]]\nkey = 'operation.torque_Nm'\nmean = 100\ndeviation = 1\nleast = 150\n",
@@ -244,6 +250,12 @@ TEST_CASE("plans come back as they were written") {
   CHECK(plan_text(plan, back) == plan_text(study, variants));
   CHECK(plan.keys[0].units == "s");
   CHECK(!plan.marks_outside);
+  const Study mapped = study_of("stage = 'sweep'\n" + kDamping +
+                                "[[vary]]\nkey = 'operation.torque_Nm'\nvalues = [100, 200]\n[figure]\n"
+                                "map = ['operation.torque_Nm', 'rayleigh_damping_ratio']\n");
+  const Written map(plan_text(mapped, {{"abcd0", variant_values(mapped, 0)}}), "plan.toml");
+  CHECK(read_plan(map.path).first.figure_map ==
+        std::vector<std::string>{"operation.torque_Nm", "rayleigh_damping_ratio"});
   const Study marking = study_of("outside_model = 'mark'\n" + kDamping);
   const Written marked(plan_text(marking, {{"abcd0", variant_values(marking, 0)}}), "plan.toml");
   CHECK(read_plan(marked.path).first.marks_outside);

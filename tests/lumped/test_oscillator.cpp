@@ -705,3 +705,30 @@ TEST_CASE("lumped: a cell of a map of jumps is what sweeps up and down of that m
   range.load_frequency = 3200;
   rejected(range, {0.07}, {3200});
 }
+
+TEST_CASE("lumped: jumps of a helical pair, its stiffness as the length of its contact lines") {
+  // Found by another program, exact in its events.
+  constexpr double kAcross = 1.754673;  // transverse contact ratio
+  const double known[][3] = {{0.25, 1811.5251, 2469.6429}, {0.5, 2578.9977, 2695.5741}};
+  for (const auto& [overlap, down, up] : known) {
+    constexpr int kCells = 1024;
+    Eigen::VectorXd stiffness(kCells);
+    for (int i = 0; i < kCells; ++i) {
+      double length = 0;  // of all pairs, over that of a whole line
+      for (int j = -1; j < 4; ++j) {
+        const double at = static_cast<double>(i) / kCells + j;
+        length += std::max(0.0, std::min(at, overlap) - std::max(0.0, at - kAcross)) / overlap;
+      }
+      stiffness[i] = kMean * length / kAcross;
+    }
+    LumpedParameters p = cells_of(stiffness, kCells);
+    p.mass = kMass;
+    p.damping_ratio = 0.05;
+    p.damper = 2 * p.damping_ratio * std::sqrt(kMean * kMass);
+    p.damper_acts = DamperActs::always;
+    LumpedOscillator o(p, 150 / kRadius, 64, 0);
+    const std::array<double, 2> found = folds(o, 1750, 2950);
+    CHECK(found[0] == relative(down, 0.1 / down));
+    CHECK(found[1] == relative(up, 0.1 / up));
+  }
+}

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "dynamics/lines_motion.h"
+#include "dynamics/ring_down.h"
 #include "gear/system_layout.h"
 #include "io/artifacts.h"
 #include "io/publish.h"
@@ -439,7 +440,7 @@ TEST_CASE("without contact loss the largest multiplier is the decay of the slowe
   for (int i = 0; i < 6; ++i) {
     double least = 1e9;
     for (const DampedRoot& root :
-         damped_roots(rig.dynamics(), i, rig.dynamics().frozen_modes(i).frequency.head(8)))
+         damped_roots(rig.dynamics().frozen(i), rig.dynamics().frozen_modes(i).frequency.head(8)))
       least = std::min(least, 2 * std::numbers::pi * root.frequency * root.damping_ratio /
                                   std::sqrt(1 - root.damping_ratio * root.damping_ratio));
     slowest += least / 6;

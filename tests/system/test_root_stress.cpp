@@ -376,41 +376,41 @@ TEST_CASE(
     "root stress: what is sustained across the start of a mesh period counts, in motions of one and of several periods and in those that never repeat") {
   const ReducedBody& body = coarse().body;
   const StaticParameters settings = paper_statics(32);
-  const GearMeshModel model(body, body, settings.mesh);
+  const SystemModel system(body, body, settings.mesh);
   constexpr int kSteps = 128, kPeriods = 3;
   // A load that stands for two samples on either side of each start of a period, highest across that of period 1.
   const auto period = [&](double before, double after) {
-    RollingDynamics::Period out;
-    out.tooth_pair_load = Eigen::MatrixXd::Constant(3, kSteps, 100);
-    out.tooth_pair_load.row(1).head(2).setConstant(after);
-    out.tooth_pair_load.row(1).tail(2).setConstant(before);
+    MotionPeriod out;
+    out.first_pair = -1;
+    out.transmission_error.setZero(1, kSteps);
+    out.tooth_load = Eigen::MatrixXd::Constant(3, kSteps, 100);
+    out.tooth_load.row(1).head(2).setConstant(after);
+    out.tooth_load.row(1).tail(2).setConstant(before);
     return out;
   };
   const std::array periods{period(3000, 2000), period(1500, 3000), period(2000, 1500)};
   const auto largest_of = [&](int repeats) {
-    SustainedPeaks peaks(model, kSteps);
+    SustainedPeaks peaks(system, 0, kSteps);
     Eigen::VectorXd most;
-    for (int k = 0; k < kPeriods; ++k)
-      most = peaks.so_far(periods[static_cast<size_t>(k)].tooth_pair_load, k, repeats);
+    for (int k = 0; k < kPeriods; ++k) most = peaks.so_far(periods[static_cast<size_t>(k)], k, repeats);
     return most;
   };
   MatrixRM force(kPeriods * kSteps, 1);
   for (int k = 0; k < kPeriods; ++k)
     force.middleRows(k * kSteps, kSteps) =
-        periods[static_cast<size_t>(k)].tooth_pair_load.colwise().sum().transpose();
+        periods[static_cast<size_t>(k)].tooth_load.colwise().sum().transpose();
   CHECK(largest_of(kPeriods)[0] == sustained_load(force, kSteps, kPeriods));
   CHECK(largest_of(kPeriods)[0] == 3200);
   CHECK(largest_of(SustainedPeaks::kNever)[0] == sustained_load(force, kSteps));
-  CHECK(largest_of(kPeriods)[2] > 1.1 * SustainedPeaks(model, kSteps).of(periods[1].tooth_pair_load)[2]);
+  CHECK(largest_of(kPeriods)[2] > 1.1 * SustainedPeaks(system, 0, kSteps).of(periods[1])[2]);
   // The place goes with the largest of the periods, not with the last one, and it is not the largest place.
-  SustainedPeaks following(model, kSteps);
+  SustainedPeaks following(system, 0, kSteps);
   Eigen::VectorXd alone[kPeriods], together;
   for (int k = 0; k < kPeriods; ++k) {
-    SustainedPeaks own(model, kSteps);
-    for (int before = 0; before < k; ++before)
-      own.of(periods[static_cast<size_t>(before)].tooth_pair_load, before, kPeriods);
-    alone[k] = own.of(periods[static_cast<size_t>(k)].tooth_pair_load, k, kPeriods);
-    together = following.so_far(periods[static_cast<size_t>(k)].tooth_pair_load, k, kPeriods);
+    SustainedPeaks own(system, 0, kSteps);
+    for (int before = 0; before < k; ++before) own.of(periods[static_cast<size_t>(before)], before, kPeriods);
+    alone[k] = own.of(periods[static_cast<size_t>(k)], k, kPeriods);
+    together = following.so_far(periods[static_cast<size_t>(k)], k, kPeriods);
   }
   REQUIRE(together.size() == SustainedPeaks::kRows);
   for (int g = 0; g < kSides; ++g) {
@@ -425,13 +425,12 @@ TEST_CASE(
     CHECK(std::min(std::abs(phase), std::abs(phase - 1)) <= 2.0 / kSteps);
   }
   // A motion of one period meets its own start.
-  CHECK(SustainedPeaks(model, kSteps).of(periods[0].tooth_pair_load)[0] == 2200);
-  CHECK(SustainedPeaks(model, kSteps).of(periods[0].tooth_pair_load, 0, SustainedPeaks::kNever)[0] == 300);
+  CHECK(SustainedPeaks(system, 0, kSteps).of(periods[0])[0] == 2200);
+  CHECK(SustainedPeaks(system, 0, kSteps).of(periods[0], 0, SustainedPeaks::kNever)[0] == 300);
   // Last and first period of three.
-  SustainedPeaks once(model, kSteps);
-  for (int k = 0; k + 1 < kPeriods; ++k)
-    once.of(periods[static_cast<size_t>(k)].tooth_pair_load, k, kPeriods);
-  CHECK(once.of(periods[2].tooth_pair_load, 2, kPeriods)[0] == 2200);
+  SustainedPeaks once(system, 0, kSteps);
+  for (int k = 0; k + 1 < kPeriods; ++k) once.of(periods[static_cast<size_t>(k)], k, kPeriods);
+  CHECK(once.of(periods[2], 2, kPeriods)[0] == 2200);
 }
 
 TEST_CASE(
