@@ -15,8 +15,9 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kRoundOff = 16 * std::numeric_limits<double>::epsilon();
-constexpr int kMostLaws = 6;     // visits of the laws before a set is given up
-constexpr int kLawsToRenew = 3;  // from so many on the next visit starts from the solution of this one
+constexpr int kMostLaws = 6;  // visits of the laws before a set is given up
+// From so many of one visit on, or after so many visits that took one, the next starts from the solution of this one.
+constexpr int kLawsToRenew = 3, kVisitsToRenew = 8;
 constexpr int kMostSets = 5;
 
 // y[0..rows) = start + sum over j of f[j] * column number[j] of c, and likewise of the sizes of the terms.
@@ -60,7 +61,7 @@ void FollowedContact::take(const Eigen::Ref<const VectorXd>& force) {
       count_ = -1;
       return;
     }
-    at_[count_] = force[i];
+    of_[count_].at = force[i];
     carrying_[count_++] = i;
   }
 }
@@ -74,17 +75,17 @@ bool FollowedContact::linearise(const MatrixXd& c, std::span<const HertzLine> la
     for (int i = 0; i < count_; ++i) inverse_.data()[j * apart + i] = column[carrying_[i]];
   }
   for (int i = 0; i < count_; ++i) {
-    const HertzLine::Point own = law[static_cast<size_t>(carrying_[i])].at(at_[i]);
-    d_[i] = own.indentation;
-    size_[i] = std::abs(own.indentation);
-    slope_[i] = own.slope;
+    const HertzLine& law_of = law[static_cast<size_t>(carrying_[i])];
+    const HertzLine::Point own = law_of.at(of_[i].at);
+    of_[i] = {of_[i].at, own.indentation, std::abs(own.indentation), own.slope, 0.5 * law_of.coefficient()};
     for (int j = 0; j < count_; ++j) {
-      const double shared = inverse_.data()[j * apart + i] * at_[j];
-      d_[i] += shared;
-      size_[i] += std::abs(shared);
+      const double shared = inverse_.data()[j * apart + i] * of_[j].at;
+      of_[i].d += shared;
+      of_[i].size += std::abs(shared);
     }
     inverse_.data()[i * apart + i] += own.slope;
   }
+  bent_ = 0;
   return linear_ = invert();
 }
 
@@ -115,8 +116,8 @@ bool FollowedContact::approach(const MatrixXd& c, std::span<const HertzLine> law
   const int apart = stride();
   double right[kMost], change[kMost], bent[kMost], stiffer[kMost], before[kMost];
   for (int i = 0; i < count_; ++i) {
-    before[i] = at_[i];
-    right[i] = d_[i] + e[carrying_[i]];
+    before[i] = of_[i].at;
+    right[i] = of_[i].d + e[carrying_[i]];
     bent[i] = stiffer[i] = 0;
   }
   const auto solved = [&](double* out) {  // T^-1 right
@@ -135,9 +136,8 @@ bool FollowedContact::approach(const MatrixXd& c, std::span<const HertzLine> law
       const double moved = change[i] - bent[i], least = std::min(before[i], before[i] - moved);
       work.f[i] = before[i] - moved;
       inside = inside && work.f[i] > 0;
-      const double curved = 0.5 * law[static_cast<size_t>(carrying_[i])].coefficient() * moved * moved;
-      work.left[i] = std::abs(stiffer[i] * bent[i]) + curved / least;
-      met = met && work.left[i] <= kRoundOff * (size_[i] + std::abs(e[carrying_[i]]));
+      work.left[i] = std::abs(stiffer[i] * bent[i]) + of_[i].bend * moved * moved / least;
+      met = met && work.left[i] <= kRoundOff * (of_[i].size + std::abs(e[carrying_[i]]));
     }
     if (!inside) return false;
     if (met) return true;
@@ -146,10 +146,14 @@ bool FollowedContact::approach(const MatrixXd& c, std::span<const HertzLine> law
     for (int i = 0; i < count_; ++i) {
       const HertzLine::Point own = law[static_cast<size_t>(carrying_[i])].at(work.f[i]);
       right[i] = work.gap[carrying_[i]] + own.indentation;
-      stiffer[i] = own.slope - slope_[i];
+      stiffer[i] = own.slope - of_[i].slope;
       before[i] = work.f[i];
     }
   }
+}
+
+void FollowedContact::start_from(const Work& work) {
+  for (int i = 0; i < count_; ++i) of_[i].at = work.f[i];
 }
 
 // True if no other pair comes in; otherwise the one that penetrates most joins the set.
@@ -187,11 +191,12 @@ bool FollowedContact::look_at_others(const MatrixXd& c, std::span<const HertzLin
     return true;
   }
   std::copy_backward(carrying_ + place, carrying_ + count_, carrying_ + count_ + 1);
-  std::copy(work.f, work.f + count_, at_);
-  std::copy_backward(at_ + place, at_ + count_, at_ + count_ + 1);
+  start_from(work);
+  std::copy_backward(of_ + place, of_ + count_, of_ + count_ + 1);
   carrying_[place] = incoming;
   constexpr double kSlope = 12;  // of a law, in its coefficient, under forces that teeth carry
-  at_[place] = -least / (c(incoming, incoming) + kSlope * law[static_cast<size_t>(incoming)].coefficient());
+  of_[place].at =
+      -least / (c(incoming, incoming) + kSlope * law[static_cast<size_t>(incoming)].coefficient());
   ++count_;
   return linear_ = false;
 }
@@ -210,7 +215,7 @@ Certificate FollowedContact::solve(const MatrixXd& c, std::span<const HertzLine>
       // Pairs whose force falls below zero leave; if they should not have, they come in again.
       int kept = 0;
       for (int i = 0; i < count_; ++i)
-        if (work.f[i] > 0) carrying_[kept] = carrying_[i], at_[kept++] = work.f[i];
+        if (work.f[i] > 0) carrying_[kept] = carrying_[i], of_[kept++].at = work.f[i];
       linear_ = false;
       if (kept == count_) break;
       count_ = kept;
@@ -224,8 +229,9 @@ Certificate FollowedContact::solve(const MatrixXd& c, std::span<const HertzLine>
       force[carrying_[i]] = work.f[i];
       d[carrying_[i]] = 0;
     }
-    if (set > 0 || work.laws >= kLawsToRenew) {
-      std::copy(work.f, work.f + count_, at_);
+    bent_ += work.laws > 0;
+    if (set > 0 || work.laws >= kLawsToRenew || bent_ >= kVisitsToRenew) {
+      start_from(work);
       linear_ = false;
     }
     return certificate;

@@ -1,6 +1,6 @@
 // Contact of many pairs of teeth at one position, followed from the forces that they carried there last.
 //
-// The problem of contact/line_contact.h: F >= 0, d = C F + law(F) + e >= 0, F . d = 0. Newton's step from `at` holds for every e, so a
+// The problem of contact/line_contact.h: F >= 0, d = C F + law(F) + e >= 0, F . d = 0. Newton's step from there holds for every e, so a
 // visit whose forces are near those of the last one needs neither a law nor a factorisation. Further steps keep the inverse
 // T^-1 of `at` and take the change D of the laws' slopes in to the first order, T^-1 - T^-1 D T^-1; what this leaves of d is
 // D T^-1 D T^-1 r, the laws' curvature leaves at most C change^2 / (2 F) (hertz_line.h). A solution is accepted where both are below
@@ -41,19 +41,24 @@ class FollowedContact {
   void take(const Eigen::Ref<const Eigen::VectorXd>& force);
   bool linearise(const Eigen::MatrixXd& c, std::span<const HertzLine> law);
   bool invert();
+  void start_from(const Work& work);
   bool approach(const Eigen::MatrixXd& c, std::span<const HertzLine> law, const Eigen::VectorXd& e,
                 Work& work);
   bool look_at_others(const Eigen::MatrixXd& c, std::span<const HertzLine> law, const Eigen::VectorXd& e,
                       Work& work, Certificate& certificate);
   int stride() const { return padded(count_); }
 
+  struct Tangent {
+    double at = 0;           // N
+    double d = 0, size = 0;  // m, without e: d, sum of the sizes of its terms
+    double slope = 0;        // m N-1: of the law
+    double bend = 0;         // m N-1: half the law's coefficient
+  };
   int count_ = -1;               // pairs that carry; -1: not known
-  bool linear_ = false;          // what follows is of at_
+  bool linear_ = false;          // what follows but `at` is of the forces `at`
+  int bent_ = 0;                 // visits since then that took a law
   int carrying_[kMost] = {};     // which of all, ascending
-  double at_[kMost] = {};        // N
-  double d_[kMost] = {};         // m, without e
-  double size_[kMost] = {};      // m: sum of the sizes of its terms
-  double slope_[kMost] = {};     // m N-1: of the laws
+  Tangent of_[kMost];            // (carrying)
   std::vector<double> inverse_;  // (carrying in whole lanes, carrying) N m-1: of C + slopes
 };
 

@@ -43,6 +43,9 @@ SystemDynamics::SystemDynamics(const SystemModel& system, const SystemMotion& mo
     outward_.push_back({mesh.outward_in_system(0), mesh.outward_in_system(1)});
   turned_.setZero(static_cast<Index>(radius_.size()));
   shifted_.setZero(2, turned_.size());
+  offset_.setZero(2, turned_.size());
+  for (Index b = 0; b < turned_.size(); ++b)
+    offset_.col(b) = offset_of(system.layout.bodies[static_cast<size_t>(b)]);
 }
 
 double SystemDynamics::moved(const Position& position, int k, const VectorXd& z, Place of) const {
@@ -236,26 +239,30 @@ void SystemDynamics::record_bearings(int sample, Period& period) const {
 // False if a tip edge that was left out would touch.
 bool SystemDynamics::record(const Position& position, int sample, Period& period) {
   for (int m = 0; m < meshes(); ++m) period.mesh_force(m, sample) = period.largest_tooth_force(m, sample) = 0;
-  period.drift.setZero();
-  period.contact_torque.col(sample).setZero();
+  double *torque = &period.contact_torque(0, sample), *drift = period.drift.data();
+  const auto bodies = static_cast<int>(radius_.size()), rollings = static_cast<int>(period.drift.size());
+  std::fill_n(drift, rollings, 0.0);
+  std::fill_n(torque, bodies, 0.0);
   for (Eigen::Matrix2Xd& force : period.bearing_force) force.col(sample).setZero();
-  for (int k = 0; k < position.size(); ++k) {
+  for (int k = 0, n = position.size(); k < n; ++k) {
+    const double p = p_[k];
+    if (!(p > 0)) continue;
     const Contact& contact = position.contact[static_cast<size_t>(k)];
-    if (!(p_[k] > 0)) continue;
-    period.mesh_force(contact.mesh, sample) += contact.lever[0] * p_[k];
-    period.largest_tooth_force(contact.mesh, sample) =
-        std::max(period.largest_tooth_force(contact.mesh, sample), p_[k]);
     const double friction = friction_of(contact);
-    period.drift += p_[k] * (position.drift.col(k) + friction * position.drift_slide.col(k));
-    const Vec2 pressing = contact.normal + friction * contact.across;
+    double& largest = period.largest_tooth_force(contact.mesh, sample);
+    largest = std::max(largest, p);
+    period.mesh_force(contact.mesh, sample) += contact.lever[0] * p;
+    for (int c = 0; c < rollings; ++c)
+      drift[c] += p * (position.drift(c, k) + friction * position.drift_slide(c, k));
+    const Vec2 pressing = p * (contact.normal + friction * contact.across);
     for (size_t s = 0; s < 2; ++s) {
       const auto b = static_cast<size_t>(contact.body[s]);
-      period.bearing_force[b].col(sample) -= closing_sign(static_cast<int>(s)) * p_[k] * pressing;
-      period.contact_torque(contact.body[s], sample) += lever(contact, s) * radius_[b] * p_[k];
+      period.bearing_force[b].col(sample) -= closing_sign(static_cast<int>(s)) * pressing;
+      torque[b] += lever(contact, s) * radius_[b] * p;
     }
     if (const int carrier = carried_[static_cast<size_t>(contact.mesh)].carrier; carrier >= 0)
-      period.contact_torque(carrier, sample) += (contact.carrier_lever + friction * contact.carrier_slide) *
-                                                radius_[static_cast<size_t>(carrier)] * p_[k];
+      torque[carrier] += (contact.carrier_lever + friction * contact.carrier_slide) *
+                         radius_[static_cast<size_t>(carrier)] * p;
   }
   if (slides() && motion_.output >= 0)  // torques of the drives alone are in balance
     period.drift -= motion_.loss.dot(friction_) / radius_[static_cast<size_t>(motion_.output)] *
@@ -267,10 +274,9 @@ bool SystemDynamics::record(const Position& position, int sample, Period& period
   period.least_gap = std::min(period.least_gap, certificate_.least_gap);
   period.least_force = std::min(period.least_force, certificate_.least_force);
   period.friction_coupling = std::max(period.friction_coupling, certificate_.coupling);
-  for (int b = 0; b < static_cast<int>(radius_.size()); ++b) {
+  for (int b = 0; b < bodies; ++b) {
     turned_[b] = radius_[static_cast<size_t>(b)] * coordinates_.rotation_of(b, z_);
-    shifted_.col(b) =
-        coordinates_.translation_of(b, z_) + offset_of(system_.layout.bodies[static_cast<size_t>(b)]);
+    shifted_.col(b) = coordinates_.translation_of(b, z_) + offset_.col(b);
   }
   bool inside = true;
   for (int m = 0; m < meshes(); ++m) {
@@ -331,17 +337,27 @@ bool SystemDynamics::integrate(State& state, Period& period, EnergyBalance* bala
   forces_.row(0) = p_of_slot_;
   if (points_ > 1) tooth_forces_.row(0) = p_of_tooth_;
   SystemEnergyRecord record_of(*this, balance);
+  const auto find_loads = [&](const Position& position) {
+    load_.setZero(relaxed_size());
+    load(position, p_, load_);
+  };
   int i = 0;
   try {
-    if (balance) record_of.start(at(0));
+    if (balance) {
+      find_loads(at(0));
+      record_of.start(at(0));
+    }
+    put_gap(stride_, state.period);
     for (i = 1; i <= steps_; ++i) {
-      put_gap(i * stride_, state.period);
-      step(at(i));
+      if (i < steps_) put_gap((i + 1) * stride_, state.period);
+      step(at(i), i < steps_ && !balance ? &at(i + 1) : nullptr);
       forces_.row(i) = p_of_slot_;
       if (points_ > 1) tooth_forces_.row(i) = p_of_tooth_;
       require_range(at(i), p_.head(at(i).size()));
       if (!record(at(i), i % steps_, period)) return false;
-      if (balance) record_of.step(at(i));
+      if (!balance) continue;
+      find_loads(at(i));
+      record_of.step(at(i));
     }
   } catch (const Error& error) {
     fail_as(error, "at mesh phase ", static_cast<double>(i) / steps_, " ", error.what());
@@ -370,7 +386,7 @@ bool SystemDynamics::integrate_fixed(int i, State& state, double seconds, int st
   resize(period, 1);
   try {
     for (int n = 0; n < steps; ++n) {
-      step(position);
+      step(position, nullptr);
       require_range(position, p_.head(position.size()));
       if (!record(position, 0, period)) return false;
       watch(z_.head(coordinates_.size()), p_of_slot_);

@@ -21,8 +21,10 @@
 // Pairs of a mesh are numbered by the mesh period of the system: a pair that is number i in one is i + 1 in the next. At the end
 // of a mesh period relaxed loads move on by one tooth, and doublets that turn with their gear turn back by one. A slot is
 // (mesh, pair). Where teeth differ, gaps are those of the mesh period of the hunting period in which a state is, and so is what a crack
-// adds to A, at once as Hertz's law; all else is the same in each. All that depends on the position is computed once for the steps of a period. A step takes no memory where at most
-// 64 pairs are in reach and no energy balance is kept.
+// adds to A, at once as Hertz's law; all else is the same in each. All that depends on the position is computed once for the steps of a
+// period. Modes that no hub feels are taken from the end of a step without its new forces to that of the next in one pass, which reads the
+// gaps there; with an energy balance, at the end of a period and at a fixed phase each step ends with all of them. A step takes no memory
+// where at most 64 pairs are in reach, no energy balance is kept and the frame stands still.
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
@@ -134,6 +136,8 @@ class SystemDynamics {
   // Coordinates side by side of which a contact moves all or none: the rotations, a body's own, a group's.
   struct Part {
     int first = 0, count = 0;
+    int hub = 0;  // whole lanes of the first ones, which hubs feel; the others only the contacts of the body
+    size_t run = 0;                               // place of the coefficients of the others
     int length() const { return padded(count); }  // of a row
   };
   struct Contact {
@@ -266,29 +270,25 @@ class SystemDynamics {
   void push(const Position& position, int k, double force, Eigen::VectorXd& y, Place of = &Rows::row) const;
   void load(const Position& position, const Eigen::VectorXd& p, Eigen::VectorXd& fields) const;
   void propagate_by(double seconds);
+  void set_run();
   void close(Position& position) const;
   void resize(Period& period, int steps) const;
   void take(const State& state, const Position& position);
-  void step(Position& position);
+  void step(Position& position, const Position* next);
   void propagate();
+  void relax();
+  void start_gaps(const Position& position);
   void read_gaps(const Position& position);
+  void subtract(const Position& position, size_t p, int first, int from, int end);
   void solve(Position& position);
-  void push_all(const Position& position);
+  void push_all(const Position& position, const Position* next);
+  void run_ahead(size_t p, int carrying, const Position& next);
   Eigen::VectorXd close_frame(const Eigen::VectorXd& without);
-  void load_all(const Position& position);
+  void note_loads(const Position& position);
+  void add_loads(double share);
   void find_live();
   void keep_live();
   void drop(int m, const Live& before, const Live& now);
-  // visit(relaxed, load, count): fields of the live slots of a mesh and a side.
-  template <class Visit>
-  void each_live(const Visit& visit) {
-    for (size_t b = 0; b < meshes_of_.size(); ++b)
-      for (size_t place = 0; place < meshes_of_[b].size(); ++place) {
-        const Live& live = live_[static_cast<size_t>(meshes_of_[b][place])];
-        const int at = relaxed_first_[b] + (static_cast<int>(place) * tooth_pairs() + live.first) * kFields;
-        if (live.last > live.first) visit(&relaxed_[at], &load_[at], (live.last - live.first) * kFields);
-      }
-  }
   bool record(const Position& position, int sample, Period& period);
   void record_face(const Position& position, int sample, Period& period) const;
   void read_uneven(const Position& position);
@@ -339,14 +339,26 @@ class SystemDynamics {
   int steps_ = 0, stride_ = 1;
   // (coordinate, then zeros for whole lanes of the last part), see Propagator; bv is a12.
   Eigen::VectorXd a11_, a12_, a21_, a22_, bq_, torque_;
+  std::vector<double> run_;     // (part, four coordinates, coefficient, lane) of those that no hub feels
+  bool ahead_ = false;          // these, and what they move of the gaps, are those of the next step's end
+  std::vector<double> summed_;  // (coordinate of a part)
   Relaxation relaxed_step_{};
 
   // The state of a step; coordinates as those of the propagators.
-  Eigen::VectorXd z_, v_, force_, relaxed_, load_;
+  Eigen::VectorXd z_, v_, force_, relaxed_;
+  Eigen::VectorXd load_;  // as relaxed_: the present ones, where an energy balance is kept
+  // Present loads, of a contact and a side: place among all relaxed loads, V^T S^T, N.
+  struct Loaded {
+    int at;
+    const double* field;
+    double force;
+  };
+  std::vector<Loaded> loaded_;
   // [mesh]; (mesh, pair) N: as large as relaxed loads can be there, below a share of the load of the meshes they are dropped.
   std::vector<Live> live_;
   Eigen::VectorXd remembered_;
-  Eigen::VectorXd p_of_tooth_;  // (mesh, pair) N
+  Eigen::VectorXd p_of_tooth_;  // (mesh, pair) N, of slices
+  const Eigen::VectorXd& tooth_force() const { return points_ > 1 ? p_of_tooth_ : p_of_slot_; }
   // (slot) N m-1, in slices: relaxed and present line loads, and room for the next; (contact in whole lanes) N m-1
   Eigen::VectorXd line_load_, present_line_load_, next_line_load_, read_line_load_;
   std::vector<double> sums_;  // (contact, lane)
@@ -355,8 +367,8 @@ class SystemDynamics {
   // (contact) of a part, those that carry: their rows and forces
   std::vector<const double*> carrying_rows_;
   std::vector<double> carrying_forces_;
-  Eigen::VectorXd turned_;    // (body) m: r theta
-  Eigen::Matrix2Xd shifted_;  // (xy, body) m: of its hub
+  Eigen::VectorXd turned_;             // (body) m: r theta
+  Eigen::Matrix2Xd shifted_, offset_;  // (xy, body) m: of its hub; its position error
   Certificate certificate_;
   MatrixRM forces_, tooth_forces_;
 };

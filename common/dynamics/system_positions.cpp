@@ -154,11 +154,13 @@ void SystemDynamics::couple() {
 }
 
 void SystemDynamics::list_parts() {
-  part_ = {{0, coordinates_.rigid}};
-  for (size_t b = 0; b < system_.body.size(); ++b)
-    part_.push_back({coordinates_.body[b].first, coordinates_.body[b].count});
+  part_ = {{0, coordinates_.rigid, padded(coordinates_.rigid)}};
+  for (size_t b = 0; b < system_.body.size(); ++b) {
+    const SystemCoordinates::Share& own = coordinates_.body[b];
+    part_.push_back({own.first, own.count, padded(own.torsional + own.swaying)});
+  }
   for (const SystemCoordinates::Group& group : coordinates_.group)
-    part_.push_back({group.first, group.count});
+    part_.push_back({group.first, group.count, padded(group.count)});
 }
 
 // Of stream_, at most: one row in each part of a contact and what relaxed loads of its bodies move it by.
@@ -515,6 +517,9 @@ void SystemDynamics::set_positions(const std::vector<double>& corner_gap, int st
   carrying_forces_.assign(static_cast<size_t>(most_contacts_), 0);
   const int sums = kLanes * padded(most_contacts_);
   sums_.assign(static_cast<size_t>(sums), 0);
+  loaded_.clear();
+  loaded_.reserve(2 * static_cast<size_t>(most_contacts_));
+  summed_.assign(static_cast<size_t>(padded(coordinates_.size())), 0);
   read_line_load_.setZero(padded(most_contacts_));
   steps_ = 0;
 }

@@ -26,10 +26,7 @@ void SystemDynamics::put_uneven(const SystemPosition& at, Position& position) co
 
 // Forces of teeth, from those of their slices.
 void SystemDynamics::sum_teeth() {
-  if (points_ == 1) {
-    p_of_tooth_ = p_of_slot_;
-    return;
-  }
+  if (points_ == 1) return;
   for (Index tooth = 0; tooth < p_of_tooth_.size(); ++tooth)
     p_of_tooth_[tooth] = p_of_slot_.segment(tooth * points_, points_).sum();
 }

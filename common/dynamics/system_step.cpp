@@ -1,11 +1,12 @@
 // One time step of a system: all that knows how the rows of a position lie in memory.
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
+#include <utility>
 
 #include "base/error.h"
 #include "contact/lanes.h"
 #include "dynamics/system_dynamics.h"
+#include "dynamics/system_lanes.h"
 
 namespace whine {
 
@@ -16,63 +17,6 @@ using Eigen::VectorXd;
 namespace {
 
 constexpr double kLeastRelaxed = 1e-20;  // of the mean load of the meshes
-
-// visit(rows, first): contacts in fours from number `first` on, then what is left; rows is a constant.
-template <class Visit>
-void in_fours(int count, const Visit& visit) {
-  int first = 0;
-  for (; first + 4 <= count; first += 4) visit(std::integral_constant<int, 4>(), first);
-  switch (count - first) {
-    case 3:
-      return visit(std::integral_constant<int, 3>(), first);
-    case 2:
-      return visit(std::integral_constant<int, 2>(), first);
-    case 1:
-      return visit(std::integral_constant<int, 1>(), first);
-    default:
-      return;
-  }
-}
-
-// sum[i] -= row[i] . z lane by lane, rows one after the other; of few rows two sums each, which do not wait for each other.
-template <int kRows>
-void subtract_rows(const double* rows, int length, const double* z, double* sums, const int* contact) {
-  constexpr bool kTwice = kRows < 4;
-  Lanes total[kRows], other[kRows] = {};
-#pragma GCC unroll 4
-  for (int r = 0; r < kRows; ++r) total[r] = lanes(sums + contact[r] * kLanes);
-  int i = 0;
-  for (; kTwice && i + 2 * kLanes <= length; i += 2 * kLanes)
-#pragma GCC unroll 4
-    for (int r = 0; r < kRows; ++r) {
-      total[r] -= lanes(rows + r * length + i) * lanes(z + i);
-      other[r] -= lanes(rows + r * length + i + kLanes) * lanes(z + i + kLanes);
-    }
-  for (; i < length; i += kLanes)
-#pragma GCC unroll 4
-    for (int r = 0; r < kRows; ++r) total[r] -= lanes(rows + r * length + i) * lanes(z + i);
-#pragma GCC unroll 4
-  for (int r = 0; r < kRows; ++r) lanes(sums + contact[r] * kLanes) = kTwice ? total[r] + other[r] : total[r];
-}
-
-// sum[i] += w[i] . fields of all pairs, which lie `apart` from one another in w.
-template <int kRows>
-void add_readings(const double* w, int apart, const double* fields, int pairs, double* sums,
-                  const int* contact) {
-  constexpr int kFields = SystemDynamics::kFields;
-  Lanes total[kRows], other[kRows] = {};
-#pragma GCC unroll 4
-  for (int r = 0; r < kRows; ++r) total[r] = lanes(sums + contact[r] * kLanes);
-  for (int pair = 0; pair < pairs; ++pair, w += apart, fields += kFields)
-#pragma GCC unroll 4
-    for (int r = 0; r < kRows; ++r) {
-      const double* of = w + r * kFields;
-      total[r] += lanes(of) * lanes(fields) + lanes(of + 4) * lanes(fields + 4);
-      other[r] += lanes(of + 8) * lanes(fields + 8);
-    }
-#pragma GCC unroll 4
-  for (int r = 0; r < kRows; ++r) lanes(sums + contact[r] * kLanes) = total[r] + other[r];
-}
 
 }  // namespace
 
@@ -87,6 +31,7 @@ void SystemDynamics::propagate_by(double seconds) {
     const Propagator a = propagator(coordinates_.frequency[i], coordinates_.damping[i], step_);
     a11_[i] = a.a11, a12_[i] = a.a12, a21_[i] = a.a21, a22_[i] = a.a22, bq_[i] = a.bq;
   }
+  set_run();
   torque_.head(n) = coordinates_.torque;
   if (slides() && motion_.output >= 0)
     torque_.head(n) += motion_.loss.dot(friction_) * coordinates_.turning(motion_.output);
@@ -95,12 +40,35 @@ void SystemDynamics::propagate_by(double seconds) {
     frame_.add(frame_.constant(), torque_.head(n));
   }
   relaxed_step_ = relaxation_step(relaxation_, step_);
-  for (VectorXd* x : {&relaxed_, &load_}) x->setZero(relaxed_size());
+  relaxed_.setZero(relaxed_size());
   p_of_slot_.setZero(slots());
   for (VectorXd* x : {&p_of_tooth_, &remembered_}) x->setZero(meshes() * tooth_pairs());
   if (points_ > 1)
     for (VectorXd* x : {&line_load_, &present_line_load_, &next_line_load_}) x->setZero(slots());
   live_.assign(static_cast<size_t>(meshes()), {});
+}
+
+// Coefficients of the coordinates that no hub feels: kRun of each, four coordinates in turn.
+void SystemDynamics::set_run() {
+  run_.clear();
+  for (Part& part : part_) {
+    part.run = run_.size();
+    run_.resize(part.run + static_cast<size_t>(kRun * (part.length() - part.hub)), 0.0);
+    for (int c = part.hub; c < part.length(); ++c) {
+      double* own =
+          &run_[part.run + static_cast<size_t>((c - part.hub) / kLanes * kRun * kLanes + c % kLanes)];
+      own[0] = own[3 * kLanes] = 1;  // what whole lanes reach of the next part stays as it is
+      if (c >= part.count) continue;
+      const Index i = part.first + c;
+      const double of[kRun] = {a11_[i],
+                               a12_[i],
+                               a21_[i],
+                               a22_[i],  // bv = a12
+                               0.5 * (a11_[i] * bq_[i] + a12_[i] * a12_[i] + bq_[i]),
+                               0.5 * (a21_[i] * bq_[i] + a22_[i] * a12_[i] + a12_[i])};
+      for (int which = 0; which < kRun; ++which) own[which * kLanes] = of[which];
+    }
+  }
 }
 
 // Compliance of the contacts at the end of a step.
@@ -148,27 +116,26 @@ void SystemDynamics::take(const State& state, const Position& position) {
     if (p_[k] != 0) push(position, k, p_[k], force_, pushing());
   if (frame_.turns()) frame_.add(frame_.stiffness() * frame_.motions(z_.head(n)), force_.head(n));
   sum_teeth();
+  note_loads(position);
   line_load_ = state.line_load;
   if (points_ > 1) {
     present_line_load_.setZero();
     for (int k = 0; k < position.size(); ++k)
       present_line_load_[position.contact[static_cast<size_t>(k)].slot] = p_[k] / position.width[k];
   }
-  load_.setZero();
-  load(position, p_, load_);
   find_live();
+  ahead_ = false;
 }
 
 // Of a state from outside: what it has of relaxed and present loads.
 void SystemDynamics::find_live() {
-  remembered_.setZero();
+  remembered_ = tooth_force().cwiseAbs();
   for (size_t b = 0; b < system_.body.size(); ++b)
     for (size_t place = 0; place < meshes_of_[b].size(); ++place)
       for (int pair = 0; pair < tooth_pairs(); ++pair) {
         const Index at = relaxed_first_[b] + (static_cast<Index>(place) * tooth_pairs() + pair) * kFields;
         double& most = remembered_[meshes_of_[b][place] * tooth_pairs() + pair];
-        most = std::max({most, relaxed_.segment<kFields>(at).cwiseAbs().maxCoeff(),
-                         load_.segment<kFields>(at).cwiseAbs().maxCoeff()});
+        most = std::max(most, relaxed_.segment<kFields>(at).cwiseAbs().maxCoeff());
       }
   for (int m = 0; m < meshes(); ++m) {
     Live& live = live_[static_cast<size_t>(m)];
@@ -182,41 +149,64 @@ void SystemDynamics::find_live() {
   }
 }
 
-// Coordinates and relaxed loads at the end of a step, without new contact forces.
+// Coordinates at the end of a step, without new contact forces.
 void SystemDynamics::propagate() {
-  const auto whole = static_cast<int>(z_.size()) / kLanes * kLanes;
   double *z = z_.data(), *v = v_.data();
   const double *force = force_.data(), *torque = torque_.data(), *a11 = a11_.data(), *a12 = a12_.data(),
                *a21 = a21_.data(), *a22 = a22_.data(), *bq = bq_.data();
-  for (int i = 0; i < whole; i += kLanes) {
-    const Lanes mean = 0.5 * (lanes(force + i) + lanes(torque + i)), before = lanes(z + i),
-                speed = lanes(v + i);
-    lanes(z + i) = lanes(a11 + i) * before + lanes(a12 + i) * speed + lanes(bq + i) * mean;
-    lanes(v + i) = lanes(a21 + i) * before + lanes(a22 + i) * speed + lanes(a12 + i) * mean;  // bv = a12
+  for (const Part& part : part_) {
+    const int end = part.first + (ahead_ ? std::min(part.hub, part.count) : part.count);
+#pragma GCC ivdep
+    for (int i = part.first; i < end; ++i) {
+      const double mean = 0.5 * (force[i] + torque[i]), before = z[i], speed = v[i];
+      z[i] = a11[i] * before + a12[i] * speed + bq[i] * mean;
+      v[i] = a21[i] * before + a22[i] * speed + a12[i] * mean;  // bv = a12
+    }
   }
-  remembered_ = relaxed_step_.decay * remembered_ + relaxed_step_.from_old * p_of_tooth_.cwiseAbs();
+}
+
+// Relaxed loads at the end of a step, without new contact forces.
+void SystemDynamics::relax() {
+  remembered_ = relaxed_step_.decay * remembered_ + relaxed_step_.from_old * tooth_force().cwiseAbs();
   if (points_ > 1)
     line_load_ = relaxed_step_.decay * line_load_ + relaxed_step_.from_old * present_line_load_;
-  each_live([&](double* f, const double* l, int count) {
-    for (const double* end = f + count; f < end; f += kLanes, l += kLanes)
-      lanes(f) = relaxed_step_.decay * lanes(f) + relaxed_step_.from_old * lanes(l);
-  });
+  const double decay =
+      relaxed_step_.decay;  // stores of lanes may change anything for all that the compiler knows
+  for (size_t b = 0; b < meshes_of_.size(); ++b)
+    for (size_t place = 0; place < meshes_of_[b].size(); ++place) {
+      const Live live = live_[static_cast<size_t>(meshes_of_[b][place])];
+      double* f = relaxed_.data() + relaxed_first_[b] + static_cast<int>(place) * tooth_pairs() * kFields;
+      for (int i = live.first * kFields, end = live.last * kFields; i < end; i += kLanes)
+        lanes(f + i) *= decay;
+    }
+  add_loads(relaxed_step_.from_old);
+}
+
+// To the relaxed loads a share of the present ones.
+void SystemDynamics::add_loads(double share) {
+  double* relaxed = relaxed_.data();
+  for (const Loaded *own = loaded_.data(), *end = own + loaded_.size(); own < end; ++own) {
+    const double by = share * own->force, *field = own->field;
+    double* f = relaxed + own->at;
+#pragma GCC unroll 3
+    for (int i = 0; i < kFields; i += kLanes) lanes(f + i) += by * lanes(field + i);
+  }
+}
+
+void SystemDynamics::start_gaps(const Position& position) {
+  const double* gap = position.gap.data();
+  double* sums = sums_.data();
+  for (int k = 0, n = position.size(); k < n; ++k) lanes(sums + k * kLanes) = Lanes{gap[k], 0, 0, 0};
 }
 
 // Gaps without new contact forces.
 void SystemDynamics::read_gaps(const Position& position) {
   const int n = position.size(), whole = padded(n);
   double* sums = sums_.data();
-  for (int k = 0; k < n; ++k) lanes(sums + k * kLanes) = Lanes{position.gap[k], 0, 0, 0};
+  if (!ahead_) start_gaps(position);
   for (size_t p = 0; p < part_.size(); ++p) {
-    const Rows& rows = position.rows[p];
-    const int* contact = position.order.data() + rows.begin;
-    const int length = part_[p].length();
-    in_fours(rows.contacts(), [&](auto count, int first) {
-      subtract_rows<count>(
-          stream_.data() + rows.row + static_cast<size_t>(first) * static_cast<size_t>(length), length,
-          &z_[part_[p].first], sums, contact + first);
-    });
+    const int end = ahead_ ? part_[p].hub : part_[p].length();
+    if (end > 0) subtract(position, p, 0, 0, end);
   }
   for (size_t b = 0; b < system_.body.size(); ++b) {
     const Rows& rows = position.rows[1 + b];
@@ -227,9 +217,9 @@ void SystemDynamics::read_gaps(const Position& position) {
       const int from = static_cast<int>(place) * tooth_pairs() + live.first;
       const double* w = stream_.data() + rows.reading + static_cast<size_t>(from * count * kFields);
       const double* fields = relaxed_.data() + relaxed_first_[b] + from * kFields;
-      in_fours(count, [&](auto rows_at_once, int first) {
-        add_readings<rows_at_once>(w + first * kFields, count * kFields, fields, live.last - live.first, sums,
-                                   contact + first);
+      in_fours(0, count, [&](auto rows_at_once, int first) {
+        add_readings<kFields, rows_at_once>(w + first * kFields, count * kFields, fields,
+                                            live.last - live.first, sums, contact + first);
       });
     }
     for (int c = 0; c < count; ++c)
@@ -241,6 +231,17 @@ void SystemDynamics::read_gaps(const Position& position) {
   }
   for (int k = n; k < whole; ++k) e_[k] = 0;
   if (points_ > 1) read_uneven(position);
+}
+
+// Gaps by coordinates `from` to end - 1 of a part, of its contacts from number `first` on.
+void SystemDynamics::subtract(const Position& position, size_t p, int first, int from, int end) {
+  const Rows& rows = position.rows[p];
+  const int length = part_[p].length();
+  in_fours(first, rows.contacts(), [&](auto count, int at) {
+    subtract_rows<count>(
+        stream_.data() + rows.row + static_cast<size_t>(at) * static_cast<size_t>(length) + from, length,
+        end - from, &z_[part_[p].first + from], sums_.data(), position.order.data() + rows.begin + at);
+  });
 }
 
 // Contact forces, from what the coordinates and relaxed loads are without them.
@@ -255,78 +256,89 @@ void SystemDynamics::solve(Position& position) {
 }
 
 // What contact forces move of the coordinates at the end of a step; parts follow one another, so what a row's whole lanes
-// reach of the next part is written anew with it.
-void SystemDynamics::push_all(const Position& position) {
+// reach of the next part is written anew with it. Coordinates that no hub feels are taken on to the step that ends at `next`.
+void SystemDynamics::push_all(const Position& position, const Position* next) {
   double *z = z_.data(), *v = v_.data(), *force = force_.data();
   const double *torque = torque_.data(), *bq = bq_.data(), *a12 = a12_.data();
   const Place through = pushing();
-  for (size_t p = 0; p < part_.size(); ++p) {
-    const Rows& rows = position.rows[p];
-    const int length = part_[p].length(), first = part_[p].first;
-    const double** row = carrying_rows_.data();
-    double* pushed = carrying_forces_.data();
+  const double* p = p_.data();
+  const double** carrying_row = carrying_rows_.data();
+  double* carrying_force = carrying_forces_.data();
+  if (next) start_gaps(*next);
+  for (size_t number = 0; number < part_.size(); ++number) {
+    const Rows& rows = position.rows[number];
+    const Part& part = part_[number];
+    const int length = part.length();
     int carrying = 0;
-    const auto add = [&](int i, Lanes sum) {
-      lanes(force + i) = lanes(torque + i) - sum;
-      const Lanes half = 0.5 * sum;
-      lanes(z + i) -= lanes(bq + i) * half;
-      lanes(v + i) -= lanes(a12 + i) * half;
-    };
-    for (int c = 0; c < rows.contacts(); ++c)
-      if (const double own = p_[position.order.data()[rows.begin + c]]; own > 0) {
-        row[carrying] = &stream_[rows.*through + static_cast<size_t>(c * length)];
-        pushed[carrying++] = own;
+    const int* contact = position.order.data() + rows.begin;
+    const double* row = stream_.data() + rows.*through;
+    for (int c = 0, count = rows.contacts(); c < count; ++c, row += length)
+      if (const double own = p[contact[c]]; own > 0) {
+        carrying_row[carrying] = row;
+        carrying_force[carrying++] = own;
       }
-    int i = 0;
-    for (; i + 2 * kLanes <= length; i += 2 * kLanes) {
-      Lanes sum{}, next{};
-      for (int c = 0; c < carrying; ++c) {
-        sum += pushed[c] * lanes(row[c] + i);
-        next += pushed[c] * lanes(row[c] + i + kLanes);
-      }
-      add(first + i, sum);
-      add(first + i + kLanes, next);
-    }
-    if (i < length) {
-      Lanes sum{};
-      for (int c = 0; c < carrying; ++c) sum += pushed[c] * lanes(row[c] + i);
-      add(first + i, sum);
-    }
+    sum_rows(carrying_row, carrying_force, carrying, next ? part.hub : length,
+             [=, first = part.first](int i, Lanes sum) {
+               i += first;
+               lanes(force + i) = lanes(torque + i) - sum;
+               const Lanes half = 0.5 * sum;
+               lanes(z + i) -= lanes(bq + i) * half;
+               lanes(v + i) -= lanes(a12 + i) * half;
+             });
+    if (next && part.hub < length) run_ahead(number, carrying, *next);
   }
 }
 
-// Present loads, and relaxed loads at the end of a step.
-void SystemDynamics::load_all(const Position& position) {
-  each_live([&](double*, double* l, int count) { std::fill_n(l, count, 0.0); });
-  for (int k = 0; k < position.size(); ++k) {
-    if (!(p_[k] > 0)) continue;
-    const Contact& contact = position.contact[static_cast<size_t>(k)];
-    for (size_t s = 0; s < 2; ++s) {
-      double* to = &load_[contact.load_at[s]];
-      const double* from = field(position, contact, s).data();
-      for (int i = 0; i < kFields; i += kLanes) lanes(to + i) += p_[k] * lanes(from + i);
-    }
+// The coordinates of a part that no hub feels, with the forces on the rows that carry, and the gaps of `next` that they move.
+void SystemDynamics::run_ahead(size_t p, int carrying, const Position& next) {
+  const Part& part = part_[p];
+  const Rows& rows = next.rows[p];
+  const int count = part.length() - part.hub, first = part.first + part.hub;
+  const double** row = carrying_rows_.data();
+  double* force = carrying_forces_.data();
+  for (int j = 0; j < carrying; ++j) row[j] += part.hub;
+  if (carrying > kLanes) {
+    sum_rows(row, force, carrying, count, [to = summed_.data()](int i, Lanes sum) { lanes(to + i) = sum; });
+    row[0] = summed_.data();
+    force[0] = carrying = 1;
   }
-  keep_live();
-  each_live([&](double* f, const double* l, int count) {
-    for (const double* end = f + count; f < end; f += kLanes, l += kLanes)
-      lanes(f) += relaxed_step_.from_new * lanes(l);
+  as_constant(carrying, [&](auto pushed) {
+    as_constant(rows.contacts(), [&](auto read) {
+      run_lanes<pushed, read>(&run_[part.run], count, row, force, &z_[first], &v_[first],
+                              stream_.data() + rows.row + part.hub, part.length(), sums_.data(),
+                              next.order.data() + rows.begin);
+    });
   });
+  subtract(next, p, 4, part.hub, part.length());
+}
+
+// Present loads, of p_ at a position.
+void SystemDynamics::note_loads(const Position& position) {
+  loaded_.clear();
+  for (int k = 0; k < position.size(); ++k) {
+    if (p_[k] == 0) continue;
+    const Contact& contact = position.contact[static_cast<size_t>(k)];
+    for (size_t s = 0; s < 2; ++s)
+      loaded_.push_back({contact.load_at[s], field(position, contact, s).data(), p_[k]});
+  }
 }
 
 // Slots with new force are live; those at the ends of which nothing is left no longer.
 void SystemDynamics::keep_live() {
-  const double least = kLeastRelaxed * load_of_mesh_.mean();
-  remembered_ += relaxed_step_.from_new * p_of_tooth_;
+  const double least = kLeastRelaxed * load_of_mesh_.mean(), share = relaxed_step_.from_new;
   for (int m = 0; m < meshes(); ++m) {
-    const double* most = &remembered_[m * tooth_pairs()];
-    const double* p = &p_of_tooth_[m * tooth_pairs()];
-    const auto left = [&](int pair) { return most[pair] > least || p[pair] > 0; };
-    Live &live = live_[static_cast<size_t>(m)], before = live;
-    live = {0, tooth_pairs()};
-    while (live.last > 0 && !left(live.last - 1)) --live.last;
-    while (live.first < live.last && !left(live.first)) ++live.first;
-    if (live.first > before.first || live.last < before.last) drop(m, before, live);
+    double* most = &remembered_[m * tooth_pairs()];
+    const double* p = tooth_force().data() + m * tooth_pairs();
+    Live now{tooth_pairs(), 0};
+    for (int pair = 0; pair < tooth_pairs(); ++pair) {
+      most[pair] += share * p[pair];
+      if (!(most[pair] > least) && !(p[pair] > 0)) continue;
+      now.first = std::min(now.first, pair);
+      now.last = pair + 1;
+    }
+    if (now.last == 0) now.first = 0;
+    const Live before = std::exchange(live_[static_cast<size_t>(m)], now);
+    if (now.first > before.first || now.last < before.last) drop(m, before, now);
   }
 }
 
@@ -339,7 +351,6 @@ void SystemDynamics::drop(int m, const Live& before, const Live& now) {
         if (meshes_of_[b][place] != m) continue;
         const Index at = relaxed_first_[b] + (static_cast<Index>(place) * tooth_pairs() + pair) * kFields;
         relaxed_.segment<kFields>(at).setZero();
-        load_.segment<kFields>(at).setZero();
       }
   }
 }
@@ -353,11 +364,13 @@ VectorXd SystemDynamics::close_frame(const VectorXd& without) {
   return force;
 }
 
-void SystemDynamics::step(Position& position) {
+// next: position of the step after this one, null where the whole state at the end of this one is wanted.
+void SystemDynamics::step(Position& position, const Position* next) {
   const Index n = coordinates_.size();
   const bool turns = frame_.turns();
   if (turns) frame_.turn(v_.head(n));
   propagate();
+  relax();
   VectorXd of_frame, before;
   if (turns) {
     of_frame = close_frame(frame_.motions(z_.head(n)));
@@ -365,13 +378,16 @@ void SystemDynamics::step(Position& position) {
   }
   read_gaps(position);
   solve(position);
-  push_all(position);
+  push_all(position, next);
+  ahead_ = next != nullptr;
   if (turns) {
     of_frame += close_frame(frame_.motions(z_.head(n)) - before);
     frame_.add(of_frame, force_.head(n));
     frame_.turn(v_.head(n));
   }
-  load_all(position);
+  note_loads(position);
+  keep_live();
+  add_loads(relaxed_step_.from_new);
   if (points_ > 1) load_uneven(position);
   if (coordinates_.rigid_pins) {
     rate_ = force_.head(n).array() - coordinates_.frequency.array().square() * z_.head(n).array() -
