@@ -34,6 +34,27 @@ FigureBlock root_levels(const ErrorBudgetResult& budget, std::vector<std::string
   return roots;
 }
 
+// A quantity whose relative changes are drawn.
+struct Judged {
+  std::string column, label;
+  int colour;
+  Eigen::VectorXd change;  // (entry) 1
+};
+
+std::vector<Judged> judged_of(const StaticChanges& c) {
+  constexpr std::array kGreys{kBlack, kDark, kMedium, kGrey, kLight};
+  std::vector<Judged> out{{"mean_stiffness [%]", "mean stiffness", kBlue, c.mean_stiffness_change},
+                          {"peak_to_peak [%]", "peak to peak", kVermilion, c.peak_to_peak_change}};
+  for (Eigen::Index n = 0; n < c.harmonic_change.cols(); ++n)
+    out.push_back({text("harmonic_", n + 1, " [% of the first]"), text("harmonic ", n + 1),
+                   kGreys.at(static_cast<size_t>(n)), c.harmonic_change.col(n)});
+  for (const Judged& one : {Judged{"flank_pressure [%]", "flank pressure", kGreen, c.pressure_change},
+                            Judged{"root_stress [%]", "root stress", kPurple, c.root_stress_change},
+                            Judged{"load_factor [%]", "K_{Hβ}", kPurple, c.load_factor_change}})
+    if (one.change.size() > 0) out.push_back(one);
+  return out;
+}
+
 }  // namespace
 
 Figure error_budget_figure(const ErrorBudgetResult& budget) {
@@ -55,52 +76,33 @@ Figure error_budget_figure(const ErrorBudgetResult& budget) {
   for (const auto& [name, changes] :
        {std::pair{"changes", &budget.refinement}, {"choices", &budget.choice}}) {
     const bool errors = changes == &budget.refinement;
-    FigureBlock block{name, {"entry [1]", "mean_stiffness [%]", "peak_to_peak [%]"}, {}, "", "", true};
-    for (Eigen::Index n = 1; n <= changes->harmonic_change.cols(); ++n)
-      block.columns.push_back(text("harmonic_", n, " [% of the first]"));
-    const bool pressure = changes->pressure_change.size() > 0;
-    if (pressure) block.columns.emplace_back("flank_pressure [%]");
-    const bool stress = changes->root_stress_change.size() > 0;
-    if (stress) block.columns.emplace_back("root_stress [%]");
-    const bool face = changes->load_factor_change.size() > 0;
-    if (face) block.columns.emplace_back("load_factor [%]");
-    std::vector<std::pair<std::string, int>> shown{{"mean stiffness", kBlue}, {"peak to peak", kVermilion}};
-    constexpr std::array kGreys{kBlack, kDark, kMedium, kGrey, kLight};
-    for (Eigen::Index n = 1; n <= changes->harmonic_change.cols(); ++n)
-      shown.emplace_back(text("harmonic ", n), kGreys.at(static_cast<size_t>(n - 1)));
-    if (pressure) shown.emplace_back("flank pressure", kGreen);
-    if (stress) shown.emplace_back("root stress", kPurple);
-    if (face) shown.emplace_back("K_{Hβ}", kPurple);
-    for (size_t k = 0; k < shown.size(); ++k)
+    FigureBlock block{name, {"entry [1]"}, {}, "", "", true};
+    const std::vector<Judged> judged = judged_of(*changes);
+    for (size_t k = 0; k < judged.size(); ++k) {
+      block.columns.push_back(judged[k].column);
       panel.curves.push_back(
           {.block = name,
            .y = static_cast<int>(k) + 2,
            .style = PanelStyle::bars,
-           .colour = shown[k].second,
-           .label = errors ? shown[k].first : "",
+           .colour = judged[k].colour,
+           .label = errors ? judged[k].label : "",
            .width = 0.095,
            .shift = 0.1 * (static_cast<double>(k) - 4) + 1 + static_cast<double>(panel.x.names.size())});
+    }
     std::string rest = changes->entry;
     for (Eigen::Index i = 0; i < changes->mean_stiffness_change.size(); ++i) {
-      std::vector<double> row{static_cast<double>(i), std::abs(changes->mean_stiffness_change[i]) * kPercent,
-                              std::abs(changes->peak_to_peak_change[i]) * kPercent};
-      for (Eigen::Index n = 0; n < changes->harmonic_change.cols(); ++n)
-        row.push_back(std::abs(changes->harmonic_change(i, n)) * kPercent);
-      if (pressure) row.push_back(std::abs(changes->pressure_change[i]) * kPercent);
-      if (stress) row.push_back(std::abs(changes->root_stress_change[i]) * kPercent);
-      if (face) row.push_back(std::abs(changes->load_factor_change[i]) * kPercent);
+      std::vector<double> row{static_cast<double>(i)}, with_signs{errors ? 1.0 : 0.0};
+      for (const Judged& one : judged) {
+        row.push_back(std::abs(one.change[i]) * kPercent);
+        with_signs.push_back(one.change[i] * kPercent);
+      }
       block.rows.push_back(row);
       largest = std::max(largest, *std::max_element(row.begin() + 1, row.end()));
       const size_t comma = rest.find(", ");
       std::string label = rest.substr(0, comma);
       // The same numbers under the name of what is changed, and with their signs.
-      FigureBlock named{text(name, " ", i), block.columns, {row}, "changes", label};
+      FigureBlock named{text(name, " ", i), block.columns, {with_signs}, "changes", label};
       named.columns[0] = "error [1 yes, 0 another choice]";
-      named.rows[0][0] = errors ? 1 : 0;
-      named.rows[0][1] = changes->mean_stiffness_change[i] * kPercent;
-      named.rows[0][2] = changes->peak_to_peak_change[i] * kPercent;
-      for (Eigen::Index n = 0; n < changes->harmonic_change.cols(); ++n)
-        named.rows[0][static_cast<size_t>(3 + n)] = changes->harmonic_change(i, n) * kPercent;
       figure.blocks.push_back(named);
       // The values on a line of their own.
       const size_t value = std::min(label.find(" at "), label.find_first_of("0123456789") - 1);

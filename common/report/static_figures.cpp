@@ -234,6 +234,46 @@ Panel loads_panel(const StaticResult& first, int from, int to) {
   return each;
 }
 
+// What share a pair of teeth carries over its way through the mesh, of the block "share"; how long one carries alone goes to the notes.
+Panel shares_panel(const std::vector<StaticResult>& statics, std::vector<std::string>& notes) {
+  const StaticResult& first = statics[0];
+  const GearPair pair(first);
+  // Half of the overlap, by which a contact line reaches beyond the middle of the face.
+  const double pitch = pair.base_pitch(), overlap = 0.5 * pair.overlap_ratio(),
+               path_start = pair.path_start() / pitch - overlap, path_end = pair.path_end() / pitch + overlap;
+  Panel shares{.x = {.label = "Phase of the pair (mesh periods, 0: pitch point)",
+                     .from = path_start - 0.35,
+                     .to = path_end + 0.35},
+               .y = {.label = "Share of the load (%)", .from = 0, .to = 104},
+               .key = PanelKey::below,
+               .height = 540};
+  std::string alone;
+  for (size_t i = 0; i < statics.size(); ++i) {
+    const auto one = ((statics[i].tooth_load.array() > 0).cast<int>().rowwise().sum() == 1).count();
+    const std::string percent =
+        fixed(kPercent * static_cast<double>(one) / static_cast<double>(first.mesh_phase.size()), 0);
+    // Curves lie on each other over much of the path: what is drawn first shows on either side of what is drawn on it.
+    shares.curves.push_back({.block = "share",
+                             .y = static_cast<int>(i) + 2,
+                             .colour = static_cast<int>(i) + 1,
+                             .label = text(torque_label(statics[i]), ": one pair alone ", percent, " %"),
+                             .width = 1.8 + 1.1 * static_cast<double>(statics.size() - 1 - i)});
+    alone += text(alone.empty() ? "" : ", ", percent, " % at ", torque_label(statics[i]));
+  }
+  // On the line of action: first and last contact, and between them the part with one pair alone, of helical pairs that with a line over
+  // the whole face.
+  for (const double end : {path_start, path_end}) shares.rules.push_back({'x', end, "", kDark});
+  const double whole = overlap > 0 ? 2 * overlap : 1;
+  if (overlap == 0 || path_end - path_start > 2 * whole)
+    for (const double end : overlap > 0 ? std::array{path_start + whole, path_end - whole}
+                                        : std::array{path_end - 1, path_start + 1})
+      shares.rules.push_back({'x', end, "", kGrey});
+  notes.push_back(text("one pair alone carries the load for ", alone,
+                       " of the mesh period; on the line of action alone it would for ",
+                       fixed(kPercent * std::max(0.0, 2 - first.contact_ratio - 2 * overlap), 0), " %"));
+  return shares;
+}
+
 }  // namespace
 
 // What a pair of teeth carries on its way through the mesh. Pair j is j places ahead of the reference pair: at mesh phase f it
@@ -241,7 +281,6 @@ Panel loads_panel(const StaticResult& first, int from, int to) {
 Figure load_sharing_figure(const std::vector<StaticResult>& statics) {
   require_like_pairs(statics);
   const StaticResult& first = statics[0];
-  const GearPair pair(first);
   const Index n = first.mesh_phase.size();
   // Pairs that carry load at any torque.
   int from = 0, to = 0;
@@ -284,41 +323,8 @@ Figure load_sharing_figure(const std::vector<StaticResult>& statics) {
     for (int j = from; j <= to; ++j) row.push_back(i < n ? load(first, i, j) : load(first, 0, j + 1));
     loads.rows.push_back(row);
   }
-  // Half of the overlap, by which a contact line reaches beyond the middle of the face.
-  const double pitch = pair.base_pitch(), overlap = 0.5 * pair.overlap_ratio(),
-               path_start = pair.path_start() / pitch - overlap, path_end = pair.path_end() / pitch + overlap;
-  Panel shares{.x = {.label = "Phase of the pair (mesh periods, 0: pitch point)",
-                     .from = path_start - 0.35,
-                     .to = path_end + 0.35},
-               .y = {.label = "Share of the load (%)", .from = 0, .to = 104},
-               .key = PanelKey::below,
-               .height = 540};
-  std::string alone;
-  for (size_t i = 0; i < statics.size(); ++i) {
-    const auto one = ((statics[i].tooth_load.array() > 0).cast<int>().rowwise().sum() == 1).count();
-    const std::string percent = fixed(kPercent * static_cast<double>(one) / static_cast<double>(n), 0);
-    // Curves lie on each other over much of the path: what is drawn first shows on either side of what is drawn on it.
-    shares.curves.push_back({.block = "share",
-                             .y = static_cast<int>(i) + 2,
-                             .colour = static_cast<int>(i) + 1,
-                             .label = text(torque_label(statics[i]), ": one pair alone ", percent, " %"),
-                             .width = 1.8 + 1.1 * static_cast<double>(statics.size() - 1 - i)});
-    alone += text(alone.empty() ? "" : ", ", percent, " % at ", torque_label(statics[i]));
-  }
-  // On the line of action: first and last contact, and between them the part with one pair alone, of helical pairs that with a line over
-  // the whole face.
-  for (const double end : {path_start, path_end}) shares.rules.push_back({'x', end, "", kDark});
-  const double whole = overlap > 0 ? 2 * overlap : 1;
-  if (overlap == 0 || path_end - path_start > 2 * whole)
-    for (const double end : overlap > 0 ? std::array{path_start + whole, path_end - whole}
-                                        : std::array{path_end - 1, path_start + 1})
-      shares.rules.push_back({'x', end, "", kGrey});
-  figure.notes.push_back(text("one pair alone carries the load for ", alone,
-                              " of the mesh period; on the line of action alone it would for ",
-                              fixed(kPercent * std::max(0.0, 2 - first.contact_ratio - 2 * overlap), 0),
-                              " %"));
   figure.blocks = {share, loads};
-  figure.panels = {shares, loads_panel(first, from, to)};
+  figure.panels = {shares_panel(statics, figure.notes), loads_panel(first, from, to)};
   figure.columns = 2;
   return figure;
 }

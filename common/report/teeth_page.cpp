@@ -93,7 +93,7 @@ WordTable at_rest(const StaticResult& s, const IsoComparison& iso, const std::st
   return out;
 }
 
-WordTable in_motion(const StaticResult& s, const GearPair& pair, const IsoComparison& iso,
+WordTable in_motion(const StaticResult& s, const IsoComparison& iso,
                     const std::array<const ResponseResult*, 2>& sweeps) {
   WordTable out{
       text(
@@ -229,7 +229,7 @@ std::vector<WordTable> teeth_tables(const ReportContent& c) {
   const IsoComparison iso = iso_comparison(s, sweeps[0]->inertia);
   WordTable rest = at_rest(s, iso, "At rest at " + torque_words(s.torque));
   rest.caption += range_of(iso);
-  return {rest, in_motion(s, GearPair(s), iso, sweeps)};
+  return {rest, in_motion(s, iso, sweeps)};
 }
 
 std::vector<WordTable> teeth_tables(const SystemReport& r) {
