@@ -15,7 +15,6 @@
 #include <string>
 #include <vector>
 
-#include "../peer/lemke.h"
 #include "base/tool.h"
 #include "calculix.h"
 #include "contact/complementarity.h"
@@ -32,6 +31,7 @@
 #include "system/rolling_mesh.h"
 #if __has_include(<siconos/numerics/lcp_cst.h>)
 #define WHINE_HAS_SICONOS 1
+#include "../peer/lemke.h"
 #endif
 
 // Eigen takes memory by malloc, the standard library by operator new, which calls malloc.
@@ -351,7 +351,7 @@ void rolling_steps(whine::RollingRig& rig, whine::RollingRig& reference, double 
   for (int i = 0; i < steps; ++i) {  // problem i is that of sample i + 1
     const int k = strips ? static_cast<int>(problems[(i + steps - 1) % steps].active.strips.size()) : 0;
     const int loaded = static_cast<int>((rig.period.tooth_pair_load.col(i).array() > 0).count());
-    const StepWork one = step_work(rig.sizes(i), loaded, k);
+    const StepWork one = counted_work(rig.sizes(i), loaded, k);
     work.flops += one.flops / steps;
     work.bytes += one.bytes / steps;
   }

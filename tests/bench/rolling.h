@@ -110,7 +110,7 @@ inline double load_bandwidth(size_t bytes) {
 struct StepWork {
   double flops = 0, bytes = 0;
 };
-inline StepWork step_work(const RollingDynamics::StepSizes& s, int loaded, int touching) {
+inline StepWork counted_work(const RollingDynamics::StepSizes& s, int loaded, int touching) {
   const double n = s.coordinates, P = s.pairs, L = loaded, r = s.rows, F = s.fields, S = s.shared,
                T = s.teeth, N = s.nodes, M = P * s.strips, k = touching;
   StepWork w;
