@@ -227,19 +227,22 @@ $(animation_files): $$(call animation_needs,$$*,$$(call animated_scene,$$*)) \
 teeth = $(filter $2,$(SCENE_$1_TEETH))
 # BRANCHES=yes: with the branch at the first torque, which takes about as long as four sweeps.
 BRANCHES ?= no
-system_shows = system $(if $2,system-static) $(if $(and $2,$(filter yes,$(SCENE_$1_PLANETS))),load-sharing) modes campbell $(if $(filter yes,$(SCENE_$1_MOVES)),system-sweep order-cuts $(if $(call teeth,$1,alike),,residual-signal))
-system_artifacts = $(if $2,$(inputs_system-static)) out/$1/modes.h5 $(if $(filter yes,$(SCENE_$1_MOVES)),$(inputs_system-sweep))
 system_figures := system system-static load-sharing modes campbell system-sweep motion-errors order-cuts residual-signal ring-down branch multipliers harris-map fold-curves
 over_face = $(filter slices body,$(SCENE_$1_WIDTH))
-motion_shows = responses-by-torque $(if $(call teeth,$1,alike),$(if $(filter yes,$(BRANCHES)),response-branches multipliers)) order-cuts waterfall tooth-loads \
-  $(if $(call over_face,$1),face-load,$(if $(call teeth,$1,alike),root-stress,residual-signal))
-report_shows = system finite-elements $(if $(filter yes,$(SCENE_$1_MODIFIED)),profile-chart) \
-  $(if $(call teeth,$1,alike),transmission-error mesh-stiffness load-sharing error-budget) $(if $(call over_face,$1),flank-load) \
-  $(if $(call teeth,$1,cracked),$(if $(call teeth,$1,differ),,crack)) $(if $(filter yes,$(SCENE_$1_MOVES)),$(call motion_shows,$1)) \
-  $(if $(filter yes,$(SCENE_$1_FRICTION)),efficiency) $(if $(filter elastic,$(SCENE_$1_BEARINGS)),bearing-forces) $(if $(call teeth,$1,differ),sidebands)
-report_artifacts = $(foreach t,$2,out/$1/T$t/static.h5) $(call impacts,$1,$2) \
-  $(if $(filter yes,$(SCENE_$1_MOVES)),$(call both_ways,$1,$2,response)) $(if $(call teeth,$1,alike),out/$1/T$(firstword $2)/error_budget.h5) $(call measured_errors,$1,$2)
-of_report = $(call $(if $(filter $2,$(systems)),system,report)_$1,$2,$(SCENE_$2_TORQUES))
+moves = $(filter yes,$(SCENE_$1_MOVES))
+branched = $(if $(call teeth,$1,alike),$(filter yes,$(BRANCHES)))
+pair_at_rest = finite-elements $(if $(filter yes,$(SCENE_$1_MODIFIED)),profile-chart) $(if $(call teeth,$1,alike),transmission-error mesh-stiffness load-sharing error-budget) \
+  $(if $(call over_face,$1),flank-load) $(if $(call teeth,$1,cracked),$(if $(call teeth,$1,differ),,crack)) $(if $(filter yes,$(SCENE_$1_FRICTION)),efficiency) \
+  $(if $(filter elastic,$(SCENE_$1_BEARINGS)),bearing-forces) $(if $(call teeth,$1,differ),sidebands)
+pair_in_motion = responses-by-torque $(if $(call branched,$1),response-branches) waterfall tooth-loads $(if $(call over_face,$1),face-load,$(if $(call teeth,$1,alike),root-stress))
+train_at_rest = $(if $2,system-static $(if $(filter yes,$(SCENE_$1_PLANETS)),load-sharing)) modes campbell
+train_in_motion = system-sweep $(if $(call branched,$1),branch)
+of_kind_in = $(call $(if $(call is_pair,$2),pair,train)_$1,$2,$3)
+report_shows = system $(call of_kind_in,at_rest,$1,$2) $(if $(call moves,$1),$(call of_kind_in,in_motion,$1) order-cuts $(if $(call branched,$1),multipliers) \
+  $(if $(or $(call teeth,$1,alike),$(call over_face,$1)),,residual-signal))
+report_artifacts = $(foreach t,$2,out/$1/T$t/static.h5) $(if $(call is_pair,$1),$(call impacts,$1,$2) $(if $(call teeth,$1,alike),out/$1/T$(firstword $2)/error_budget.h5),out/$1/modes.h5) \
+  $(if $(call moves,$1),$(call both_ways,$1,$2,response) $(call measured_errors,$1,$2))
+of_report = $(call report_$1,$2,$(SCENE_$2_TORQUES))
 page_inputs = $(call of_report,artifacts,$1) $(patsubst %,out/$1/report/%.png,$(call of_report,shows,$1))
 # $(call report_figure,scene,figures)
 report_figure = $(foreach f,$2,$(foreach e,tsv svg png,out/$1/report/$f.$e))
@@ -251,7 +254,7 @@ out/%/report/index.html out/%/report/results.tsv: $$(call page_inputs,$$*) out/%
 teeth_shows = root-stress $(if $(filter yes,$(BRANCHES)),root-stress-branches) flank-pressure load-sharing tooth-loads error-budget
 teeth_inputs = $(call report_artifacts,$1,$3) $(patsubst %,$2/%.png,$(teeth_shows))
 teeth_scene = $(patsubst figures,$(paper_scene),$1)
-teeth_needs = $(if $(filter $2,$(systems)),$(call system_artifacts,$2,$(SCENE_$2_TORQUES)),$(call teeth_inputs,$2,$(if $(filter figures,$1),out/figures,out/$2/report),$(if $(filter figures,$1),$(call paper_torques,root-stress),$(firstword $(SCENE_$2_TORQUES)))))
+teeth_needs = $(if $(filter $2,$(systems)),$(call of_report,artifacts,$2),$(call teeth_inputs,$2,$(if $(filter figures,$1),out/figures,out/$2/report),$(if $(filter figures,$1),$(call paper_torques,root-stress),$(firstword $(SCENE_$2_TORQUES)))))
 out/%/teeth/index.html: $$(call teeth_needs,$$*,$$(call teeth_scene,$$*)) out/$$(call teeth_scene,$$*)/params/title.txt $(B)/scenes/$$(call teeth_scene,$$*).mk $(call id,gear-report) | $(B)/bin/gear-report $(with_deps)
 	$(B)/bin/gear-report --teeth --output $@ $(filter %.h5 %.png,$+)
 teeth_page := out/$(if $(SCENE),$(basename $(notdir $(SCENE))),figures)/teeth/index.html

@@ -221,10 +221,9 @@ rejected "a variant that cannot be" 3 'scene_wide.toml:* bore_radius_mm 90' "$bi
 rm -f map.* scene_variant.toml scene_wide.toml
 rejected "decibels re nothing" 2 '--db 0' "$bin/gear-plot" waterfall --plots "$plots" --db 0 --output cuts out/scene/T100/up/sweep.h5 out/scene/T100/down/sweep.h5
 rejected "a speed of no gear" 2 'carrier pinion wheel' "$bin/gear-plot" waterfall --plots "$plots" --axis rpm:carrier --output cuts out/scene/T100/up/sweep.h5 out/scene/T100/down/sweep.h5
-rejected "the report of a system without its modes" 3 'modes.h5' "$bin/gear-report" out/scene-inline/T60/static.h5 --output x.html
 rejected "two modes.h5 in the report of a system" 2 'whine/modes second' "$bin/gear-report" out/scene-inline/modes.h5 out/scene-inline/../scene-inline/modes.h5 --output x.html
 rejected "a sweep of a system without its statics in a report" 3 'static.h5' "$bin/gear-report" out/scene-inline/modes.h5 out/scene-inline/T60/up/response.h5 --output x.html
-rejected "two sweeps of a system in one direction in a report" 3 "two up" "$bin/gear-report" out/scene-inline/T60/static.h5 out/scene-inline/modes.h5 out/scene-inline/T60/up/response.h5 out/scene-inline/../scene-inline/T60/up/response.h5 --output x.html
+rejected "two sweeps of a system in one direction in a report" 3 'response.h5 up twice' "$bin/gear-report" out/scene-inline/T60/static.h5 out/scene-inline/modes.h5 out/scene-inline/T60/up/response.h5 out/scene-inline/../scene-inline/T60/up/response.h5 --output x.html
 rejected "artifacts of a pair in the report of a system" 3 'out/scene/T100/static.h5 scene' "$bin/gear-report" out/scene-inline/modes.h5 out/scene/T100/static.h5 --output x.html
 rejected "artifacts of two systems in a report" 3 'scene-train scene-inline' "$bin/gear-report" out/scene-inline/T60/static.h5 out/scene-train/modes.h5 --output x.html
 rejected "load sharing of a system without planets" 3 'planets' "$bin/gear-plot" load-sharing --plots "$plots" out/scene-inline/T60/static.h5 --output x

@@ -50,11 +50,8 @@ void body(int argc, char** argv) {
   std::vector<Design> designs;
   designs.reserve(scenes.size());
   for (const Inputs& scene : scenes) {
-    Design& design = designs.emplace_back(Design{scene.name});
-    if (is_of_system(scene.paths))
-      design.train = read_system_report(scene.paths);
-    else
-      design.content = read_report_content(scene.paths);
+    designs.push_back({scene.name, read_report_content(scene.paths)});
+    require_one_scene(designs.back().content);
   }
 
   const std::string page = compare_html(designs, read_report_content(pictures).pictures),

@@ -1,9 +1,9 @@
 // gear-report: the report of a scene as one HTML page, from the artifacts and the figures that the scene asks for.
 //
-// Reads      static.h5 (their order is that of the torques), impact.h5 and response.h5 of one scene, error_budget.h5; figures that
-//            gear-plot has drawn, as .png; params/title.txt in the folder of the scene, if there is one
-//            of a system of several meshes: modes.h5 and, of elastic gears, static.h5 and response.h5
-// Writes     --output: the page; results.tsv beside it, the numbers of its first table; with --teeth the page alone
+// Reads      static.h5 (their order is that of the torques), impact.h5, response.h5 and sweep_errors.h5 of one scene, error_budget.h5,
+//            modes.h5, of rigid gears this alone; figures that gear-plot has drawn, as .png; params/title.txt in the folder of the
+//            scene, if there is one
+// Writes     --output: the page; results.tsv beside it, the numbers of its first tables; with --teeth the page alone
 // Equations  none
 // Example    gear-report --output report/index.html out/parker2000/T100/static.h5
 //              out/parker2000/T100/{up,down}/response.h5 out/parker2000/report/fig12.png
@@ -39,23 +39,6 @@ void body(int argc, char** argv) {
       "  gear-report --output report/index.html out/three-in-line/T60/static.h5 out/three-in-line/modes.h5");
   options.parse(argc, argv);
 
-  const auto publish_both = [&](const std::string& page, const std::string& table) {
-    publish_all(
-        {{(std::filesystem::path(output).parent_path() / "results.tsv").string(), table}, {output, page}});
-  };
-  if (is_of_system(inputs)) {
-    const SystemReport report = read_system_report(inputs);
-    if (teeth) {
-      publish(output, teeth_html(report));
-      log_line("gear-report: teeth of ", report.scene, ": ", report.rest->mesh.size(), " meshes -> ", output);
-      return;
-    }
-    const std::string page = system_report_html(report);
-    publish_both(page, system_report_tsv(report));
-    log_line("gear-report: ", report.scene, ": ", report.modes->layout.bodies.size(), " bodies, ",
-             report.pictures.size(), " figures, ", page.size() / 1000, " kB -> ", output);
-    return;
-  }
   ReportContent content = read_report_content(inputs);
   name_figures_of_paper(content);
   if (teeth) {
@@ -64,8 +47,9 @@ void body(int argc, char** argv) {
     log_line("gear-report: teeth of ", content.scene, ": ", content.pictures.size(), " figures -> ", output);
     return;
   }
-  const std::string page = report_html(content);
-  publish_both(page, report_tsv(content));
+  const std::string page = report_html(content), table = report_tsv(content);
+  publish_all(
+      {{(std::filesystem::path(output).parent_path() / "results.tsv").string(), table}, {output, page}});
   log_line("gear-report: ", content.scene, ": ", content.statics.size(), " torques, ", content.sweeps.size(),
            " sweeps, ", content.pictures.size(), " figures, ", page.size() / 1000, " kB -> ", output);
 }

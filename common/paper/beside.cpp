@@ -52,8 +52,8 @@ std::string paper_figure(const std::string& name) {
 }
 
 void name_figures_of_paper(ReportContent& content) {
-  if (content.statics.empty()) return;  // which the report rejects
-  const StaticResult& pair = content.statics[0];
+  if (content.statics.empty() || content.of_train()) return;
+  const StaticResult& pair = content.pair();
   if (!teeth_of_paper(pair.gear[0].design) || !teeth_of_paper(pair.gear[1].design)) return;
   // Figures of a scene are called by what they show.
   static const std::map<std::string, std::string> alike{{"finite-elements", "fig01"},

@@ -4,18 +4,24 @@
 
 namespace whine {
 
-std::vector<AlikeMeshes> alike_meshes(const SystemStaticParameters& settings) {
+std::vector<AlikeMeshes> alike_meshes(const SystemStaticResult& a) {
+  if (!a.of_train()) return {{"", {0}}};
   std::vector<AlikeMeshes> out;
-  out.reserve(settings.mesh.size());
-  for (const GearMeshSpec& mesh : settings.mesh) out.push_back({mesh.gear[0] + "-" + mesh.gear[1], {}});
-  for (size_t m = 0; m < settings.section.size(); ++m)
-    out.at(static_cast<size_t>(settings.section[m])).meshes.push_back(m);
+  out.reserve(a.settings.mesh.size());
+  for (const GearMeshSpec& mesh : a.settings.mesh) out.push_back({mesh.gear[0] + "-" + mesh.gear[1], {}});
+  for (size_t m = 0; m < a.settings.section.size(); ++m)
+    out.at(static_cast<size_t>(a.settings.section[m])).meshes.push_back(m);
   return out;
+}
+
+bool shares_load(const SystemStaticResult& a, size_t m) {
+  const std::vector<int>& section = a.settings.section;
+  return m < section.size() && std::count(section.begin(), section.end(), section[m]) > 1;
 }
 
 std::vector<LoadSharing> load_sharing(const SystemStaticResult& a) {
   std::vector<LoadSharing> out;
-  for (const AlikeMeshes& section : alike_meshes(a.settings)) {
+  for (const AlikeMeshes& section : alike_meshes(a)) {
     const auto alike = static_cast<double>(section.meshes.size());
     if (alike < 2) continue;
     LoadSharing& of = out.emplace_back(LoadSharing{section});

@@ -11,8 +11,11 @@ struct AlikeMeshes {
   std::string name;            // "sun-planet", its gears
   std::vector<size_t> meshes;  // numbers in the layout
 };
-// In the order of the scene.
-std::vector<AlikeMeshes> alike_meshes(const SystemStaticParameters& settings);
+// In the order of the scene; of a pair its one mesh, without a name.
+std::vector<AlikeMeshes> alike_meshes(const SystemStaticResult& a);
+
+// Whether it is one of several meshes of a [[mesh]], which share its load.
+bool shares_load(const SystemStaticResult& a, size_t m);
 
 // Of planets: two meshes at least.
 struct LoadSharing : AlikeMeshes {

@@ -6,16 +6,13 @@
 
 #include "base/error.h"
 #include "io/scene_keys.h"
-#include "model/response_quantities.h"
-#include "report/figure_words.h"
 #include "report/figures.h"
 #include "report/html.h"
-#include "report/report_geometry.h"
+#include "report/report_gears.h"
 #include "report/report_page.h"
 #include "report/report_remarks.h"
 #include "report/report_results.h"
-#include "report/system_report_tables.h"
-#include "signal/result_quantities.h"
+#include "report/report_tables.h"
 
 namespace whine {
 namespace {
@@ -71,37 +68,46 @@ class Rows {
 
 std::vector<double> common_torques(const std::vector<Design>& designs) {
   std::vector<double> out;
-  for (const StaticResult& s : designs.at(0).content.statics)
+  for (const SystemStaticResult& s : designs.at(0).content.statics)
     if (std::all_of(designs.begin(), designs.end(), [&](const Design& d) {
           return std::any_of(d.content.statics.begin(), d.content.statics.end(),
-                             [&](const StaticResult& other) { return other.torque == s.torque; });
+                             [&](const auto& other) { return torque_of(other) == torque_of(s); });
         }))
-      out.push_back(s.torque);
+      out.push_back(torque_of(s));
   return out;
 }
 
 // Gears are called by their role: two designs may name them differently.
 ReportContent by_role(ReportContent c) {
   const auto rename = [](auto& artifact) {
-    for (int g = 0; g < kSides; ++g) artifact.mesh.gear[g] = kRole[g];
+    for (size_t g = 0; g < kSides; ++g) artifact.mesh.gear[g] = kRole[g];
+    if constexpr (requires { artifact.body_names; }) artifact.body_names = {kRole[0], kRole[1]};
   };
-  for (StaticResult& s : c.statics) rename(s);
+  for (SystemStaticResult& s : c.statics) {
+    rename(s.mesh[0]);
+    s.body_names = {kRole[0], kRole[1]};
+  }
   for (ImpactResult& a : c.impacts) rename(a);
   for (ResponseResult& sweep : c.sweeps) rename(sweep);
   return c;
 }
 
+// Of a number of a report.
+std::string with_part(const auto& n) {
+  return n.part.empty() ? n.quantity : n.quantity + ", " + n.part;
+}
+
 bool any_train(const std::vector<Design>& designs) {
-  return std::any_of(designs.begin(), designs.end(), [](const Design& d) { return d.train.has_value(); });
+  return std::any_of(designs.begin(), designs.end(), [](const Design& d) { return d.content.of_train(); });
 }
 
 void require_designs(const std::vector<Design>& designs) {
   if (designs.size() < 2)
     fail(Failure::input, "compare: ", designs.size(), " design given; two are the least");
   for (const Design& d : designs)
-    if (d.train ? !d.train->rest : d.content.statics.empty())
+    if (d.content.statics.empty())
       fail(Failure::input, "compare: ", d.name, " has no static.h5",
-           d.train ? "; rigid gears have natural modes alone" : "");
+           d.content.of_train() ? "; rigid gears have natural modes alone" : "");
   if (any_train(designs)) return;
   if (common_torques(designs).empty())
     fail(
@@ -144,76 +150,31 @@ std::string compared_picture(const ReportPicture& picture) {
   return html::figure(picture.name, picture.bytes, title, html::escaped(words));
 }
 
-}  // namespace
-
-namespace {
-
-// What a design says: of a pair at the first of its torques.
-struct Said {
-  Quantities value;
-  std::vector<ResponseQuantity> kinds;
-};
-
-Said said_by(const Design& d) {
-  Said out;
-  std::vector<Direction> directions;
-  const double torque = d.train ? 0 : d.content.statics.front().torque;
-  out.value = d.train ? quantities_of(*d.train->rest) : quantities_of(d.content.statics.front());
-  for (const ResponseResult& sweep : d.train ? d.train->sweeps : d.content.sweeps) {
-    if (sweep.torque != torque) continue;
-    out.value.merge(quantities_of(sweep, d.train ? &d.train->rest->settings : nullptr));
-    directions.push_back(sweep.direction);
-  }
-  out.kinds = response_quantities(directions, d.train ? train_names(d.train->rest->settings) : TrainNames{});
-  return out;
-}
-
-// One of a mesh, body or [[mesh]] in its parts: "rms_max_up", "sun-planet1"; the words without the part.
-struct KindOfPart {
-  std::string name, part, words;
-};
-KindOfPart in_parts(const ResponseQuantity& kind) {
-  const size_t dot = kind.name.find('.');
-  if (dot == std::string::npos) return {kind.name, "", kind.meaning};
-  const std::string part = kind.name.substr(dot + 1), end = ", of " + part;
-  return {kind.name.substr(0, dot), part, kind.meaning.substr(0, kind.meaning.size() - end.size())};
-}
-
+// Numbers of trains, and of pairs beside them, at the first torque of each: of a pair's one mesh beside each mesh of the trains; what no
+// train has is left out.
 std::vector<Difference> train_differences(const std::vector<Design>& designs) {
   Rows rows(designs.size());
   std::vector<std::string> meshes;  // of all trains
   for (const Design& d : designs)
-    if (d.train)
-      for (const std::string& mesh : train_names(d.train->rest->settings).meshes)
-        if (std::find(meshes.begin(), meshes.end(), mesh) == meshes.end()) meshes.push_back(mesh);
+    for (const std::string& mesh : d.content.statics[0].mesh_names)
+      if (d.content.of_train() && std::find(meshes.begin(), meshes.end(), mesh) == meshes.end())
+        meshes.push_back(mesh);
   for (size_t d = 0; d < designs.size(); ++d) {
-    const Said said = said_by(designs[d]);
-    for (const ResponseQuantity& kind : said.kinds) {
-      const auto found = said.value.find(kind.name);
-      if (found == said.value.end()) continue;
-      const KindOfPart own = in_parts(kind);
-      const ShownUnit unit = shown_units(kind.units);
-      // Numbers of jumps are of the whole; all else of a pair is of its one mesh.
-      const bool whole = designs[d].train || own.name.starts_with("jump") || own.name.starts_with("unsteady");
-      for (const std::string& part : whole ? std::vector{own.part} : meshes)
-        rows.put(d, part, own.words, *unit.units ? unit.units : "1", shown(found->second * unit.scale, 4));
+    const ReportContent& c = designs[d].content;
+    for (const ReportNumber& n : report_numbers(c)) {
+      if (n.torque != torque_of(c.statics[0])) continue;
+      const bool everywhere = !c.of_train() && n.of == ReportNumber::Of::mesh;
+      for (const std::string& part : everywhere ? meshes : std::vector{n.part})
+        rows.put(d, part, n.quantity, n.unit, n.value + (n.remark == kBeyond ? kStar : ""));
     }
   }
   std::vector<Difference> out = rows.differing();
-  // A pair has no load sharing; what no train has is left out.
   std::erase_if(out, [&](const Difference& row) {
     for (size_t d = 0; d < designs.size(); ++d)
-      if (designs[d].train && row.value[d] != html::kNoValue) return false;
+      if (designs[d].content.of_train() && row.value[d] != html::kNoValue) return false;
     return true;
   });
   return out;
-}
-
-SceneKeys scene_keys_in(const Design& d) {
-  if (d.train)
-    return scene_keys_of(*d.train->rest, d.train->sweeps.empty() ? nullptr : &d.train->sweeps[0].train);
-  const ReportContent& c = d.content;
-  return c.sweeps.empty() ? scene_keys_of(c.statics.at(0)) : scene_keys_of(c.sweeps[0]);
 }
 
 // Of each gear of a pair or of a train: "gear.teeth, sun".
@@ -223,12 +184,12 @@ std::vector<Difference> train_scene_differences(const std::vector<Design>& desig
     const auto put = [&](const std::string& key, const std::string& gear, const std::string& value) {
       if (!value.empty()) rows.put(d, "", key + (gear.empty() ? "" : ", " + gear), "", value);
     };
-    const SceneKeys keys = scene_keys_in(designs[d]);
+    const SceneKeys keys = scene_keys_in(designs[d].content);
     for (const SceneKeys::Row& row : keys.rows)
       for (size_t g = 0; g < row.value.size(); ++g)
         put(row.section + "." + row.name, row.value.size() == 1 ? "" : keys.gears[g], row.value[g]);
-    if (!designs[d].train) continue;
-    const System& layout = designs[d].train->rest->settings.layout;
+    if (!designs[d].content.of_train()) continue;
+    const System& layout = designs[d].content.statics[0].settings.layout;
     for (const System::Drive& drive : layout.drives)
       put("drive.torque_Nm", layout.bodies[static_cast<size_t>(drive.body)].name,
           drive.torque != 0 ? shown(drive.torque, 6) : "");
@@ -245,11 +206,12 @@ std::vector<Difference> differences(const std::vector<Design>& designs) {
   Rows rows(designs.size());
   for (size_t d = 0; d < designs.size(); ++d) {
     const ReportContent content = by_role(designs[d].content);
-    for (const GeometryNumber& g : pair_geometry(content.statics.front()))
-      rows.put(d, "", g.quantity, g.unit, g.value);
+    double number = 0;  // words are keys of the scenes
+    for (const GeometryNumber& g : geometry_numbers(content))
+      if (is_number(g.value, number)) rows.put(d, "", with_part(g), g.unit, g.value);
     for (const ReportNumber& n : report_numbers(content))
       if (std::find(torques.begin(), torques.end(), n.torque) != torques.end())
-        rows.put(d, shown(n.torque, 6), n.quantity, n.unit, n.value + (n.remark.empty() ? "" : kStar));
+        rows.put(d, shown(n.torque, 6), with_part(n), n.unit, n.value + (n.remark == kBeyond ? kStar : ""));
   }
   std::vector<Difference> out = rows.differing();
   // Results first: the geometry explains them.
@@ -261,7 +223,7 @@ std::vector<Difference> scene_differences(const std::vector<Design>& designs) {
   if (any_train(designs)) return train_scene_differences(designs);
   Rows rows(designs.size());
   for (size_t d = 0; d < designs.size(); ++d) {
-    for (const auto& [section, name, value, meaning] : scene_keys_in(designs[d]).rows) {
+    for (const auto& [section, name, value, meaning] : scene_keys_in(designs[d].content).rows) {
       const bool one = value.back().empty() || value.back() == value.front();
       rows.put(d, "", section + "." + name, "", value.front() + (one ? "" : " / " + value.back()));
     }
@@ -305,7 +267,7 @@ std::string compare_html(const std::vector<Design>& designs, const std::vector<R
   std::string names, list;
   for (const Design& d : designs) {
     names += (names.empty() ? "" : " / ") + d.name;
-    list += html::tagged("li", html::escaped(d.train ? d.train->scene : d.content.scene)) + "\n";
+    list += html::tagged("li", html::escaped(d.content.scene)) + "\n";
   }
   const std::vector<Difference> found = differences(designs);
   const bool starred = std::any_of(found.begin(), found.end(), [](const Difference& row) {
@@ -333,9 +295,8 @@ std::string compare_html(const std::vector<Design>& designs, const std::vector<R
   for (const ReportPicture& picture : pictures) inside += compared_picture(picture);
   inside += "</section>\n";
   for (const Design& d : designs)
-    inside += "<section>\n<h2>" + html::escaped(d.name) + "</h2>\n" +
-              (d.train ? system_remarks(*d.train) : remarks_list(d.content)) +
-              provenance_table(d.train ? d.train->sources : d.content.sources) + "</section>\n";
+    inside += "<section>\n<h2>" + html::escaped(d.name) + "</h2>\n" + remarks_list(d.content) +
+              provenance_table(d.content.sources) + "</section>\n";
   return html::page(names, "<ul>\n" + list + "</ul>\n", inside);
 }
 

@@ -1,18 +1,15 @@
 // Designs side by side as one page and one table: first what differs, in the scenes and in the results, then common figures.
 #pragma once
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "report/report_content.h"
-#include "report/system_report.h"
 
 namespace whine {
 
 struct Design {
-  std::string name;                        // of its scene
-  ReportContent content = {};              // of a pair
-  std::optional<SystemReport> train = {};  // of a train
+  std::string name;  // of its scene
+  ReportContent content = {};
 };
 
 // A row of the table: the values of one quantity of one part, and by how much those of the other designs are above the first in per
@@ -24,7 +21,7 @@ struct Difference {
 };
 
 // Quantities that are not the same in all designs, of pairs at torques that all have. Trains, and pairs beside them, are compared
-// each at its own torque, by the response quantities of studies (model/response_quantities.h): the one mesh of a pair with each mesh.
+// each at its first torque: the one mesh of a pair with each mesh.
 // Throws Error(input) for fewer than two designs, no common torque, and rigid gears.
 std::vector<Difference> differences(const std::vector<Design>& designs);
 

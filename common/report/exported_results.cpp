@@ -26,8 +26,8 @@ class Collector {
   template <class F>
   void add(const std::string& name, const char* unit, const F& value) {
     RexsResult result{name, unit, {}, true};
-    for (const StaticResult& s : content_.statics) {
-      const Value found = value(s);
+    for (const SystemStaticResult& at : content_.statics) {
+      const Value found = value(at.mesh[0]);
       if (!found) return;
       result.values.push_back(*found);
     }
@@ -100,13 +100,13 @@ void export_motion(const ReportContent& c, Direction direction, Collector& all) 
   RexsResult jumps{"jump_mesh_frequency" + way, kHertz, {}, true},
       torques{"jump_torque" + way, "N m", {}, true};
   bool complete = true;
-  for (const StaticResult& s : c.statics) {
-    const ResponseResult* sweep = sweep_of(c, s.torque, direction);
+  for (const SystemStaticResult& at : c.statics) {
+    const ResponseResult* sweep = sweep_of(c, torque_of(at), direction);
     complete = complete && sweep;
     if (!sweep) continue;
     for (const double f : sweep->jump_frequency) {
       jumps.values.push_back(f);
-      torques.values.push_back(s.torque);
+      torques.values.push_back(torque_of(at));
     }
   }
   if (complete && !jumps.values.empty()) {
@@ -118,10 +118,10 @@ void export_motion(const ReportContent& c, Direction direction, Collector& all) 
 }  // namespace
 
 RexsPair exported_pair(const ReportContent& c) {
-  if (c.statics.empty())
-    fail(Failure::input, "results: no static.h5 given; that of the scene's first torque is the least");
-  require_one_pair(c);
-  const StaticResult& s = c.statics.front();
+  require_one_scene(c);
+  if (c.of_train())
+    fail(Failure::input, "results: these are artifacts of a train; give those of a pair of gears");
+  const StaticResult& s = c.pair();
   return {{s.gear[0].design.teeth, s.gear[1].design.teeth},
           {s.gear[0].design.module, s.gear[1].design.module},
           s.mesh.centre_distance,
@@ -133,7 +133,7 @@ std::vector<RexsResult> exported_results(const ReportContent& c) {
   Collector all(c);
   all.out.push_back({"version", kNoUnit, {}, false, kVersion});
   all.out.push_back({"scene", kNoUnit, {}, false, c.scene});
-  all.out.push_back({"contact_ratio", kNoUnit, {GearPair(c.statics.at(0)).contact_ratio()}});
+  all.out.push_back({"contact_ratio", kNoUnit, {GearPair(c.pair()).contact_ratio()}});
   all.add("torque", "N m", [](const StaticResult& s) { return Value(s.torque); });
   export_statics(all);
   all.add("critical_mesh_frequency", kHertz, [&](const StaticResult& s) {

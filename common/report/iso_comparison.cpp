@@ -9,6 +9,7 @@
 #include "gear/drawing_quantities.h"
 #include "gear/iso6336.h"
 #include "gear/pair.h"
+#include "report/report_content.h"
 
 namespace whine {
 
@@ -74,11 +75,18 @@ IsoComparison iso_comparison(const StaticResult& s, const std::array<double, kSi
   return out;
 }
 
-DynamicFactorPeak largest_dynamic_factor(const StaticResult& s, const ResponseResult& r) {
-  const Eigen::VectorXd force =
-      r.mesh_force_sustained.size() > 0 ? r.mesh_force_sustained.col(0) : r.mesh_force_max.col(0);
+DynamicFactorPeak largest_dynamic_factor(const SystemStaticResult& rest, const ResponseResult& r,
+                                         size_t mesh) {
+  const auto column = static_cast<Eigen::Index>(mesh);
+  const MatrixRM& force = r.mesh_force_sustained.size() > 0 ? r.mesh_force_sustained : r.mesh_force_max;
+  const double at_rest = rest_force(rest, mesh);
   DynamicFactorPeak out;
-  out.factor = force.maxCoeff(&out.row) / normal_force(s.gear[0].design, s.torque);
+  if (at_rest > 0) out.factor = force.col(column).maxCoeff(&out.row) / at_rest;
+  if (r.of_train()) {
+    out.why_none = "its formulas are of one mesh";
+    return out;
+  }
+  const StaticResult& s = rest.mesh[mesh];
   if (!(r.inertia[0] > 0 && r.inertia[1] > 0)) {
     out.why_none = "the inertias are not known";
     return out;

@@ -28,13 +28,14 @@ struct IsoComparison {
 // inertia: [gear] kg m2 of all that turns with it, for K_v.
 IsoComparison iso_comparison(const StaticResult& statics, const std::array<double, kSides>& inertia);
 
-// The largest mesh force of a sweep, sustained for 1/64 of a mesh period where that is known, over T / r_b.
+// The largest force of a mesh in a sweep, sustained for 1/64 of a mesh period where that is known, over rest_force().
 struct DynamicFactorPeak {
   Eigen::Index row = 0;            // its speed
   double factor = 0;               // 1
   std::optional<double> standard;  // K_v at that speed
   std::string why_none;            // of K_v
 };
-DynamicFactorPeak largest_dynamic_factor(const StaticResult& statics, const ResponseResult& response);
+DynamicFactorPeak largest_dynamic_factor(const SystemStaticResult& rest, const ResponseResult& response,
+                                         size_t mesh);
 
 }  // namespace whine

@@ -16,7 +16,7 @@ const ErrorBudgetResult* budget_of(const ReportContent& c, double torque) {
 
 const SweepErrorsResult* errors_of(const ReportContent& c, double torque, Direction direction) {
   for (const SweepErrorsResult& errors : c.errors)
-    if (errors.torque == torque && errors.direction == direction) return &errors;
+    if (torque_of(errors) == torque && errors.direction == direction) return &errors;
   return nullptr;
 }
 
@@ -31,7 +31,7 @@ double harmonic_error(const ErrorBudgetResult* budget, Index n, double first) {
 }
 
 double error_near(const SweepErrorsResult* errors, SweepErrorsResult::Judged SweepErrorsResult::*quantity,
-                  double mesh_frequency) {
+                  double mesh_frequency, size_t mesh) {
   if (!errors) return kNoError;
   const Eigen::VectorXd& f = errors->mesh_frequency;
   Index below = -1, above = -1;
@@ -43,7 +43,7 @@ double error_near(const SweepErrorsResult* errors, SweepErrorsResult::Judged Swe
   double most = 0;
   for (const Index i : {below, above}) {
     if (errors->compared.col(i).minCoeff() == 0) return kNoError;
-    most = std::max(most, (errors->*quantity).error(i, 0));
+    most = std::max(most, (errors->*quantity).error(i, static_cast<Index>(mesh)));
   }
   return most;
 }
@@ -63,7 +63,7 @@ std::string words_on_errors(const ReportContent& c) {
       "Behind ± stands the discretisation error: each discretisation is refined alone, and what that changes is added up. ";
   if (c.budget) out += text("Numbers at rest have it at ", torque_words(c.budget->torque), ". ");
   if (!c.errors.empty())
-    return out + text("Numbers in motion have it at ", torque_words(c.errors[0].torque), ", measured at ",
+    return out + text("Numbers in motion have it at ", torque_words(torque_of(c.errors[0])), ", measured at ",
                       c.errors[0].mesh_frequency.size(),
                       " speeds; there is none where a refined sweep is on another branch.");
   return c.sweeps.empty()

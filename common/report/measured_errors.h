@@ -19,10 +19,10 @@ double sum_of(const ErrorBudgetResult* budget, Eigen::VectorXd StaticChanges::*c
 // m: of harmonic n, from 1, of the transmission error, whose first is `first` (m).
 double harmonic_error(const ErrorBudgetResult* budget, Eigen::Index n, double first);
 
-// 1, relative: the larger of those at the two judged speeds beside a mesh frequency (Hz), in the first mesh. kNoError where they are not
+// 1, relative: the larger of those at the two judged speeds beside a mesh frequency (Hz). kNoError where they are not
 // known: outside of the judged speeds, or where a refined sweep is on another branch at either of the two.
 double error_near(const SweepErrorsResult* errors, SweepErrorsResult::Judged SweepErrorsResult::*quantity,
-                  double mesh_frequency);
+                  double mesh_frequency, size_t mesh = 0);
 // Hz: of the jump at this mesh frequency (Hz); kNoError where no such jump was judged, or a refined sweep does not jump there.
 double jump_error_at(const SweepErrorsResult* errors, double jump_frequency);
 

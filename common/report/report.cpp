@@ -1,15 +1,18 @@
 #include "report/report.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include "base/error.h"
+#include "gear/layout.h"
 #include "gear/pair.h"
+#include "report/alike_meshes.h"
 #include "report/figures.h"
 #include "report/html.h"
 #include "report/measured_errors.h"
 #include "report/opening.h"
 #include "report/report_figures.h"
-#include "report/report_geometry.h"
+#include "report/report_gears.h"
 #include "report/report_guide.h"
 #include "report/report_opening.h"
 #include "report/report_page.h"
@@ -20,13 +23,12 @@
 namespace whine {
 namespace {
 
-std::string introduction(const ReportContent& c) {
-  const StaticResult& s = c.statics[0];
+using Eigen::Index;
+
+std::string words_on_pair(const StaticResult& s) {
   const GearPair pair(s);
   const bool helical = s.gear[0].design.helical();
-  std::vector<std::string> torques;
-  for (const auto& a : c.statics) torques.push_back(shown(a.torque, 6));
-  std::string out = text(
+  return text(
       s.mesh.gear[0], " (", s.gear[0].design.teeth, " teeth) drives ", s.mesh.gear[1], " (",
       s.gear[1].design.teeth, " teeth), ", helical ? "normal " : "", "module ",
       shown(s.gear[0].design.module * kMilli, 4), " mm, ",
@@ -37,13 +39,62 @@ std::string introduction(const ReportContent& c) {
                      fixed(pair.overlap_ratio(), 3), ", in all ",
                      fixed(s.contact_ratio + pair.overlap_ratio(), 3))
               : "contact ratio " + fixed(s.contact_ratio, 3),
-      ", working pressure angle ", fixed(pair.working_pressure_angle() * 180 / std::numbers::pi, 2),
-      "°. Torque on the driver: ", listed(torques), " N m.");
+      ", working pressure angle ", fixed(pair.working_pressure_angle() * 180 / std::numbers::pi, 2), "°.");
+}
+
+std::string words_on_train(const ReportContent& c) {
+  const System s = layout_of(c);
+  const Eigen::VectorXd torque = c.statics.empty()
+                                     ? Eigen::VectorXd()
+                                     : Eigen::VectorXd(c.statics[0].torque.colwise().mean().transpose());
+  std::string out = text("The train has ", s.bodies.size(), " bodies and ", s.meshes.size(),
+                         " meshes. On the ground stand ", bodies_words(s, torque), ".");
+  for (size_t k = 0; k < s.bodies.size(); ++k) {
+    if (s.bodies[k].kind != System::BodyKind::carrier) continue;
+    const auto planets = std::count_if(s.bodies.begin(), s.bodies.end(), [&](const System::Body& body) {
+      return body.on == static_cast<int>(k);
+    });
+    out += text(" The ", s.bodies[k].name, " has ", planets, planets == 1 ? " planet." : " planets.");
+  }
+  return out;
+}
+
+// Which teeth differ, how planets share the load, how large transmission errors are.
+std::string words_at_rest(const SystemStaticResult& rest) {
+  std::string out, differ;
+  const System& s = rest.settings.layout;
+  for (size_t b = 0; b < s.bodies.size(); ++b)
+    if (rest.settings.has_errors(b)) differ += text(differ.empty() ? "" : ", ", s.bodies[b].name);
+  if (rest.hunting_periods > 1)
+    out +=
+        text(" Teeth differ", differ.empty() ? "" : " (" + differ + ")", ": the same ones meet again after ",
+             rest.hunting_periods, " mesh periods, over all of which loads and motions are computed.");
+  for (const LoadSharing& of : load_sharing(rest))
+    out += text(" The load sharing factor of ", of.name, " is ", fixed(of.factor, 3), ".");
+  double most = 0;
+  for (const StaticResult& mesh : rest.mesh) most = std::max(most, peak_to_peak(mesh.transmission_error));
+  return out + text(" Static transmission errors are up to ", significant(most * kMicro, 3),
+                    " µm from peak to peak.");
+}
+
+std::string introduction(const ReportContent& c) {
+  std::string out = c.of_train() ? words_on_train(c) : words_on_pair(c.pair());
+  const TurningMember driver = driver_of(c);
+  if (c.statics.empty())
+    return html::paragraph(
+        out + " The gears are rigid, with one spring for each mesh: natural modes alone are computed.");
+  std::vector<std::string> torques;
+  torques.reserve(c.statics.size());
+  for (const SystemStaticResult& a : c.statics) torques.push_back(shown(torque_of(a), 6));
+  out += text(" Torque on ", driver.name, ": ", listed(torques), " N m.") + words_at_rest(c.statics[0]);
   if (!c.sweeps.empty()) {
     const Eigen::VectorXd& f = c.sweeps[0].mesh_frequency;
-    const double rpm = 60.0 / s.gear[0].design.teeth;
-    out += text(" Speeds: ", hertz(f.minCoeff()), " to ", hertz(f.maxCoeff()), " Hz mesh frequency, ",
-                fixed(f.minCoeff() * rpm, 0), " to ", fixed(f.maxCoeff() * rpm, 0), " rpm of the driver.");
+    out += text(" Speeds: ", hertz(f.minCoeff()), " to ", hertz(f.maxCoeff()), " Hz mesh frequency",
+                driver.turns > 0 ? text(", ", fixed(driver.rpm(f.minCoeff()), 0), " to ",
+                                        fixed(driver.rpm(f.maxCoeff()), 0), " rpm of ", driver.name)
+                                 : "",
+                ". ") +
+           with_rpm(driver, motion_words(c));
   } else {
     out += " Without motion: only gears at rest are computed for such a scene.";
   }
@@ -52,9 +103,7 @@ std::string introduction(const ReportContent& c) {
 }
 
 void require_whole(const ReportContent& c) {
-  if (c.statics.empty())
-    fail(Failure::input, "report: no static.h5 given; that of the scene's first torque is the least");
-  require_one_pair(c);
+  require_one_scene(c);
   require_known_pictures(c.pictures, report_figures());
 }
 
@@ -62,21 +111,24 @@ void require_whole(const ReportContent& c) {
 
 std::string report_tsv(const ReportContent& c) {
   require_whole(c);
-  std::string out = "# " + c.scene + "\ntorque [N m]\tquantity\tvalue\tunit\tremark\terror\n";
-  for (const GeometryNumber& g : pair_geometry(c.statics[0]))
-    out += text("\t", g.quantity, "\t", g.value, "\t", g.unit, "\t\t\n");
-  const auto add = [&](const ReportNumber& r, const std::string& quantity, const std::string& unit,
-                       const std::string& value, const std::string& error) {
+  std::string out = "# " + c.scene + "\ntorque [N m]\tpart\tquantity\tvalue\tunit\tremark\terror\n";
+  const auto line = [&](double torque, const std::string& part, const std::string& quantity,
+                        const std::string& unit, const std::string& value, const std::string& said,
+                        const std::string& error) {
     // A column that holds numbers alone is read as numbers: words stand in the remark.
     const bool words = value.find_first_not_of("+-.0123456789e") != std::string::npos;
-    const std::string remark = text(words ? value : "", words && !r.remark.empty() ? "; " : "", r.remark);
-    out += text(shown(r.torque, 6), "\t", quantity, "\t", words ? "" : value, "\t", unit, "\t", remark, "\t",
-                error, "\n");
+    const std::string remark = text(words ? value : "", words && !said.empty() ? "; " : "", said);
+    out += text(torque == 0 ? "" : shown(torque, 6), "\t", part, "\t", quantity, "\t", words ? "" : value,
+                "\t", unit, "\t", remark, "\t", error, "\n");
   };
+  if (!c.statics.empty())
+    for (const GeometryNumber& g : geometry_numbers(c)) line(0, g.part, g.quantity, g.unit, g.value, "", "");
   for (const ReportNumber& r : report_numbers(c)) {
-    add(r, r.quantity, r.unit, r.value, r.error);
+    line(r.torque, r.part, r.quantity, r.unit, r.value, r.remark, r.error);
     if (!r.rpm.empty() && r.rpm != r.value)
-      add(r, r.quantity + ", as rotation of the driver", "rpm", r.rpm, "");
+      line(r.torque, r.part,
+           r.quantity + ", as rotation of " + (c.of_train() ? driver_of(c).name : "the driver"), "rpm", r.rpm,
+           r.remark, "");
   }
   return out;
 }
@@ -90,15 +142,15 @@ std::string report_html(const ReportContent& c) {
   add("results", "Results", introduction(c) + results_tables(c));
   add("remarks", "Warnings and remarks", remarks_list(c));
   add("guide", "What the numbers mean", guide_to_numbers(c));
-  add("gears", "The gears", gears_table(c) + figures_of(c, "gears"));
-  add("rest", "At rest", face_level(c) + stiffness_tables(c) + class_table(c) + figures_of(c, "rest"));
-  add("frequencies", "Natural frequencies and damping",
-      c.impacts.empty() ? "" : natural_frequencies_table(c));
+  add("gears", "The gears", bodies_table(c) + drawings_table(c) + figures_of(c, "gears"));
+  add("meshes", "The meshes", meshes_table(c));
+  add("rest", "At rest", face_level(c) + rest_tables(c) + figures_of(c, "rest"));
+  add("frequencies", "Natural frequencies and damping", natural_frequencies_table(c));
+  add("modes-of-system", "Natural modes", modes_table(c) + figures_of(c, "modes"));
   add("motion", "In motion", figures_of(c, "motion"));
   add("errors", "What the errors are", figures_of(c, "errors") + (c.budget ? budget_table(*c.budget) : ""));
   add("parameters", "Parameters", parameters_table(c));
   add("provenance", "Provenance", provenance_table(c.sources));
-
   return report_page(c.scene, opening_html(opening_lines(c), figures_of(c, "opening")), sections);
 }
 

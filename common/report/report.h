@@ -5,11 +5,11 @@
 
 namespace whine {
 
-// Throws Error(input) for content without statics, of two pairs, or with a figure that is not known or given twice.
+// Throws Error(input) as require_one_scene(), or for a figure that is not known or given twice.
 std::string report_html(const ReportContent& content);
 
-// Columns torque [N m], quantity, value, unit, remark: geometry of the pair, which has no torque, then the numbers of the
-// page's first table. A '#' line with the scene before the line of names.
+// Columns torque [N m], part (a mesh of several, a body, a mode), quantity, value, unit, remark, error: geometry of each [[mesh]], which has
+// no torque, then the numbers of the page's tables of results. A '#' line with the scene before the line of names.
 std::string report_tsv(const ReportContent& content);
 
 }  // namespace whine

@@ -13,6 +13,8 @@
 #include "io/summary.h"
 #include "report/figure_words.h"
 #include "report/figures.h"
+#include "report/one_system.h"
+#include "report/system_picture.h"
 #include "signal/response.h"
 #include "signal/spectrum.h"
 
@@ -20,50 +22,144 @@ namespace whine {
 
 using Eigen::Index;
 
+namespace {
+
+bool one_torque(double a, double b) {
+  return std::abs(a - b) <= 1e-9 * std::abs(b);
+}
+
+bool one_pair(const GearPairParameters& a, const GearPairParameters& b) {
+  const auto same_gear = [](const GearDesign& x, const GearDesign& y) {
+    return x.teeth == y.teeth && x.module == y.module && x.pressure_angle == y.pressure_angle &&
+           x.profile_shift == y.profile_shift && x.face_width == y.face_width;
+  };
+  return same_gear(a.gear[0].design, b.gear[0].design) && same_gear(a.gear[1].design, b.gear[1].design) &&
+         a.mesh.centre_distance == b.mesh.centre_distance && a.mesh.modification == b.mesh.modification;
+}
+
+// Whether an artifact is of the pair or train of the statics.
+bool one_scene(const SystemStaticResult& first, const SystemStaticResult& a) {
+  return first.of_train() == a.of_train() && first.hunting_periods == a.hunting_periods &&
+         (a.of_train() ? one_system(a.settings.layout, first.settings.layout)
+                       : one_pair(a.mesh[0], first.mesh[0]));
+}
+bool one_scene(const SystemStaticResult& first, const MotionSource& a) {
+  return first.of_train() == a.of_train() &&
+         (a.of_train() ? one_system(a.train.layout, first.settings.layout) : one_pair(a, first.mesh[0]));
+}
+
+}  // namespace
+
+double torque_of(const SystemStaticResult& rest) {
+  if (!rest.of_train()) return rest.mesh.at(0).torque;
+  double most = 0;
+  for (Index b = 0; b < rest.torque.cols(); ++b)
+    if (!rest.settings.layout.held(static_cast<int>(b))) most = std::max(most, rest.torque.col(b).mean());
+  return std::round(most * 1e6) * 1e-6;
+}
+
+double torque_of(const MotionSource& motion) {
+  return motion.of_train() && motion.drive.size() > 0 ? motion.drive.maxCoeff() : motion.torque;
+}
+
+System layout_of(const ReportContent& c) {
+  if (c.statics.empty()) return c.modes ? c.modes->layout : System{};
+  if (c.of_train()) return c.statics[0].settings.layout;
+  const StaticResult& s = c.pair();
+  System out = layout_of_pair(s);
+  out.drives.push_back({0, System::DriveKind::torque, s.torque});
+  const MotionSource* motion = !c.sweeps.empty()    ? static_cast<const MotionSource*>(&c.sweeps[0])
+                               : !c.impacts.empty() ? &c.impacts[0]
+                                                    : nullptr;
+  for (size_t g = 0; g < kSides && motion; ++g) out.bodies[g].inertia = motion->inertia[g];
+  return out;
+}
+
+bool has_planets(const System& system) {
+  return std::any_of(system.bodies.begin(), system.bodies.end(),
+                     [](const System::Body& body) { return body.on != System::kGround; });
+}
+
+const SystemStaticResult* rest_of(const ReportContent& c) {
+  return c.statics.empty() ? nullptr : &c.statics[0];
+}
+
 const ResponseResult* sweep_of(const ReportContent& c, double torque, Direction direction) {
   for (const ResponseResult& s : c.sweeps)
-    if (s.torque == torque && s.direction == direction) return &s;
+    if (one_torque(torque_of(s), torque) && s.direction == direction) return &s;
   return nullptr;
 }
 
 const ImpactResult* impact_of(const ReportContent& c, double torque) {
   for (const ImpactResult& a : c.impacts)
-    if (a.torque == torque) return &a;
+    if (one_torque(torque_of(a), torque)) return &a;
   return nullptr;
 }
 
-void require_one_pair(const ReportContent& c) {
+void require_one_scene(const ReportContent& c) {
+  if (c.statics.empty() && (!c.modes || !c.sweeps.empty()))
+    fail(Failure::input, "report: no static.h5 given; that of the scene's first torque is the least");
   if (c.statics.empty()) return;
-  const StaticResult& first = c.statics[0];
-  const auto same_gear = [](const GearDesign& a, const GearDesign& b) {
-    return a.teeth == b.teeth && a.module == b.module && a.pressure_angle == b.pressure_angle &&
-           a.profile_shift == b.profile_shift && a.face_width == b.face_width;
-  };
+  const SystemStaticResult& first = c.statics[0];
+  if (c.modes && !one_system(first.settings.layout, c.modes->layout))
+    fail(Failure::input, "report: static.h5 and modes.h5 are of two systems; give artifacts of one scene");
   std::set<std::pair<std::string, double>> seen;
-  const auto take = [&](const auto& a, const std::string& what) {
-    if (!same_gear(a.gear[0].design, first.gear[0].design) ||
-        !same_gear(a.gear[1].design, first.gear[1].design) ||
-        a.mesh.centre_distance != first.mesh.centre_distance ||
-        a.mesh.modification != first.mesh.modification)
-      fail(Failure::input, what, " at ", torque_words(a.torque), " is of another pair than the static.h5 at ",
-           torque_words(first.torque), "; give artifacts of one scene");
-    if (!seen.emplace(what, a.torque).second)
-      fail(Failure::input, what, " at ", torque_words(a.torque), " is given twice; give one of each torque");
+  const auto take = [&](bool same, double torque, const std::string& what) {
+    if (!same)
+      fail(Failure::input, what, " at ", torque_words(torque), " is of other gears than the static.h5 at ",
+           torque_words(torque_of(first)), "; give artifacts of one scene");
+    if (!seen.emplace(what, torque).second)
+      fail(Failure::input, what, " at ", torque_words(torque), " is given twice; give one of each torque");
   };
-  for (const auto& s : c.statics) take(s, "a static.h5");
-  for (const auto& a : c.impacts) take(a, "an impact.h5");
-  for (const auto& s : c.sweeps) take(s, text("a response.h5 ", s.direction));
-  if (c.budget) take(*c.budget, "the error_budget.h5");
-  for (const auto& errors : c.errors) take(errors, text("a sweep_errors.h5 ", errors.direction));
+  for (const SystemStaticResult& s : c.statics) take(one_scene(first, s), torque_of(s), "a static.h5");
+  const auto take_motion = [&](const MotionSource& a, const std::string& what) {
+    const double torque = torque_of(a);
+    take(one_scene(first, a), torque, what);
+    if (std::none_of(c.statics.begin(), c.statics.end(),
+                     [&](const auto& s) { return one_torque(torque, torque_of(s)); }))
+      fail(Failure::input, what, " is at ", torque_words(torque), " on '", driver_of(c).name,
+           "', at which no static.h5 is given; give it, too");
+  };
+  for (const ImpactResult& a : c.impacts) take_motion(a, "an impact.h5");
+  for (const ResponseResult& s : c.sweeps) {
+    take_motion(s, text("a response.h5 ", s.direction));
+    if (s.hunting_periods != first.hunting_periods)
+      fail(Failure::input, "report: the same teeth meet again after ", s.hunting_periods,
+           " mesh periods in response.h5 and after ", first.hunting_periods,
+           " in static.h5; give artifacts of one scene");
+  }
+  if (c.budget)
+    take(!first.of_train() && one_pair(*c.budget, first.mesh[0]), c.budget->torque, "the error_budget.h5");
+  for (const SweepErrorsResult& a : c.errors) take_motion(a, text("a sweep_errors.h5 ", a.direction));
 }
 
 TurningMember driver_of(const ReportContent& c) {
-  if (c.statics.empty()) return {};
-  return {c.statics[0].mesh.gear[0], 1.0 / c.statics[0].gear[0].design.teeth};
+  const System s = layout_of(c);
+  if (s.bodies.empty()) return {};
+  const SystemStaticResult* rest = rest_of(c);
+  size_t driver = 0;
+  double most = 0;
+  for (size_t b = 0; b < s.bodies.size(); ++b) {
+    if (s.held(static_cast<int>(b))) continue;
+    const double torque = rest && rest->of_train() ? rest->torque.col(static_cast<Index>(b)).mean()
+                                                   : s.torque(static_cast<int>(b));
+    if (torque > most) {
+      most = torque;
+      driver = b;
+    }
+  }
+  Figure speeds;
+  add_shafts(s, speeds);
+  return {s.bodies[driver].name, speeds.shafts.empty() ? 0 : std::abs(speeds.shafts[driver].turns)};
 }
 
 double static_force(const StaticResult& s) {
   return normal_force(s.gear[0].design, s.torque);
+}
+
+double rest_force(const SystemStaticResult& rest, size_t mesh) {
+  return rest.of_train() ? rest.mesh_force.col(static_cast<Index>(mesh)).mean()
+                         : static_force(rest.mesh[mesh]);
 }
 
 std::string plain_force_name(const StaticResult& s) {
@@ -75,6 +171,7 @@ double peak_to_peak(const Eigen::VectorXd& v) {
 }
 
 double tip_edge_load(const StaticResult& mesh) {
+  if (mesh.contact_pressure.size() == 0) return 0;
   return (mesh.contact_pressure.array() == 0).select(mesh.tooth_load, 0.0).maxCoeff();
 }
 

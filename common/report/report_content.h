@@ -1,4 +1,4 @@
-// What a report is made of, and words and numbers that its parts share.
+// What a report is made of, and words and numbers that its parts share: of a pair, which is two bodies with one mesh, or of a train.
 #pragma once
 #include <optional>
 #include <string>
@@ -8,6 +8,7 @@
 #include "report/speed_words.h"
 #include "results/error_budget.h"
 #include "results/impact.h"
+#include "results/modes.h"
 #include "results/response.h"
 #include "results/static.h"
 #include "results/sweep_errors.h"
@@ -27,32 +28,49 @@ struct ReportSource {
   Origin origin;
 };
 
-// Artifacts in the order in which the scene lists its torques.
+// Artifacts in the order in which the scene lists its torques; what is not there is left out of the page.
 struct ReportContent {
-  std::string scene;  // "file: title"
-  std::vector<StaticResult> statics;
-  std::vector<ImpactResult> impacts;
-  std::vector<ResponseResult> sweeps;
-  std::optional<ErrorBudgetResult> budget;
+  std::string scene;                        // "file: title"
+  std::vector<SystemStaticResult> statics;  // none: of rigid gears
+  std::optional<ModesResult> modes = {};
+  std::vector<ImpactResult> impacts = {};
+  std::vector<ResponseResult> sweeps = {};
+  std::optional<ErrorBudgetResult> budget = {};
   std::vector<SweepErrorsResult> errors = {};  // of one torque, one of each direction
-  std::vector<ReportPicture> pictures;
-  std::vector<ReportSource> sources;
+  std::vector<ReportPicture> pictures = {};
+  std::vector<ReportSource> sources = {};
   std::string figure_folder =
       {};  // of the pictures and their numbers, as the page links them: "", "../report/"
+
+  bool of_train() const { return statics.empty() ? modes.has_value() : statics[0].of_train(); }
+  // Of a pair at its first torque.
+  const StaticResult& pair() const { return statics.at(0).mesh.at(0); }
 };
 
-// Of the content; nullptr if there is none.
+// N m: on the driver of a pair, on the input of a train.
+double torque_of(const SystemStaticResult& rest);
+double torque_of(const MotionSource& motion);
+
+// Bodies and meshes, of a pair, too.
+System layout_of(const ReportContent& c);
+bool has_planets(const System& system);  // on a carrier
+
+// At the first torque; of the content at a torque; nullptr if there is none.
+const SystemStaticResult* rest_of(const ReportContent& c);
 const ResponseResult* sweep_of(const ReportContent& c, double torque, Direction direction);
 const ImpactResult* impact_of(const ReportContent& c, double torque);
 
-// Throws Error(input) for artifacts of different gears or modifications, and for two of one kind at one torque (of sweeps: and of one
-// direction).
-void require_one_pair(const ReportContent& c);
+// Throws Error(input) for content without static.h5 and modes.h5, artifacts of different gears, modifications or trains, two of one kind
+// at one torque (of sweeps: and of one direction), and motions at torques of which there is no static.h5.
+void require_one_scene(const ReportContent& c);
 
-// Whose rotation stands beside mesh frequencies; of content without statics one whose rotation is not known.
+// Whose rotation stands beside mesh frequencies: the driver, of a train the body with the largest torque; of content without statics and
+// modes one whose rotation is not known.
 TurningMember driver_of(const ReportContent& c);
 
-double static_force(const StaticResult& s);           // N: normal_force()
+double static_force(const StaticResult& s);  // N: normal_force()
+double rest_force(const SystemStaticResult& rest,
+                  size_t mesh);                       // N: the same, of a train the mean force of a mesh
 std::string plain_force_name(const StaticResult& s);  // "T / r_b", of helical gears "T / (r_b cos β_b)"
 double peak_to_peak(const Eigen::VectorXd& v);
 // N: largest load of a pair of a mesh whose tip edge touches, off the line of action.

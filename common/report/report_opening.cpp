@@ -1,7 +1,12 @@
 #include "report/report_opening.h"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
+#include <tuple>
 
+#include "base/error.h"
+#include "report/alike_meshes.h"
 #include "report/figures.h"
 #include "report/iso_comparison.h"
 #include "report/measured_errors.h"
@@ -12,158 +17,216 @@ namespace {
 
 using Eigen::Index;
 
-struct FirstTorque {
-  const StaticResult& rest;
-  const ResponseResult *up, *down;  // nullptr: none
-  const ImpactResult* ring_down;    // likewise
-  TurningMember driver;
-  const SweepErrorsResult *up_errors, *down_errors;  // likewise
+constexpr double kSmall = 0.01;  // of the largest load of a pair of teeth
 
-  const SweepErrorsResult* errors_of(const ResponseResult* r) const {
-    return r == up ? up_errors : down_errors;
+struct FirstTorque {
+  const ReportContent& content;
+  const SystemStaticResult* rest;             // nullptr: rigid gears
+  double torque = 0;                          // N m
+  std::vector<AlikeMeshes> sections = {};     // of those at rest
+  std::vector<const ResponseResult*> sweeps;  // rising, falling, those that are there
+  TurningMember driver;
+
+  explicit FirstTorque(const ReportContent& c) : content(c), rest(rest_of(c)), driver(driver_of(c)) {
+    if (!rest) return;
+    torque = torque_of(*rest);
+    sections = alike_meshes(*rest);
+    for (const Direction direction : {Direction::up, Direction::down})
+      if (const ResponseResult* sweep = sweep_of(c, torque, direction)) sweeps.push_back(sweep);
   }
-  const ResponseResult* sweep() const { return up ? up : down; }
+  const SweepErrorsResult* errors(const ResponseResult& r) const {
+    return errors_of(content, torque, r.direction);
+  }
   std::optional<SpeedRange> speeds() const {
-    if (!sweep()) return std::nullopt;
-    return SpeedRange{sweep()->mesh_frequency.minCoeff(), sweep()->mesh_frequency.maxCoeff()};
+    if (sweeps.empty()) return std::nullopt;
+    const Eigen::VectorXd& f = sweeps[0]->mesh_frequency;
+    return SpeedRange{f.minCoeff(), f.maxCoeff()};
   }
 };
 
-// Speeds, and whether teeth part there.
-std::map<double, bool> speeds_apart(const ResponseResult* r) {
-  std::map<double, bool> apart;
-  if (r)
-    for (Index i = 0; i < r->mesh_frequency.size(); ++i)
-      apart[r->mesh_frequency[i]] = r->separation_fraction(i, 0) > 0;
-  return apart;
+std::string excitation(const FirstTorque& t) {
+  if (!t.rest) return excitation_line("", {});
+  const ErrorBudgetResult* budget = budget_of(t.content, t.torque);
+  std::vector<MeshExcitation> out;
+  for (const AlikeMeshes& section : t.sections) {
+    MeshExcitation& e = out.emplace_back(MeshExcitation{section.name, {1e30, 0}, {1e30, 0}});
+    for (const size_t m : section.meshes) {
+      const StaticResult& mesh = t.rest->mesh[m];
+      const Eigen::VectorXd& harmonic = mesh.transmission_error_harmonic;
+      const double swing = peak_to_peak(mesh.transmission_error),
+                   first = harmonic.size() > 1 ? harmonic[1] : 0;
+      e.peak_to_peak = {std::min(e.peak_to_peak.least, swing), std::max(e.peak_to_peak.most, swing),
+                        swing * sum_of(budget, &StaticChanges::peak_to_peak_change)};
+      e.first_order = {std::min(e.first_order.least, first), std::max(e.first_order.most, first),
+                       harmonic_error(budget, 1, first)};
+    }
+  }
+  return excitation_line(text(torque_words(t.torque), t.rest->of_train() ? " on " + t.driver.name : ""), out);
 }
 
-std::optional<Parting::Sweep> parting_sweep(const ResponseResult* r) {
-  if (!r) return std::nullopt;
-  return Parting::Sweep{marked_ranges(speeds_apart(r)), {r->jump_frequency.begin(), r->jump_frequency.end()}};
+// Natural modes that transmission errors excite, by the lowest order that meets them and the energy in the meshes.
+void add_modes(const ModesResult& a, CriticalSpeeds& out) {
+  constexpr double kMeshMode = 0.1;  // of the energy in the meshes
+  constexpr int kOrders = 3;
+  constexpr double kAlike = 0.01;
+  std::vector<std::tuple<int, double, Index>> modes;
+  for (Index i = 0; i < a.natural_frequency.size(); ++i) {
+    const double f = a.natural_frequency[i], energy = a.mesh_energy.row(i).sum();
+    int order = 1;
+    while (order <= kOrders && out.speeds && (f / order < out.speeds->from || f / order > out.speeds->to))
+      ++order;
+    if (f > 0 && energy > kMeshMode && order <= kOrders) modes.emplace_back(order, -energy, i);
+  }
+  std::sort(modes.begin(), modes.end());
+  for (const auto& [order, energy, i] : modes) {
+    // Pairs of translational modes have one frequency, or nearly so.
+    const double f = a.natural_frequency[i];
+    if (std::none_of(out.natural.begin(), out.natural.end(),
+                     [&](const auto& known) { return std::abs(known.frequency - f) < kAlike * f; }))
+      out.natural.push_back({f, text("mode ", i + 1, ", ", name_of(a.type[static_cast<size_t>(i)]))});
+  }
 }
 
-bool parts_at_torque(const ReportContent& c, double torque) {
-  for (const Direction direction : {Direction::up, Direction::down})
-    if (const ResponseResult* r = sweep_of(c, torque, direction))
-      if (r->separation_fraction.maxCoeff() > 0) return true;
-  return false;
-}
-
-std::string pair_excitation(const StaticResult& s, const ErrorBudgetResult* budget) {
-  const double swing = peak_to_peak(s.transmission_error),
-               first = s.transmission_error_harmonic.size() > 1 ? s.transmission_error_harmonic[1] : 0;
-  return excitation_line(torque_words(s.torque),
-                         {{"",
-                           {swing, swing, swing * sum_of(budget, &StaticChanges::peak_to_peak_change)},
-                           {first, first, harmonic_error(budget, 1, first)}}});
-}
-
-std::string pair_critical_speeds(const FirstTorque& t) {
+std::string critical_speeds(const FirstTorque& t) {
   CriticalSpeeds out{t.driver, t.speeds(), {}, {}};
-  const ResponseResult* r = t.sweep();
+  const ResponseResult* r = t.sweeps.empty() ? nullptr : t.sweeps[0];
+  const ImpactResult* ring_down = impact_of(t.content, t.torque);
+  const char* const mesh = "the natural frequency of the mesh";
   if (r && r->natural_frequency > 0)
     out.natural.push_back(
-        {r->natural_frequency, "the natural frequency of the mesh",
-         t.errors_of(r) ? t.errors_of(r)->natural_frequency_error * r->natural_frequency : kNoError});
-  else if (t.ring_down && t.ring_down->states.natural_frequency.size() > 0)
-    out.natural.push_back(
-        {t.ring_down->states.natural_frequency[t.ring_down->states.natural_frequency.size() - 1],
-         "the natural frequency of the mesh"});
+        {r->natural_frequency, mesh,
+         t.errors(*r) ? t.errors(*r)->natural_frequency_error * r->natural_frequency : kNoError});
+  else if (ring_down && ring_down->states.natural_frequency.size() > 0)
+    out.natural.push_back({ring_down->states.natural_frequency.tail<1>()[0], mesh});
+  if (t.content.modes) add_modes(*t.content.modes, out);
   if (r)
-    for (const Index i : resonances(*r)) out.peaks.push_back(r->mesh_frequency[i]);
+    for (const Index i : resonances(r->mesh_frequency, r->dte_rms.rowwise().maxCoeff()))
+      out.peaks.push_back(r->mesh_frequency[i]);
   return critical_speed_line(out);
 }
 
-std::string pair_parting(const ReportContent& c, const FirstTorque& t) {
+// Speeds, and whether teeth of a mesh part there.
+std::map<double, bool> speeds_apart(const ResponseResult& r) {
+  std::map<double, bool> apart;
+  for (Index i = 0; i < r.mesh_frequency.size(); ++i)
+    apart[r.mesh_frequency[i]] = r.separation_fraction.row(i).maxCoeff() > 0;
+  return apart;
+}
+
+bool parts(const std::vector<const ResponseResult*>& sweeps) {
+  return std::any_of(sweeps.begin(), sweeps.end(),
+                     [](const ResponseResult* r) { return r->separation_fraction.maxCoeff() > 0; });
+}
+
+std::string parting(const FirstTorque& t) {
   Parting out;
   out.member = t.driver;
   out.speeds = t.speeds();
-  out.rising = parting_sweep(t.up);
-  out.falling = parting_sweep(t.down);
-  if (t.up && t.down) out.only_falling = marked_ranges(but_not(speeds_apart(t.down), speeds_apart(t.up)));
-  for (const StaticResult& other : c.statics) {
-    if (other.torque == t.rest.torque ||
-        !(sweep_of(c, other.torque, Direction::up) || sweep_of(c, other.torque, Direction::down)))
-      continue;
-    (parts_at_torque(c, other.torque) ? out.parts_at : out.holds_at).push_back(torque_words(other.torque));
+  std::vector<std::string> names;
+  for (const ResponseResult* r : t.sweeps) {
+    (r->direction == Direction::up ? out.rising : out.falling) =
+        Parting::Sweep{marked_ranges(speeds_apart(*r)), {r->jump_frequency.begin(), r->jump_frequency.end()}};
+    for (const AlikeMeshes& section : t.sections)
+      if (std::any_of(
+              section.meshes.begin(), section.meshes.end(),
+              [&](size_t m) { return r->separation_fraction.col(static_cast<Index>(m)).maxCoeff() > 0; }) &&
+          std::find(names.begin(), names.end(), section.name) == names.end())
+        names.push_back(section.name);
+  }
+  out.meshes = listed(names);
+  if (t.sweeps.size() == 2)
+    out.only_falling = marked_ranges(but_not(speeds_apart(*t.sweeps[1]), speeds_apart(*t.sweeps[0])));
+  for (const SystemStaticResult& other : t.content.statics) {
+    const double torque = torque_of(other);
+    std::vector<const ResponseResult*> sweeps;
+    for (const Direction direction : {Direction::up, Direction::down})
+      if (const ResponseResult* r = sweep_of(t.content, torque, direction)) sweeps.push_back(r);
+    if (torque != t.torque && !sweeps.empty())
+      (parts(sweeps) ? out.parts_at : out.holds_at).push_back(torque_words(torque));
   }
   return parting_line(out);
 }
 
-std::string pair_dynamic_factor(const FirstTorque& t) {
-  std::optional<DynamicFactorPeak> most;
-  const ResponseResult* of = nullptr;
-  for (const ResponseResult* r : {t.up, t.down}) {
-    if (!r) continue;
-    const DynamicFactorPeak peak = largest_dynamic_factor(t.rest, *r);
-    if (most && most->factor >= peak.factor) continue;
-    most = peak;
-    of = r;
+std::string dynamic_factor(const FirstTorque& t) {
+  std::vector<DynamicFactor> out;
+  std::string why_none;
+  for (const AlikeMeshes& section : t.sections) {
+    DynamicFactor most{section.name, 0, 0, {}};
+    for (const ResponseResult* r : t.sweeps)
+      for (const size_t m : section.meshes) {
+        const DynamicFactorPeak peak = largest_dynamic_factor(*t.rest, *r, m);
+        if (peak.factor <= most.factor) continue;
+        const double at = r->mesh_frequency[peak.row];
+        most = {section.name, peak.factor, at, peak.standard,
+                peak.factor * error_near(t.errors(*r), &SweepErrorsResult::mesh_force_max, at, m)};
+        why_none = peak.why_none;
+      }
+    if (most.factor > 0) out.push_back(most);
   }
-  if (!most) return dynamic_factor_line(t.driver, {}, "");
-  const double at = of->mesh_frequency[most->row],
-               error = error_near(t.errors_of(of), &SweepErrorsResult::mesh_force_max, at);
-  return dynamic_factor_line(t.driver, {{"", most->factor, at, most->standard, error * most->factor}},
-                             most->why_none);
+  return dynamic_factor_line(t.driver, out, why_none);
 }
 
-// N: largest load at rest of a pair that touches over a tip edge, where no pressure is stated.
-double largest_edge_load(const StaticResult& s) {
-  return s.contact_pressure.size() == 0
-             ? 0
-             : (s.contact_pressure.array() == 0).select(s.tooth_load.array(), 0.0).maxCoeff();
-}
-
-// Where teeth part or, if they do not, where the vibration is above this part of its largest.
-std::vector<SpeedRange> pair_speeds_to_avoid(const FirstTorque& t, bool parts) {
+// Where teeth part or, if they do not, where the vibration is near its largest.
+std::vector<SpeedRange> speeds_to_avoid(const FirstTorque& t, bool apart) {
   constexpr double kNearPeak = 0.7;
   std::map<double, bool> marked;
-  for (const ResponseResult* r : {t.up, t.down}) {
-    if (!r || (!parts && resonances(*r).empty())) continue;
-    const double most = r->dte_rms.maxCoeff();
-    for (Index i = 0; i < r->mesh_frequency.size(); ++i)
-      marked[r->mesh_frequency[i]] |=
-          parts ? r->separation_fraction(i, 0) > 0 : r->dte_rms(i, 0) > kNearPeak * most;
+  for (const ResponseResult* r : t.sweeps) {
+    const Eigen::VectorXd rms = r->dte_rms.rowwise().maxCoeff();
+    if (!apart && resonances(r->mesh_frequency, rms).empty()) continue;
+    for (const auto& [f, lost] : speeds_apart(*r)) marked[f] |= apart && lost;
+    for (Index i = 0; !apart && i < rms.size(); ++i)
+      marked[r->mesh_frequency[i]] |= rms[i] > kNearPeak * rms.maxCoeff();
   }
   return marked_ranges(marked);
 }
 
-std::string pair_advice(const FirstTorque& t) {
-  const StaticResult& s = t.rest;
-  constexpr double kSmall = 0.01;  // of the largest load of a pair
+// What tip edges of a section carry, where nothing is taken off both gears' tips. Returns whether the gears have or need relief.
+bool add_relief(const SystemStaticResult& a, const AlikeMeshes& section, Advice& out) {
+  const StaticResult& first = a.mesh[section.meshes.front()];
+  if (first.mesh.modification[0].tip.amount > 0 && first.mesh.modification[1].tip.amount > 0) return true;
+  double edge = 0, load = 0, deflection = 0;
+  for (const size_t m : section.meshes) {
+    const StaticResult& mesh = a.mesh[m];
+    deflection =
+        std::max(deflection, (a.mesh_deflection.col(static_cast<Index>(m)) - mesh.unloaded_error).maxCoeff());
+    load = std::max(load, mesh.tooth_load.maxCoeff());
+    edge = std::max(edge, tip_edge_load(mesh));
+  }
+  if (!(edge > kSmall * load)) return false;
+  out.relief.push_back({section.name.empty() ? "both gears" : section.name, deflection, edge});
+  return true;
+}
+
+std::string advice(const FirstTorque& t) {
+  constexpr double kUnequal = 1.3;  // of an equal share
   Advice out;
   out.member = t.driver;
-  const double edge = largest_edge_load(s),
-               least = s.stiffness_secant.size() > 0 ? s.stiffness_secant.minCoeff() : 0;
-  const bool relieved = s.mesh.modification[0].tip.amount > 0 && s.mesh.modification[1].tip.amount > 0;
-  if (edge > kSmall * s.tooth_load.maxCoeff() && least > 0 && !relieved)
-    out.relief.push_back({"both gears", static_force(s) / least, edge});
-  if (relieved || !out.relief.empty())
+  bool relief = false;
+  for (const AlikeMeshes& section : t.sections) relief = add_relief(*t.rest, section, out) || relief;
+  if (relief && !t.content.of_train())
     out.more.emplace_back("See make harris-map for the relief that suits a torque.");
-  for (const ResponseResult* r : {t.up, t.down})
-    out.parts = out.parts || (r && r->separation_fraction.maxCoeff() > 0);
-  out.avoid = pair_speeds_to_avoid(t, out.parts);
-  if (s.stiffness_harmonic.size() > 1)
-    out.stiffness_swing = s.stiffness_harmonic[1] / s.stiffness_harmonic[0];
-  if (t.ring_down && t.ring_down->states.damping_ratio.size() > 0)
-    out.damping_ratio = t.ring_down->states.damping_ratio[t.ring_down->states.damping_ratio.size() - 1];
+  if (t.rest)
+    for (const LoadSharing& of : load_sharing(*t.rest))
+      if (of.factor > kUnequal)
+        out.more.push_back(text("One of the meshes of ", of.name, " carries ", fixed(of.factor, 2),
+                                " times an equal share: let a central gear float on a softer [[bearing]]."));
+  out.parts = parts(t.sweeps);
+  out.avoid = speeds_to_avoid(t, out.parts);
+  if (t.sections.size() == 1 && t.rest->mesh[0].stiffness_harmonic.size() > 1)
+    out.stiffness_swing = t.rest->mesh[0].stiffness_harmonic[1] / t.rest->mesh[0].stiffness_harmonic[0];
+  if (const ImpactResult* a = impact_of(t.content, t.torque); a && a->states.damping_ratio.size() > 0)
+    out.damping_ratio = a->states.damping_ratio.tail<1>()[0];
+  if (!t.rest)
+    out.more.emplace_back(
+        "Keep the speeds of operation away from the critical ones; give the gears drawings and materials to see what excites them.");
   return advice_line(out);
 }
 
 }  // namespace
 
 std::vector<std::string> opening_lines(const ReportContent& c) {
-  const StaticResult& s = c.statics.front();
-  const FirstTorque t{s,
-                      sweep_of(c, s.torque, Direction::up),
-                      sweep_of(c, s.torque, Direction::down),
-                      impact_of(c, s.torque),
-                      driver_of(c),
-                      errors_of(c, s.torque, Direction::up),
-                      errors_of(c, s.torque, Direction::down)};
-  return {pair_excitation(s, budget_of(c, s.torque)), pair_critical_speeds(t), pair_parting(c, t),
-          pair_dynamic_factor(t), pair_advice(t)};
+  const FirstTorque t(c);
+  return {excitation(t), critical_speeds(t), parting(t), dynamic_factor(t), advice(t)};
 }
 
 }  // namespace whine

@@ -1,4 +1,4 @@
-// The first five lines of the report of a pair, at the first torque of its scene.
+// The first five lines of a report, at the first torque of its scene.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,7 +7,8 @@
 
 namespace whine {
 
-// Excitation, critical speeds, contact, dynamic factor, what to change; see opening.h.
+// Excitation, critical speeds, contact, dynamic factor, what to change, as far as the artifacts hold them; see opening.h. Meshes of one
+// [[mesh]] are said together.
 std::vector<std::string> opening_lines(const ReportContent& content);
 
 }  // namespace whine

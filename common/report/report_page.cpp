@@ -38,52 +38,15 @@ std::string picture_html(const ReportPicture& picture, const std::string& title,
 }
 
 void require_known_pictures(const std::vector<ReportPicture>& pictures,
-                            const std::vector<std::string>& figures, const std::string& whose) {
+                            const std::vector<std::string>& figures) {
   for (size_t i = 0; i < pictures.size(); ++i) {
     const std::string& name = pictures[i].name;
     if (std::find(figures.begin(), figures.end(), name) == figures.end())
-      fail(Failure::input, "report: there are no words for a figure '", name, "'", whose, "; known are ",
+      fail(Failure::input, "report: there are no words for a figure '", name, "'; known are ",
            listed(figures));
     for (size_t j = 0; j < i; ++j)
       if (pictures[j].name == name) fail(Failure::input, "report: figure ", name, " is given twice");
   }
-}
-
-std::string remark_items(const std::string& where, const std::vector<Remark>& remarks,
-                         const TurningMember& member) {
-  constexpr size_t kMost = 12;  // of one artifact
-  std::string out;
-  for (size_t i = 0; i < std::min(remarks.size(), kMost); ++i)
-    out += html::tagged(remarks[i].warning ? "li class=\"warning\"" : "li",
-                        (remarks[i].warning ? "<strong>Warning.</strong> " : "") +
-                            html::escaped(where + ": " + with_rpm(member, remarks[i].words)) + ".") +
-           "\n";
-  if (remarks.size() > kMost)
-    out += html::tagged("li", html::escaped(text(where, ": ", remarks.size() - kMost, " more of these."))) +
-           "\n";
-  return out;
-}
-
-std::string remark_list(const std::string& items, bool warned) {
-  return (warned ? "" : html::paragraph("No stage warns of anything.")) +
-         (items.empty() ? "" : html::tagged("ul class=\"remarks\"", "\n" + items) + "\n");
-}
-
-std::string guide_table(const std::string& caption, const std::vector<GuideRow>& rows,
-                        const std::vector<ReportPicture>& pictures) {
-  const auto cell = [](const std::string& words) { return "<td>" + words + "</td>"; };
-  std::string out =
-      "<div class=\"wide\"><table class=\"guide\">\n<caption>" + caption +
-      "</caption>\n<thead><tr><th>what</th><th>how to read it</th><th>how far to trust it</th><th>what to do next</th></tr></thead>\n<tbody>\n";
-  for (const GuideRow& row : rows) {
-    std::string links;
-    for (const ReportPicture& picture : pictures)
-      if ((" " + row.figures + " ").find(" " + picture.name + " ") != std::string::npos)
-        links += text(links.empty() ? " (" : ", ", "<a href=\"#", picture.name, "\">", picture.name, "</a>");
-    out += "<tr>" + cell(row.what + links + (links.empty() ? "" : ")")) + cell(row.reading) +
-           cell(row.trust) + cell(row.next) + "</tr>\n";
-  }
-  return out + "</tbody></table></div>\n";
 }
 
 std::string provenance_table(const std::vector<ReportSource>& sources) {

@@ -2,61 +2,69 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <map>
+#include <tuple>
 #include <utility>
 
 #include "base/error.h"
 #include "base/format.h"
+#include "base/units.h"
 #include "gear/friction.h"
 #include "gear/hertz.h"
+#include "gear/pair.h"
+#include "report/alike_meshes.h"
 #include "report/figures.h"
-#include "report/html.h"
 #include "report/iso_comparison.h"
 #include "report/measured_errors.h"
+#include "report/report_gears.h"
 #include "report/response_figures.h"
+#include "report/result_groups.h"
+#include "report/sweep_panels.h"
+#include "signal/response.h"
 
 namespace whine {
 namespace {
 
 using Eigen::Index;
 using Numbers = std::vector<ReportNumber>;
+using namespace groups;
 
 // One definition at rest and in motion, so that the two can be compared.
 const std::string kNominalPressure =
     "nominal contact pressure of the largest tooth load (Hertz, at the pitch point)";
-constexpr const char* kBeyond = "beyond the backlash";
 
-constexpr const char* kExcitation = "Excitation, at rest";
-constexpr const char* kNatural = "Natural frequencies and damping";
-constexpr const char* kSpeeds = "Speeds";
-constexpr const char* kVibration = "Vibration";
-constexpr const char* kLoads = "Loads";
-constexpr const char* kFace = "Load over the face";
-constexpr const char* kBearings = "Forces on the bearings";
-constexpr const char* kStress = "Stress";
-constexpr const char* kLosses = "Losses";
-// In the order of the page.
-constexpr std::array kGroups{kExcitation, kNatural,  kSpeeds, kVibration, kLoads,
-                             kFace,       kBearings, kStress, kLosses};
+constexpr double kNothing = 1e-3;  // N: what is left of a first order that cancels
 
-// Adds numbers of one torque to a group.
+// Adds numbers of the whole, of a mesh or of a body at one torque to a group.
 struct Adder {
-  double torque;         // N m
-  double rpm_per_hertz;  // of the driver
-  Numbers& out;
+  double torque;  // N m
+  TurningMember driver;
+  Numbers* out;
+  ReportNumber::Of of = ReportNumber::Of::whole;
   size_t column = 0;
+  std::string part = "";
   const char* group = "";
   std::string way = "";
 
+  // Of mesh or body i of `count`, the names of which are given.
+  Adder at(ReportNumber::Of what, const std::vector<std::string>& names, size_t i) const {
+    Adder out_of_part = *this;
+    out_of_part.of = what;
+    out_of_part.column = column * names.size() + i;
+    if (names.size() > 1) out_of_part.part = names[i];
+    return out_of_part;
+  }
   void operator()(const std::string& quantity, const std::string& unit, const std::string& value,
                   const std::string& remark = "") const {
-    out.push_back({group, torque, quantity + way, unit, value, remark, way, "", column});
+    out->push_back({group, torque, quantity + way, unit, value, remark, way, "", "", part, of, column});
   }
   // With an absolute error in this unit or, below 0, without and as `plain`.
   void told(const std::string& quantity, const std::string& unit, double value, double error,
             const std::string& plain, const std::string& remark = "") const {
     const ToldNumber with = whine::told(value, error, kToldDigits);
     (*this)(quantity, unit, with.error.empty() ? plain : with.value, remark);
-    out.back().error = with.error;
+    out->back().error = with.error;
   }
   // With a relative error, of values above 0.
   void judged(const std::string& quantity, const std::string& unit, double value, double error,
@@ -67,12 +75,18 @@ struct Adder {
   void speed(const std::string& quantity, double mesh_frequency, const std::string& remark = "",
              double error = kNoError) const {
     judged(quantity, "Hz", mesh_frequency, error, hertz(mesh_frequency), remark);
-    out.back().rpm = fixed(mesh_frequency * rpm_per_hertz, 0);
+    if (driver.turns > 0) out->back().rpm = fixed(driver.rpm(mesh_frequency), 0);
   }
   // words(scale): of the speeds, which are mesh frequencies times a scale.
   void speeds(const std::string& quantity, const auto& words) const {
     (*this)(quantity, "Hz", words(1.0));
-    out.back().rpm = words(rpm_per_hertz);
+    if (driver.turns > 0) out->back().rpm = words(driver.rpm(1));
+  }
+  // N: amplitude of a first order, and the level of its RMS where it is more than what rounding leaves.
+  void first_order(const std::string& of_what, double amplitude, const std::string& remark = "") const {
+    (*this)(of_what, "N", fixed(amplitude, 2), remark);
+    if (amplitude > kNothing)
+      (*this)("level of the RMS of that order", "dB re 1 N", decibels(amplitude), remark);
   }
 };
 
@@ -97,10 +111,19 @@ void add_excitation(const StaticResult& s, const ErrorBudgetResult* budget, Adde
         fixed(s.stiffness_harmonic[1] / s.stiffness_harmonic[0] * kPercent, 2));
 }
 
-void add_loads_at_rest(const StaticResult& s, Adder add) {
+void add_loads_at_rest(const SystemStaticResult& rest, size_t m, Adder add) {
+  const StaticResult& s = rest.mesh[m];
+  const auto column = static_cast<Index>(m);
   add.group = kLoads;
-  add("static tooth load, largest", "N", fixed(s.tooth_load.maxCoeff(), 0));
-  add("load of one pair alone, " + plain_force_name(s), "N", fixed(static_force(s), 0));
+  add("static tooth load, largest", "N", fixed(s.tooth_load.maxCoeff(), 1));
+  add("load of one pair alone, " + plain_force_name(s), "N", fixed(static_force(s), 1));
+  add.group = kForce;
+  add("mesh force at rest, mean", "N", fixed(rest.mesh_force.col(column).mean(), 1));
+  add("mesh force at rest, largest", "N", fixed(rest.mesh_force.col(column).maxCoeff(), 1));
+  add.group = kSharing;
+  if (!shares_load(rest, m)) return;
+  add("share of the load at rest, mean", "%", fixed(rest.load_share.col(column).mean() * kPercent, 2));
+  add("share of the load at rest, largest", "%", fixed(rest.load_share.col(column).maxCoeff() * kPercent, 2));
 }
 
 // Not of one slice.
@@ -117,24 +140,36 @@ void add_face_at_rest(const StaticResult& s, Adder add) {
         fixed(s.face.axial_force, 0));
 }
 
-void add_bearings_at_rest(const StaticResult& s, Adder add) {
+void add_body_at_rest(const ReportContent& c, const SystemStaticResult& rest, size_t b, Adder add) {
+  const auto column = static_cast<Index>(b);
+  add.group = kTorques;
+  add("torque, mean", "N m", fixed(rest.torque.col(column).mean(), 2), held_words(c, b));
+  add("torque, peak to peak", "N m", fixed(peak_to_peak(rest.torque.col(column)), 2));
+  const auto phases = static_cast<Index>(rest.bearing_force.size());
+  if (phases == 0) return;
+  MatrixRM force(phases, 2);
+  for (Index i = 0; i < phases; ++i) force.row(i) = rest.bearing_force[static_cast<size_t>(i)].row(column);
+  if (!rest.of_train())  // its driven gear stands above the driver there, beside it on the page
+    force = (MatrixRM(phases, 2) << force.col(1), -force.col(0)).finished();
+  const Eigen::RowVector2d mean = force.colwise().mean();
   add.group = kBearings;
-  for (size_t g = 0; g < kSides; ++g) {
-    if (s.bearing_force[g].size() == 0 || s.hunting_periods > 1) continue;
-    const std::string of = "static force on the bearing of " + s.mesh.gear[g] + ", first order";
-    const double amplitude = first_order_of_force(s.bearing_force[g]);
-    add(of, "N", significant(amplitude, 3));
-  }
+  add("force on the bearing, mean", "N", fixed(mean.norm(), 1));
+  add("its mean along x, to the right", "N", fixed(mean.x(), 1));
+  add("its mean along y, upwards", "N", fixed(mean.y(), 1));
+  add("force on the bearing, largest", "N", fixed(force.rowwise().norm().maxCoeff(), 1));
+  add("force on the bearing, RMS of the oscillating part", "N",
+      fixed((force.rowwise() - mean).rowwise().norm().norm() / std::sqrt(phases), 2));
+  add.first_order("force on the bearing, first order", first_order_of_force(force, rest.hunting_periods));
 }
 
 void add_stress_at_rest(const StaticResult& s, const ErrorBudgetResult* budget, Adder add) {
   add.group = kStress;
   add(text("static: ", kNominalPressure), "MPa",
-      fixed(hertz_contact(s, s.tooth_load.maxCoeff()).pressure * 1e-6, 0));
+      fixed(hertz_contact(s, s.tooth_load.maxCoeff()).pressure * kInMegapascals, 0));
   const FlankPressure& pressure = s.flank_pressure;
   if (pressure.smooth > 0)
     add.judged("static contact pressure inside a flank, largest", "MPa", pressure.smooth * 1e-6,
-               sum_of(budget, &StaticChanges::pressure_change), fixed(pressure.smooth * 1e-6, 0));
+               sum_of(budget, &StaticChanges::pressure_change), fixed(pressure.smooth * kInMegapascals, 0));
   if (pressure.on_ridge > pressure.smooth)
     add("the same where relief begins", "MPa", "no value: see the warnings");
   for (int g = 0; g < s.root_stress_max.size(); ++g)
@@ -166,126 +201,168 @@ void add_ring_down(const ContactStateDecays& a, Adder add) {
   }
 }
 
-// Values over speed of a gear; empty where they are not known.
-Eigen::VectorXd of_gear(const MatrixRM& values, size_t gear) {
-  const auto column = static_cast<Index>(gear);
-  return known_of(values, column) ? Eigen::VectorXd(values.col(column)) : Eigen::VectorXd();
+auto decimals(int digits) {
+  return [digits](double value) { return fixed(value, digits); };
 }
 
-// What a response says of one direction, each group in a function of its own.
+// What a response says of one direction, each group in a function of its own; `add` of the whole.
 class InMotion {
  public:
   // errors: of this direction; nullptr: not measured
-  InMotion(const StaticResult& s, const ResponseResult& r, const SweepErrorsResult* errors, Adder add)
-      : s_(s), r_(r), errors_(errors), add_(std::move(add)) {
+  InMotion(const SystemStaticResult& rest, const ResponseResult& r, const SweepErrorsResult* errors,
+           Adder add)
+      : rest_(rest), r_(r), errors_(errors), add_(std::move(add)) {
     add_.way = r.direction == Direction::up ? ", speed rising" : ", speed falling";
   }
+  // What follows is of this mesh.
+  void of_mesh(size_t m) {
+    mesh_ = static_cast<Index>(m);
+    add_ = add_.at(ReportNumber::Of::mesh, r_.mesh_names, m);
+  }
 
-  void speeds() {
+  void whole() {
     add_.group = kSpeeds;
     add_.speeds("resonances: peaks of the vibration", [&](double scale) {
       std::string list;
-      for (const Index i : resonances(r_))
+      for (const Index i : resonances(r_.mesh_frequency, r_.dte_rms.rowwise().maxCoeff()))
         list += (list.empty() ? "" : ", ") + fixed(r_.mesh_frequency[i] * scale, 0);
       return list.empty() ? std::string("none") : list;
     });
     add_jumps();
-    add_.speeds("contact lost", [&](double scale) { return loss_ranges(r_, scale); });
     if (!speeds_beyond_backlash({&r_}).empty())
       add_.speeds("motion beyond the backlash",
                   [&](double scale) { return speeds_beyond_backlash({&r_}, scale); });
+    losses();
+    add_.group = kSweeps;
+    add_("speeds", "1", text(r_.mesh_frequency.size()));
+    for (const auto& [what, is] : {std::pair{"speeds whose motion is not periodic", 0},
+                                   std::pair{"speeds whose motion repeats after several mesh periods", 1}}) {
+      std::map<double, bool> marked;
+      for (Index i = 0; i < r_.mesh_frequency.size(); ++i)
+        marked[r_.mesh_frequency[i]] =
+            is == 0 ? r_.period_multiple[i] == 0 : r_.period_multiple[i] > r_.hunting_periods;
+      add_(what, "1",
+           text(std::count_if(marked.begin(), marked.end(), [](const auto& f) { return f.second; })),
+           speed_ranges(marked));
+    }
+    add_("mesh periods run, most", "1", text(r_.periods.maxCoeff()));
+    add_("energy that is not accounted for, over that which goes through, largest", "1",
+         shown(r_.energy_imbalance.maxCoeff(), 3));
+  }
+
+  void contact() {
+    add_.group = kSpeeds;
+    add_.speeds("contact lost", [&](double scale) { return loss_ranges(r_, scale, mesh_); });
+    peak(add_, {"time without contact, largest", "%", "time"}, r_.separation_fraction.col(mesh_) * kPercent,
+         decimals(2));
   }
 
   void vibration() {
     add_.group = kVibration;
-    Index at = 0;
-    const double rms = r_.dte_rms.col(0).maxCoeff(&at);
-    add_.judged("largest RMS of the dynamic transmission error", "µm", rms * kMicro,
-                error(&SweepErrorsResult::dte_rms, at), significant(rms * kMicro, 3), star(at));
-    add_.speed("mesh frequency of that RMS", r_.mesh_frequency[at], star(at));
-    const double first = first_order_of(r_.dte_harmonic, 0).maxCoeff(&at);
-    add_.judged("largest first order of the dynamic transmission error", "µm", first * kMicro,
-                error(&SweepErrorsResult::dte_first_order, at), significant(first * kMicro, 3), star(at));
-    add_.speed("mesh frequency of that order", r_.mesh_frequency[at], star(at));
+    const auto four = [](double value) { return significant(value, 4); };
+    peak(add_, {"largest RMS of the dynamic transmission error", "µm", "RMS"}, r_.dte_rms.col(mesh_) * kMicro,
+         four, &SweepErrorsResult::dte_rms);
+    peak(add_, {"largest first order of the dynamic transmission error", "µm", "order"},
+         first_order_of(r_.dte_harmonic, mesh_) * kMicro, four, &SweepErrorsResult::dte_first_order);
   }
 
   void loads() {
     add_.group = kLoads;
-    Index at = 0;
-    const double load = r_.tooth_load_max.col(0).maxCoeff(&at);
-    const double load_error = error(&SweepErrorsResult::tooth_load_max, at);
-    add_.judged("largest tooth load", "N", load, load_error, fixed(load, 0), star(at));
-    add_.speed("mesh frequency of that tooth load", r_.mesh_frequency[at], star(at));
-    add_.judged("largest tooth load over " + plain_force_name(s_), "1", load / static_force(s_), load_error,
-                fixed(load / static_force(s_), 2), star(at));
-    add_sustained();
-    const DynamicFactorPeak peak = largest_dynamic_factor(s_, r_);
-    add_.judged("dynamic factor: largest mesh force over " + plain_force_name(s_), "1", peak.factor,
-                error(&SweepErrorsResult::mesh_force_max, peak.row), fixed(peak.factor, 2), star(peak.row));
-    add_.speed("mesh frequency of that factor", r_.mesh_frequency[peak.row], star(peak.row));
-    if (peak.standard) add_("K_v of ISO 6336-1, method B, at that speed", "1", fixed(*peak.standard, 2));
-    if (const Eigen::VectorXd first = first_order_of(r_.mesh_force_harmonic, 0); first.size() > 0) {
-      const double most = first.maxCoeff(&at);
-      add_("largest first order of the mesh force", "N", fixed(most, 0), star(at));
-      if (most > 0) add_("level of the RMS of that order", "dB re 1 N", decibels(most), star(at));
-      add_.speed("mesh frequency of that order of the force", r_.mesh_frequency[at], star(at));
+    const Eigen::VectorXd load = r_.tooth_load_max.col(mesh_);
+    peak(add_, {"largest tooth load", "N", "tooth load"}, load, decimals(1),
+         &SweepErrorsResult::tooth_load_max);
+    if (const double alone = static_force(mesh()); alone > 0)
+      peak(add_, {"largest tooth load over " + plain_force_name(mesh()), "1", ""}, load / alone, decimals(2),
+           &SweepErrorsResult::tooth_load_max);
+    if (r_.tooth_load_sustained.size() > 0)
+      peak(add_, {"largest tooth load that is sustained for 1/64 of a mesh period", "N", ""},
+           r_.tooth_load_sustained.col(mesh_), decimals(1), &SweepErrorsResult::tooth_load_sustained);
+    if (!shares_load(rest_, static_cast<size_t>(mesh_)) || r_.load_share_max.size() == 0) return;
+    add_.group = kSharing;
+    peak(add_, {"share of the load in motion, largest", "%", "share"},
+         r_.load_share_max.col(mesh_) * kPercent, decimals(2));
+  }
+
+  void force() {
+    add_.group = kForce;
+    const Eigen::VectorXd force = r_.mesh_force_max.col(mesh_);
+    const double at_rest = rest_force(rest_, static_cast<size_t>(mesh_));
+    peak(add_, {"largest mesh force", "N", "mesh force"}, force, decimals(1));
+    const std::string over = r_.of_train() ? "its mean at rest" : plain_force_name(mesh());
+    if (at_rest > 0) peak(add_, {"largest mesh force over " + over, "1", ""}, force / at_rest, decimals(2));
+    if (const DynamicFactorPeak top = largest_dynamic_factor(rest_, r_, static_cast<size_t>(mesh_));
+        top.factor > 0) {
+      add_.judged("dynamic factor: largest mesh force over " + over, "1", top.factor,
+                  error(&SweepErrorsResult::mesh_force_max, top.row), fixed(top.factor, 2), star(top.row));
+      add_.speed("mesh frequency of that factor", r_.mesh_frequency[top.row], star(top.row));
+      if (top.standard) add_("K_v of ISO 6336-1, method B, at that speed", "1", fixed(*top.standard, 2));
     }
+    first_order(add_, "mesh force", first_order_of(r_.mesh_force_harmonic, mesh_));
   }
 
   void face() {
     if (r_.face_load_factor.size() == 0) return;
     add_.group = kFace;
-    Index at = 0;
-    const double factor = r_.face_load_factor.col(0).maxCoeff(&at);
-    add_("largest face load factor K_Hβ in motion, of the most loaded pair", "1", fixed(factor, 3), star(at));
-    add_.speed("mesh frequency of that factor K_Hβ", r_.mesh_frequency[at], star(at));
-    const double load = r_.line_load_max.col(0).maxCoeff(&at);
-    add_("largest line load in motion, inner 90 % of face and path", "N/mm", fixed(load * 1e-3, 1), star(at));
-    add_.speed("mesh frequency of that line load", r_.mesh_frequency[at], star(at));
-  }
-
-  void bearings() {
-    add_.group = kBearings;
-    for (size_t g = 0; g < kSides; ++g) {
-      const Eigen::VectorXd rms = of_gear(r_.bearing_force_rms, g),
-                            largest = of_gear(r_.bearing_force_max, g);
-      if (rms.size() == 0) continue;
-      Index at = 0;
-      const std::string of = "force on the bearing of " + s_.mesh.gear[g];
-      const double force = rms.maxCoeff(&at);
-      add_("largest RMS of the oscillating " + of, "N", fixed(force, 0), star(at));
-      add_.speed("mesh frequency of that RMS, " + s_.mesh.gear[g], r_.mesh_frequency[at], star(at));
-      const double most = largest.maxCoeff(&at);
-      add_("largest " + of, "N", fixed(most, 0), star(at));
-      if (const Eigen::VectorXd first = first_order_of(r_.bearing_force_harmonic, static_cast<Index>(g));
-          first.size() > 0) {
-        const double order = first.maxCoeff(&at);
-        add_("largest first order of the " + of, "N", fixed(order, 0), star(at));
-        if (order > 0)
-          add_("level of the RMS of that order, " + s_.mesh.gear[g], "dB re 1 N", decibels(order), star(at));
-      }
-    }
+    peak(add_, {"largest face load factor K_Hβ in motion, of the most loaded pair", "1", "factor K_Hβ"},
+         r_.face_load_factor.col(mesh_), decimals(3));
+    peak(add_, {"largest line load in motion, inner 90 % of face and path", "N/mm", "line load"},
+         r_.line_load_max.col(mesh_) * 1e-3, decimals(1));
   }
 
   void stress() {
     add_.group = kStress;
     Index at = 0;
-    const double load = r_.tooth_load_max.col(0).maxCoeff(&at);
-    add_(kNominalPressure, "MPa", fixed(hertz_contact(s_, load).pressure * 1e-6, 0), star(at));
-    for (int g = 0; g < s_.root_stress_max.size(); ++g)
-      if (const Eigen::VectorXd sustained = of_gear(r_.root_stress_sustained, static_cast<size_t>(g));
-          sustained.size() > 0) {
-        const std::string of = "root stress of " + s_.mesh.gear[g] + " (sustained for 1/64 of a mesh period)";
-        const double stress = sustained.maxCoeff(&at);
-        add_("largest " + of, "MPa", fixed(stress * 1e-6, 1), star(at));
-        add_("largest " + of + " over that at rest", "1", fixed(stress / s_.root_stress_max[g], 2), star(at));
-      }
+    const double load = r_.tooth_load_max.col(mesh_).maxCoeff(&at);
+    add_(kNominalPressure, "MPa", fixed(hertz_contact(mesh(), load).pressure * kInMegapascals, 0), star(at));
+    for (Index g = 0; g < mesh().root_stress_max.size(); ++g) {
+      const Index side = kSides * mesh_ + g;
+      if (!known_of(r_.root_stress_sustained, side)) continue;
+      const Eigen::VectorXd stress = r_.root_stress_sustained.col(side);
+      const std::string of =
+          "largest root stress of " + r_.name_of_side(side) + " (sustained for 1/64 of a mesh period)";
+      peak(add_, {of, "MPa", ""}, stress * kInMegapascals, decimals(1));
+      peak(add_, {of + " over that at rest", "1", ""}, stress / mesh().root_stress_max[g], decimals(2));
+    }
+  }
+
+  void body(size_t b) {
+    const auto column = static_cast<Index>(b);
+    if (r_.bearing_force_max.size() == 0 || (!r_.of_train() && !known_of(r_.bearing_force_max, column)))
+      return;
+    Adder add = add_.at(ReportNumber::Of::body, r_.body_names, b);
+    add.group = kMovingBearings;
+    peak(add, {"largest RMS of the oscillating force on the bearing", "N", "RMS"},
+         r_.bearing_force_rms.col(column), decimals(2));
+    peak(add, {"largest force on the bearing", "N", "force"}, r_.bearing_force_max.col(column), decimals(1));
+    first_order(add, "force on the bearing", first_order_of(r_.bearing_force_harmonic, column));
   }
 
  private:
+  const StaticResult& mesh() const { return rest_.mesh[static_cast<size_t>(mesh_)]; }
   std::string star(Index row) const { return beyond_backlash(r_, row) ? kBeyond : ""; }
   double error(SweepErrorsResult::Judged SweepErrorsResult::*quantity, Index row) const {
-    return error_near(errors_, quantity, r_.mesh_frequency[row]);
+    return error_near(errors_, quantity, r_.mesh_frequency[row], static_cast<size_t>(mesh_));
+  }
+
+  // that: what "mesh frequency of that ..." calls it, "" without that row.
+  struct Named {
+    std::string quantity, unit, that;
+  };
+  // The largest of the values over speed and, unless it is 0, where it is.
+  void peak(const Adder& add, const Named& what, const Eigen::VectorXd& values, const auto& words,
+            SweepErrorsResult::Judged SweepErrorsResult::*judged = nullptr) const {
+    Index at = 0;
+    const double most = values.maxCoeff(&at);
+    add.judged(what.quantity, what.unit, most, judged ? error(judged, at) : kNoError, words(most), star(at));
+    if (!what.that.empty() && most > 0)
+      add.speed("mesh frequency of that " + what.that, r_.mesh_frequency[at], star(at));
+  }
+  void first_order(const Adder& add, const std::string& of, const Eigen::VectorXd& first) const {
+    if (first.size() == 0) return;
+    Index at = 0;
+    const double most = first.maxCoeff(&at);
+    add.first_order("largest first order of the " + of, most, star(at));
+    add.speed("mesh frequency of that order of the force", r_.mesh_frequency[at], star(at));
   }
 
   // One jump is a number with its error, several are words.
@@ -303,159 +380,112 @@ class InMotion {
       return list.empty() ? std::string("none") : list;
     });
     if (f.size() == 1)
-      add_.out.back().error = whine::told(f[0], jump_error_at(errors_, f[0]), kToldDigits).error;
+      add_.out->back().error = whine::told(f[0], jump_error_at(errors_, f[0]), kToldDigits).error;
   }
-  void add_sustained() {
-    if (r_.tooth_load_sustained.size() == 0) return;
+  void losses() {
+    if (r_.friction.efficiency.size() == 0) return;
+    add_.group = kLosses;
+    const Eigen::VectorXd percent = r_.friction.efficiency * kPercent;
     Index at = 0;
-    const double load = r_.tooth_load_sustained.col(0).maxCoeff(&at);
-    add_.judged("largest tooth load that is sustained for 1/64 of a mesh period", "N", load,
-                error(&SweepErrorsResult::tooth_load_sustained, at), fixed(load, 0), star(at));
+    add_("least efficiency in motion (friction between the flanks alone)", "%",
+         fixed(percent.minCoeff(&at), 3), star(at));
+    add_.speed("mesh frequency of that efficiency", r_.mesh_frequency[at], star(at));
+    peak(add_, {"largest efficiency in motion", "%", ""}, percent, decimals(3));
+    peak(add_, {"largest power that friction takes", "W", "power"}, r_.friction.power,
+         [](double value) { return shown(value, 4); });
   }
 
-  const StaticResult& s_;
+  const SystemStaticResult& rest_;
   const ResponseResult& r_;
   const SweepErrorsResult* errors_;
   Adder add_;
+  Index mesh_ = 0;
 };
 
-void add_motion(const ReportContent& c, const StaticResult& s,
-                const std::vector<const ResponseResult*>& sweeps, Adder add) {
+void add_motion(const ReportContent& c, const SystemStaticResult& rest, Adder add) {
+  std::vector<const ResponseResult*> sweeps;
+  for (const Direction direction : {Direction::up, Direction::down})
+    if (const ResponseResult* sweep = sweep_of(c, add.torque, direction)) sweeps.push_back(sweep);
   if (sweeps.empty()) return;
-  const ResponseResult& first = *sweeps.front();
-  const GearPair pair(s);
-  add.group = kSpeeds;
-  for (const auto& [what, f] : {std::pair{"lowest", first.mesh_frequency.minCoeff()},
-                                std::pair{"highest", first.mesh_frequency.maxCoeff()}}) {
-    add.speed(text("mesh frequency, ", what), f);
-    add(text("pitch-line speed, ", what), "m/s", fixed(pitch_line_speed(pair, f), 1));
-  }
-  const SweepErrorsResult* errors = errors_of(c, s.torque, first.direction);
-  add.speed("natural frequency f_n, contact frozen, mean over the period", first.natural_frequency, "",
-            errors ? errors->natural_frequency_error : kNoError);
-  using Group = void (InMotion::*)();
-  for (const Group group : {&InMotion::speeds, &InMotion::vibration, &InMotion::loads, &InMotion::face,
-                            &InMotion::bearings, &InMotion::stress})
-    for (const ResponseResult* sweep : sweeps) {
-      InMotion motion(s, *sweep, errors_of(c, s.torque, sweep->direction), add);
-      (motion.*group)();
-    }
-}
-
-// A row of a table: its numbers by torque and direction.
-struct ResultRow {
-  std::string group, label, unit;
-  bool speeds = false;                                      // with a line in rpm
-  std::array<bool, 2> way{};                                // rising, falling
-  std::vector<std::array<const ReportNumber*, 3>> numbers;  // [column] of neither, rising, falling
-};
-
-size_t way_of(const ReportNumber& n) {
-  return n.way.empty() ? 0 : n.way.ends_with("rising") ? 1 : 2;
-}
-
-std::vector<ResultRow> rows_of(const Numbers& results, size_t columns) {
-  std::vector<ResultRow> rows;
-  for (const ReportNumber& n : results) {
-    const std::string label = n.quantity.substr(0, n.quantity.size() - n.way.size());
-    auto row = std::find_if(rows.begin(), rows.end(),
-                            [&](const ResultRow& r) { return r.label == label && r.group == n.group; });
-    if (row == rows.end()) {
-      rows.push_back({n.group, label, n.unit, false, {}, {}});
-      rows.back().numbers.resize(columns);
-      row = rows.end() - 1;
-    }
-    row->speeds = row->speeds || !n.rpm.empty();
-    if (const size_t way = way_of(n); way > 0) row->way[way - 1] = true;
-    row->numbers[n.column][way_of(n)] = &n;
-  }
-  return rows;
-}
-
-// Both directions of a sweep in one cell, "2640 / 2580"; in rpm, too, in a line of its own.
-std::string cell_of(const std::array<const ReportNumber*, 3>& numbers) {
-  std::string words, rpm;
-  const auto add = [](std::string& line, const std::string& word) {
-    if (!word.empty() && line != word) line += (line.empty() ? "" : " / ") + word;
+  const auto moving = [&](const ResponseResult* sweep) {
+    return InMotion(rest, *sweep, errors_of(c, add.torque, sweep->direction), add);
   };
-  for (const ReportNumber* n : numbers) {
-    if (!n) continue;
-    const std::string star = n->remark.empty() ? "" : " *";
-    add(words, n->value + (n->error.empty() ? "" : " ± " + n->error) + star);
-    if (!n->rpm.empty()) add(rpm, n->rpm + star);
+  const ResponseResult& first = *sweeps.front();
+  add.group = kSpeeds;
+  const std::array ends{std::pair{"lowest", first.mesh_frequency.minCoeff()},
+                        std::pair{"highest", first.mesh_frequency.maxCoeff()}};
+  for (const auto& [what, f] : ends) add.speed(text("mesh frequency, ", what), f);
+  const SweepErrorsResult* errors = errors_of(c, add.torque, first.direction);
+  if (first.natural_frequency > 0)
+    add.speed("natural frequency f_n, contact frozen, mean over the period", first.natural_frequency, "",
+              errors ? errors->natural_frequency_error : kNoError);
+  for (const ResponseResult* sweep : sweeps) moving(sweep).whole();
+  using Group = void (InMotion::*)();
+  for (size_t m = 0; m < rest.mesh.size(); ++m) {
+    Adder of_mesh = add.at(ReportNumber::Of::mesh, rest.mesh_names, m);
+    for (const auto& [what, f] : ends)
+      of_mesh(text("pitch-line speed, ", what), "m/s", fixed(pitch_line_speed(GearPair(rest.mesh[m]), f), 1));
+    for (const Group group : {&InMotion::contact, &InMotion::vibration, &InMotion::loads, &InMotion::force,
+                              &InMotion::face, &InMotion::stress})
+      for (const ResponseResult* sweep : sweeps) {
+        InMotion motion = moving(sweep);
+        motion.of_mesh(m);
+        (motion.*group)();
+      }
   }
-  return words + (rpm.empty() || rpm == words ? "" : "\n" + rpm);
+  for (size_t b = 0; b < rest.body_names.size(); ++b)
+    for (const ResponseResult* sweep : sweeps) moving(sweep).body(b);
 }
 
-std::string way_words(const ResultRow& row) {
-  return row.way[0] && row.way[1] ? ", rising / falling"
-         : row.way[0]             ? ", speed rising"
-         : row.way[1]             ? ", speed falling"
-                                  : "";
+void add_mesh_at_rest(const SystemStaticResult& rest, size_t m, const ErrorBudgetResult* budget, Adder add) {
+  const StaticResult& s = rest.mesh[m];
+  add_excitation(s, budget, add);
+  if (rest.of_train()) {
+    add.group = kExcitation;
+    add("mean mesh stiffness, contact frozen", "N/µm", shown(s.stiffness_tangent.mean() * 1e-6, 5));
+    add("contact ratio", "1", fixed(s.contact_ratio, 3));
+    add("mesh phase", "1", fixed(rest.settings.layout.meshes[m].phase, 4));
+  }
+  add_loads_at_rest(rest, m, add);
+  add_face_at_rest(s, add);
+  add_stress_at_rest(s, budget, add);
+  add_losses(s, add);
+}
+
+void add_modes(const ModesResult& a, const Adder& add) {
+  for (Index i = 0; i < a.natural_frequency.size(); ++i) {
+    const double f = a.natural_frequency[i];
+    add("natural frequency", "Hz", shown(f, 7),
+        f == 0 ? "free motion" : name_of(a.type[static_cast<size_t>(i)]));
+    add.out->back().part = text("mode ", i + 1);
+  }
 }
 
 }  // namespace
 
-std::vector<ReportNumber> mesh_at_rest(const StaticResult& s, size_t column,
-                                       const ErrorBudgetResult* budget) {
-  Numbers out;
-  const Adder add{s.torque, 60.0 / s.gear[0].design.teeth, out, column};
-  add_excitation(s, budget, add);
-  add_loads_at_rest(s, add);
-  add_face_at_rest(s, add);
-  add_bearings_at_rest(s, add);
-  add_stress_at_rest(s, budget, add);
-  add_losses(s, add);
-  return out;
-}
-
 std::vector<ReportNumber> report_numbers(const ReportContent& c) {
   Numbers out;
+  const TurningMember driver = driver_of(c);
   for (size_t column = 0; column < c.statics.size(); ++column) {
-    const StaticResult& s = c.statics[column];
-    const Numbers rest = mesh_at_rest(s, column, budget_of(c, s.torque));
-    out.insert(out.end(), rest.begin(), rest.end());
-    const Adder add{s.torque, 60.0 / s.gear[0].design.teeth, out, column};
-    std::vector<const ResponseResult*> sweeps;
-    for (const Direction direction : {Direction::up, Direction::down})
-      if (const ResponseResult* sweep = sweep_of(c, s.torque, direction)) sweeps.push_back(sweep);
-    if (const ImpactResult* a = impact_of(c, s.torque)) add_ring_down(a->states, add);
-    add_motion(c, s, sweeps, add);
+    const SystemStaticResult& rest = c.statics[column];
+    const double torque = torque_of(rest);
+    Adder add{torque, driver, &out, ReportNumber::Of::whole, column};
+    for (size_t m = 0; m < rest.mesh.size(); ++m)
+      add_mesh_at_rest(rest, m, budget_of(c, torque), add.at(ReportNumber::Of::mesh, rest.mesh_names, m));
+    add.group = kSharing;
+    for (const LoadSharing& of : load_sharing(rest))
+      for (const auto& [what, factor] : {std::pair{"load sharing factor", of.factor},
+                                         std::pair{"the same of mean shares, K_γ", of.mean_factor}}) {
+        add(what, "1", fixed(factor, 3));
+        out.back().part = of.name;
+      }
+    for (size_t b = 0; b < rest.body_names.size() && rest.torque.size() > 0; ++b)
+      add_body_at_rest(c, rest, b, add.at(ReportNumber::Of::body, rest.body_names, b));
+    if (const ImpactResult* a = impact_of(c, torque)) add_ring_down(a->states, add);
+    add_motion(c, rest, add);
   }
+  if (c.modes) add_modes(*c.modes, {0, driver, &out, ReportNumber::Of::mode, 0, "", kNatural});
   return out;
-}
-
-std::string results_tables(const std::vector<ReportNumber>& results,
-                           const std::vector<std::string>& columns) {
-  const std::vector<ResultRow> rows = rows_of(results, columns.size());
-  std::vector<std::string> head{"", "unit"};
-  head.insert(head.end(), columns.begin(), columns.end());
-  std::string out;
-  for (const char* group : kGroups) {
-    html::Rows cells;
-    for (const ResultRow& row : rows) {
-      if (row.group != group) continue;
-      cells.push_back({row.label + way_words(row),
-                       text(row.unit == "1" ? html::kNoValue : row.unit, row.speeds ? "\nrpm" : "")});
-      for (const auto& numbers : row.numbers) cells.back().push_back(cell_of(numbers));
-    }
-    if (!cells.empty()) out += html::tagged("h3", group) + "\n" + html::table("", head, cells, "results");
-  }
-  if (std::any_of(results.begin(), results.end(), [](const ReportNumber& n) { return !n.remark.empty(); }))
-    out += html::paragraph(
-        "* At this speed the motion is larger than the backlash: back flanks would touch, which is not modelled, so the number is not to be trusted.");
-  return out;
-}
-
-std::string results_tables(const ReportContent& c) {
-  std::vector<std::string> columns;
-  columns.reserve(c.statics.size());
-  for (const StaticResult& s : c.statics) columns.push_back(torque_words(s.torque));
-  return html::paragraph(text(
-             "By torque on the driver",
-             c.sweeps.empty() ? "" : "; speeds as mesh frequency and, below, as rotation of ",
-             c.sweeps.empty() ? "" : c.statics[0].mesh.gear[0], "; results.tsv holds the same numbers.")) +
-         results_tables(report_numbers(c), columns);
 }
 
 }  // namespace whine

@@ -1,4 +1,4 @@
-// The numbers of a report in groups, at rest, by ring-down, in motion: a column for each torque of a pair, for each mesh of a train.
+// The numbers of a report in groups, at rest, by ring-down, in motion: of the whole, of each mesh, of each body, at each torque.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,26 +8,29 @@
 namespace whine {
 
 struct ReportNumber {
+  enum class Of { whole, mesh, body, mode };
   std::string group;  // heading of its table
-  double torque;      // N m, of a train on the driving gear of the mesh
+  double torque;      // N m: torque_of()
   std::string quantity, unit, value;
   std::string remark = "";
   std::string way = "";    // end of `quantity` that says the direction of the sweep: ", speed rising"
   std::string rpm = "";    // of mesh frequencies: the same as the rotation of the driver
-  size_t column = 0;       // which torque, which mesh
   std::string error = "";  // of `value`, in its unit; "": not known
+  std::string part = "";   // mesh of several, body, mode, meshes of planets
+  Of of = Of::whole;
+  size_t column = 0;  // of the tables of its kind: number of the torque and, within it, of the mesh or body
 };
 
-// What one mesh at rest says: excitation, loads, stress, losses; with the errors of the budget (nullptr: none).
-std::vector<ReportNumber> mesh_at_rest(const StaticResult& s, size_t column,
-                                       const ErrorBudgetResult* budget = nullptr);
+inline constexpr const char* kBeyond = "beyond the backlash";  // remark on numbers that are not to be trusted
 
-// In the order of the torques.
+// In the order of the torques, then of natural modes.
 std::vector<ReportNumber> report_numbers(const ReportContent& c);
 
-// As tables of HTML, one for each group: a row for each quantity in the order in which they come, with both directions of the sweep.
-std::string results_tables(const std::vector<ReportNumber>& results, const std::vector<std::string>& columns);
-// The same of all torques of a pair, under words on what they are.
+// As tables of HTML, one for each group: a row for each quantity in the order in which they come, with both directions of the sweep. Of the
+// whole, of meshes and of bodies apart; those of a pair's one mesh with those of the whole.
 std::string results_tables(const ReportContent& c);
+
+// In words: the largest vibration of the sweeps and how long teeth are apart; "" without sweeps.
+std::string motion_words(const ReportContent& c);
 
 }  // namespace whine

@@ -2,19 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
-#include <optional>
 
 #include "base/error.h"
 #include "base/tool.h"
 #include "base/units.h"
-#include "gear/body_inertia.h"
 #include "gear/drawing_quantities.h"
-#include "gear/helix.h"
 #include "gear/pair.h"
-#include "gear/path_points.h"
 #include "io/scene_keys.h"
 #include "io/summary.h"
+#include "report/alike_meshes.h"
 #include "report/figures.h"
 #include "report/html.h"
 #include "report/stiffness_table.h"
@@ -45,197 +43,61 @@ std::string bearing_frequencies_table(const ReportContent& c) {
       {"torque (N m)", "loaded tooth pairs", "frequencies (Hz)"}, rows);
 }
 
-// Where the gears meet: clearances, ends of the contact, sliding.
-void add_meeting_rows(const GearPair& pair, html::Rows& rows) {
-  rows.push_back({"tip clearance, to the root circle of the mate", "mm",
-                  fixed(tip_clearance_to_root(pair, 0) * kMilli, 3),
-                  fixed(tip_clearance_to_root(pair, 1) * kMilli, 3)});
-  rows.push_back({"root clearance, to the tip circle of the mate", "mm",
-                  fixed(tip_clearance_to_root(pair, 1) * kMilli, 3),
-                  fixed(tip_clearance_to_root(pair, 0) * kMilli, 3)});
-  const auto points = path_points(pair);
-  const auto diameter = [&](const std::string& what, size_t driver, size_t driven) {
-    rows.push_back({what, "mm", fixed(points[driver].diameter[0] * kMilli, 3),
-                    fixed(points[driven].diameter[1] * kMilli, 3)});
-  };
-  diameter("diameter where the active profile starts (SAP)", 0, 4);
-  if (pair.base_helix_angle() == 0) {
-    diameter("diameter at B, from where one pair carries alone", 1, 1);
-    diameter("diameter at D, up to where it does", 3, 3);
-  }
-  for (const auto& [what, at] : {std::pair{"specific sliding where a pair comes into contact", 0},
-                                 std::pair{"specific sliding where it leaves", 4}}) {
-    const auto sliding = specific_sliding(pair, points[static_cast<size_t>(at)].path);
-    const auto cell = [](const std::optional<double>& value) {
-      return value ? fixed(*value, 3) : html::kNoValue;
-    };
-    rows.push_back({what, "–", cell(sliding[0]), cell(sliding[1])});
-  }
-}
-
-void add_bearing_rows(const GearMeshSpec& mesh, html::Rows& rows) {
-  if (!mesh.on_bearings()) return;
-  const auto of_bearing = [&](const char* what, const char* unit, double scale, double Bearing::*number,
-                              const char* none) {
-    const auto value = [&](const Bearing& b) {
-      return !b.elastic() ? "rigid" : b.*number == 0 ? none : shown(b.*number * scale, 5);
-    };
-    rows.push_back({what, unit, value(mesh.bearing[0]), value(mesh.bearing[1])});
-  };
-  of_bearing("radial stiffness of the bearing", "N/µm", 1e-6, &Bearing::stiffness, "0");
-  of_bearing("radial damping of the bearing", "N s/m", 1, &Bearing::damping, "0");
-  of_bearing("mass on the bearing", "kg", 1, &Bearing::mass, "as drawn");
-}
-
 }  // namespace
 
-html::Rows drawing_rows(const std::vector<ToothGeometry>& gears) {
-  html::Rows rows;
-  using G = const ToothGeometry&;
-  const auto all = [&](const std::string& what, const std::string& unit, const auto& value) {
-    rows.push_back({what, unit});
-    for (G gear : gears) rows.back().push_back(value(gear));
-  };
-  const auto mm = [](double length) { return fixed(length * kMilli, 3); };
-  const auto degrees = [](double rad) { return fixed(rad * kInDegrees, 3); };
-  if (std::any_of(gears.begin(), gears.end(), [](G g) { return g.internal(); }))
-    all("kind", "–", [](G g) { return std::string(g.internal() ? "internal" : "external"); });
-  all("teeth", "–", [](G g) { return text(g.design().teeth); });
-  const bool helical = std::any_of(gears.begin(), gears.end(), [](G g) { return g.design().helical(); });
-  all(helical ? "normal module" : "module", "mm", [](G g) { return shown(g.design().module * kMilli, 7); });
-  all(helical ? "normal pressure angle of the rack" : "pressure angle of the rack", "deg",
-      [](G g) { return shown(g.design().pressure_angle * kInDegrees, 6); });
-  if (helical) {
-    all("helix angle at the reference circle, hand", "deg",
-        [](G g) { return text(shown(g.design().helix_angle * kInDegrees, 6), ", ", g.design().hand); });
-    all("transverse module", "mm",
-        [](G g) { return shown(transverse_section(g.design()).module * kMilli, 6); });
-    all("transverse pressure angle", "deg",
-        [&](G g) { return degrees(transverse_section(g.design()).pressure_angle); });
-    all("base helix angle", "deg", [&](G g) { return degrees(std::abs(base_helix_angle(g.design()))); });
+namespace {
+
+// A table for each [[mesh]], of one of the meshes that are alike, under its name where there are several.
+std::string of_sections(const ReportContent& c, const std::function<std::string(size_t)>& table) {
+  const std::vector<AlikeMeshes> sections = alike_meshes(c.statics[0]);
+  std::string out;
+  for (const AlikeMeshes& section : sections) {
+    if (sections.size() > 1) out += html::tagged("h3", html::escaped(section.name)) + "\n";
+    out += table(section.meshes.front());
   }
-  all("profile shift", "modules", [](G g) { return shown(g.design().profile_shift, 6); });
-  all("base diameter", "mm", [&](G g) { return mm(2 * g.base_radius()); });
-  all("reference diameter", "mm", [&](G g) { return mm(2 * g.pitch_radius()); });
-  all("tip diameter", "mm", [&](G g) { return mm(2 * g.tip_radius()); });
-  all("root diameter", "mm", [&](G g) { return mm(2 * g.root_radius()); });
-  all("diameter where the involute begins", "mm",
-      [&](G g) { return mm(2 * std::hypot(1.0, g.form_roll_angle()) * g.base_radius()); });
-  if (std::any_of(gears.begin(), gears.end(), [](G g) { return g.undercut() > 0; }))
-    all("undercut: how far the rack reaches beyond the base circle's tangent point", "mm",
-        [&](G g) { return mm(std::max(0.0, g.undercut())); });
-  all("roll angle where the involute begins", "deg", [&](G g) { return degrees(g.form_roll_angle()); });
-  all("roll angle at the tip", "deg", [&](G g) { return degrees(g.tip_roll_angle()); });
-  all("tooth thickness at the tip", "mm", [&](G g) { return mm(g.thickness_at_radius(g.tip_radius())); });
-  all(helical ? "transverse tooth thickness at the reference circle"
-              : "tooth thickness at the reference circle (transverse and normal)",
-      "mm", [&](G g) { return mm(reference_thickness(g)); });
-  if (helical)
-    all("normal tooth thickness there", "mm",
-        [&](G g) { return mm(reference_thickness(g) * std::cos(g.design().helix_angle)); });
-  all("span W_k over k teeth", "mm", [&](G g) {
-    const std::optional<Span> span = span_measurement(g);
-    return span ? text(mm(span->length), ", k = ", span->teeth) : html::kNoValue;
-  });
-  all("face width", "mm", [](G g) { return shown(g.design().face_width * kMilli, 6); });
-  all("diameter on which it is held rigidly (bore, of a ring its rim)", "mm",
-      [&](G g) { return mm(2 * g.design().clamped_radius()); });
-  return rows;
+  return out;
 }
 
-html::Rows mesh_rows(const std::vector<GearPair>& meshes) {
-  html::Rows rows;
-  using P = const GearPair&;
-  const auto all = [&](const std::string& what, const std::string& unit, const auto& value) {
-    rows.push_back({what, unit});
-    for (P mesh : meshes) rows.back().push_back(value(mesh));
-  };
-  constexpr double kNoBacklash = 1e-6;  // m: what a centre distance rounded to a micrometre leaves
-  const auto backlash = [](P p, double length) {
-    return std::abs(p.backlash()) < kNoBacklash ? "none" : fixed(length * kMilli, 4);
-  };
-  all("centre distance", "mm", [](P p) { return shown(p.centre_distance() * kMilli, 7); });
-  all("working pressure angle", "deg", [](P p) { return fixed(p.working_pressure_angle() * kInDegrees, 3); });
-  all("base pitch", "mm", [](P p) { return fixed(p.base_pitch() * kMilli, 4); });
-  const bool helical =
-      std::any_of(meshes.begin(), meshes.end(), [](P p) { return p.base_helix_angle() != 0; });
-  all(helical ? "transverse contact ratio" : "contact ratio", "–",
-      [](P p) { return fixed(p.contact_ratio(), 4); });
-  if (helical) {
-    all("overlap ratio", "–", [](P p) { return fixed(p.overlap_ratio(), 4); });
-    all("total contact ratio", "–", [](P p) { return fixed(p.contact_ratio() + p.overlap_ratio(), 4); });
-  }
-  all("path of contact before the pitch point", "mm", [](P p) { return fixed(-p.path_start() * kMilli, 3); });
-  all("path of contact after it", "mm", [](P p) { return fixed(p.path_end() * kMilli, 3); });
-  all("normal backlash, along the line of action", "mm",
-      [&](P p) { return backlash(p, normal_backlash(p)); });
-  all("circumferential backlash, on the working pitch circles", "mm",
-      [&](P p) { return backlash(p, circumferential_backlash(p)); });
-  return rows;
-}
-
-std::string gears_table(const ReportContent& c) {
-  const StaticResult& s = c.statics.front();
-  const GearPair pair(s);
-  html::Rows rows = drawing_rows({pair.gear(0), pair.gear(1)});
-  if (pair.gear(0).undercut() > 0 || pair.gear(1).undercut() > 0)
-    rows.push_back({"path of contact lost to undercut", "mm", fixed(pair.path_lost(0) * kMilli, 3),
-                    fixed(pair.path_lost(1) * kMilli, 3)});
-  add_meeting_rows(pair, rows);
-  rows.push_back({"inertia of the body as drawn, bore to tip, without fillets", "kg m²",
-                  shown(least_body_inertia(pair.gear(0), s.gear[0].material), 3),
-                  shown(least_body_inertia(pair.gear(1), s.gear[1].material), 3)});
-  if (!c.impacts.empty()) {
-    constexpr double kFillets = 1.03;  // what fillets add to the outline at most
-    const ImpactResult& a = c.impacts.front();
-    const auto total = [&](int g) {
-      const bool drawn = a.inertia[g] < kFillets * least_body_inertia(pair.gear(g), s.gear[g].material);
-      return shown(a.inertia[g], 4) + (drawn ? ", as drawn" : "");
-    };
-    rows.push_back({"inertia in motion, with all that turns with the gear", "kg m²", total(0), total(1)});
-  }
-  rows.push_back({"flanks", "", in_words(s.mesh.modification[0]), in_words(s.mesh.modification[1])});
-  add_bearing_rows(s.mesh, rows);
-  html::Rows mesh = mesh_rows({pair});
-  mesh.push_back({"tip edges off the line of action", "", corner_words(s.mesh.corner)});
-  return html::table(text("The gears: ", s.mesh.gear[0], " drives ", s.mesh.gear[1], "."),
-                     {"", "unit", s.mesh.gear[0] + " (driver)", s.mesh.gear[1] + " (driven)"}, rows) +
-         html::table("Their mesh.", {"", "unit", "value"}, mesh);
-}
-
-std::string class_table(const ReportContent& c) {
+std::string class_table_of(const ReportContent& c, size_t m) {
   constexpr int kFinest = 3, kCoarsest = 9;
-  const StaticResult& s = c.statics.front();
-  const GearPair pair(s);
+  const GearPair pair(c.statics[0].mesh[m]);
   html::Rows rows;
   std::string why;
   for (int grade = kFinest; grade <= kCoarsest; ++grade) try {
       const double most = most_error_of_class(pair, grade);
       rows.push_back({text(grade), fixed(most * kMicro, 1)});
-      for (const StaticResult& at : c.statics)
-        rows.back().push_back(fixed((peak_to_peak(at.transmission_error) + most) * kMicro, 1));
+      for (const SystemStaticResult& at : c.statics)
+        rows.back().push_back(fixed((peak_to_peak(at.mesh[m].transmission_error) + most) * kMicro, 1));
     } catch (const Error& error) {
       if (error.kind() != Failure::input) throw;
       why = error.what();
     }
   if (rows.empty()) return html::paragraph("No effect of a class of ISO 1328-1 is stated: " + why + ".");
   std::vector<std::string> head{"class", "adds at most (µm)"};
-  for (const StaticResult& at : c.statics) head.push_back(torque_words(at.torque) + ": at most (µm)");
+  for (const SystemStaticResult& at : c.statics)
+    head.push_back(torque_words(torque_of(at)) + ": at most (µm)");
   return html::table(
       "What deviations within a class of ISO 1328-1:2013 add to the peak-to-peak transmission error of a mesh period, at most: a step of the single pitch tolerance of both gears for each pair that comes in, and their total profile deviations. Run-out and cumulative pitch are slower and left out; most gears of a class stay far below.",
       head, rows);
 }
 
-std::string stiffness_tables(const ReportContent& c) {
-  std::string out;
-  for (const WordTable& t : {compliance_table(c.statics[0]), iso_table(c.statics[0])})
-    out += html::table(t.caption, t.head, t.rows);
-  return out;
+}  // namespace
+
+std::string rest_tables(const ReportContent& c) {
+  if (c.statics.empty()) return "";
+  return of_sections(c, [&](size_t m) {
+    const StaticResult& mesh = c.statics[0].mesh[m];
+    std::string out;
+    if (mesh.compliance.whole > 0)  // of a mesh that carries load
+      for (const WordTable& t : {compliance_table(mesh), iso_table(mesh)})
+        out += html::table(t.caption, t.head, t.rows);
+    return out + class_table_of(c, m);
+  });
 }
 
 std::string face_level(const ReportContent& c) {
-  const StaticResult& s = c.statics.front();
-  if (s.face.none()) return "";
+  if (c.statics.empty() || c.statics[0].mesh[0].face.none()) return "";
+  const StaticResult& s = c.pair();
   std::string out = text(
       "Load over the face: contact at ", s.face.line_load[0].cols(), " points along each contact line, on ",
       s.face.degree > 0 ? text("bodies in three dimensions, polynomials to degree ", s.face.degree)
@@ -258,6 +120,49 @@ std::string face_level(const ReportContent& c) {
   return html::paragraph(out);
 }
 
+std::string modes_table(const ReportContent& c) {
+  if (!c.modes) return "";
+  const ModesResult& a = *c.modes;
+  const TurningMember driver = driver_of(c);
+  const bool bands = a.frozen_frequency.size() > 0;
+  html::Rows rows;
+  for (Index i = 0; i < a.natural_frequency.size(); ++i) {
+    const double f = a.natural_frequency[i];
+    Index most = 0;
+    const double share = a.kinetic_energy.row(i).maxCoeff(&most);
+    rows.push_back(
+        {text(i + 1), shown(f, 6), driver.turns > 0 ? fixed(driver.rpm(f), 0) : html::kNoValue,
+         f == 0 ? "free motion" : name_of(a.type[static_cast<size_t>(i)]),
+         f == 0 ? "–" : fixed(a.mesh_energy.row(i).sum() * kPercent, 1),
+         f == 0 ? "–" : fixed(a.bearing_energy.row(i).sum() * kPercent, 1),
+         text(a.layout.bodies[static_cast<size_t>(most)].name, ", ", fixed(share * kPercent, 0), " %")});
+    if (bands)
+      rows.back().push_back(f == 0 ? "–"
+                                   : text(shown(a.frozen_frequency.col(i).minCoeff(), 6), " to ",
+                                          shown(a.frozen_frequency.col(i).maxCoeff(), 6)));
+  }
+  std::vector<std::string> head{"mode",
+                                "natural frequency (Hz)",
+                                "met by order 1 at (rpm of " + driver.name + ")",
+                                "type",
+                                "energy in the meshes (%)",
+                                "energy in bearings and holds (%)",
+                                "moves most (share of the kinetic energy)"};
+  if (bands) head.emplace_back("over the mesh phases, by rank (Hz)");
+  return html::table(
+      text("Natural modes, the meshes at their mean stiffness.",
+           !has_planets(a.layout) ? " Train: the system has no planets."
+                                  : text(" Rotational: central gears turn, planets all move alike. ",
+                                         "Translational: central gears move sideways; at equal spacing ",
+                                         "in pairs of equal frequency. Planet: planets alone. Mixed: ",
+                                         "none of these, of planets that differ or stand unequally."),
+           bands ? text(" Over the mesh phases: with the contact of each phase, the lowest frequency ",
+                        "with the lowest; modes are not followed by their shapes, so that the frequency ",
+                        "at the mean stiffness may lie beside.")
+                 : ""),
+      head, rows);
+}
+
 std::string natural_frequencies_table(const ReportContent& c) {
   const TurningMember driver = driver_of(c);
   html::Rows rows;
@@ -271,6 +176,7 @@ std::string natural_frequencies_table(const ReportContent& c) {
                       fixed(a.damping_ratio[i] * kPercent, 3), fixed(a.undamped_frequency[i], 1),
                       fixed(driver.rpm(a.undamped_frequency[i]), 0)});
   }
+  if (rows.empty()) return "";
   return html::table(
              "Natural frequency and damping ratio of the mesh by ring-down: the gears are at a fixed mesh phase, a part of the torque is let go, and the decay is fitted. Rpm: of the driver, as the mesh frequency meets it.",
              {"torque (N m)", "loaded tooth pairs", "by ring-down (Hz)", "met at (rpm)", "damping ratio (%)",
@@ -337,6 +243,8 @@ std::string budget_table(const ErrorBudgetResult& b) {
          (b.choice_missing.empty() ? "" : html::paragraph("Not computed: " + b.choice_missing + "."));
 }
 
+namespace {
+
 html::Rows speed_rows(const std::vector<ResponseResult>& sweeps) {
   if (sweeps.empty()) return {};
   const Eigen::VectorXd& f = sweeps.front().mesh_frequency;
@@ -365,15 +273,32 @@ std::string scene_table(const std::string& caption, const SceneKeys& keys, const
   return html::table(caption, head, rows, "small");
 }
 
+}  // namespace
+
+SceneKeys scene_keys_in(const ReportContent& c) {
+  if (c.of_train())
+    return scene_keys_of(c.statics.at(0), c.sweeps.empty() ? nullptr : &c.sweeps.front().train);
+  return c.sweeps.empty() ? scene_keys_of(c.pair()) : scene_keys_of(c.sweeps[0]);
+}
+
 std::string parameters_table(const ReportContent& c) {
-  std::string torques;
-  for (const auto& s : c.statics) torques += (torques.empty() ? "" : ", ") + shown(s.torque, 6);
+  if (c.statics.empty()) return "";
+  const char* const every =
+      "Every value of the scene that went into the results, defaults included, in the scene's units";
   html::Rows more = speed_rows(c.sweeps);
+  if (c.of_train())
+    return scene_table(
+        text(
+            every,
+            "; inertias and masses that the scene leaves out are those of the bodies. Torques and what is held: "
+            "under Results."),
+        scene_keys_in(c), more);
+  std::string torques;
+  for (const SystemStaticResult& s : c.statics)
+    torques += (torques.empty() ? "" : ", ") + shown(torque_of(s), 6);
   more.insert(more.begin(), {"operation", "torque_Nm", torques,
                              "torque on the driver; the first sets the bearing dampers"});
-  return scene_table(
-      "Every value of the scene that went into the results, defaults included, in the scene's units.",
-      c.sweeps.empty() ? scene_keys_of(c.statics[0]) : scene_keys_of(c.sweeps[0]), more);
+  return scene_table(text(every, "."), scene_keys_in(c), more);
 }
 
 }  // namespace whine

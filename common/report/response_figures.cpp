@@ -272,10 +272,10 @@ FigureBlock response_block(const std::string& name, const ResponseResult& r, con
   return block;
 }
 
-std::string loss_ranges(const ResponseResult& sweep, double scale) {
+std::string loss_ranges(const ResponseResult& sweep, double scale, Eigen::Index mesh) {
   std::map<double, bool> lost;
   for (Eigen::Index f = 0; f < sweep.mesh_frequency.size(); ++f)
-    lost[sweep.mesh_frequency[f] * scale] = sweep.separation_fraction(f, 0) > 0;
+    lost[sweep.mesh_frequency[f] * scale] = sweep.separation_fraction(f, mesh) > 0;
   const std::string ranges = speed_ranges(lost);
   if (ranges.empty()) return "nowhere";
   return lost.rbegin()->second ? ranges + " or more" : ranges;  // lost at the last speed, too

@@ -19,8 +19,8 @@ Figure bearing_force_figure(const std::vector<ResponseResult>& sweeps, const Cap
 // K_Hbeta and the largest line load of a pair in slices over the face against speed, both ways. Throws Error(input) for one slice.
 Figure face_load_figure(const std::vector<ResponseResult>& sweeps, const CaptionSources& background = {});
 
-// Ranges of neighbouring speeds at which a sweep loses contact, in Hz times a scale: "2820 to 2980, 3100", or "nowhere".
-std::string loss_ranges(const ResponseResult& sweep, double scale = 1);
+// Ranges of neighbouring speeds at which a mesh loses contact in a sweep, in Hz times a scale: "2820 to 2980, 3100", or "nowhere".
+std::string loss_ranges(const ResponseResult& sweep, double scale = 1, Eigen::Index mesh = 0);
 
 // "rising 2820 to 2980, falling 2600 to 2980 Hz", as jumps are said; "" where neither sweep loses contact.
 std::string loss_both_ways(const ResponseResult& up, const ResponseResult& down);

@@ -9,6 +9,7 @@
 #include "gear/pair.h"
 #include "gear/system_layout.h"
 #include "gear/tooth_contour.h"
+#include "gear/train.h"
 #include "report/figure_words.h"
 
 namespace whine {
@@ -323,31 +324,6 @@ Figure picture_of(Train t, const Eigen::VectorXd& torque) {
   return figure;
 }
 
-// Side by side, at mesh phase 0: placed() has the driven gear above or, of a ring, below.
-System layout_of_pair(const GearPairParameters& a, const GearPair& pair) {
-  System s;
-  System::Mesh mesh;
-  for (int g = 0; g < kSides; ++g) {
-    const Placement at = placed(pair, g);
-    System::Body body;
-    body.name = a.mesh.gear[g];
-    body.teeth = pair.gear(g).design().teeth;
-    body.sense = g == 0 || pair.internal() ? 1 : -1;
-    body.angle = at.angle - 0.5 * kPi;
-    body.centre = {at.centre.y(), -at.centre.x()};
-    body.radius = pair.gear(g).base_radius();
-    body.bearing = a.mesh.bearing[g];
-    s.bodies.push_back(body);
-    mesh.side[static_cast<size_t>(g)].body = g;
-    mesh.side[static_cast<size_t>(g)].sense = body.sense;
-  }
-  mesh.centre_distance = pair.centre_distance();
-  mesh.pressure_angle = pair.working_pressure_angle();
-  mesh.ring_drives = pair.ring() == 0;
-  s.meshes.push_back(mesh);
-  return s;
-}
-
 }  // namespace
 
 std::string bodies_words(const System& s, const Eigen::VectorXd& torque) {
@@ -377,10 +353,17 @@ Figure system_picture(const SystemStaticResult& a) {
                     a.torque.colwise().mean().transpose());
 }
 
+System layout_of_pair(const GearPairParameters& a) {
+  System s;
+  add_input_gear(s, a.mesh.gear[0], a.gear[0].design, a.mesh.bearing[0]);
+  add_driven_gear(s, 0, a.gear[0].design, a.mesh.gear[1], a.gear[1].design, a.mesh.centre_distance, 0,
+                  a.mesh.bearing[1]);
+  return s;
+}
+
 Figure system_picture(const StaticResult& a) {
-  const GearPair pair(a);
-  const System layout = layout_of_pair(a, pair);
-  const Eigen::Vector2d torque(a.torque, -a.torque * pair.gear(1).base_radius() / pair.gear(0).base_radius());
+  const System layout = layout_of_pair(a);
+  const Eigen::Vector2d torque(a.torque, -a.torque * layout.bodies[1].radius / layout.bodies[0].radius);
   return picture_of({layout, {&a.gear[0].design, &a.gear[1].design}, {0}}, torque);
 }
 

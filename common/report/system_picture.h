@@ -13,6 +13,9 @@ Figure system_picture(const SystemStaticResult& at_rest);
 Figure system_picture(const StaticResult& pair);
 Figure system_picture(const ModesResult& modes);
 
+// A pair as it is drawn: the driver at the origin, the driven gear beside it, of a ring around it to its left. Without drives.
+System layout_of_pair(const GearPairParameters& pair);
+
 // "sun (27 teeth) 400.0 N m, ring (99 teeth) -1466.7 N m held": bodies on the ground, torques that are not 0. torque: (body) N m,
 // mean; empty: not known.
 std::string bodies_words(const System& system, const Eigen::VectorXd& torque);

@@ -10,14 +10,15 @@
 #include "base/units.h"
 #include "gear/drawing_quantities.h"
 #include "gear/pair.h"
+#include "report/alike_meshes.h"
 #include "report/figures.h"
 #include "report/html.h"
 #include "report/iso_comparison.h"
 #include "report/report_figures.h"
+#include "report/report_gears.h"
 #include "report/report_page.h"
 #include "report/report_remarks.h"
 #include "report/report_tables.h"
-#include "report/system_report_tables.h"
 #include "signal/no_root_stress.h"
 
 namespace whine {
@@ -93,48 +94,55 @@ WordTable at_rest(const StaticResult& s, const IsoComparison& iso, const std::st
   return out;
 }
 
-WordTable in_motion(const StaticResult& s, const IsoComparison& iso,
-                    const std::array<const ResponseResult*, 2>& sweeps) {
+// Of each mesh; of a pair K_v of `iso` stands beside forces.
+WordTable in_motion(const SystemStaticResult& all, const std::vector<const ResponseResult*>& sweeps,
+                    const IsoComparison& iso) {
   WordTable out{
       text(
-          "In motion at ", torque_words(s.torque),
+          "In motion at ", torque_words(torque_of(all)),
           ": the largest over all speeds, sustained for 1/64 of a mesh period, with the mesh frequency at which it stands; of forces and of root stress, which goes with them, what it is over its value at rest (the dynamic factor), and K_v of ISO 6336-1, method B, at that speed; of root stress, where: tangent of the root against the tooth's centre line, phase of the tooth's pair from the pitch point."),
       {"", "speed", "largest", "at (Hz)", "where", "dynamic factor", "K_v there"},
       {}};
-  const double force = normal_force(s.gear[0].design, s.torque);
-  enum class Factor { none, of_rest };
-  for (size_t d = 0; d < sweeps.size(); ++d) {
-    const ResponseResult& r = *sweeps[d];
-    // 0: it does not occur at any speed
+  const auto add_mesh = [&](const ResponseResult& r, size_t number) {
+    const auto m = static_cast<Index>(number);
+    const StaticResult& s = all.mesh[number];
+    const std::string of = all.mesh.size() > 1 ? all.mesh_names[number] + ": " : "",
+                      way = r.direction == Direction::up ? "rising" : "falling";
+    // 0: it does not occur at any speed; rest 0: not compared
     const auto add = [&](const std::string& what, const Eigen::Ref<const Eigen::VectorXd>& values,
-                         double scale, const char* unit, Factor factor, double rest = 0,
+                         double scale, const char* unit, double rest = 0,
                          const std::function<std::string(Index)>& where = {}) {
       Index top = 0;
       const double most = values.maxCoeff(&top), speed = r.mesh_frequency[top];
-      const bool compared = factor == Factor::of_rest && rest > 0;
-      out.rows.push_back({what, d == 0 ? "rising" : "falling",
-                          most > 0 ? fixed(most * scale, scale == 1 ? 0 : 1) + unit : "none",
-                          most > 0 ? fixed(speed, 0) : html::kNoValue,
-                          most > 0 && where ? where(top) : html::kNoValue,
-                          compared ? fixed(most / rest, 2) : html::kNoValue,
-                          compared ? or_dash(iso.dynamic_factor(speed), 2) : html::kNoValue});
+      out.rows.push_back(
+          {of + what, way, most > 0 ? fixed(most * scale, scale == 1 ? 0 : 1) + unit : "none",
+           most > 0 ? fixed(speed, 0) : html::kNoValue, most > 0 && where ? where(top) : html::kNoValue,
+           rest > 0 ? fixed(most / rest, 2) : html::kNoValue,
+           rest > 0 && !r.of_train() ? or_dash(iso.dynamic_factor(speed), 2) : html::kNoValue});
     };
-    for (int g = 0; g < kSides; ++g)
-      add("root stress of " + s.mesh.gear[g], r.root_stress_sustained.col(g), kInMegapascals, " MPa",
-          Factor::of_rest, s.root_stress_max[g], [&](Index i) {
-            return fixed(r.root_stress_angle(i, g) * kInDegrees, 0) + " deg, " +
-                   fixed(r.root_stress_phase(i, g), 2);
-          });
-    add("mesh force", r.mesh_force_sustained.col(0), 1, " N", Factor::of_rest, force);
-    add("load of a pair of teeth", r.tooth_load_sustained.col(0), 1, " N", Factor::of_rest,
+    const auto lasting = [&](const MatrixRM& sustained, const MatrixRM& largest) {
+      return Eigen::VectorXd((sustained.size() > 0 ? sustained : largest).col(m));
+    };
+    for (Index g = 0; g < kSides; ++g)
+      if (const Index side = kSides * m + g; known_of(r.root_stress_sustained, side))
+        add("root stress of " + r.name_of_side(side), r.root_stress_sustained.col(side), kInMegapascals,
+            " MPa", s.root_stress_max.size() > 0 ? s.root_stress_max[g] : 0, [&, side](Index i) {
+              return fixed(r.root_stress_angle(i, side) * kInDegrees, 0) + " deg, " +
+                     fixed(r.root_stress_phase(i, side), 2);
+            });
+    add("mesh force", lasting(r.mesh_force_sustained, r.mesh_force_max), 1, " N", rest_force(all, number));
+    add("load of a pair of teeth", lasting(r.tooth_load_sustained, r.tooth_load_max), 1, " N",
         s.tooth_load.maxCoeff());
-    add("pressure inside the flanks", r.flank_pressure_sustained, kInMegapascals, " MPa", Factor::none);
-    for (int g = 0; g < kSides; ++g)
-      add("load over the tip edge of " + s.mesh.gear[g], r.edge_load.col(g), 1, " N", Factor::none);
-    out.rows.push_back({"loss factor H_V, least to largest", d == 0 ? "rising" : "falling",
+    if (r.of_train()) return;
+    add("pressure inside the flanks", r.flank_pressure_sustained, kInMegapascals, " MPa");
+    for (size_t g = 0; g < kSides; ++g)
+      add("load over the tip edge of " + s.mesh.gear[g], r.edge_load.col(static_cast<Index>(g)), 1, " N");
+    out.rows.push_back({"loss factor H_V, least to largest", way,
                         fixed(r.loss_factor.minCoeff(), 4) + " to " + fixed(r.loss_factor.maxCoeff(), 4),
                         html::kNoValue, html::kNoValue, html::kNoValue, html::kNoValue});
-  }
+  };
+  for (size_t m = 0; m < all.mesh.size(); ++m)
+    for (const ResponseResult* sweep : sweeps) add_mesh(*sweep, m);
   return out;
 }
 
@@ -164,45 +172,15 @@ std::string range_of(const IsoComparison& iso) {
 // [mesh] of each [[mesh]] that carries load the one whose roots are stressed most.
 std::vector<size_t> most_stressed(const SystemStaticResult& a) {
   std::vector<size_t> out;
-  const auto stress = [&](size_t m) {
-    const Eigen::VectorXd& of = a.mesh[m].root_stress_max;
-    return of.size() > 0 ? of.maxCoeff() : 0;
-  };
-  for (size_t k = 0; k < a.settings.mesh.size(); ++k) {
+  for (const AlikeMeshes& section : alike_meshes(a)) {
     std::optional<size_t> most;
-    for (size_t m = 0; m < a.mesh.size(); ++m)
-      if (a.settings.section[m] == static_cast<int>(k) && stress(m) > (most ? stress(*most) : 0)) most = m;
+    const auto stress = [&](size_t m) {
+      return a.mesh[m].root_stress_max.size() > 0 ? a.mesh[m].root_stress_max.maxCoeff() : 0;
+    };
+    for (const size_t m : section.meshes)
+      if (stress(m) > (most ? stress(*most) : 0)) most = m;
     if (most) out.push_back(*most);
   }
-  return out;
-}
-
-WordTable train_in_motion(const SystemReport& r) {
-  WordTable out{
-      "In motion: the largest over all speeds, with the mesh frequency at which it stands, and what it is over its value at rest: over the mean of the mesh force, over the largest load of a pair of teeth, over the largest root stress. Root stress is what lasts for 1/64 of a mesh period.",
-      {"mesh", "speed", "mesh force (N)", "at (Hz)", "dynamic factor", "load of a pair of teeth (N)",
-       "at (Hz)", "over rest", "root stress of the driving gear (MPa)", "at (Hz)", "over rest",
-       "of the driven gear (MPa)", "at (Hz)", "over rest"},
-      {}};
-  for (size_t m = 0; m < r.rest->mesh.size(); ++m)
-    for (const ResponseResult& sweep : r.sweeps) {
-      const auto column = static_cast<Index>(m);
-      out.rows.push_back({r.rest->mesh_names[m], sweep.direction == Direction::up ? "rising" : "falling"});
-      const auto add = [&](const MatrixRM& of, Index column, double scale, double rest) {
-        if (!known_of(of, column)) return out.rows.back().resize(out.rows.back().size() + 3, html::kNoValue);
-        Index top = 0;
-        const double most = of.col(column).maxCoeff(&top);
-        for (const std::string& cell : {fixed(most * scale, 0), fixed(sweep.mesh_frequency[top], 0),
-                                        rest > 0 ? fixed(most / rest, 2) : html::kNoValue})
-          out.rows.back().push_back(cell);
-      };
-      const StaticResult& rest = r.rest->mesh[m];
-      add(sweep.mesh_force_max, column, 1, r.rest->mesh_force.col(column).mean());
-      add(sweep.tooth_load_max, column, 1, rest.tooth_load.maxCoeff());
-      for (Index side = 0; side < kSides; ++side)
-        add(sweep.root_stress_sustained, kSides * column + side, kInMegapascals,
-            rest.root_stress_max.size() > 0 ? rest.root_stress_max[side] : 0);
-    }
   return out;
 }
 
@@ -213,99 +191,69 @@ std::string as_html(const WordTable& t) {
 }  // namespace
 
 std::vector<WordTable> teeth_tables(const ReportContent& c) {
-  if (c.statics.empty())
-    fail(Failure::input, "teeth: no static.h5 given; that of the scene's first torque is the least");
-  require_one_pair(c);
-  const StaticResult& s = c.statics[0];
-  if (const std::string why = why_no_root_stress(s); !why.empty()) fail(Failure::input, "teeth: ", why);
-  std::array<const ResponseResult*, 2> sweeps{};
+  if (c.statics.empty()) fail(Failure::input, "teeth: no static.h5 given; make static makes it");
+  require_one_scene(c);
+  const SystemStaticResult& rest = c.statics[0];
+  const std::vector<size_t> meshes = most_stressed(rest);
+  if (const std::string why = why_no_root_stress(rest.mesh.at(0));
+      meshes.empty() || (!rest.of_train() && !why.empty()))
+    fail(Failure::input, "teeth: ", why);
+  std::vector<const ResponseResult*> sweeps;
   for (const Direction direction : {Direction::up, Direction::down}) {
-    const ResponseResult* sweep = sweep_of(c, s.torque, direction);
-    if (!sweep || !known_of(sweep->root_stress_max, 0))
+    const ResponseResult* sweep = sweep_of(c, torque_of(rest), direction);
+    if (sweep && (rest.of_train() || known_of(sweep->root_stress_max, 0)))
+      sweeps.push_back(sweep);
+    else if (!rest.of_train())
       fail(Failure::input, "teeth: no response.h5 ", direction, " with root stress at ",
-           torque_words(s.torque), " is given");
-    sweeps[direction == Direction::up ? 0 : 1] = sweep;
+           torque_words(torque_of(rest)), " is given");
   }
-  const IsoComparison iso = iso_comparison(s, sweeps[0]->inertia);
-  WordTable rest = at_rest(s, iso, "At rest at " + torque_words(s.torque));
-  rest.caption += range_of(iso);
-  return {rest, in_motion(s, iso, sweeps)};
-}
-
-std::vector<WordTable> teeth_tables(const SystemReport& r) {
-  require_whole_system(r);
-  if (!r.rest) fail(Failure::input, "teeth: no static.h5 given; make static makes it");
-  const std::vector<size_t> meshes = most_stressed(*r.rest);
-  if (meshes.empty()) fail(Failure::input, "teeth: ", why_no_root_stress(r.rest->mesh.at(0)));
+  const System layout = layout_of(c);
   std::vector<WordTable> out;
   out.reserve(meshes.size() + 1);
+  IsoComparison iso;
   for (const size_t m : meshes) {
-    const StaticResult& mesh = r.rest->mesh[m];
+    const StaticResult& mesh = rest.mesh[m];
     std::array<double, kSides> inertia{};
     for (size_t g = 0; g < kSides; ++g)
-      inertia[g] = layout_of(r).bodies[static_cast<size_t>(layout_of(r).meshes[m].side[g].body)].inertia;
-    const IsoComparison iso = iso_comparison(mesh, inertia);
+      inertia[g] = layout.bodies[static_cast<size_t>(layout.meshes[m].side[g].body)].inertia;
+    iso = iso_comparison(mesh, inertia);
     out.push_back(at_rest(
         mesh, iso,
-        text(r.rest->mesh_names[m], " at rest, ", torque_words(mesh.torque), " on ", mesh.mesh.gear[0],
-             ", of the meshes of its [[mesh]] the one with the largest root stress")));
+        rest.of_train()
+            ? text(rest.mesh_names[m], " at rest, ", torque_words(mesh.torque), " on ", mesh.mesh.gear[0],
+                   ", of the meshes of its [[mesh]] the one with the largest root stress")
+            : "At rest at " + torque_words(mesh.torque)));
     out.back().caption += range_of(iso);
   }
-  if (!r.sweeps.empty()) out.push_back(train_in_motion(r));
+  if (!sweeps.empty()) out.push_back(in_motion(rest, sweeps, iso));
   return out;
 }
 
-namespace {
-
-// scene: "file: title"; words: before its name; of the sections those that hold something.
-std::string teeth_of(const std::string& scene, const std::string& words,
-                     const std::vector<ReportSection>& sections) {
-  const size_t colon = scene.find(": ");
-  const std::string file = scene.substr(0, colon),
-                    title = colon == std::string::npos ? scene : scene.substr(colon + 2);
-  std::string all;
-  for (const auto& [id, heading, inside] : sections)
-    if (!inside.empty())
-      all += text("<section id=\"", id, "\">\n<h2>", heading, "</h2>\n", inside, "</section>\n");
-  return html::page(title,
-                    "<p class=\"scene\">What the teeth suffer " + words + ": scene <code>" +
-                        html::escaped(file) + "</code></p>\n",
-                    all);
-}
-
-std::string list_of_limits() {
-  std::string list;
-  for (const std::string& limit : limits()) list += html::tagged("li", html::escaped(limit)) + "\n";
-  return html::tagged("ul", "\n" + list);
-}
-
-}  // namespace
-
 std::string teeth_html(const ReportContent& c) {
   const std::vector<WordTable> tables = teeth_tables(c);
-  return teeth_of(
-      c.scene, "at " + torque_words(c.statics[0].torque),
-      {{"remarks", "Warnings and remarks", remarks_list(c)},
-       {"rest", "At rest", as_html(tables[0]) + figures_of(c, "rest")},
-       {"motion", "In motion", as_html(tables[1]) + figures_of(c, "motion")},
-       {"errors", "What the errors are", figures_of(c, "errors") + (c.budget ? budget_table(*c.budget) : "")},
-       {"limits", "Limits", list_of_limits()},
-       {"gears", "The gears", gears_table(c)},
-       {"provenance", "Provenance", provenance_table(c.sources)}});
-}
-
-std::string teeth_html(const SystemReport& r) {
-  const std::vector<WordTable> tables = teeth_tables(r);
-  const size_t at_rest = tables.size() - (r.sweeps.empty() ? 0 : 1);
-  std::string rest;
+  const size_t at_rest = tables.size() - (c.sweeps.empty() ? 0 : 1);
+  std::string rest, list, sections;
   for (size_t i = 0; i < at_rest; ++i) rest += as_html(tables[i]);
-  return teeth_of(r.scene, "in each mesh",
-                  {{"remarks", "Warnings and remarks", system_remarks(r)},
-                   {"rest", "At rest", rest + mesh_tables(r)},
-                   {"motion", "In motion", r.sweeps.empty() ? "" : as_html(tables.back())},
-                   {"limits", "Limits", list_of_limits()},
-                   {"gears", "The gears", gear_tables(r)},
-                   {"provenance", "Provenance", provenance_table(r.sources)}});
+  for (const std::string& limit : limits()) list += html::tagged("li", html::escaped(limit)) + "\n";
+  for (const ReportSection& section : std::vector<ReportSection>{
+           {"remarks", "Warnings and remarks", remarks_list(c)},
+           {"rest", "At rest", rest + figures_of(c, "rest")},
+           {"motion", "In motion",
+            (c.sweeps.empty() ? "" : as_html(tables.back())) + figures_of(c, "motion")},
+           {"errors", "What the errors are",
+            figures_of(c, "errors") + (c.budget ? budget_table(*c.budget) : "")},
+           {"limits", "Limits", html::tagged("ul", "\n" + list)},
+           {"gears", "The gears", bodies_table(c) + drawings_table(c) + meshes_table(c)},
+           {"provenance", "Provenance", provenance_table(c.sources)}})
+    if (!section.inside.empty())
+      sections += text("<section id=\"", section.id, "\">\n<h2>", section.heading, "</h2>\n", section.inside,
+                       "</section>\n");
+  const size_t colon = c.scene.find(": ");
+  return html::page(
+      colon == std::string::npos ? c.scene : c.scene.substr(colon + 2),
+      text("<p class=\"scene\">What the teeth suffer at ", torque_words(torque_of(c.statics[0])),
+           ": scene <code>", html::escaped(c.scene.substr(0, colon)), "</code></p>\n"),
+      sections);
 }
 
 }  // namespace whine

@@ -70,23 +70,28 @@ std::string word(const Figure& figure, const std::string& name) {
   return "";
 }
 
-StaticResult at_rest(double torque, double crowning = 0) {
+SystemStaticResult pair_at(double torque, double crowning) {
   StaticParameters settings = paper_statics(16);
   settings.mesh.gear[0] = crowning > 0 ? "sun" : "pinion";
   settings.mesh.gear[1] = "wheel";
   settings.mesh.modification[0].crowning = crowning;
   const ReducedBody& body = paper_body(40e-3, 0.8e-3);
-  StaticResult s = static_transmission(body, body, settings, torque);
+  SystemStaticResult rest = pair_at_rest(body, body, settings, torque);
+  StaticResult& s = rest.mesh[0];
   const Harmonics h = harmonics(s.transmission_error, 4);
   s.transmission_error_harmonic.resize(5);
   s.transmission_error_harmonic << h.mean, h.amplitude;
-  return s;
+  return rest;
+}
+
+StaticResult at_rest(double torque, double crowning = 0) {
+  return pair_at(torque, crowning).mesh[0];
 }
 
 Design design(const std::string& name, const std::vector<double>& torques, double crowning = 0) {
   Design out{name, {}};
   out.content.scene = name + ": some <title>";
-  for (const double torque : torques) out.content.statics.push_back(at_rest(torque, crowning));
+  for (const double torque : torques) out.content.statics.push_back(pair_at(torque, crowning));
   return out;
 }
 
@@ -106,10 +111,12 @@ Design train_design(const std::string& name, double swing) {
   a.mesh_force = MatrixRM::Constant(kPhases, meshes, 1000);
   a.mesh_force.col(0).setConstant(1300);
   a.load_share = MatrixRM::Constant(kPhases, meshes, 1.0 / 3);
+  a.load_share.leftCols(3) = a.mesh_force.leftCols(3) / 3300;
   a.bearing_force.assign(kPhases, MatrixRM::Constant(bodies, 2, 100));
   a.mesh_stiffness.assign(kPhases, a.mesh_stiffness[0]);
   Design out{name};
-  out.train = SystemReport{name + ": a train", a, {}, {}, {}, {}};
+  out.content.scene = name + ": a train";
+  out.content.statics = {a};
   return out;
 }
 
@@ -302,7 +309,7 @@ TEST_CASE("designs: what differs, with its change; gears by their role; keys of 
   const Design first = design("first", {100, 150}), second = design("second", {150, 200}, 8e-6);
   const std::vector<Difference> found = differences({first, second});
   const Difference& stiffness = row(found, "150", "mean mesh stiffness");
-  const double a = first.content.statics[1].mean_stiffness, b = second.content.statics[0].mean_stiffness;
+  const double a = first.content.statics[1].mesh[0].mean_stiffness, b = second.content.pair().mean_stiffness;
   CHECK(std::stod(stiffness.value[0]) == relative(a * 1e-6, 1e-3));
   CHECK(std::stod(stiffness.value[1]) == relative(b * 1e-6, 1e-3));
   CHECK(std::abs(std::stod(stiffness.change.at(0)) - 100 * (b / a - 1)) < 0.15);
@@ -318,8 +325,10 @@ TEST_CASE("designs: what differs, with its change; gears by their role; keys of 
   CHECK(differences({first, first}).empty());
   // Names of which one begins with the other, as imports make them, and names that are words of the table.
   Design numbered = first, mesh = first;
-  for (StaticResult& s : numbered.content.statics) s.mesh.gear[0] = "stirnrad", s.mesh.gear[1] = "stirnrad_2";
-  for (StaticResult& s : mesh.content.statics) s.mesh.gear[0] = "mesh", s.mesh.gear[1] = "driver";
+  for (SystemStaticResult& s : numbered.content.statics)
+    s.mesh[0].mesh.gear[0] = "stirnrad", s.mesh[0].mesh.gear[1] = "stirnrad_2";
+  for (SystemStaticResult& s : mesh.content.statics)
+    s.mesh[0].mesh.gear[0] = "mesh", s.mesh[0].mesh.gear[1] = "driver";
   CHECK(differences({first, numbered}).empty());
   CHECK(differences({numbered, mesh}).empty());
   CHECK(!contains(compare_html({first, second}, {}), "* At this speed"));
@@ -336,7 +345,7 @@ TEST_CASE("designs: what differs, with its change; gears by their role; keys of 
 
 TEST_CASE(
     "trains side by side: quantities of each mesh, at their own torques; a pair stands beside each mesh") {
-  const std::string swing = "static transmission error, peak to peak, over the whole hunting period";
+  const std::string swing = "static transmission error, peak to peak";
   const Design first = train_design("first", 2e-6), second = train_design("second", 3e-6),
                pair = design("pair", {150}, 8e-6);
   const std::vector<Difference> found = differences({first, second});
@@ -351,25 +360,25 @@ TEST_CASE(
   CHECK(differences({first, first}).empty());
   CHECK(scene_differences({first, first}).empty());
   const std::vector<Difference> beside = differences({pair, first});
-  const VectorXd& te = pair.content.statics[0].transmission_error;
+  const VectorXd& te = pair.content.pair().transmission_error;
   CHECK(std::stod(row(beside, "sun-planet2", swing).value[0]) ==
         relative((te.maxCoeff() - te.minCoeff()) * 1e6, 1e-3));
   // 1300 N of one planet of three, 1000 N of the others; a pair shares no load.
-  const Difference& sharing =
-      row(beside, "sun-planet", "K_gamma: largest of the mean mesh forces over the mean of all planets");
+  const Difference& sharing = row(beside, "sun-planet", "the same of mean shares, K_γ");
   CHECK(std::stod(sharing.value[1]) == relative(3 * 1300.0 / 3300, 1e-3));
   CHECK(!std::isdigit(static_cast<unsigned char>(sharing.value[0][0])));
   CHECK(contains(compare_html({pair, first}, {}), "mesh or body"));
   CHECK(contains(compare_tsv({first, second}), "part\tquantity"));
   // Of planets the first stands for all.
-  const std::vector<RestCurve> curves = rest_curves("first", *first.train->rest);
+  const std::vector<RestCurve> curves = rest_curves("first", first.content.statics[0]);
   REQUIRE(curves.size() == 2);
   CHECK(curves[1].mesh == "planet1-ring");
   const Figure figure = compared_rest_figure({rest_curve("pair", at_rest(150)), curves[0], curves[1]});
   CHECK(figure.panels[0].curves.size() == 3);
   CHECK(figure.panels[0].curves[1].label == "first, sun-planet1");
   Design rigid = first;
-  rigid.train->rest.reset();
+  rigid.content.statics.clear();
+  rigid.content.modes.emplace();
   CHECK(names(message_of([&] { differences({first, rigid}); }), {"first", "rigid"}));
 }
 

@@ -26,7 +26,6 @@
 #include "report/report_guide.h"
 #include "report/report_remarks.h"
 #include "report/report_results.h"
-#include "report/system_report_guide.h"
 #include "signal/response.h"
 #include "signal/spectrum.h"
 #include "studies/sweep.h"
@@ -39,11 +38,15 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-StaticResult statics_of_paper(double torque) {
+SystemStaticResult rest_of_paper(double torque) {
   constexpr int kPositions = 64;
-  StaticResult s = static_transmission(paper_body(), paper_body(), paper_statics(kPositions), torque);
-  set_harmonics(s);
-  return s;
+  SystemStaticResult rest = pair_at_rest(paper_body(), paper_body(), paper_statics(kPositions), torque);
+  set_harmonics(rest.mesh[0]);
+  return rest;
+}
+
+StaticResult statics_of_paper(double torque) {
+  return rest_of_paper(torque).mesh[0];
 }
 
 // Speeds of 1000, 1100, ... Hz; the transmission error has 3 um of order 1, 2 um of order 2 and, at the second speed, whose
@@ -220,7 +223,7 @@ TEST_CASE("base64: the vectors of RFC 4648") {
 TEST_CASE("report: numbers of the artifacts, words that are no marks, figures only of known names") {
   ReportContent content;
   content.scene = "pair: <Gears> & \"teeth\"";
-  content.statics = {statics_of_paper(150), statics_of_paper(100)};
+  content.statics = {rest_of_paper(150), rest_of_paper(100)};
   content.sweeps = {response(some_sweep(Direction::up)), response(some_sweep(Direction::down))};
   content.sweeps[0].remarks = {remark(true, "back flanks < touch")};
   content.pictures = {{"transmission-error", "\x89PNG"}};
@@ -240,8 +243,7 @@ TEST_CASE("report: numbers of the artifacts, words that are no marks, figures on
   REQUIRE(opening < contents);
   const std::string first = page.substr(opening, contents - opening);
   CHECK(contains(first, "At 150 N m the transmission error swings from peak to peak by " +
-                            significant(peak_to_peak(content.statics[0].transmission_error) * 1e6, 3) +
-                            " µm"));
+                            significant(peak_to_peak(content.pair().transmission_error) * 1e6, 3) + " µm"));
   CHECK(contains(first, "(2900 Hz)"));
   CHECK(contains(first,
                  "From 1200 to 1560 rpm (1000 to 1300 Hz) teeth do not part, with speed rising or falling."));
@@ -256,21 +258,21 @@ TEST_CASE("report: numbers of the artifacts, words that are no marks, figures on
     CHECK(rows > 1);
     CHECK(rows <= 13);  // with the line of names
   }
-  CHECK(groups == 6);
+  CHECK(groups == 10);
   CHECK(holds(
       "mesh frequency of that tooth load, rising / falling</td><td>Hz<br>rpm</td><td class=\"number\">1300 / 1000<br>1560 / 1200</td>"));
 
   const std::string table = report_tsv(content);
-  CHECK(contains(table, "150\tlargest tooth load, speed rising\t130\tN\t\t\n"));
-  CHECK(!contains(table, "100\tlargest tooth load"));
+  CHECK(contains(table, "150\t\tlargest tooth load, speed rising\t130.0\tN\t\t\n"));
+  CHECK(!contains(table, "100\t\tlargest tooth load"));
   CHECK(contains(
       table,
-      "150\tmesh frequency of that tooth load, speed rising\t1300\tHz\t\t\n"
-      "150\tmesh frequency of that tooth load, speed rising, as rotation of the driver\t1560\trpm\t\t\n"));
+      "150\t\tmesh frequency of that tooth load, speed rising\t1300\tHz\t\t\n"
+      "150\t\tmesh frequency of that tooth load, speed rising, as rotation of the driver\t1560\trpm\t\t\n"));
   // Loads jump by 5 N in the second of two periods at 1100 Hz alone: no order of the mesh frequency.
-  CHECK(contains(table, "150\tlargest first order of the mesh force, speed rising\t"));
-  CHECK(contains(table, "150\tcontact lost, speed rising\t\tHz\tnowhere\t\n"));
-  CHECK(contains(table, "150\tcontact lost, speed falling\t\tHz\tnowhere\t\n"));
+  CHECK(contains(table, "150\t\tlargest first order of the mesh force, speed rising\t"));
+  CHECK(contains(table, "150\t\tcontact lost, speed rising\t\tHz\tnowhere\t\n"));
+  CHECK(contains(table, "150\t\tcontact lost, speed falling\t\tHz\tnowhere\t\n"));
 
   const auto rejected = [&](auto change) {
     ReportContent other = content;
@@ -281,7 +283,7 @@ TEST_CASE("report: numbers of the artifacts, words that are no marks, figures on
   CHECK(rejected([](ReportContent& c) { c.statics.clear(); }));
   CHECK(rejected([](ReportContent& c) { c.pictures[0].name = "fig99"; }));
   CHECK(rejected([](ReportContent& c) { c.pictures.push_back(c.pictures[0]); }));
-  CHECK(rejected([](ReportContent& c) { c.statics[1].gear[1].design.teeth = 51; }));
+  CHECK(rejected([](ReportContent& c) { c.statics[1].mesh[0].gear[1].design.teeth = 51; }));
 }
 
 TEST_CASE(
@@ -321,8 +323,8 @@ TEST_CASE(
 TEST_CASE("report: the inertia that moves stands beside that of the drawing") {
   ReportContent content;
   content.scene = "pair: gears";
-  content.statics = {statics_of_paper(150)};
-  const StaticResult& s = content.statics[0];
+  content.statics = {rest_of_paper(150)};
+  const StaticResult& s = content.pair();
   CHECK(!contains(report_html(content), "inertia in motion"));
   ImpactResult a;
   a.gear[0].design = s.gear[0].design;
@@ -346,7 +348,7 @@ TEST_CASE("report: the inertia that moves stands beside that of the drawing") {
 TEST_CASE("report: what the numbers mean is said of what is on the page, and of every figure") {
   ReportContent content;
   content.scene = "pair: gears";
-  content.statics = {statics_of_paper(150)};
+  content.statics = {rest_of_paper(150)};
   const auto guide = [&] {
     const std::string page = report_html(content);
     const size_t begin = page.find("<section id=\"guide\">");
@@ -362,7 +364,9 @@ TEST_CASE("report: what the numbers mean is said of what is on the page, and of 
   content.sweeps = {response(some_sweep(Direction::up))};
   const std::string all = guide();
   CHECK(contains(all, "As good as your guess"));
-  content.statics[0].face.line_load.resize(1);
+  content.statics[0].mesh[0].face.line_load.resize(1);
+  content.impacts.resize(1);
+  content.modes.emplace();
   const std::string over_face = guide_to_numbers(content);
   for (const std::string& name : report_figures()) {
     CAPTURE(name);
@@ -374,14 +378,11 @@ TEST_CASE("report: what the numbers mean is said of what is on the page, and of 
 TEST_CASE(
     "report: every accuracy that it quotes stands in tests/accuracy.tsv, and every one of the table in the report") {
   ReportContent content;
-  content.statics = {statics_of_paper(150)};
+  content.statics = {rest_of_paper(150)};
   content.impacts.resize(1);
   content.sweeps.resize(1);
-  content.pictures = {{"response-branches", "\x89PNG"}};
-  SystemReport system;
-  system.rest.emplace();
-  system.pictures = {{"system-static", "\x89PNG"}};
-  const std::string guide = guide_to_numbers(content), of_system = system_guide(system);
+  content.pictures = {{"response-branches", "\x89PNG"}, {"flank-pressure", "\x89PNG"}};
+  const std::string guide = guide_to_numbers(content);
   // "<tr><td>what, links</td><td>reading</td><td>trust</td>..." of the row of a name
   const auto row = [&](const std::string& name) {
     const size_t begin = guide.find("<tr><td>" + name);
@@ -399,7 +400,7 @@ TEST_CASE(
     std::getline(
         std::getline(std::getline(std::getline(columns, quantity, '\t'), error, '\t'), command, '\t'), name,
         '\t');
-    CHECK(contains((name == "system" ? of_system : row(name)), error));
+    CHECK(contains(row(name), error));
     errors.insert(error);
   }
   CHECK(errors.size() > 5);
@@ -413,14 +414,14 @@ TEST_CASE(
 TEST_CASE("report: measured errors stand beside numbers of their torque, rounded up, and nowhere else") {
   ReportContent content;
   content.scene = "pair: gears";
-  content.statics = {statics_of_paper(150), statics_of_paper(100)};
+  content.statics = {rest_of_paper(150), rest_of_paper(100)};
   const SweepResult sweep = some_sweep(Direction::up);
   content.sweeps = {response(sweep)};
   CHECK(words_on_errors(content).empty());
   const ResponseResult& r = content.sweeps[0];
   const Eigen::Index speeds = r.mesh_frequency.size();
   ErrorBudgetResult budget;
-  static_cast<GearPairParameters&>(budget) = content.statics[0];
+  static_cast<GearPairParameters&>(budget) = content.pair();
   budget.torque = 150;
   budget.refinement = {"strips, elements",
                        Eigen::Vector2d(1e-3, -2e-3),
@@ -446,7 +447,7 @@ TEST_CASE("report: measured errors stand beside numbers of their torque, rounded
     FAIL("there is no ", quantity);
     return ReportNumber{};
   };
-  const StaticResult& s = content.statics[0];
+  const StaticResult& s = content.pair();
   const ReportNumber stiffness = number(150, "mean mesh stiffness");
   CHECK(stiffness.value == told(s.mean_stiffness * 1e-6, 3e-3 * s.mean_stiffness * 1e-6, 5).value);
   CHECK(std::stod(stiffness.error) >= 3e-3 * s.mean_stiffness * 1e-6);
@@ -468,7 +469,7 @@ TEST_CASE("report: measured errors stand beside numbers of their torque, rounded
 TEST_CASE("results: one line of names, geometry without a torque, as many cells in each line") {
   ReportContent content;
   content.scene = "pair: gears";
-  content.statics = {statics_of_paper(150)};
+  content.statics = {rest_of_paper(150)};
   content.sweeps = {response(some_sweep(Direction::up))};
   std::istringstream lines(report_tsv(content));
   std::vector<std::vector<std::string>> rows;
@@ -481,35 +482,60 @@ TEST_CASE("results: one line of names, geometry without a torque, as many cells 
         cells.emplace_back();
       else
         cells.back() += c;
-    REQUIRE(cells.size() == 6);
+    REQUIRE(cells.size() == 7);
     rows.push_back(cells);
   }
-  CHECK(rows[0] == std::vector<std::string>{"torque [N m]", "quantity", "value", "unit", "remark", "error"});
-  const auto value = [&](const std::string& quantity) {
+  CHECK(rows[0] ==
+        std::vector<std::string>{"torque [N m]", "part", "quantity", "value", "unit", "remark", "error"});
+  const auto value = [&](const std::string& quantity, const std::string& part = "") {
     for (const auto& row : rows)
-      if (row[1] == quantity && row[0].empty()) return std::stod(row[2]);
+      if (row[2] == quantity && row[1] == part && row[0].empty()) return std::stod(row[3]);
     return -1.0;
   };
-  CHECK(value("contact ratio") == relative(content.statics[0].contact_ratio, 1e-4));
+  CHECK(value("contact ratio") == relative(content.pair().contact_ratio, 1e-4));
   // Two equal gears: the driver's points mirror the driven gear's; where a pair comes the driven gear touches with its tip.
-  const double sap = value("SAP diameter, where the active profile starts, pinion (driver)");
-  CHECK(sap == value("SAP diameter, where the active profile starts, wheel (driven)"));
-  CHECK(value("diameter d_B, pinion (driver)") == value("diameter d_D, wheel (driven)"));
+  const std::string sap = "diameter where the active profile starts (SAP), ";
+  CHECK(value(sap + "pinion (driver)") > 0);
+  CHECK(value(sap + "pinion (driver)") == value(sap + "wheel (driven)"));
+  CHECK(value("diameter at B, from where one pair carries alone, pinion (driver)") ==
+        value("diameter at D, up to where it does, wheel (driven)"));
   CHECK(value("working pitch diameter, pinion (driver)") == 150);
-  CHECK(value("tip diameter, wheel (driven)") == 156);
-  CHECK(value("root diameter, wheel (driven)") == 142.5);
-  CHECK(value("tooth thickness at the reference circle, wheel (driven)") == 4.7124);
-  CHECK(value("teeth in the span, pinion (driver)") == 6);
-  CHECK(value("span over these teeth, pinion (driver)") == 50.811);  // 3 x 16.9370 mm of handbooks
-  CHECK(value("tip clearance, pinion (driver)") == 0.75);
-  CHECK(value("root clearance, wheel (driven)") == 0.75);
+  CHECK(value("tip diameter", "wheel") == 156);
+  CHECK(value("root diameter", "wheel") == 142.5);
+  CHECK(value("tooth thickness at the reference circle (transverse and normal)", "wheel") == 4.7124);
+  CHECK(value("teeth k in the span", "pinion") == 6);
+  CHECK(value("span W_k over these teeth", "pinion") == 50.811);  // 3 x 16.9370 mm of handbooks
+  CHECK(value("tip clearance, to the root circle of the mate, pinion (driver)") == 0.75);
+  CHECK(value("root clearance, to the tip circle of the mate, wheel (driven)") == 0.75);
   CHECK(value("specific sliding where a pair comes into contact, pinion (driver)") == -0.8691);
+}
+
+TEST_CASE("report of a pair: its bodies are in balance, with forces along the axes of the picture") {
+  ReportContent content;
+  content.scene = "pair: gears";
+  content.statics = {rest_of_paper(150)};
+  const auto value = [&](const std::string& body, const std::string& quantity) {
+    for (const ReportNumber& n : report_numbers(content))
+      if (n.part == body && n.quantity == quantity) return std::stod(n.value);
+    FAIL("there is no ", quantity);
+    return 0.0;
+  };
+  CHECK(value("pinion", "torque, mean") == 150);
+  CHECK(value("wheel", "torque, mean") == relative(-150, 1e-3));
+  // The driver turns counter-clockwise and pushes the gear to its right upwards, so that its own bearing is pressed down, along the line of
+  // action at 20 degrees; the mesh force is the torque over the base radius but where tip edges carry load.
+  const double force = static_force(content.pair()), angle = 20 * kPi / 180;
+  const std::string x = "its mean along x, to the right", y = "its mean along y, upwards";
+  CHECK(value("pinion", "force on the bearing, mean") == relative(force, 0.01));
+  CHECK(value("pinion", x) == relative(-force * std::sin(angle), 0.03));
+  CHECK(value("pinion", y) == relative(-force * std::cos(angle), 0.01));
+  for (const std::string& along : {x, y}) CHECK(value("pinion", along) + value("wheel", along) == 0);
 }
 
 TEST_CASE("report: numbers of motions beyond the backlash are marked, with the speeds") {
   ReportContent content;
   content.scene = "pair: gears";
-  content.statics = {statics_of_paper(150)};
+  content.statics = {rest_of_paper(150)};
   content.pictures = {{"responses-by-torque", "\x89PNG"}};
   SweepResult up = some_sweep(Direction::up), down = some_sweep(Direction::down);
   // The half order at the second speed swings farthest back.
@@ -520,20 +546,20 @@ TEST_CASE("report: numbers of motions beyond the backlash are marked, with the s
   CHECK((left.array() <= 0).count() == 1);
   CHECK(left[1] < 0);
   CHECK(std::isinf(backlash_left(down).minCoeff()));
-  const std::vector<Remark> said = remarks(up, content.statics[0]);
+  const std::vector<Remark> said = remarks(up, content.pair());
   CHECK(std::any_of(said.begin(), said.end(), [](const Remark& r) {
     return r.warning && contains(r.words, "at 1100 Hz the motion goes up to 0.1 µm beyond");
   }));
   for (SweepResult* s : {&up, &down}) {
     s->backlash_left = backlash_left(*s);
-    s->remarks = remarks(*s, content.statics[0]);
+    s->remarks = remarks(*s, content.pair());
     content.sweeps.push_back(response(*s));
   }
   name_figures_of_paper(content);
   const std::string table = report_tsv(content), page = report_html(content);
   CHECK(contains(table, "mesh frequency of that RMS, speed rising\t1100\tHz\tbeyond the backlash\t\n"));
-  CHECK(contains(table, "150\tmotion beyond the backlash, speed rising\t1100\tHz\t\t\n"));
-  CHECK(contains(table, "150\tlargest tooth load, speed rising\t130\tN\t\t\n"));  // at 1300 Hz
+  CHECK(contains(table, "150\t\tmotion beyond the backlash, speed rising\t1100\tHz\t\t\n"));
+  CHECK(contains(table, "150\t\tlargest tooth load, speed rising\t130.0\tN\t\t\n"));  // at 1300 Hz
   CHECK(!contains(table, "motion beyond the backlash, speed falling"));
   CHECK(contains(page, ">1100 * / 1200<br>1320 * / 1440</td>"));
   CHECK(contains(page, "not modelled: 150 N m, speed rising: 1100 Hz (1320 rpm)."));  // below the responses
@@ -563,8 +589,8 @@ TEST_CASE(
     "report: Hertz's pressure of the largest load is that of the statics, and warned of where no steel carries it") {
   ReportContent content;
   content.scene = "pair: gears";
-  content.statics = {statics_of_paper(150)};
-  const StaticResult& s = content.statics[0];
+  content.statics = {rest_of_paper(150)};
+  const StaticResult& s = content.pair();
   Eigen::Index pair = 0;
   const double load = s.tooth_load.row(0).maxCoeff(&pair);  // at the pitch point, of one pair alone
   SweepResult sweep = some_sweep(Direction::up);

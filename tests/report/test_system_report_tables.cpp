@@ -16,9 +16,10 @@
 #include "relative.h"
 #include "report/figure_list.h"
 #include "report/figure_words.h"
-#include "report/system_motion_tables.h"
+#include "report/report.h"
+#include "report/report_remarks.h"
+#include "report/report_results.h"
 #include "report/system_picture.h"
-#include "report/system_report.h"
 #include "report/teeth_page.h"
 #include "report/text_width.h"
 #include "results/modes.h"
@@ -62,10 +63,10 @@ SystemStaticResult varied(SystemScene scene = planetary_train(3)) {
   return a;
 }
 
-SystemReport report_of(const SystemStaticResult& rest) {
-  SystemReport r;
+ReportContent report_of(const SystemStaticResult& rest) {
+  ReportContent r;
   r.scene = "train.toml: A planetary train";
-  r.rest = rest;
+  r.statics = {rest};
   r.modes = elastic_modes(rest);
   r.pictures = {{"system", "png"}, {"load-sharing", "png"}, {"modes", "png"}};
   return r;
@@ -106,10 +107,10 @@ bool has_no_number(const std::string& page) {
 TEST_CASE(
     "the page of a system: its sections, its numbers, and the same page of what is written and read back") {
   const SystemStaticResult rest = varied();
-  SystemReport r = report_of(rest);
+  ReportContent r = report_of(rest);
   r.sweeps = sweeps_of(rest);
   r.pictures.push_back({"system-sweep", "png"});
-  const std::string page = system_report_html(r), table = system_report_tsv(r);
+  const std::string page = report_html(r), table = report_tsv(r);
   for (const char* words :
        {"id=\"gears\"", "id=\"meshes\"", "id=\"rest\"", "id=\"modes-of-system\"", "id=\"motion\"",
         "id=\"provenance\"", "<figure id=\"load-sharing\">", "<figure id=\"system-sweep\">", "sun-planet1",
@@ -117,23 +118,23 @@ TEST_CASE(
         "The carrier has 3 planets."})
     CHECK_MESSAGE(contains(page, words), words);
   // Tip and root of the ring, 2.776 (99 -+ 2 x 0.8 or 1.15) mm: its tips lie inside.
-  CHECK(contains(page, ">270.382<"));
-  CHECK(contains(page, ">281.209<"));
-  CHECK(!contains(page, ">279.266<"));
+  CHECK(contains(page, ">270.3824<"));
+  CHECK(contains(page, ">281.2088<"));
+  CHECK(!contains(page, ">279.2656<"));
   CHECK(!has_no_number(page));
   CHECK(!has_no_number(table));
   // part, quantity, value, unit, remark: of what is known.
   for (const char* row :
-       {"sun\ttorque, mean\t400.00\tN m\tdriven\n", "planet1\ttorque, mean\t0.00\tN m\tfree\n",
-        "ring\ttorque, mean\t-1466.60\tN m\theld\n",
-        "carrier\ttorque, mean\t-1866.60\tN m\theld (the frame)\n",
-        "sun-planet2\tmesh force, mean\t1100.0\tN\t\n",
-        "planet1-ring\tstatic transmission error, peak to peak\t4.000\tµm\t\n",
-        "planet3-ring\tmean mesh stiffness, contact frozen\t405\tN/µm\t\n",
-        "planet2-ring\tstatic tooth load, largest\t540\tN\t\n",
-        "planet1\tforce on the bearing, mean\t60.0\tN\t\n",
-        "planet1\tforce on the bearing, largest\t72.1\tN\t\n",
-        "planet1\tforce on the bearing, RMS of the oscillating part\t40.00\tN\t\n"})
+       {"sun\ttorque, mean\t400.00\tN m\tdriven\t\n", "planet1\ttorque, mean\t0.00\tN m\tfree\t\n",
+        "ring\ttorque, mean\t-1466.60\tN m\theld\t\n",
+        "carrier\ttorque, mean\t-1866.60\tN m\theld (the frame)\t\n",
+        "sun-planet2\tmesh force at rest, mean\t1100.0\tN\t\t\n",
+        "planet1-ring\tstatic transmission error, peak to peak\t4.000\tµm\t\t\n",
+        "planet3-ring\tmean mesh stiffness, contact frozen\t405\tN/µm\t\t\n",
+        "planet2-ring\tstatic tooth load, largest\t540.0\tN\t\t\n",
+        "planet1\tforce on the bearing, mean\t60.0\tN\t\t\n",
+        "planet1\tforce on the bearing, largest\t72.1\tN\t\t\n",
+        "planet1\tforce on the bearing, RMS of the oscillating part\t40.00\tN\t\t\n"})
     CHECK_MESSAGE(contains(table, row), row);
 
   const SceneFile place;
@@ -142,57 +143,60 @@ TEST_CASE(
   write(file + "m.h5", *r.modes, kMade);
   write(file + "u.h5", r.sweeps[0], kMade);
   write(file + "d.h5", r.sweeps[1], kMade);
-  SystemReport again = r;
-  again.rest = read<SystemStaticResult>(file + "s.h5");
+  ReportContent again = r;
+  again.statics[0] = read<SystemStaticResult>(file + "s.h5");
   again.modes = read<ModesResult>(file + "m.h5");
   again.sweeps = {read<ResponseResult>(file + "u.h5"), read<ResponseResult>(file + "d.h5")};
-  CHECK(system_report_html(again) == page);
-  CHECK(system_report_tsv(again) == table);
-  CHECK(plot_data(system_picture(*again.rest)) == plot_data(system_picture(rest)));
-  CHECK(plot_data(system_load_sharing_figure(*again.rest)) == plot_data(system_load_sharing_figure(rest)));
+  CHECK(report_html(again) == page);
+  CHECK(report_tsv(again) == table);
+  CHECK(plot_data(system_picture(again.statics[0])) == plot_data(system_picture(rest)));
+  CHECK(plot_data(system_load_sharing_figure(again.statics[0])) ==
+        plot_data(system_load_sharing_figure(rest)));
   CHECK(plot_data(system_sweep_figure(again.sweeps)) == plot_data(system_sweep_figure(r.sweeps)));
 
-  SystemReport rigid;
+  ReportContent rigid;
   rigid.scene = "rigid.toml: Rigid";
   rigid.modes = natural_modes(layout_of(planetary_train(3)));
-  const std::string of_rigid = system_report_html(rigid);
+  const std::string of_rigid = report_html(rigid);
   CHECK(!contains(of_rigid, "id=\"rest\""));
   CHECK(!contains(of_rigid, "id=\"motion\""));
   CHECK(contains(of_rigid, "rotational"));
   // Whether a torque drives it, modes do not know.
   CHECK(!contains(of_rigid, "<td>free</td>"));
 
-  const auto said = [](SystemReport changed, const auto& change) {
+  const auto said = [](ReportContent changed, const auto& change) {
     change(changed);
-    return message_of_input([&] { system_report_html(changed); });
+    return message_of_input([&] { report_html(changed); });
   };
-  CHECK(names(said(r, [](SystemReport& c) { c.modes.reset(); }), {"modes.h5"}));
-  CHECK(names(said(r, [](SystemReport& c) { c.pictures.push_back({"fig07", "png"}); }), {"fig07"}));
-  CHECK(names(said(r, [](SystemReport& c) { c.pictures.push_back(c.pictures[0]); }), {"given", "twice"}));
-  CHECK(names(said(r, [](SystemReport& c) { c.modes = natural_modes(layout_of(planetary_train(4))); }),
+  CHECK(said(r, [](ReportContent& c) { c.modes.reset(); }).empty());
+  CHECK(names(said(rigid, [](ReportContent& c) { c.modes.reset(); }), {"static.h5"}));
+  CHECK(names(said(r, [](ReportContent& c) { c.pictures.push_back({"fig07", "png"}); }), {"fig07"}));
+  CHECK(names(said(r, [](ReportContent& c) { c.pictures.push_back(c.pictures[0]); }), {"given", "twice"}));
+  CHECK(names(said(r, [](ReportContent& c) { c.modes = natural_modes(layout_of(planetary_train(4))); }),
               {"static.h5", "modes.h5", "two systems"}));
-  CHECK(names(said(r, [](SystemReport& c) { c.rest.reset(); }), {"response.h5", "without", "static.h5"}));
-  CHECK(names(said(r, [](SystemReport& c) { c.sweeps[1] = c.sweeps[0]; }), {"two", "up", "one"}));
-  CHECK(names(said(r, [](SystemReport& c) { c.sweeps[1].drive[0] = 401; }), {"sun", 401}));
+  CHECK(names(said(r, [](ReportContent& c) { c.statics.clear(); }), {"no", "static.h5"}));
+  CHECK(names(said(r, [](ReportContent& c) { c.sweeps[1] = c.sweeps[0]; }),
+              {"response.h5", "up", 400, "twice"}));
+  CHECK(names(said(r, [](ReportContent& c) { c.sweeps[1].drive[0] = 401; }), {"sun", 401}));
 }
 
 TEST_CASE(
     "the page of a system in motion: largest values with their speeds, contact loss, motions that differ or do not repeat") {
   const SystemStaticResult rest = varied();
-  SystemReport r = report_of(rest);
-  CHECK(motion_tables(r).empty());
-  CHECK(motion_remarks(r).empty());
+  ReportContent r = report_of(rest);
+  CHECK(motion_words(r).empty());
   r.sweeps = sweeps_of(rest);
-  const std::string table = system_report_tsv(r), page = system_report_html(r);
+  const std::string table = report_tsv(r), page = report_html(r);
   for (
       const char* row :
-      {"sun-planet2\tRMS of the dynamic transmission error, largest, speed rising\t3.000\tµm\tat 2000 Hz of the mesh\n",
-       "sun-planet2\tRMS of the dynamic transmission error, largest, speed falling\t1.000\tµm\t",
-       "sun-planet2\tdynamic factor, largest, speed rising\t2.00\t1\tat 2000 Hz of the mesh\n",
-       "sun-planet1\tdynamic factor, largest, speed falling\t1.50\t1\t",
-       "sun-planet2\ttime without contact, largest, speed rising\t25.00\t%\tat 2000 Hz of the mesh\n",
-       "planet2\tforce on the bearing in motion, largest, speed rising\t777.5\tN\tat 2000 Hz of the mesh\n",
-       "speed rising\tspeeds whose motion is not periodic\t1\t1\t1000\n"})
+      {"400\tsun-planet2\tlargest RMS of the dynamic transmission error, speed rising\t3.000\tµm\t\t\n400\tsun-planet2\tmesh frequency of that RMS, speed rising\t2000\tHz\t\t\n",
+       "sun-planet2\tlargest RMS of the dynamic transmission error, speed falling\t1.000\tµm\t",
+       "sun-planet2\tlargest mesh force over its mean at rest, speed rising\t2.00\t1\t",
+       "sun-planet2\tmesh frequency of that factor, speed rising\t2000\tHz\t",
+       "sun-planet1\tdynamic factor: largest mesh force over its mean at rest, speed falling\t1.50\t1\t",
+       "sun-planet2\ttime without contact, largest, speed rising\t25.00\t%\t\t\n400\tsun-planet2\tmesh frequency of that time, speed rising\t2000\tHz\t",
+       "planet2\tlargest force on the bearing, speed rising\t777.5\tN\t\t\n400\tplanet2\tmesh frequency of that force, speed rising\t2000\tHz\t",
+       "400\t\tspeeds whose motion is not periodic, speed rising\t1\t1\t1000\t\n"})
     CHECK_MESSAGE(contains(table, row), row);
   for (
       const char* words :
@@ -209,18 +213,43 @@ TEST_CASE(
        "Keep the speed of sun out of 4444 rpm (2000 Hz), where teeth part."})
     CHECK_MESSAGE(contains(page, words), words);
   r.sweeps[0].energy_imbalance[1] = 1e-3;
-  CHECK(contains(system_report_html(r), "0.001 of the energy that goes through is not accounted for"));
-  // Ranges of speeds.
-  const Eigen::VectorXd speeds = Eigen::VectorXd::LinSpaced(6, 100, 600);
-  CHECK(speeds_words(speeds, {true, true, false, true, false, true}) == "100 to 200, 400, 600");
-  CHECK(speeds_words(speeds, {true, true, true, true, true, true}) == "100 to 600");
-  CHECK(speeds_words(speeds, std::vector<bool>(6, false)).empty());
+  CHECK(contains(report_html(r), "0.001 of the energy that goes through is not accounted for"));
+}
+
+TEST_CASE("the page of a system: measured errors of a mesh stand beside its numbers, and beside no others") {
+  const SystemStaticResult rest = varied();
+  ReportContent r = report_of(rest);
+  r.sweeps = sweeps_of(rest);
+  const ResponseResult& up = r.sweeps[0];
+  SweepErrorsResult errors;
+  static_cast<MotionSource&>(errors) = up;
+  errors.direction = up.direction;
+  errors.mesh_frequency = up.mesh_frequency;
+  errors.compared = MatrixRMi::Ones(1, up.mesh_frequency.size());
+  for (auto quantity :
+       {&SweepErrorsResult::dte_rms, &SweepErrorsResult::dte_first_order, &SweepErrorsResult::tooth_load_max,
+        &SweepErrorsResult::tooth_load_sustained, &SweepErrorsResult::mesh_force_max}) {
+    (errors.*quantity).error = MatrixRM::Constant(up.mesh_frequency.size(), up.meshes(), 0.001);
+    (errors.*quantity).error.col(1).setConstant(0.02);
+  }
+  r.errors = {errors};
+  const auto error = [&](const std::string& mesh, const std::string& way) {
+    for (const ReportNumber& n : report_numbers(r))
+      if (n.part == mesh && n.quantity == "largest RMS of the dynamic transmission error, speed " + way)
+        return n.error;
+    return std::string("none");
+  };
+  CHECK(error("sun-planet2", "rising") == "0.06");    // 2 % of 3 um
+  CHECK(error("sun-planet1", "rising") == "0.0010");  // 0.1 % of 1 um
+  CHECK(error("sun-planet2", "falling").empty());
+  CHECK(contains(report_html(r), "3.00 ± 0.06"));
+  CHECK(contains(report_html(r), "Numbers in motion have it at 400 N m"));
 }
 
 TEST_CASE(
     "remarks on motion: peaks that are one speed wide, bearings without dampers, what a turning carrier leaves out") {
   const SystemStaticResult rest = varied();
-  SystemReport r;
+  ReportContent r;
   r.sweeps = {small_response(rest, Direction::up)};
   ResponseResult& a = r.sweeps[0];
   const Index meshes = a.dte_rms.cols();
@@ -237,7 +266,7 @@ TEST_CASE(
   const auto said = [&](const std::string& words) {
     sweep.train.layout = a.train.layout;
     a.remarks = remarks_on_carriers(sweep);
-    for (const Remark& one : motion_remarks(r))
+    for (const Remark& one : remarks_on_sweep(r, a))
       if (contains(one.words, words)) return one.warning ? 2 : 1;
     return 0;
   };
@@ -366,7 +395,7 @@ TEST_CASE("types of modes: planets whose mean stiffnesses differ by 2 per cent h
 TEST_CASE("teeth of a train: of each [[mesh]] the worst mesh at rest beside ISO 6336, all meshes in motion") {
   SystemStaticResult rest = varied();
   rest.mesh[2].root_stress_max = Eigen::Vector2d(90e6, 45e6);
-  SystemReport r = report_of(rest);
+  ReportContent r = report_of(rest);
   const std::vector<WordTable> still = teeth_tables(r);
   REQUIRE(still.size() == 2);
   CHECK(contains(still[0].caption, "sun-planet3 at rest"));
@@ -380,16 +409,15 @@ TEST_CASE("teeth of a train: of each [[mesh]] the worst mesh at rest beside ISO 
   r.sweeps = sweeps_of(rest);
   const std::vector<WordTable> moving = teeth_tables(r);
   REQUIRE(moving.size() == 3);
-  REQUIRE(moving[2].rows.size() == 12);
-  // The mean force of mesh 1 at rest is 1100 N.
-  CHECK(moving[2].rows[2][0] == "sun-planet2");
-  CHECK(moving[2].rows[2][2] == "2200");
-  CHECK(moving[2].rows[2][4] == "2.00");
+  REQUIRE(moving[2].rows.size() == 24);
+  // The mean force of mesh 1 at rest is 1100 N; K_v is of pairs.
+  CHECK(moving[2].rows[4] ==
+        std::vector<std::string>{"sun-planet2: mesh force", "rising", "2200 N", "2000", "–", "2.00", "–"});
   const std::string page = teeth_html(r);
   for (const char* id : {"remarks", "rest", "motion", "limits", "gears", "provenance"})
     CHECK(contains(page, text("<section id=\"", id, "\">")));
   CHECK_FALSE(has_no_number(page));
-  for (StaticResult& mesh : r.rest->mesh) mesh.root_stress_max.resize(0);
+  for (StaticResult& mesh : r.statics[0].mesh) mesh.root_stress_max.resize(0);
   CHECK(names(message_of([&] { teeth_tables(r); }), {"teeth", "root stress"}));
 }
 
