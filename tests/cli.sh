@@ -37,7 +37,7 @@ coarse='s/^element_mm = [^ ]*/element_mm = 1.5/; s/^modes = [^ ]*/modes = 21/; s
 scenes=$(dirname "$scene_of_paper")
 sed "$coarse" "$scene_of_paper" > scene.toml
 sed 's/^title = .*/title = "A planetary train"/' "$scenes/lin-parker-planetary.toml" > scene-train.toml
-sed 's/from = 1000, to = 5000, step = 50/from = 2000, to = 2100, step = 100/; s/^element_mm = .*/element_mm = 1.5\nelement_order = 1\npositions = 8\nsteps_per_period = 64/' "$scenes/three-in-line.toml" > scene-inline.toml
+sed 's/from = 1000, to = 5000, step = 50/from = 2000, to = 2100, step = 100/; $a [discretisation]\nelement_mm = 1.5\nelement_order = 1\npositions = 8\nsteps_per_period = 64' "$scenes/three-in-line.toml" > scene-inline.toml
 printf '[gear.idler.modification]\ncrowning_um = 5\n[fidelity]\nmodes = 15\ncontact = "line"\n' >> scene-inline.toml
 artifacts=(out/scene/pinion/{mesh,body}.h5 out/scene/T100/{static,impact,branch,fold_curves_torque,loaded_0.25}.h5 out/scene/T100/up/{runup_5000,sweep,response}.h5 out/scene/T100/pairs/up/sweep.h5
   out/scene-train/modes.h5 out/scene-inline/{modes,T60/static,T60/impact,T60/branch,T60/up/sweep,T60/up/response}.h5)

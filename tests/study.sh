@@ -142,7 +142,8 @@ if make_ STUDY=restless.toml study; then
 else wrong "a study of motions that do not settle" "$(tail -n 1 "$log")"; fi
 
 # --- a study of a train: what it answers beside static.h5 of the same scene
-sed 's/^element_mm = [^ ]*/element_mm = 2.0\npositions = 8/; s/^title = .*/title = "A train"/' data/scenes/three-in-line.toml > train.toml
+sed '$a [discretisation]\nelement_mm = 2.0\npositions = 8
+  s/^title = .*/title = "A train"/' data/scenes/three-in-line.toml > train.toml
 cat > loads.toml <<'STUDY'
 scene = "train.toml"
 quantities = ["te_peak_to_peak.idler-wheel", "mesh_force_static.pinion-idler", "bearing_force_static.idler"]

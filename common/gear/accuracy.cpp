@@ -72,7 +72,8 @@ struct Governed {
   double shown;                       // in the key's unit
 };
 
-std::vector<Governed> governed(const Settings& s) {
+// any_body: the modes of a body that a motion does not read, too.
+std::vector<Governed> governed(const Settings& s, bool any_body = false) {
   std::vector<Governed> out;
   const auto whole = [](int& held, double x, int least, int most, int step) {
     held = std::clamp(step * static_cast<int>(std::ceil(x / step - 1e-9)), least, most);
@@ -86,26 +87,30 @@ std::vector<Governed> governed(const Settings& s) {
                    static_cast<double>(strips)});
   }
   if (s.fidelity.width != WidthModel::one) {
-    constexpr int kLeast = 4, kMost = 64;
+    constexpr int kMost = 64;
     int& points = s.contact.face_points;
     const int n = points > 0 ? points : kFacePoints;
     out.push_back({&kPoints, static_cast<double>(n),
-                   [&, whole](double x) { return whole(points, x, kLeast, kMost, 1); },
+                   [&, whole](double x) {  // the default has more where the load is uneven
+                     points = 0;
+                     return x <= kFacePoints ? kFacePoints : whole(points, x, kFacePoints, kMost, 1);
+                   },
                    static_cast<double>(n)});
   }
-  double& element = s.body.element_size;
-  const double size = element > 0 ? element : s.module / 7.5;  // the default of the key
-  out.push_back({&kElements, size / s.module,
-                 [&, module = s.module](double x) {
+  constexpr double kElementsInModule = 7.5;  // the default of the key
+  const double size = s.body.element_size > 0      ? s.body.element_size / s.module
+                      : s.body.element_modules > 0 ? s.body.element_modules
+                                                   : 1 / kElementsInModule;
+  out.push_back({&kElements, size,
+                 [&](double x) {
                    constexpr double kFinest = 0.04, kCoarsest = 0.25;
-                   element = std::clamp(x, kFinest, kCoarsest) * module;
-                   return element / module;
+                   return s.body.element_modules = std::clamp(x, kFinest, kCoarsest);
                  },
-                 size * 1e3});
+                 size * s.module * 1e3});
   double& periodicity = s.time.periodicity;
   out.push_back({&kPeriodicity, periodicity,
                  [&](double x) { return periodicity = std::clamp(x, 1e-9, 1e-3); }, periodicity});
-  if (s.fidelity.body == BodyModel::modal) {
+  if (any_body ? s.fidelity.body != BodyModel::full : s.fidelity.body == BodyModel::modal) {
     constexpr int kLeast = 9, kMost = 1001;
     int& modes = s.body.modes;
     out.push_back({&kModes, static_cast<double>(modes),
@@ -132,18 +137,29 @@ DiscretisationPlan plan_of(const Settings& s) {
   return out;
 }
 
-// Refuses what the bounds were not measured with.
+// What the bound of a law was not measured with; empty: nothing.
+std::string beyond(const Settings& s, const Law& law) {
+  if (&law == &kElements && s.body.element_order != 2)
+    return text("elements of second order, and element_order = ", s.body.element_order);
+  if (&law == &kElements && s.body.near_field != NearField::subtraction)
+    return text("near_field = \"subtraction\", and near_field = \"", s.body.near_field, "\"");
+  if ((&law == &kSteps || &law == &kStepsOfMassDamping) && s.fidelity.integrator != Integrator::exact)
+    return text("integrator = \"exact\", and integrator = \"", s.fidelity.integrator, "\"");
+  return "";
+}
+
 void require_lawful(const Settings& s) {
-  const auto refuse = [](const std::string& what) {
-    fail(Failure::input, "[accuracy] chooses settings for ", what,
-         "; change that, or take rms_percent out and give the settings of [discretisation] yourself");
-  };
-  if (s.body.element_order != 2)
-    refuse(text("elements of second order, and element_order = ", s.body.element_order));
-  if (s.body.near_field != NearField::subtraction)
-    refuse(text("near_field = \"subtraction\", and near_field = \"", s.body.near_field, "\""));
-  if (s.fidelity.integrator != Integrator::exact)
-    refuse(text("integrator = \"exact\", and integrator = \"", s.fidelity.integrator, "\""));
+  for (const Governed& one : governed(s))
+    if (const std::string what = beyond(s, *one.law); !what.empty())
+      fail(Failure::input, "[accuracy] chooses settings for ", what,
+           "; change that, or take rms_percent out and give the settings of [discretisation] yourself");
+}
+
+void choose_stored_samples(const Settings& s) {
+  if (s.given("steps_per_period")) return;
+  // Fewer stored samples than 64 leave no load that lasts for 1/64 of a period.
+  constexpr int kFewest = 64;
+  if (s.fastest * s.time.steps_per_period > s.time.min_sample_rate) s.time.steps_per_period = kFewest;
 }
 
 void choose(const Settings& s) {
@@ -169,10 +185,20 @@ void choose(const Settings& s) {
     shares -= one.law->share;
     rest = std::max(rest - error * error, kLeast * accepted * accepted * shares);
   }
-  if (s.given("steps_per_period")) return;
-  // Fewer stored samples than 64 leave no load that lasts for 1/64 of a period.
-  constexpr int kFewest = 64;
-  if (s.fastest * s.time.steps_per_period > s.time.min_sample_rate) s.time.steps_per_period = kFewest;
+  choose_stored_samples(s);
+}
+
+// Each by its own share, whatever the scene gives: a key that it adds then changes itself alone, and no body that does not read it.
+void choose_unasked(const Settings& s) {
+  const double all = kAcceptedError * kAcceptedError - kFlankTable * kFlankTable;
+  bool open = false;
+  for (const Governed& one : governed(s, true)) {
+    if (s.given(one.law->key) || !beyond(s, *one.law).empty()) continue;
+    one.set(one.law->value(std::sqrt(all * one.law->share)));
+    open = true;
+  }
+  s.time.accepted_error = open ? kAcceptedError : 0;
+  if (open) choose_stored_samples(s);
 }
 
 template <class AnyScene>
@@ -207,6 +233,10 @@ bool on_strips(const Scene& scene) {
   return scene.fidelity.contact == ContactModel::strips && scene.fidelity.width == WidthModel::one;
 }
 
+bool on_strips(const SystemScene&) {
+  return false;
+}
+
 }  // namespace
 
 double DiscretisationPlan::error() const {
@@ -238,7 +268,7 @@ DiscretisationPlan discretisation_plan(const Scene& scene, const KeyGiven& given
 
 DiscretisationPlan discretisation_plan(const SystemScene& scene, const KeyGiven& given) {
   SystemScene s = scene;
-  return plan_of(settings_of(s, false, given));
+  return plan_of(settings_of(s, on_strips(s), given));
 }
 
 void choose_discretisation(Scene& scene, const KeyGiven& given) {
@@ -246,7 +276,15 @@ void choose_discretisation(Scene& scene, const KeyGiven& given) {
 }
 
 void choose_discretisation(SystemScene& scene, const KeyGiven& given) {
-  if (scene.time.accepted_error > 0) choose(settings_of(scene, false, given));
+  if (scene.time.accepted_error > 0) choose(settings_of(scene, on_strips(scene), given));
+}
+
+void choose_by_default(Scene& scene, const KeyGiven& given) {
+  choose_unasked(settings_of(scene, on_strips(scene), given));
+}
+
+void choose_by_default(SystemScene& scene, const KeyGiven& given) {
+  choose_unasked(settings_of(scene, on_strips(scene), given));
 }
 
 }  // namespace whine

@@ -45,8 +45,16 @@ using KeyGiven = std::function<bool(const std::string& key)>;
 DiscretisationPlan discretisation_plan(const Scene& scene, const KeyGiven& given);
 DiscretisationPlan discretisation_plan(const SystemScene& scene, const KeyGiven& given);
 
+// 1: what a scene accepts that does not say.
+constexpr double kAcceptedError = 0.01;
+
 // Chooses what the scene leaves open so that e is at most scene.time.accepted_error, if what it gives allows that; 0: changes nothing.
 void choose_discretisation(Scene& scene, const KeyGiven& given);
 void choose_discretisation(SystemScene& scene, const KeyGiven& given);
+
+// The same for a scene that says nothing of accuracy: kAcceptedError for each key that is open and whose law is known for what
+// the scene asks (the others have their defaults); accepted_error stays 0 if there is none. What is given moves nothing else.
+void choose_by_default(Scene& scene, const KeyGiven& given);
+void choose_by_default(SystemScene& scene, const KeyGiven& given);
 
 }  // namespace whine

@@ -52,8 +52,9 @@ void add_reductions(const AnyScene& scene, std::vector<StageCost>& out) {
     };
     if (std::any_of(known.begin(), known.end(), alike)) continue;
     known.push_back(&gear.design);
-    const double elements =
-        scene.body.element_size > 0 ? gear.design.module / scene.body.element_size : kDefault;
+    const double elements = scene.body.element_size > 0      ? gear.design.module / scene.body.element_size
+                            : scene.body.element_modules > 0 ? 1 / scene.body.element_modules
+                                                             : kDefault;
     const double size = gear.design.teeth * elements * elements;
     out.push_back(
         {"gear-reduce, " + gear.name,

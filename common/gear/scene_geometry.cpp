@@ -209,8 +209,7 @@ void add_coarse_elements(const AnyScene& scene, std::vector<std::string>& out) {
   if (!(elements < fewest)) return;
   out.push_back(text("element_mm = ", scene.body.element_size * 1e3, " puts ", shown_number(elements),
                      " elements of order ", scene.body.element_order, " on a module of [gear.", gear->name,
-                     "]: with fewer than ", fewest,
-                     " root stress is off by more than 1 %; leave it out (module / 7.5)"));
+                     "]: with fewer than ", fewest, " root stress is off by more than 1 %; leave it out"));
 }
 
 }  // namespace

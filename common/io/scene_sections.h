@@ -32,10 +32,12 @@ KeyGiven keys_given(const Source& source);
 // What [accuracy] asks for, see gear/accuracy.h; its errors at the key.
 template <class AnyScene>
 void take_accuracy(const Source& source, AnyScene& scene) {
+  const toml::node* asked = source.root().at_path("accuracy.rms_percent").node();
+  if (!asked) return choose_by_default(scene, keys_given(source));
   try {
     choose_discretisation(scene, keys_given(source));
   } catch (const Error& error) {
-    source.reject_value("rms_percent", *source.root().at_path("accuracy.rms_percent").node(), error.what());
+    source.reject_value("rms_percent", *asked, error.what());
   }
 }
 

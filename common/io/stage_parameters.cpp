@@ -41,6 +41,8 @@ void walk(StageParameters& s, BodyParameters& p) {
 
 std::string body_parameters(const BodyParameters& chosen) {
   BodyParameters p = chosen;  // keys point at what may be changed
+  if (double& size = p.discretisation.element_size; size == 0)
+    size = p.discretisation.element_modules * p.design.module;
   take_module(keys(p.discretisation), p.design.module);
   if (p.discretisation.width.acts()) take_module(keys(p.discretisation.width), p.design.module);
   StageParameters out(kBody);

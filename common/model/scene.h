@@ -27,12 +27,14 @@ struct WidthDiscretisation {
 
 // Discretisation of a body: what gear-mesh and gear-reduce need beside the gear itself.
 struct BodyDiscretisation {
-  double element_size = 0;  // m on the flank
+  double element_size = 0;  // m on the flank; 0: left open
   int element_order = 2;    // 1 or 2
   int modes = 61;           // elastic modes of the whole gear, or kAllModes; doublets are never cut
   NearField near_field = NearField::subtraction;
   double matching_depth = 1e-3;  // m below the flank; without meaning to subtraction
   WidthDiscretisation width = {};
+  double element_modules =
+      0;  // 1: element size over the module where it is left open; 0: the default of the key
 };
 
 // Off the line of action a tip edge may touch a flank.

@@ -49,9 +49,9 @@ void verify(const std::string& name, const AnyScene& whole, const std::vector<do
     const double bound = discretisation_plan(chosen, [](const std::string&) { return false; }).error();
     std::printf("%-26s %8.2f %8.3f %7.0f %6d %6.2f %5.1f %5d %6d %6.0f %8.1f %8.1f %6.2f %9.1f\n",
                 name.c_str(), error * 100, found.most * 100, found.mesh_frequency, found.compared,
-                bound * 100, scene.gears.front().design.module / chosen.body.element_size, chosen.body.modes,
-                chosen.contact.strips, chosen.time.min_sample_rate / 1e3, own.seconds, cheapest,
-                own.seconds / cheapest, fine.seconds);
+                bound * 100, 1 / chosen.body.element_modules, chosen.body.modes, chosen.contact.strips,
+                chosen.time.min_sample_rate / 1e3, own.seconds, cheapest, own.seconds / cheapest,
+                fine.seconds);
     std::fflush(stdout);
   }
 }

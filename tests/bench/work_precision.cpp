@@ -71,8 +71,8 @@ std::vector<Alone<AnyScene>> alone_of(const AnyScene& scene, bool pair) {
     n = std::max(step, step * static_cast<int>(std::lround(n * factor / step)));
     return static_cast<double>(n);
   };
-  return {{"elements", "mm",
-           [](AnyScene& s, double finer) { return 1e3 * (s.body.element_size /= std::sqrt(finer)); }, true},
+  return {{"elements", "of a module",
+           [](AnyScene& s, double finer) { return s.body.element_modules /= std::sqrt(finer); }, true},
           {"modes", "1", [whole](AnyScene& s, double finer) { return whole(s.body.modes, finer, 1); },
            scene.fidelity.body == BodyModel::modal},
           {"least rate of time steps", "kHz",

@@ -222,7 +222,7 @@ TEST_CASE("elements that are long beside the smallest module are remarked, those
   REQUIRE(said.size() == 1);
   CHECK(
       said[0] ==
-      "element_mm = 2 puts 2 elements of order 2 on a module of [gear.pinion]: with fewer than 3.5 root stress is off by more than 1 %; leave it out (module / 7.5)");
+      "element_mm = 2 puts 2 elements of order 2 on a module of [gear.pinion]: with fewer than 3.5 root stress is off by more than 1 %; leave it out");
   scene.body.element_size = 0.57e-3;
   scene.body.element_order = 1;
   CHECK(scene_remarks(scene).empty());

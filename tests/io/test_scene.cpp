@@ -103,14 +103,22 @@ TEST_CASE("keys left out take the defaults of the structs") {
   CHECK(s.fidelity.contact == Fidelity{}.contact);
   CHECK(s.fidelity.integrator == Fidelity{}.integrator);
   CHECK(s.body.element_order == BodyDiscretisation{}.element_order);
-  CHECK(s.body.modes == BodyDiscretisation{}.modes);
-  CHECK(s.contact.strips == ContactDiscretisation{}.strips);
   CHECK(s.contact.positions == ContactDiscretisation{}.positions);
-  CHECK(s.time.steps_per_period == TimeDiscretisation{}.steps_per_period);
-  CHECK(s.time.min_sample_rate == TimeDiscretisation{}.min_sample_rate);
-  CHECK(s.time.periodicity == TimeDiscretisation{}.periodicity);
   CHECK(s.time.steady_state == TimeDiscretisation{}.steady_state);
   CHECK(s.title == "x");
+  // Of those that an accepted error chooses, for none.
+  const Scene coarse = file.read(with_section("[accuracy]\nrms_percent = 0\n"));
+  CHECK(coarse.time.accepted_error == 0);
+  CHECK(coarse.body.modes == BodyDiscretisation{}.modes);
+  CHECK(coarse.contact.strips == ContactDiscretisation{}.strips);
+  CHECK(coarse.time.steps_per_period == TimeDiscretisation{}.steps_per_period);
+  CHECK(coarse.time.min_sample_rate == TimeDiscretisation{}.min_sample_rate);
+  CHECK(coarse.time.periodicity == TimeDiscretisation{}.periodicity);
+  // A scene that says nothing of it accepts 1 %.
+  const Scene told = file.read(with_section("[accuracy]\nrms_percent = 1\n"));
+  CHECK(s.time.accepted_error == told.time.accepted_error);
+  CHECK(s.body.modes == relative(told.body.modes, 0.1));
+  CHECK(sweep_parameters(s) != sweep_parameters(coarse));
 }
 
 TEST_CASE("lengths that a scene leaves open go with the module of the gear, those that it gives stay") {
@@ -119,7 +127,8 @@ TEST_CASE("lengths that a scene leaves open go with the module of the gear, thos
     return read_body_parameters(file.path(body_parameters(s, gear), "body.toml")).discretisation;
   };
   const auto of_module = [&](const std::string& module, const std::string& sections = "") {
-    return file.read(scene_with("module_mm = 3", "module_mm = " + module) + sections);
+    return file.read(scene_with("module_mm = 3", "module_mm = " + module) + sections +
+                     "[accuracy]\nrms_percent = 0\n");
   };
   const std::string matching = "[discretisation]\nnear_field = \"matching\"\n";
   // Those of the pair of P2000, to the last bit.
@@ -140,10 +149,13 @@ TEST_CASE("lengths that a scene leaves open go with the module of the gear, thos
     CHECK(element(given, "wheel").matching_depth == relative(0.8e-3, 1e-14));
     CHECK(given.damping.undamped_depth == relative(0.7e-3, 1e-14));
   }
-  // Each gear by its own module.
-  const Scene two = file.read(scene_with("like = \"pinion\"", "like = \"pinion\"\nmodule_mm = 6"));
-  CHECK(element(two, "pinion").element_size == relative(0.4e-3, 1e-14));
-  CHECK(element(two, "wheel").element_size == relative(0.8e-3, 1e-14));
+  // Each gear by its own module, under an accepted error as well.
+  const std::string two = scene_with("like = \"pinion\"", "like = \"pinion\"\nmodule_mm = 6");
+  const Scene open = file.read(two + "[accuracy]\nrms_percent = 0\n"), accepting = file.read(two);
+  CHECK(element(open, "pinion").element_size == relative(0.4e-3, 1e-14));
+  CHECK(element(open, "wheel").element_size == relative(0.8e-3, 1e-14));
+  CHECK(element(accepting, "pinion").element_size == relative(3e-3 * accepting.body.element_modules, 1e-14));
+  CHECK(element(accepting, "wheel").element_size == relative(6e-3 * accepting.body.element_modules, 1e-14));
 }
 
 TEST_CASE("the default rack tip is cut to what fits, a given one is not, nor one taken over") {
@@ -336,7 +348,7 @@ TEST_CASE("stage parameters depend on values, not on comments, order, spelling o
   const SceneFile file;
   const Scene plain = file.read(kScene);
   const std::string dressed =
-      "# comment\n[discretisation]\nstrips = 8\nelement_mm = 0.40\n[operation]\nmesh_frequency_Hz = { step = 20.0, to = 4e3, from = 600 }\n"
+      "# comment\n[discretisation]\nstrips = 8\nelement_order = 2\n[operation]\nmesh_frequency_Hz = { step = 20.0, to = 4e3, from = 600 }\n"
       "torque_Nm = [100.0, 150]\n[[mesh]]\ncentre_distance_mm = 150.0 # c\ndriven = \"wheel\"\ndriver = 'pinion'\n"
       "[material.steel]\nplane = \"stress\"\ndensity_kgm3 = 7.6e3\npoisson_ratio = 0.3\nyoungs_modulus_GPa = 207.0\n"
       "[gear.wheel]\nlike = \"pinion\"\n[gear.pinion]\nmaterial = \"steel\"\naddendum = 1\ntotal_inertia_kgm2 = 0.0148\n"
@@ -365,8 +377,8 @@ TEST_CASE("each key moves the stage parameters of the stages that depend on it a
   const std::vector<Change> changes = {
       {scene_with("bore_radius_mm = 40", "bore_radius_mm = 39.999999"), true, true, false, false, false,
        false},
-      {scene_with("youngs_modulus_GPa = 207", "youngs_modulus_GPa = 206"), true, true, false, false, false,
-       false},
+      {scene_with("youngs_modulus_GPa = 207", "youngs_modulus_GPa = 206"), true, true, false, true, true,
+       true},  // another rate of time steps
       {scene_with("plane = \"stress\"", "plane = \"strain\""), true, true, false, false, false, false},
       {section("[discretisation]\nelement_mm = 0.5\n"), true, true, false, false, false, false},
       {section("[fidelity]\nmodes = 9\n"), true, true, false, false, false, false},
@@ -385,7 +397,8 @@ TEST_CASE("each key moves the stage parameters of the stages that depend on it a
       {scene_with("total_inertia_kgm2 = 0.0148", "total_inertia_kgm2 = 0.02"), false, false, true, true, true,
        true},
       {section("[damping]\nrayleigh_stiffness_s = 5.5e-6\n"), false, false, true, true, false, false},
-      {section("[fidelity]\nintegrator = \"newmark\"\n"), false, false, true, true, false, false},
+      {section("[fidelity]\nintegrator = \"newmark\"\n"), false, false, true, true, true,
+       true},  // whose rate of time steps has no law
       {section("[fidelity]\ncontact = \"line\"\n"), false, true, true, true, true, true},
       {section("[discretisation]\nperiodicity = 1e-8\n"), false, false, false, true, true, true},
       {section("[discretisation]\nsteady_state = \"integrate\"\n"), false, false, false, true, true, true},

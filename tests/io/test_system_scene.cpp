@@ -233,7 +233,7 @@ TEST_CASE("elastic systems: what their rest needs is checked with its line befor
   check({{"[[drive]]\ngear = \"ring\"",
           "[[bearing]]\ngear = \"ring\"\nstiffness_N_um = 100\n[[drive]]\ngear = \"ring\""}},
         nullptr, {});
-  check({{"element_mm = 0.4", "element_mm = 0.4\nsteps_per_period = 64"}}, nullptr, {});
+  check({{"[damping]", "[discretisation]\nsteps_per_period = 64\n[damping]"}}, nullptr, {});
   check({{"bore_radius_mm = 20.0", "bore_radius_mm = 20.0\ntotal_inertia_kgm2 = 1e-4"}}, nullptr,
         {"drawing", "least"});
 }
