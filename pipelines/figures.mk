@@ -227,7 +227,7 @@ $(animation_files): $$(call animation_needs,$$*,$$(call animated_scene,$$*)) \
 teeth = $(filter $2,$(SCENE_$1_TEETH))
 # BRANCHES=yes: with the branch at the first torque, which takes about as long as four sweeps.
 BRANCHES ?= no
-system_figures := system system-static load-sharing modes campbell system-sweep motion-errors order-cuts residual-signal ring-down branch multipliers harris-map fold-curves
+system_figures := system system-static load-sharing flank-load modes campbell system-sweep motion-errors order-cuts residual-signal ring-down branch multipliers harris-map fold-curves
 over_face = $(filter slices body,$(SCENE_$1_WIDTH))
 moves = $(filter yes,$(SCENE_$1_MOVES))
 branched = $(if $(call teeth,$1,alike),$(filter yes,$(BRANCHES)))
@@ -235,7 +235,7 @@ pair_at_rest = finite-elements $(if $(filter yes,$(SCENE_$1_MODIFIED)),profile-c
   $(if $(call over_face,$1),flank-load) $(if $(call teeth,$1,cracked),$(if $(call teeth,$1,differ),,crack)) $(if $(filter yes,$(SCENE_$1_FRICTION)),efficiency) \
   $(if $(filter elastic,$(SCENE_$1_BEARINGS)),bearing-forces) $(if $(call teeth,$1,differ),sidebands)
 pair_in_motion = responses-by-torque $(if $(call branched,$1),response-branches) waterfall tooth-loads $(if $(call over_face,$1),face-load,$(if $(call teeth,$1,alike),root-stress))
-train_at_rest = $(if $2,system-static $(if $(filter yes,$(SCENE_$1_PLANETS)),load-sharing)) modes campbell
+train_at_rest = $(if $2,system-static $(if $(filter yes,$(SCENE_$1_PLANETS)),load-sharing) $(if $(call over_face,$1),flank-load)) modes campbell
 train_in_motion = system-sweep $(if $(call branched,$1),branch)
 of_kind_in = $(call $(if $(call is_pair,$2),pair,train)_$1,$2,$3)
 report_shows = system $(call of_kind_in,at_rest,$1,$2) $(if $(call moves,$1),$(call of_kind_in,in_motion,$1) order-cuts $(if $(call branched,$1),multipliers) \

@@ -69,7 +69,8 @@ class Filling : public whine::ArtifactReader {
   bool has(const std::string& name) const override {
     // A train has sections of gears that its meshes name, which these words do not.
     const bool train = given_.contains("/body/is_carrier") || given_.contains("/layout/body/is_carrier");
-    for (const char* pair : {"/parameters/driver_", "/parameters/driven_", "/parameters/modification_"})
+    for (const char* pair :
+         {"/parameters/driver_", "/parameters/driven_", "/parameters/modification_", "/parameters/lead_"})
       if (train && name.starts_with(pair)) return false;
     if (optional_ == Optional::none) return false;
     if (optional_ != Optional::all && name == "/layout/body/name") return false;

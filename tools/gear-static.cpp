@@ -97,7 +97,7 @@ void tell(const SystemStaticResult& a, const std::string& output) {
                                " %, bearing forces up to ", force, " N")
                         : std::string(),
            " -> ", output);
-  if (!a.mesh[0].face.none()) tell(face_load_words(a.mesh[0]));
+  tell(face_load_words(a));
 }
 
 void at_rest(const StageCommand& stage, const Provenance& made, double torque, bool next_level) {

@@ -12,8 +12,6 @@
 #include "gear/system_layout.h"
 #include "orbits/recurrence.h"
 #include "signal/rms.h"
-#include "system/face_mesh.h"
-#include "system/face_statics.h"
 #include "system/system_rest.h"
 
 namespace whine {
@@ -44,13 +42,12 @@ double norm_of_rms(const std::vector<MotionPeriod>& record) {
 }
 
 SystemModel in_motion(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies) {
-  if (settings.fidelity.width == WidthModel::one) return elastic_system(settings, bodies);
-  const System& layout = settings.layout;
-  const auto body = [&](size_t side) -> const ReducedBody& {
-    return body_of(settings, bodies, settings.gear[static_cast<size_t>(layout.meshes[0].side[side].body)]);
-  };
-  return sliced_system(layout, body(0), body(1), settings.mesh[0], settings.fidelity.width,
-                       face_points_of(settings.mesh[0], settings.contact), settings.damping.undamped_depth);
+  if (settings.fidelity.width == WidthModel::body)
+    fail(
+        Failure::input, "width = \"", settings.fidelity.width,
+        "\" in [fidelity]: what sections of a body in three dimensions hold each other by has no inertia yet, and motion is computed in "
+        "slices; write width = \"slices\"");
+  return elastic_system(settings, bodies, settings.damping.undamped_depth);
 }
 
 }  // namespace
@@ -73,10 +70,7 @@ LinesMotion::LinesMotion(const SystemSweepParameters& settings, const std::vecto
                          int positions)
     : system_(in_motion(settings, bodies)), settings_(settings), positions_(positions) {
   take_masses(settings, bodies, system_.layout);
-  if (system_.face.empty())
-    take_rest();
-  else
-    take_rest_in_slices(bodies);
+  take_rest();
   // A mesh without load has a tenth of the deflection of the most loaded one.
   const double most = *std::max_element(deflection_.begin(), deflection_.end());
   for (double& deflection : deflection_) deflection = std::max(deflection, 0.1 * most);
@@ -89,7 +83,6 @@ LinesMotion::LinesMotion(const SystemSweepParameters& settings, const std::vecto
   dynamics_ = placed();
 }
 
-// Of a mesh in one slice.
 void LinesMotion::take_rest() {
   const auto meshes = static_cast<Index>(system_.mesh.size());
   stiffness_ = MatrixXd::Zero(meshes, meshes);
@@ -105,19 +98,6 @@ void LinesMotion::take_rest() {
       deflection_[m] = std::max(deflection_[m], at.deflection[m]);
   }
   take_losses(still, rest);
-}
-
-// The one mesh of a pair.
-void LinesMotion::take_rest_in_slices(const std::vector<ReducedBody>& bodies) {
-  StaticParameters rest{settings_.mesh[0], settings_.fidelity, settings_.contact};
-  rest.contact.positions = kRestPositions;
-  const auto& side = system_.layout.meshes[0].side;
-  const StaticResult at =
-      face_transmission(body_of(settings_, bodies, settings_.gear[static_cast<size_t>(side[0].body)]),
-                        body_of(settings_, bodies, settings_.gear[static_cast<size_t>(side[1].body)]), rest,
-                        mesh_loads(system_)[0] * system_.base_radius(side[0].body));
-  stiffness_ = MatrixXd::Constant(1, 1, at.mean_stiffness);
-  deflection_ = {at.transmission_error.maxCoeff()};
 }
 
 // Losses at rest over the coefficients there, on the body that gives what is left; those in motion go with the speed.

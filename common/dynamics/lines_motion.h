@@ -58,7 +58,6 @@ class LinesMotion : public Motion {
   bool record(State& state, MotionRecord& out);
   void take_holding(MotionRecord& out) const;
   void take_rest();
-  void take_rest_in_slices(const std::vector<ReducedBody>& bodies);
   void take_losses(const SystemModel& still, const std::vector<SystemSolution>& rest);
   std::unique_ptr<SystemDynamics> placed() const;  // with the tip edges that `widenings_` asks for
   SystemModel system_;

@@ -10,7 +10,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// What sections give way each by itself, mesh by mesh.
+// What sections give way each by itself.
 void SystemDynamics::put_uneven(const SystemPosition& at, Position& position) const {
   const int n = position.size();
   position.uneven = MatrixXd::Zero(n, n);
@@ -20,6 +20,7 @@ void SystemDynamics::put_uneven(const SystemPosition& at, Position& position) co
     position.uneven(at.strips_of(m), at.strips_of(m)) = face.uneven;
     position.width(at.strips_of(m)) = face.points.weight;
   }
+  add_uneven_between(system_, at, position.uneven);
   position.uneven_reading = MatrixXd::Zero(padded(n), n);
   position.uneven_reading.topRows(n) = position.uneven * position.width.asDiagonal();
 }

@@ -22,7 +22,9 @@ struct Law {
 };
 constexpr Law kStrips{"strips", 5.5e-3, 4, -1.6, 0.15}, kPoints{"face_points", 1.2e-3, 8, -1.4, 0.03},
     kElements{"element_mm", 4.7e-2, 1, 2, 0.15}, kPeriodicity{"periodicity", 3e-4, 1e-4, 1, 0.02},
-    kModes{"modes", 1.2e-2, 21, -1.3, 0.40}, kSteps{"min_sample_rate_kHz", 22, 1, -2, 0.25},
+    kPeriodicityOfTrain{"periodicity", 1e-2, 1e-4, 1, 0.02}, kModes{"modes", 1.2e-2, 21, -1.3, 0.40},
+    kModesOfSlices{"modes", 1.8e-2, 21, -1.3, 0.40}, kModesOfTrain{"modes", 3e-2, 21, -1.3, 0.40},
+    kSteps{"min_sample_rate_kHz", 22, 1, -2, 0.25},
     kStepsOfMassDamping{"min_sample_rate_kHz", 100, 1, -2, 0.25};
 constexpr double kFlankTable = 1.1e-3;
 
@@ -60,7 +62,7 @@ struct Settings {
   ContactDiscretisation& contact;
   TimeDiscretisation& time;
   double natural_frequency, module, fastest;  // Hz, m, Hz
-  bool on_strips, mass_damped;
+  bool on_strips, train, mass_damped;
   const KeyGiven& given;
 };
 
@@ -108,12 +110,15 @@ std::vector<Governed> governed(const Settings& s, bool any_body = false) {
                  },
                  size * s.module * 1e3});
   double& periodicity = s.time.periodicity;
-  out.push_back({&kPeriodicity, periodicity,
+  out.push_back({s.train ? &kPeriodicityOfTrain : &kPeriodicity, periodicity,
                  [&](double x) { return periodicity = std::clamp(x, 1e-9, 1e-3); }, periodicity});
   if (any_body ? s.fidelity.body != BodyModel::full : s.fidelity.body == BodyModel::modal) {
     constexpr int kLeast = 9, kMost = 1001;
     int& modes = s.body.modes;
-    out.push_back({&kModes, static_cast<double>(modes),
+    out.push_back({s.train                               ? &kModesOfTrain
+                   : s.fidelity.width != WidthModel::one ? &kModesOfSlices
+                                                         : &kModes,
+                   static_cast<double>(modes),
                    [&, whole](double x) { return whole(modes, x, kLeast, kMost, 1); },
                    static_cast<double>(modes)});
   }
@@ -214,6 +219,16 @@ bool mass_damped(const Damping& damping, double frequency) {
   return damping.rayleigh_mass > damping.rayleigh_stiffness * omega * omega;
 }
 
+// Hubs on bearings or several meshes have slow modes of little damping, which take long to settle.
+bool in_train(const Scene& scene) {
+  return std::any_of(scene.gears.begin(), scene.gears.end(),
+                     [](const SceneGear& gear) { return gear.bearing.elastic(); });
+}
+
+bool in_train(const SystemScene&) {
+  return true;
+}
+
 template <class AnyScene>
 Settings settings_of(AnyScene& scene, bool on_strips, const KeyGiven& given) {
   const double frequency = expected_natural_frequency(scene);
@@ -225,6 +240,7 @@ Settings settings_of(AnyScene& scene, bool on_strips, const KeyGiven& given) {
           smallest_module(scene),
           scene.operation.frequency_to,
           on_strips,
+          in_train(scene),
           mass_damped(scene.damping, frequency),
           given};
 }

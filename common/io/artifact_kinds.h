@@ -39,7 +39,7 @@ struct ArtifactKind {
 inline constexpr std::tuple kArtifactKinds{
     ArtifactKind<SectorGrid>{"mesh", 1, "mesh.h5", "mesh"},
     ArtifactKind<ReducedBody>{"body", 5, "body.h5", "body"},
-    ArtifactKind<SystemStaticResult>{"static", 9, "static.h5", "static"},
+    ArtifactKind<SystemStaticResult>{"static", 10, "static.h5", "static"},
     ArtifactKind<ErrorBudgetResult>{"error_budget", 5, "error_budget.h5", "error_budget"},
     ArtifactKind<LoadedResult>{"loaded", 2, "loaded_<phase>.h5", "loaded_*"},
     ArtifactKind<ImpactResult>{"impact", 3, "impact.h5", "impact"},

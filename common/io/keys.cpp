@@ -62,10 +62,7 @@ bool of_systems(const Key& key) {
 bool of_pairs(const Key& key) {
   const std::string section(key.section);
   return (section == "operation" && key.called("torque_Nm")) || key.called("width_degree") ||
-         key.called("section_element_mm") || key.called("width") || key.called("face_points") ||
-         key.called("misalignment_um") || key.called("face_offset_mm") || key.called("helix_angle_deg") ||
-         key.called("hand") || key.called("lead_crowning_um") || key.called("lead_slope_um") ||
-         key.called("end_relief_um") || key.called("end_relief_length_mm");
+         key.called("section_element_mm") || key.called("face_offset_mm");
 }
 
 namespace {

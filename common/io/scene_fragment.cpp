@@ -114,6 +114,7 @@ std::string system_fragment(const SystemScene& scene, const System& layout, cons
   if (!able.elastic) return out.words();
   out.gears(bodies, {input_torque(layout)});
   out.yes_or_no("MOVES", able.moves);
+  out("WIDTH", scene.fidelity.width);
   out("TEETH", teeth_words(able));
   std::string meshes;
   for (size_t m = 0; m < layout.meshes.size(); ++m) meshes += (m > 0 ? " " : "") + mesh_name(layout, m);

@@ -12,7 +12,7 @@ namespace {
 // Over the face of a pair: one slice alone, of spur gears under even load; any level, at rest; slices, in motion.
 enum class Width { one, rest, motion };
 // What a system must have.
-enum class Needs { no_system, nothing, elastic_gears, speeds, planets };
+enum class Needs { no_system, nothing, elastic_gears, speeds, planets, slices };
 
 struct Goal {
   const char* name;
@@ -26,7 +26,7 @@ constexpr std::array kGoals{Goal{"report", Width::rest, Needs::nothing},
                             Goal{"mesh", Width::rest, Needs::elastic_gears},
                             Goal{"reduce", Width::rest, Needs::elastic_gears},
                             Goal{"static", Width::rest, Needs::elastic_gears},
-                            Goal{"flank-load", Width::rest, Needs::no_system},
+                            Goal{"flank-load", Width::rest, Needs::slices},
                             Goal{"fig01", Width::rest, Needs::no_system},
                             Goal{"fig12", Width::rest, Needs::no_system},
                             Goal{"fig13", Width::rest, Needs::no_system},
@@ -79,6 +79,11 @@ std::string system_lacks(const Goal& goal, const SceneAbilities& system) {
   if (goal.system == Needs::no_system) return "is a system of several meshes, carriers or drives";
   if (goal.system == Needs::nothing) return "";
   if (!system.elastic) return "is of rigid gears, which have natural modes alone";
+  if (!system.face.empty() && goal.width == Width::one && goal.system == Needs::elastic_gears)
+    return text("is more than one slice over the face: ", system.face, ", and ", goal.name,
+                " is of spur gears under even load");
+  if (goal.system == Needs::slices && !system.slices)
+    return "is of one slice over the face, whose load is the same all over it";
   if (goal.system == Needs::planets && !system.planets) return "is without planets that share a load";
   if (goal.system == Needs::speeds && !system.moves)
     return "is without speeds, [operation] with mesh_frequency_Hz = { from = 500, to = 5000, step = 50 }";
@@ -116,9 +121,12 @@ SceneAbilities abilities(const Scene& scene) {
 
 SceneAbilities abilities(const SystemScene& scene, const System& layout) {
   const auto any = [&](const auto& of) { return std::any_of(scene.gears.begin(), scene.gears.end(), of); };
+  const bool slices = scene.fidelity.width != WidthModel::one;
   return {.pair = false,
           .teeth_differ = any([](const SystemScene::Gear& gear) { return !gear.errors.none(); }),
           .cracked = any([](const SystemScene::Gear& gear) { return gear.design.crack.depth > 0; }),
+          .face = slices ? text("[fidelity] has width = \"", scene.fidelity.width, "\"") : std::string(),
+          .slices = slices,
           .elastic = !scene.rigid(),
           .planets = layout.meshes.size() > scene.meshes.size(),
           .moves = scene.operation.frequency_to > 0};

@@ -12,8 +12,8 @@ namespace whine {
 struct SceneAbilities {
   bool pair = true;
   bool teeth_differ = false, cracked = false;
-  std::string face = {};  // what of a pair one slice over the face does not hold, in words; "": nothing
-  bool slices = false;    // of a pair: its contact is in slices over the face
+  std::string face = {};  // what one slice over the face does not hold, in words; "": nothing
+  bool slices = false;    // its contact is in slices over the face
   bool elastic = false, planets = false, moves = false;  // of a system
   bool pair_moves() const { return face.empty() || slices; }
 };

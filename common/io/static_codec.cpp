@@ -299,21 +299,47 @@ void describe_reference_contact(Codec& c, ReferenceContact& a) {
   c(a.approach, at + "approach", "m", kLength, "", "transmission error at this phase with strips");
 }
 
-// Of a pair in slices over the face, its one mesh.
+// A member of FaceLoad, [phase] (pair, slice) of each mesh, as [phase] (mesh, pair and slice).
+void describe_slices(Codec& c, SystemStaticResult& a, std::vector<MatrixRM> FaceLoad::*of, const Dataset& d) {
+  const auto count = static_cast<Index>(a.mesh.size());
+  std::vector<MatrixRM> values(a.mesh.empty() ? 0 : (a.mesh[0].face.*of).size());
+  for (size_t i = 0; i < values.size(); ++i) {
+    values[i].resize(count, (a.mesh[0].face.*of)[i].size());
+    for (Index m = 0; m < count; ++m)
+      values[i].row(m) = (a.mesh[static_cast<size_t>(m)].face.*of)[i].reshaped<Eigen::RowMajor>().transpose();
+  }
+  c.dataset(d, &values);
+  for (Index m = 0; c.in() && m < count; ++m) {
+    StaticResult& mesh = a.mesh[static_cast<size_t>(m)];
+    std::vector<MatrixRM>& to = mesh.face.*of;
+    to.clear();
+    for (const MatrixRM& from : values)
+      to.emplace_back(from.row(m).reshaped<Eigen::RowMajor>(mesh.pair.size(), Eigen::AutoSize));
+  }
+}
+
+// In slices over the face.
 void describe_face(Codec& c, SystemStaticResult& all) {
   OverMeshes over(c, all);
-  if (!c.optional("/line_load", !all.mesh[0].face.none())) return;
-  FaceLoad& a = all.mesh[0].face;
-  const char* const slices = "mesh_phase tooth_pair slice";
-  c(a.line_load, "/line_load", "N m-1", kStiff, slices,
-    "normal force of each tooth pair per length of face, at the slices along its contact line");
-  c(a.position, "/face_position", "m", kLength, slices,
-    "place of each slice along the axes, from the middle of the common face towards the viewer who sees the driver turn counter-clockwise");
-  c(a.width, "/slice_width", "m", kSize, slices,
-    "length of face that a slice stands for: weights of Gauss points on the contact line; 0: the pair does not touch",
-    "tooth_load = sum of line_load slice_width");
-  c(a.contact_line_length, "/contact_line_length", "m", kSize, kMeshPhases,
-    "length of all contact lines together", "L");
+  if (!c.optional("/line_load", !all.mesh.empty() && !all.mesh[0].face.none())) return;
+  const char* const slices = "mesh_phase mesh tooth_pair slice";
+  describe_slices(c, all, &FaceLoad::line_load,
+                  {"/line_load", "N m-1",
+                   "normal force of each tooth pair per length of face, at the slices along its contact line",
+                   slices, kStiff});
+  describe_slices(
+      c, all, &FaceLoad::position,
+      {"/face_position", "m",
+       "place of each slice along the axes, from the middle of the common face towards the viewer who sees the driver turn counter-clockwise",
+       slices, kLength});
+  describe_slices(
+      c, all, &FaceLoad::width,
+      {"/slice_width", "m",
+       "length of face that a slice stands for: weights of Gauss points on the contact line; 0: the pair does not touch",
+       slices, kSize, "tooth_load = sum of line_load slice_width"});
+  over(
+      [](StaticResult & s) -> auto& { return s.face.contact_line_length; }, "/contact_line_length", "m",
+      kSize, kPhaseMesh, "length of all contact lines of a mesh together", "L");
   const auto number = [&](double FaceLoad::*of, const char* name, const char* units, const Range& range,
                           const char* meaning, const char* equation = "") {
     over(
@@ -323,7 +349,7 @@ void describe_face(Codec& c, SystemStaticResult& all) {
   number(&FaceLoad::overlap_ratio, "/overlap_ratio", "1", {0, 1000}, "overlap ratio",
          "b sin(beta) / (pi m_n)");
   number(&FaceLoad::axial_force, "/axial_force", "N", kForce,
-         "axial force on the driver, positive as face_position",
+         "axial force on the driver by the balance of rigid bodies, positive as face_position",
          "F_bt tan(beta_b), > 0 of a right-hand driver");
   number(&FaceLoad::load_factor, "/face_load_factor", "1", kPositive,
          "largest line load of the reference pair at mesh phase 0 over its mean, ends of the line included",
@@ -331,13 +357,22 @@ void describe_face(Codec& c, SystemStaticResult& all) {
   number(
       &FaceLoad::load_factor_error, "/face_load_factor_error", "1", kPositive,
       "what face_load_factor changes by with half as many points more and, on bodies in three dimensions, with polynomials of two degrees less");
-  c(a.degree, "/width_degree", "1", {0, kLargestDegree}, "",
+  int degree = all.mesh.empty() ? 0 : all.mesh[0].face.degree;
+  c(degree, "/width_degree", "1", {0, kLargestDegree}, "",
     "degree of the polynomials over the face that bodies in three dimensions take part with; 0 of slices");
+  for (StaticResult& mesh : all.mesh) mesh.face.degree = degree;
   number(
       &FaceLoad::least_eigenvalue, "/certificate/least_eigenvalue", "m2 N-1", kFlexibility,
       "least eigenvalue of local and body compliance between line loads over all phases: above 0, or loads have no single solution");
   number(&FaceLoad::line_load_max, "/line_load_max", "N m-1", kStiff,
          "largest line load of all phases within the inner 90 % of face and path of contact");
+  number(&FaceLoad::half_width_max, "/half_width_max", "m", kSize, "half width of the widest contact there");
+  c(all.axial_force, "/body_axial_force", "N", kForce, kPhaseBody,
+    "axial force of a body on its bearing, of a planet on its pin, of a carrier on the ground, towards the viewer of the system, who sees the first body turn counter-clockwise",
+    "sum of F_bt tan(beta_b)");
+  c(all.tilting_moment, "/tilting_moment", "N m", kMoment, "mesh_phase body xy",
+    "moment across its axis that a body gives to its bearing or pin, about the middle of its face: of axial forces at different places, and of loads beside the middle. Bodies do not tilt",
+    "sum of r x F");
 }
 
 void describe_certificate(Codec& c, SystemStaticResult& a) {
@@ -397,8 +432,8 @@ void describe(Codec& c, SystemStaticResult& a) {
   describe_rectangular_wave(c, a);
   if (!a.of_train()) {
     describe_reference_contact(c, a.mesh[0].reference_contact);
-    describe_face(c, a);
   }
+  describe_face(c, a);
   describe_certificate(c, a);
   describe_backlash(c, a.backlash_margin);
   describe_remarks(c, a.remarks);

@@ -16,11 +16,12 @@ const LayoutPlace kPlaceOfLayout{"/layout", ""};
 
 // [gear.<name>.modification], of gears that have one.
 void describe_modification(Codec& c, const std::string& gear, SystemStaticParameters& s) {
-  const std::string section = "modification_" + gear;
+  if (c.lists()) return;
   FlankModification modification = s.modification(gear);
-  const bool stands = modification != FlankModification{};
-  if (c.lists() || !c.optional("/parameters/" + section + "/tip_relief", stands)) return;
-  c.parameters(section, keys(modification));
+  if (c.optional("/parameters/modification_" + gear + "/tip_relief", modification.of_profile()))
+    c.parameters("modification_" + gear, keys(modification));
+  if (c.optional("/parameters/lead_" + gear + "/lead_crowning", !modification.lead.none()))
+    c.parameters("lead_" + gear, keys(modification.lead));
   if (c.in()) s.modify(gear, modification);
 }
 
@@ -32,7 +33,7 @@ void describe_settings(Codec& c, SystemStaticResult& a) {
   c(s.gear, "/layout/body/gear", "body", "name of its gear in the scene; empty of a carrier");
   c(gears, "/gear", "gear_number", "names of the gears of the scene, of a train");
   describe_sections(c, s.section, kPlaceOfLayout);
-  c.parameters("fidelity", keys(s.fidelity).only({"contact"}));
+  c.parameters("fidelity", keys(s.fidelity).only({"contact", "width"}));
   c.parameters("discretisation", keys(s.contact));
   if (c.in()) {
     s.mesh.resize(s.section.empty()

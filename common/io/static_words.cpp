@@ -1,5 +1,6 @@
 #include "io/static_words.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -43,21 +44,30 @@ std::vector<std::string> root_stress_words(const ErrorBudgetResult& errors) {
   return lines;
 }
 
-std::vector<std::string> face_load_words(const StaticResult& statics) {
-  const FaceLoad& face = statics.face;
-  const double mean = statics.tooth_load.row(0).sum() / statics.face_width();
-  std::ostringstream out;
-  out << face.line_load[0].cols();
-  if (face.degree > 0)
-    out << " points on bodies in three dimensions (degree " << face.degree << ")";
-  else
-    out << " slices";
-  out << " along each contact line: overlap ratio " << face.overlap_ratio << ", face load factor K_Hbeta "
-      << face.load_factor << " +- " << std::round(1e3 * face.load_factor_error) / 1e3
-      << " of the reference pair at the pitch point, largest line load " << face.line_load_max * 1e-3
-      << " N/mm (inner 90 % of face and path; all of the load over the face: " << mean * 1e-3 << " N/mm)";
-  if (face.axial_force != 0) out << ", axial force on the driver " << face.axial_force << " N";
-  return {out.str()};
+std::vector<std::string> face_load_words(const SystemStaticResult& all) {
+  std::vector<std::string> lines;
+  const std::vector<int>& section = all.settings.section;
+  for (size_t m = 0; m < all.mesh.size(); ++m) {
+    const StaticResult& statics = all.mesh[m];
+    const FaceLoad& face = statics.face;
+    const auto own = section.begin() + static_cast<std::ptrdiff_t>(m);
+    if (face.none() || (all.of_train() && std::find(section.begin(), own, section[m]) != own)) continue;
+    const double mean = statics.tooth_load.row(0).sum() / statics.face_width();
+    std::ostringstream out;
+    if (all.of_train()) out << all.mesh_names[m] << ": ";
+    out << face.line_load[0].cols();
+    if (face.degree > 0)
+      out << " points on bodies in three dimensions (degree " << face.degree << ")";
+    else
+      out << " slices";
+    out << " along each contact line: overlap ratio " << face.overlap_ratio << ", face load factor K_Hbeta "
+        << face.load_factor << " +- " << std::round(1e3 * face.load_factor_error) / 1e3
+        << " of the reference pair at the pitch point, largest line load " << face.line_load_max * 1e-3
+        << " N/mm (inner 90 % of face and path; all of the load over the face: " << mean * 1e-3 << " N/mm)";
+    if (face.axial_force != 0) out << ", axial force on the driver " << face.axial_force << " N";
+    lines.push_back(out.str());
+  }
+  return lines;
 }
 
 }  // namespace whine

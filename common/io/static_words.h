@@ -17,9 +17,9 @@ std::vector<std::string> change_words(const std::string& where, const StaticDiff
 // without three levels of elements.
 std::vector<std::string> root_stress_words(const ErrorBudgetResult& errors);
 
-// Of a pair in slices over the face: overlap, load over the face, axial force.
 // Of another level over the face.
 std::string change_words(const WidthChange& change);
-std::vector<std::string> face_load_words(const StaticResult& statics);
+// In slices over the face, of a train the first mesh of each [[mesh]]: overlap, load over the face, axial force; else nothing.
+std::vector<std::string> face_load_words(const SystemStaticResult& statics);
 
 }  // namespace whine

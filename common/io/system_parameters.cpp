@@ -181,10 +181,10 @@ void walk(StageParameters& s, SystemStaticParameters& p, SystemSweepParameters* 
   }
   for (size_t m = 0; (reads && m == 0) || s.has(text("mesh_", m), m < p.mesh.size()); ++m) {
     if (reads) p.mesh.emplace_back();
-    s(keys(p.mesh[m])
-          .section("mesh")
-          .without({"misalignment_um", "face_offset_mm"})
+    const KeyList own = keys(p.mesh[m]).section("mesh");
+    s(own.without({"misalignment_um", "face_offset_mm"})
           .all()
+          .append(own.only({"misalignment_um"}))
           .labelled(text("mesh_", m)));
   }
   if (Friction friction = p.friction(); s.has("friction", friction.acts())) {
@@ -193,8 +193,8 @@ void walk(StageParameters& s, SystemStaticParameters& p, SystemSweepParameters* 
   }
   for (const auto& [gear, hash] : p.body) {
     FlankModification own = p.modification(gear);
-    if (!s.has("modification_" + gear, own != FlankModification{})) continue;
-    s(keys(own).labelled("modification_" + gear));
+    if (s.has("modification_" + gear, own.of_profile())) s(keys(own).labelled("modification_" + gear));
+    if (s.has("lead_" + gear, !own.lead.none())) s(keys(own.lead).labelled("lead_" + gear));
     p.modify(gear, own);
   }
   for (size_t b = 0; b < p.errors.size(); ++b)

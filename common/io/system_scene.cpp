@@ -13,10 +13,6 @@
 namespace whine {
 namespace {
 
-// Behind what needs more.
-constexpr const char* kOneSlice =
-    ", and a system (several meshes, carriers or drives) is computed in one slice over the face, of spur gears under even load; compute two of the gears as a pair";
-
 // What a gear of a system cannot have.
 void reject_sections(const SectionReader& gear, bool rigid) {
   for (const char* key : {"modification", "error", "crack"}) {
@@ -59,10 +55,6 @@ void take_gears(const Source& source, SystemScene& scene) {
     static_cast<SceneGear&>(gear) = own;
     const SectionReader reader = reader_of(own.name);
     reject_sections(reader, rigid);
-    if (own.design.helical() || !own.modification.lead.none())
-      reader.reject_at(reader.node("helix_angle_deg") ? *reader.node("helix_angle_deg") : reader.table(),
-                       own.design.helical() ? " is helical" : " takes material off along its face",
-                       kOneSlice);
     if (!rigid) continue;
     const auto like = reader.table()["like"].value<std::string>();
     const bool inherits = like && !reader.node("equivalent_mass_kg");
@@ -117,7 +109,9 @@ void take_meshes(const Source& source, SystemScene& scene) {
     reader.read(keys(mesh.spec).section("mesh"));
     reader.read(keys(mesh));
     reject_stiffness(reader, scene.rigid(), "that of elastic gears is computed");
-    for (const char* key : {"misalignment_um", "face_offset_mm"}) reader.reject_given(key, kOneSlice);
+    reader.reject_given(
+        "face_offset_mm",
+        ", and in a train the middles of all faces stand in one plane, on which the phases of helical meshes depend; take the line out");
     if (scene.rigid() && !(mesh.stiffness > 0))
       reader.reject(" of '", mesh.spec.gear[0], "' and '", mesh.spec.gear[1],
                     "' lacks 'stiffness_N_um', which body = \"rigid\" needs");
@@ -198,13 +192,60 @@ void take_fidelity(const Source& source, SystemScene& scene) {
       section.reject(" belongs to elastic gears in motion, and those of this scene are rigid; take it out");
   });
   if (moves && !scene.rigid()) reject_in_motion(source, scene.fidelity);
-  if (scene.fidelity.width != WidthModel::one)
-    source.reject(*source.root().at_path("fidelity.width").node(), "width = \"", scene.fidelity.width,
-                  "\" in [fidelity]", kOneSlice);
   if (const toml::node* node = source.root().get("discretisation"); node && scene.rigid())
     source.reject(
         *node, "[discretisation] belongs to elastic gears, and those of this scene are rigid; take it out");
   if (scene.fidelity.body == BodyModel::full) scene.body.modes = kAllModes;
+}
+
+// Level over the face: slices where a mesh is more than one slice and the scene leaves it open.
+void take_width(const Source& source, SystemScene& scene) {
+  std::string words;
+  for (const SystemScene::Mesh& mesh : scene.meshes) {
+    std::array<const GearDesign*, kSides> design{};
+    for (size_t g = 0; g < kSides; ++g)
+      for (const SystemScene::Gear& gear : scene.gears)
+        if (gear.name == mesh.spec.gear[g]) design[g] = &gear.design;
+    if (words.empty() && design[0] && design[1]) words = face_words(mesh.spec, *design[0], *design[1]);
+  }
+  const toml::node* level = source.root().at_path("fidelity.width").node();
+  if (!level && !words.empty()) scene.fidelity.width = WidthModel::slices;
+  const toml::node& at = level ? *level : source.root();
+  if (scene.fidelity.width == WidthModel::one) {
+    if (!words.empty())
+      source.reject(at, "width = \"one\" in [fidelity], and ", words,
+                    ": one slice over the face is of spur gears under even load; write width = \"slices\"");
+    return;
+  }
+  if (scene.rigid())
+    source.reject(at, level ? text("width = \"", scene.fidelity.width, "\" in [fidelity]") : words,
+                  ", and the gears of this scene are rigid, whose meshes are springs of stiffness_N_um; ",
+                  level ? "take the line out" : "give spur gears, or elastic ones");
+  if (scene.fidelity.width == WidthModel::body)
+    source.reject(
+        at, "width = \"body\" in [fidelity]: bodies in three dimensions are of pairs; ",
+        "a system (several meshes, carriers or drives) is computed in slices: write width = \"slices\"");
+  scene.fidelity.contact = ContactModel::line;
+  if (const toml::node* friction = source.root().get("friction");
+      friction && scene.meshes[0].spec.friction.acts())
+    source.reject(*friction, "[friction] is of one slice over the face, and this scene is computed in slices",
+                  words.empty() ? "" : text(": ", words), "; take the section out");
+  for (const SystemScene::Gear& gear : scene.gears) {
+    const bool cracked = gear.design.crack.depth > 0;
+    if (gear.errors.none() && !cracked) continue;
+    const char* const section = cracked ? "crack" : "error";
+    const toml::table& table = *source.section("gear")->get(gear.name)->as_table();
+    source.reject(table.get(section) ? *table.get(section) : at, "[gear.", gear.name, ".", section,
+                  "] is of one slice over the face, and this scene is computed in slices",
+                  words.empty() ? "" : text(": ", words), "; take the section out");
+  }
+  for (const SystemScene::Gear& gear : scene.gears)
+    if (gear.design.helical() && gear.material.plane_stress) {
+      const toml::node* helix = source.root().at_path("gear." + gear.name + ".helix_angle_deg").node();
+      source.reject(helix ? *helix : at, "[gear.", gear.name,
+                    "] is helical, and its [material] has plane = \"stress\": ",
+                    "the sections of a helical gear hold each other; write plane = \"strain\"");
+    }
 }
 
 // Names of gears that share a shaft come first: what else a scene of them lacks leads nowhere.
@@ -261,6 +302,7 @@ SystemScene system_scene_from(const Source& source) {
   take_pins(source, scene);
   take_meshes(source, scene);
   take_friction(source, scene);
+  take_width(source, scene);
   take_bearings(source, scene);
   take_drives(source, scene);
   if (!scene.rigid()) take_accuracy(source, scene);

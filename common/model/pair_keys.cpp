@@ -80,7 +80,7 @@ KeyList keys(Fidelity& f) {
   k.choice(f.contact, "contact", "strips", "contact of a tooth pair: one force and Hertz's closed law, or pressure on strips");
   k.choice(f.integrator, "integrator", "exact", "time integration: Newmark (Eq. 8), or modal propagators");
   k.begin_group(f.width != WidthModel::one);
-  k.choice(f.width, "width", "one", "contact over the face width: one slice under even load, of spur pairs; slices: points along each contact line, which the teeth carry each by itself; body: the same points on bodies in three dimensions, in plane strain; default: body for helical pairs, misalignment, face offset and lead modifications, else one");
+  k.choice(f.width, "width", "one", "contact over the face width: one slice under even load, of spur pairs; slices: points along each contact line, which the teeth carry each by itself; body: the same points on bodies in three dimensions, in plane strain, of pairs; default: for helical gears, misalignment, face offset and lead modifications body, of systems slices, else one");
   return k;
 }
 

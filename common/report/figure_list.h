@@ -67,7 +67,7 @@ Figure crack_figure(const StaticResult& statics);
 
 // Line load on a tooth over face and path of contact, as the tooth passes through the mesh, as colours; beside it the line load of each
 // tooth pair over the face at mesh phase 0. Throws Error(input) for a pair in one slice.
-Figure flank_load_figure(const StaticResult& statics);
+Figure flank_load_figure(const SystemStaticResult& statics);
 
 // Changes of the static answer by each refinement, as bars, in per cent; apart from them those by another choice of near field or
 // contact.

@@ -27,30 +27,42 @@ double load_at(const FaceLoad& face, Index phase, Index pair, double z) {
   return load[n - 1];
 }
 
-// N m-1: on the tooth of the reference pair where its contact line passes a place of the plane of action (m).
+// N m-1: on the tooth of the reference pair where its contact line passes a place of the plane of action (m). Positions of a mesh of a train
+// begin at a phase of its own.
 double load_on_flank(const StaticResult& s, const GearPair& pair, double z, double path) {
-  const double total = (path - std::tan(pair.base_helix_angle()) * z) / pair.base_pitch();
-  const auto positions = s.mesh_phase.size();
-  const double row = (total - std::floor(total)) * static_cast<double>(positions);
-  const Index before = std::min<Index>(static_cast<Index>(row), positions - 1);
-  const double share = row - static_cast<double>(before);
-  const Index own = static_cast<Index>(std::floor(total)) - s.pair[0];
-  const double first = load_at(s.face, before, own, z), second = before + 1 < positions
-                                                                     ? load_at(s.face, before + 1, own, z)
-                                                                     : load_at(s.face, 0, own + 1, z);
-  return (1 - share) * first + share * second;
+  const double total = (path - std::tan(pair.base_helix_angle()) * z) / pair.base_pitch(),
+               period = std::floor(total);
+  const Index positions = s.mesh_phase.size();
+  const auto n = static_cast<double>(positions);
+  const double ahead = (s.mesh_phase[0] - std::floor(s.mesh_phase[0])) * n, first = std::floor(ahead),
+               place = (total - period) * n - (ahead - first), before = std::floor(place);
+  // k: number of the position by the phase of the mesh, -1 to `positions`.
+  const auto load = [&](Index k) {
+    const Index turn = k < 0 ? -1 : k >= positions ? 1 : 0, own = k - turn * positions;
+    return load_at(s.face, (own - static_cast<Index>(first) + positions) % positions,
+                   static_cast<Index>(period) + turn - s.pair[0], z);
+  };
+  const auto k = static_cast<Index>(before);
+  return (1 - (place - before)) * load(k) + (place - before) * load(k + 1);
 }
 
 }  // namespace
 
-Figure flank_load_figure(const StaticResult& s) {
-  if (s.face.none())
+Figure flank_load_figure(const SystemStaticResult& all) {
+  if (all.mesh[0].face.none())
     fail(
         Failure::input,
         "flank-load: this static.h5 is of one slice over the face, whose load is the same all over it; write width = \"slices\" in [fidelity] of the scene");
+  // Of a train the mesh with the largest line load; of those of one [[mesh]], which are alike but for the phases that are computed, the first.
+  constexpr double kClearly = 1.01;
+  size_t most_loaded = 0;
+  for (size_t m = 1; m < all.mesh.size(); ++m)
+    if (all.mesh[m].face.line_load_max > kClearly * all.mesh[most_loaded].face.line_load_max) most_loaded = m;
+  const StaticResult& s = all.mesh[most_loaded];
   const GearPair pair(s);
   Figure figure;
-  figure.title = text("Load over the flank, ", torque_words(s.torque));
+  figure.title = text("Load over the flank", all.of_train() ? " of " + all.mesh_names[most_loaded] : "", ", ",
+                      torque_words(s.torque));
   figure.notes.push_back(pair_words(s));
   figure.notes.push_back(
       text("overlap ratio ", rounded(s.face.overlap_ratio, 3), ", K_{Hβ} ", rounded(s.face.load_factor, 3),
@@ -81,22 +93,29 @@ Figure flank_load_figure(const StaticResult& s) {
       lines.rows.push_back({});
     }
   figure.blocks.push_back(lines);
+  const auto positions = static_cast<double>(s.mesh_phase.size());
   std::string labels;
   double line_most = 0;  // N m-1
   int curves = 0;
+  // Of a train: the position nearest to phase 0 of the mesh, whose pairs may be numbered one on.
+  const double ahead = s.mesh_phase[0] - std::floor(s.mesh_phase[0]);
+  const auto row = static_cast<Index>(std::lround((1 - ahead) * positions)) % static_cast<Index>(positions);
+  const auto at = static_cast<size_t>(row);
+  const double phase = s.mesh_phase[row] - std::floor(s.mesh_phase[row]);
+  const int turn = static_cast<int>(std::lround(phase));  // 1: just before phase 0
   for (Index k = 0; k < s.pair.size() && curves < static_cast<int>(kMostCurves); ++k) {
-    if (!(s.face.width[0](k, 0) > 0) || !(s.tooth_load(0, k) > 0)) continue;
+    if (!(s.face.width[at](k, 0) > 0) || !(s.tooth_load(row, k) > 0)) continue;
     FigureBlock curve{text("pair ", ++curves),
                       {"face [mm]", "line load [N/mm]"},
                       {},
                       "line load at mesh phase 0",
-                      text("pair ", s.pair[k])};
-    line_most = std::max(line_most, s.face.line_load[0].row(k).maxCoeff());
-    for (Index q = 0; q < s.face.line_load[0].cols(); ++q)
+                      text("pair ", s.pair[k] + turn)};
+    line_most = std::max(line_most, s.face.line_load[at].row(k).maxCoeff());
+    for (Index q = 0; q < s.face.line_load[at].cols(); ++q)
       curve.rows.push_back(
-          {s.face.position[0](k, q) * kMilli, s.face.line_load[0](k, q) * kNewtonPerMillimetre});
+          {s.face.position[at](k, q) * kMilli, s.face.line_load[at](k, q) * kNewtonPerMillimetre});
     figure.blocks.push_back(curve);
-    labels += text("'tooth pair ", s.pair[k], "' ");
+    labels += text("'tooth pair ", s.pair[k] + turn, "' ");
   }
   figure.words.emplace_back("labels", labels);
   figure.numbers.emplace_back("curves", curves);

@@ -19,6 +19,7 @@
 #include "report/report_remarks.h"
 #include "report/report_results.h"
 #include "report/report_tables.h"
+#include "report/system_picture.h"
 
 namespace whine {
 namespace {

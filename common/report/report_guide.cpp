@@ -153,8 +153,7 @@ bool named_in(const GuideRow& row, const ReportPicture& picture) {
 }
 
 bool there(const GuideRow& row, const ReportContent& c) {
-  const bool only_a_picture = !*row.next && *row.figures,
-             over_face = !c.statics.empty() && !c.pair().face.none(), moves = !c.sweeps.empty();
+  const bool over_face = !c.statics.empty() && !c.pair().face.none(), moves = !c.sweeps.empty();
   switch (row.needs) {
     case Needs::figure:
       return std::any_of(c.pictures.begin(), c.pictures.end(),

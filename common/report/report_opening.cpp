@@ -212,7 +212,7 @@ std::string advice(const FirstTorque& t) {
                                 " times an equal share: let a central gear float on a softer [[bearing]]."));
   out.parts = parts(t.sweeps);
   out.avoid = speeds_to_avoid(t, out.parts);
-  if (t.sections.size() == 1 && t.rest->mesh[0].stiffness_harmonic.size() > 1)
+  if (t.rest && t.sections.size() == 1 && t.rest->mesh[0].stiffness_harmonic.size() > 1)
     out.stiffness_swing = t.rest->mesh[0].stiffness_harmonic[1] / t.rest->mesh[0].stiffness_harmonic[0];
   if (const ImpactResult* a = impact_of(t.content, t.torque); a && a->states.damping_ratio.size() > 0)
     out.damping_ratio = a->states.damping_ratio.tail<1>()[0];

@@ -140,11 +140,24 @@ void add_face_at_rest(const StaticResult& s, Adder add) {
         fixed(s.face.axial_force, 0));
 }
 
+// Of trains in slices.
+void add_thrust(const SystemStaticResult& rest, Index body, Adder add) {
+  if (rest.axial_force.size() == 0) return;
+  add.group = kBearings;
+  add("axial force, mean, towards the viewer of the picture", "N",
+      fixed(rest.axial_force.col(body).mean(), 1));
+  double tilting = 0;
+  for (const MatrixRM& at : rest.tilting_moment) tilting = std::max(tilting, at.row(body).norm());
+  add("tilting moment about the middle of the face, which bearings or shafts hold, largest", "N m",
+      fixed(tilting, 2));
+}
+
 void add_body_at_rest(const ReportContent& c, const SystemStaticResult& rest, size_t b, Adder add) {
   const auto column = static_cast<Index>(b);
   add.group = kTorques;
   add("torque, mean", "N m", fixed(rest.torque.col(column).mean(), 2), held_words(c, b));
   add("torque, peak to peak", "N m", fixed(peak_to_peak(rest.torque.col(column)), 2));
+  add_thrust(rest, column, add);
   const auto phases = static_cast<Index>(rest.bearing_force.size());
   if (phases == 0) return;
   MatrixRM force(phases, 2);

@@ -96,7 +96,7 @@ std::string rest_tables(const ReportContent& c) {
 }
 
 std::string face_level(const ReportContent& c) {
-  if (c.statics.empty() || c.statics[0].mesh[0].face.none()) return "";
+  if (c.statics.empty() || c.of_train() || c.pair().face.none()) return "";
   const StaticResult& s = c.pair();
   std::string out = text(
       "Load over the face: contact at ", s.face.line_load[0].cols(), " points along each contact line, on ",

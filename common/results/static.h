@@ -73,7 +73,7 @@ struct ReferenceContact {
   double approach = 0;         // m: the transmission error
 };
 
-// Load over the face of a pair in slices along its contact lines (system/face_contact.h); empty of one slice. z: m, from the middle of the
+// Load over the face of a mesh in slices along its contact lines (system/face_contact.h); empty of one slice. z: m, from the middle of the
 // common face towards the viewer who sees the driver turn counter-clockwise.
 struct FaceLoad {
   std::vector<MatrixRM> line_load;  // [phase] (pair, slice) N m-1: normal force per length of face
@@ -82,14 +82,15 @@ struct FaceLoad {
       width;  // [phase] (pair, slice) m: length of face that a slice stands for; 0: the pair does not touch
   Eigen::VectorXd contact_line_length;  // (phase) m: of all contact lines together
   double overlap_ratio = 0;
-  double axial_force = 0;  // N, on the driver along z
+  double axial_force = 0;  // N, on the driver along z: F_t tan(beta_b) by the balance of rigid bodies
   double load_factor =
       0;  // K_Hbeta of the reference pair at phase 0: largest line load over the mean along its line
   double load_factor_error = 0;  // by half as many points more and, on bodies, two degrees less
   int degree = 0;  // of the polynomials over the face, on bodies in three dimensions; 0 of slices
   // m2 N-1: least eigenvalue of local and body compliance between line loads, of all phases; above 0
   double least_eigenvalue = 0;
-  double line_load_max = 0;  // N m-1: largest of all phases in the inner 90 % of face and path
+  // Of all phases in the inner 90 % of face and path, N m-1 and m: largest line load, half-width of the widest contact.
+  double line_load_max = 0, half_width_max = 0;
 
   bool none() const { return line_load.empty(); }
 };
@@ -174,6 +175,9 @@ struct SystemStaticResult {
   MatrixRM load_share;       // (phase, mesh) 1: of the meshes of one [[mesh]]
   std::vector<MatrixRM> bearing_force;  // [phase] (body, xy) N: what a body presses its bearing or pin with
   MatrixRM torque;  // (phase, body) N m in the body's own sense: drives, and what holds a body
+  // In slices over the face (system/axial_loads.h), else empty: (phase, body) N along z, [phase] (body, xy) N m.
+  MatrixRM axial_force;
+  std::vector<MatrixRM> tilting_moment;
   // [phase] (mesh, mesh) N m-1, see SystemStatics::mesh_stiffness(); of trains
   std::vector<MatrixRM> mesh_stiffness;
   // Certificate: worst over all positions, m, N and 1

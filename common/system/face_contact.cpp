@@ -15,6 +15,35 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+MatrixXd between_sections(const FlankTable& table, const LineOnBody& a, const LineOnBody& b,
+                          const MatrixXd& between) {
+  const int n = a.points.per_line, m = b.points.per_line;
+  MatrixXd out = MatrixXd::Zero(n, m);
+  const auto ends = [](const LineOnBody& of) {
+    const ContactLine& line = of.points.line[static_cast<size_t>(of.line)];
+    return of.sense > 0 ? std::array{line.from, line.to} : std::array{-line.to, -line.from};
+  };
+  const double from = std::max(ends(a)[0], ends(b)[0]), to = std::min(ends(a)[1], ends(b)[1]);
+  if (!(to > from)) return out;
+  const auto own = [](const LineOnBody& of) {
+    return Eigen::seqN(static_cast<Index>(of.line) * of.points.per_line, of.points.per_line);
+  };
+  const auto weights = [&](const LineOnBody& of, const Eigen::RowVectorXd& l) {
+    return table.weights(std::clamp(l.dot(of.roll(own(of))), table.lowest(), table.highest()));
+  };
+  const GaussRule rule = gauss_rule(std::max(n, m));
+  for (Index k = 0; k < rule.point.size(); ++k) {
+    const double z = 0.5 * (from + to + (to - from) * rule.point[k]);
+    const Eigen::RowVectorXd l = interpolation(a.points, a.line, a.sense * z),
+                             r = interpolation(b.points, b.line, b.sense * z);
+    out += 0.5 * (to - from) * rule.weight[k] * weights(a, l).dot(between * weights(b, r).transpose()) *
+           l.transpose() * r;
+  }
+  out.array().colwise() /= a.points.weight(own(a)).array();
+  out.array().rowwise() /= b.points.weight(own(b)).transpose().array();
+  return out;
+}
+
 ReducedBody section_of(const ReducedBody& body, WidthModel width, double common) {
   ReducedBody out = body;
   out.design = transverse_section(body.design);
@@ -50,11 +79,10 @@ void require_width(const GearMeshSpec& mesh, size_t g, const ReducedBody& body) 
 
 const GearMeshSpec& taken(const GearMeshSpec& mesh, WidthModel width, const ReducedBody& driver,
                           const ReducedBody& driven) {
-  const char* const slices = "contact in slices over the face (width = \"slices\")";
-  require_external(mesh, driver.design, driven.design, slices);
-  require_rigid_bearings(mesh, slices);
-  require_no_friction(mesh, slices);
-  require_like_teeth(mesh, driver.design, driven.design, slices);
+  const std::string level = text("contact over the face (width = \"", width, "\")");
+  require_no_friction(mesh, level);
+  require_like_teeth(mesh, driver.design, driven.design, level);
+  if (width == WidthModel::body) require_external(mesh, driver.design, driven.design, level);
   const ReducedBody* const bodies[] = {&driver, &driven};
   for (size_t g = 0; g < kSides; ++g) {
     const ReducedBody& body = *bodies[g];
@@ -167,15 +195,10 @@ void FaceContact::add_sections(FacePosition& position, const std::array<MatrixXd
   const int n = points.per_line, lines = static_cast<int>(points.line.size());
   position.compliance.setZero(points.size(), points.size());
   const double width = gears_.face_width(), unit = cosine_ * cosine_ * width;  // m
-  const GaussRule rule = gauss_rule(n);
+  const auto own = [&](int line) { return Eigen::seqN(static_cast<Index>(line) * n, n); };
   for (size_t g = 0; g < kSides; ++g) {
     const ElasticGear& gear = mesh().gear[g];
     const int most = static_cast<int>(table_[g].size()) / 2;
-    const auto own = [&](int line) { return Eigen::seqN(static_cast<Index>(line) * n, n); };
-    const auto weights = [&](int line, const Eigen::RowVectorXd& l) {
-      const double xi = l.dot(roll[g](own(line), 0));
-      return gear.table().weights(std::clamp(xi, gear.table().lowest(), gear.table().highest()));
-    };
     // Of the width that a point stands for: m.
     const VectorXd plane = kernel_[g]
                                ? VectorXd(width * plane_share(gears_.gear(static_cast<int>(g)).base_radius(),
@@ -190,23 +213,15 @@ void FaceContact::add_sections(FacePosition& position, const std::array<MatrixXd
     if (kernel_[g]) continue;
     for (int i = 0; i < lines; ++i)
       for (int j = 0; j < i; ++j) {
-        const ContactLine &a = points.line[static_cast<size_t>(i)], &b = points.line[static_cast<size_t>(j)];
-        const double from = std::max(a.from, b.from), to = std::min(a.to, b.to);
-        const int offset = GearMeshModel::tooth(static_cast<int>(g), a.pair - b.pair);
-        if (!(to > from) || std::abs(offset) > most) continue;
-        const int place = offset + most;
-        MatrixXd between = MatrixXd::Zero(n, n);
-        for (int k = 0; k < n; ++k) {
-          const double z = 0.5 * (from + to + (to - from) * rule.point[k]);
-          const Eigen::RowVectorXd l = interpolation(points, i, z), m = interpolation(points, j, z);
-          const double value =
-              weights(i, l).dot(table_[g][static_cast<size_t>(place)] * weights(j, m).transpose());
-          between += 0.5 * (to - from) * rule.weight[k] * value * l.transpose() * m;
-        }
-        between.array().colwise() /= points.weight(own(i)).array();
-        between.array().rowwise() /= points.weight(own(j)).transpose().array();
-        position.compliance(own(i), own(j)) += unit * between;
-        position.compliance(own(j), own(i)) += unit * between.transpose();
+        const int offset =
+            GearMeshModel::tooth(static_cast<int>(g), points.line[static_cast<size_t>(i)].pair -
+                                                          points.line[static_cast<size_t>(j)].pair);
+        if (std::abs(offset) > most) continue;
+        const MatrixXd between =
+            unit * between_sections(gear.table(), {points, i, roll[g].col(0)}, {points, j, roll[g].col(0)},
+                                    table_[g][static_cast<size_t>(offset + most)]);
+        position.compliance(own(i), own(j)) += between;
+        position.compliance(own(j), own(i)) += between.transpose();
       }
   }
 }

@@ -44,6 +44,17 @@ struct FacePosition {
   double lost_corner_gap = 0;
 };
 
+// The points of one contact line as its body sees them.
+struct LineOnBody {
+  const FacePoints& points;
+  int line;
+  const Eigen::Ref<const Eigen::VectorXd> roll;  // (point) rad, of all lines
+  int sense = 1;  // of z along the axis that both lines count from the middle of the body
+};
+// (point of a, point of b) m N-1 m-1: integral of l_q l_r T(s, s') dz / (w_q w_r) over the z that both lines have; T: m N-1, (flank, flank).
+Eigen::MatrixXd between_sections(const FlankTable& table, const LineOnBody& a, const LineOnBody& b,
+                                 const Eigen::MatrixXd& between);
+
 // The body as the spur gear of its transverse section. On bodies in three dimensions it is as wide as the common face (m), and what
 // stands beyond it is in the tables over the width.
 ReducedBody section_of(const ReducedBody& body, WidthModel width = WidthModel::slices, double common = 0);
@@ -54,15 +65,16 @@ class FaceContact {
  public:
   // width: slices or body; points: of each contact line; depth: m, to which the half-planes of the laws go, of motions that of what is not
   // damped; 0: as ElasticGear::contact_depth(). Below it the half-planes down to there are part of the tables' term, with cos beta_b as those
-  // of the laws, so that the sum does not depend on it. Throws Error(input) for what slices do not take: internal gears, elastic bearings, friction, teeth that
-  // differ, cracks, and helical gears whose bodies are in plane stress; of width = body also for bodies in plane stress or without
-  // tables over the width.
+  // of the laws, so that the sum does not depend on it. Throws Error(input) for what slices do not take: friction, teeth that differ, cracks,
+  // and helical gears whose bodies are in plane stress; of width = body also for internal gears, bodies in plane stress or without tables
+  // over the width.
   FaceContact(const ReducedBody& driver, const ReducedBody& driven, const GearMeshSpec& mesh,
               WidthModel width, int points, double depth = 0);
 
   const GearPair& gears() const { return gears_; }  // with their helix
   const FaceGap& face_gap() const { return gap_; }
-  int points() const { return points_; }  // of each contact line
+  int points() const { return points_; }   // of each contact line
+  double depth() const { return depth_; }  // m
   // Of the polynomials over the face width: the larger one of both gears, 0 of slices.
   int degree() const { return kernel_[0] ? std::max(kernel_[0]->degree(), kernel_[1]->degree()) : 0; }
   // The same contact with this number of points, and with polynomials to `degree` at most.

@@ -1,6 +1,8 @@
 #include "system/face_mesh.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "base/error.h"
@@ -71,24 +73,78 @@ MeshPosition face_mesh_position(const FaceContact& contact, double phase, double
   }
   out.node_lever = out.strip_lever;
   for (size_t g = 0; g < kSides; ++g) out.table_weights[g] = contact.cosine() * weights[g];
-  out.face = std::make_shared<const FaceMesh>(
-      FaceMesh{at.points, at.compliance - alike(contact, at.points, weights)});
+  out.face = std::make_shared<const FaceMesh>(FaceMesh{
+      at.points, {at.roll[0].col(0), at.roll[1].col(0)}, at.compliance - alike(contact, at.points, weights)});
   return out;
 }
 
-SystemModel sliced_system(const System& layout, const ReducedBody& driver, const ReducedBody& driven,
-                          const GearMeshSpec& mesh, WidthModel width, int points, double depth) {
-  if (width != WidthModel::slices)
-    fail(
-        Failure::input, "width = \"", width,
-        "\" in [fidelity]: what sections of a body in three dimensions hold each other by has no inertia yet, and motion is computed in "
-        "slices; write width = \"slices\"");
-  if (layout.meshes.size() != 1)
+MatrixXd uneven_between(const SystemModel& system, const SystemPosition& position, size_t read, int read_side,
+                        size_t loaded, int loaded_side) {
+  const FaceMesh &to = *position.mesh[read].face, &from = *position.mesh[loaded].face;
+  const auto r = static_cast<size_t>(read_side), l = static_cast<size_t>(loaded_side);
+  const System::Mesh &read_mesh = system.layout.meshes[read], &loaded_mesh = system.layout.meshes[loaded];
+  const ElasticGear& gear = *system.body[static_cast<size_t>(read_mesh.side[r].body)];
+  const double cosines = position.mesh[read].transverse * position.mesh[loaded].transverse,
+               width = std::max(system.mesh[read].face_width(), system.mesh[loaded].face_width());
+  const MatrixXd &reading = position.displacement.flank[read][r], &loading = position.load.flank[loaded][l];
+  MatrixXd out(to.points.size(), from.points.size());
+  const int n = to.points.per_line, m = from.points.per_line;
+  const auto tooth = [&](size_t mesh, size_t side, int point) {
+    const int strip = position.first_strip[mesh] + point;
+    return ToothFlank{position.segment[static_cast<size_t>(strip)].tooth[side],
+                      system.layout.meshes[mesh].side[side].flank};
+  };
+  for (int i = 0; i < static_cast<int>(to.points.line.size()); ++i)
+    for (int j = 0; j < static_cast<int>(from.points.line.size()); ++j) {
+      const MatrixXd table = gear.compliance(tooth(read, r, i * n), tooth(loaded, l, j * m), 0);
+      // A driver turns counter-clockwise where z grows towards the viewer of the system.
+      const LineOnBody a{to.points, i, to.roll[r], read_mesh.side[0].sense},
+          b{from.points, j, from.roll[l], loaded_mesh.side[0].sense};
+      out.block(i * n, j * m, n, m) =
+          cosines * width * between_sections(gear.table(), a, b, table) -
+          reading.middleRows(i * n, n) * table * loading.middleRows(j * m, m).transpose();
+    }
+  return out;
+}
+
+SystemModel sliced_system(const System& layout, const std::vector<ReducedBody>& bodies,
+                          const std::vector<GearMeshSpec>& specs, const std::vector<int>& section,
+                          WidthModel width, int points, double depth) {
+  if (width == WidthModel::body && layout.meshes.size() != 1)
     fail(Failure::input, "width = \"", width, "\" of ", layout.meshes.size(),
-         " meshes: a train in motion has one slice over the face; write width = \"one\" in [fidelity]");
-  auto face = std::make_shared<const FaceContact>(driver, driven, mesh, width, points, depth);
-  SystemModel out(layout, {section_of(driver), section_of(driven)}, {even(mesh)});
-  out.face = {std::move(face)};
+         " meshes: bodies in three dimensions are of pairs; write width = \"slices\" in [fidelity]");
+  const auto gear = [&](size_t m, size_t side) -> const ReducedBody& {
+    return bodies[static_cast<size_t>(layout.meshes[m].side[side].body)];
+  };
+  std::vector<std::shared_ptr<const FaceContact>> face;
+  std::vector<GearMeshSpec> plane;
+  face.reserve(specs.size());
+  plane.reserve(specs.size());
+  for (size_t m = 0; m < specs.size(); ++m) {
+    const auto first = std::find(section.begin(), section.end(), section[m]) - section.begin();
+    face.push_back(
+        static_cast<size_t>(first) < m
+            ? face[static_cast<size_t>(first)]
+            : std::make_shared<const FaceContact>(gear(m, 0), gear(m, 1), specs[m], width, points, depth));
+    plane.push_back(even(specs[m]));
+  }
+  std::vector<ReducedBody> sections;
+  sections.reserve(bodies.size());
+  for (const ReducedBody& body : bodies)
+    sections.push_back(section_of(body, width, face[0]->gears().face_width()));
+  SystemModel out(layout, sections, plane);
+  out.face = std::move(face);
+  return out;
+}
+
+SystemModel with_points(const SystemModel& system, int points, int degree) {
+  SystemModel out = system;
+  std::map<const FaceContact*, std::shared_ptr<const FaceContact>> made;
+  for (std::shared_ptr<const FaceContact>& own : out.face) {
+    std::shared_ptr<const FaceContact>& other = made[own.get()];
+    if (!other) other = std::make_shared<const FaceContact>(own->with(points, degree));
+    own = other;
+  }
   return out;
 }
 

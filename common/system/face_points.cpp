@@ -11,9 +11,11 @@ namespace whine {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-int face_points_of(const GearMeshSpec& mesh, const ContactDiscretisation& contact) {
+int face_points_of(const std::vector<GearMeshSpec>& meshes, const ContactDiscretisation& contact) {
   if (contact.face_points > 0) return contact.face_points;
-  return mesh.uneven() ? kFacePointsUneven : kFacePoints;
+  const bool uneven =
+      std::any_of(meshes.begin(), meshes.end(), [](const GearMeshSpec& mesh) { return mesh.uneven(); });
+  return uneven ? kFacePointsUneven : kFacePoints;
 }
 
 FaceGap::FaceGap(const GearPair& pair, const GearMeshSpec& mesh)

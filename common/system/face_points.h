@@ -14,8 +14,11 @@
 
 namespace whine {
 
-// n of a scene that leaves face_points open.
-int face_points_of(const GearMeshSpec& mesh, const ContactDiscretisation& contact);
+// n of a scene that leaves face_points open: alike of all its meshes.
+int face_points_of(const std::vector<GearMeshSpec>& meshes, const ContactDiscretisation& contact);
+inline int face_points_of(const GearMeshSpec& mesh, const ContactDiscretisation& contact) {
+  return face_points_of(std::vector{mesh}, contact);
+}
 
 // Lead modifications of both gears and misalignment.
 class FaceGap {

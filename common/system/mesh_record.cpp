@@ -6,6 +6,7 @@
 #include "gear/losses.h"
 #include "signal/spectrum.h"
 #include "system/compliance_split.h"
+#include "system/face_mesh.h"
 #include "system/flank_pressure.h"
 #include "system/rectangular_wave.h"
 #include "system/root_stress.h"
@@ -31,6 +32,7 @@ MeshRecord::MeshRecord(const SystemModel& system, int m, const GearPairParameter
     for (VectorXd* v : {&result_.friction_loss, &result_.friction_moment[0], &result_.friction_moment[1]})
       v->setZero(rows);
   }
+  if (!system.face.empty()) face_.emplace(*system.face[static_cast<size_t>(m)]);
   for (size_t s = 0; s < kSides && system.mesh.size() == 1; ++s)
     if (model_.bearing[s].elastic()) result_.bearing_force[s].setZero(rows, 2);
 }
@@ -42,6 +44,7 @@ void MeshRecord::take(const RestStep& step, const SystemSolution& solution, cons
     highest_ = 1;
     result_.least_gap = result_.least_force = std::numeric_limits<double>::infinity();
     result_.torque_residual = result_.friction_coupling = 0;
+    if (face_) face_->restart();
   }
   const auto m = static_cast<size_t>(m_);
   const SystemEquilibrium& e = solution.equilibrium;
@@ -49,7 +52,9 @@ void MeshRecord::take(const RestStep& step, const SystemSolution& solution, cons
   const MeshInstant own = mesh_instant(system_, m_, step.phase, step.period);
   result_.mesh_phase[i] = step.period + step.phase + system_.layout.meshes[m].phase;
   result_.transmission_error[i] = solution.transmission_error[m];
-  result_.unloaded_error[i] = unloaded_transmission_error(model_, own.phase, own.period);
+  result_.unloaded_error[i] =
+      face_ ? system_.face[m]->unloaded_transmission_error(own.phase, std::numeric_limits<double>::infinity())
+            : unloaded_transmission_error(model_, own.phase, own.period);
   deflection_[i] = solution.deflection[m];
   if (solution.mesh_stiffness.size() == 0) {
     result_.stiffness_secant[i] = load_ / (deflection_[i] - result_.unloaded_error[i]);
@@ -79,6 +84,15 @@ void MeshRecord::take(const RestStep& step, const SystemSolution& solution, cons
       highest_ = std::max(highest_, at.pair);
       loads_.emplace_back(i, at);
     }
+  if (!face_) return;
+  const SystemPosition& position = statics.position();
+  const FacePoints& points = position.mesh[m].face->points;
+  const auto strips = position.strips_of(m);
+  face_->take(i, points, position.mesh[m].law, e.p(strips), statics.compliance()(strips, strips));
+  for (const ContactLine& line : points.line) {
+    lowest_ = std::min(lowest_, line.pair);
+    highest_ = std::max(highest_, line.pair);
+  }
 }
 
 // What friction takes at a position, and its moments about the axes.
@@ -100,9 +114,11 @@ void MeshRecord::store_loads(int lowest, int highest) {
   result_.tooth_load = MatrixRM::Zero(result_.mesh_phase.size(), result_.pair.size());
   result_.contact_pressure = result_.contact_half_width = result_.tooth_load;
   for (const auto& [i, at] : loads_) {
-    result_.tooth_load(i, at.pair - lowest) = at.force;
-    result_.contact_pressure(i, at.pair - lowest) = at.patch.pressure;
-    result_.contact_half_width(i, at.pair - lowest) = at.patch.half_width;
+    const Index k = at.pair - lowest;
+    result_.tooth_load(i, k) += at.force;
+    if (at.patch.pressure <= result_.contact_pressure(i, k)) continue;
+    result_.contact_pressure(i, k) = at.patch.pressure;
+    result_.contact_half_width(i, k) = at.patch.half_width;
   }
 }
 
@@ -149,12 +165,15 @@ StaticResult MeshRecord::finish(int lowest, int highest) {
   StaticResult& s = result_;
   store_loads(lowest, highest);
   s.mean_stiffness = s.stiffness_secant.mean();
-  store_root_stress();
+  if (face_)
+    face_->finish(s);
+  else
+    store_root_stress();
   s.backlash_margin = s.tooth_thinning() > 0 ? model_.kinematics.backlash() + deflection_.minCoeff()
                                              : std::numeric_limits<double>::infinity();
   s.flank_pressure = flank_pressure(s);
   if (load_ > 0 && s.mean_stiffness > 0) {
-    s.loss_factor = loss_factor(model_.kinematics, s.pair, s.mesh_phase, s.tooth_load, s.torque);
+    if (!face_) s.loss_factor = loss_factor(model_.kinematics, s.pair, s.mesh_phase, s.tooth_load, s.torque);
     if (system_.slides()) s.efficiency = 1 - s.friction_loss.mean() / s.torque;
     s.compliance = compliance_split(s);
     s.rectangular_wave = rectangular_wave(s);

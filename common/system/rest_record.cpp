@@ -1,9 +1,11 @@
 #include "system/rest_record.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
 #include "base/format.h"
+#include "system/face_mesh.h"
 #include "system/mesh_record.h"
 
 namespace whine {
@@ -78,8 +80,45 @@ void take_position(const SystemModel& system, const std::vector<int>& section, c
       out.translation[static_cast<size_t>(row)].row(column) =
           at.bearing_force[b].transpose() / bearing.stiffness;
   }
+  for (size_t b = 0; b < at.axial.force.size(); ++b) {
+    out.axial_force(row, static_cast<Index>(b)) = at.axial.force[b];
+    out.tilting_moment[static_cast<size_t>(row)].row(static_cast<Index>(b)) = at.axial.moment[b].transpose();
+  }
   if (!out.mesh_stiffness.empty()) out.mesh_stiffness[static_cast<size_t>(row)] = at.mesh_stiffness;
   take_balance(system, at, row, out);
+}
+
+// [mesh] K_Hbeta of the pair at the pitch point, each mesh at its own phase 0.
+std::vector<double> load_factors(const SystemModel& system, int strips) {
+  // Tip edges that do not touch change nothing.
+  constexpr double kFar = kWidening * kWidening;
+  SystemStatics statics(system, ContactModel::line, static_zones(system, strips, 1, kFar));
+  std::vector<double> out;
+  out.reserve(system.mesh.size());
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(static_cast<Index>(system.layout.bodies.size()));
+  for (size_t m = 0; m < system.mesh.size(); ++m) {
+    const double ahead = system.layout.meshes[m].phase, phase = ahead > 0 ? 1 - ahead : 0;
+    const SystemSolution& at = statics.solve(phase, 0, start);
+    start = at.equilibrium.x;
+    const SystemPosition& position = statics.position();
+    out.push_back(load_factor(*system.face[m], position.mesh[m].face->points, position.mesh[m].phase,
+                              at.equilibrium.p(position.strips_of(m))));
+  }
+  return out;
+}
+
+// Load factors, and what they change by with half as many points more and on bodies with two degrees less.
+void take_load_factors(const SystemModel& system, int strips, SystemStaticResult& out) {
+  const int points = system.face[0]->points(), degree = system.face[0]->degree();
+  const std::vector<double> factor = load_factors(system, strips);
+  for (size_t m = 0; m < factor.size(); ++m) out.mesh[m].face.load_factor = factor[m];
+  const auto add_change = [&](int other_points, int other_degree) {
+    const std::vector<double> other = load_factors(with_points(system, other_points, other_degree), strips);
+    for (size_t m = 0; m < factor.size(); ++m)
+      out.mesh[m].face.load_factor_error += std::abs(other[m] - factor[m]);
+  };
+  add_change(points + points / 2, degree);
+  if (degree > 0) add_change(points, degree - 2);
 }
 
 void finish_meshes(std::vector<MeshRecord>& records, SystemStaticResult& out) {
@@ -124,6 +163,10 @@ SystemStaticResult record_rest(const SystemModel& system, const std::vector<int>
   out.mesh_deflection = out.mesh_force = out.load_share = MatrixRM::Zero(phases, meshes);
   out.translation.assign(static_cast<size_t>(phases), MatrixRM::Zero(bodies, 2));
   out.bearing_force = out.translation;
+  if (!system.face.empty()) {
+    out.axial_force.setZero(phases, bodies);
+    out.tilting_moment = out.translation;
+  }
   if (frozen) out.mesh_stiffness.assign(static_cast<size_t>(phases), MatrixRM::Zero(meshes, meshes));
   SystemSolution solution;
   over_period(system, of[0].fidelity.contact, contact.strips, contact.positions, zone_factor,
@@ -139,6 +182,7 @@ SystemStaticResult record_rest(const SystemModel& system, const std::vector<int>
                 for (MeshRecord& record : records) record.take(step, *at, statics);
               });
   finish_meshes(records, out);
+  if (!system.face.empty()) take_load_factors(system, contact.strips, out);
   return out;
 }
 

@@ -5,10 +5,14 @@
 
 #include "base/error.h"
 #include "base/format.h"
+#include "base/model_range.h"
+#include "gear/helix.h"
+#include "gear/hertz.h"
 #include "gear/internal_mesh.h"
+#include "gear/train.h"
 #include "system/compliance_split.h"
 #include "system/drawing_remarks.h"
-#include "system/face_statics.h"
+#include "system/face_mesh.h"
 #include "system/flank_pressure.h"
 #include "system/rest_record.h"
 
@@ -18,14 +22,55 @@ using Eigen::VectorXd;
 
 namespace {
 
+SystemModel pair_model(const ReducedBody& driver, const ReducedBody& driven,
+                       const StaticParameters& settings) {
+  if (settings.fidelity.width == WidthModel::one) return {driver, driven, settings.mesh};
+  const System layout =
+      pair_system(even(settings.mesh), transverse_section(driver.design), transverse_section(driven.design));
+  return sliced_system(layout, {driver, driven}, {settings.mesh}, {0}, settings.fidelity.width,
+                       face_points_of(settings.mesh, settings.contact));
+}
+
 // All others but the held one are free of torque.
-SystemModel loaded_system(const ReducedBody& driver, const ReducedBody& driven, const GearMeshSpec& mesh,
-                          double torque) {
-  SystemModel system(driver, driven, mesh);
+SystemModel loaded_system(const ReducedBody& driver, const ReducedBody& driven,
+                          const StaticParameters& settings, double torque) {
+  SystemModel system = pair_model(driver, driven, settings);
   system.layout.drives.push_back({0, System::DriveKind::torque, torque});
-  if (mesh.friction.acts())
-    system.friction = {system.mesh[0].coefficient_of_friction(torque, mesh.friction.static_frequency)};
+  if (settings.mesh.friction.acts())
+    system.friction = {
+        system.mesh[0].coefficient_of_friction(torque, settings.mesh.friction.static_frequency)};
   return system;
+}
+
+// Degree that a contact of this half-width (m) allows on the common face.
+int allowed_degree(const GearPairParameters& pair, double half_width, double torque) {
+  constexpr int kLeast = 2;
+  const int degree = degree_of_contact(pair.face_width(), half_width);
+  if (degree < kLeast)
+    fail_outside_range(
+        Failure::input, "at ", torque, " N m the contact is ", millimetres(2 * half_width),
+        " wide, and the common face ", millimetres(pair.face_width()), ": polynomials to degree ", degree,
+        " alone, by P <= sqrt(b / 2a), hold no load over the face; lower the torque or write width = \"slices\"");
+  return degree;
+}
+
+// On bodies in three dimensions the degree is that which the widest contact allows: guessed from Hertz's of the whole load, then of the
+// result.
+SystemStaticResult record_pair(SystemModel system, const GearPairParameters& of, double torque,
+                               double zone_factor) {
+  const auto cut = [&](double half_width) {
+    const FaceContact& contact = *system.face[0];
+    const int degree = allowed_degree(of, half_width, torque);
+    if (contact.degree() <= degree) return false;
+    system = with_points(system, contact.points(), degree);
+    return true;
+  };
+  const bool solid = of.fidelity.width == WidthModel::body;
+  if (solid) cut(hertz_contact(of, torque / system.base_radius(0)).half_width);
+  for (;;) {
+    SystemStaticResult out = record_rest(system, {0}, {of}, zone_factor, false);
+    if (!solid || !cut(out.mesh[0].face.half_width_max)) return out;
+  }
 }
 
 }  // namespace
@@ -38,10 +83,9 @@ SystemStaticResult pair_at_rest(const ReducedBody& driver, const ReducedBody& dr
          ": static transmission needs a load");
   GearPairParameters of;
   set_pair(of, {driver, driven}, settings);
+  if (settings.fidelity.width != WidthModel::one) of.fidelity.contact = ContactModel::line;
   SystemStaticResult out =
-      settings.fidelity.width != WidthModel::one
-          ? face_at_rest(driver, driven, settings, torque)
-          : record_rest(loaded_system(driver, driven, settings.mesh, torque), {0}, {of}, zone_factor, false);
+      record_pair(loaded_system(driver, driven, settings, torque), of, torque, zone_factor);
   out.body_names = {settings.mesh.gear[0], settings.mesh.gear[1]};
   out.mesh_names = {settings.mesh.gear[0] + "-" + settings.mesh.gear[1]};
   out.remarks = out.mesh[0].remarks = remarks(out.mesh[0]);
@@ -51,6 +95,12 @@ SystemStaticResult pair_at_rest(const ReducedBody& driver, const ReducedBody& dr
 StaticResult static_transmission(const ReducedBody& driver, const ReducedBody& driven,
                                  const StaticParameters& settings, double torque, double zone_factor) {
   return std::move(pair_at_rest(driver, driven, settings, torque, zone_factor).mesh[0]);
+}
+
+Remark remark_on_slices() {
+  return remark(
+      false,
+      "width = \"slices\": the teeth carry each section by itself. That holds the transmission error to a few per cent; K_Hbeta - 1 of bodies in three dimensions is 1.7 to 2.1 times as large");
 }
 
 std::vector<Remark> remarks(const StaticResult& s) {
@@ -63,9 +113,7 @@ std::vector<Remark> remarks(const StaticResult& s) {
   out.insert(out.end(), drawn.begin(), drawn.end());
   if (!s.mesh.corner.enabled)
     add(false, "corner contact is off: only pairs on the line of action carry load");
-  if (s.fidelity.width == WidthModel::slices)
-    add(false,
-        "width = \"slices\": the teeth carry each section by itself. That holds the transmission error to a few per cent; K_Hbeta - 1 of bodies in three dimensions is 1.7 to 2.1 times as large");
+  if (s.fidelity.width == WidthModel::slices) out.push_back(remark_on_slices());
   if (s.fidelity.width == WidthModel::body) {
     const int most = std::max(s.gear[0].discretisation.width.degree, s.gear[1].discretisation.width.degree);
     if (s.face.degree < most)
@@ -136,7 +184,8 @@ std::vector<ContactZone> contact_zones(const ReducedBody& driver, const ReducedB
          statics.hunting_periods,
          statics.hunting_periods == 1 ? " (all teeth are alike, so that every mesh period is the same)"
                                       : " (mesh periods after which the same teeth meet)");
-  const SystemModel system = loaded_system(driver, driven, statics.mesh, statics.torque);
+  const SystemModel system =
+      loaded_system(driver, driven, {statics.mesh, {}, statics.contact}, statics.torque);
   double widening = 1;
   for (int attempt = 0; attempt < kWidenings; ++attempt, widening *= kWidening) {
     SystemStatics solver(system, ContactModel::strips,

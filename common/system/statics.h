@@ -25,6 +25,9 @@ StaticResult static_transmission(const ReducedBody& driver, const ReducedBody& d
 // Of statics that are complete but for them: teeth that differ, no corner contact, backlash used up, a pressure that no steel carries.
 std::vector<Remark> remarks(const StaticResult& statics);
 
+// What slices over the face hold.
+Remark remark_on_slices();
+
 // Of a pair with friction under a torque (N m, on the driver): what is left out of it, and where Schlenk's formula is beyond what it
 // is fit to. Of its speeds between mesh frequencies (Hz) alone; nothing of a constant coefficient.
 std::vector<Remark> friction_remarks(const GearPairParameters& pair, double torque);

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "gear/layout.h"
 #include "gear/train.h"
+#include "system/face_mesh.h"
 
 namespace whine {
 
@@ -207,7 +208,9 @@ SystemPosition join(const SystemModel& system, double phase, int period,
       segment.lever = strips.contact.lever;
       if (model.friction.acts())
         segment.sliding = sliding_of(model.kinematics, strips.contact, model.friction.smoothing);
-      segment.width = model.face_width();
+      segment.width = position.face
+                          ? position.face->points.weight[static_cast<Index>(j)] / position.transverse
+                          : model.face_width();
       segment.first_strip = first + position.first_strip[j];
       segment.strips = position.first_strip[j + 1] - position.first_strip[j];
       for (int s = 0; s < kSides; ++s) {
@@ -282,6 +285,28 @@ MatrixXd between_meshes(const SystemModel& system, const SystemPosition& positio
 
 }  // namespace
 
+namespace {
+
+// add(m, side in m, n, side in n) of each two meshes that share a body.
+template <class Add>
+void for_each_shared(const SystemModel& system, const Add& add) {
+  for (int b = 0; b < static_cast<int>(system.body.size()); ++b)
+    for (size_t m = 0; m < system.mesh.size(); ++m)
+      for (size_t n = 0; n < system.mesh.size(); ++n) {
+        const int read = system.side_of(b, static_cast<int>(m)),
+                  loaded = system.side_of(b, static_cast<int>(n));
+        if (m != n && read >= 0 && loaded >= 0) add(m, read, n, loaded);
+      }
+}
+
+}  // namespace
+
+void add_uneven_between(const SystemModel& system, const SystemPosition& position, MatrixXd& a) {
+  for_each_shared(system, [&](size_t m, int read, size_t n, int loaded) {
+    a(position.strips_of(m), position.strips_of(n)) += uneven_between(system, position, m, read, n, loaded);
+  });
+}
+
 MatrixXd contact_compliance(const SystemModel& system, const SystemPosition& position,
                             const SystemTables& tables, std::span<const double> depth) {
   MatrixXd a = MatrixXd::Zero(position.strips(), position.strips());
@@ -289,17 +314,13 @@ MatrixXd contact_compliance(const SystemModel& system, const SystemPosition& pos
     const MeshPosition& mesh = position.mesh[m];
     MatrixXd own = local_compliance(system.mesh[m], mesh, depth[m]);
     mesh.add_to_strips(body_compliance(mesh, 0, tables[m][0]) + body_compliance(mesh, 1, tables[m][1]), own);
+    if (mesh.face) own += mesh.face->uneven;
     a(position.strips_of(m), position.strips_of(m)) = own;
   }
-  for (int b = 0; b < static_cast<int>(system.body.size()); ++b)
-    for (size_t m = 0; m < position.mesh.size(); ++m)
-      for (size_t n = 0; n < position.mesh.size(); ++n) {
-        const int read = system.side_of(b, static_cast<int>(m)),
-                  loaded = system.side_of(b, static_cast<int>(n));
-        if (m == n || read < 0 || loaded < 0) continue;
-        a(position.strips_of(m), position.strips_of(n)) +=
-            between_meshes(system, position, m, read, n, loaded);
-      }
+  for_each_shared(system, [&](size_t m, int read, size_t n, int loaded) {
+    a(position.strips_of(m), position.strips_of(n)) += between_meshes(system, position, m, read, n, loaded);
+  });
+  if (!system.face.empty()) add_uneven_between(system, position, a);
   for (size_t b = 0; b < system.layout.bodies.size(); ++b)
     if (const Bearing& bearing = system.layout.bodies[b].bearing;
         bearing.elastic() && !system.floats(static_cast<int>(b)))

@@ -113,6 +113,9 @@ SystemPosition join(const SystemModel& system, double phase, int period, std::ve
 using SystemTables = std::vector<std::array<std::vector<Eigen::MatrixXd>, 2>>;
 SystemTables compliance_tables(const SystemModel& system, std::span<const double> depth);
 
+// a: (strip, strip) m N-1, to which is added what bodies of several meshes in slices give way unevenly between these.
+void add_uneven_between(const SystemModel& system, const SystemPosition& position, Eigen::MatrixXd& a);
+
 // (strip, strip) m N-1: A above, its symmetric part without friction; without cracks and bearings of bodies that float. Of lines their
 // laws are not in it.
 Eigen::MatrixXd contact_compliance(const SystemModel& system, const SystemPosition& position,

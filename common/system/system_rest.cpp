@@ -10,10 +10,12 @@
 #include "gear/system_layout.h"
 #include "gear/tooth_errors.h"
 #include "system/drawing_remarks.h"
+#include "system/face_mesh.h"
 #include "system/flank_pressure.h"
 #include "system/mesh_record.h"
 #include "system/near_interference.h"
 #include "system/rest_record.h"
+#include "system/statics.h"
 
 namespace whine {
 
@@ -34,7 +36,8 @@ int hunting_periods(const SystemStaticParameters& settings, const std::vector<in
   return hunting_periods_of(teeth);
 }
 
-SystemModel elastic_system(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies) {
+SystemModel elastic_system(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies,
+                           double depth) {
   const System& layout = settings.layout;
   std::vector<ReducedBody> of_body;
   for (size_t b = 0; b < layout.bodies.size(); ++b)
@@ -55,7 +58,10 @@ SystemModel elastic_system(const SystemStaticParameters& settings, const std::ve
       if (const auto b = static_cast<size_t>(layout.meshes[m].side[s].body); settings.has_errors(b))
         specs.back().errors[s] = settings.errors[b];
   }
-  SystemModel out(layout, of_body, specs);
+  SystemModel out = settings.fidelity.width == WidthModel::one
+                        ? SystemModel(layout, of_body, specs)
+                        : sliced_system(layout, of_body, specs, settings.section, settings.fidelity.width,
+                                        face_points_of(settings.mesh, settings.contact), depth);
   take_friction(out);
   return out;
 }
@@ -157,9 +163,29 @@ Remark remark_on_friction(const SystemStaticResult& a) {
                 ". It acts by its moments and forces on the hubs and bends no teeth");
 }
 
+// What tilts a body that no shaft lets tilt.
+void remark_on_tilting(const SystemStaticResult& a, std::vector<Remark>& out) {
+  constexpr double kSeen = 1e-6;  // of the largest
+  double most = 0;
+  Index worst = 0;
+  for (const MatrixRM& at : a.tilting_moment)
+    for (Index b = 0; b < at.rows(); ++b)
+      if (const double own = at.row(b).norm(); own > (1 + kSeen) * most) {
+        most = own;
+        worst = b;
+      }
+  if (!(most > 0)) return;
+  out.push_back(remark(
+      false, "axial forces and loads beside the middle of the face tilt bodies: by up to ", shown(most, 3),
+      " N m '", a.settings.layout.bodies[static_cast<size_t>(worst)].name,
+      "', whose bearing or shaft holds it. Bodies do not tilt here, which would move the load along the face; give misalignment_um"));
+}
+
 // Of the drawings, and of the pressure of the first mesh of each [[mesh]].
 std::vector<Remark> remarks_on_train(const SystemStaticResult& a) {
   std::vector<Remark> out = drawing_remarks(a);
+  if (a.settings.fidelity.width == WidthModel::slices) out.push_back(remark_on_slices());
+  remark_on_tilting(a, out);
   const std::vector<int>& section = a.settings.section;
   for (size_t m = 0; m < a.mesh.size(); ++m) {
     const auto own = section.begin() + static_cast<Index>(m);
@@ -221,9 +247,10 @@ SystemStaticResult system_at_rest(const SystemStaticParameters& settings,
   for (const auto& [gear, hash] : settings.body) drawn.drawing.push_back(body_of(settings, bodies, gear));
   std::vector<GearPairParameters> of;
   of.reserve(system.mesh.size());
+  if (settings.fidelity.width != WidthModel::one) drawn.settings.fidelity.contact = ContactModel::line;
   for (size_t m = 0; m < system.mesh.size(); ++m) of.push_back(mesh_parameters(drawn, m));
   SystemStaticResult out = record_rest(system, settings.section, of, 1, true);
-  out.settings = settings;
+  out.settings = drawn.settings;
   out.drawing = std::move(drawn.drawing);
   take_masses(settings, bodies, out.settings.layout);
   for (const System::Body& body : settings.layout.bodies) out.body_names.push_back(body.name);

@@ -22,8 +22,10 @@ int hunting_periods(const SystemStaticParameters& settings, const std::vector<in
 const ReducedBody& body_of(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies,
                            const std::string& gear);
 
-// The system that the settings describe, with friction as its meshes have it; bodies: [gear] of settings.body.
-SystemModel elastic_system(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies);
+// The system that the settings describe, with friction as its meshes have it; bodies: [gear] of settings.body. depth: of contact in slices,
+// see sliced_system().
+SystemModel elastic_system(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies,
+                           double depth = 0);
 
 // Coefficients of friction of its meshes under the loads of its drives, as they say.
 void take_friction(SystemModel& system);

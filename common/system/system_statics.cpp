@@ -12,6 +12,7 @@
 #include "base/progress.h"
 #include "gear/involute_start.h"
 #include "gear/layout.h"
+#include "system/face_mesh.h"
 
 namespace whine {
 
@@ -188,9 +189,11 @@ SystemStatics::SystemStatics(const SystemModel& system, ContactModel contact,
   const VectorXd load = loads_of_ranges(system);
   for (size_t m = 0; m < system.mesh.size(); ++m) {
     // The half candidate zone is Hertz's half-width under the whole load: the laws of lines rise over all of it, and the
-    // tables keep what lies deeper.
-    depth_.push_back(lines_ ? 3 * range_[m].half_zone : kStripsDepth);
-    pair_force_.push_back(shared_force(load[static_cast<Eigen::Index>(m)]));
+    // tables keep what lies deeper. Slices have their own depth.
+    depth_.push_back(!system.face.empty() ? system.face[m]->depth()
+                     : lines_             ? 3 * range_[m].half_zone
+                                          : kStripsDepth);
+    load_.push_back(load[static_cast<Eigen::Index>(m)]);
     for (const FlankDeviation& flank : system.mesh[m].deviation) alike_ = alike_ && flank.repeats() == 1;
   }
   tables_ = compliance_tables(system, depth_);
@@ -218,8 +221,12 @@ void SystemStatics::take_position(double phase, int period) {
   for (size_t m = 0; m < system_.mesh.size(); ++m) {
     const MeshInstant at = mesh_instant(system_, static_cast<int>(m), phase, period);
     const GearMeshModel& mesh = system_.mesh[m];
+    if (!system_.face.empty()) {
+      meshes.push_back(face_mesh_position(*system_.face[m], at.phase, range_[m].corner_gap, load_[m]));
+      continue;
+    }
     meshes.push_back(lines_ ? make_line_position(mesh, at.phase, range_[m].corner_gap, depth_[m],
-                                                 pair_force_[m], at.period)
+                                                 shared_force(load_[m]), at.period)
                      : here ? position_->mesh[m]
                             : make_position(mesh, at.phase, range_[m]));
     if (!lines_ && !alike_) meshes[m].gap = flank_gaps(mesh, meshes[m], at.period);
@@ -259,6 +266,7 @@ const SystemSolution& SystemStatics::solve(double phase, int period, const Vecto
   for (size_t b = 0; b < system_.layout.bodies.size(); ++b)
     solution.bearing_force.push_back(
         bearing_force(system_, position, static_cast<int>(b), solution.equilibrium.p));
+  if (!system_.face.empty()) solution.axial = axial_loads(system_, position, solution.equilibrium.p);
   for (size_t m = 0; m < position.mesh.size(); ++m) {
     const int number = static_cast<int>(m);
     const VectorXd own = solution.equilibrium.p(position.strips_of(m));

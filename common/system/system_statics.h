@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "system/axial_loads.h"
 #include "system/system.h"
 
 namespace whine {
@@ -25,6 +26,7 @@ struct SystemSolution {
       friction_work;  // [mesh] J: that friction takes in a mesh period at this position; 0 without
   std::vector<double> transmission_error, deflection;    // [mesh] m; see mesh_deflection
   std::vector<double> next_corner_gap, lost_corner_gap;  // [mesh] m, see PairsInReach
+  AxialLoads axial;                                      // of slices, else empty
   bool leaves_zone = false;                              // a wider range may do
   std::string
       at_root;  // body with pressure at the start of its involute, which a wider range does not change; "": none
@@ -90,6 +92,8 @@ class SystemStatics {
   // in several meshes join. A mesh without load has the stiffness 0.
   Eigen::MatrixXd mesh_stiffness() const;
   const SystemPosition& position() const { return *position_; }  // that was solved last
+  // (strip, strip) m N-1, of that position, see contact_compliance().
+  const Eigen::MatrixXd& compliance() const { return compliance_; }
   // [mesh], of strips, of the position that was solved last.
   std::vector<std::vector<ContactZone>> zones() const;
 
@@ -104,8 +108,8 @@ class SystemStatics {
   const SystemModel& system_;
   bool lines_, alike_;
   std::vector<CandidateZone> range_;
-  std::vector<double> depth_;       // [mesh] m
-  std::vector<double> pair_force_;  // [mesh] N, of lines
+  std::vector<double> depth_;  // [mesh] m
+  std::vector<double> load_;   // [mesh] N, transverse
   SystemTables tables_;
   std::optional<SystemPosition> position_;
   int period_ = 0;

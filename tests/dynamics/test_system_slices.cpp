@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "dynamics/lines_motion.h"
 #include "dynamics/system_dynamics.h"
 #include "dynamics/system_period_map.h"
 #include "elastic_train.h"
@@ -20,7 +21,7 @@
 #include "refusal.h"
 #include "relative.h"
 #include "system/face_mesh.h"
-#include "system/face_statics.h"
+#include "system/statics.h"
 
 using namespace whine;
 using Eigen::Index;
@@ -79,7 +80,7 @@ struct Pair {
     layout.drives = {{0, System::DriveKind::torque, kTorque}, {1, System::DriveKind::torque, -kTorque}};
     for (System::Body& body : layout.bodies) body.inertia = 0.0148;
     if (d.points == 0) return {layout, {driver, driven}, {mesh}};
-    return sliced_system(layout, driver, driven, mesh, WidthModel::slices, d.points, kDepth);
+    return sliced_system(layout, {driver, driven}, {mesh}, {0}, WidthModel::slices, d.points, kDepth);
   }
   void run(double frequency, int steps, int periods) {
     dynamics->set_speed(frequency, steps);
@@ -113,8 +114,8 @@ StaticResult at_rest(const Design& d, int positions) {
   settings.fidelity.width = WidthModel::slices;
   settings.fidelity.contact = ContactModel::line;
   settings.contact.face_points = d.points;
-  return face_transmission(body_of_overlap(d.overlap, d.of_driver),
-                           body_of_overlap(d.overlap, other(d.of_driver)), settings, kTorque);
+  return static_transmission(body_of_overlap(d.overlap, d.of_driver),
+                             body_of_overlap(d.overlap, other(d.of_driver)), settings, kTorque);
 }
 
 double peak_to_peak(const VectorXd& x) {
@@ -180,13 +181,20 @@ TEST_CASE("the other hand and the other sign of misalignment move alike") {
   CHECK(right.period.face[0].load_factor > 1.1);
 }
 
-TEST_CASE("motion is in slices: bodies in three dimensions and trains are refused by their key") {
+TEST_CASE("bodies in three dimensions are of pairs at rest: trains and motion refuse them by their key") {
   const ReducedBody& gear = body_of_overlap(0, Hand::right);
-  const auto refused = [&](WidthModel width) {
-    return message_of_input([&] { sliced_system({}, gear, gear, {}, width, 3, kDepth); });
-  };
-  CHECK(names(refused(WidthModel::body), {"width = \"body\"", "slices"}));
-  CHECK(names(refused(WidthModel::slices), {"width = \"slices\"", 0, "one"}));
+  System layout;
+  layout.meshes.resize(2);
+  CHECK(names(message_of_input([&] {
+                sliced_system(layout, {gear, gear}, {{}, {}}, {0, 1}, WidthModel::body, 3);
+              }),
+              {"width = \"body\"", 2, "slices"}));
+  SystemSweepParameters moving;
+  moving.fidelity.width = WidthModel::body;
+  CHECK(names(message_of_input([&] {
+                LinesMotion(moving, {gear, gear}, 16);
+              }),
+              {"width = \"body\"", "slices"}));
 }
 
 TEST_CASE("energy of slices in motion closes, with and without loss of contact") {

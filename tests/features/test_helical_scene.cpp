@@ -112,7 +112,7 @@ TEST_CASE("goals of make that a helical or misaligned scene does not reach are n
   check_goals({"sweep"}, abilities(file.read(kScene)), "x.toml");
 }
 
-TEST_CASE("sweeps take slices, a ring-down does not, and a system nothing helical") {
+TEST_CASE("sweeps take slices, a ring-down does not; of systems slices alone") {
   const SceneFile file;
   const Scene scene = file.read(std::string(kScene) + "[fidelity]\nwidth = \"slices\"\n");
   CHECK(read_sweep_parameters(file.path(sweep_parameters(scene), "sweep.toml")).fidelity.contact ==
@@ -120,12 +120,46 @@ TEST_CASE("sweeps take slices, a ring-down does not, and a system nothing helica
   const std::string path = file.path(impact_parameters(scene), "impact.toml");
   CHECK(names(message_of_input([&] { read_impact_parameters(path); }), {"width = \"slices\"", "one"}));
   const std::string drive = "[[drive]]\ngear = \"pinion\"\nkind = \"torque\"\ntorque_Nm = 1\n";
-  std::string train = helical_scene() + drive;
+  std::string train = helical_scene() + drive + "[[drive]]\ngear = \"wheel\"\nkind = \"held\"\n";
   train.erase(train.find("[operation]"), train.find("[fidelity]") - train.find("[operation]"));
+  train.replace(train.find("plane = \"stress\""), 16, "plane = \"strain\"");
   const auto system = [&](const std::string& text) {
     return message_of_input([&] { read_system_scene(file.path(text)); });
   };
-  CHECK(names(system(train), {"width", "pair"}));
-  train.erase(train.find("width = "), 17);
-  CHECK(names(system(train), {"helical", "pair"}));
+  CHECK(system(train).empty());
+  CHECK(read_system_scene(file.path(train)).fidelity.contact == ContactModel::line);
+  const auto with = [&](const std::string& what, const std::string& other) {
+    std::string out = train;
+    out.replace(out.find(what), what.size(), other);
+    return out;
+  };
+  std::string open = train;
+  open.erase(open.find("width = "), 17);
+  CHECK(read_system_scene(file.path(open)).fidelity.width == WidthModel::slices);
+  CHECK(names(system(with("width = \"slices\"", "width = \"one\"")),
+              {"width = \"one\"", "[gear.pinion]", 12, "slices"}));
+  CHECK(names(system(with("width = \"slices\"", "width = \"body\"")), {"width = \"body\"", "slices"}));
+  CHECK(names(system(with("plane = \"strain\"", "plane = \"stress\"")),
+              {"[gear.pinion]", "plane = \"strain\""}));
+  CHECK(names(system(train + "[friction]\ncoefficient = 0.05\n"), {"[friction]", "slices", "[gear.pinion]"}));
+  CHECK(
+      names(system(train + "[gear.pinion.error]\neccentricity_um = 4\n"), {"[gear.pinion.error]", "slices"}));
+  CHECK(names(system(with("driver = ", "face_offset_mm = 1\ndriver = ")), {"face_offset_mm", "plane"}));
+  const std::string same = message_of_input([&] {
+    const std::string at = file.path(with("hand = \"left\"", "hand = \"right\""));
+    layout_in(read_system_scene(at), at);
+  });
+  CHECK(names(same, {"same hand", "\"right\"", "hand = \"left\""}));
+  // What stage parameters hold of it comes back.
+  std::string uneven =
+      with("driver = ", "misalignment_um = 7\ndriver = ") + "[gear.wheel.modification]\nlead_slope_um = 3\n";
+  const std::string path_of_uneven = file.path(uneven);
+  const SystemScene read = read_system_scene(path_of_uneven);
+  const SystemStaticParameters own = static_parameters_of(read, layout_in(read, path_of_uneven)),
+                               back = read_system_static_parameters(
+                                   file.path(system_static_parameters(own), "static.toml"));
+  CHECK(back.fidelity.width == WidthModel::slices);
+  CHECK(back.mesh[0].misalignment == own.mesh[0].misalignment);
+  CHECK(back.modification("wheel").lead.slope == relative(3e-6, 1e-12));
+  CHECK(!back.modification("wheel").of_profile());
 }

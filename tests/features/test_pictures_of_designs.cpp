@@ -449,5 +449,5 @@ TEST_CASE("pictures of the load over the face: no text is cut or lies on other t
   settings.fidelity.width = WidthModel::slices;
   settings.mesh.misalignment = 15e-6;
   const ReducedBody& body = paper_body(40e-3, 1.2e-3, 1);
-  check(flank_load_figure(static_transmission(body, body, settings, 600)), "flank-load");
+  check(flank_load_figure(pair_at_rest(body, body, settings, 600)), "flank-load");
 }

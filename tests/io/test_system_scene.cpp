@@ -241,7 +241,7 @@ TEST_CASE("elastic systems: what their rest needs is checked with its line befor
 TEST_CASE(
     "keys that the table marks as those of pairs are rejected in a system, by the reader that knows them") {
   const std::string table = scene_key_table();
-  const size_t at = table.find("| `[[mesh]]` | `misalignment_um`");
+  const size_t at = table.find("| `[[mesh]]` | `face_offset_mm`");
   REQUIRE(at != std::string::npos);
   CHECK(contains(table.substr(at, table.find('\n', at) - at), "of pairs alone: "));
   std::ifstream elastic("data/scenes/three-in-line.toml");
