@@ -65,9 +65,8 @@ Figure flank_load_figure(const SystemStaticResult& all) {
                       torque_words(s.torque));
   figure.notes.push_back(pair_words(s));
   figure.notes.push_back(
-      text("overlap ratio ", rounded(s.face.overlap_ratio, 3), ", K_{Hβ} ", rounded(s.face.load_factor, 3),
-           " ± ", shown(s.face.load_factor_error, 1), " of the reference pair at mesh phase 0, ",
-           s.face.line_load[0].cols(),
+      text("K_{Hβ} ", rounded(s.face.load_factor, 3), " ± ", shown(s.face.load_factor_error, 1),
+           " of the reference pair at mesh phase 0, ", s.face.line_load[0].cols(),
            " points along each contact line, a quarter of a mesh period between the lines, misalignment ",
            rounded(s.mesh.misalignment * kMicro, 2), " µm"));
   constexpr int kAcross = 61, kAlong = 81;

@@ -217,9 +217,10 @@ void FaceContact::add_sections(FacePosition& position, const std::array<MatrixXd
             GearMeshModel::tooth(static_cast<int>(g), points.line[static_cast<size_t>(i)].pair -
                                                           points.line[static_cast<size_t>(j)].pair);
         if (std::abs(offset) > most) continue;
+        const int at = offset + most;
         const MatrixXd between =
             unit * between_sections(gear.table(), {points, i, roll[g].col(0)}, {points, j, roll[g].col(0)},
-                                    table_[g][static_cast<size_t>(offset + most)]);
+                                    table_[g][static_cast<size_t>(at)]);
         position.compliance(own(i), own(j)) += between;
         position.compliance(own(j), own(i)) += between.transpose();
       }

@@ -15,6 +15,7 @@
 #include "paper_pair.h"
 #include "refusal.h"
 #include "relative.h"
+#include "scene_file.h"
 #include "signal/response.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
@@ -80,9 +81,11 @@ TEST_CASE("the page of the scenes shows what fzg-c and nasa28 give at rest and b
     const auto& [name, torque] = columns[column];
     CAPTURE(name);
     const Scene scene = read_scene(text("data/scenes/", name, ".toml"));
+    const SceneFile file;
     const auto body = [&](const std::string& gear) {
-      const SceneGear& g = scene.gear(gear);
-      return reduce(make_sector_mesh(g.design, scene.body), g.material, scene.body.modes);
+      const BodyParameters p =
+          read_body_parameters(file.path(body_parameters(scene, gear), text(gear, ".toml")));
+      return reduce(make_sector_mesh(p.design, p.discretisation), p.material, p.discretisation.modes);
     };
     const ReducedBody driver = body(scene.mesh.gear[0]), driven = body(scene.mesh.gear[1]);
     StaticParameters statics;
