@@ -23,8 +23,7 @@ struct Law {
 constexpr Law kStrips{"strips", 5.5e-3, 4, -1.6, 0.15}, kPoints{"face_points", 1.2e-3, 8, -1.4, 0.03},
     kElements{"element_mm", 4.7e-2, 1, 2, 0.15}, kPeriodicity{"periodicity", 3e-4, 1e-4, 1, 0.02},
     kPeriodicityOfTrain{"periodicity", 1e-2, 1e-4, 1, 0.02}, kModes{"modes", 1.2e-2, 21, -1.3, 0.40},
-    kModesOfSlices{"modes", 1.8e-2, 21, -1.3, 0.40}, kModesOfTrain{"modes", 3e-2, 21, -1.3, 0.40},
-    kSteps{"min_sample_rate_kHz", 22, 1, -2, 0.25},
+    kModesOfTrain{"modes", 3e-2, 21, -1.3, 0.40}, kSteps{"min_sample_rate_kHz", 22, 1, -2, 0.25},
     kStepsOfMassDamping{"min_sample_rate_kHz", 100, 1, -2, 0.25};
 constexpr double kFlankTable = 1.1e-3;
 
@@ -115,9 +114,7 @@ std::vector<Governed> governed(const Settings& s, bool any_body = false) {
   if (any_body ? s.fidelity.body != BodyModel::full : s.fidelity.body == BodyModel::modal) {
     constexpr int kLeast = 9, kMost = 1001;
     int& modes = s.body.modes;
-    out.push_back({s.train                               ? &kModesOfTrain
-                   : s.fidelity.width != WidthModel::one ? &kModesOfSlices
-                                                         : &kModes,
+    out.push_back({s.train || s.fidelity.width != WidthModel::one ? &kModesOfTrain : &kModes,
                    static_cast<double>(modes),
                    [&, whole](double x) { return whole(modes, x, kLeast, kMost, 1); },
                    static_cast<double>(modes)});

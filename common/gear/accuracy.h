@@ -4,7 +4,7 @@
 //   e^2 = sum e_i^2,   e_i: bounds of the RMS of the transmission error over all speeds, relative
 //   time steps     22 (f_n / r)^2          f_n: natural frequency of a mesh of 20 N/(mm um), r: least sample rate;
 //                  100 (f_n / r)^2       where most of the damping at f_n is of the mass, which damps no fast mode
-//   modes          1.2e-2 (21 / n)^1.3     n: of the whole gear; in slices 1.8e-2, of trains and of gears on bearings 3e-2
+//   modes          1.2e-2 (21 / n)^1.3     n: of the whole gear; in slices, of trains and of gears on bearings 3e-2
 //   strips         5.5e-3 (4 / n)^1.6      across the contact width; of pairs
 //   elements       4.7e-2 (h / m)^2        second order; h / m: in modules
 //   face points    1.2e-3 (8 / n)^1.4      along a contact line; of slices
