@@ -98,10 +98,7 @@ std::vector<Governed> governed(const Settings& s, bool any_body = false) {
                    },
                    static_cast<double>(n)});
   }
-  constexpr double kElementsInModule = 7.5;  // the default of the key
-  const double size = s.body.element_size > 0      ? s.body.element_size / s.module
-                      : s.body.element_modules > 0 ? s.body.element_modules
-                                                   : 1 / kElementsInModule;
+  const double size = relative_element_size(s.body, s.module);
   out.push_back({&kElements, size,
                  [&](double x) {
                    constexpr double kFinest = 0.04, kCoarsest = 0.25;
@@ -226,22 +223,6 @@ bool in_train(const SystemScene&) {
   return true;
 }
 
-template <class AnyScene>
-Settings settings_of(AnyScene& scene, bool on_strips, const KeyGiven& given) {
-  const double frequency = expected_natural_frequency(scene);
-  return {scene.fidelity,
-          scene.body,
-          scene.contact,
-          scene.time,
-          frequency,
-          smallest_module(scene),
-          scene.operation.frequency_to,
-          on_strips,
-          in_train(scene),
-          mass_damped(scene.damping, frequency),
-          given};
-}
-
 bool on_strips(const Scene& scene) {
   return scene.fidelity.contact == ContactModel::strips && scene.fidelity.width == WidthModel::one;
 }
@@ -250,12 +231,34 @@ bool on_strips(const SystemScene&) {
   return false;
 }
 
+template <class AnyScene>
+Settings settings_of(AnyScene& scene, const KeyGiven& given) {
+  const double frequency = expected_natural_frequency(scene);
+  return {scene.fidelity,
+          scene.body,
+          scene.contact,
+          scene.time,
+          frequency,
+          smallest_module(scene),
+          scene.operation.frequency_to,
+          on_strips(scene),
+          in_train(scene),
+          mass_damped(scene.damping, frequency),
+          given};
+}
+
 }  // namespace
 
 double DiscretisationPlan::error() const {
   double sum = 0;
   for (const SettingError& one : settings) sum += one.error * one.error;
   return std::sqrt(sum);
+}
+
+double relative_element_size(const BodyDiscretisation& body, double module) {
+  constexpr double kElementsInModule = 7.5;  // the default of the key
+  if (body.element_size > 0) return body.element_size / module;
+  return body.element_modules > 0 ? body.element_modules : 1 / kElementsInModule;
 }
 
 double expected_natural_frequency(const Scene& scene) {
@@ -276,28 +279,28 @@ double expected_natural_frequency(const SystemScene& scene) {
 
 DiscretisationPlan discretisation_plan(const Scene& scene, const KeyGiven& given) {
   Scene s = scene;
-  return plan_of(settings_of(s, on_strips(s), given));
+  return plan_of(settings_of(s, given));
 }
 
 DiscretisationPlan discretisation_plan(const SystemScene& scene, const KeyGiven& given) {
   SystemScene s = scene;
-  return plan_of(settings_of(s, on_strips(s), given));
+  return plan_of(settings_of(s, given));
 }
 
 void choose_discretisation(Scene& scene, const KeyGiven& given) {
-  if (scene.time.accepted_error > 0) choose(settings_of(scene, on_strips(scene), given));
+  if (scene.time.accepted_error > 0) choose(settings_of(scene, given));
 }
 
 void choose_discretisation(SystemScene& scene, const KeyGiven& given) {
-  if (scene.time.accepted_error > 0) choose(settings_of(scene, on_strips(scene), given));
+  if (scene.time.accepted_error > 0) choose(settings_of(scene, given));
 }
 
 void choose_by_default(Scene& scene, const KeyGiven& given) {
-  choose_unasked(settings_of(scene, on_strips(scene), given));
+  choose_unasked(settings_of(scene, given));
 }
 
 void choose_by_default(SystemScene& scene, const KeyGiven& given) {
-  choose_unasked(settings_of(scene, on_strips(scene), given));
+  choose_unasked(settings_of(scene, given));
 }
 
 }  // namespace whine

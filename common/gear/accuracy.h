@@ -34,6 +34,9 @@ struct DiscretisationPlan {
   double error() const;  // 1: e
 };
 
+// 1: size of the elements on a flank over the module (m) of its gear.
+double relative_element_size(const BodyDiscretisation& body, double module);
+
 // Hz. Inertias that a scene leaves open are those of discs from the bore to the pitch circle.
 double expected_natural_frequency(const Scene& scene);
 double expected_natural_frequency(const SystemScene& scene);

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "gear/accuracy.h"
 #include "gear/tooth_errors.h"
 
 namespace whine {
@@ -52,9 +53,7 @@ void add_reductions(const AnyScene& scene, std::vector<StageCost>& out) {
     };
     if (std::any_of(known.begin(), known.end(), alike)) continue;
     known.push_back(&gear.design);
-    const double elements = scene.body.element_size > 0      ? gear.design.module / scene.body.element_size
-                            : scene.body.element_modules > 0 ? 1 / scene.body.element_modules
-                                                             : kDefault;
+    const double elements = 1 / relative_element_size(scene.body, gear.design.module);
     const double size = gear.design.teeth * elements * elements;
     out.push_back(
         {"gear-reduce, " + gear.name,

@@ -16,9 +16,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 MatrixXd between_sections(const FlankTable& table, const LineOnBody& a, const LineOnBody& b,
-                          const MatrixXd& between) {
-  const int n = a.points.per_line, m = b.points.per_line;
-  MatrixXd out = MatrixXd::Zero(n, m);
+                          const MatrixXd& between, const GaussRule& rule) {
+  MatrixXd out = MatrixXd::Zero(a.points.per_line, b.points.per_line);
   const auto ends = [](const LineOnBody& of) {
     const ContactLine& line = of.points.line[static_cast<size_t>(of.line)];
     return of.sense > 0 ? std::array{line.from, line.to} : std::array{-line.to, -line.from};
@@ -31,7 +30,6 @@ MatrixXd between_sections(const FlankTable& table, const LineOnBody& a, const Li
   const auto weights = [&](const LineOnBody& of, const Eigen::RowVectorXd& l) {
     return table.weights(std::clamp(l.dot(of.roll(own(of))), table.lowest(), table.highest()));
   };
-  const GaussRule rule = gauss_rule(std::max(n, m));
   for (Index k = 0; k < rule.point.size(); ++k) {
     const double z = 0.5 * (from + to + (to - from) * rule.point[k]);
     const Eigen::RowVectorXd l = interpolation(a.points, a.line, a.sense * z),
@@ -104,7 +102,7 @@ FaceContact::FaceContact(const ReducedBody& driver, const ReducedBody& driven, c
                even(taken(mesh, width, driver, driven))),
       gap_(gears_, mesh),
       middle_(contact_middle(driver.design, driven.design, mesh.face_offset)),
-      points_(points),
+      rule_(gauss_rule(points)),
       cosine_(std::cos(gears_.base_helix_angle())),
       depth_(depth > 0 ? depth : this->mesh().gear[0].contact_depth()) {
   for (size_t g = 0; g < kSides; ++g) {
@@ -121,7 +119,7 @@ FaceContact::FaceContact(const ReducedBody& driver, const ReducedBody& driven, c
 
 FaceContact FaceContact::with(int points, int degree) const {
   FaceContact out = *this;
-  out.points_ = points;
+  out.rule_ = gauss_rule(points);
   for (size_t g = 0; g < kSides; ++g)
     if (out.kernel_[g] && out.kernel_[g]->degree() > degree)
       out.kernel_[g] = std::make_shared<const WidthKernel>(gears_.gear(static_cast<int>(g)),
@@ -163,7 +161,7 @@ FacePosition FaceContact::at(double phase, double corner_gap, double load) const
   out.next_corner_gap = reach.next_corner_gap;
   out.lost_corner_gap = reach.lost_corner_gap;
   FacePoints& points = out.points;
-  points = face_points(gears_, gap_, lines, phase, points_);
+  points = face_points(gears_, gap_, lines, phase, rule_);
   const double width = gears_.face_width();
   const Index n = points.size();
   for (MatrixXd& of : out.roll) of.resize(n, 1);
@@ -220,7 +218,7 @@ void FaceContact::add_sections(FacePosition& position, const std::array<MatrixXd
         const int at = offset + most;
         const MatrixXd between =
             unit * between_sections(gear.table(), {points, i, roll[g].col(0)}, {points, j, roll[g].col(0)},
-                                    table_[g][static_cast<size_t>(at)]);
+                                    table_[g][static_cast<size_t>(at)], rule_);
         position.compliance(own(i), own(j)) += between;
         position.compliance(own(j), own(i)) += between.transpose();
       }

@@ -51,9 +51,9 @@ struct LineOnBody {
   const Eigen::Ref<const Eigen::VectorXd> roll;  // (point) rad, of all lines
   int sense = 1;  // of z along the axis that both lines count from the middle of the body
 };
-// (point of a, point of b) m N-1 m-1: integral of l_q l_r T(s, s') dz / (w_q w_r) over the z that both lines have; T: m N-1, (flank, flank).
+// (point of a, point of b) m N-1 m-1, by the rule that both lines have their points of: integral of l_q l_r T(s, s') dz / (w_q w_r) over the z that both lines have; T: m N-1, (flank, flank).
 Eigen::MatrixXd between_sections(const FlankTable& table, const LineOnBody& a, const LineOnBody& b,
-                                 const Eigen::MatrixXd& between);
+                                 const Eigen::MatrixXd& between, const GaussRule& rule);
 
 // The body as the spur gear of its transverse section. On bodies in three dimensions it is as wide as the common face (m), and what
 // stands beyond it is in the tables over the width.
@@ -73,7 +73,8 @@ class FaceContact {
 
   const GearPair& gears() const { return gears_; }  // with their helix
   const FaceGap& face_gap() const { return gap_; }
-  int points() const { return points_; }   // of each contact line
+  const GaussRule& rule() const { return rule_; }  // of each contact line
+  int points() const { return static_cast<int>(rule_.point.size()); }
   double depth() const { return depth_; }  // m
   // Of the polynomials over the face width: the larger one of both gears, 0 of slices.
   int degree() const { return kernel_[0] ? std::max(kernel_[0]->degree(), kernel_[1]->degree()) : 0; }
@@ -101,7 +102,7 @@ class FaceContact {
   GearMeshModel section_;
   FaceGap gap_;
   std::array<double, 2> middle_;  // m: of the common face from that of each gear
-  int points_;
+  GaussRule rule_;
   double cosine_, depth_;  // 1: cos beta_b; m: of the laws
   std::array<double, 2>
       shallow_{};  // [gear] m N-1: of the half-plane of the whole face from depth_ to contact_depth()

@@ -101,7 +101,7 @@ MatrixXd uneven_between(const SystemModel& system, const SystemPosition& positio
       const LineOnBody a{to.points, i, to.roll[r], read_mesh.side[0].sense},
           b{from.points, j, from.roll[l], loaded_mesh.side[0].sense};
       out.block(i * n, j * m, n, m) =
-          cosines * width * between_sections(gear.table(), a, b, table) -
+          cosines * width * between_sections(gear.table(), a, b, table, system.face[read]->rule()) -
           reading.middleRows(i * n, n) * table * loading.middleRows(j * m, m).transpose();
     }
   return out;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "gear/face_width.h"
-#include "solid/elements.h"
 
 namespace whine {
 
@@ -28,8 +27,8 @@ FaceGap::FaceGap(const GearPair& pair, const GearMeshSpec& mesh)
 }
 
 FacePoints face_points(const GearPair& pair, const FaceGap& gap, const std::vector<ContactLine>& lines,
-                       double phase, int per_line) {
-  const GaussRule rule = gauss_rule(per_line);
+                       double phase, const GaussRule& rule) {
+  const auto per_line = static_cast<int>(rule.point.size());
   FacePoints out;
   out.line = lines;
   out.per_line = per_line;

@@ -11,6 +11,7 @@
 
 #include "gear/contact_lines.h"
 #include "model/scene.h"
+#include "solid/elements.h"
 
 namespace whine {
 
@@ -47,9 +48,9 @@ struct FacePoints {
   int line_of(int point) const { return point / per_line; }
 };
 
-// The points of these lines. phase: mesh periods.
+// The points of these lines, those of the rule on each. phase: mesh periods.
 FacePoints face_points(const GearPair& pair, const FaceGap& gap, const std::vector<ContactLine>& lines,
-                       double phase, int per_line);
+                       double phase, const GaussRule& rule);
 
 // 1 (point of `line`, a): value at z of the polynomial that is 1 at the point a of the line and 0 at its others.
 Eigen::RowVectorXd interpolation(const FacePoints& points, int line, double z);

@@ -283,10 +283,6 @@ MatrixXd between_meshes(const SystemModel& system, const SystemPosition& positio
   return out;
 }
 
-}  // namespace
-
-namespace {
-
 // add(m, side in m, n, side in n) of each two meshes that share a body.
 template <class Add>
 void for_each_shared(const SystemModel& system, const Add& add) {

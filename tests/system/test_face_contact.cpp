@@ -52,7 +52,7 @@ struct Spread {
 Spread one_line(const GearMeshSpec& mesh, int n, double load, double c) {
   const GearPair pair = pair_with_helix(0, 20e-3);
   const std::vector<ContactLine> line{{0, -10e-3, 10e-3}};
-  const FacePoints points = face_points(pair, FaceGap(pair, mesh), line, 0, n);
+  const FacePoints points = face_points(pair, FaceGap(pair, mesh), line, 0, gauss_rule(n));
   const Equilibrium e = on_springs(
       points, [&](double) { return c; }, load);
   double carrying = 0;
@@ -67,7 +67,8 @@ VectorXd error_on_springs(const GearPair& pair, const GearMeshSpec& mesh, int n,
   VectorXd out(positions);
   for (int i = 0; i < positions; ++i) {
     const double phase = static_cast<double>(i) / positions;
-    const FacePoints points = face_points(pair, FaceGap(pair, mesh), contact_lines(pair, phase), phase, n);
+    const FacePoints points =
+        face_points(pair, FaceGap(pair, mesh), contact_lines(pair, phase), phase, gauss_rule(n));
     out[i] = on_springs(points, stiffness, load).x;
   }
   return out;
