@@ -16,10 +16,8 @@ struct FacePeak {
 struct MotionPeriod {
   Eigen::MatrixXd transmission_error;  // (mesh, step) m: of rotations
   Eigen::MatrixXd
-      mesh_deflection;  // (mesh, step) m: what flanks close by, motion of the hubs included; of lines
-  // (mesh, step) N: of lines the torque of normal forces on the driving body over its base radius; of strips and slices the sum of the
-  // tooth loads
-  Eigen::MatrixXd mesh_force;
+      mesh_deflection;         // (mesh, step) m: what flanks close by, motion of the hubs included; of lines
+  Eigen::MatrixXd mesh_force;  // (mesh, step) N: sum of the tooth loads
   Eigen::MatrixXd largest_tooth_force;  // (mesh, step) N
   // (mesh and within it pair, step) N, pairs from first_pair on; sample 0 by the names of the next period. Filled by Motion and MotionMap.
   Eigen::MatrixXd tooth_load;

@@ -251,7 +251,7 @@ bool SystemDynamics::record(const Position& position, int sample, Period& period
     const double friction = friction_of(contact);
     double& largest = period.largest_tooth_force(contact.mesh, sample);
     largest = std::max(largest, p);
-    period.mesh_force(contact.mesh, sample) += contact.lever[0] * p;
+    period.mesh_force(contact.mesh, sample) += p;
     for (int c = 0; c < rollings; ++c)
       drift[c] += p * (position.drift(c, k) + friction * position.drift_slide(c, k));
     const Vec2 pressing = p * (contact.normal + friction * contact.across);
@@ -324,9 +324,6 @@ void SystemDynamics::take_tooth_loads(Period& period) const {
     period.tooth_load.col(0).segment(m * pairs + 1, pairs - 1) =
         forces.row(steps).segment(m * pairs, pairs - 1).transpose();
   }
-  // Contact normals of slices do not lie in the transverse section, in which torques act.
-  for (int m = 0; points_ > 1 && m < meshes(); ++m)
-    period.mesh_force.row(m) = period.tooth_load.middleRows(m * pairs, pairs).colwise().sum();
 }
 
 bool SystemDynamics::integrate(State& state, Period& period, EnergyBalance* balance) {

@@ -12,7 +12,7 @@ namespace whine {
 namespace {
 
 // e = bound (x / at)^power. share: of e^2, where the key is open; elements and modes take most of it, since the reduction takes most of
-// the time.
+// the time. That of the points of a flank is beside the others, which share what the default of 24 leaves.
 struct Law {
   const char* key;
   double bound, at, power, share;
@@ -23,9 +23,11 @@ struct Law {
 constexpr Law kStrips{"strips", 5.5e-3, 4, -1.6, 0.15}, kPoints{"face_points", 1.2e-3, 8, -1.4, 0.03},
     kElements{"element_mm", 4.7e-2, 1, 2, 0.15}, kPeriodicity{"periodicity", 3e-4, 1e-4, 1, 0.02},
     kPeriodicityOfTrain{"periodicity", 1e-2, 1e-4, 1, 0.02}, kModes{"modes", 1.2e-2, 21, -1.3, 0.40},
-    kModesOfTrain{"modes", 3e-2, 21, -1.3, 0.40}, kSteps{"min_sample_rate_kHz", 22, 1, -2, 0.25},
+    kModesOfTrain{"modes", 3e-2, 21, -1.3, 0.40}, kFlankPoints{"flank_points", 1.1e-3, 24, -2, 0.03},
+    kSteps{"min_sample_rate_kHz", 22, 1, -2, 0.25},
     kStepsOfMassDamping{"min_sample_rate_kHz", 100, 1, -2, 0.25};
-constexpr double kFlankTable = 1.1e-3;
+
+constexpr int kDefaultFlankPoints = BodyDiscretisation{}.flank_points, kMostFlankPoints = 96;
 
 // N m-1 per m, c_gamma of steel gears as practice takes it.
 constexpr double kMeshStiffness = 20e9, kSteelModulus = 206e9;
@@ -73,7 +75,7 @@ struct Governed {
   double shown;                       // in the key's unit
 };
 
-// any_body: the modes of a body that a motion does not read, too.
+// Whole numbers first, since what they leave can go to the others. any_body: the modes of a body that a motion does not read, too.
 std::vector<Governed> governed(const Settings& s, bool any_body = false) {
   std::vector<Governed> out;
   const auto whole = [](int& held, double x, int least, int most, int step) {
@@ -98,6 +100,19 @@ std::vector<Governed> governed(const Settings& s, bool any_body = false) {
                    },
                    static_cast<double>(n)});
   }
+  int& flank_points = s.body.flank_points;
+  out.push_back(
+      {&kFlankPoints, static_cast<double>(flank_points),
+       [&, whole](double x) { return whole(flank_points, x, kDefaultFlankPoints, kMostFlankPoints, 1); },
+       static_cast<double>(flank_points)});
+  if (any_body ? s.fidelity.body != BodyModel::full : s.fidelity.body == BodyModel::modal) {
+    constexpr int kLeast = 9, kMost = 1001;
+    int& modes = s.body.modes;
+    out.push_back({s.train || s.fidelity.width != WidthModel::one ? &kModesOfTrain : &kModes,
+                   static_cast<double>(modes),
+                   [&, whole](double x) { return whole(modes, x, kLeast, kMost, 1); },
+                   static_cast<double>(modes)});
+  }
   const double size = relative_element_size(s.body, s.module);
   out.push_back({&kElements, size,
                  [&](double x) {
@@ -108,14 +123,6 @@ std::vector<Governed> governed(const Settings& s, bool any_body = false) {
   double& periodicity = s.time.periodicity;
   out.push_back({s.train ? &kPeriodicityOfTrain : &kPeriodicity, periodicity,
                  [&](double x) { return periodicity = std::clamp(x, 1e-9, 1e-3); }, periodicity});
-  if (any_body ? s.fidelity.body != BodyModel::full : s.fidelity.body == BodyModel::modal) {
-    constexpr int kLeast = 9, kMost = 1001;
-    int& modes = s.body.modes;
-    out.push_back({s.train || s.fidelity.width != WidthModel::one ? &kModesOfTrain : &kModes,
-                   static_cast<double>(modes),
-                   [&, whole](double x) { return whole(modes, x, kLeast, kMost, 1); },
-                   static_cast<double>(modes)});
-  }
   double& rate = s.time.min_sample_rate;
   out.push_back({s.mass_damped ? &kStepsOfMassDamping : &kSteps, rate / s.natural_frequency,
                  [&, f = s.natural_frequency](double x) {
@@ -132,7 +139,6 @@ DiscretisationPlan plan_of(const Settings& s) {
   for (const Governed& one : governed(s))
     out.settings.push_back(
         {one.law->key, one.shown, one.law->error(one.x), s.given && s.given(one.law->key)});
-  out.settings.push_back({"flank table", 24, kFlankTable, false});
   return out;
 }
 
@@ -165,9 +171,12 @@ void choose(const Settings& s) {
   const double accepted = s.time.accepted_error;
   require_lawful(s);
   std::vector<Governed> open;
-  double rest = accepted * accepted - kFlankTable * kFlankTable, shares = 0;
+  double rest = accepted * accepted, shares = 0;
   for (Governed& one : governed(s)) {
-    if (s.given(one.law->key)) {
+    const bool given = s.given(one.law->key);
+    if (one.law == &kFlankPoints && !given)
+      one.x = one.set(one.law->value(std::sqrt(one.law->share) * accepted));
+    if (given || one.law == &kFlankPoints) {
       const double error = one.law->error(one.x);
       rest -= error * error;
     } else {
@@ -175,10 +184,10 @@ void choose(const Settings& s) {
       open.push_back(std::move(one));
     }
   }
-  // What is given, or the flank table, may be above the accepted error alone; the rest then adds little to it.
+  // What is given may be above the accepted error alone; the rest then adds little to it.
   constexpr double kLeast = 0.1;
   rest = std::max(rest, kLeast * accepted * accepted);
-  for (const Governed& one : open) {  // those in steps first: what they leave goes to the next
+  for (const Governed& one : open) {  // what one leaves goes to the next
     const double x = one.set(one.law->value(std::sqrt(rest * one.law->share / shares))),
                  error = one.law->error(x);
     shares -= one.law->share;
@@ -189,10 +198,10 @@ void choose(const Settings& s) {
 
 // Each by its own share, whatever the scene gives: a key that it adds then changes itself alone, and no body that does not read it.
 void choose_unasked(const Settings& s) {
-  const double all = kAcceptedError * kAcceptedError - kFlankTable * kFlankTable;
+  const double all = kAcceptedError * kAcceptedError - kFlankPoints.bound * kFlankPoints.bound;
   bool open = false;
   for (const Governed& one : governed(s, true)) {
-    if (s.given(one.law->key) || !beyond(s, *one.law).empty()) continue;
+    if (one.law == &kFlankPoints || s.given(one.law->key) || !beyond(s, *one.law).empty()) continue;
     one.set(one.law->value(std::sqrt(all * one.law->share)));
     open = true;
   }

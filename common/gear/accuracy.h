@@ -9,7 +9,7 @@
 //   elements       4.7e-2 (h / m)^2        second order; h / m: in modules
 //   face points    1.2e-3 (8 / n)^1.4      along a contact line; of slices
 //   periodicity    3e-4 (p / 1e-4)         of trains and of gears on bearings, whose slow modes are hardly damped, 1e-2
-//   flank table    1.1e-3                  24 points; no key changes it
+//   flank points   1.1e-3 (24 / n)^2       of the flexibility table of a flank
 // Bounds of what refinements changed on five spur pairs, two helical pairs and three gears in line (tests/README.md).
 #pragma once
 #include <functional>
@@ -22,7 +22,7 @@
 namespace whine {
 
 struct SettingError {
-  std::string key;   // "element_mm"; "flank table": no key
+  std::string key;   // "element_mm"
   double value = 0;  // in the key's unit
   double error = 0;  // 1: e_i
   bool given = false;

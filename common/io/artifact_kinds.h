@@ -40,7 +40,7 @@ inline constexpr std::tuple kArtifactKinds{
     ArtifactKind<SectorGrid>{"mesh", 1, "mesh.h5", "mesh"},
     ArtifactKind<ReducedBody>{"body", 5, "body.h5", "body"},
     ArtifactKind<SystemStaticResult>{"static", 10, "static.h5", "static"},
-    ArtifactKind<ErrorBudgetResult>{"error_budget", 5, "error_budget.h5", "error_budget"},
+    ArtifactKind<ErrorBudgetResult>{"error_budget", 6, "error_budget.h5", "error_budget"},
     ArtifactKind<LoadedResult>{"loaded", 2, "loaded_<phase>.h5", "loaded_*"},
     ArtifactKind<ImpactResult>{"impact", 3, "impact.h5", "impact"},
     ArtifactKind<SweepResult>{"sweep", 9, "sweep.h5", "sweep"},

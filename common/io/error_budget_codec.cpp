@@ -23,6 +23,9 @@ void describe_changes(Codec& c, const std::string& group, StaticChanges& a, cons
   if (c.optional(group + "/load_factor_change", a.load_factor_change.size() > 0))
     c(a.load_factor_change, group + "/load_factor_change", "1", kSigned, axis,
       "relative change of the face load factor K_Hbeta of the reference pair at mesh phase 0");
+  if (c.optional(group + "/order", a.order.size() > 0))
+    c(a.order, group + "/order", "1", kSigned, axis,
+      "power of the step with which the error falls; 0: none shows, and the change itself is the error");
   c(a.harmonic_change, group + "/harmonic_change", "1", kSigned, axis + " harmonic",
     "change of the first harmonics of the transmission error over its first harmonic");
 }

@@ -32,9 +32,9 @@ std::string words_of(const AnyScene& scene, const KeyGiven& given) {
   add_row(out, "setting", "value", "from", "error of the RMS in motion: a bound");
   for (const SettingError& one : plan.settings)
     add_row(out, one.key, shown(one.value, 4),
-            one.given                                  ? "scene"
-            : accepted > 0 && one.key != "flank table" ? "accuracy"
-                                                       : "default",
+            one.given      ? "scene"
+            : accepted > 0 ? "accuracy"
+                           : "default",
             shown(one.error * kPercent, 2) + " %");
   add_row(out, "root of their squares", "", "",
           shown(plan.error() * kPercent, 2) + " %" +

@@ -131,7 +131,8 @@ void describe_loads(Codec& c, SystemStaticResult& a) {
   if (c.lists() || a.of_train())
     over(&StaticResult::torque, "/mesh_torque", "N m", kMoment, "mesh",
          "of trains: torque on the driving gear by the balance of rigid bodies; 0: no load");
-  c(a.mesh_force, "/mesh_force", "N", kForce, kPhaseMesh, "torque on the driving body over its base radius");
+  c(a.mesh_force, "/mesh_force", "N", kForce, kPhaseMesh,
+    "sum of the loads of its tooth pairs along the flank normals");
   c(a.load_share, "/load_share", "1", {0, 1 + 1e-9}, kPhaseMesh,
     "share of the meshes that come from one [[mesh]]: of planets the load sharing; of a pair 1");
   Eigen::VectorXi pair = a.mesh.empty() ? Eigen::VectorXi() : a.mesh[0].pair;

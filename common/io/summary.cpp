@@ -193,7 +193,8 @@ void show(SummaryLines& lines, const ErrorBudgetResult& a) {
     }
   };
   rows(a.refinement, "");
-  add(lines, "sum", a.refinement.mean_stiffness_change.cwiseAbs().sum() * 100, " % of the mean stiffness");
+  add(lines, "error", a.refinement.error(&StaticChanges::mean_stiffness_change) * 100,
+      " % of the mean stiffness");
   const RootConvergence root = convergence(a.root);
   for (Eigen::Index g = 0; root.order.rows() > 0 && g < root.order.cols(); ++g) {
     std::string changes;

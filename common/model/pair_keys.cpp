@@ -93,6 +93,8 @@ KeyList keys(BodyDiscretisation& b) {
   k.begin_group(b.near_field != BodyDiscretisation{}.near_field);
   k.choice(b.near_field, "near_field", "subtraction", "how the half-plane at the contact joins the finite elements: subtracted, or matched at a depth as in P2000");
   k.add(&b.matching_depth, "matching_depth_mm", kMillimetre, "module / 3", {0, 100, true}, "depth below the flank at which the two are matched; must stay inside the tooth; only with near_field = \"matching\"");
+  k.begin_group(b.flank_points != BodyDiscretisation{}.flank_points);
+  k.add(&b.flank_points, "flank_points", kNone, "24", {8, 96}, "points of a flank between which a body's flexibility is a table");
   return k;
 }
 
@@ -120,7 +122,7 @@ KeyList keys(TimeDiscretisation& t) {
   k.choice(t.steady_state, "steady_state", "extrapolate", "start where the last speeds lead and, once close, skip the rest of a transient, or integrate all of it, as a rig would run it; the same orbits but for a speed or two at the end of a branch");
   k.in_section("accuracy");
   k.begin_group(t.accepted_error > 0);
-  k.add(&t.accepted_error, "rms_percent", kPercentUnit, "1.0", {0.2, 10, false, "the table of points on a flank alone is up to 0.11 % off", true}, "accepted discretisation error of the RMS of the transmission error in motion, at every speed: what [fidelity] and [discretisation] leave open of element_mm, modes, strips, face_points, min_sample_rate_kHz, steps_per_period and periodicity is chosen by it; left out, it is 1 where it can choose; 0: these have their defaults. gear-scene --plan tells what is chosen");
+  k.add(&t.accepted_error, "rms_percent", kPercentUnit, "1.0", {0.05, 10, false, "no more is known of the laws by which settings are chosen", true}, "accepted discretisation error of the RMS of the transmission error in motion, at every speed: what [fidelity] and [discretisation] leave open of element_mm, modes, flank_points, strips, face_points, min_sample_rate_kHz, steps_per_period and periodicity is chosen by it; left out, it is 1 where it can choose; 0: these have their defaults. gear-scene --plan tells what is chosen");
   return k;
 }
 // clang-format on

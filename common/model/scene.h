@@ -34,7 +34,8 @@ struct BodyDiscretisation {
   double matching_depth = 1e-3;  // m below the flank; without meaning to subtraction
   WidthDiscretisation width = {};
   double element_modules =
-      0;  // 1: element size over the module where it is left open; 0: the default of the key
+      0;                  // 1: element size over the module where it is left open; 0: the default of the key
+  int flank_points = 24;  // of the flexibility table of a flank
 };
 
 // Off the line of action a tip edge may touch a flank.

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "gear/drawing_quantities.h"
 #include "gear/pair.h"
 #include "report/wireframe.h"
 #include "signal/rms.h"
@@ -277,7 +278,7 @@ Figure animation_figure(const SectorGrid& driver, const SectorGrid& driven, cons
   // 1. The motion.
   const ShownMotion m = motion_of(s, mesh_frequency);
   const GearPair pair(s);
-  const double static_force = s.torque / pair.gear(0).base_radius();
+  const double static_force = normal_force(s.gear[0].design, s.torque);
   const double magnified = round_down(0.3 * s.gear[0].design.module / m.error.cwiseAbs().maxCoeff());
   const double drawn_back = std::max(0.0, (1.1 * magnified * std::max(0.0, -m.error.minCoeff()) +
                                            0.04 * s.gear[0].design.module - pair.backlash()) /

@@ -61,8 +61,8 @@ Figure error_budget_figure(const ErrorBudgetResult& budget) {
   Figure figure;
   figure.title = text("Error budget of the static transmission error, ", shown(budget.torque, 6), " N m");
   figure.notes.push_back(
-      text("each discretisation alone twice as fine; sum of the changes of the mean stiffness ",
-           shown(budget.refinement.mean_stiffness_change.cwiseAbs().sum() * kPercent, 3), " %"));
+      text("each discretisation alone twice as fine; that stands for an error of the mean stiffness of ",
+           shown(budget.refinement.error(&StaticChanges::mean_stiffness_change) * kPercent, 3), " %"));
   const bool over_face = budget.fidelity.width != WidthModel::one;
   figure.notes.push_back(
       text(over_face ? text("width = ", budget.fidelity.width) : text("contact = ", budget.fidelity.contact),

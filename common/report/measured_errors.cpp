@@ -11,23 +11,23 @@ namespace whine {
 using Eigen::Index;
 
 const ErrorBudgetResult* budget_of(const ReportContent& c, double torque) {
-  return c.budget && c.budget->torque == torque ? &*c.budget : nullptr;
+  return c.budget && one_torque(c.budget->torque, torque) ? &*c.budget : nullptr;
 }
 
 const SweepErrorsResult* errors_of(const ReportContent& c, double torque, Direction direction) {
   for (const SweepErrorsResult& errors : c.errors)
-    if (torque_of(errors) == torque && errors.direction == direction) return &errors;
+    if (one_torque(torque_of(errors), torque) && errors.direction == direction) return &errors;
   return nullptr;
 }
 
-double sum_of(const ErrorBudgetResult* budget, Eigen::VectorXd StaticChanges::*change) {
+double sum_of(const ErrorBudgetResult* budget, const Eigen::VectorXd StaticChanges::*change) {
   if (!budget || (budget->refinement.*change).size() == 0) return kNoError;
-  return (budget->refinement.*change).cwiseAbs().sum();
+  return budget->refinement.error(change);
 }
 
 double harmonic_error(const ErrorBudgetResult* budget, Index n, double first) {
   if (!budget || n > budget->refinement.harmonic_change.cols()) return kNoError;
-  return budget->refinement.harmonic_change.col(n - 1).cwiseAbs().sum() * first;
+  return budget->refinement.harmonic_error(n) * first;
 }
 
 double error_near(const SweepErrorsResult* errors, SweepErrorsResult::Judged SweepErrorsResult::*quantity,
@@ -60,7 +60,7 @@ double jump_error_at(const SweepErrorsResult* errors, double jump_frequency) {
 std::string words_on_errors(const ReportContent& c) {
   if (!c.budget && c.errors.empty()) return "";
   std::string out =
-      "Behind ± stands the discretisation error: each discretisation is refined alone, and what that changes is added up. ";
+      "Behind ± stands the discretisation error: each discretisation is refined alone, and the errors are added up that the changes stand for by the order with which they fall; where no order shows, the change itself. ";
   if (c.budget) out += text("Numbers at rest have it at ", torque_words(c.budget->torque), ". ");
   if (!c.errors.empty())
     return out + text("Numbers in motion have it at ", torque_words(torque_of(c.errors[0])), ", measured at ",

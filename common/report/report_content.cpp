@@ -24,10 +24,6 @@ using Eigen::Index;
 
 namespace {
 
-bool one_torque(double a, double b) {
-  return std::abs(a - b) <= 1e-9 * std::abs(b);
-}
-
 bool one_pair(const GearPairParameters& a, const GearPairParameters& b) {
   const auto same_gear = [](const GearDesign& x, const GearDesign& y) {
     return x.teeth == y.teeth && x.module == y.module && x.pressure_angle == y.pressure_angle &&
@@ -49,6 +45,11 @@ bool one_scene(const SystemStaticResult& first, const MotionSource& a) {
 }
 
 }  // namespace
+
+bool one_torque(double a, double b) {
+  constexpr double kRounded = 1e-6;  // N m, by torque_of()
+  return std::abs(a - b) <= 1e-9 * std::abs(b) + kRounded;
+}
 
 double torque_of(const SystemStaticResult& rest) {
   if (!rest.of_train()) return rest.mesh.at(0).torque;
@@ -158,8 +159,7 @@ double static_force(const StaticResult& s) {
 }
 
 double rest_force(const SystemStaticResult& rest, size_t mesh) {
-  return rest.of_train() ? rest.mesh_force.col(static_cast<Index>(mesh)).mean()
-                         : static_force(rest.mesh[mesh]);
+  return rest.mesh_force.col(static_cast<Index>(mesh)).mean();
 }
 
 std::string plain_force_name(const StaticResult& s) {

@@ -48,6 +48,7 @@ struct ReportContent {
 };
 
 // N m: on the driver of a pair, on the input of a train.
+bool one_torque(double a, double b);  // N m, but for round-off and what torque_of() rounds
 double torque_of(const SystemStaticResult& rest);
 double torque_of(const MotionSource& motion);
 

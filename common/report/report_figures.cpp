@@ -185,11 +185,10 @@ std::string face_load_caption(const ReportContent& c) {
 std::string budget_caption(const ReportContent& c) {
   if (!c.budget) return "";
   return text("Error budget of the statics at ", torque_words(c.budget->torque),
-              ": what refining each discretisation alone changes. In all the mean stiffness changes by ",
-              shown(c.budget->refinement.mean_stiffness_change.cwiseAbs().sum() * kPercent, 2),
-              " %, the first harmonic of the transmission error by ",
-              shown(c.budget->refinement.harmonic_change.col(0).cwiseAbs().sum() * kPercent, 2),
-              " % at most.");
+              ": what refining each discretisation alone changes. The changes stand for errors of ",
+              shown(c.budget->refinement.error(&StaticChanges::mean_stiffness_change) * kPercent, 2),
+              " % of the mean stiffness and ", shown(c.budget->refinement.harmonic_error(1) * kPercent, 2),
+              " % of the first harmonic of the transmission error.");
 }
 
 std::string picture_caption(const ReportContent& c) {

@@ -191,11 +191,11 @@ std::string guide_to_numbers(const ReportContent& c) {
     out += "<p>All numbers are those in the frame of the carrier, which turns at its mean speed.</p>\n";
   if (c.budget)
     out += text("<p>For this pair the error budget at ", torque_words(c.budget->torque), " sums up to ",
-                shown(c.budget->refinement.mean_stiffness_change.cwiseAbs().sum() * kPercent, 2),
+                shown(c.budget->refinement.error(&StaticChanges::mean_stiffness_change) * kPercent, 2),
                 " % of the mean mesh stiffness, ",
-                shown(c.budget->refinement.peak_to_peak_change.cwiseAbs().sum() * kPercent, 2),
+                shown(c.budget->refinement.error(&StaticChanges::peak_to_peak_change) * kPercent, 2),
                 " % of the peak-to-peak transmission error and ",
-                shown(c.budget->refinement.harmonic_change.col(0).cwiseAbs().sum() * kPercent, 2),
+                shown(c.budget->refinement.harmonic_error(1) * kPercent, 2),
                 " % of its first harmonic: more digits than these have no meaning.</p>\n");
   out +=
       "<div class=\"wide\"><table class=\"guide\">\n<caption>Numerical errors are those that the defaults leave on the pair of P2000; those of your own gears stand in the error budget.</caption>\n<thead><tr><th>what</th><th>how to read it</th><th>how far to trust it</th><th>what to do next</th></tr></thead>\n<tbody>\n";

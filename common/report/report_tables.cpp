@@ -229,16 +229,19 @@ std::string budget_table(const ErrorBudgetResult& b) {
       };
       known(changes.pressure_change);
       known(over_face ? changes.load_factor_change : changes.root_stress_change);
+      rows.back().push_back(i < changes.order.size() && changes.order[i] > 0 ? fixed(changes.order[i], 1)
+                                                                             : "–");
       rest = comma == std::string::npos ? "" : rest.substr(comma + 2);
     }
   };
   add(b.refinement, "error");
   add(b.choice, "other model");
-  return html::table("What each refinement alone changes in the statics at " + torque_words(b.torque) +
-                         ". Another model is no error of this one and in no sum.",
-                     {"", "change", "mean stiffness (%)", "peak to peak (%)", "harmonic 1 (%)",
-                      "flank pressure (%)", over_face ? "K_Hβ (%)" : "root stress (%)"},
-                     rows) +
+  return html::table(
+             "What each refinement alone changes in the statics at " + torque_words(b.torque) +
+                 ". With an order p the error is the change over 1 - 2^-p, else the change itself. Another model is no error of this one and in no sum.",
+             {"", "change", "mean stiffness (%)", "peak to peak (%)", "harmonic 1 (%)", "flank pressure (%)",
+              over_face ? "K_Hβ (%)" : "root stress (%)", "order"},
+             rows) +
          root_refinement_table(b) +
          (b.choice_missing.empty() ? "" : html::paragraph("Not computed: " + b.choice_missing + "."));
 }

@@ -8,6 +8,13 @@
 
 namespace whine {
 
+// The order p of an error c h^p, from the changes of r h to h and of h to h / r, r the ratio of refinement. 0 where none shows: outside
+// 0.5 to 6, or where the finer change is 0.
+double order_of(double coarser_change, double finer_change, double ratio = 2);
+
+// The error of h that a change from h to h / r stands for, |change| / (1 - r^-p); order 0: |change|.
+double error_of(double change, double order, double ratio = 2);
+
 // What changing one thing alone changes in the static answer.
 struct StaticChanges {
   std::string entry;                      // names of the entries, separated by ", "
@@ -20,6 +27,11 @@ struct StaticChanges {
   Eigen::VectorXd root_stress_change = {};
   // (entry) 1, relative, of K_Hbeta of the reference pair at mesh phase 0; empty: of one slice over the face
   Eigen::VectorXd load_factor_change = {};
+  Eigen::VectorXd order = {};  // (entry) 1, with which its error falls; 0: none shows; empty: no errors
+
+  // 1: sum of the errors that the changes stand for; of harmonic n over the first.
+  double error(const Eigen::VectorXd StaticChanges::*change) const;
+  double harmonic_error(Eigen::Index n) const;
 };
 
 // Largest root stress at rest, read from meshes with elements of several sizes on the roots; from coarse, those of the result, to fine.

@@ -171,7 +171,7 @@ struct SystemStaticResult {
   MatrixRM rotation;                  // (phase, body) m: r theta in the body's own sense; 0 of held ones
   std::vector<MatrixRM> translation;  // [phase] (body, xy) m, of its hub
   MatrixRM mesh_deflection;  // (phase, mesh) m: the transmission error without what bearings give way
-  MatrixRM mesh_force;       // (phase, mesh) N: torque on the driving body over its base radius
+  MatrixRM mesh_force;       // (phase, mesh) N: sum of the tooth loads
   MatrixRM load_share;       // (phase, mesh) 1: of the meshes of one [[mesh]]
   std::vector<MatrixRM> bearing_force;  // [phase] (body, xy) N: what a body presses its bearing or pin with
   MatrixRM torque;  // (phase, body) N m in the body's own sense: drives, and what holds a body

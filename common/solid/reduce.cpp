@@ -388,9 +388,9 @@ double least_eigenvalue(const Reduction& r, const std::vector<Eigen::MatrixXcd>&
 
 }  // namespace
 
-ReducedBody reduce(const SectorGrid& mesh, const Material& material, int modes, int flank_points) {
+ReducedBody reduce(const SectorGrid& mesh, const Material& material, int modes) {
   check_options(mesh, material, modes);
-  const FlankTable table(ToothGeometry(mesh.design), flank_points);
+  const FlankTable table(ToothGeometry(mesh.design), mesh.discretisation.flank_points);
   const Eigen::VectorXd& xi = table.points();
   const Reduction r(mesh, material, modes, xi);
   FlankLoads loads = loads_of(r, material, xi);

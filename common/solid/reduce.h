@@ -25,8 +25,6 @@
 
 namespace whine {
 
-// Number of table points along the flank.
-constexpr int kFlankPoints = 24;
 constexpr int kOffsets = 3;
 
 // Both flanks: the reading of the other flank under a force on the driving flank, X_d on the tooth d counter-clockwise of the
@@ -34,11 +32,10 @@ constexpr int kOffsets = 3;
 // flank of tooth -d by X_d, and by reciprocity X_d = X_d^T.
 //
 // modes: elastic modes of the whole gear to keep, 0 or more, or kAllModes; the first torsional zero-diameter mode is always
-// among them. The near field is that of mesh.discretisation. Throws Error(input) for a matching depth whose points are
+// among them. Near field and points of the flank are those of mesh.discretisation. Throws Error(input) for a matching depth whose points are
 // not all inside the tooth and for kAllModes of a mesh that is too fine for dense algebra, Error(numerical) if a
 // factorisation, an eigensolution or a table does not pass its check.
-ReducedBody reduce(const SectorGrid& mesh, const Material& material, int modes,
-                   int flank_points = kFlankPoints);
+ReducedBody reduce(const SectorGrid& mesh, const Material& material, int modes);
 
 // Adds the third dimension to a body in plane strain: the tables over its face width. All else of the body stays. Throws as
 // make_width_tables(), Error(input) for a body in plane stress.

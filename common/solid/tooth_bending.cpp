@@ -18,7 +18,7 @@ class BendingTeeth {
       : tooth_(mesh.design),
         moduli_(plane_strain_equivalent(material)),
         concentration_(mesh.design.face_width / carrying_width(mesh.design, contact_width)),
-        table_(tooth_, kFlankPoints) {
+        table_(tooth_, mesh.discretisation.flank_points) {
     const FlankLoads unit = make_flank_loads(mesh, material, table_.points());
     for (const int node : nodes) {
       position_.emplace_back(mesh.node_position.row(node));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "base/error.h"
 #include "signal/spectrum.h"
@@ -27,7 +28,13 @@ struct Outcome {
   double load_factor;    // 0: of one slice
 };
 
-using NamedOutcomes = std::vector<std::pair<std::string, Outcome>>;
+// What one thing changed alone leads to; coarser: where its order can show, changed the other way by the factor of 2.
+struct Alternative {
+  std::string name;
+  Outcome outcome;
+  std::optional<Outcome> coarser = {};
+};
+using AlternativeList = std::vector<Alternative>;
 
 Outcome outcome(const StaticResult& s) {
   return {s.mean_stiffness,        s.transmission_error.maxCoeff() - s.transmission_error.minCoeff(),
@@ -35,9 +42,19 @@ Outcome outcome(const StaticResult& s) {
           s.root_stress_max,       s.face.none() ? 0 : s.face.load_factor};
 }
 
-StaticChanges changes(const NamedOutcomes& others, const Outcome& reference) {
+// What both have in common, relative to a reference.
+VectorXd relative_change(const Outcome& to, const Outcome& from, const Outcome& reference) {
+  VectorXd out(2 + kJudgedHarmonics);
+  out << (to.mean_stiffness - from.mean_stiffness) / reference.mean_stiffness,
+      (to.peak_to_peak - from.peak_to_peak) / reference.peak_to_peak,
+      (to.harmonic - from.harmonic) / reference.harmonic[0];
+  return out;
+}
+
+StaticChanges changes(const AlternativeList& others, const Outcome& reference) {
   const auto count = static_cast<Eigen::Index>(others.size());
   StaticChanges result;
+  result.order.setZero(count);
   result.mean_stiffness_change.resize(count);
   result.peak_to_peak_change.resize(count);
   result.harmonic_change.resize(count, kJudgedHarmonics);
@@ -45,7 +62,7 @@ StaticChanges changes(const NamedOutcomes& others, const Outcome& reference) {
   if (reference.root_stress.size() > 0) result.root_stress_change.resize(count);
   if (reference.load_factor > 0) result.load_factor_change.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const auto& [name, other] = others[i];
+    const auto& [name, other, coarser] = others[static_cast<size_t>(i)];
     result.entry += (i ? ", " : "") + name;
     result.mean_stiffness_change[i] = other.mean_stiffness / reference.mean_stiffness - 1;
     result.peak_to_peak_change[i] = other.peak_to_peak / reference.peak_to_peak - 1;
@@ -57,6 +74,9 @@ StaticChanges changes(const NamedOutcomes& others, const Outcome& reference) {
       result.root_stress_change[i] = std::abs(change[0]) > std::abs(change[1]) ? change[0] : change[1];
     }
     result.harmonic_change.row(i) = (other.harmonic - reference.harmonic).transpose() / reference.harmonic[0];
+    if (coarser)
+      result.order[i] = order_of(relative_change(reference, *coarser, reference).norm(),
+                                 relative_change(other, reference, reference).norm());
   }
   return result;
 }
@@ -81,14 +101,13 @@ struct Alternatives {
   Outcome with(const StaticParameters& other, double zone_factor = 1) const {
     return outcome(static_transmission(driver, driven, other, torque, zone_factor));
   }
-  // Bodies of another discretisation, with `finer` times the points of the flank table.
-  Outcome of_bodies(const std::function<void(BodyDiscretisation&)>& change, int finer = 1) const {
+  Outcome of_bodies(const std::function<void(BodyDiscretisation&)>& change) const {
     constexpr int kModes = 1;  // statics ask for none
     const auto again = [&](const ReducedBody& body) {
       BodyDiscretisation other = body.discretisation;
       other.width = {};
       change(other);
-      return reduced_again(body, other, kModes, finer * static_cast<int>(body.flank_position.size()));
+      return reduced_again(body, other, kModes);
     };
     const ReducedBody first = again(driver);
     return outcome(static_transmission(over_face(first, driver),
@@ -116,54 +135,85 @@ struct Alternatives {
   }
 };
 
-// Of contact over the face: its points and, of bodies in three dimensions, their section and degree.
-void refine_over_face(const Alternatives& pair, const StaticResult& base, NamedOutcomes& refined) {
-  constexpr int kMostPoints = 64;
-  const int points = face_points_of(pair.settings.mesh, pair.settings.contact);
-  StaticParameters finer = pair.settings;
-  finer.contact.face_points = std::min(kMostPoints, 2 * points);
-  refined.emplace_back(from_to("face points", points, finer.contact.face_points), pair.with(finer));
-  if (pair.settings.fidelity.width != WidthModel::body) return;
-  const double section = pair.driver.discretisation.width.section_size;
-  refined.emplace_back(from_to("section", shown_length(section), shown_length(0.5 * section), " mm"),
-                       pair.of_sections(0.5));
-  refined.emplace_back(from_to("degree", base.face.degree, base.face.degree - 2),
-                       outcome(next_width_level(pair.driver, pair.driven, pair.settings, base)));
+// at(2): twice as fine; coarse: whether at(0.5) is possible.
+void refine(AlternativeList& list, const std::string& name, const std::function<Outcome(double)>& at,
+            bool coarse) {
+  list.push_back({name, at(2), coarse ? std::optional(at(0.5)) : std::nullopt});
 }
 
-NamedOutcomes refinements(const Alternatives& pair, const StaticResult& base) {
-  NamedOutcomes refined;
+// A number of the contact, of which half must be whole and not below `least`.
+void refine_contact(const Alternatives& pair, int ContactDiscretisation::*number, int present, int least,
+                    const char* name, AlternativeList& refined) {
+  refine(
+      refined, from_to(name, present, 2 * present),
+      [&](double finer) {
+        StaticParameters other = pair.settings;
+        other.contact.*number = static_cast<int>(std::lround(present * finer));
+        return pair.with(other);
+      },
+      present % 2 == 0 && present / 2 >= least);
+}
+
+// Of contact over the face: its points and, of bodies in three dimensions, their section and degree.
+void refine_over_face(const Alternatives& pair, const StaticResult& base, AlternativeList& refined) {
+  constexpr int kLeastPoints = 2;
+  refine_contact(pair, &ContactDiscretisation::face_points,
+                 face_points_of(pair.settings.mesh, pair.settings.contact), kLeastPoints, "face points",
+                 refined);
+  if (pair.settings.fidelity.width != WidthModel::body) return;
+  const double section = pair.driver.discretisation.width.section_size;
+  refined.push_back(
+      {from_to("section", shown_length(section), shown_length(0.5 * section), " mm"), pair.of_sections(0.5)});
+  refined.push_back({from_to("degree", base.face.degree, base.face.degree - 2),
+                     outcome(next_width_level(pair.driver, pair.driven, pair.settings, base))});
+}
+
+void refine_bodies(const Alternatives& pair, AlternativeList& refined) {
+  constexpr int kLeastPoints = 8;
+  constexpr double kCoarsest = 0.5;  // of a module
+  const BodyDiscretisation& present = pair.driver.discretisation;
+  const int points = present.flank_points;
+  refine(
+      refined, from_to("flank table", points, 2 * points, " points"),
+      [&](double finer) {
+        return pair.of_bodies([&](BodyDiscretisation& body) {
+          body.flank_points = static_cast<int>(std::lround(body.flank_points * finer));
+        });
+      },
+      points / 2 >= kLeastPoints);
+  const double element = present.element_size;
+  refine(
+      refined, from_to("elements", shown_length(element), shown_length(0.5 * element), " mm"),
+      [&](double finer) {
+        return pair.of_bodies([&](BodyDiscretisation& body) { body.element_size /= finer; });
+      },
+      2 * element <= kCoarsest * pair.driver.design.module);
+  if (present.element_order == 1 || pair.driven.discretisation.element_order == 1)
+    refined.push_back(
+        {from_to("order", 1, 2), pair.of_bodies([](BodyDiscretisation& body) { body.element_order = 2; })});
+}
+
+AlternativeList refinements(const Alternatives& pair, const StaticResult& base) {
+  constexpr int kLeastStrips = 4, kLeastPositions = 8;
+  AlternativeList refined;
+  const ContactDiscretisation& contact = pair.settings.contact;
   if (!pair.one_slice()) refine_over_face(pair, base, refined);
-  if (pair.strips()) {
-    StaticParameters finer = pair.settings;
-    finer.contact.strips *= 2;
-    refined.emplace_back(from_to("strips", pair.settings.contact.strips, finer.contact.strips),
-                         pair.with(finer));
-  }
-  const auto flank_points = static_cast<int>(pair.driver.flank_position.size());
-  refined.emplace_back(from_to("flank table", flank_points, 2 * flank_points, " points"),
-                       pair.of_bodies([](BodyDiscretisation&) {}, 2));
-  const double element = pair.driver.discretisation.element_size;
-  refined.emplace_back(from_to("elements", shown_length(element), shown_length(0.5 * element), " mm"),
-                       pair.of_bodies([](BodyDiscretisation& body) { body.element_size *= 0.5; }));
-  if (pair.driver.discretisation.element_order == 1 || pair.driven.discretisation.element_order == 1)
-    refined.emplace_back(from_to("order", 1, 2),
-                         pair.of_bodies([](BodyDiscretisation& body) { body.element_order = 2; }));
   if (pair.strips())
-    refined.emplace_back(from_to("search range", 1, 2, " times"), pair.with(pair.settings, 2));
-  StaticParameters denser = pair.settings;
-  denser.contact.positions *= 2;
-  refined.emplace_back(from_to("positions", pair.settings.contact.positions, denser.contact.positions),
-                       pair.with(denser));
+    refine_contact(pair, &ContactDiscretisation::strips, contact.strips, kLeastStrips, "strips", refined);
+  refine_bodies(pair, refined);
+  if (pair.strips())
+    refined.push_back({from_to("search range", 1, 2, " times"), pair.with(pair.settings, 2)});
+  refine_contact(pair, &ContactDiscretisation::positions, contact.positions, kLeastPositions, "positions",
+                 refined);
   return refined;
 }
 
 // What is no refinement. A choice has limits of its own: `missing` says why one cannot be made.
-NamedOutcomes other_choices(const Alternatives& pair, const StaticResult& base, std::string& missing) {
-  NamedOutcomes chosen;
+AlternativeList other_choices(const Alternatives& pair, const StaticResult& base, std::string& missing) {
+  AlternativeList chosen;
   const auto choose = [&](const std::string& name, const std::function<Outcome()>& instead) {
     try {
-      chosen.emplace_back(name, instead());
+      chosen.push_back({name, instead()});
     } catch (const Error& error) {
       missing += text(missing.empty() ? "" : "; ", name, ": ", error.what());
     }

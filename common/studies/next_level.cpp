@@ -24,7 +24,7 @@ StaticResult statics_with(const ReducedBody& driver, const ReducedBody& driven, 
 }
 
 ReducedBody with_all_modes(const ReducedBody& body) {
-  return reduced_again(body, body.discretisation, kAllModes, static_cast<int>(body.flank_position.size()));
+  return reduced_again(body, body.discretisation, kAllModes);
 }
 
 void add(LevelChange& change, double relative, double frequency) {

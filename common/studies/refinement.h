@@ -11,9 +11,8 @@
 namespace whine {
 
 // The gear of a body, meshed and reduced with another discretisation; modes: as reduce() takes them. Errors as of make_sector_mesh(), reduce().
-inline ReducedBody reduced_again(const ReducedBody& body, const BodyDiscretisation& with, int modes,
-                                 int flank_points) {
-  return reduce(make_sector_mesh(body.design, with), body.material, modes, flank_points);
+inline ReducedBody reduced_again(const ReducedBody& body, const BodyDiscretisation& with, int modes) {
+  return reduce(make_sector_mesh(body.design, with), body.material, modes);
 }
 
 // "strips 8 to 16": what was refined, from which value to which.

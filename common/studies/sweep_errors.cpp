@@ -10,6 +10,7 @@
 #include "studies/next_level.h"
 #include "studies/refinement.h"
 #include "studies/sweep.h"
+#include "system/face_points.h"
 #include "system/statics.h"
 
 namespace whine {
@@ -22,16 +23,17 @@ namespace {
 // Sizes of a discretisation over those of the scene.
 struct Sizes {
   double element = 1, flank_spacing = 1, strip = 1, step = 1, periodicity = 1;
-  double modes = 1;  // their number
+  double modes = 1, face_points = 1;  // their number
 
   bool of_bodies() const { return element != 1 || flank_spacing != 1 || modes != 1; }
 };
 
-// One discretisation: refined, and where its order can show also coarser, by the same factor of 2.
+// One discretisation: refined, and where its order can show also coarser, by the same factor.
 struct Entry {
   std::string name;
   Sizes finer;
   std::vector<Sizes> coarser = {};  // none or one
+  double ratio = 2;
 };
 
 using SweepWith = std::function<SweepResult(const Sizes&)>;
@@ -51,11 +53,25 @@ std::vector<ReducedBody> resized(const std::vector<ReducedBody>& bodies, const S
     with.element_size *= sizes.element;
     const int modes =
         with.modes == kAllModes ? kAllModes : static_cast<int>(std::lround(with.modes * sizes.modes));
-    const auto points = static_cast<int>(
-        std::lround(static_cast<double>(bodies[i].flank_position.size()) / sizes.flank_spacing));
-    out.push_back(reduced_again(bodies[i], with, modes, points));
+    with.flank_points = static_cast<int>(std::lround(with.flank_points / sizes.flank_spacing));
+    out.push_back(reduced_again(bodies[i], with, modes));
   }
   return out;
+}
+
+// Of a line; 0: one slice. meshes: that share them.
+template <class Meshes>
+int points_of(const Fidelity& fidelity, const Meshes& meshes, const ContactDiscretisation& contact) {
+  return fidelity.width == WidthModel::one ? 0 : face_points_of(meshes, contact);
+}
+
+template <class Meshes>
+ContactDiscretisation resized(ContactDiscretisation contact, const Fidelity& fidelity, const Meshes& meshes,
+                              const Sizes& sizes) {
+  contact.strips = static_cast<int>(std::lround(contact.strips / sizes.strip));
+  if (const int points = points_of(fidelity, meshes, contact); points > 0)
+    contact.face_points = static_cast<int>(std::lround(points * sizes.face_points));
+  return contact;
 }
 
 TimeDiscretisation resized(TimeDiscretisation time, const Sizes& sizes) {
@@ -71,8 +87,10 @@ double judged_step(double from, double to, double step) {
   return step * std::max(1.0, std::ceil(most / (kJudgedSpeeds - 1)));
 }
 
-std::vector<Entry> entries_of(const ReducedBody& first, const TimeDiscretisation& time) {
-  constexpr int kLeastSteps = 16;
+// face_points: of a line, 0 in one slice.
+std::vector<Entry> entries_of(const ReducedBody& first, const TimeDiscretisation& time, int face_points) {
+  constexpr int kLeastSteps = 16, kLeastFacePoints = 4;
+  constexpr double kMoreModes = 1.5;
   std::vector<Entry> out;
   Entry steps{from_to("steps", time.steps_per_period, 2 * time.steps_per_period), {.step = 0.5}};
   if (time.steps_per_period % 2 == 0 && time.steps_per_period >= 2 * kLeastSteps)
@@ -82,12 +100,19 @@ std::vector<Entry> entries_of(const ReducedBody& first, const TimeDiscretisation
   out.push_back({from_to("elements", shown_length(element), shown_length(element / 2), " mm"),
                  {.element = 0.5},
                  {{.element = 2}}});
-  const auto points = static_cast<double>(first.flank_position.size());
+  const int points = first.discretisation.flank_points;
   out.push_back({from_to("flank table", points, 2 * points, " points"), {.flank_spacing = 0.5}});
   if (first.discretisation.modes != kAllModes)
     out.push_back({from_to("modes", first.discretisation.modes,
-                           static_cast<double>(std::lround(1.5 * first.discretisation.modes))),
-                   {.modes = 1.5}});
+                           static_cast<double>(std::lround(kMoreModes * first.discretisation.modes))),
+                   {.modes = kMoreModes},
+                   {{.modes = 1 / kMoreModes}},
+                   kMoreModes});
+  if (face_points > 0) {
+    Entry face{from_to("face points", face_points, 2 * face_points), {.face_points = 2}};
+    if (face_points % 2 == 0 && face_points >= kLeastFacePoints) face.coarser.push_back({.face_points = 0.5});
+    out.push_back(std::move(face));
+  }
   out.push_back({from_to("periodicity", time.periodicity, time.periodicity / 10), {.periodicity = 0.1}});
   return out;
 }
@@ -109,10 +134,11 @@ Eigen::VectorXi comparable(const ResponseResult& a, const ResponseResult& b) {
 }
 
 // RMS over the speeds that all three have in common, of the changes from the coarser to the base and from the base to the finer.
-double order_by(const ResponseResult& coarser, const ResponseResult& base, const ResponseResult& finer) {
+double order_by(const ResponseResult& coarser, const ResponseResult& base, const ResponseResult& finer,
+                double ratio) {
   const Eigen::VectorXi common = comparable(coarser, base).cwiseProduct(comparable(base, finer));
   return order_of(change_of(coarser.dte_rms, base.dte_rms, common).norm(),
-                  change_of(base.dte_rms, finer.dte_rms, common).norm());
+                  change_of(base.dte_rms, finer.dte_rms, common).norm(), ratio);
 }
 
 void compare_jumps(const ResponseResult& base, const ResponseResult& finer, double near, Index entry,
@@ -192,11 +218,11 @@ SweepErrorsResult measured(const std::vector<Entry>& entries, const SweepWith& s
     const SweepResult refined = run(entry.finer, entry.name);
     const ResponseResult finer = response(refined);
     for (const Sizes& coarser : entry.coarser)
-      out.order[e] = order_by(response(run(coarser, entry.name + ", its order")), base, finer);
+      out.order[e] = order_by(response(run(coarser, entry.name + ", its order")), base, finer, entry.ratio);
     out.compared.row(e) = comparable(base, finer).transpose();
     const Eigen::VectorXi compared = out.compared.row(e);
     compare_jumps(base, finer, 2 * step, e, out);
-    const double factor = error_of(1, out.order[e]);
+    const double factor = error_of(1, out.order[e], entry.ratio);
     for (const Taken& taken : kTaken) {
       SweepErrorsResult::Judged& judged = out.*taken.judged;
       judged.change.push_back(change_of(judged.value, taken.of(finer), compared));
@@ -214,21 +240,12 @@ void quiet(long /*done*/, long /*total*/, const std::string& /*note*/) {}
 
 }  // namespace
 
-double order_of(double coarser_change, double finer_change) {
-  if (!(finer_change > 0)) return 0;
-  const double order = std::log2(coarser_change / finer_change);
-  return order >= 0.5 && order <= 6 ? order : 0;
-}
-
-double error_of(double change, double order) {
-  return std::abs(change) / (order > 0 ? 1 - std::exp2(-order) : 1);
-}
-
 SweepErrorsResult sweep_errors(const ReducedBody& driver, const ReducedBody& driven,
                                const StaticResult& statics, const StaticResult& reference,
                                const SweepParameters& settings, Direction direction, const Report& report) {
   const double step = judged_step(settings.frequency_from, settings.frequency_to, settings.frequency_step);
-  std::vector<Entry> entries = entries_of(driver, settings.time);
+  std::vector<Entry> entries =
+      entries_of(driver, settings.time, points_of(statics.fidelity, statics.mesh, statics.contact));
   if (settings.fidelity.contact == ContactModel::strips) {
     const int strips = statics.contact.strips;
     Entry entry{from_to("strips", strips, 2 * strips), {.strip = 0.5}};
@@ -244,10 +261,9 @@ SweepErrorsResult sweep_errors(const ReducedBody& driver, const ReducedBody& dri
     StaticParameters rest;
     rest.mesh = statics.mesh;
     rest.fidelity = statics.fidelity;
-    rest.contact = statics.contact;
-    rest.contact.strips = static_cast<int>(std::lround(rest.contact.strips / sizes.strip));
+    rest.contact = resized(statics.contact, statics.fidelity, statics.mesh, sizes);
     // What refines neither bodies nor contact leaves the statics as they are.
-    const bool as_given = !sizes.of_bodies() && sizes.strip == 1;
+    const bool as_given = !sizes.of_bodies() && sizes.strip == 1 && sizes.face_points == 1;
     const StaticResult at = as_given ? statics : static_transmission(with[0], with[1], rest, statics.torque);
     const double stiffness =
         as_given ? reference.mean_stiffness
@@ -267,10 +283,13 @@ SweepErrorsResult sweep_errors(const SystemSweepParameters& settings, const std:
     SystemSweepParameters moved = settings;
     moved.frequency_step = step;
     moved.time = resized(settings.time, sizes);
+    moved.contact = resized(settings.contact, settings.fidelity, settings.mesh, sizes);
     return system_sweep(moved, sizes.of_bodies() ? resized(bodies, sizes) : bodies, direction, quiet,
                         settings.frequency_step / 64);
   };
-  return measured(entries_of(bodies.at(0), settings.time), sweep_with, step, report);
+  return measured(
+      entries_of(bodies.at(0), settings.time, points_of(settings.fidelity, settings.mesh, settings.contact)),
+      sweep_with, step, report);
 }
 
 }  // namespace whine

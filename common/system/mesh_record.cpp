@@ -69,8 +69,8 @@ void MeshRecord::take(const RestStep& step, const SystemSolution& solution, cons
     // With friction forces do not act along what they are read along, and bearings are not in series with the mesh.
     if (system_.slides() && model_.on_bearings())
       result_.stiffness_tangent[i] = statics.mesh_stiffness()(0, 0);
-  } else if (solution.mesh_force[m] > 0 && load_ > 0) {
-    result_.stiffness_secant[i] = solution.mesh_force[m] / (deflection_[i] - result_.unloaded_error[i]);
+  } else if (solution.driving_force[m] > 0 && load_ > 0) {
+    result_.stiffness_secant[i] = solution.driving_force[m] / (deflection_[i] - result_.unloaded_error[i]);
     result_.stiffness_tangent[i] = solution.mesh_stiffness(m_, m_);
   }
   if (system_.slides()) take_friction(i, solution, statics.position());

@@ -39,7 +39,7 @@ void take_balance(const SystemModel& system, const SystemSolution& at, Index row
     double moment = 0;  // N, of the contact forces over the base radius
     for (size_t m = 0; m < system.mesh.size(); ++m)
       if (const int side = system.side_of(static_cast<int>(b), static_cast<int>(m)); side >= 0)
-        moment += side == 0 ? at.mesh_force[m] : -at.driven_force[m];
+        moment += side == 0 ? at.driving_force[m] : -at.driven_force[m];
     const int number = static_cast<int>(b);
     out.torque(row, number) =
         layout.held(number) ? moment * system.base_radius(number) : layout.torque(number);
@@ -62,15 +62,17 @@ void take_balance(const SystemModel& system, const SystemSolution& at, Index row
 
 void take_position(const SystemModel& system, const std::vector<int>& section, const SystemSolution& at,
                    Index row, SystemStaticResult& out) {
-  std::vector<double> carried(section.size(), 0.0);
-  for (size_t m = 0; m < system.mesh.size(); ++m)
-    carried[static_cast<size_t>(section[m])] += at.mesh_force[m];
+  std::vector<double> carried(section.size(), 0.0), force(system.mesh.size(), 0.0);
+  for (const LoadedSegment& load : at.loads) {
+    force[static_cast<size_t>(load.mesh)] += load.force;
+    carried[static_cast<size_t>(section[static_cast<size_t>(load.mesh)])] += load.force;
+  }
   for (size_t m = 0; m < system.mesh.size(); ++m) {
     const auto column = static_cast<Index>(m);
     const double all = carried[static_cast<size_t>(section[m])];
     out.mesh_deflection(row, column) = at.deflection[m];
-    out.mesh_force(row, column) = at.mesh_force[m];
-    out.load_share(row, column) = all > 0 ? at.mesh_force[m] / all : 0;
+    out.mesh_force(row, column) = force[m];
+    out.load_share(row, column) = all > 0 ? force[m] / all : 0;
   }
   out.bearing_force[static_cast<size_t>(row)].setZero();
   for (size_t b = 0; b < system.layout.bodies.size(); ++b) {

@@ -201,7 +201,6 @@ SystemPosition join(const SystemModel& system, double phase, int period,
         segment.slice = out.segment.back().slice + 1;
       for (size_t s = 0; s < kSides; ++s)
         segment.tooth[s] = model.layout.side[s].tooth(strips.pair - at.period);
-      segment.flank = model.layout.side[0].flank;
       segment.phase = at.phase + strips.pair;
       segment.gap = strips.contact.gap;
       segment.normal = position.transverse * model.outward_in_system(0, strips.contact);
@@ -257,6 +256,8 @@ MatrixXd between_meshes(const SystemModel& system, const SystemPosition& positio
   const auto side_r = static_cast<size_t>(read_side), side_l = static_cast<size_t>(loaded_side);
   // Far from either contact: the body in its whole width.
   const ElasticGear& gear = *system.body[static_cast<size_t>(system.layout.meshes[read].side[side_r].body)];
+  const FlankSide flank_r = system.layout.meshes[read].side[side_r].flank,
+                  flank_l = system.layout.meshes[loaded].side[side_l].flank;
   const MatrixXd &reading = position.displacement.flank[read][side_r],
                  &loading = position.load.flank[loaded][side_l];
   const auto segments_of = [&](size_t m) {
@@ -273,8 +274,8 @@ MatrixXd between_meshes(const SystemModel& system, const SystemPosition& positio
   const auto rows = segments_of(read), columns = segments_of(loaded);
   for (size_t i = 0; i < rows.size(); ++i)
     for (size_t j = 0; j < columns.size(); ++j) {
-      const MatrixXd table = gear.compliance({rows[i]->tooth[side_r], rows[i]->flank},
-                                             {columns[j]->tooth[side_l], columns[j]->flank}, 0);
+      const MatrixXd table =
+          gear.compliance({rows[i]->tooth[side_r], flank_r}, {columns[j]->tooth[side_l], flank_l}, 0);
       const MatrixXd nodes =
           reading(to.nodes_of(i), Eigen::all) * table * loading(from.nodes_of(j), Eigen::all).transpose();
       out.block(to.first_strip[i], from.first_strip[j], rows[i]->strips, columns[j]->strips) =

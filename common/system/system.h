@@ -53,12 +53,11 @@ struct SystemModel {
 // The unit of contact: one slice of one pair of teeth on one side of their flanks.
 struct ContactSegment {
   int mesh = 0;
-  int pair = 0;                          // -1 following, 0 reference, 1 preceding
-  int slice = 0;                         // along the face width; spur gears have one
-  std::array<int, 2> tooth{};            // [side] number, counter-clockwise
-  FlankSide flank = FlankSide::leading;  // of both gears
-  double phase = 0;                      // mesh periods from the pitch point
-  double gap = 0;                        // m, at the nominal point
+  int pair = 0;                     // -1 following, 0 reference, 1 preceding
+  int slice = 0;                    // along the face width; spur gears have one
+  std::array<int, 2> tooth{};       // [side] number, counter-clockwise
+  double phase = 0;                 // mesh periods from the pitch point
+  double gap = 0;                   // m, at the nominal point
   Vec2 normal = Vec2::Zero();       // from the first side's flank to the second's, in the frame of the system
   std::array<double, 2> lever{};    // [side] m
   double width = 0;                 // m along the face

@@ -275,7 +275,7 @@ const SystemSolution& SystemStatics::solve(double phase, int period, const Vecto
              position.load.rotation.col(system_.mesh[m].layout.side[side].body)(position.strips_of(m))
                  .dot(own);
     };
-    solution.mesh_force.push_back(moment(0));
+    solution.driving_force.push_back(moment(0));
     solution.driven_force.push_back(moment(1));
     solution.transmission_error.push_back(solution.equilibrium.transmission_error(system_, number));
     solution.deflection.push_back(mesh_deflection(system_, position, solution.equilibrium, number));
@@ -370,7 +370,7 @@ MatrixXd SystemStatics::mesh_stiffness() const {
   const VectorXd& p = solution_.equilibrium.p;
   const auto meshes = static_cast<Eigen::Index>(position.mesh.size());
   // Where a mesh without load touches is a matter of round-off.
-  const std::vector<double>& force = solution_.mesh_force;
+  const std::vector<double>& force = solution_.driving_force;
   const double least = 1e-9 * *std::max_element(force.begin(), force.end());
   std::vector<Eigen::Index> active;
   for (size_t m = 0; m < position.mesh.size(); ++m)

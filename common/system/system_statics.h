@@ -20,7 +20,7 @@ struct SystemSolution {
   SystemEquilibrium equilibrium;
   std::vector<LoadedSegment> loads;
   std::vector<Vec2> bearing_force;  // [body] N, see bearing_force(); of rigid bearings, too
-  std::vector<double> mesh_force,
+  std::vector<double> driving_force,
       driven_force;  // [mesh] N: torque on the first side over its base radius, on the second
   std::vector<double>
       friction_work;  // [mesh] J: that friction takes in a mesh period at this position; 0 without

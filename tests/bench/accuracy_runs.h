@@ -43,7 +43,7 @@ auto through_file(const std::string& words, const Read& read) {
 }
 
 // Bodies of these stage parameters, alike ones once.
-inline std::vector<ReducedBody> bodies_of(const std::vector<std::string>& texts, int flank_points) {
+inline std::vector<ReducedBody> bodies_of(const std::vector<std::string>& texts) {
   std::vector<ReducedBody> out;
   out.reserve(texts.size());
   for (size_t i = 0; i < texts.size(); ++i) {
@@ -53,18 +53,17 @@ inline std::vector<ReducedBody> bodies_of(const std::vector<std::string>& texts,
       continue;
     }
     const BodyParameters p = through_file(texts[i], read_body_parameters);
-    out.push_back(reduce(make_sector_mesh(p.design, p.discretisation), p.material, p.discretisation.modes,
-                         flank_points));
+    out.push_back(reduce(make_sector_mesh(p.design, p.discretisation), p.material, p.discretisation.modes));
   }
   return out;
 }
 
 inline void no_report(long /*done*/, long /*total*/, const std::string& /*note*/) {}
 
-inline SceneRun run_scene(const Scene& scene, int flank_points = kFlankPoints) {
+inline SceneRun run_scene(const Scene& scene) {
   const double start = cpu_seconds();
-  const std::vector<ReducedBody> body = bodies_of(
-      {body_parameters(scene, scene.mesh.gear[0]), body_parameters(scene, scene.mesh.gear[1])}, flank_points);
+  const std::vector<ReducedBody> body =
+      bodies_of({body_parameters(scene, scene.mesh.gear[0]), body_parameters(scene, scene.mesh.gear[1])});
   const StaticResult rest =
       static_transmission(body[0], body[1], through_file(static_parameters(scene), read_static_parameters),
                           scene.operation.torques.front());
@@ -75,12 +74,12 @@ inline SceneRun run_scene(const Scene& scene, int flank_points = kFlankPoints) {
   return {response(swept), cpu_seconds() - start};
 }
 
-inline SceneRun run_scene(const SystemScene& scene, int flank_points = kFlankPoints) {
+inline SceneRun run_scene(const SystemScene& scene) {
   const double start = cpu_seconds();
   std::vector<std::string> texts;
   for (const auto& [gear, words] : body_parameters_of(scene)) texts.push_back(words);
   const SystemSweepParameters settings = sweep_parameters_of(scene, layout_of(scene));
-  return {response(system_sweep(settings, bodies_of(texts, flank_points), Direction::up, no_report)),
+  return {response(system_sweep(settings, bodies_of(texts), Direction::up, no_report)),
           cpu_seconds() - start};
 }
 
@@ -91,32 +90,40 @@ AnyScene at_few_speeds(AnyScene scene) {
   return scene;
 }
 
-// All settings left open, then chosen for an accepted error; 0: their defaults.
+inline bool no_key(const std::string& /*key*/) {
+  return false;
+}
+
+// All settings left open, then chosen as by a scene that says nothing of accuracy.
 template <class AnyScene>
-AnyScene accepting(AnyScene scene, double error) {
+AnyScene unasked(AnyScene scene) {
   const AnyScene none;
   scene.body = none.body;
   scene.contact = none.contact;
   scene.time = none.time;
-  scene.time.accepted_error = error;
-  choose_discretisation(scene, [](const std::string& /*key*/) { return false; });
+  choose_by_default(scene, no_key);
   return scene;
 }
 
-// Elements of module / 10, 121 modes, 32 strips, 24 points of a face, 330 steps in a natural period, periodicity 1e-7, to run with
-// kReferencePoints of a flank; 0.15 % by the bounds of gear/accuracy.h.
-inline constexpr int kReferencePoints = 48;
+// The same for an accepted error.
 template <class AnyScene>
-AnyScene reference_of(const AnyScene& of) {
-  AnyScene scene = accepting(of, 0);
-  double module = scene.gears.front().design.module;
-  for (const auto& gear : scene.gears) module = std::min(module, gear.design.module);
-  scene.body.element_size = module / 10;
-  scene.body.modes = 121;
-  scene.contact.strips = 32;
-  if (scene.fidelity.width != WidthModel::one) scene.contact.face_points = 24;
-  scene.time.min_sample_rate = 330 * expected_natural_frequency(scene);
-  scene.time.periodicity = 1e-7;
+AnyScene accepting(const AnyScene& of, double error) {
+  const AnyScene none;
+  AnyScene scene = of;
+  scene.body = none.body;
+  scene.contact = none.contact;
+  scene.time = none.time;
+  scene.time.accepted_error = error;
+  choose_discretisation(scene, no_key);
+  return scene;
+}
+
+// Settings of which the laws of gear/accuracy.h say a quarter of an accepted error, 0.2 % at most, periodicity a thousandth of its own.
+template <class AnyScene>
+AnyScene reference_of(const AnyScene& of, double least_accepted) {
+  constexpr double kFarFiner = 0.25, kFine = 0.002, kPeriodicity = 1e-3;
+  AnyScene scene = accepting(of, std::min(kFine, kFarFiner * least_accepted));
+  scene.time.periodicity *= kPeriodicity;
   return scene;
 }
 

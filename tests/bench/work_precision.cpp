@@ -6,6 +6,7 @@
 // Reads   a scene
 // Writes  <output>.{tsv,svg,png}, and the same table in words on standard output
 // Example: whine-work-precision --scene data/scenes/first-pair.toml --output out/figures/work-precision
+#include <array>
 #include <cstdio>
 #include <functional>
 #include <string>
@@ -28,21 +29,18 @@ using namespace whine;
 
 constexpr double kPercent = 100, kDefaultAccepted = 0.01;
 
-bool none_given(const std::string& /*key*/) {
-  return false;
-}
-
 template <class AnyScene>
 class Front {
  public:
-  explicit Front(const AnyScene& scene) : fine_(run_scene(reference_of(scene), kReferencePoints)) {
+  Front(const AnyScene& scene, double least_accepted)
+      : fine_(run_scene(reference_of(scene, least_accepted))) {
     log_line("work-precision: the reference took ", shown(fine_.seconds, 3), " s");
   }
 
   void add(const AnyScene& scene, double setting, FigureBlock& block) const {
     const SceneRun own = run_scene(scene);
     const RmsDifference off = difference(own.response, fine_.response);
-    const double bound = discretisation_plan(scene, none_given).error();
+    const double bound = discretisation_plan(scene, no_key).error();
     block.rows.push_back({setting, own.seconds, off.most * kPercent, bound * kPercent});
     std::printf("%-44s %10.4g %9.2f %9.3f %9.3f   %.0f Hz, %d speeds\n", block.name.c_str(), setting,
                 own.seconds, off.most * kPercent, bound * kPercent, off.mesh_frequency, off.compared);
@@ -88,12 +86,12 @@ std::vector<Alone<AnyScene>> alone_of(const AnyScene& scene, bool pair) {
 template <class AnyScene>
 void measure(const AnyScene& whole, bool pair, Figure& figure) {
   const AnyScene scene = at_few_speeds(whole);
-  const Front<AnyScene> front(scene);
+  constexpr std::array kLevels{0.08, 0.04, 0.02, 0.01, 0.005, 0.003};
+  const Front<AnyScene> front(scene, kLevels.back());
   std::printf("%-44s %10s %9s %9s %9s\n", "", "setting", "CPU (s)", "error (%)", "bound (%)");
   const double accepted = scene.time.accepted_error > 0 ? scene.time.accepted_error : kDefaultAccepted;
   FigureBlock accepting_all = block_of("settings for an accepted error", "%");
-  for (const double error : {0.08, 0.04, 0.02, 0.01, 0.005, 0.003})
-    front.add(accepting(scene, error), error * kPercent, accepting_all);
+  for (const double error : kLevels) front.add(accepting(scene, error), error * kPercent, accepting_all);
   figure.blocks.push_back(accepting_all);
   const AnyScene chosen = accepting(scene, accepted);
   for (const Alone<AnyScene>& one : alone_of(chosen, pair)) {
@@ -123,10 +121,9 @@ void body(int argc, char** argv) {
   options.parse(argc, argv);
 
   Figure figure;
-  figure.notes = {
-      text("against elements of module / 10, 121 modes, 32 strips, 330 steps in a natural period; ",
-           kJudgedSpeedsOfScene, " speeds, rising"),
-      "one setting alone: half, once and twice as fine, elements by their number"};
+  figure.notes = {text("against settings for a quarter of the least accepted error; ", kJudgedSpeedsOfScene,
+                       " speeds, rising"),
+                  "one setting alone: half, once and twice as fine, elements by their number"};
   if (is_system_scene(path)) {
     const SystemScene scene = read_system_scene(path);
     if (scene.rigid() || !(scene.operation.frequency_to > 0))

@@ -168,6 +168,25 @@ TEST_CASE(
   CHECK(off[2] < 0.55 * off[1]);
 }
 
+// Planets then work on one flank with the ring and on the other with the sun.
+TEST_CASE("a planetary train that the ring drives: forces at rest of the motion are those of its statics") {
+  const SystemModel system = train({26, 37, 100}, 3, {}, [](SystemScene& scene) {
+    scene.drives = {{"ring", System::DriveKind::torque, kTorque, 0},
+                    {"sun", System::DriveKind::held, 0, 0},
+                    {"carrier", System::DriveKind::held, 0, 0}};
+    for (SystemScene::Mesh& mesh : scene.meshes) std::swap(mesh.spec.gear[0], mesh.spec.gear[1]);
+  });
+  int both = 0;
+  for (const System::Mesh& a : system.layout.meshes)
+    for (const System::Mesh& b : system.layout.meshes)
+      for (const auto& of_a : a.side)
+        for (const auto& of_b : b.side) both += of_a.body == of_b.body && of_a.flank != of_b.flank;
+  CHECK(both > 0);
+  SystemDynamics dynamics(system, motion_of(system, 4e8));
+  dynamics.set_positions(std::vector<double>(6, 60e-6), kSteps);
+  check_rest(dynamics, rest_over_period(system, ContactModel::line, 8, 16));
+}
+
 TEST_CASE("a planetary train that loses contact: energy closes, p . d and dropped loads included") {
   SystemDynamics& dynamics = planetary().dynamics;
   SystemDynamics::State state = dynamics.rest();

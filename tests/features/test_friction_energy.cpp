@@ -115,7 +115,7 @@ TEST_CASE(
         CHECK(by_vectors.out == relative(given, 1e-9));
         CHECK(std::abs(kTorque - given - by_vectors.loss) < 1e-9 * kTorque);
         CHECK(by_vectors.loss > 0);
-        const double first = solution.mesh_force[0], second = solution.driven_force[0];
+        const double first = solution.driving_force[0], second = solution.driven_force[0];
         least = std::min(least, second / first);
         most = std::max(most, second / first);
       }

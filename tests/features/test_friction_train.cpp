@@ -54,7 +54,7 @@ Sums sums(const SystemModel& system, const SystemSolution& at) {
   out.torque = VectorXd::Zero(static_cast<Index>(system.layout.bodies.size()));
   for (size_t m = 0; m < system.mesh.size(); ++m) {
     const auto& side = system.layout.meshes[m].side;
-    out.torque[side[0].body] += at.mesh_force[m] * system.base_radius(side[0].body);
+    out.torque[side[0].body] += at.driving_force[m] * system.base_radius(side[0].body);
     out.torque[side[1].body] -= at.driven_force[m] * system.base_radius(side[1].body);
     out.loss += at.friction_work[m];
   }

@@ -10,6 +10,7 @@
 #include "dynamics/system_period_map.h"
 #include "elastic_train.h"
 #include "gear/contact_lines.h"
+#include "gear/drawing_quantities.h"
 #include "gear/helix.h"
 #include "gear/layout.h"
 #include "io/system_scene.h"
@@ -175,14 +176,14 @@ TEST_CASE("the helix to 0 is the spur train, linear in its angle") {
 TEST_CASE("axial forces are F_t tan(beta_b), balance over the train, and tilt the planets") {
   const SystemStaticResult a = Train(kHelical).at_rest();
   const Train train(kHelical);
-  const double tangent = std::tan(base_helix_angle(train.scene.gears[0].design));
-  CHECK(tangent > 0);
+  const double sine = std::sin(base_helix_angle(train.scene.gears[0].design));
+  CHECK(sine > 0);
   const auto& bodies = a.settings.layout.bodies;
   const double force = a.mesh_force.row(0).head(3).sum();
   for (Index i = 0; i < kPositions; ++i) {
     const VectorXd axial = a.axial_force.row(i).transpose();
-    CHECK(axial[0] == relative(tangent * a.mesh_force.row(i).head(3).sum(), 1e-12));
-    CHECK(axial[kRing] == relative(-tangent * a.mesh_force.row(i).tail(3).sum(), 1e-12));
+    CHECK(axial[0] == relative(sine * a.mesh_force.row(i).head(3).sum(), 1e-12));
+    CHECK(axial[kRing] == relative(-sine * a.mesh_force.row(i).tail(3).sum(), 1e-12));
     for (Index n = 1; n < 4; ++n) {
       // Sun and ring push a planet to either side.
       CHECK(std::abs(axial[n]) < 1e-9 * force);
@@ -192,7 +193,7 @@ TEST_CASE("axial forces are F_t tan(beta_b), balance over the train, and tilt th
       const Vec2 radial = Vec2(planet.centre[0], planet.centre[1]).normalized();
       const double arm = 2 * 0.5 * 36 * kTrainModule;
       CHECK(moment.row(n).dot(Vec2(-radial.y(), radial.x())) ==
-            relative(-tangent * a.mesh_force(i, n - 1) * arm, 0.15));
+            relative(-sine * a.mesh_force(i, n - 1) * arm, 0.15));
     }
     CHECK(std::abs(axial.head(5).sum()) < 1e-12 * force);
     CHECK(std::abs(axial[kCarrier] - axial.segment(1, 3).sum()) < 1e-12 * force);
@@ -210,7 +211,7 @@ TEST_CASE("axial forces are F_t tan(beta_b), balance over the train, and tilt th
   for (size_t m : {1, 2}) CHECK(a.mesh[m].face.load_factor == relative(a.mesh[0].face.load_factor, 1e-8));
   for (const StaticResult& mesh : a.mesh) {
     CHECK(std::abs(mesh.face.axial_force) ==
-          relative(tangent * mesh.torque / GearPair(mesh).gear(0).base_radius(), 1e-12));
+          relative(sine * normal_force(mesh.gear[0].design, mesh.torque), 1e-12));
     for (Index i = 0; i < kPositions; ++i) {
       const FaceLoad& face = mesh.face;
       const auto at = static_cast<size_t>(i);

@@ -257,7 +257,7 @@ TEST_CASE(
       const bool closes = turned.layout.meshes[m].side[1].flank == FlankSide::leading;
       const double shift = m < 3 ? 0 : (closes ? -1 : 1) * ahead * std::cos(alpha);
       CHECK(std::abs(all[n].transmission_error[m] - plain[n / 3].transmission_error[m] - shift) < 1e-12);
-      CHECK(all[n].mesh_force[m] == relative(plain[n / 3].mesh_force[m], 1e-6));
+      CHECK(all[n].driving_force[m] == relative(plain[n / 3].driving_force[m], 1e-6));
     }
   std::array<int, 3> met{};
   std::array<double, 3> more{};
@@ -265,7 +265,7 @@ TEST_CASE(
   const std::vector<SystemSolution> each = solve(one, kTeeth[2]);
   for (size_t n = 0; n < each.size(); ++n) {
     const SystemSolution &at = each[n], &exact = plain[n / periods];
-    CHECK(at.mesh_force[0] + at.mesh_force[1] + at.mesh_force[2] == relative(force, 1e-9));
+    CHECK(at.driving_force[0] + at.driving_force[1] + at.driving_force[2] == relative(force, 1e-9));
     Vec2 sum(0, 0);
     for (size_t b = 0; b < 5; ++b) sum += at.bearing_force[b];
     CHECK(sum.norm() < 1e-9 * force);
@@ -281,10 +281,10 @@ TEST_CASE(
       ++met[planet];
       const double sign = side.flank == FlankSide::leading ? 1 : -1;
       more[planet] =
-          std::max(more[planet], sign * (at.mesh_force[planet + 3] / exact.mesh_force[planet + 3] - 1));
+          std::max(more[planet], sign * (at.driving_force[planet + 3] / exact.driving_force[planet + 3] - 1));
     }
     if (!meets)
-      for (size_t m = 0; m < 6; ++m) CHECK(at.mesh_force[m] == relative(exact.mesh_force[m], 1e-9));
+      for (size_t m = 0; m < 6; ++m) CHECK(at.driving_force[m] == relative(exact.driving_force[m], 1e-9));
   }
   // In motion: the same forces at rest; the balance of energy closes as the tooth comes round.
   SystemDynamics dynamics(one, motion_of(one, 4e8, 2e-6));

@@ -306,7 +306,7 @@ TEST_CASE(
     "a ring under pressure on one tooth: its field, by another way, gives way as its tables say, and its rim holds the torque") {
   const SectorGrid mesh = make_sector_mesh(ring_gear(), elements(1.2e-3));
   const ToothGeometry ring(mesh.design);
-  const FlankTable table(ring, kFlankPoints);
+  const FlankTable table(ring, BodyDiscretisation{}.flank_points);
   const double roll = 0.5 * (ring.tip_roll_angle() + ring.form_roll_angle()), width = 0.1e-3, force = 1000;
   const LoadedGear loaded = loaded_gear(mesh, kSteel, {{0, roll, width, force}});
   CHECK(loaded.hub_torque == relative(force * ring.base_radius(), 2e-3));

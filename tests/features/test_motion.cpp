@@ -277,7 +277,8 @@ TEST_CASE(
   const ReducedBody& body = paper_body();
   BodyDiscretisation finer = body.discretisation;
   finer.element_size /= 2;
-  const ReducedBody fine = reduce(make_sector_mesh(body.design, finer), body.material, 5, 2 * kFlankPoints);
+  finer.flank_points *= 2;
+  const ReducedBody fine = reduce(make_sector_mesh(body.design, finer), body.material, 5);
   const auto error = [](const ReducedBody& of, int strips) {
     StaticParameters settings = paper_statics(2000);
     settings.contact.strips = strips;
@@ -560,7 +561,8 @@ TEST_CASE("plane strain, any bore: a finer table and finer elements change no tr
     const auto reduced = [&](double element, int points) {
       BodyDiscretisation discretisation = stress.discretisation;
       discretisation.element_size = element;
-      return reduce(make_sector_mesh(stress.design, discretisation), material, 1, points);
+      discretisation.flank_points = points;
+      return reduce(make_sector_mesh(stress.design, discretisation), material, 1);
     };
     const ReducedBody body = reduced(0.4e-3, 24), finer = reduced(0.27e-3, 36);
     for (double torque : {20.0, 150.0, 600.0}) {

@@ -112,7 +112,7 @@ TEST_CASE("which member is held makes no difference to loads, errors and pins at
       const auto two = solutions(others[n], stiffness, false);
       for (size_t i = 0; i < one.size(); ++i)
         for (size_t m = 0; m < 6; ++m) {
-          CHECK(two[i].mesh_force[m] == relative(one[i].mesh_force[m], 1e-8));
+          CHECK(two[i].driving_force[m] == relative(one[i].driving_force[m], 1e-8));
           CHECK(two[i].transmission_error[m] == relative(one[i].transmission_error[m], 1e-8));
           CHECK(two[i].deflection[m] == relative(one[i].deflection[m], 1e-8));
           const auto b = m % 3 + 1;

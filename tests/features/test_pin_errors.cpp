@@ -37,7 +37,7 @@ struct Rest {
 };
 Rest at_rest(const SystemModel& system, int planets) {
   const SystemSolution at = rest_over_period(system, ContactModel::line, 8, 4)[1];
-  return {Eigen::Map<const VectorXd>(at.mesh_force.data(), planets), at.equilibrium.x[0],
+  return {Eigen::Map<const VectorXd>(at.driving_force.data(), planets), at.equilibrium.x[0],
           at.bearing_force[1]};
 }
 

@@ -666,7 +666,7 @@ TEST_CASE("error budget: choices stand apart from the errors and in no sum") {
                    {},
                    MatrixRM::Constant(1, 5, 2e-3)};
   const Figure figure = error_budget_figure(budget);
-  CHECK(contains(figure.notes[0], "mean stiffness 0.03 %"));
+  CHECK(contains(figure.notes[0], "mean stiffness of 0.03 %"));
   REQUIRE(block(figure, "changes").rows.size() == 2);
   REQUIRE(block(figure, "choices").rows.size() == 1);
   CHECK(block(figure, "changes").rows[1][1] == relative(0.02, 1e-14));

@@ -38,7 +38,7 @@ namespace {
 
 using namespace whine;
 using Eigen::Index;
-Eigen::VectorXd table_of(const GearDesign& design, int points = kFlankPoints) {
+Eigen::VectorXd table_of(const GearDesign& design, int points = BodyDiscretisation{}.flank_points) {
   return FlankTable(ToothGeometry(design), points).points();
 }
 
@@ -496,7 +496,8 @@ TEST_CASE("statics over a turn: the cracked tooth's own softness where it works,
               relative(torque / ToothGeometry(cracked.design).base_radius(), 1e-9));
       const GearPair kinematics(cracked.design, cracked.design, 0.15);
       const Eigen::RowVectorXd at =
-          FlankTable(ToothGeometry(cracked.design), kFlankPoints).weights(kinematics.contact(0).roll[gear]);
+          FlankTable(ToothGeometry(cracked.design), BodyDiscretisation{}.flank_points)
+              .weights(kinematics.contact(0).roll[gear]);
       const Index n = at.size(), first = cracked.offsets * n;
       const double share = at * cracked.crack_compliance.block(first, first, n, n) * at.transpose();
       // The pressure's middle lies a few micrometres off the nominal point.

@@ -898,7 +898,8 @@ TEST_CASE(
   const auto ends = [&](double size, int points) {
     BodyDiscretisation discretisation;
     discretisation.element_size = size;
-    const ReducedBody body = reduce(make_sector_mesh(design, discretisation), kSteel, 1, points);
+    discretisation.flank_points = points;
+    const ReducedBody body = reduce(make_sector_mesh(design, discretisation), kSteel, 1);
     const FlankTable table(tooth, points);
     const auto spread = [&](double start, double width) {  // start: rad, width: m, below 0 towards the root
       constexpr int kPieces = 100;

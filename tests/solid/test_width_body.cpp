@@ -552,7 +552,7 @@ TEST_CASE("A body with width_degree holds its tables over the face width, and al
   REQUIRE(body.width.flexibility.size() == kOffsets + 1);
   // A load that is even over the face bends a tooth on a rim that gives way more than in plane strain.
   const WidthKernel kernel(ToothGeometry(design), body.width);
-  const double middle = body.flank_position[kFlankPoints / 2];
+  const double middle = body.flank_position[body.flank_position.size() / 2];
   CHECK(kernel.coupling(middle, middle, 0)(0, 0) > 0);
 
   const TemporaryFolder folder;

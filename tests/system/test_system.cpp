@@ -130,7 +130,8 @@ TEST_CASE(
           for (size_t s = 0; s < 2; ++s) {
             const int b = mesh.layout.side[s].body;
             const System::Body& body = layout.bodies[static_cast<size_t>(b)];
-            at[s] = flank_point(layout, b, segment.flank, segment.tooth[s], contact.roll[s], phase + period);
+            at[s] = flank_point(layout, b, mesh.layout.side[s].flank, segment.tooth[s], contact.roll[s],
+                                phase + period);
             const Vec2 arm = at[s] - Vec2(body.centre[0], body.centre[1]);
             // A force along the normal drives the second side and resists the first one.
             CHECK(body.sense * cross(arm, segment.normal) == relative(segment.lever[s], 1e-9));
