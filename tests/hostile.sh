@@ -200,8 +200,8 @@ rejected "a crack of 1e-9 mm" 3 'crack.toml:* [gear.pinion] depth_mm 1e-09 0.01 
 
 # --- what a scene makes expensive is said before anything is computed
 costs() { sed "$1" s.toml > dear.toml; "${to_scene[@]}" dear.toml 2>&1 | grep -c -E "$2"; }
-[ "$(costs 's/^strips = [^ ]*/strips = 1001/; /^positions/d' 'dear.toml: statics take about [0-9]+ min at each torque: strips = 1001, 128 positions')" = 1 ] &&
-  [ "$(costs 's/^element_mm = .*/element_mm = 0.1/' 'element_mm = 0.1 is 0.0333.* modules; mesh and modes take minutes')" = 2 ] &&
+[ "$(costs 's/^strips = [^ ]*/strips = 1001/; /^positions/d' 'dear.toml: gear-static takes about [0-9]+ min: strips = 1001, 128 positions')" = 1 ] &&
+  [ "$(costs 's/^element_mm = .*/element_mm = 0.1/' 'gear-reduce, .* takes about [0-9]+ min: element_mm = 0.1 is 0.0333.* modules')" = 1 ] &&
   [ "$(costs 's/^body = "modal"/body = "full"/' 'body = "full" finds all modes by dense algebra')" = 1 ] &&
   [ "$(costs '' 'take')" = 0 ] && ok "gear-scene says what a scene makes expensive, and nothing of an ordinary one" ||
   wrong "gear-scene says what a scene makes expensive" "$("${to_scene[@]}" dear.toml 2>&1 | head -n 2)"

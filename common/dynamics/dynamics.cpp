@@ -8,6 +8,7 @@
 #include "base/dense.h"
 #include "base/error.h"
 #include "base/memory.h"
+#include "dynamics/relaxed_fields.h"
 #include "system/undamped_depth.h"
 
 namespace whine {
@@ -87,46 +88,6 @@ CandidateZone candidate_zone(const GearMeshModel& model, const StaticResult& sta
                         statics.contact.strips, load / model.kinematics.contact_ratio(), bounds.force,
                         bounds.deflection, model.flanks());
 }
-
-namespace {
-
-// (flank, field) orthonormal: the loads of a flank that its own displacements, and before all those of its neighbours,
-// depend on most, those that neighbours depend on first, `shared` of them. tables: flexibility of gear g by offset between
-// teeth, -max..max.
-MatrixXd relaxed_fields(const std::vector<MatrixXd>& tables, int g, int most, int shared) {
-  const int max = static_cast<int>(tables.size()) / 2, m = static_cast<int>(tables[max].rows());
-  // What a tooth and all others within the body's offsets do to each other has rank 7 to 9 to 1e-8 of the tooth's own
-  // flexibility (16 to 50 teeth, undamped depths up to 1 m). The weight takes it whole; the fields left over go to
-  // the tooth itself.
-  constexpr double kNeighbourWeight = 1e6;
-  // What no field holds is instantaneous. With 12 fields it is 5e-5 of the whole for 50 teeth, 1e-4 for 16; a body that
-  // leaves ten times that is no tooth that fields were chosen for. Between teeth the 8 shared fields leave 6e-7.
-  constexpr double kMostRemainder = 1e-3;
-  MatrixXd importance = tables[max] * tables[max];
-  for (int offset = -max; offset <= max; ++offset)
-    if (offset != 0) importance += kNeighbourWeight * tables[offset + max] * tables[offset + max].transpose();
-  const SymmetricEigen eigen = symmetric_eigen(importance);
-  if (!eigen.converged)
-    fail(Failure::numerical, "the residual fields of the ", g ? "driven gear" : "driver",
-         " were not found: its ", m, " flank points have a flexibility of norm ", tables[max].norm(),
-         " m/N; rebuild body.h5");
-  const MatrixXd fields = eigen.vectors.rightCols(std::min(most, m)).rowwise().reverse();
-  const double whole = tables[max].norm();
-  for (int offset = -max; offset <= max; ++offset) {
-    const MatrixXd& r = tables[offset + max];
-    const auto fixed =
-        fields.leftCols(offset == 0 ? fields.cols() : std::min<Eigen::Index>(shared, fields.cols()));
-    const double rest = (r - fixed * (fixed.transpose() * r * fixed) * fixed.transpose()).norm();
-    if (!(rest <= kMostRemainder * whole))
-      fail(Failure::numerical, "the ", fixed.cols(), " residual fields of the ", g ? "driven gear" : "driver",
-           " leave ", rest / whole, " of a tooth's residual flexibility instantaneous (between teeth ",
-           offset, " apart), above ", kMostRemainder,
-           "; raise modes in [fidelity] or lower element_mm in [discretisation] of the scene");
-  }
-  return fields;
-}
-
-}  // namespace
 
 void RollingDynamics::set_zone(const CandidateZone& range, int steps, const ZoneMemory& beside) {
   if (!lines() && range.strips % StepKernel::kStripsAtOnce != 0)
@@ -228,10 +189,14 @@ std::vector<std::vector<MatrixXd>> RollingDynamics::couple_fields(StepSystem& sy
     };
     for (int offset = -2 * reach_; offset <= 2 * reach_; ++offset) tables[g].push_back(residual(offset));
     // Of all offsets that the body holds, so that the state keeps its meaning when a wider range reaches more teeth.
-    std::vector<MatrixXd> known;
+    std::vector<MatrixXd> others;
     const int offsets = model_.gear[g].body().offsets;
-    for (int offset = -offsets; offset <= offsets; ++offset) known.push_back(residual(offset));
-    fields_.push_back(full() ? MatrixXd::Zero(m, kFields) : relaxed_fields(known, g, kFields, kSharedFields));
+    others.reserve(2 * static_cast<size_t>(offsets));
+    for (int offset = -offsets; offset <= offsets; ++offset)
+      if (offset != 0) others.push_back(residual(offset));
+    fields_.push_back(full() ? MatrixXd::Zero(m, kFields)
+                             : relaxed_fields(residual(0), others, kFields, kSharedFields,
+                                              g ? "the driven gear" : "the driver"));
     for (int offset = -2 * reach_; offset <= 2 * reach_; ++offset) {
       const int n = offset == 0 ? kFields : kSharedFields,
                 own = std::min(n, static_cast<int>(fields_[g].cols()));

@@ -140,19 +140,6 @@ class RollingDynamics {
     ActiveSet active;          // of the solution
   };
   std::vector<ContactProblem> contact_problems(State& state);
-  // What a step at phase i / (steps of the range) works on; whole lanes.
-  struct StepSizes {
-    int coordinates = 0;  // of both gears
-    int pairs = 0;        // present
-    int rows = 0;         // functions of a pair that modes go through
-    int nodes = 0;        // of a pair
-    int strips = 0;       // of a pair
-    int edges = 0;        // candidate zones that end at a tip edge, and are like no other
-    int fields = 0;       // residual, of one tooth
-    int shared = 0;       // of them, those that other teeth depend on
-    int teeth = 0;        // whose relaxed load is followed, per gear
-  };
-  StepSizes step_sizes(int i) const;
   // Natural frequency of the mesh, Hz, contact frozen as the static load leaves it at phase i / (steps of the range) of a period: undamped,
   // the residual flexibility is instantaneous. The lowest that holds a tenth of the strongest one's energy after a step of the torque; on
   // bearings that which gives way most to a force between the flanks, statically. Throws Error(numerical) if there is none.

@@ -309,26 +309,12 @@ RollingDynamics::ModalWork RollingDynamics::modal_work(const Instant& a, const I
   return work;
 }
 
-// eta G' + G = g, energy G R G / 2, dissipation eta G' R G', g linear in the step.
+// Energy G R G / 2 of the relaxed loads G.
 RollingDynamics::RelaxationWork RollingDynamics::relaxation_work(const Instant& a, const Instant& b) const {
-  const auto load0 = a.at.load.array(), load1 = b.at.load.array(), relaxed0 = a.at.relaxed.array(),
-             field0 = a.field.array(), field1 = b.field.array(), moved0 = a.moved_load.array(),
-             moved1 = b.moved_load.array();
-  RelaxationWork work;
-  work.residual =
-      0.5 * ((b.at.relaxed.array() * field1).sum() - (relaxed0 * field0).sum()) + a.stored_dropped;
-  double exact = 0.5 * ((load0 + load1) * (moved1 - moved0)).sum();
-  if (relaxation() > 0) {
-    const auto behind = load0 - relaxed0, change = load1 - load0, moved_behind = moved0 - field0,
-               moved_change = moved1 - moved0;
-    const double change2 = (change * moved_change).sum();
-    work.damping = damping_.decay2 * (behind * moved_behind).sum() +
-                   2 * damping_.mixed2 * (behind * moved_change).sum() + damping_.growth2 * change2;
-    exact = damping_.decay * (load0 * moved_behind).sum() + damping_.growth * (load0 * moved_change).sum() +
-            damping_.late_decay * (change * moved_behind).sum() + damping_.late_growth * change2;
-  }
-  work.averaging = 0.5 * ((load0 + load1) * (field1 - field0)).sum() - exact;
-  return work;
+  const RelaxedWork work(damping_, relaxation() > 0, a.at.load, b.at.load, a.at.relaxed, a.moved_load,
+                         b.moved_load, a.field);
+  return {0.5 * (b.at.relaxed.dot(b.field) - a.at.relaxed.dot(a.field)) + a.stored_dropped, work.damping,
+          0.5 * (a.at.load + b.at.load).dot(b.field - a.field) - work.exact};
 }
 
 void RollingDynamics::record_step(const Instant& a, const Instant& b, EnergyBalance& energy_balance) {

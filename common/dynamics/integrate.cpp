@@ -12,22 +12,6 @@ namespace whine {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-RollingDynamics::StepSizes RollingDynamics::step_sizes(int i) const {
-  const MeshPosition& mesh = positions_[i].mesh;
-  StepSizes sizes;
-  sizes.coordinates = kernel_.coordinates();
-  sizes.pairs = static_cast<int>(mesh.pairs.size());
-  sizes.rows = lines() ? 1 : StepKernel::kShapeRows;
-  sizes.nodes = lines() ? 1 : StepKernel::kPairNodes;
-  sizes.strips = sizes.pairs > 0 ? mesh.strips() / sizes.pairs : 0;
-  for (int j = 0; !lines() && j < sizes.pairs; ++j)
-    sizes.edges += mesh.pairs[j].low_is_edge || mesh.pairs[j].high_is_edge;
-  sizes.fields = StepKernel::kFields;
-  sizes.shared = StepKernel::kSharedFields;
-  sizes.teeth = 2 * reach_ + 1;
-  return sizes;
-}
-
 void RollingDynamics::Period::show(MotionPeriod& out) const {
   out.transmission_error = transmission_error.transpose();
   out.mesh_force = tooth_pair_load.colwise().sum();

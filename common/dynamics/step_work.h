@@ -75,6 +75,25 @@ struct DampingIntegrals {
   double decay = 0, growth = 0, late_decay = 0, late_growth = 0;
 };
 
+// N m in a step, of loads g on what they move by a flexibility R that relaxes, eta G' + G = g: dissipation eta G' R G', and the exact work of
+// g on R G. moved: R g, field: R G; 0 at the start, 1 at the end of the step. Without relaxation all of it moves at once.
+struct RelaxedWork {
+  template <class Vector>
+  RelaxedWork(const DampingIntegrals& of, bool relaxes, const Vector& load0, const Vector& load1,
+              const Vector& relaxed0, const Vector& moved0, const Vector& moved1, const Vector& field0) {
+    const auto behind = load0 - relaxed0, change = load1 - load0, moved_behind = moved0 - field0,
+               moved_change = moved1 - moved0;
+    exact = 0.5 * (load0 + load1).dot(moved_change);
+    if (!relaxes) return;
+    const double change2 = change.dot(moved_change);
+    damping = of.decay2 * behind.dot(moved_behind) + 2 * of.mixed2 * behind.dot(moved_change) +
+              of.growth2 * change2;
+    exact = of.decay * load0.dot(moved_behind) + of.growth * load0.dot(moved_change) +
+            of.late_decay * change.dot(moved_behind) + of.late_growth * change2;
+  }
+  double damping = 0, exact = 0;
+};
+
 inline DampingIntegrals::DampingIntegrals(const Eigen::VectorXd& frequency, const Eigen::VectorXd& damping,
                                           double relaxation, double step, Eigen::Index size) {
   for (Eigen::VectorXd* x : {&speed, &mixed, &push}) x->setZero(size);

@@ -109,7 +109,6 @@ class SystemDynamics {
     return system_.layout.torque(b) + (b == motion_.output ? motion_.loss.dot(friction_) : 0.0);
   }
   int most_contacts() const { return most_contacts_; }
-  const Eigen::VectorXd& mean_load() const { return load_of_mesh_; }  // (mesh) N
   // (step + 1, slot) N: forces at the ends of the steps of the period integrated last, in its names; row 0: at its start.
   const MatrixRM& forces() const { return forces_; }
   // (step + 1, mesh and within it pair) N: the same of pairs of teeth, summed over their slices.

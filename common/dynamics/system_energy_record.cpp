@@ -164,30 +164,23 @@ double SystemEnergyRecord::modes(const Instant& a, const Instant& b) {
   return kinetic + modal + damping + bearing - drive - frame;
 }
 
-// Relaxed loads F: energy F C F / 2, dissipation eta F' C F', loads linear in the step.
+// Relaxed loads F: energy F C F / 2.
 double SystemEnergyRecord::relaxation(const Instant& a, const Instant& b) {
-  const double stored = 0.5 * (b.relaxed.dot(b.field) - a.relaxed.dot(a.field));
-  const VectorXd mean = 0.5 * (a.load + b.load);
-  double damping = 0, exact = mean.dot(b.moved - a.moved);
-  if (of_.relaxation_ > 0) {
-    const VectorXd behind = a.load - a.relaxed, change = b.load - a.load, moved_behind = a.moved - a.field,
-                   moved_change = b.moved - a.moved;
-    const double change2 = change.dot(moved_change);
-    damping = damping_.decay2 * behind.dot(moved_behind) + 2 * damping_.mixed2 * behind.dot(moved_change) +
-              damping_.growth2 * change2;
-    exact = damping_.decay * a.load.dot(moved_behind) + damping_.growth * a.load.dot(moved_change) +
-            damping_.late_decay * change.dot(moved_behind) + damping_.late_growth * change2;
-  }
-  const double averaging = mean.dot(b.field - a.field) - exact;
+  const RelaxedWork work(damping_, of_.relaxation_ > 0, a.load, b.load, a.relaxed, a.moved, b.moved, a.field);
+  return record(0.5 * (b.relaxed.dot(b.field) - a.relaxed.dot(a.field)), work.damping,
+                0.5 * (a.load + b.load).dot(b.field - a.field) - work.exact);
+}
+
+double SystemEnergyRecord::record(double stored, double damping, double averaging) {
   balance_->residual += stored;
   balance_->relaxation_damping += damping;
   balance_->averaging += averaging;
   return stored + damping + averaging;
 }
 
-// Relaxed line loads g of slices, as relaxed loads: energy g E g / 2 with E = w E w between line loads p / w, dissipation eta g' E g'. In
-// a step E is the mean of those at its ends; by what it differs from them the prescribed rolling works. exchange_: work of the mean line
-// loads on what the relaxed ones move.
+// Relaxed line loads g of slices, as relaxed loads: energy g E g / 2 with E = w E w between line loads p / w. In a step E is the mean of
+// those at its ends; by what it differs from them the prescribed rolling works. exchange_: work of the mean line loads on what the
+// relaxed ones move.
 double SystemEnergyRecord::uneven(const Instant& a, const Instant& b) {
   std::vector<int> slots;
   for (const Instant* at : {&a, &b})
@@ -206,21 +199,14 @@ double SystemEnergyRecord::uneven(const Instant& a, const Instant& b) {
   };
   const MatrixXd from = between(a), to = between(b), mean = 0.5 * (from + to);
   const VectorXd old = a.line_load(slots), next = b.line_load(slots), load = a.present(slots),
-                 change = b.present(slots) - load, behind = load - old;
-  const VectorXd relaxed = of_.relaxed_step_.decay * old + of_.relaxed_step_.from_old * load +
-                           of_.relaxed_step_.from_new * b.present(slots);
-  const VectorXd moved_behind = mean * behind, moved_change = mean * change,
-                 exchange = (load + 0.5 * change).cwiseProduct(mean * (relaxed - old));
-  double damping = 0, exact = (load + 0.5 * change).dot(moved_change);
-  if (of_.relaxation_ > 0) {
-    damping = damping_.decay2 * behind.dot(moved_behind) + 2 * damping_.mixed2 * behind.dot(moved_change) +
-              damping_.growth2 * change.dot(moved_change);
-    exact = damping_.decay * load.dot(moved_behind) + damping_.growth * load.dot(moved_change) +
-            damping_.late_decay * change.dot(moved_behind) + damping_.late_growth * change.dot(moved_change);
-  }
-  const VectorXd carried = 0.5 * (next.cwiseProduct(to * next) - old.cwiseProduct(from * old) -
-                                  relaxed.cwiseProduct(mean * relaxed) + old.cwiseProduct(mean * old));
-  const double stored = 0.5 * (next.dot(to * next) - old.dot(from * old)), averaging = exchange.sum() - exact;
+                 end = b.present(slots), field = mean * old;
+  const VectorXd relaxed =
+      of_.relaxed_step_.decay * old + of_.relaxed_step_.from_old * load + of_.relaxed_step_.from_new * end;
+  const RelaxedWork work(damping_, of_.relaxation_ > 0, load, end, old, VectorXd(mean * load),
+                         VectorXd(mean * end), field);
+  const VectorXd exchange = 0.5 * (load + end).cwiseProduct(mean * (relaxed - old)),
+                 carried = 0.5 * (next.cwiseProduct(to * next) - old.cwiseProduct(from * old) -
+                                  relaxed.cwiseProduct(mean * relaxed) + old.cwiseProduct(field));
   exchange_.setZero(of_.slots());
   carried_.setZero(of_.meshes());
   for (Index i = 0; i < n; ++i) {
@@ -228,10 +214,7 @@ double SystemEnergyRecord::uneven(const Instant& a, const Instant& b) {
     exchange_[slot] = exchange[i];
     carried_[slot / (of_.tooth_pairs() * of_.points_)] += carried[i];
   }
-  balance_->residual += stored;
-  balance_->relaxation_damping += damping;
-  balance_->averaging += averaging;
-  return stored + damping + averaging;
+  return record(0.5 * (next.dot(to * next) - old.dot(from * old)), work.damping, exchange.sum() - work.exact);
 }
 
 // With p . d = 0 at both ends the mean force does no work on d but where contact opens or closes within the step (switching); what

@@ -35,6 +35,7 @@ class SystemEnergyRecord {
   void displace(Instant& at, const std::vector<SystemDynamics::Live>& wanted) const;
   double modes(const Instant& a, const Instant& b);
   double relaxation(const Instant& a, const Instant& b);
+  double record(double stored, double damping, double averaging);  // of relaxed loads; result: their sum
   double uneven(const Instant& a, const Instant& b);
   double contact(const Instant& a, const Instant& b);
   void fill_friction(Instant& now) const;

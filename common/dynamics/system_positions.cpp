@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "dynamics/relaxed_fields.h"
 #include "gear/layout.h"
 
 namespace whine {
@@ -25,29 +26,6 @@ namespace {
 ToothFlank flank_of(const SystemModel& system, const ContactSegment& segment, size_t side, int shift) {
   const System::Side& at = system.layout.meshes[static_cast<size_t>(segment.mesh)].side[side];
   return {segment.tooth[side] + shift * at.sense, at.flank};
-}
-
-// Orthonormal, (flank, field): the loads of a flank that its own displacements, and before all those of other flanks, depend on
-// most; as relaxed_fields of pairs.
-MatrixXd fields_of(const MatrixXd& own, const std::vector<MatrixXd>& others, int most,
-                   const std::string& name) {
-  constexpr double kWeight = 1e6, kMostRemainder = 1e-3;
-  MatrixXd importance = own * own;
-  for (const MatrixXd& r : others) importance += kWeight * (r * r.transpose() + r.transpose() * r);
-  const SymmetricEigen eigen = symmetric_eigen(importance);
-  if (!eigen.converged)
-    fail(Failure::numerical, "the residual fields of '", name, "' were not found; rebuild body.h5");
-  const MatrixXd v = eigen.vectors.rightCols(std::min<Index>(most, own.rows())).rowwise().reverse();
-  const auto rest = [&](const MatrixXd& r) {
-    return (r - v * (v.transpose() * r * v) * v.transpose()).norm() / own.norm();
-  };
-  double worst = own.norm() > 0 ? rest(own) : 0;
-  for (const MatrixXd& r : others) worst = std::max(worst, rest(r));
-  if (!(worst <= kMostRemainder))
-    fail(Failure::numerical, "the ", v.cols(), " residual fields of '", name, "' leave ", worst,
-         " of a tooth's residual flexibility instantaneous, above ", kMostRemainder,
-         "; raise modes in [fidelity] or lower element_mm in [discretisation] of the scene");
-  return v;
 }
 
 }  // namespace
@@ -140,8 +118,8 @@ void SystemDynamics::couple() {
         if (flank[i].tooth != flank[j].tooth || flank[i].side != flank[j].side)
           others.push_back(table[i * n + j]);
       }
-    const MatrixXd v =
-        fields_of(table[0], others, kFields, system_.layout.bodies[static_cast<size_t>(b)].name);
+    const MatrixXd v = relaxed_fields(table[0], others, kFields, kFields,
+                                      "'" + system_.layout.bodies[static_cast<size_t>(b)].name + "'");
     MatrixXd c(static_cast<Index>(n) * kFields, static_cast<Index>(n) * kFields);
     for (size_t i = 0; i < n; ++i)
       for (size_t j = 0; j < n; ++j)

@@ -133,15 +133,6 @@ std::vector<Governed> governed(const Settings& s, bool any_body = false) {
   return out;
 }
 
-DiscretisationPlan plan_of(const Settings& s) {
-  DiscretisationPlan out;
-  out.natural_frequency = s.natural_frequency;
-  for (const Governed& one : governed(s))
-    out.settings.push_back(
-        {one.law->key, one.shown, one.law->error(one.x), s.given && s.given(one.law->key)});
-  return out;
-}
-
 // What the bound of a law was not measured with; empty: nothing.
 std::string beyond(const Settings& s, const Law& law) {
   if (&law == &kElements && s.body.element_order != 2)
@@ -151,6 +142,15 @@ std::string beyond(const Settings& s, const Law& law) {
   if ((&law == &kSteps || &law == &kStepsOfMassDamping) && s.fidelity.integrator != Integrator::exact)
     return text("integrator = \"exact\", and integrator = \"", s.fidelity.integrator, "\"");
   return "";
+}
+
+DiscretisationPlan plan_of(const Settings& s) {
+  DiscretisationPlan out;
+  out.natural_frequency = s.natural_frequency;
+  for (const Governed& one : governed(s))
+    out.settings.push_back({one.law->key, one.shown, one.law->error(one.x), s.given && s.given(one.law->key),
+                            beyond(s, *one.law).empty()});
+  return out;
 }
 
 void require_lawful(const Settings& s) {
@@ -260,7 +260,7 @@ Settings settings_of(AnyScene& scene, const KeyGiven& given) {
 
 double DiscretisationPlan::error() const {
   double sum = 0;
-  for (const SettingError& one : settings) sum += one.error * one.error;
+  for (const SettingError& one : settings) sum += one.known ? one.error * one.error : 0;
   return std::sqrt(sum);
 }
 

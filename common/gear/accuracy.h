@@ -26,12 +26,14 @@ struct SettingError {
   double value = 0;  // in the key's unit
   double error = 0;  // 1: e_i
   bool given = false;
+  bool known =
+      true;  // whether its law is that of what the scene asks for; error means nothing where it is not
 };
 
 struct DiscretisationPlan {
   double natural_frequency = 0;  // Hz: f_n, the highest of all meshes
   std::vector<SettingError> settings;
-  double error() const;  // 1: e
+  double error() const;  // 1: e, of what is known
 };
 
 // 1: size of the elements on a flank over the module (m) of its gear.

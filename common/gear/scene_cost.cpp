@@ -2,44 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <numbers>
+#include <type_traits>
 
 #include "base/error.h"
+#include "base/format.h"
 #include "gear/accuracy.h"
+#include "gear/face_width.h"
 #include "gear/tooth_errors.h"
 
 namespace whine {
 namespace {
 
-constexpr double kMinute = 60;  // s
+constexpr double kMinute = 60, kStart = 0.5, kMemory = 2e8;  // s; s: reading bodies, tables; bytes
 
-std::string minutes(double seconds) {
-  const double all = seconds / kMinute, digit = std::pow(10, std::floor(std::log10(all)));
-  return text("about ", std::round(all / digit) * digit, " min");
-}
-
-// Mesh periods after which the same teeth meet, as far as they differ.
-double hunting(const Scene& scene) {
-  long periods = 1;
-  for (const std::string& name : scene.mesh.gear) {
-    const SceneGear& gear = scene.gear(name);
-    if (!gear.errors.none() || gear.design.crack.depth > 0)
-      periods = std::lcm(periods, static_cast<long>(gear.design.teeth));
-  }
-  return static_cast<double>(periods);
-}
-
-// Bodies: unknowns grow with the square of 1 / element_mm, factors and modes with the cube of that.
-void tell_of_body(std::vector<std::string>& out, const std::string& gear, const BodyDiscretisation& body,
-                  const GearDesign& design) {
-  const double coarseness = body.element_size / design.module;  // 0: by the module, which takes seconds
-  if (coarseness > 0 && coarseness < 0.04)
-    out.push_back(text(
-        "[gear.", gear, "]: element_mm = ", body.element_size * 1e3, " is ", coarseness,
-        " modules; mesh and modes take minutes and gigabytes below 0.04, and eight times the unknowns for a third of it"));
-}
-
-// 0.24 s for 30 teeth, 4 elements in a module and 21 modes; 71 s for 12 elements and 121 modes.
+// 0.24 s for 30 teeth, 4 elements in a module and 21 modes; 71 s for 12 elements and 121 modes: unknowns grow with the square of
+// 1 / element_mm, factors and modes with the cube of that.
 template <class AnyScene>
 void add_reductions(const AnyScene& scene, std::vector<StageCost>& out) {
   constexpr double kElements = 2.5e-3, kModes = 8.7e-5, kBytes = 8e4,
@@ -53,137 +31,173 @@ void add_reductions(const AnyScene& scene, std::vector<StageCost>& out) {
     };
     if (std::any_of(known.begin(), known.end(), alike)) continue;
     known.push_back(&gear.design);
-    const double elements = 1 / relative_element_size(scene.body, gear.design.module);
-    const double size = gear.design.teeth * elements * elements;
+    const double size_of_element = relative_element_size(scene.body, gear.design.module),
+                 elements = 1 / size_of_element, size = gear.design.teeth * elements * elements;
     out.push_back(
         {"gear-reduce, " + gear.name,
          size * (kElements + kModes * scene.body.modes) * std::max(1.0, std::sqrt(elements / kDefault)),
-         kLeast + kBytes * size});
+         kLeast + kBytes * size, 1,
+         text("element_mm = ", shown_number(size_of_element * gear.design.module * 1e3), " is ",
+              shown_number(size_of_element), " modules, and has modes = ", scene.body.modes)});
   }
 }
 
-double speeds_of(const Operation& operation) {
-  return operation.frequency_step > 0
-             ? std::floor((operation.frequency_to - operation.frequency_from) / operation.frequency_step) + 1
-             : 0;
+template <class AnyScene>
+const SceneGear& gear_of(const AnyScene& scene, const std::string& name) {
+  return *std::find_if(scene.gears.begin(), scene.gears.end(),
+                       [&](const SceneGear& gear) { return gear.name == name; });
 }
 
-// Steps of a mesh period at the middle speed.
-double steps_of(const Operation& operation, const TimeDiscretisation& time) {
-  const double middle = 0.5 * (operation.frequency_from + operation.frequency_to);
-  double steps = time.steps_per_period;
-  while (steps * middle < time.min_sample_rate) steps *= 2;
-  return steps;
+// Of one slice, or a contact line of several points: tooth pairs that an instant looks at, corners included.
+double pairs_in_reach(const GearDesign& a, const GearDesign& b) {
+  constexpr double kOfSpurs = 2.1;
+  return kOfSpurs + contact_width(a, b) * std::sin(std::abs(a.helix_angle)) / (std::numbers::pi * a.module);
 }
 
-constexpr double kStart = 0.5, kSpeed = 5e-3;  // s: reading bodies, tables; of a speed, beside its steps
-constexpr double kSettlingPeriods = 25;        // mesh periods at a speed
+// What the laws of statics and motion are of.
+struct Work {
+  const Fidelity& fidelity;
+  const ContactDiscretisation& contact;
+  const Operation& operation;
+  const TimeDiscretisation& time;
+  bool train;
+  int torques;
+  double meshes = 0, contacts = 0;  // forces that an instant looks at: of lines, or points of them
+  double periods = 1,
+         positions = 0;  // mesh periods after which the same teeth meet, positions at rest in one of them
 
-}  // namespace
+  bool on_strips() const { return fidelity.contact == ContactModel::strips && !sliced(); }
+  bool sliced() const { return fidelity.width != WidthModel::one; }
+  double speeds() const {
+    return operation.frequency_step > 0
+               ? std::floor((operation.frequency_to - operation.frequency_from) / operation.frequency_step) +
+                     1
+               : 0;
+  }
+  double steps_at(double frequency) const {
+    double steps = time.steps_per_period;
+    while (steps * frequency < time.min_sample_rate) steps *= 2;
+    return steps;
+  }
+  double steps() const { return steps_at(0.5 * (operation.frequency_from + operation.frequency_to)); }
+  std::string hunting() const {
+    return periods > 1 ? text(" over the ", periods, " mesh periods after which the same teeth meet") : "";
+  }
+  std::string at_rest() const {
+    return text(on_strips() ? text("strips = ", contact.strips, ", ") : "", positions * periods, " positions",
+                meshes > 1 ? text(" of ", meshes, " meshes") : "", hunting());
+  }
+  std::string in_motion() const {
+    return text(speeds(), " speeds of ", steps(), " steps in a mesh period at the middle speed", hunting(),
+                "; fewer speeds, a higher lowest one or a lower min_sample_rate_kHz take less");
+  }
+};
 
-std::vector<StageCost> stage_costs(const Scene& scene) {
-  std::vector<StageCost> out;
-  add_reductions(scene, out);
-  constexpr double kMemory = 1.6e8;
-  const bool strips = scene.fidelity.contact == ContactModel::strips;
-  const auto torques = static_cast<int>(scene.operation.torques.size());
-  const bool sliced = scene.fidelity.width != WidthModel::one;
-  // A point of a face costs 0.15 us for each of 2.5 tooth pairs, a step of strips 0.16 us with 8 of them.
-  const double points = scene.contact.face_points > 0 ? scene.contact.face_points : kFacePoints,
-               step = sliced ? 0.42e-6 * points : 0.08e-6 + (strips ? 0.01e-6 * scene.contact.strips : 0);
-  out.push_back({"gear-static", kStart + 0.02 * (strips ? std::pow(scene.contact.strips / 8.0, 2.3) : 1),
-                 kMemory, torques});
-  out.push_back({"gear-sweep",
-                 kStart + kSpeed * speeds_of(scene.operation) +
-                     step * speeds_of(scene.operation) * kSettlingPeriods * hunting(scene) *
-                         steps_of(scene.operation, scene.time),
-                 kMemory, 2 * torques});
+template <class AnyScene>
+Work work_of(const AnyScene& scene) {
+  constexpr bool kTrain = std::is_same_v<AnyScene, SystemScene>;
+  Work out{scene.fidelity, scene.contact, scene.operation,
+           scene.time,     kTrain,        kTrain ? 1 : static_cast<int>(scene.operation.torques.size())};
+  const double points = !out.sliced()                   ? 1
+                        : scene.contact.face_points > 0 ? scene.contact.face_points
+                                                        : kFacePoints;
+  const auto add = [&](const GearMeshSpec& mesh, double times) {
+    out.meshes += times;
+    out.contacts += times * points *
+                    pairs_in_reach(gear_of(scene, mesh.gear[0]).design, gear_of(scene, mesh.gear[1]).design);
+  };
+  if constexpr (!kTrain) {
+    add(scene.mesh, 1);
+  } else {
+    for (const SystemScene::Mesh& mesh : scene.meshes) {
+      size_t times = 1;
+      for (const SystemScene::Carrier& carrier : scene.carriers)
+        if (carrier.planet == mesh.spec.gear[0] || carrier.planet == mesh.spec.gear[1])
+          times = carrier.planets > 0 ? static_cast<size_t>(carrier.planets) : carrier.positions.size();
+      add(mesh.spec, static_cast<double>(times));
+    }
+  }
+  out.periods = hunting_periods(scene);
+  out.positions = static_positions(scene);
   return out;
 }
 
-std::vector<StageCost> stage_costs(const SystemScene& scene) {
+// At rest 0.16 ms a position of a pair, on strips with the 2.3th power of their number; of a train, whose meshes share bodies, more.
+StageCost statics_of(const Work& work) {
+  constexpr double kPair = 0.02 / 128, kMesh = 1e-3, kMeshOnLines = 1e-4,
+                   kPoints = 1.5e-6;  // s; s of two points
+  constexpr double kDefaultStrips = 8, kGrowth = 2.3;
+  const double strips = work.on_strips() ? std::pow(work.contact.strips / kDefaultStrips, kGrowth) : 1,
+               mesh = !work.train        ? kPair
+                      : work.on_strips() ? kMesh
+                                         : kMeshOnLines,
+               each = work.sliced() ? kPoints * work.contacts * work.contacts : mesh * work.meshes * strips;
+  return {"gear-static", kStart + each * work.positions * work.periods, kMemory, work.torques,
+          work.at_rest()};
+}
+
+// Of a step, with its share of the positions that a number of steps has: three gears in line, 5 us; oh58-planetary, 15 us;
+// helical-planetary with 4 and 8 points on a line, 80 and 570 us.
+double step_of(const Work& work) {
+  constexpr double kStrips = 0.08e-6, kStrip = 0.01e-6, kPoint = 0.14e-6, kContact = 0.85e-6,
+                   kSolved = 1.2e-10;  // s
+  const double n = work.contacts;
+  if (work.train) return kContact * n + kSolved * n * n * n;
+  return work.sliced() ? kPoint * n : kStrips + (work.on_strips() ? kStrip * work.contact.strips : 0);
+}
+
+// A speed settles in some mesh periods, where teeth differ in some of the periods after which the same meet, of which one is stored.
+StageCost sweep_of(const Work& work) {
+  constexpr double kStored = 8e-3, kBytes = 96;  // s; of two points and a step
+  constexpr double kSettlingPeriods = 20, kSettlingTurns = 8;
+  const double periods = std::max(kSettlingPeriods, work.periods > 1 ? kSettlingTurns * work.periods : 0),
+               points = work.train && work.sliced() ? work.contacts : 0;
+  return {"gear-sweep",
+          kStart + work.speeds() * (kStored * work.periods + step_of(work) * periods * work.steps()),
+          kMemory + kBytes * points * points * work.steps_at(work.operation.frequency_from), 2 * work.torques,
+          work.in_motion()};
+}
+
+template <class AnyScene>
+std::vector<StageCost> costs_of_stages(const AnyScene& scene) {
   std::vector<StageCost> out;
   add_reductions(scene, out);
-  constexpr double kMemory = 2e8, kStep = 4e-6;  // of a mesh
-  const auto meshes = static_cast<double>(scene.meshes.size());
-  out.push_back({"gear-static", kStart + 0.13 * meshes, kMemory});
-  if (const double speeds = speeds_of(scene.operation); speeds > 0)
-    out.push_back(
-        {"gear-sweep",
-         kStart + kStep * meshes * speeds * kSettlingPeriods * steps_of(scene.operation, scene.time), kMemory,
-         2});
+  const Work work = work_of(scene);
+  out.push_back(statics_of(work));
+  if (work.speeds() > 0) out.push_back(sweep_of(work));
   return out;
 }
 
-std::vector<std::string> costs(const Scene& scene) {
+template <class AnyScene>
+std::vector<std::string> costs_in_words(const AnyScene& scene) {
   std::vector<std::string> out;
-  // Statics: 20 ms for 128 positions with 8 strips, 25 min with 1001.
-  constexpr double kPosition = 0.02 / 128, kDefaultStrips = 8, kGrowth = 2.3, kFewestPositions = 16;
-  const double periods = hunting(scene), strips = scene.contact.strips;
-  const double each = scene.contact.positions > 0 ? scene.contact.positions
-                      : periods > 1               ? std::clamp(16384 / periods, kFewestPositions, 128.0)
-                                                  : std::max(128, scene.time.steps_per_period);
-  const bool on_strips = scene.fidelity.contact == ContactModel::strips;
-  const double statics =
-      kPosition * each * periods * (on_strips ? std::pow(strips / kDefaultStrips, kGrowth) : 1);
-  if (statics > kMinute)
-    out.push_back(text("statics take ", minutes(statics), " at each torque: strips = ", strips, ", ",
-                       each * periods, " positions",
-                       periods > 1 ? text(" over ", periods, " mesh periods") : ""));
-  // Motion: 3 ms a mesh period, some 170 of them, and not less than two hunting periods.
-  constexpr double kPeriod = 3e-3, kTransient = 170;
-  const double speeds = std::floor((scene.operation.frequency_to - scene.operation.frequency_from) /
-                                   std::max(scene.operation.frequency_step, 1e-9)) +
-                        1;
-  const double speed = kPeriod * std::max(kTransient, 2 * periods);
-  if (periods > 1 && speed * speeds > 10 * kMinute)
-    out.push_back(text("a sweep takes ", minutes(speed * speeds), ": the same teeth meet after ", periods,
-                       " mesh periods, and it has ", speeds,
-                       " speeds; fewer speeds or contact = \"line\" take less"));
-  for (const SceneGear& gear : scene.gears) tell_of_body(out, gear.name, scene.body, gear.design);
+  for (const StageCost& stage : costs_of_stages(scene))
+    if (const double s = stage.seconds; s > (stage.stage == "gear-sweep" ? 10 : 1) * kMinute) {
+      const double all = s / kMinute, digit = std::pow(10, std::floor(std::log10(all)));
+      out.push_back(text(stage.stage, " takes about ", std::round(all / digit) * digit, " min: ", stage.by));
+    }
   if (scene.fidelity.body == BodyModel::full)
     out.push_back(
         "body = \"full\" finds all modes by dense algebra: about a minute a gear for a thousand unknowns a sector, eight times that for twice as many");
   return out;
 }
 
-std::vector<std::string> costs(const SystemScene& scene, size_t meshes) {
-  std::vector<std::string> out;
-  if (scene.rigid()) return out;
-  for (const SystemScene::Gear& gear : scene.gears) tell_of_body(out, gear.name, scene.body, gear.design);
-  std::vector<int> teeth;
-  for (const SystemScene::Gear& gear : scene.gears)
-    if (!gear.errors.none()) teeth.push_back(gear.design.teeth);
-  const double periods = hunting_periods_of(teeth), of_meshes = static_cast<double>(meshes);
-  // At rest: 1 ms for a position of a mesh with 8 strips, where eight meshes share bodies; fewer take less.
-  constexpr double kPosition = 1e-3, kDefaultStrips = 8, kGrowth = 2.3, kFewestPositions = 16;
-  const double each = scene.contact.positions > 0 ? scene.contact.positions
-                                                  : std::clamp(16384 / periods, kFewestPositions, 128.0);
-  const bool on_strips = scene.fidelity.contact == ContactModel::strips;
-  const double strips = scene.contact.strips,
-               statics = kPosition * each * periods * of_meshes *
-                         (on_strips ? std::pow(strips / kDefaultStrips, kGrowth) : 0.1);
-  if (statics > kMinute)
-    out.push_back(text(
-        "the system at rest takes ", minutes(statics), ": ", on_strips ? text("strips = ", strips, ", ") : "",
-        each * periods, " positions of ", meshes, " meshes",
-        periods > 1 ? text(" over the ", periods, " mesh periods after which the same teeth meet") : ""));
-  // In motion: a step takes 4 microseconds for each mesh; some 30 mesh periods a speed, and not less than eight hunting periods.
-  constexpr double kStep = 4e-6, kTransient = 30;
-  const Operation& speeds = scene.operation;
-  if (!(speeds.frequency_from > 0) || !(speeds.frequency_step > 0)) return out;
-  const double middle = 0.5 * (speeds.frequency_from + speeds.frequency_to),
-               count = std::floor((speeds.frequency_to - speeds.frequency_from) / speeds.frequency_step) + 1;
-  double steps = scene.time.steps_per_period;
-  while (steps * middle < scene.time.min_sample_rate) steps *= 2;
-  const double sweep = kStep * of_meshes * steps * std::max(kTransient, 8 * periods) * count;
-  if (sweep > 10 * kMinute)
-    out.push_back(
-        text("a sweep takes ", minutes(sweep), ": ", count, " speeds of ", steps,
-             " steps in a mesh period at its middle speed",
-             periods > 1 ? text(", over the ", periods, " mesh periods after which the same teeth meet") : "",
-             "; fewer speeds, a higher lowest one or a lower min_sample_rate_kHz take less"));
-  return out;
+}  // namespace
+
+std::vector<StageCost> stage_costs(const Scene& scene) {
+  return costs_of_stages(scene);
+}
+
+std::vector<StageCost> stage_costs(const SystemScene& scene) {
+  return costs_of_stages(scene);
+}
+
+std::vector<std::string> costs(const Scene& scene) {
+  return costs_in_words(scene);
+}
+
+std::vector<std::string> costs(const SystemScene& scene) {
+  return scene.rigid() ? std::vector<std::string>() : costs_in_words(scene);
 }
 
 }  // namespace whine

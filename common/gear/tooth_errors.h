@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "gear/involute.h"
-#include "model/gear.h"
-#include "model/system.h"
+#include "model/scene.h"
+#include "model/system_scene.h"
 
 namespace whine {
 
@@ -59,5 +59,14 @@ inline constexpr int kMostHuntingPeriods = 4096;
 // Mesh periods after which the same teeth of a system meet again: the least common multiple of the numbers of teeth of the gears whose
 // teeth differ; 1 for none. Throws Error(input), with the number, above kMostHuntingPeriods.
 int hunting_periods_of(std::vector<int> teeth);
+
+// The same of a scene; that of a pair has no limit.
+int hunting_periods(const Scene& scene);
+int hunting_periods(const SystemScene& scene);
+
+// Positions of the static stage in a mesh period: as the scene says; else 128, of a pair its steps_per_period if these are more, and fewer
+// where teeth differ.
+int static_positions(const Scene& scene);
+int static_positions(const SystemScene& scene);
 
 }  // namespace whine

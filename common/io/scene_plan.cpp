@@ -1,7 +1,8 @@
 #include "io/scene_plan.h"
 
-#include <cstdio>
+#include <algorithm>
 #include <sstream>
+#include <type_traits>
 
 #include "base/error.h"
 #include "base/format.h"
@@ -32,27 +33,30 @@ std::string words_of(const AnyScene& scene, const KeyGiven& given) {
   add_row(out, "setting", "value", "from", "error of the RMS in motion: a bound");
   for (const SettingError& one : plan.settings)
     add_row(out, one.key, shown(one.value, 4),
-            one.given      ? "scene"
-            : accepted > 0 ? "accuracy"
-                           : "default",
-            shown(one.error * kPercent, 2) + " %");
+            one.given                   ? "scene"
+            : accepted > 0 && one.known ? "accuracy"
+                                        : "default",
+            one.known ? shown(one.error * kPercent, 2) + " %" : "no law");
+  const bool known = std::all_of(plan.settings.begin(), plan.settings.end(),
+                                 [](const SettingError& one) { return one.known; });
   add_row(out, "root of their squares", "", "",
-          shown(plan.error() * kPercent, 2) + " %" +
+          shown(plan.error() * kPercent, 2) + (known ? " %" : " % of what has a law") +
               (accepted > 0
                    ? text("; accepted: ", shown(accepted * kPercent, 3), " %",
                           plan.error() > accepted * (1 + 1e-9)
                               ? ", which the settings that the scene gives do not allow"
                               : "")
                    : std::string("; [accuracy] rms_percent would choose settings by an accepted error")));
-  out << "mesh resonance expected near " << fixed(plan.natural_frequency, 0)
-      << " Hz, of 20 N/(mm um) and the inertias\n\n";
+  out << "mesh resonance " << (std::is_same_v<AnyScene, Scene> ? "" : "of two gears alone, the highest, ")
+      << "expected near " << fixed(plan.natural_frequency, 0) << " Hz, of 20 N/(mm um) and the inertias\n\n";
   add_row(out, "stage", "runs", "CPU (s) each", "memory (MB)");
   double all = 0;
   for (const StageCost& cost : stage_costs(scene)) {
     add_row(out, cost.stage, text(cost.runs), shown(cost.seconds, 2), fixed(cost.memory / kMegabyte, 0));
     all += cost.seconds * cost.runs;
   }
-  add_row(out, "all", "", shown(all, 2), "within a factor of 2; what is there already is not computed again");
+  add_row(out, "all", "", shown(all, 2),
+          "within a factor of 3 where motions repeat soon; what is there already is not computed again");
   return out.str();
 }
 

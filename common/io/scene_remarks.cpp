@@ -85,7 +85,7 @@ Lines scene_lines(const SystemScene& scene, const System& layout, const std::str
       out.push_back(text("warning: ", path, ": [[mesh]] of '", scene.meshes[section].spec.gear[0], "' and '",
                          scene.meshes[section].spec.gear[1], "': statics may find that ", words));
   add_of_gears_and_damping(scene, path, out);
-  for (const std::string& cost : costs(scene, layout.meshes.size())) out.push_back(path + ": " + cost);
+  for (const std::string& cost : costs(scene)) out.push_back(path + ": " + cost);
   for (const std::string& remark : motion_remarks(scene)) out.push_back(remark);
   return out;
 }

@@ -1,9 +1,7 @@
 #include "io/scene.h"
 
-#include <algorithm>
-#include <numeric>
-
 #include "base/error.h"
+#include "gear/tooth_errors.h"
 #include "io/keys.h"
 #include "io/publish.h"
 #include "io/section_reader.h"
@@ -54,10 +52,7 @@ namespace {
 
 StaticParameters static_of(const Scene& scene) {
   StaticParameters out{scene.mesh, scene.fidelity, scene.contact};
-  int periods = 1;  // after which the same teeth meet
-  for (const std::string& name : scene.mesh.gear)
-    if (!scene.gear(name).errors.none()) periods = std::lcm(periods, scene.gear(name).design.teeth);
-  take_positions(out.contact, periods, std::max(kPositions, scene.time.steps_per_period));
+  out.contact.positions = static_positions(scene);
   // make redoes static.h5 by these hashes when a scene goes back to an earlier design, whose body.h5 is older than it.
   for (int g = 0; g < kSides; ++g) out.body[g] = body_hash(body_parameters(scene, scene.mesh.gear[g]));
   return out;

@@ -1,6 +1,5 @@
 #include "io/stage_parameters_text.h"
 
-#include <algorithm>
 #include <filesystem>
 
 namespace whine {
@@ -125,12 +124,6 @@ KeyList level_keys(Fidelity& fidelity, ContactDiscretisation& contact, TimeDiscr
   KeyList out = moving ? keys(fidelity) : keys(fidelity).only({"contact", "width"});
   out.append(keys(contact));
   return moving ? out.append(keys(*moving)) : out;
-}
-
-void take_positions(ContactDiscretisation& contact, int periods, int most) {
-  constexpr int kMostInAll = 16384, kLeast = 16;
-  if (contact.positions == 0)
-    contact.positions = periods > 1 ? std::clamp(kMostInAll / periods, kLeast, most) : most;
 }
 
 }  // namespace whine

@@ -72,8 +72,4 @@ class StageParameters {
 // Model level of the contact and its discretisation; moving: with what a motion needs in these sections, nullptr: without.
 KeyList level_keys(Fidelity& fidelity, ContactDiscretisation& contact, TimeDiscretisation* moving);
 
-// Positions of a mesh period where the scene leaves them open: `most`, and fewer where teeth that differ make a period of `periods`.
-inline constexpr int kPositions = 128;
-void take_positions(ContactDiscretisation& contact, int periods, int most);
-
 }  // namespace whine

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "gear/system_layout.h"
+#include "gear/tooth_errors.h"
 #include "io/layout_codec.h"
 #include "io/scene.h"
 #include "io/stage_parameters_text.h"
@@ -125,10 +126,7 @@ SystemStaticParameters static_parameters_of(const SystemScene& scene, const Syst
   out.fidelity = scene.fidelity;
   out.contact = scene.contact;
   out.errors = errors_of(scene, out.gear);
-  std::vector<int> cracked;
-  for (const SystemScene::Gear& gear : scene.gears)
-    if (gear.design.crack.depth > 0) cracked.push_back(gear.design.teeth);
-  if (out.contact.positions == 0) take_positions(out.contact, hunting_periods(out, cracked), kPositions);
+  out.contact.positions = static_positions(scene);
   for (const auto& [gear, settings] : body_parameters_of(scene))
     out.body.emplace_back(gear, body_hash(settings));
   return out;

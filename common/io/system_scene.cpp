@@ -28,8 +28,7 @@ void reject_sections(const SectionReader& gear, bool rigid) {
 void check_hunting(const Source& source, const Scene& gears) {
   std::vector<int> teeth;
   for (const SceneGear& own : gears.gears) {
-    const bool cracked = own.design.crack.depth > 0;
-    if (own.errors.none() && !cracked) continue;
+    if (!own.teeth_differ()) continue;
     teeth.push_back(own.design.teeth);
     try {
       hunting_periods_of(teeth);

@@ -148,6 +148,8 @@ struct SceneGear {
   FlankModification modification = {};
   ToothErrors errors = {};
   Bearing bearing = {};
+
+  bool teeth_differ() const { return !errors.none() || design.crack.depth > 0; }
 };
 
 }  // namespace whine

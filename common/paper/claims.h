@@ -23,8 +23,6 @@ struct Finding {
 // The value of the claims that are Table 1.
 inline constexpr const char* kNaturalFrequency = "natural-frequency";
 
-inline constexpr const char *kPaperScene = "parker2000", *kCalibratedScene = "parker2000-calibrated";
-
 struct Claim : PrintedClaim {
   std::function<Finding(const SceneResults&)> find;
 };

@@ -164,9 +164,8 @@ FacePosition FaceContact::at(double phase, double corner_gap, double load) const
   points = face_points(gears_, gap_, lines, phase, rule_);
   const double width = gears_.face_width();
   const Index n = points.size();
-  for (MatrixXd& of : out.roll) of.resize(n, 1);
+  for (VectorXd& of : out.roll) of.resize(n);
   out.gap.resize(n);
-  out.approach.resize(n);
   out.law.reserve(static_cast<size_t>(n));
   out.contact.reserve(static_cast<size_t>(n));
   for (Index q = 0; q < n; ++q) {
@@ -178,17 +177,17 @@ FacePosition FaceContact::at(double phase, double corner_gap, double load) const
     const LinePoint point = make_line_point(mesh(), contact, surface, depth_,
                                             shared_force(load) / cosine_ * points.weight[q] / width, cosine_);
     out.gap[q] = point.gap + points.gap[q];
-    out.approach[q] = points.approach[q] * contact.lever[0] / gears_.gear(0).base_radius();
     out.law.push_back(point.law);
-    for (size_t g = 0; g < kSides; ++g) out.roll[g](q, 0) = point.roll[g];
+    for (size_t g = 0; g < kSides; ++g) out.roll[g][q] = point.roll[g];
     out.contact.push_back(contact);
   }
-  add_sections(out, out.roll);
-  if (kernel_[0]) add_width(out, out.roll);
+  add_sections(out);
+  if (kernel_[0]) add_width(out);
   return out;
 }
 
-void FaceContact::add_sections(FacePosition& position, const std::array<MatrixXd, 2>& roll) const {
+void FaceContact::add_sections(FacePosition& position) const {
+  const std::array<VectorXd, 2>& roll = position.roll;
   const FacePoints& points = position.points;
   const int n = points.per_line, lines = static_cast<int>(points.line.size());
   position.compliance.setZero(points.size(), points.size());
@@ -200,10 +199,10 @@ void FaceContact::add_sections(FacePosition& position, const std::array<MatrixXd
     // Of the width that a point stands for: m.
     const VectorXd plane = kernel_[g]
                                ? VectorXd(width * plane_share(gears_.gear(static_cast<int>(g)).base_radius(),
-                                                              kernel_[g]->tables().helix, roll[g].col(0)))
+                                                              kernel_[g]->tables().helix, roll[g]))
                                : VectorXd::Constant(points.size(), unit);
     for (int q = 0; q < points.size(); ++q) {
-      const Eigen::RowVectorXd row = gear.table().weights(roll[g](q, 0));
+      const Eigen::RowVectorXd row = gear.table().weights(roll[g][q]);
       position.compliance(q, q) +=
           plane[q] / points.weight[q] * row.dot(table_[g][static_cast<size_t>(most)] * row.transpose()) +
           (1 / cosine_ - 1) * plane[q] / points.weight[q] * shallow_[g];
@@ -217,7 +216,7 @@ void FaceContact::add_sections(FacePosition& position, const std::array<MatrixXd
         if (std::abs(offset) > most) continue;
         const int at = offset + most;
         const MatrixXd between =
-            unit * between_sections(gear.table(), {points, i, roll[g].col(0)}, {points, j, roll[g].col(0)},
+            unit * between_sections(gear.table(), {points, i, roll[g]}, {points, j, roll[g]},
                                     table_[g][static_cast<size_t>(at)], rule_);
         position.compliance(own(i), own(j)) += between;
         position.compliance(own(j), own(i)) += between.transpose();
@@ -226,7 +225,8 @@ void FaceContact::add_sections(FacePosition& position, const std::array<MatrixXd
 }
 
 // Of all points on all lines.
-void FaceContact::add_width(FacePosition& position, const std::array<MatrixXd, 2>& roll) const {
+void FaceContact::add_width(FacePosition& position) const {
+  const std::array<VectorXd, 2>& roll = position.roll;
   const FacePoints& points = position.points;
   const int n = points.per_line, lines = static_cast<int>(points.line.size());
   const auto own = [&](int line) { return Eigen::seqN(static_cast<Index>(line) * n, n); };
@@ -234,10 +234,10 @@ void FaceContact::add_width(FacePosition& position, const std::array<MatrixXd, 2
     const WidthKernel& kernel = *kernel_[g];
     MatrixXd functional;  // (functional, point)
     for (int q = 0; q < points.size(); ++q) {
-      const VectorXd at = kernel.point(roll[g](q, 0), points.z[q] + middle_[g]);
+      const VectorXd at = kernel.point(roll[g][q], points.z[q] + middle_[g]);
       if (q == 0) functional.resize(at.size(), points.size());
       functional.col(q) = at;
-      position.compliance(q, q) += kernel.completion(roll[g](q, 0), roll[g](q, 0)) / points.weight[q];
+      position.compliance(q, q) += kernel.completion(roll[g][q], roll[g][q]) / points.weight[q];
     }
     for (int i = 0; i < lines; ++i)
       for (int j = 0; j < lines; ++j) {

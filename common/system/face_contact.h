@@ -35,11 +35,10 @@ struct FacePosition {
   double phase = 0;  // mesh periods
   FacePoints points;
   Eigen::VectorXd gap;                  // (point) m, along the normal
-  Eigen::VectorXd approach;             // (point) 1
   std::vector<HertzLine> law;           // (point)
   Eigen::MatrixXd compliance;           // (point, point) m N-1
   std::vector<PairContact> contact;     // (point) of the transverse section
-  std::array<Eigen::MatrixXd, 2> roll;  // [gear] (point, 1) rad: where the tables are read
+  std::array<Eigen::VectorXd, 2> roll;  // [gear] (point) rad: where the tables are read
   double next_corner_gap = 0;           // m, see PairsInReach
   double lost_corner_gap = 0;
 };
@@ -72,8 +71,7 @@ class FaceContact {
               WidthModel width, int points, double depth = 0);
 
   const GearPair& gears() const { return gears_; }  // with their helix
-  const FaceGap& face_gap() const { return gap_; }
-  const GaussRule& rule() const { return rule_; }  // of each contact line
+  const GaussRule& rule() const { return rule_; }   // of each contact line
   int points() const { return static_cast<int>(rule_.point.size()); }
   double depth() const { return depth_; }  // m
   // Of the polynomials over the face width: the larger one of both gears, 0 of slices.
@@ -96,8 +94,8 @@ class FaceContact {
  private:
   std::vector<ContactLine> lines(double phase, double corner_gap, PairsInReach& reach) const;
   PairContact contact(const PairsInReach& reach, const ContactLine& line, double path) const;
-  void add_sections(FacePosition& position, const std::array<Eigen::MatrixXd, 2>& roll) const;
-  void add_width(FacePosition& position, const std::array<Eigen::MatrixXd, 2>& roll) const;
+  void add_sections(FacePosition& position) const;
+  void add_width(FacePosition& position) const;
   GearPair gears_;
   GearMeshModel section_;
   FaceGap gap_;

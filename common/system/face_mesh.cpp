@@ -66,15 +66,15 @@ MeshPosition face_mesh_position(const FaceContact& contact, double phase, double
     line.gap = VectorXd::Constant(1, at.gap[q]);
     for (size_t g = 0; g < kSides; ++g) {
       out.strip_lever[g][q] = contact.cosine() * line.contact.lever[g];
-      weights[g].row(q) = contact.mesh().gear[g].table().weights(at.roll[g](q, 0));
+      weights[g].row(q) = contact.mesh().gear[g].table().weights(at.roll[g][q]);
     }
     out.pairs.push_back(std::move(line));
     out.first_strip.push_back(q + 1);
   }
   out.node_lever = out.strip_lever;
   for (size_t g = 0; g < kSides; ++g) out.table_weights[g] = contact.cosine() * weights[g];
-  out.face = std::make_shared<const FaceMesh>(FaceMesh{
-      at.points, {at.roll[0].col(0), at.roll[1].col(0)}, at.compliance - alike(contact, at.points, weights)});
+  out.face = std::make_shared<const FaceMesh>(
+      FaceMesh{at.points, at.roll, at.compliance - alike(contact, at.points, weights)});
   return out;
 }
 

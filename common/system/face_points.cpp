@@ -33,7 +33,7 @@ FacePoints face_points(const GearPair& pair, const FaceGap& gap, const std::vect
   out.line = lines;
   out.per_line = per_line;
   const auto size = static_cast<Index>(lines.size()) * per_line;
-  for (VectorXd* v : {&out.z, &out.weight, &out.path, &out.gap, &out.approach}) v->resize(size);
+  for (VectorXd* v : {&out.z, &out.weight, &out.path, &out.gap}) v->resize(size);
   Index at = 0;
   for (const ContactLine& line : lines)
     for (int i = 0; i < per_line; ++i, ++at) {
@@ -42,7 +42,6 @@ FacePoints face_points(const GearPair& pair, const FaceGap& gap, const std::vect
       out.path[at] = path_at(pair, phase + line.pair, out.z[at]);
       out.gap[at] = gap.at(out.z[at]);
     }
-  out.approach.setConstant(std::cos(pair.base_helix_angle()));
   return out;
 }
 

@@ -42,7 +42,6 @@ struct FacePoints {
   Eigen::VectorXd z, weight;  // (point) m
   Eigen::VectorXd path;       // (point) m, from the pitch point
   Eigen::VectorXd gap;        // (point) m, along the normal, of what depends on z alone
-  Eigen::VectorXd approach;   // (point) 1
 
   int size() const { return static_cast<int>(z.size()); }
   int line_of(int point) const { return point / per_line; }

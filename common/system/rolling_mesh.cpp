@@ -427,29 +427,7 @@ MatrixXd contact_compliance(const GearMeshModel& model, const MeshPosition& posi
   MatrixXd a = local_compliance(model, position, depth);
   position.add_to_strips(body_compliance(position, 0, tables[0]) + body_compliance(position, 1, tables[1]),
                          a);
-  add_bearings(model, position, a);
   return a;
-}
-
-MatrixXd hub_translation(const GearMeshModel& model, const MeshPosition& position, int g) {
-  MatrixXd rows(position.strips(), 2);
-  for (size_t j = 0; j < position.pairs.size(); ++j)
-    for (int i = position.first_strip[j]; i < position.first_strip[j + 1]; ++i)
-      rows.row(i) = model.outward(g, position.pairs[j].contact).transpose();
-  return rows;
-}
-
-void add_bearings(const GearMeshModel& model, const MeshPosition& position, MatrixXd& a) {
-  for (int g = 0; g < kSides; ++g) {
-    if (!model.bearing[g].elastic()) continue;
-    const MatrixXd rows = hub_translation(model, position, g);
-    a += rows * rows.transpose() / model.bearing[g].stiffness;
-  }
-}
-
-Vec2 bearing_force(const GearMeshModel& model, const MeshPosition& position, int g,
-                   const Eigen::Ref<const VectorXd>& p) {
-  return -hub_translation(model, position, g).transpose() * p;
 }
 
 MatrixXd crack_compliance(const GearMeshModel& model, const MeshPosition& position, int period) {

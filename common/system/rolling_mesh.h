@@ -290,20 +290,10 @@ Eigen::MatrixXd local_compliance(const GearMeshModel& model, const MeshPosition&
 Eigen::MatrixXd body_compliance(const MeshPosition& position, int g,
                                 const std::vector<Eigen::MatrixXd>& tables);
 
-// (strip, 2) 1: outward displacement of the flanks of gear g per unit translation of its hub along x and y.
-Eigen::MatrixXd hub_translation(const GearMeshModel& model, const MeshPosition& position, int g);
-
-// Adds what elastic bearings give way between all strips, sum over the gears of N N^T / k; a: (strip, strip) m N-1.
-void add_bearings(const GearMeshModel& model, const MeshPosition& position, Eigen::MatrixXd& a);
-
-// N, in the frame of placed(): what gear g presses its bearing with under the forces p (strip, N).
-Vec2 bearing_force(const GearMeshModel& model, const MeshPosition& position, int g,
-                   const Eigen::Ref<const Eigen::VectorXd>& p);
-
 // m N-1: ElasticGear::compliance for every tooth offset within a mesh, from the most negative on, as body_compliance takes them.
 std::vector<Eigen::MatrixXd> compliance_tables(const ElasticGear& gear, double depth);
 
-// (strip, strip) m N-1: half-planes, bodies and bearings, `tables` of both gears relative to `depth`; not of lines.
+// (strip, strip) m N-1: half-planes and bodies, `tables` of both gears relative to `depth`; of lines without their laws.
 Eigen::MatrixXd contact_compliance(const GearMeshModel& model, const MeshPosition& position,
                                    const std::array<std::vector<Eigen::MatrixXd>, 2>& tables, double depth);
 

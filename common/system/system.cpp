@@ -309,8 +309,7 @@ MatrixXd contact_compliance(const SystemModel& system, const SystemPosition& pos
   MatrixXd a = MatrixXd::Zero(position.strips(), position.strips());
   for (size_t m = 0; m < position.mesh.size(); ++m) {
     const MeshPosition& mesh = position.mesh[m];
-    MatrixXd own = local_compliance(system.mesh[m], mesh, depth[m]);
-    mesh.add_to_strips(body_compliance(mesh, 0, tables[m][0]) + body_compliance(mesh, 1, tables[m][1]), own);
+    MatrixXd own = contact_compliance(system.mesh[m], mesh, tables[m], depth[m]);
     if (mesh.face) own += mesh.face->uneven;
     a(position.strips_of(m), position.strips_of(m)) = own;
   }

@@ -28,14 +28,6 @@ const ReducedBody& body_of(const SystemStaticParameters& settings, const std::ve
   fail(Failure::input, "[gear.", gear, "] has no body");
 }
 
-int hunting_periods(const SystemStaticParameters& settings, const std::vector<int>& cracked) {
-  std::vector<int> teeth;
-  for (size_t b = 0; b < settings.errors.size(); ++b)
-    if (settings.has_errors(b)) teeth.push_back(settings.layout.bodies[b].teeth);
-  teeth.insert(teeth.end(), cracked.begin(), cracked.end());
-  return hunting_periods_of(teeth);
-}
-
 SystemModel elastic_system(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies,
                            double depth) {
   const System& layout = settings.layout;

@@ -15,9 +15,6 @@ namespace whine {
 // carries.
 void check_at_rest(const SystemScene& scene, const System& layout);
 
-// Mesh periods after which the same teeth meet, as hunting_periods() of the system; cracked: teeth of the gears with a crack.
-int hunting_periods(const SystemStaticParameters& settings, const std::vector<int>& cracked = {});
-
 // Of bodies ([gear] of settings.body) that of a gear, by its name.
 const ReducedBody& body_of(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies,
                            const std::string& gear);

@@ -93,6 +93,19 @@ inline double load_bandwidth(size_t bytes) {
   return static_cast<double>(n * sizeof(double)) * passes / seconds;
 }
 
+// What a step works on; whole lanes.
+struct StepSizes {
+  int coordinates = 0;  // of both gears
+  int pairs = 0;        // present
+  int rows = 0;         // functions of a pair that modes go through
+  int nodes = 0;        // of a pair
+  int strips = 0;       // of a pair
+  int edges = 0;        // candidate zones that end at a tip edge, and are like no other
+  int fields = 0;       // residual, of one tooth
+  int shared = 0;       // of them, those that other teeth depend on
+  int teeth = 0;        // whose relaxed load is followed, per gear
+};
+
 // Work of one step, counted from sizes. n coordinates, T teeth of F fields (S of them shared by neighbours) followed per gear,
 // P pairs of r shape rows, N nodes and s strips each, L of them with force, M = P s, k strips that touch. Flops, a
 // multiply-add as two:
@@ -110,7 +123,7 @@ inline double load_bandwidth(size_t bytes) {
 struct StepWork {
   double flops = 0, bytes = 0;
 };
-inline StepWork counted_work(const RollingDynamics::StepSizes& s, int loaded, int touching) {
+inline StepWork counted_work(const StepSizes& s, int loaded, int touching) {
   const double n = s.coordinates, P = s.pairs, L = loaded, r = s.rows, F = s.fields, S = s.shared,
                T = s.teeth, N = s.nodes, M = P * s.strips, k = touching;
   StepWork w;
@@ -152,8 +165,22 @@ class RollingRig {
       fail(Failure::numerical, "the contact of the bench leaves its candidate zone");
   }
   RollingDynamics& dynamics() { return dynamics_; }
-  RollingDynamics::StepSizes sizes(int sample) const {
-    return dynamics_.step_sizes(sample * (finest_ / steps));
+  StepSizes sizes(int sample) const {
+    const MeshPosition& mesh =
+        dynamics_.positions()[static_cast<size_t>(sample) * static_cast<size_t>(finest_ / steps)].mesh;
+    const bool lines = !mesh.law.empty();
+    StepSizes out;
+    out.coordinates = dynamics_.kernel().coordinates();
+    out.pairs = static_cast<int>(mesh.pairs.size());
+    out.rows = lines ? 1 : StepKernel::kShapeRows;
+    out.nodes = lines ? 1 : StepKernel::kPairNodes;
+    out.strips = out.pairs > 0 ? mesh.strips() / out.pairs : 0;
+    for (const PairStrips& strips : mesh.pairs)
+      out.edges += !lines && (strips.low_is_edge || strips.high_is_edge);
+    out.fields = StepKernel::kFields;
+    out.shared = StepKernel::kSharedFields;
+    out.teeth = 2 * dynamics_.reach() + 1;
+    return out;
   }
 
   RollingDynamics::State state;

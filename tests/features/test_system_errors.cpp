@@ -461,7 +461,7 @@ TEST_CASE(
   CHECK(again.errors[0].none());
   CHECK(again.errors[1].cumulative_pitch == sweep.errors[1].cumulative_pitch);
   CHECK(again.errors[1].eccentric_tooth == 3.5);
-  CHECK(hunting_periods(again) == 20);
+  CHECK(hunting_periods(scene) == 20);
   CHECK(system_sweep_parameters(again) == system_sweep_parameters(sweep));
 
   const SystemStaticResult rest = rest_of(scene);
@@ -496,7 +496,7 @@ TEST_CASE(
   CHECK(drawn.errors[1].seed == 2147483647);
   CHECK(drawn.errors[2].seed == 0);
   CHECK(drawn.errors[3].seed == 1);
-  CHECK(hunting_periods(drawn) == 36);
+  CHECK(hunting_periods(train) == 36);
 }
 
 TEST_CASE(

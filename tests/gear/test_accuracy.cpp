@@ -107,6 +107,8 @@ TEST_CASE(
   CHECK(linear.body.element_modules == 0);
   CHECK(linear.time.min_sample_rate == Scene().time.min_sample_rate);
   CHECK(linear.body.modes == silent.body.modes);
+  for (const SettingError& one : discretisation_plan(linear, only({})).settings)
+    CHECK(one.known == (one.key != "element_mm" && one.key != "min_sample_rate_kHz"));
 }
 
 TEST_CASE("an accepted error: points of a face in slices, no strips; refusals where no bound is known") {

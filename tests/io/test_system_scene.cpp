@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <numeric>
 #include <sstream>
 #include <vector>
 
 #include "gear/scene_cost.h"
 #include "gear/scene_geometry.h"
 #include "gear/system_layout.h"
+#include "gear/tooth_errors.h"
 #include "io/scene.h"
 #include "io/system_scene.h"
 #include "planetary_train.h"
@@ -280,12 +282,12 @@ TEST_CASE(
 
 TEST_CASE("what a system makes expensive is said with the key that makes it so, nothing of an ordinary one") {
   const SystemScene ordinary = read_system_scene("data/scenes/three-in-line.toml");
-  CHECK(costs(ordinary, 2).empty());
+  CHECK(costs(ordinary).empty());
   const auto said = [&](const auto& change) {
     SystemScene scene = ordinary;
     change(scene);
     std::string out;
-    for (const std::string& cost : costs(scene, 2)) out += cost + "\n";
+    for (const std::string& cost : costs(scene)) out += cost + "\n";
     INFO(out);
     return out;
   };
@@ -293,8 +295,46 @@ TEST_CASE("what a system makes expensive is said with the key that makes it so, 
                  "strips = 1001, 128 positions of 2 meshes"));
   const std::string fine = said([](SystemScene& s) { s.body.element_size = 0.05e-3; });
   for (const char* gear : {"pinion", "idler", "wheel"})
-    CHECK(contains(fine, text("[gear.", gear, "]: element_mm = 0.05 is 0.025 modules")));
+    CHECK(contains(fine, text("gear-reduce, ", gear, " takes about ")));
+  CHECK(contains(fine, "element_mm = 0.05 is 0.025 modules"));
   CHECK(contains(said([](SystemScene& s) { s.time.min_sample_rate = 1e9; }), "min_sample_rate_kHz"));
+}
+
+TEST_CASE(
+    "what a sweep costs, within a factor of 2.5 of seconds of CPU that were measured: a pair, trains, slices") {
+  const auto seconds = [](const auto& scene) { return stage_costs(scene).back().seconds; };
+  const auto told = [](double of, double measured) {
+    CAPTURE(of);
+    CHECK(of > measured / 2.5);
+    CHECK(of < measured * 2.5);
+  };
+  told(seconds(read_scene("data/scenes/parker2000.toml")), 2.9);
+  told(seconds(read_scene("data/scenes/helical-17-67.toml")), 3.0);
+  told(seconds(read_system_scene("data/scenes/three-in-line.toml")), 2.5);
+  told(seconds(read_system_scene("data/scenes/oh58-planetary.toml")), 8.9);
+  SystemScene helical = read_system_scene("data/scenes/helical-planetary.toml");
+  told(seconds(helical), 38);
+  told(stage_costs(helical).back().memory, 760e6);
+  helical.contact.face_points = 8;
+  helical.operation.frequency_from = 3250;
+  helical.operation.frequency_to = 3700;
+  told(seconds(helical), 30);
+}
+
+TEST_CASE("mesh periods after which the same teeth meet: errors and cracks count, of pairs and of trains") {
+  Scene pair = read_scene("data/scenes/parker2000.toml");
+  CHECK(hunting_periods(pair) == 1);
+  CHECK(static_positions(pair) == 512);  // as steps_per_period
+  pair.gears[1].design.teeth = 51;
+  for (SceneGear& gear : pair.gears) gear.design.crack.depth = 1e-3;
+  CHECK(hunting_periods(pair) == 2550);
+  CHECK(static_positions(pair) == 16);
+  CHECK(contains(static_parameters(pair), "positions = 16"));
+  SystemScene train = read_system_scene("data/scenes/three-in-line.toml");
+  train.gears[0].design.crack.depth = 1e-3;
+  train.gears[1].errors.iso_class = 5;
+  CHECK(hunting_periods(train) == std::lcm(train.gears[0].design.teeth, train.gears[1].design.teeth));
+  CHECK(static_parameters_of(train, layout_of(train)).contact.positions == static_positions(train));
 }
 
 TEST_CASE("remarks on the motion of a system: contact on lines, a damping that nobody chose") {

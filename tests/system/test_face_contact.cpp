@@ -36,12 +36,13 @@ GearPair pair_with_helix(double beta, double width) {
 }
 
 // Points on springs of c N m-1 per m of face, one beside the other; stiffness(path).
-Equilibrium on_springs(const FacePoints& points, const auto& stiffness, double load) {
+Equilibrium on_springs(const GearPair& pair, const FacePoints& points, const auto& stiffness, double load) {
   MatrixXd a = MatrixXd::Zero(points.size(), points.size());
   for (int q = 0; q < points.size(); ++q) a(q, q) = 1 / (stiffness(points.path[q]) * points.weight[q]);
   ActiveSet active;
   ComplementaritySolver solver;
-  return equilibrium(a, points.gap, points.approach, load, 0, active, solver);
+  const VectorXd approach = VectorXd::Constant(points.size(), std::cos(pair.base_helix_angle()));
+  return equilibrium(a, points.gap, approach, load, 0, active, solver);
 }
 
 struct Spread {
@@ -54,7 +55,7 @@ Spread one_line(const GearMeshSpec& mesh, int n, double load, double c) {
   const std::vector<ContactLine> line{{0, -10e-3, 10e-3}};
   const FacePoints points = face_points(pair, FaceGap(pair, mesh), line, 0, gauss_rule(n));
   const Equilibrium e = on_springs(
-      points, [&](double) { return c; }, load);
+      pair, points, [&](double) { return c; }, load);
   double carrying = 0;
   for (int q = 0; q < points.size(); ++q) carrying += e.p[q] > 0 ? points.weight[q] : 0;
   return {face_load_factor(points.z, points.weight, e.p.array() / points.weight.array(), line[0]),
@@ -69,7 +70,7 @@ VectorXd error_on_springs(const GearPair& pair, const GearMeshSpec& mesh, int n,
     const double phase = static_cast<double>(i) / positions;
     const FacePoints points =
         face_points(pair, FaceGap(pair, mesh), contact_lines(pair, phase), phase, gauss_rule(n));
-    out[i] = on_springs(points, stiffness, load).x;
+    out[i] = on_springs(pair, points, stiffness, load).x;
   }
   return out;
 }
