@@ -81,7 +81,7 @@ programs := $(tools:%=$(B)/bin/%)
 fuzz_targets := scene study rexs transfer artifact sealed
 replays := $(fuzz_targets:%=$(B)/bin/whine-replay-%)
 test_programs := $(addprefix $(B)/bin/,whine-tests whine-hard-cases $(if $(siconos),whine-siconos)) $(replays)
-bench_programs := $(addprefix $(B)/bin/,whine-bench whine-bench-stress whine-bench-width whine-bench-train whine-work-precision whine-verify-accuracy whine-stress-contact)
+bench_programs := $(addprefix $(B)/bin/,whine-bench whine-bench-stress whine-bench-width whine-bench-levels whine-bench-train whine-work-precision whine-verify-accuracy whine-stress-contact)
 test_cases := build/lib/libtest_cases.a
 
 $(programs): $(B)/bin/%: tools/%.cpp

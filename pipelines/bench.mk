@@ -19,6 +19,10 @@ bench-stress: $(stress_benches) ## root stress of two pairs at one position besi
 bench-width: $(B)/bin/whine-bench-width ## bodies over the face width beside CalculiX in three dimensions, spur and helical, which `deps-bench` installs
 	@$<
 
+.PHONY: bench-levels
+bench-levels: $(B)/bin/whine-bench-levels ## levels of [fidelity] width side by side, of five scenes: stiffness, transmission error, K_Hbeta, CPU time; what the width costs a body
+	@$< $(patsubst %,data/scenes/%.toml,parker2000-standard-tooth parker2000-misaligned parker2000-helical-0_5 parker2000-helical-1_0 helical-17-67)
+
 # One static position of an internal pair beside CalculiX: three mesh phases, of which the middle one has two pairs of teeth in contact.
 .PHONY: bench-internal
 bench-internal: $(B)/bin/whine-bench $(call bodies_of,$(internal_scene)) ## static positions of a planet in a ring beside CalculiX, if `deps-bench` has installed it

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Generated tables, on standard output: tables.sh <name> <folder of the programs>.
 #   keys       keys of a scene, from gear-scene --keys                      data/keys.tsv, a file of its own
+#   features   what goals and stages do not take, from gear-scene --features common/studies/README.md
 #   scenes     files and titles of the scenes                               data/scenes/README.md
 #   studies    files and titles of the studies                              data/studies/README.md
 #   scorecard  verdicts on the claims of P2000, from scorecard.tsv          data/published/README.md
@@ -30,11 +31,12 @@ case $1 in
     echo '|---|---|---|'
     awk -F '\t' '!/^#/ { print "| " $1 ": " $2 " | " $3 " | " $4 " |" }' data/published/claim_sets.tsv
     ;;
+  features) "$2/gear-scene" --features ;;
   scenes | studies) titles "data/$1" ;;
   renew)
     pipelines/tables.sh keys "$2" > data/keys.tsv.new && mv data/keys.tsv.new data/keys.tsv
-    for block in scenes:scenes studies:studies published:scorecard published:sets; do
-      page=data/${block%:*}/README.md name=${block#*:}
+    for block in common/studies:features data/scenes:scenes data/studies:studies data/published:scorecard data/published:sets; do
+      page=${block%:*}/README.md name=${block#*:}
       pipelines/tables.sh "$name" "$2" | awk -v name="$name" 'NR == FNR { table = table $0 "\n"; next } $0 == "<!-- " name " -->" { printf "%s\n%s", $0, table; skip = 1 }
         $0 == "<!-- end of " name " -->" { skip = 0 } !skip' - "$page" > "$page.new" && mv "$page.new" "$page"
     done ;;

@@ -276,7 +276,7 @@ fresh() { # name of the table, where it stands, its text
     wrong "$claim" "make docs-tables puts it there: $(head -n 2 "$work/said" | tr '\n' '|')"; fi
 }
 fresh keys data/keys.tsv data/keys.tsv
-for table in data/scenes:scenes data/studies:studies data/published:scorecard data/published:sets; do
+for table in common/studies:features data/scenes:scenes data/studies:studies data/published:scorecard data/published:sets; do
   page=${table%:*}/README.md name=${table#*:}
   sed "1,/^<!-- $name -->\$/d; /^<!-- end of $name -->\$/,\$d" "$page" > "$work/table"
   fresh "$name" "$page" "$work/table"

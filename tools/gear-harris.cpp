@@ -57,7 +57,7 @@ MappedPair mesh_of_train(const std::string& params, const std::string& name, con
   const System::Mesh& mesh = train.layout.meshes[m];
   MappedPair out{{train.mesh[static_cast<size_t>(train.section[m])], train.fidelity, train.contact}, {}, 0};
   const std::vector<ReducedBody> bodies = read_bodies(files, train);
-  require_like_teeth(train, bodies, "a Harris map");
+  require_able("harris-map", traits(train, bodies));
   for (size_t g = 0; g < kSides; ++g)
     for (size_t b = 0; b < train.body.size(); ++b)
       if (train.body[b].first == out.settings.mesh.gear[g]) {

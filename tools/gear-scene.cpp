@@ -8,7 +8,7 @@
 //            <out>/bodies/<hash>/body.toml               one per distinct gear
 //            <out>/<scene>/<gear> -> ../bodies/<hash>    relative links
 //            --output                                    make fragment: gears, bodies, torques of the scene
-//            --variant: a scene with the changes of --set, and nothing else; --keys: prints the table of scene keys, units to SI;
+//            --variant: a scene with the changes of --set, and nothing else; --keys, --features: print the tables of scene keys and of what is not taken;
 //            --plan: prints what a scene will compute with: settings, their errors, expected times and memory; writes nothing
 //            --goals: prints what is wrong with goals and variables of make, nothing if all is right
 #include <filesystem>
@@ -43,7 +43,7 @@ void cut_system(const std::string& path, const std::string& stem, const std::str
                 const std::vector<std::string>& goals, const std::string& output) {
   const SystemScene scene = read_system_scene(path);
   const System layout = layout_in(scene, path);
-  check_goals(goals, abilities(scene, layout), path);
+  check_goals(goals, traits(scene, layout), path);
   const std::string home = folder + "/" + stem;
   if (scene.rigid())
     rigid_system(layout);
@@ -63,7 +63,7 @@ void cut_pair(const std::string& path, const std::string& stem, const std::strin
               const std::vector<std::string>& goals, const std::string& ids, const std::string& output) {
   const Scene scene = read_scene(path);  // 1. The whole scene is checked before anything is written.
   check_scene(scene, path);
-  check_goals(goals, abilities(scene), path);
+  check_goals(goals, traits(scene), path);
   const std::string home = folder + "/" + stem;
   record_scene(home, path);
   // Together: program ids, results and stage parameters keep their order.
@@ -92,7 +92,7 @@ void cut_pair(const std::string& path, const std::string& stem, const std::strin
 void body(int argc, char** argv) {
   std::string path, output, variant, ids, goals, folder = "out";
   std::vector<std::string> changes, given, of_scene;
-  bool keys = false, plan = false;
+  bool keys = false, plan = false, features = false;
   whine::Options options{"Checks a scene and writes what each stage needs of it", "gear-scene"};
   Option scene_option = options.add("--scene", path, "scene file (TOML)");
   Option output_option = options.add(
@@ -102,6 +102,8 @@ void body(int argc, char** argv) {
       "--ids", ids,
       "folder of the files that tell make which programs have changed: those with a time in the future get the time of now");
   Option keys_option = options.flag("--keys", keys, "print the table of scene keys and end");
+  options.flag("--features", features,
+               "print what goals and stages do not take of a scene, and why, and end");
   Option variant_option = options.add("--variant", variant, "scene to write with the changes of --set");
   Option set_option = options.add("--set", changes, "key=value, any number of times");
   Option goals_option =
@@ -125,8 +127,8 @@ void body(int argc, char** argv) {
       "  gear-scene --plan --scene data/scenes/parker2000.toml\n"
       "  gear-scene --keys");
   options.parse(argc, argv);
-  if (keys || !goals.empty()) {
-    std::cout << (keys ? scene_key_table() : wrong_with(goals, given));
+  if (keys || features || !goals.empty()) {
+    std::cout << (keys ? scene_key_table() : features ? capability_table() : wrong_with(goals, given));
     return;
   }
   if (plan) {

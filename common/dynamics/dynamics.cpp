@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "dynamics/relaxed_fields.h"
+#include "model/capabilities.h"
 #include "system/undamped_depth.h"
 
 namespace whine {
@@ -34,10 +35,7 @@ void require_memory(double own, double beside, double most, const char* remedy, 
 
 DynamicParameters dynamic_parameters(const StaticResult& statics, double mean_stiffness,
                                      const ImpactParameters& settings, double highest_frequency) {
-  if (settings.fidelity.width != WidthModel::one)
-    fail(
-        Failure::input, "width = \"", settings.fidelity.width,
-        "\" in [fidelity]: in motion slices over the face are for sweeps, branches and run-ups, and what is asked for is computed in one slice; write width = \"one\"");
+  require_able("one-slice", traits(settings.fidelity));
   require_relaxation_range(settings.damping, settings.fidelity.body, highest_frequency);
   return {statics.torque,
           {settings.inertia.begin(), settings.inertia.end()},

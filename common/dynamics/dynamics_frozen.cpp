@@ -8,6 +8,7 @@
 #include "base/dense.h"
 #include "base/error.h"
 #include "base/units.h"
+#include "model/capabilities.h"
 
 namespace whine {
 
@@ -106,10 +107,7 @@ MatrixXd RollingDynamics::bearing_damping() const {
 }
 
 FixedPhaseMesh RollingDynamics::hold(int i) const {
-  if (lines())
-    fail(Failure::input,
-         "contact = \"line\" in [fidelity] is not available for a pair at a fixed mesh phase ",
-         "(gear-impact); set contact = \"strips\"");
+  if (lines()) require_able("impact", {{Trait::lines, ""}});
   const Position& position = positions_[i];
   const MeshPosition& mesh = position.mesh;
   FixedPhaseMesh fixed;

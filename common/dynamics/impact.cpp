@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "gear/body_inertia.h"
 #include "gear/train.h"
+#include "model/capabilities.h"
 #include "system/natural_modes.h"
 #include "system/rolling_mesh.h"
 
@@ -98,17 +99,11 @@ class FixedPhasePair {
   FixedPhasePair(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
                  double mean_stiffness, const ImpactParameters& settings, const ImpactPlan& plan)
       : plan_(plan) {
-    if (settings.fidelity.contact != ContactModel::strips)
-      fail(Failure::input, "contact = \"", settings.fidelity.contact,
-           "\" in [fidelity] is not available in ring-downs; set contact = \"strips\"");
-    if (settings.fidelity.body == BodyModel::full)
-      fail(
-          Failure::input,
-          "body = \"full\" in [fidelity] is not available in ring-downs: the eigenvalues beside the decays are those of dense matrices; set body = \"modal\"");
+    Traits of = traits(statics.mesh, driver.design, driven.design);
+    for (auto& level : traits(settings.fidelity)) of.push_back(std::move(level));
+    require_able("impact", of);
     if (plan.phases < 2 || plan.phases % 2)
       fail(Failure::input, plan.phases, " phases: an even number above 0 is needed");
-    require_like_teeth(statics.mesh, driver.design, driven.design,
-                       "a pair at a fixed mesh phase (gear-impact, gear-jump-map)");
     require_inertia(statics.mesh, {driver.inertia, driven.inertia}, settings.inertia);
     GearMeshSpec still = statics.mesh;
     still.friction = {};  // nothing slides at a fixed phase

@@ -42,28 +42,20 @@ double norm_of_rms(const std::vector<MotionPeriod>& record) {
 }
 
 SystemModel in_motion(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies) {
-  if (settings.fidelity.width == WidthModel::body)
-    fail(
-        Failure::input, "width = \"", settings.fidelity.width,
-        "\" in [fidelity]: what sections of a body in three dimensions hold each other by has no inertia yet, and motion is computed in "
-        "slices; write width = \"slices\"");
+  require_able("motion", traits(settings.fidelity));
   return elastic_system(settings, bodies, settings.damping.undamped_depth);
 }
 
 }  // namespace
 
-void require_like_teeth(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies,
-                        const std::string& stage) {
+Traits traits(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies) {
+  Traits out;
   for (size_t b = 0; b < settings.errors.size(); ++b)
-    if (settings.has_errors(b))
-      fail(
-          Failure::input, stage, " does not take teeth that differ: [gear.", settings.gear[b],
-          ".error] gives '", settings.layout.bodies[b].name,
-          "' deviations tooth by tooth; use a scene without this section, or a sweep, which covers the hunting period");
+    if (settings.has_errors(b)) out.emplace_back(Trait::differing, "[gear." + settings.gear[b] + ".error]");
   for (size_t g = 0; g < settings.body.size() && g < bodies.size(); ++g)
     if (bodies[g].design.crack.depth > 0)
-      fail(Failure::input, stage, " does not take a cracked tooth: [gear.", settings.body[g].first,
-           ".crack]; use a scene without this section, or a sweep, which covers the turn of the gear");
+      out.emplace_back(Trait::cracked, "[gear." + settings.body[g].first + ".crack]");
+  return out;
 }
 
 LinesMotion::LinesMotion(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "dynamics/motion.h"
+#include "model/capabilities.h"
 #include "model/system_stages.h"
 #include "results/motion_source.h"
 #include "results/reduced_body.h"
@@ -17,9 +18,8 @@ namespace whine {
 // Mesh periods per speed before a motion counts as not periodic, and so many hunting periods at least.
 inline constexpr int kMostSystemPeriods = 3000, kLeastSystemTurns = 100;
 
-// Throws Error(input) that names the gear and `stage` ("a branch"), which knows nothing of teeth that differ from each other or are cracked.
-void require_like_teeth(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies,
-                        const std::string& stage);
+// Teeth that differ or are cracked.
+Traits traits(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies);
 
 class LinesMotion : public Motion {
  public:

@@ -7,6 +7,7 @@
 #include "base/dense.h"
 #include "base/error.h"
 #include "base/model_range.h"
+#include "model/capabilities.h"
 
 namespace whine {
 
@@ -17,8 +18,7 @@ using State = RollingDynamics::State;
 RollingPeriodMap::RollingPeriodMap(RollingDynamics& dynamics, int steps)
     : MotionMap(steps), dynamics_(dynamics) {
   if (dynamics.hunting_periods() > 1)
-    fail(Failure::input, "the period map of teeth that differ is that of ", dynamics.hunting_periods(),
-         " mesh periods, which is not available; take the tooth errors out of the scene");
+    require_able("branches", {{Trait::differing, text("of ", dynamics.hunting_periods(), " mesh periods")}});
   dynamics.rest();  // sets the scale of distances
   coordinates_ = static_cast<int>(dynamics.coordinates_.size());
   double largest = 0;

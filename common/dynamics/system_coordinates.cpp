@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "gear/layout.h"
+#include "model/capabilities.h"
 
 namespace whine {
 
@@ -94,9 +95,9 @@ class Builder {
 
   SystemCoordinates build() {
     const Fidelity& fidelity = motion_.fidelity;
-    if (fidelity.body == BodyModel::full || fidelity.body == BodyModel::rigid)
-      fail(Failure::input, "body = \"", fidelity.body,
-           "\" in [fidelity]: systems in motion have \"quasi-static\", \"relaxed\" or \"modal\"");
+    Traits of = traits(fidelity);
+    if (fidelity.body == BodyModel::rigid) of.emplace_back(Trait::rigid_gears, "");
+    require_able("motion", of);
     if (fidelity.contact != ContactModel::line)
       fail(Failure::input, "contact = \"", fidelity.contact, "\" in motion: systems have \"line\"");
     const auto bodies = static_cast<int>(system_.layout.bodies.size());

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/model_range.h"
 #include "base/progress.h"
+#include "model/capabilities.h"
 
 namespace whine {
 
@@ -122,8 +123,7 @@ void SystemPeriodMap::require_tangent() const {
     fail(Failure::numerical, "the tangent at ", parameter(),
          " Hz is asked for before a period was integrated at this speed");
   if (const int periods = dynamics_.hunting_periods(); periods > 1)
-    fail(Failure::input, "the period map of teeth that differ, of ", periods,
-         " mesh periods, has no tangent; take teeth that are alike");
+    require_able("branches", {{Trait::differing, text("of ", periods, " mesh periods")}});
 }
 
 // Relaxed line loads after a step; of lines that have gone nothing is left.

@@ -7,6 +7,7 @@
 #include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "io/scene.h"
+#include "model/capabilities.h"
 #include "results/static.h"
 
 namespace whine {
@@ -26,9 +27,7 @@ LumpedInputs read_lumped_inputs(const std::string& statics, const std::string& r
   LumpedInputs inputs;
   inputs.at_torque = read_pair_statics(statics);
   const StaticResult& at_torque = inputs.at_torque;
-  require_like_teeth(at_torque.mesh, at_torque.gear[0].design, at_torque.gear[1].design, "a lumped model");
-  require_rigid_bearings(at_torque.mesh, "a lumped model");
-  require_no_friction(at_torque.mesh, "a lumped model");
+  require_able("lumped", traits(at_torque.mesh, at_torque.gear[0].design, at_torque.gear[1].design));
   inputs.at_reference = reference.empty() ? at_torque : read_pair_statics(reference);
   if (params.empty()) {
     if (!reference.empty()) require_same_pair(statics, reference);

@@ -17,6 +17,7 @@
 #include "io/section_reader.h"
 #include "io/suggestion.h"
 #include "io/variant.h"
+#include "model/capabilities.h"
 
 namespace whine {
 namespace {

@@ -99,21 +99,23 @@ class Fragment {
 
 namespace {
 
-std::string teeth_words(const SceneAbilities& able) {
-  return text(able.teeth_differ ? "differ" : able.cracked ? "" : "alike", able.cracked ? " cracked" : "");
+std::string teeth_words(const Traits& of) {
+  const bool cracked = has(of, Trait::cracked);
+  return text(has(of, Trait::differing) ? "differ" : cracked ? "" : "alike", cracked ? " cracked" : "");
 }
 
 }  // namespace
 
 std::string system_fragment(const SystemScene& scene, const System& layout, const std::string& path,
                             const std::string& stem, const BodyHashes& bodies) {
-  const SceneAbilities able = abilities(scene, layout);
+  const Traits able = traits(scene, layout);
+  const bool rigid = has(able, Trait::rigid_gears);
   Fragment out(path, stem);
-  out("KIND", able.elastic ? "train" : "rigid");
-  out.yes_or_no("PLANETS", able.planets);
-  if (!able.elastic) return out.words();
+  out("KIND", rigid ? "rigid" : "train");
+  out.yes_or_no("PLANETS", !has(able, Trait::no_planets));
+  if (rigid) return out.words();
   out.gears(bodies, {input_torque(layout)});
-  out.yes_or_no("MOVES", able.moves);
+  out.yes_or_no("MOVES", !has(able, Trait::no_speeds));
   out("WIDTH", scene.fidelity.width);
   out("TEETH", teeth_words(able));
   std::string meshes;
@@ -124,20 +126,20 @@ std::string system_fragment(const SystemScene& scene, const System& layout, cons
 
 std::string scene_fragment(const Scene& scene, const std::string& path, const std::string& stem,
                            const BodyHashes& bodies) {
-  const SceneAbilities able = abilities(scene);
+  const Traits able = traits(scene);
   bool modified = false;
   for (const std::string& gear : scene.mesh.gear)
     modified |= scene.gear(gear).modification != FlankModification{};
-  const bool rings_down = scene.fidelity.contact == ContactModel::strips && able.face.empty() &&
-                          scene.fidelity.body != BodyModel::full && !able.teeth_differ && !able.cracked;
+  Traits still = able;
+  for (auto& level : traits(scene.fidelity)) still.push_back(std::move(level));
   Fragment out(path, stem);
   out("KIND", "pair");
   out.gears(bodies, scene.operation.torques);
   out("DRIVER", scene.mesh.gear[0]);
   out("DRIVEN", scene.mesh.gear[1]);
-  out.yes_or_no("MOVES", able.pair_moves());
-  out("WIDTH", able.face.empty() ? WidthModel::one : scene.fidelity.width);
-  out.yes_or_no("RINGS_DOWN", rings_down);
+  out.yes_or_no("MOVES", not_taken("sweep", able).empty());
+  out("WIDTH", has(able, Trait::pair) ? WidthModel::one : scene.fidelity.width);
+  out.yes_or_no("RINGS_DOWN", not_taken("impact", still).empty());
   out("TEETH", teeth_words(able));
   out.yes_or_no("MODIFIED", modified);
   out.yes_or_no("FRICTION", scene.mesh.friction.acts());

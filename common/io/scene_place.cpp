@@ -69,8 +69,8 @@ std::string scene_place(const std::string& path, const std::vector<std::string>&
   return path;
 }
 
-bool gear_gives(const std::string& path, const std::string& gear, const std::string& key) {
-  return line_that_names(parse_toml(read_bytes(path)), "gear." + gear, key) > 0;
+bool scene_gives(const std::string& path, const std::string& section, const std::string& key) {
+  return line_that_names(parse_toml(read_bytes(path)), section, key) > 0;
 }
 
 }  // namespace whine

@@ -11,7 +11,7 @@ namespace whine {
 std::string scene_place(const std::string& path, const std::vector<std::string>& sections,
                         const std::string& words);
 
-// Whether [gear.<name>] of a scene that has been read gives a key, itself or by `like`.
-bool gear_gives(const std::string& path, const std::string& gear, const std::string& key);
+// Whether a section ("gear.pinion") of a scene that has been read gives a key, a gear itself or by `like`.
+bool scene_gives(const std::string& path, const std::string& section, const std::string& key);
 
 }  // namespace whine

@@ -6,6 +6,7 @@
 #include "gear/rack_tip.h"
 #include "gear/scene_cost.h"
 #include "gear/scene_geometry.h"
+#include "io/scene_goals.h"
 #include "io/scene_place.h"
 #include "io/system_scene.h"
 #include "system/near_interference.h"
@@ -26,8 +27,8 @@ template <class AnyScene>
 void add_defaults(const AnyScene& scene, const std::string& path, Lines& out) {
   for (const auto& gear : scene.gears) {
     const double radius = gear.design.rack_tip_radius;
-    if (radius == kStandardRackTip || gear_gives(path, gear.name, "rack_tip_radius")) continue;
     const std::string section = "gear." + gear.name;
+    if (radius == kStandardRackTip || scene_gives(path, section, "rack_tip_radius")) continue;
     out.push_back(text("note: ", scene_place(path, {section}, ""), ": [", section,
                        "]: rack_tip_radius = ", shown_number(radius), " in place of the default ",
                        kStandardRackTip, ", which does not fit ",
@@ -73,6 +74,11 @@ Lines scene_lines(const Scene& scene, const std::string& path) {
   if (const std::string words = near_interference(scene, ForceBound::largest); !words.empty())
     out.push_back("warning: " + scene_place(path, {"mesh"}, "") + ": statics may find that " + words);
   add_of_gears_and_damping(scene, path, out);
+  if (const auto& [level, why] = traits(scene)[0];
+      level == Trait::pair_of_bodies && !scene_gives(path, "fidelity", "width"))
+    out.push_back(text("note: ", path, ": ", why,
+                       ", so width = \"body\" in [fidelity]: bodies in three dimensions, at rest; ",
+                       "motion needs width = \"slices\""));
   for (const std::string& cost : costs(scene)) out.push_back(path + ": " + cost);
   return out;
 }

@@ -8,6 +8,7 @@
 #include "io/stage_parameters_text.h"
 #include "io/study.h"
 #include "io/system_scene.h"
+#include "model/capabilities.h"
 
 namespace whine {
 namespace {
@@ -68,13 +69,13 @@ void walk(StageParameters& s, StaticParameters& p, TimeDiscretisation* moving = 
 struct MotionStage {
   StageFile file;
   bool damping, speeds, body_model, time;
-  bool slices;  // or in one slice over the face alone
+  const char* feature;  // in the table of capabilities
 };
-constexpr MotionStage kImpact{{"params/impact.toml", "the ring-down"}, true, false, true, false, false},
-    kSweep{{"params/sweep.toml", "a sweep"}, true, true, true, true, true},
-    kMap{{"params/map.toml", "a map of jumps"}, true, false, true, true, false},
-    kLumped{{"params/lumped.toml", "a sweep of a lumped model"}, false, true, false, true, false},
-    kLumpedMap{{"params/lumped_map.toml", "a map of a lumped model"}, false, false, false, true, false};
+constexpr MotionStage kImpact{{"params/impact.toml", "the ring-down"}, true, false, true, false, "impact"},
+    kSweep{{"params/sweep.toml", "a sweep"}, true, true, true, true, "sweep"},
+    kMap{{"params/map.toml", "a map of jumps"}, true, false, true, true, "jump-map"},
+    kLumped{{"params/lumped.toml", "a sweep of a lumped model"}, false, true, false, true, "lumped"},
+    kLumpedMap{{"params/lumped_map.toml", "a map of a lumped model"}, false, false, false, true, "lumped"};
 
 struct Motion {
   SweepParameters p;
@@ -193,10 +194,12 @@ SweepParameters motion_from(const Source& source, const MotionStage& stage) {
   in(motion_keys(out, stage));
   if (out.p.fidelity.width != WidthModel::one) {
     out.p.fidelity.contact = ContactModel::line;
-    if (!stage.slices)
-      source.reject(
-          "has width = \"", out.p.fidelity.width, "\", and ", stage.file.stage,
-          " is computed in one slice over the face; write width = \"one\" in [fidelity] of the scene");
+    const Trait level =
+        out.p.fidelity.width == WidthModel::body ? Trait::pair_of_bodies : Trait::pair_in_slices;
+    if (const std::string words =
+            refusal(stage.feature, {{level, text("[fidelity] has width = \"", out.p.fidelity.width, "\"")}});
+        !words.empty())
+      source.reject(words);
   }
   out.p.reference_torque = out.torques.front();
   return out.p;

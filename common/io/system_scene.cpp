@@ -8,6 +8,7 @@
 #include "gear/tooth_errors.h"
 #include "io/scene_sections.h"
 #include "io/variant.h"
+#include "model/capabilities.h"
 #include "system/system_rest.h"
 
 namespace whine {
@@ -159,18 +160,6 @@ void take_drives(const Source& source, SystemScene& scene) {
   }
 }
 
-// What systems in motion cannot do, before anything is computed for them.
-void reject_in_motion(const Source& source, const Fidelity& fidelity) {
-  const auto reject = [&](const char* key, const auto&... words) {
-    const toml::node* node = source.root().at_path(std::string("fidelity.") + key).node();
-    source.reject(node ? *node : source.root(), words...);
-  };
-  if (fidelity.body == BodyModel::full)
-    reject(
-        "body",
-        "body = \"full\" in [fidelity]: systems in motion have \"quasi-static\", \"relaxed\" or \"modal\"; write one of these, or take [operation] out");
-}
-
 // [fidelity], [discretisation], [damping] and [operation].
 void take_fidelity(const Source& source, SystemScene& scene) {
   if (const toml::node* node = source.root().at_path("operation.torque_Nm").node())
@@ -190,7 +179,11 @@ void take_fidelity(const Source& source, SystemScene& scene) {
         (section.label() == "damping" || section.label() == "operation" || section.label() == "accuracy"))
       section.reject(" belongs to elastic gears in motion, and those of this scene are rigid; take it out");
   });
-  if (moves && !scene.rigid()) reject_in_motion(source, scene.fidelity);
+  if (const std::string words = refusal("motion", traits(scene.fidelity));
+      moves && !scene.rigid() && !words.empty()) {
+    const toml::node* node = source.root().at_path("fidelity.body").node();
+    source.reject(node ? *node : source.root(), words, ", or take [operation] out");
+  }
   if (const toml::node* node = source.root().get("discretisation"); node && scene.rigid())
     source.reject(
         *node, "[discretisation] belongs to elastic gears, and those of this scene are rigid; take it out");
@@ -220,31 +213,23 @@ void take_width(const Source& source, SystemScene& scene) {
     source.reject(at, level ? text("width = \"", scene.fidelity.width, "\" in [fidelity]") : words,
                   ", and the gears of this scene are rigid, whose meshes are springs of stiffness_N_um; ",
                   level ? "take the line out" : "give spur gears, or elastic ones");
+  const auto refuse = [&](const std::string& path, Trait trait, const std::string& where) {
+    const toml::node* node = source.root().at_path(path).node();
+    if (const std::string why = refusal("width", {{trait, where}}); !why.empty())
+      source.reject(node ? *node : at, why);
+  };
   if (scene.fidelity.width == WidthModel::body)
-    source.reject(
-        at, "width = \"body\" in [fidelity]: bodies in three dimensions are of pairs; ",
-        "a system (several meshes, carriers or drives) is computed in slices: write width = \"slices\"");
+    refuse("fidelity.width", Trait::train_of_bodies, "width = \"body\" in [fidelity]");
   scene.fidelity.contact = ContactModel::line;
-  if (const toml::node* friction = source.root().get("friction");
-      friction && scene.meshes[0].spec.friction.acts())
-    source.reject(*friction, "[friction] is of one slice over the face, and this scene is computed in slices",
-                  words.empty() ? "" : text(": ", words), "; take the section out");
+  const std::string of = text(" with width = \"slices\"", words.empty() ? "" : ", " + words);
+  if (scene.meshes[0].spec.friction.acts()) refuse("friction", Trait::friction, "[friction]" + of);
   for (const SystemScene::Gear& gear : scene.gears) {
-    const bool cracked = gear.design.crack.depth > 0;
-    if (gear.errors.none() && !cracked) continue;
-    const char* const section = cracked ? "crack" : "error";
-    const toml::table& table = *source.section("gear")->get(gear.name)->as_table();
-    source.reject(table.get(section) ? *table.get(section) : at, "[gear.", gear.name, ".", section,
-                  "] is of one slice over the face, and this scene is computed in slices",
-                  words.empty() ? "" : text(": ", words), "; take the section out");
+    const std::string path = "gear." + gear.name;
+    if (gear.design.crack.depth > 0) refuse(path + ".crack", Trait::cracked, "[" + path + ".crack]" + of);
+    if (!gear.errors.none()) refuse(path + ".error", Trait::differing, "[" + path + ".error]" + of);
+    if (gear.design.helical() && gear.material.plane_stress)
+      refuse(path + ".helix_angle_deg", Trait::plane_stress, "[" + path + "] is helical, plane = \"stress\"");
   }
-  for (const SystemScene::Gear& gear : scene.gears)
-    if (gear.design.helical() && gear.material.plane_stress) {
-      const toml::node* helix = source.root().at_path("gear." + gear.name + ".helix_angle_deg").node();
-      source.reject(helix ? *helix : at, "[gear.", gear.name,
-                    "] is helical, and its [material] has plane = \"stress\": ",
-                    "the sections of a helical gear hold each other; write plane = \"strain\"");
-    }
 }
 
 // Names of gears that share a shaft come first: what else a scene of them lacks leads nowhere.

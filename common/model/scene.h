@@ -172,17 +172,4 @@ struct Scene {
   const SceneGear& gear(const std::string& name) const;  // throws Error(input) if there is none
 };
 
-// Throw Error(input) that names the gear and `stage` ("a Harris map"), which knows nothing of ...
-void require_like_teeth(const GearMeshSpec& mesh, const GearDesign& driver, const GearDesign& driven,
-                        const std::string& stage);  // ... teeth that differ from each other or are cracked,
-void require_rigid_bearings(const GearMeshSpec& mesh, const std::string& stage);  // ... elastic bearings,
-void require_no_friction(const GearMeshSpec& mesh, const std::string& stage);     // ... friction,
-void require_external(const GearMeshSpec& mesh, const GearDesign& driver, const GearDesign& driven,
-                      const std::string& stage);  // ... internal gears.
-
-// What of a pair one slice over the face does not hold, in words: "[gear.pinion] is helical (helix_angle_deg = 20)"; "": nothing.
-std::string face_words(const GearMeshSpec& mesh, const GearDesign& driver, const GearDesign& driven);
-// Throws Error(input) if there is any of it.
-void require_one_slice(const GearMeshSpec& mesh, const GearDesign& driver, const GearDesign& driven);
-
 }  // namespace whine

@@ -30,7 +30,7 @@ Figure natural_frequency_table(std::vector<ImpactResult> impacts, const std::vec
   table.title = "Natural frequencies by ring-down";
   const ImpactResult& first = impacts[0];
   table.notes.push_back("Rayleigh damping η = " + shown(first.damping.rayleigh_stiffness * kMicro, 6) +
-                        " µs; " + corner_words(first.mesh.corner));
+                        " µs; " + corner_words(first));
   const double ratio = GearPair(first).contact_ratio();
   const double share = ratio - std::floor(ratio);
   if (ratio >= 4) fail(Failure::input, "table: a contact ratio of ", ratio, "; below 4 is known");

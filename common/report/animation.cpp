@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "gear/drawing_quantities.h"
 #include "gear/pair.h"
+#include "model/capabilities.h"
 #include "report/wireframe.h"
 #include "signal/rms.h"
 
@@ -86,7 +87,7 @@ void check_inputs(const SectorGrid& driver, const SectorGrid& driven, const Swee
   if (s.hunting_periods > 1)
     fail(Failure::input, "the teeth of this pair differ: its motion repeats after ", s.hunting_periods,
          " mesh periods; one mesh period does not show it");
-  require_external(s.mesh, s.gear[0].design, s.gear[1].design, "an animation");
+  require_able("animation", traits(s.mesh, s.gear[0].design, s.gear[1].design));
   for (int g = 0; g < kSides; ++g) {
     const GearDesign &found = (g == 0 ? driver : driven).design, &wanted = s.gear[g].design;
     if (found.teeth != wanted.teeth || found.module != wanted.module ||

@@ -24,7 +24,9 @@ std::string torque_words(double torque) {
   return shown(torque, 6) + " N m";
 }
 
-std::string corner_words(const CornerRule& corner) {
+std::string corner_words(const GearPairParameters& of) {
+  const CornerRule& corner = of.mesh.corner;
+  if (of.gear[0].design.helical()) return "tip edges count on the line of action alone";
   if (!corner.enabled) return "corner contact off";
   if (!std::isfinite(corner.largest_angle)) return "corner contact on";
   return "corner contact up to " + shown(corner.largest_angle * 180.0 / std::numbers::pi, 4) + "°";
@@ -39,8 +41,7 @@ std::string pair_words(const StaticResult& s) {
       helical ? text("helix angle ", shown(driver.helix_angle * 180 / std::numbers::pi, 4), "°, ") : "",
       "centre distance ", shown(s.mesh.centre_distance * kMilli, 6), " mm, ", helical ? "transverse " : "",
       "contact ratio ", fixed(s.contact_ratio, 4), ", ",
-      helical ? text("overlap ratio ", fixed(GearPair(s).overlap_ratio(), 3), ", ") : "",
-      corner_words(s.mesh.corner));
+      helical ? text("overlap ratio ", fixed(GearPair(s).overlap_ratio(), 3), ", ") : "", corner_words(s));
 }
 
 std::string without_markup(const std::string& words) {

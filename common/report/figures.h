@@ -95,7 +95,7 @@ std::vector<Shaft> shafts_of_all(const Artifacts& all) {
 
 // "150 N m"; "corner contact on"; teeth, module, centre distance, contact ratio and corner rule of a pair.
 std::string torque_words(double torque);
-std::string corner_words(const CornerRule& corner);
+std::string corner_words(const GearPairParameters& of);
 std::string pair_words(const StaticResult& s);
 
 // Words as they stand, in a text in which gnuplot reads marks such as '_' (subscript).

@@ -171,7 +171,8 @@ double peak_to_peak(const Eigen::VectorXd& v) {
 }
 
 double tip_edge_load(const StaticResult& mesh) {
-  if (mesh.contact_pressure.size() == 0) return 0;
+  // Tip edges of helical gears count on the line of action alone.
+  if (mesh.contact_pressure.size() == 0 || mesh.gear[0].design.helical()) return 0;
   return (mesh.contact_pressure.array() == 0).select(mesh.tooth_load, 0.0).maxCoeff();
 }
 

@@ -159,7 +159,7 @@ std::string losses_caption(const ReportContent& c) {
 
 std::string flank_load_caption(const ReportContent& c) {
   if (c.of_train())
-    return "Load over the flank of the mesh with the largest line load, as a contact pattern shows it: line load over face and path of contact (left); red: lines of contact, a quarter of a mesh period apart. Line load of each tooth pair over the face, with the reference pair at the pitch point (right). The face counts from its middle towards the viewer who sees the driving gear turn counter-clockwise.";
+    return "Load over the flanks, of each [[mesh]] the one with the largest line load, as a contact pattern shows it: line load over face and path of contact (left); red: lines of contact, a quarter of a mesh period apart. Line load of each tooth pair over the face, with the reference pair at the pitch point (right). The face counts from its middle towards the viewer who sees the driving gear turn counter-clockwise.";
   const StaticResult& s = c.pair();
   return text(
       "Load over the flank of the driver at ", torque_words(s.torque),

@@ -212,7 +212,7 @@ html::Rows rows_of_meshes(const std::vector<StaticResult>& meshes) {
   pairs.reserve(meshes.size());
   for (const StaticResult& mesh : meshes) {
     pairs.emplace_back(mesh);
-    corner.push_back(corner_words(mesh.mesh.corner));
+    corner.push_back(corner_words(mesh));
   }
   html::Rows rows = mesh_rows(pairs);
   add_meeting_rows(pairs, rows);

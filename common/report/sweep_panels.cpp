@@ -56,13 +56,13 @@ template <class Sweep>
 std::string choice_words(const Sweep& s) {
   if (!elastic(s))
     return text("one degree of freedom (Eq. 23), mesh stiffness: ", s.model, "; integrator ",
-                s.fidelity.integrator, "; its statics: ", corner_words(s.mesh.corner));
+                s.fidelity.integrator, "; its statics: ", corner_words(s));
   std::string words = "Rayleigh damping η = " + shown(s.damping.rayleigh_stiffness * kMicro, 6) + " µs";
   if (s.damping.rayleigh_mass != 0) words += ", µ = " + shown(s.damping.rayleigh_mass, 6) + " s⁻¹";
   return words + text(", undamped to ", shown(s.damping.undamped_depth * kMilli, 4),
-                      " mm depth, bearing ratio ", shown(s.damping.bearing_ratio, 4), "; ",
-                      corner_words(s.mesh.corner), "; body ", s.fidelity.body, ", contact ",
-                      s.fidelity.contact, ", integrator ", s.fidelity.integrator);
+                      " mm depth, bearing ratio ", shown(s.damping.bearing_ratio, 4), "; ", corner_words(s),
+                      "; body ", s.fidelity.body, ", contact ", s.fidelity.contact, ", integrator ",
+                      s.fidelity.integrator);
 }
 
 template <class Sweep>

@@ -123,16 +123,19 @@ Figure system_static_figure(const SystemStaticResult& a) {
     fail(Failure::input, "figure: this static.h5 is of a pair; fig12, fig13 and load-sharing draw it");
   const System& s = a.settings.layout;
   Figure figure;
-  figure.title = "A system at rest: transmission errors, stiffnesses, forces, root stresses";
+  std::vector<PeriodCurve> stresses = root_stresses(a);
+  figure.title = text("A system at rest: transmission errors, stiffnesses, forces",
+                      stresses.empty() ? "" : ", root stresses");
   figure.notes = in_lines(bodies_words(s, a.torque.colwise().mean().transpose()));
   if (const std::string sharing = sharing_words(a); !sharing.empty())
     for (const std::string& line : in_lines(sharing)) figure.notes.push_back(line);
   figure.notes.emplace_back(
-      "transmission error along the line of action, with the displacements of the bearings; mesh force: torque on the driving gear over its base radius");
+      "transmission error along the line of action, with the displacements of the bearings; mesh force along the normals of the flanks");
   figure.notes.emplace_back(
       "mesh stiffness: secant, mesh force over what it adds to the transmission error, without bearings");
-  figure.notes.emplace_back(
-      "bearing force: its magnitude; on a rigid axis the sum of the contact forces; root stress: the largest beside the loaded flanks of a gear");
+  figure.notes.push_back(
+      text("bearing force: its magnitude; on a rigid axis the sum of the contact forces",
+           stresses.empty() ? "" : "; root stress: the largest beside the loaded flanks of a gear"));
   std::vector<PeriodCurve> errors, stiffnesses, forces, bearings;
   errors.reserve(s.meshes.size());
   stiffnesses.reserve(s.meshes.size());
@@ -153,7 +156,7 @@ Figure system_static_figure(const SystemStaticResult& a) {
   add_row(a, "mesh_stiffness", "Mesh stiffness", "Stiffness", "N/µm", std::move(stiffnesses), figure);
   add_row(a, "mesh_force", "Mesh force", "Force", "N", std::move(forces), figure);
   add_row(a, "bearing_force", "Bearing force", "Force", "N", std::move(bearings), figure);
-  if (std::vector<PeriodCurve> stresses = root_stresses(a); !stresses.empty())
+  if (!stresses.empty())
     add_row(a, "root_stress", "Root stress", "Stress", "MPa", std::move(stresses), figure);
   figure.columns = 2;
   add_hunting(a, "over which all is drawn; harmonics are those of the mesh frequency", figure);

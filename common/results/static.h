@@ -114,7 +114,7 @@ struct StaticResult : GearPairParameters {
   // [gear] (phase, xy) N: what a gear of a pair presses its bearing with; empty for a rigid one and of trains. The driver's centre is at the
   // origin, the driven gear's above it, the driver turns counter-clockwise.
   std::array<MatrixRM, 2> bearing_force;
-  // (phase, pair) Pa, m: of contacts that stay inside the flank, 0 elsewhere
+  // (phase, pair) Pa, m: of contacts that stay inside the flank, of helical gears in the inner 90 % of face and path; 0 elsewhere
   MatrixRM contact_pressure, contact_half_width;
   // [gear] (phase, pair) Pa: largest tangential stress along the root beside the loaded flank of each pair's tooth, tension
   // positive, under the loads of this mesh

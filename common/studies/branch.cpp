@@ -226,7 +226,7 @@ BranchResult pair_branch(const ReducedBody& driver, const ReducedBody& driven, c
 
 BranchResult system_branch(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
                            const BranchReport& report, const BranchPlan& plan) {
-  require_like_teeth(settings, bodies, "a branch of a system");
+  require_able("branches", traits(settings, bodies));
   require_relaxation_range(settings.damping, settings.fidelity.body, settings.frequency_to);
   LinesMotion motion(settings, bodies, steps_at(settings.time, settings.frequency_from));
   return followed(motion, motion.source(), speeds_of(settings), plan, report);

@@ -240,7 +240,7 @@ FoldCurvesResult fold_curves(const ReducedBody& driver, const ReducedBody& drive
                              const StaticParameters& statics, double torque, const SweepParameters& settings,
                              const FoldCurvesPlan& given, const FoldReport& report) {
   require_ascending(given);
-  require_like_teeth(statics.mesh, driver.design, driven.design, "a fold curve");
+  require_able("fold-curves", traits(statics.mesh, driver.design, driven.design));
   FoldCurvesPlan plan = given;
   if (plan.quantity == FoldQuantity::torque) torque = plan.first;
   const std::unique_ptr<FoldScene> scene = fold_scene(driver, driven, statics, torque, settings, plan);
@@ -259,7 +259,7 @@ FoldCurvesResult fold_curves(const ReducedBody& driver, const ReducedBody& drive
 FoldCurvesResult fold_curves(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
                              const FoldCurvesPlan& given, const FoldReport& report) {
   require_ascending(given);
-  require_like_teeth(settings, bodies, "a fold curve of a system");
+  require_able("fold-curves", traits(settings, bodies));
   FoldCurvesPlan plan = given;
   FoldCurvesResult a;
   const std::unique_ptr<FoldScene> scene = fold_scene(settings, bodies, plan, a);

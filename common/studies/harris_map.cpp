@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "contact/load_path.h"
+#include "model/capabilities.h"
 #include "signal/spectrum.h"
 #include "studies/sweep.h"
 #include "system/rolling_mesh.h"
@@ -380,10 +381,7 @@ HarrisMapResult harris_map(const ReducedBody& driver, const ReducedBody& driven,
                            const StaticParameters& statics, const HarrisPlan& plan,
                            const std::function<void(long, long, const std::string&)>& report) {
   require_plan(plan);
-  require_like_teeth(statics.mesh, driver.design, driven.design, "a Harris map");
-  require_rigid_bearings(statics.mesh, "a Harris map");
-  require_no_friction(statics.mesh, "a Harris map");
-  require_external(statics.mesh, driver.design, driven.design, "a Harris map");
+  require_able("harris-map", traits(statics.mesh, driver.design, driven.design));
   HarrisMapResult map = blank_map(driver, driven, statics, plan);
   const GearMeshModel model(driver, driven, map.mesh);
   MapOfStarts starts(map, model, plan);

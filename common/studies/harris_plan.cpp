@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "gear/pair.h"
+#include "model/capabilities.h"
 #include "system/statics.h"
 
 namespace whine {
@@ -72,7 +73,7 @@ std::vector<double> lengths_of(const std::vector<double>& starts, const GearDesi
 std::vector<double> relief_lengths(const std::vector<double>& starts, const std::vector<double>& millimetres,
                                    const ReducedBody& first, const ReducedBody& second,
                                    const GearMeshSpec& mesh, Relieved relieved) {
-  require_external(mesh, first.design, second.design, "a Harris map");
+  require_able("harris-map", traits(mesh, first.design, second.design));
   if (!starts.empty()) return lengths_of(starts, first.design, second.design, relieved);
   if (millimetres.empty()) return {default_relief_length(first, second, mesh)};
   std::vector<double> lengths;

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "dynamics/impact.h"
 #include "gear/pair.h"
+#include "model/capabilities.h"
 #include "signal/spectrum.h"
 #include "studies/sweep.h"
 #include "system/statics.h"
@@ -42,7 +43,7 @@ JumpMapResult jump_map(const ReducedBody& driver, const ReducedBody& driven, con
       if (!(value > 0 && value < 1))
         fail(Failure::input, what, " of ", value, "; it must be above 0 and below 1");
 
-  require_like_teeth(statics.mesh, driver.design, driven.design, "a map of jumps");
+  require_able("jump-map", traits(statics.mesh, driver.design, driven.design));
   const StaticResult rest = static_transmission(driver, driven, statics, torque);
   const double bearing_stiffness =
       torque == settings.reference_torque

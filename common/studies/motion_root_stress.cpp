@@ -48,7 +48,8 @@ void add_side(MotionRootStress& roots, int side, Index m, Index speed, SweepResu
 
 MotionRootStress::MotionRootStress(const SystemModel& system, Index mesh, int samples)
     : instant_(instants(system, mesh, samples)),
-      roots_(system.mesh[static_cast<size_t>(mesh)], phases(instant_)) {}
+      roots_(system.mesh[static_cast<size_t>(mesh)], phases(instant_)),
+      known_(system.face.empty() && roots_.known()) {}
 
 RootStress MotionRootStress::largest(int side, Index sample, const Eigen::VectorXi& numbers,
                                      const Eigen::Ref<const Eigen::VectorXd>& load) {

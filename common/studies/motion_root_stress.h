@@ -14,8 +14,8 @@ class MotionRootStress {
  public:
   // system is kept by reference. samples: of a mesh period, sample 0 at its start.
   MotionRootStress(const SystemModel& system, Eigen::Index mesh, int samples);
-  // False for bodies without tables; then nothing else may be asked.
-  bool known() const { return roots_.known(); }
+  // False for bodies without tables and for slices, whose load is not even over the face; then nothing else may be asked.
+  bool known() const { return known_; }
   // Mesh periods by which the mesh is ahead at a sample: a pair is number i + ahead in it that is i in the period of the system.
   int ahead(Eigen::Index sample) const { return instant_[at(sample)].period; }
   // Pa: largest of the teeth of a side that carry load, at a sample that counts on from mesh period 0. load: (pair) N of the pairs `numbers`
@@ -31,6 +31,7 @@ class MotionRootStress {
   size_t at(Eigen::Index sample) const { return static_cast<size_t>(sample) % instant_.size(); }
   std::vector<MeshInstant> instant_;  // [sample]
   RootStresses roots_;
+  bool known_;
 };
 
 // Fills root_stress, root_stress_angle and root_stress_phase from /tooth_load, at the samples that are stored. They stay empty where no

@@ -84,7 +84,7 @@ ImpactResult system_impact(const SystemSweepParameters& settings, const std::vec
     fail(Failure::input, "a ring-down of ", plan.modes, " modes at ", plan.phases,
          " phases with an impulse of ", plan.impulse,
          "; give at least one mode and phase, and an impulse in (0, 0.1]");
-  require_like_teeth(settings, bodies, "a ring-down of a system");
+  require_able("impact", traits(settings, bodies));
   LinesMotion rig(settings, bodies, plan.phases);
   SystemDynamics& dynamics = rig.dynamics();
   ImpactResult out;

@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "gear/face_width.h"
 #include "gear/helix.h"
+#include "model/capabilities.h"
 #include "solid/elements.h"
 
 namespace whine {
@@ -62,34 +63,21 @@ GearMeshSpec even(GearMeshSpec mesh) {
 
 namespace {
 
-// What bodies in three dimensions need.
-void require_width(const GearMeshSpec& mesh, size_t g, const ReducedBody& body) {
-  const std::string of = text("width = \"body\" and [gear.", mesh.gear[g], "] ");
-  if (body.material.plane_stress)
-    fail(
-        Failure::input, of,
-        "is of a [material] with plane = \"stress\": what the third dimension adds counts from plane strain; write plane = \"strain\"");
-  if (body.width.flexibility.empty())
-    fail(
-        Failure::input, of,
-        "has a plane body: gear-reduce adds the third dimension by the polynomials of width_degree in [discretisation]; write it, or leave it to width = \"body\" in the scene");
-}
-
 const GearMeshSpec& taken(const GearMeshSpec& mesh, WidthModel width, const ReducedBody& driver,
                           const ReducedBody& driven) {
-  const std::string level = text("contact over the face (width = \"", width, "\")");
-  require_no_friction(mesh, level);
-  require_like_teeth(mesh, driver.design, driven.design, level);
-  if (width == WidthModel::body) require_external(mesh, driver.design, driven.design, level);
+  Traits of = traits(mesh, driver.design, driven.design, width);
   const ReducedBody* const bodies[] = {&driver, &driven};
-  for (size_t g = 0; g < kSides; ++g) {
-    const ReducedBody& body = *bodies[g];
-    if (width == WidthModel::body) require_width(mesh, g, body);
-    if (body.design.helical() && body.material.plane_stress)
+  for (size_t g = 0; g < kSides; ++g)
+    if (bodies[g]->material.plane_stress && (width == WidthModel::body || bodies[g]->design.helical()))
+      of.emplace_back(Trait::plane_stress, text("[gear.", mesh.gear[g], "], plane = \"stress\""));
+  require_able("width", of);
+  if (width != WidthModel::body) return mesh;
+  require_able("width-body", of);
+  for (size_t g = 0; g < kSides; ++g)
+    if (bodies[g]->width.flexibility.empty())
       fail(
-          Failure::input, "[gear.", mesh.gear[g],
-          "] is helical, and its [material] has plane = \"stress\": the sections of a helical gear hold each other, write plane = \"strain\"");
-  }
+          Failure::input, "width = \"body\" and [gear.", mesh.gear[g],
+          "] has a plane body: gear-reduce adds the third dimension by the polynomials of width_degree in [discretisation]; write it, or leave it to width = \"body\" in the scene");
   return mesh;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "model/capabilities.h"
 
 namespace whine {
 
@@ -111,8 +112,7 @@ SystemModel sliced_system(const System& layout, const std::vector<ReducedBody>& 
                           const std::vector<GearMeshSpec>& specs, const std::vector<int>& section,
                           WidthModel width, int points, double depth) {
   if (width == WidthModel::body && layout.meshes.size() != 1)
-    fail(Failure::input, "width = \"", width, "\" of ", layout.meshes.size(),
-         " meshes: bodies in three dimensions are of pairs; write width = \"slices\" in [fidelity]");
+    require_able("width", {{Trait::train_of_bodies, "[fidelity] has width = \"body\""}});
   const auto gear = [&](size_t m, size_t side) -> const ReducedBody& {
     return bodies[static_cast<size_t>(layout.meshes[m].side[side].body)];
   };

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "model/capabilities.h"
 #include "solid/loaded_gear.h"
 #include "system/loaded_view.h"
 
@@ -115,9 +116,7 @@ MatrixRM take_strips(const std::vector<const ContactZone*>& loaded, const GearPa
 LoadedResult loaded_pair(const SectorGrid& driver_mesh, const SectorGrid& driven_mesh,
                          const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
                          double phase, int period) {
-  require_rigid_bearings(statics.mesh, "the view of loaded gears");
-  require_no_friction(statics.mesh, "the view of loaded gears");
-  require_external(statics.mesh, statics.gear[0].design, statics.gear[1].design, "the view of loaded gears");
+  require_able("loaded", traits(statics.mesh, statics.gear[0].design, statics.gear[1].design));
   const std::vector<ContactZone> zones = contact_zones(driver, driven, statics, phase, period);
   const GearPair gears(statics);
   const SectorGrid* const mesh[2] = {&driver_mesh, &driven_mesh};

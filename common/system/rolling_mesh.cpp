@@ -11,6 +11,7 @@
 #include "contact/lanes.h"
 #include "gear/face_width.h"
 #include "gear/train.h"
+#include "model/capabilities.h"
 
 namespace whine {
 
@@ -47,7 +48,7 @@ GearMeshModel::GearMeshModel(const SideGears& gears, const GearMeshSpec& mesh, c
       bearing(mesh.bearing),
       friction(mesh.friction),
       layout(placed) {
-  require_one_slice(mesh, kinematics.gear(0).design(), kinematics.gear(1).design());
+  require_able("one-slice", traits(mesh, kinematics.gear(0).design(), kinematics.gear(1).design()));
 }
 
 Vec2 GearMeshModel::outward_in_system(int g, const PairContact& contact) const {

@@ -345,6 +345,15 @@ void SystemStatics::take_strips(SystemSolution& solution) const {
   }
 }
 
+// Pressures in the corners where a helical line comes in have no limit in a line model.
+bool SystemStatics::stated(const ContactSegment& segment) const {
+  const auto m = static_cast<size_t>(segment.mesh);
+  if (system_.face.empty() || system_.face[m]->gears().base_helix_angle() == 0) return true;
+  const FacePoints& points = position_->mesh[m].face->points;
+  const int q = segment.first_strip - position_->first_strip[m];
+  return system_.face[m]->inside(points.path[q], points.z[q]);
+}
+
 void SystemStatics::take_lines(SystemSolution& solution) const {
   const VectorXd& force = solution.equilibrium.p;
   for (size_t m = 0; m < position_->mesh.size(); ++m) {
@@ -359,7 +368,7 @@ void SystemStatics::take_lines(SystemSolution& solution) const {
         position_->mesh[mesh].law[static_cast<size_t>(strip - position_->first_strip[mesh])];
     const double width = law.width(force[strip]);
     ContactPatch patch;
-    if (force[strip] > 0 && !law.at_edge(force[strip]))
+    if (force[strip] > 0 && !law.at_edge(force[strip]) && stated(segment))
       patch = {4 * force[strip] / (std::numbers::pi * width * segment.width), 0.5 * width};
     solution.loads.push_back({segment.mesh, segment.pair, force[strip], patch});
   }

@@ -101,6 +101,7 @@ class SystemStatics {
   void take_position(double phase, int period);
   // Throws ModelRangeError for displacements that are not small against the teeth.
   void require_small(const SystemSolution& solution) const;
+  bool stated(const ContactSegment& segment) const;  // the pressure of a line's point
   // side: of mesh m with force at its root; -1: none.
   void note_root(SystemSolution& solution, size_t m, int side) const;
   void take_strips(SystemSolution& solution) const;

@@ -98,18 +98,18 @@ TEST_CASE("what helical scenes are refused with") {
 
 TEST_CASE("goals of make that a helical or misaligned scene does not reach are named") {
   const SceneFile file;
-  const SceneAbilities helical = abilities(file.read(helical_scene()));
+  const Traits helical = traits(file.read(helical_scene()));
   check_goals({"mesh", "reduce", "static", "report", "error-budget", "sweep", "face-load"}, helical,
               "x.toml");
   CHECK(names(message_of_input([&] { check_goals({"teeth"}, helical, "x.toml"); }),
               {"teeth", "[gear.pinion]", 12, "report", "face-load"}));
-  const SceneAbilities askew = abilities(
+  const Traits askew = traits(
       file.read(scene_with("centre_distance_mm = 150", "centre_distance_mm = 150\nmisalignment_um = 10")));
   check_goals({"report", "flank-load"}, askew, "x.toml");
   const std::string unmoved = message_of_input([&] { check_goals({"sweep"}, askew, "x.toml"); });
   CHECK(names(unmoved, {"sweep", "misalignment_um = 10", "width = \"slices\"", "static"}));
   CHECK(unmoved.find("face-load") == std::string::npos);
-  check_goals({"sweep"}, abilities(file.read(kScene)), "x.toml");
+  check_goals({"sweep"}, traits(file.read(kScene)), "x.toml");
 }
 
 TEST_CASE("sweeps take slices, a ring-down does not; of systems slices alone") {

@@ -209,7 +209,10 @@ TEST_CASE("axial forces are F_t tan(beta_b), balance over the train, and tilt th
     for (Index m = 0; m < 3; ++m) CHECK(a.load_share(i, m) == relative(1.0 / 3, 1e-9));
   }
   for (size_t m : {1, 2}) CHECK(a.mesh[m].face.load_factor == relative(a.mesh[0].face.load_factor, 1e-8));
-  for (const StaticResult& mesh : a.mesh) {
+  for (size_t m = 0; m < a.mesh.size(); ++m) {
+    const StaticResult& mesh = a.mesh[m];
+    CHECK((a.mesh_force.col(static_cast<Index>(m)) - mesh.tooth_load.rowwise().sum()).cwiseAbs().maxCoeff() <
+          1e-9 * force);
     CHECK(std::abs(mesh.face.axial_force) ==
           relative(sine * normal_force(mesh.gear[0].design, mesh.torque), 1e-12));
     for (Index i = 0; i < kPositions; ++i) {
@@ -370,6 +373,9 @@ TEST_CASE("a helical train at a slow speed is that at rest, its energy closes, a
     at_rest[i] = statics.solve(static_cast<double>(i) / kSteps, 0, VectorXd::Zero(6)).transmission_error[0];
   const VectorXd slow = a.period.transmission_error.row(0);
   CHECK((slow - at_rest).cwiseAbs().maxCoeff() < 0.05 * peak_to_peak(at_rest));
+  // Forces of both are along the normals.
+  CHECK(a.period.mesh_force.topRows(3).colwise().sum().mean() ==
+        relative(Train(design).at_rest().mesh_force.leftCols(3).rowwise().sum().mean(), 1e-3));
   a.state = {};
   Design left = design;
   left.of_sun = Hand::left;

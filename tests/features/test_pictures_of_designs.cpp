@@ -449,5 +449,14 @@ TEST_CASE("pictures of the load over the face: no text is cut or lies on other t
   settings.fidelity.width = WidthModel::slices;
   settings.mesh.misalignment = 15e-6;
   const ReducedBody& body = paper_body(40e-3, 1.2e-3, 1);
-  check(flank_load_figure(pair_at_rest(body, body, settings, 600)), "flank-load");
+  const SystemStaticResult pair = pair_at_rest(body, body, settings, 600);
+  check(flank_load_figure(pair), "flank-load");
+  // Told as a train with two [[mesh]]: a row each.
+  SystemStaticResult train = pair;
+  train.mesh.push_back(pair.mesh[0]);
+  train.mesh_names = {"sun-planet1", "planet1-ring"};
+  train.settings.section = {0, 1};
+  train.settings.layout.bodies.resize(3);
+  REQUIRE(train.of_train());
+  check(flank_load_figure(train), "flank-load");
 }

@@ -208,39 +208,62 @@ TEST_CASE("files of scenes, studies and models are there, can be read to the end
 }
 
 TEST_CASE("goals that a scene cannot reach name what there is of it") {
-  const auto said = [](const std::vector<std::string>& goals, const SceneAbilities& scene) {
+  const auto said = [](const std::vector<std::string>& goals, const Traits& scene) {
     return message_of_input([&] { check_goals(goals, scene, "my.toml"); });
   };
-  CHECK(said({"teeth", "report", "sweep"}, {}) == "");
-  CHECK(begins(said({"report", "modes"}, {}),
-               "modes: SCENE=my.toml is a pair, and natural modes are of systems"));
-  CHECK(begins(said({"teeth"}, {.teeth_differ = true}), "teeth: SCENE=my.toml has teeth that differ, "));
-  CHECK(names(said({"teeth"}, {.cracked = true}),
-              {"teeth that are cracked", "make SCENE=my.toml report", " crack residual-signal"}));
+  const auto refuses = [&](const std::string& goal, const Traits& scene, const std::string& why) {
+    return begins(said({"report", goal}, scene), "SCENE=my.toml: " + goal + " does not take " + why);
+  };
+  using enum Trait;
+  const Traits plain{{pair, ""}};
+  CHECK(said({"teeth", "report", "sweep"}, plain) == "");
+  CHECK(refuses("modes", plain, "a pair: natural modes are of systems"));
+  CHECK(refuses("flank-load", {{train, ""}}, "a system of several meshes, carriers or drives: one slice"));
+  CHECK(refuses("teeth", {{pair, ""}, {unlike_pair, "[gear.a.error]"}},
+                "a pair whose teeth differ or are cracked ([gear.a.error]): "));
+  CHECK(names(said({"teeth"}, {{pair, ""}, {unlike_pair, "[gear.a.crack]"}}),
+              {"cracked", "make SCENE=my.toml report", " crack residual-signal"}));
 
-  const SceneAbilities rigid{.pair = false}, elastic{.pair = false, .elastic = true},
-      train{.pair = false, .elastic = true, .planets = true, .moves = true};
+  const Traits rigid{{rigid_gears, ""}, {no_speeds, ""}, {no_planets, ""}},
+      elastic{{train, ""}, {no_speeds, ""}, {no_planets, ""}}, moving{{train, ""}};
   const std::vector<std::string> all{"report",      "mesh",     "reduce",     "static",       "sweep",
                                      "impact",      "branches", "order-cuts", "load-sharing", "modes",
                                      "mode-shapes", "runup",    "sound",      "harris-map",   "compare"};
-  CHECK(said(all, train) == "");
+  CHECK(said(all, moving) == "");
+  CHECK(said({"teeth"}, {{train, ""}, {differing, ""}}) == "");
   CHECK(said({"report", "modes", "mode-shapes"}, rigid) == "");
-  CHECK(begins(said({"load-sharing"}, rigid), "load-sharing: SCENE=my.toml is of rigid gears"));
-  CHECK(begins(said({"load-sharing"}, elastic), "load-sharing: SCENE=my.toml is without planets"));
+  CHECK(refuses("load-sharing", rigid, "rigid gears"));
+  CHECK(refuses("load-sharing", elastic, "a scene without planets"));
   CHECK(
       said({"modes", "static"}, rigid) ==
-      "static: SCENE=my.toml is of rigid gears, which have natural modes alone; for it there is: make SCENE=my.toml report, or of it modes mode-shapes");
+      "SCENE=my.toml: static does not take rigid gears: they have natural modes alone; write another body in [fidelity]; for it there is: make SCENE=my.toml report, or of it modes mode-shapes");
   for (const char* goal : {"sweep", "impact", "branches", "order-cuts"})
+    CHECK(refuses(goal, elastic, "a scene without speeds: "));
+  CHECK(refuses("compare", rigid, "rigid gears"));
+  for (const char* goal : {"histories", "fig05", "lumped", "error-budget", "no-such-goal"}) {
+    CHECK(refuses(goal, moving, "a system of several meshes, carriers or drives: "));
     CHECK(
-        begins(said({goal}, elastic),
-               std::string(goal) + ": SCENE=my.toml is without speeds, [operation] with mesh_frequency_Hz"));
-  CHECK(begins(said({"compare"}, rigid), "compare: SCENE=my.toml is of rigid gears"));
-  for (const char* goal : {"histories", "fig05", "lumped", "error-budget"}) {
-    CHECK(begins(said({"static", goal}, train),
-                 std::string(goal) + ": SCENE=my.toml is a system of several meshes, carriers or drives; "));
-    CHECK(
-        said({goal}, train)
+        said({goal}, moving)
             .ends_with(
                 "report, or of it mesh reduce static load-sharing sweep order-cuts sound runup branches multipliers fold-curves impact residual-signal teeth harris-map compare modes mode-shapes"));
   }
+}
+
+TEST_CASE(
+    "what goals and stages do not take: each says what, where, why and what instead; the table shows all of it") {
+  using enum Trait;
+  CHECK(refusal("loaded", {{pair, ""}}) == "");
+  const std::string words = refusal("loaded", {{pair, ""}, {friction, "[friction]"}});
+  CHECK(
+      words ==
+      "loaded does not take friction ([friction]): forces are along the normals alone; take the section out");
+  CHECK(message_of_input([] { require_able("loaded", {{friction, "[friction]"}}); }) == words);
+  CHECK(refusal("sweep", {{pair_of_bodies, ""}}).ends_with("write width = \"slices\" in [fidelity]"));
+  CHECK(refusal("static", {{pair_of_bodies, ""}, {bearings, ""}, {friction, ""}, {internal, ""}}) == "");
+  // One row for each reason; a cell is no longer than pages allow.
+  const std::string table = capability_table();
+  for (const char* row :
+       {"| rigid gears | all but `report`, `modes`, `mode-shapes` | they have natural modes alone | ",
+        "| friction | `width`, `harris-map`, `lumped`, `loaded` | "})
+    CHECK(table.find(row) != std::string::npos);
 }

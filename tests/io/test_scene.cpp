@@ -164,7 +164,7 @@ TEST_CASE("the default rack tip is cut to what fits, a given one is not, nor one
     const std::string path =
         file.path(scene_with("pressure_angle_deg = 20", "pressure_angle_deg = 25\n" + lines));
     return std::pair{read_scene(path).gears[gear].design.rack_tip_radius,
-                     gear_gives(path, gear ? "wheel" : "pinion", "rack_tip_radius")};
+                     scene_gives(path, gear ? "gear.wheel" : "gear.pinion", "rack_tip_radius")};
   };
   for (const size_t gear : {0, 1}) {
     CHECK(radius("", gear) == std::pair{0.317, false});

@@ -229,7 +229,7 @@ TEST_CASE("elastic systems: what their rest needs is checked with its line befor
         {"positions_deg", 0, "88.5714", 180, "268.5714"});
   // Of its motion, before minutes of work.
   check({{"[damping]", "[fidelity]\nbody = \"full\"\n[damping]"}}, "body = \"full\"",
-        {"quasi-static", "systems"});
+        {"quasi-static", "trains"});
   check({{"[damping]", "[fidelity]\nintegrator = \"newmark\"\n[damping]"}}, nullptr, {});
   // A ring may float.
   check({{"[[drive]]\ngear = \"ring\"",

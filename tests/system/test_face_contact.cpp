@@ -271,6 +271,19 @@ TEST_CASE("the elastic helical pair: convergence in the number of points") {
   }
 }
 
+TEST_CASE("pressures of a helical pair are of the inner 90 % of face and path, where they have a limit") {
+  const auto of = [](int points) {
+    return static_transmission(helical_body(Hand::right), helical_body(Hand::left),
+                               slices(64, points, kHelicalDistance), 150);
+  };
+  const StaticResult a = of(8);
+  // Hertz's law at the widest contact, whose line load is the largest.
+  const double cosine = std::cos(GearPair(a).base_helix_angle());
+  CHECK(a.flank_pressure.smooth ==
+        relative(2 * a.face.line_load_max * cosine / (std::numbers::pi * a.face.half_width_max), 0.05));
+  CHECK(a.flank_pressure.smooth == relative(of(16).flank_pressure.smooth, 0.01));
+}
+
 TEST_CASE("a small helix is the spur pair") {
   const auto error = [&](double beta) {
     StaticParameters settings = slices(8, 8, 0.150 / std::cos(beta * kOneDegreeOfFace));
