@@ -69,7 +69,7 @@ inline whine::SystemModel train(const std::array<int, 3>& teeth, int planets = 3
   }
   std::vector<GearMeshSpec> specs;
   for (const System::Mesh& mesh : layout.meshes)
-    specs.push_back(scene.meshes[mesh.side[0].body == 0 || mesh.side[1].body == 0 ? 0 : 1].spec);
+    specs.push_back(scene.meshes[mesh.side[0].body == layout.meshes[0].side[0].body ? 0 : 1].spec);
   return {layout, bodies, specs};
 }
 

@@ -321,7 +321,9 @@ rm -f calls; make_ SCENE=elsewhere/own.toml teeth
 [ "$(drawn)" = "$(printf 'out/own/report/%s ' flank-pressure load-sharing root-stress tooth-loads)" ] && [ -e out/own/teeth/index.html ] && ok "make teeth draws what a tooth suffers, on a page" ||
   wrong "make teeth draws what a tooth suffers, on a page" "$(drawn) $(tail -n 1 "$log")"
 plans "with the branch: one orbit, one figure and the page" "gear-orbit*1 gear-plot*1 gear-report*1" SCENE=elsewhere/own.toml BRANCHES=yes teeth
-plans "losses by friction are drawn from statics and both sweeps at each torque" "gear-plot*1" SCENE=elsewhere/own.toml efficiency
+{ cat elsewhere/own.toml; printf '[friction]\ncoefficient = 0.05\n'; } > elsewhere/slides.toml
+plans "losses by friction are drawn from statics and both sweeps at each torque" "gear-plot*1 gear-spectra*2 gear-static*1 gear-sweep*2" SCENE=elsewhere/slides.toml efficiency
+refuses "losses without friction are rejected before anything is computed" 'efficiency friction' SCENE=elsewhere/own.toml efficiency
 plans "a map of SCENE is at its own torques" "gear-folds*1 gear-jump-map*3 gear-lumped*8 gear-plot*2" SCENE=elsewhere/own.toml jump-map
 sed -i -E 's/^torque_Nm = .*/torque_Nm = [600, 90, 80]/' elsewhere/own.toml
 make_ -n SCENE=elsewhere/own.toml fig05 fig12

@@ -233,7 +233,8 @@ for part in Makefile .clang-tidy common tools pipelines tests; do ln -s "$top/$p
 cp -a data "$work/tree"
 for part in bin id; do ln -s "$top/$B/$part" "$work/tree/$B/$part"; done
 cp -p "$B/settings" "$work/tree/$B"
-for name in my-pair mass x path/to/x path/to/pair path/to/scene; do cp data/scenes/first-pair.toml "$work/tree/$name.toml"; done
+for name in my-pair mass x path/to/x path/to/pair path/to/scene; do { cat data/scenes/first-pair.toml; printf '[friction]\ncoefficient = 0.05\n'; } > "$work/tree/$name.toml"; done
+cp data/scenes/helical-17-67.toml "$work/tree/my-helical.toml"
 sed 's|\.\./scenes|../../data/scenes|' data/studies/tolerances.toml > "$work/tree/path/to/it.toml"
 cp data/studies/tolerances.toml "$work/tree/data/studies/big.toml"
 compiler=$(sed 's/ .*//' "$B/settings")

@@ -264,9 +264,6 @@ bool SystemDynamics::record(const Position& position, int sample, Period& period
       torque[carrier] += (contact.carrier_lever + friction * contact.carrier_slide) *
                          radius_[static_cast<size_t>(carrier)] * p;
   }
-  // Contact normals of slices do not lie in the transverse section, in which torques act.
-  for (size_t m = 0; m < system_.face.size(); ++m)
-    period.mesh_force(static_cast<Index>(m), sample) /= system_.face[m]->cosine();
   if (slides() && motion_.output >= 0)  // torques of the drives alone are in balance
     period.drift -= motion_.loss.dot(friction_) / radius_[static_cast<size_t>(motion_.output)] *
                     coordinates_.rolling.row(motion_.output).transpose();

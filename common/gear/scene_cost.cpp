@@ -164,7 +164,7 @@ std::vector<StageCost> costs_of_stages(const AnyScene& scene) {
   add_reductions(scene, out);
   const Work work = work_of(scene);
   out.push_back(statics_of(work));
-  if (work.speeds() > 0) out.push_back(sweep_of(work));
+  if (work.speeds() > 0 && work.fidelity.width != WidthModel::body) out.push_back(sweep_of(work));
   return out;
 }
 

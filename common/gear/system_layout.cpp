@@ -5,6 +5,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/format.h"
 #include "base/units.h"
 #include "gear/remedy.h"
 
@@ -264,8 +265,8 @@ class Layout {
       const double room = 2 * radius * std::sin(std::min(apart, 2 * kPi - apart) / 2);
       if (room <= 2 * tip)
         reject("carrier", c, "planets ", n + 1, " and ", (n + 1) % at.size() + 1, " of carrier '",
-               carrier.name, "' run into each other: their axes are ", room * 1e3,
-               " mm apart, their tip diameter is ", 2 * tip * 1e3, " mm; take fewer planets");
+               carrier.name, "' run into each other: their axes are ", millimetres(room),
+               " apart, their tip diameter is ", millimetres(2 * tip), "; take fewer planets");
     }
   }
 

@@ -9,11 +9,21 @@ namespace whine {
 Traits traits(const Scene& scene) {
   Traits out = traits(scene.mesh, scene.gear(scene.mesh.gear[0]).design,
                       scene.gear(scene.mesh.gear[1]).design, scene.fidelity.width);
-  if (has(out, Trait::cracked)) out.emplace_back(Trait::unlike_pair, "");
+  const auto lacks = [&](bool trait, Trait without) {
+    if (!trait) out.emplace_back(without, "");
+  };
+  const bool cracked = has(out, Trait::cracked);
+  lacks(!has(out, Trait::pair), Trait::one_slice);
+  lacks(has(out, Trait::friction), Trait::no_friction);
+  lacks(has(out, Trait::bearings), Trait::no_bearings);
+  if (cracked) out.emplace_back(Trait::unlike_pair, "");
   for (const std::string& gear : scene.mesh.gear)
     if (!scene.gear(gear).errors.none())
       for (const Trait own : {Trait::unlike_pair, Trait::differing})
         out.emplace_back(own, "[gear." + gear + ".error]");
+  lacks(cracked, Trait::no_crack);
+  lacks(has(out, Trait::differing), Trait::no_errors);
+  lacks(cracked || has(out, Trait::differing), Trait::like_teeth);
   return out;
 }
 
@@ -31,6 +41,8 @@ Traits traits(const SystemScene& scene, const System& layout) {
     if (!gear.errors.none()) out.emplace_back(Trait::differing, "[gear." + gear.name + ".error]");
     if (gear.design.crack.depth > 0) out.emplace_back(Trait::cracked, "[gear." + gear.name + ".crack]");
   }
+  if (!slices) out.emplace_back(Trait::one_slice, "");
+  if (!has(out, Trait::differing) && !has(out, Trait::cracked)) out.emplace_back(Trait::like_teeth, "");
   return out;
 }
 

@@ -21,8 +21,8 @@ std::string name_in(const Key& key, Dialect dialect) {
 }
 
 std::string unit_of(const Key& key) {
-  const std::string suffix(key.unit.suffix);
-  return suffix.empty() ? "" : " " + suffix.substr(1);
+  const std::string unit = in_words(key.unit);
+  return unit.empty() ? "" : " " + unit;
 }
 
 }  // namespace
@@ -165,6 +165,8 @@ void SectionReader::reject_unknown(const std::vector<std::string>& others) const
     if (const toml::table* section = node.as_table();
         top && section && (section->contains("teeth") || section->contains("like")))
       advice = text("; a gear is [gear.", word, "]");
+    else if (const std::string near = top && is_section ? nearest(word, others) : ""; !near.empty())
+      advice = text("; did you mean '", near, "'?");
     source_.reject_line(name.source().begin.line, "unknown ", top && is_section ? "section" : "key", " '",
                         word, "'", top ? "" : text(" in [", label_, "]"), advice);
   }

@@ -39,7 +39,7 @@ struct VariedKey {
   bool number = true;              // else a word, a truth value or a list
   bool whole = false;              // a number without a fraction
   std::string units, meaning;      // of scene_keys(): SI, one line
-  std::string label, scene_units;  // "pinion, tip relief", "um"
+  std::string label, scene_units;  // "pinion, tip relief", "µm"
   double to_si_multiply = 1, to_si_divide = 1;
   std::vector<std::string> values;  // as a scene has them; empty: drawn by the next
   bool normal = false;              // else uniform

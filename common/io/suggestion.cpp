@@ -154,9 +154,10 @@ const Key* key_called(const std::string& name) {
 
 std::string section_words(const Key& key) {
   const std::string section(key.section);
-  return heading_of(key) + (section == "train_mesh"   ? " of a system"
-                            : section == "rigid_gear" ? " of a system with body = \"rigid\""
-                                                      : "");
+  return (section.empty() ? "the top of the file, above all sections" : heading_of(key)) +
+         (section == "train_mesh"   ? " of a system"
+          : section == "rigid_gear" ? " of a system with body = \"rigid\""
+                                    : "");
 }
 
 // "2,5": "2.5"; "" if the word is not a number with a decimal comma.
@@ -196,11 +197,15 @@ std::string advice_on_key(const std::string& word, const std::string& section,
   const Synonym* synonym = synonym_of(word);
   const Key* const meant = synonym ? key_called(synonym->key) : nullptr;
   // What another section calls by this word may have another name here: the inertia of a carrier and that of a gear.
-  if (!meant || meant->section != section)
-    for (const Key& key : scene_keys())
-      if (word == key.name) return text("; it belongs into ", section_words(key));
+  constexpr std::ptrdiff_t kNear = 2;
   std::ptrdiff_t here = 0, anywhere = 0;
   const std::string near = nearest_within(word, known, here);
+  if (!meant || meant->section != section)
+    for (const Key& key : scene_keys())
+      if (word == key.name)
+        return here <= kNear
+                   ? text("; did you mean '", near, "'? '", word, "' belongs into ", section_words(key))
+                   : text("; it belongs into ", section_words(key));
   if (synonym) {
     const Key* key = meant;
     if (!key) return text(": ", synonym->note);
@@ -235,7 +240,7 @@ std::string number_advice(const std::string& word) {
   return text("; write ", number, point.empty() ? "" : ", with a decimal point and", " without quotes");
 }
 
-std::string decimal_comma_advice(const std::string& line) {
+std::string value_advice(const std::string& line) {
   char quote = 0;
   int depth = 0;  // within brackets a comma parts two numbers
   for (std::size_t i = 0; i < line.size(); ++i) {
@@ -255,6 +260,8 @@ std::string decimal_comma_advice(const std::string& line) {
       if (word.ends_with(',')) word.pop_back();  // in { from = 600,5, to = 700 }
       if (const std::string point = without_decimal_comma(word); !point.empty())
         return text("; numbers have a decimal point: ", point, ", not ", word);
+      if (std::isalpha(static_cast<unsigned char>(word[0])) && word != "true" && word != "false")
+        return text("; text stands in quotes: \"", word, "\"");
     }
   }
   return "";

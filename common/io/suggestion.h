@@ -29,7 +29,7 @@ std::string renamed(const std::string& word);
 // Behind "must be a number" of a text in quotes, "; write 2.5 without quotes": "" if it holds no number.
 std::string number_advice(const std::string& word);
 
-// Of a line that is no TOML: "; numbers have a decimal point: 2.5, not 2,5", "" if it has no decimal comma.
-std::string decimal_comma_advice(const std::string& line);
+// Of a line that is no TOML: "; numbers have a decimal point: 2.5, not 2,5", "; text stands in quotes: \"steel\"", "" of others.
+std::string value_advice(const std::string& line);
 
 }  // namespace whine

@@ -94,7 +94,7 @@ toml::table parse_toml(const std::string& bytes, std::size_t most) {
   try {
     return toml::parse(std::string_view(bytes));
   } catch (const toml::parse_error& error) {
-    const std::string advice = decimal_comma_advice(nth_line(bytes, error.source().begin.line));
+    const std::string advice = value_advice(nth_line(bytes, error.source().begin.line));
     if (advice.empty()) throw;
     throw toml::parse_error((std::string(error.description()) + advice).c_str(), error.source().begin);
   }

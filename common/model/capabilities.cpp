@@ -24,7 +24,7 @@ constexpr const char
 constexpr std::string_view kGoals =
     "report mesh reduce static flank-load fig01 fig12 fig13 profile-chart error-budget load-sharing sweep "
     "face-load fig05 fig07 fig14-elastic tooth-loads order-cuts waterfall histories sound runup branches "
-    "fig05-branches fig07-branches multipliers fold-curves impact sidebands crack residual-signal teeth "
+    "fig05-branches fig07-branches multipliers fold-curves impact sidebands crack residual-signal efficiency bearing-forces teeth "
     "harris-map jump-map lumped loaded animation compare modes mode-shapes";
 constexpr std::string_view kStages = "other one-slice motion width width-body";
 
@@ -42,18 +42,23 @@ const std::vector<Row>& rows() {
        "natural modes are of systems, a ring-down finds the one of a mesh"},
       {"mesh reduce static flank-load fig01 fig12 fig13 profile-chart error-budget load-sharing sweep "
        "face-load fig05 fig07 fig14-elastic tooth-loads order-cuts waterfall histories sound runup branches "
-       "fig05-branches fig07-branches multipliers fold-curves impact sidebands crack residual-signal teeth "
-       "harris-map jump-map lumped loaded animation compare motion other",
+       "fig05-branches fig07-branches multipliers fold-curves impact sidebands crack residual-signal efficiency "
+       "bearing-forces teeth harris-map jump-map lumped loaded animation compare motion other",
        {rigid_gears},
        "they have natural modes alone"},
-      {"flank-load", {train}, "one slice carries the same load all over the face"},
-      {"fig01 fig12 fig13 profile-chart error-budget sidebands crack loaded other",
+      {"fig01 fig12 fig13 profile-chart error-budget sidebands crack efficiency bearing-forces loaded other",
        {train, train_in_slices},
        "its axes are those of a pair"},
       {"face-load fig05 fig07 fig14-elastic tooth-loads waterfall histories fig05-branches fig07-branches "
        "jump-map lumped animation",
        {train, train_in_slices},
        "its axes are those of a pair"},
+      {"flank-load face-load", {one_slice}, "it carries the same load all over the face"},
+      {"efficiency", {no_friction}, "it loses nothing"},
+      {"bearing-forces", {no_bearings}, "nothing gives way"},
+      {"sidebands", {no_errors}, "all mesh periods are alike"},
+      {"crack", {no_crack}, "it has nothing to show"},
+      {"residual-signal", {like_teeth}, "all mesh periods are alike"},
       {"load-sharing", {no_planets}, "one mesh shares its load with none"},
       {"sweep order-cuts sound runup branches multipliers fold-curves impact residual-signal",
        {no_speeds},
@@ -65,7 +70,8 @@ const std::vector<Row>& rows() {
        {pair_of_bodies},
        "what sections of a body hold each other by has no inertia yet"},
       {"width", {train_of_bodies}, "they are of one mesh alone"},
-      {"impact sidebands crack residual-signal harris-map jump-map lumped loaded animation one-slice other",
+      {"impact sidebands crack residual-signal efficiency bearing-forces harris-map jump-map lumped loaded animation "
+       "one-slice other",
        {pair_in_slices, pair_of_bodies},
        "it is of spur gears under even load"},
       {"harris-map", {train_in_slices}, "it is of spur gears under even load"},
@@ -106,6 +112,13 @@ const TraitWords& words_of(Trait trait) {
       TraitWords{train_of_bodies, "a train of bodies in three dimensions", kSlices},
       TraitWords{rigid_gears, "rigid gears", "write another body in [fidelity]"},
       TraitWords{no_speeds, "a scene without speeds", "write [operation]"},
+      TraitWords{one_slice, "one slice over the face", kSlices},
+      TraitWords{no_friction, "a scene without friction", "write [friction] with a coefficient"},
+      TraitWords{no_bearings, "a scene without elastic bearings", "write a [[bearing]]"},
+      TraitWords{no_errors, "teeth without errors", "write a [gear.<name>.error]"},
+      TraitWords{no_crack, "teeth without a crack", "write a [gear.<name>.crack]"},
+      TraitWords{like_teeth, "teeth that are all alike",
+                 "write a [gear.<name>.error] or a [gear.<name>.crack]"},
       TraitWords{no_planets, "a scene without planets", "take one with a [[carrier]]"},
       TraitWords{unlike_pair, "a pair whose teeth differ or are cracked", kTakeOut},
       TraitWords{differing, "teeth that differ",

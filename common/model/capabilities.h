@@ -18,8 +18,14 @@ enum class Trait {
   pair_of_bodies,  // in three dimensions
   train_of_bodies,
   rigid_gears,
+  one_slice,
   no_speeds,
   no_planets,
+  no_friction,
+  no_bearings,
+  no_errors,
+  no_crack,
+  like_teeth,
   unlike_pair,  // of which some teeth differ or are cracked
   differing,
   cracked,

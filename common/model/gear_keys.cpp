@@ -34,7 +34,7 @@ KeyList keys(GearDesign& d, GearWords* words) {
   k.add(&d.face_width, "face_width_mm", kMillimetre, nullptr, {0.05, 5000, false, "0.025 would be 25 mm in metres"}, "face width");
   k.add(&d.bore_radius, "bore_radius_mm", kMillimetre, nullptr, {0, 1e5, true}, "not of an internal gear: radius inside which the gear is as good as rigid: its shaft, hub or web. The body between it and the root circle twists, which all pairs in mesh share: often a fifth of the compliance, with a shaft's radius up to half").unless = &d.internal;
   k.begin_group(d.helical());
-  k.add(&d.helix_angle, "helix_angle_deg", kDegree, "0.0", {0, 45}, "helix angle at the reference circle; 0: a spur gear. Of a helical gear module, pressure angle, profile shift, addendum, dedendum and rack tip radius are those of the normal section, as on drawings; tooth_thinning_mm is along the reference circle");
+  k.add(&d.helix_angle, "helix_angle_deg", kDegree, "0.0", {0, 45, false, "which way the teeth lean says hand, \"right\" or \"left\""}, "helix angle at the reference circle; 0: a spur gear. Of a helical gear module, pressure angle, profile shift, addendum, dedendum and rack tip radius are those of the normal section, as on drawings; tooth_thinning_mm is along the reference circle");
   k.choice(d.hand, "hand", "right", "of the helix: gears in mesh have opposite hands, an internal gear that of its pinion");
   k.begin_group(d.internal, "_rim");
   k.add(&d.internal, "internal", kNone, "false", {}, "true: teeth on the inside of a ring, which meshes with an external gear of fewer teeth");

@@ -47,6 +47,8 @@ struct Unit {
   const char* si;      // UDUNITS form
   double multiply = 1, divide = 1;
 };
+// "N/µm" of "_N_um": as messages and figures say it; "" of numbers without unit.
+std::string in_words(const Unit& unit);
 
 // Range in the scene's unit; of a range of speeds: of its two ends. None if `most` is not above `least`.
 struct Limits {

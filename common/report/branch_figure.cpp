@@ -131,10 +131,14 @@ Figure branch_figure(const BranchResult& b, const std::vector<ResponseResult>& s
                               " unstable, ", b.fold_frequency.size(), " folds, ", b.flip_frequency.size(),
                               " period doublings, ", b.torus_frequency.size(), " tori; body \"",
                               b.fidelity_used().body, "\", contact \"", b.fidelity_used().contact, "\""));
-  for (Index i = 0; i < std::min<Index>(b.fold_frequency.size(), 6); ++i)
+  constexpr Index kShownFolds = 6;
+  for (Index i = 0; i < std::min<Index>(b.fold_frequency.size(), kShownFolds); ++i)
     figure.notes.push_back(text("fold at ",
                                 jump_words(b.fold_frequency.segment(i, 1), b.fold_width.segment(i, 1)), ", ",
                                 b.fold_smooth[i] ? "smooth" : "at a kink"));
+  if (const Index more = b.fold_frequency.size() - kShownFolds; more > 0)
+    figure.notes.push_back(text(more, more == 1 ? " more fold stands" : " more folds stand",
+                                " in /fold_frequency of branch.h5"));
   if (b.mesh_names.size() > meshes)
     figure.notes.push_back(text("the first ", meshes, " of ", b.mesh_names.size(), " meshes"));
   figure.panels = {vibration_panel(b, figure.blocks, meshes), multiplier_panel(figure.blocks)};

@@ -13,6 +13,7 @@
 #include "report/report_remarks.h"
 #include "report/report_results.h"
 #include "report/report_tables.h"
+#include "report/result_groups.h"
 
 namespace whine {
 namespace {
@@ -32,7 +33,9 @@ void add_changes(Difference& row) {
   for (size_t d = 1; d < row.value.size(); ++d) {
     const bool both = number && is_number(row.value[d], other);
     const double change = both ? (other / first - 1) * kPercent : 0;
-    row.change.push_back(both && row.unit != "%" ? (change > 0 ? "+" : "") + fixed(change, 1) : "");
+    row.change.push_back(both && row.unit != "%" && !row.unit.starts_with("dB")
+                             ? (change > 0 ? "+" : "") + fixed(change, 1)
+                             : "");
   }
 }
 
@@ -90,6 +93,11 @@ ReportContent by_role(ReportContent c) {
   for (ImpactResult& a : c.impacts) rename(a);
   for (ResponseResult& sweep : c.sweeps) rename(sweep);
   return c;
+}
+
+// No property of a design: how many mesh periods were run, what of the energy rounding leaves.
+bool is_of_computation(const ReportNumber& n) {
+  return n.group == groups::kSweeps;
 }
 
 // Of a number of a report.
@@ -162,7 +170,7 @@ std::vector<Difference> train_differences(const std::vector<Design>& designs) {
   for (size_t d = 0; d < designs.size(); ++d) {
     const ReportContent& c = designs[d].content;
     for (const ReportNumber& n : report_numbers(c)) {
-      if (n.torque != torque_of(c.statics[0])) continue;
+      if (n.torque != torque_of(c.statics[0]) || is_of_computation(n)) continue;
       const bool everywhere = !c.of_train() && n.of == ReportNumber::Of::mesh;
       for (const std::string& part : everywhere ? meshes : std::vector{n.part})
         rows.put(d, part, n.quantity, n.unit, n.value + (n.remark == kBeyond ? kStar : ""));
@@ -210,7 +218,7 @@ std::vector<Difference> differences(const std::vector<Design>& designs) {
     for (const GeometryNumber& g : geometry_numbers(content))
       if (is_number(g.value, number)) rows.put(d, "", with_part(g), g.unit, g.value);
     for (const ReportNumber& n : report_numbers(content))
-      if (std::find(torques.begin(), torques.end(), n.torque) != torques.end())
+      if (std::find(torques.begin(), torques.end(), n.torque) != torques.end() && !is_of_computation(n))
         rows.put(d, shown(n.torque, 6), with_part(n), n.unit, n.value + (n.remark == kBeyond ? kStar : ""));
   }
   std::vector<Difference> out = rows.differing();

@@ -13,7 +13,6 @@
 namespace whine {
 namespace {
 
-constexpr int kOrders = 3;          // of the mesh frequency, which excite most
 constexpr double kLossLimit = 1.7;  // swing of the stiffness over damping ratio above which contact is lost
 constexpr size_t kMostNatural = 3;  // that are named
 
@@ -58,10 +57,17 @@ std::string critical_speed_line(const CriticalSpeeds& c) {
   for (const CriticalSpeeds::Natural& natural : c.natural) {
     std::vector<std::string> orders;
     for (int order = 1; order <= kOrders; ++order)
-      if (const double f = natural.frequency / order; within(f, c.speeds))
+      if (const double f = natural.frequency / order;
+          natural.excited[static_cast<size_t>(order - 1)] && within(f, c.speeds))
         orders.push_back(text("order ", order, " at ", speed_words(c.member, f)));
+    // The largest vibration may stand where no speed is computed.
+    const std::string outside =
+        natural.excited[0] && !within(natural.frequency, c.speeds)
+            ? text(", and by order 1 outside the speeds, at ", speed_words(c.member, natural.frequency))
+            : "";
     if (!orders.empty() && met.size() < kMostNatural)
-      met.push_back(text(natural.name, " (", natural_words(natural), ") is met by ", listed(orders)));
+      met.push_back(
+          text(natural.name, " (", natural_words(natural), ") is met by ", listed(orders), outside));
   }
   const std::string of = c.member.turns > 0 ? " Speeds are those of " + c.member.name + "." : "";
   std::string out;

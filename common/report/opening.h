@@ -1,6 +1,7 @@
 // What a report says first: five sentences with the numbers that a designer acts on. Each is made of numbers that artifacts hold; nothing
 // is computed here. Lengths in m, forces in N, speeds as mesh frequencies in Hz.
 #pragma once
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -22,18 +23,21 @@ struct MeshExcitation {
 // How much the transmission error swings. load: "150 N m".
 std::string excitation_line(const std::string& load, const std::vector<MeshExcitation>& meshes);
 
+inline constexpr int kOrders = 3;  // of the mesh frequency, which excite most
 struct CriticalSpeeds {
   struct Natural {
     double frequency = 0;
-    std::string name;   // "the natural frequency", "mode 5 (rotational)"
-    double error = -1;  // Hz; below 0: not known
+    std::string name;                                     // "the natural frequency", "mode 5 (rotational)"
+    double error = -1;                                    // Hz; below 0: not known
+    std::array<bool, kOrders> excited{true, true, true};  // by order 1, 2, 3
   };
   TurningMember member;
   std::optional<SpeedRange> speeds;  // those that are computed; none: gears at rest alone
   std::vector<Natural> natural;      // the most important one first
   std::vector<double> peaks;         // speeds at which the computed vibration has a peak
 };
-// Where the orders 1 to 3 of the mesh frequency meet natural frequencies, and where the vibration peaks.
+// Where the orders 1 to 3 of the mesh frequency meet natural frequencies that they excite, order 1 outside of the speeds, too, and
+// where the vibration peaks.
 std::string critical_speed_line(const CriticalSpeeds& critical);
 
 struct Parting {

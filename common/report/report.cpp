@@ -97,7 +97,10 @@ std::string introduction(const ReportContent& c) {
                 ". ") +
            with_rpm(driver, motion_words(c));
   } else {
-    out += " Without motion: only gears at rest are computed for such a scene.";
+    out +=
+        c.statics[0].mesh[0].fidelity.width == WidthModel::body
+            ? " Without motion: bodies in three dimensions over the face are computed at rest. Write width = \"slices\" in [fidelity] for natural frequencies, vibration and loss of contact."
+            : " Without motion: [operation] of the scene gives no mesh_frequency_Hz.";
   }
   const std::string errors = words_on_errors(c);
   return html::paragraph(out) + (errors.empty() ? "" : html::paragraph(errors));

@@ -257,7 +257,7 @@ std::string held_words(const ReportContent& c, size_t b) {
     return s.bodies[b].kind == System::BodyKind::carrier ? "held (the frame)" : "held";
   if (c.statics.empty()) return "turns";
   const double torque = c.statics[0].torque.col(static_cast<Eigen::Index>(b)).mean();
-  return torque > 0 ? "driven" : torque < 0 ? "loaded" : "free";
+  return torque > 0 ? "input" : torque < 0 ? "output" : "free";
 }
 
 std::string bodies_table(const ReportContent& c) {

@@ -105,7 +105,7 @@ constexpr GuideRow kRows[] =
          "A fold to 4 Hz with the steps of the scene, as a jump. Motions that the branch is not joined to are not seen.",
          ""},
         {Needs::motion, "tooth-loads", "Largest tooth load, over T / r_b",
-         "T / r_b is the load of one pair alone at rest; the ratio is the dynamic factor of this model.",
+         "T / r_b is the load of one pair alone at rest; the ratio is of one pair of teeth at one instant, the dynamic factor of all in mesh.",
          "0.7 % of numerical error, else as the RMS. A number with a * is of a motion larger than the backlash: not to be trusted at all.",
          "For strength take it with speed rising and falling, and at the damping you are sure of."},
         {Needs::figure, "waterfall order-cuts sidebands", "Spectra and orders over speed",

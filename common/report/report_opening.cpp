@@ -1,6 +1,7 @@
 #include "report/report_opening.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <tuple>
@@ -11,6 +12,7 @@
 #include "report/iso_comparison.h"
 #include "report/measured_errors.h"
 #include "report/opening.h"
+#include "signal/mode_excitation.h"
 
 namespace whine {
 namespace {
@@ -64,16 +66,32 @@ std::string excitation(const FirstTorque& t) {
   return excitation_line(text(torque_words(t.torque), t.rest->of_train() ? " on " + t.driver.name : ""), out);
 }
 
+// Which orders excite a mode: not those that equal planets, whose meshes follow each other in phase, cancel.
+std::array<bool, kOrders> excited_by(const FirstTorque& t, const ModesResult& a, Index mode) {
+  constexpr double kCancelled = 1e-6;
+  std::array<bool, kOrders> out{true, true, true};
+  bool differ = !t.rest;
+  for (size_t b = 0; !differ && b < a.layout.bodies.size(); ++b)
+    differ = t.rest->settings.has_errors(b) || a.layout.bodies[b].offset != System::Body{}.offset;
+  for (int order = 1; !differ && order <= kOrders; ++order)
+    out[static_cast<size_t>(order - 1)] =
+        std::any_of(t.sections.begin(), t.sections.end(), [&](const AlikeMeshes& section) {
+          return excitation_left(a, mode, order, section.meshes) > kCancelled;
+        });
+  return out;
+}
+
 // Natural modes that transmission errors excite, by the lowest order that meets them and the energy in the meshes.
-void add_modes(const ModesResult& a, CriticalSpeeds& out) {
+void add_modes(const FirstTorque& t, const ModesResult& a, CriticalSpeeds& out) {
   constexpr double kMeshMode = 0.1;  // of the energy in the meshes
-  constexpr int kOrders = 3;
   constexpr double kAlike = 0.01;
   std::vector<std::tuple<int, double, Index>> modes;
   for (Index i = 0; i < a.natural_frequency.size(); ++i) {
     const double f = a.natural_frequency[i], energy = a.mesh_energy.row(i).sum();
+    const std::array<bool, kOrders> excited = excited_by(t, a, i);
     int order = 1;
-    while (order <= kOrders && out.speeds && (f / order < out.speeds->from || f / order > out.speeds->to))
+    while (order <= kOrders && (!excited[static_cast<size_t>(order - 1)] ||
+                                (out.speeds && (f / order < out.speeds->from || f / order > out.speeds->to))))
       ++order;
     if (f > 0 && energy > kMeshMode && order <= kOrders) modes.emplace_back(order, -energy, i);
   }
@@ -83,7 +101,8 @@ void add_modes(const ModesResult& a, CriticalSpeeds& out) {
     const double f = a.natural_frequency[i];
     if (std::none_of(out.natural.begin(), out.natural.end(),
                      [&](const auto& known) { return std::abs(known.frequency - f) < kAlike * f; }))
-      out.natural.push_back({f, text("mode ", i + 1, ", ", name_of(a.type[static_cast<size_t>(i)]))});
+      out.natural.push_back({f, text("mode ", i + 1, ", ", name_of(a.type[static_cast<size_t>(i)])), kNoError,
+                             excited_by(t, a, i)});
   }
 }
 
@@ -98,7 +117,7 @@ std::string critical_speeds(const FirstTorque& t) {
          t.errors(*r) ? t.errors(*r)->natural_frequency_error * r->natural_frequency : kNoError});
   else if (ring_down && ring_down->states.natural_frequency.size() > 0)
     out.natural.push_back({ring_down->states.natural_frequency.tail<1>()[0], mesh});
-  if (t.content.modes) add_modes(*t.content.modes, out);
+  if (t.content.modes) add_modes(t, *t.content.modes, out);
   if (r)
     for (const Index i : resonances(r->mesh_frequency, r->dte_rms.rowwise().maxCoeff()))
       out.peaks.push_back(r->mesh_frequency[i]);

@@ -305,8 +305,10 @@ class InMotion {
       peak(add_, {"largest mesh force over its mean at rest", "1", ""}, force / at_rest, decimals(2));
     if (const DynamicFactorPeak top = largest_dynamic_factor(rest_, r_, static_cast<size_t>(mesh_));
         top.factor > 0) {
-      add_.judged("dynamic factor: largest mesh force over its mean at rest", "1", top.factor,
-                  error(&SweepErrorsResult::mesh_force_max, top.row), fixed(top.factor, 2), star(top.row));
+      add_.judged(
+          "dynamic factor: largest mesh force, sustained for 1/64 of a mesh period, over its mean at rest",
+          "1", top.factor, error(&SweepErrorsResult::mesh_force_max, top.row), fixed(top.factor, 2),
+          star(top.row));
       add_.speed("mesh frequency of that factor", r_.mesh_frequency[top.row], star(top.row));
       if (top.standard) add_("K_v of ISO 6336-1, method B, at that speed", "1", fixed(*top.standard, 2));
     }

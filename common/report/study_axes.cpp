@@ -12,16 +12,9 @@ namespace whine {
 
 using Eigen::Index;
 
-std::string spelt_units(const VariedKey& key) {
-  static const std::map<std::string, std::string> spelt{
-      {"um", "µm"}, {"Nm", "N m"}, {"deg", "°"}, {"kgm2", "kg m²"}, {"per_s", "1/s"}, {"kgm3", "kg/m³"}};
-  const auto found = spelt.find(key.scene_units);
-  return found == spelt.end() ? key.scene_units : found->second;
-}
-
 AxisUnits axis_units(const VariedKey& key, double largest) {
   if (!key.number) return {"", 1};
-  const std::string unit = key.scene_units == "1" ? "" : spelt_units(key);
+  const std::string unit = key.scene_units == "1" ? "" : key.scene_units;
   if (!(largest > 0 && largest < 1e-2)) return {unit, 1};
   const int power = 3 * static_cast<int>(std::floor(std::log10(largest) / 3));
   return {text("10^{", power, "} ", unit), std::pow(10, -power)};

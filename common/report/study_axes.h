@@ -15,9 +15,6 @@ struct AxisUnits {
 };
 AxisUnits axis_units(const VariedKey& key, double largest);
 
-// The unit of a key as text has it: µm, where the key's name says um; "1" of a number without.
-std::string spelt_units(const VariedKey& key);
-
 // What an engineer calls a key, where its name in a scene is not that.
 std::string axis_name(const VariedKey& key);
 

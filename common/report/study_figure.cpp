@@ -97,7 +97,7 @@ FigureBlock table_of(const StudyResult& a, const std::vector<StudyAxis>& axes) {
   FigureBlock table{"variants", {"variant [1]", "outside_model [1]", "unsteady speeds [1]"}, {}};
   for (const VariedKey& key : a.plan.keys)
     table.columns.push_back(key.name +
-                            (key.number ? " [" + spelt_units(key) + "]" : " [place in the list above]"));
+                            (key.number ? " [" + key.scene_units + "]" : " [place in the list above]"));
   std::vector<double> scale;
   for (const std::string& name : a.plan.quantities) {
     const ShownUnit unit = shown_units(kind_of(a, name).units);

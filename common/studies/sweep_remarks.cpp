@@ -127,7 +127,7 @@ std::vector<Remark> remarks(const SweepResult& s, const StaticResult& statics) {
   const double least = least_closing(s).minCoeff() - statics.unloaded_error.minCoeff();
   if (least < 0 && !std::isfinite(s.backlash_margin))
     add(false, "the teeth swing ", std::round(-least * 1e7) / 10,
-        " µm apart; tooth_thinning_mm = 0 counts no backlash, so back flanks are left out");
+        " µm apart; tooth_thinning_mm = 0 counts no backlash, so back flanks are left out: give the gears theirs to see where they would touch");
   if (s.backlash_margin <= 0) {
     std::map<double, bool> beyond;
     const Eigen::VectorXd left = backlash_left(s);

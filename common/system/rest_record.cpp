@@ -34,19 +34,21 @@ void require_rows(const SystemModel& system, int periods, int positions) {
 void take_balance(const SystemModel& system, const SystemSolution& at, Index row, SystemStaticResult& out) {
   const System& layout = system.layout;
   MatrixRM& force = out.bearing_force[static_cast<size_t>(row)];
+  // What a carrier is held by adds up below, also where a narrower zone has filled the row before.
+  for (size_t b = 0; b < layout.bodies.size(); ++b) {
+    const int number = static_cast<int>(b);
+    out.torque(row, number) = layout.held(number) ? 0 : layout.torque(number);
+  }
   for (size_t b = 0; b < system.body.size(); ++b) {
-    force.row(static_cast<Index>(b)) = at.bearing_force[b].transpose();
+    const int number = static_cast<int>(b);
+    force.row(number) = at.bearing_force[b].transpose();
+    if (!layout.held(number)) continue;
     double moment = 0;  // N, of the contact forces over the base radius
     for (size_t m = 0; m < system.mesh.size(); ++m)
-      if (const int side = system.side_of(static_cast<int>(b), static_cast<int>(m)); side >= 0)
+      if (const int side = system.side_of(number, static_cast<int>(m)); side >= 0)
         moment += side == 0 ? at.driving_force[m] : -at.driven_force[m];
-    const int number = static_cast<int>(b);
-    out.torque(row, number) =
-        layout.held(number) ? moment * system.base_radius(number) : layout.torque(number);
+    out.torque(row, number) = moment * system.base_radius(number);
   }
-  for (size_t c = system.body.size(); c < layout.bodies.size(); ++c)
-    if (const int number = static_cast<int>(c); !layout.held(number))
-      out.torque(row, number) = layout.torque(number);
   for (size_t b = 0; b < system.body.size(); ++b) {
     const int on = layout.bodies[b].on;
     if (on == System::kGround) continue;

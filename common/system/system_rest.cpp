@@ -220,8 +220,8 @@ void check_at_rest(const SystemScene& scene, const System& layout) {
     const auto section = static_cast<size_t>(
         sections_of(specs, gears_of(scene, layout), layout)[static_cast<size_t>(balance.pulled_apart)]);
     reject("mesh", section, "the torques of the drives pull the [[mesh]] of '", specs[section].gear[0],
-           "' and '", specs[section].gear[1], "' apart (", balance.load[balance.pulled_apart], " N); ",
-           kFlowOfPower);
+           "' and '", specs[section].gear[1], "' apart (", shown_number(balance.load[balance.pulled_apart]),
+           " N); ", kFlowOfPower);
   }
   if (!(balance.load.maxCoeff() > 0)) reject("drive", 0, kNoTorque);
   for (const auto& [section, words] : near_interferences(scene, layout, ForceBound::least))

@@ -42,8 +42,7 @@ do for [frame = int(first_frame):int(last_frame)] {
   set tmargin at screen 0.39 + lift; set bmargin at screen 0.25 + lift
   set format x ""
   raw = (largest_error - least_error) / 3
-  power = 10 ** floor(log10(raw > 0 ? raw : 1))
-  set ytics power * (raw / power > 5 ? 10 : raw / power > 2 ? 5 : raw / power > 1 ? 2 : 1)
+  set ytics step_of(raw > 0 ? raw : 1)
   set ylabel "DTE (µm)"
   bottom = least_error - 0.08 * (largest_error - least_error); top = largest_error + 0.08 * (largest_error - least_error)
   set yrange [bottom : top]

@@ -37,9 +37,7 @@ set ylabel "y (mm)"
 set xrange [-tip - edge : tip + edge]
 set yrange [lowest - edge : highest + edge]
 # About four steps of 1, 2 or 5 on the shorter axis: labels of a large pair must not run into each other.
-power(raw) = 10 ** floor(log10(raw))
-nice(raw) = power(raw) * (raw / power(raw) > 5 ? 10 : raw / power(raw) > 2 ? 5 : raw / power(raw) > 1 ? 2 : 1)
-step = nice((2 * tip + 2 * edge) / 4)
+step = step_of((2 * tip + 2 * edge) / 4)
 set xtics step
 set ytics step
 set label 1 "driver" at 0, (ring == 1 ? -0.6 * driver_radius : 0) center front tc rgb driver_line font ",16"
@@ -62,8 +60,8 @@ set rmargin at screen 0.96
 set label 3 "{/:Bold (b)} teeth in mesh" at graph 0.5, graph 1.0 center offset 0, 0.7
 set xrange [-half_window : half_window]
 set yrange [pitch_y - half_window : pitch_y + half_window]
-set xtics nice(2 * half_window / 6)
-set ytics nice(2 * half_window / 6)
+set xtics step_of(2 * half_window / 6)
+set ytics step_of(2 * half_window / 6)
 plot tsv index filled(outer) using 1:2 with filledcurves closed fc rgb outer_fill notitle, \
   tsv index hollow(outer) using 1:2 with filledcurves closed fc rgb (ring > 0 ? "white" : outer_fill) notitle, \
   tsv index filled(inner) using 1:2 with filledcurves closed fc rgb inner_fill notitle, \

@@ -22,9 +22,7 @@ set size ratio -1
 set xlabel "x (mm)"
 set ylabel "y (mm)"
 # Numbers below an axis stand apart whatever the size of the teeth.
-power(x) = 10 ** floor(log10(x))
-nice(raw) = power(raw) * (raw / power(raw) > 5 ? 10 : raw / power(raw) > 2 ? 5 : raw / power(raw) > 1 ? 2 : 1)
-step = nice(half_window / 6)
+step = step_of(half_window / 6)
 set xtics step > 2 ? step : 2
 set ytics step > 2 ? step : 2
 set xrange [-half_window : half_window]
@@ -47,7 +45,7 @@ set size noratio
 set lmargin at screen 0.575
 set rmargin at screen 0.905
 set xrange [-reach : reach]
-set xtics nice(2 * reach / 7)
+set xtics step_of(2 * reach / 7)
 set mxtics 2
 set ytics auto
 set border 3 lw 1.4

@@ -29,7 +29,7 @@ do for [r = 1:int(rows)] {
   unset grid
   unset logscale y
   set format y "%g"
-  set xtics autofreq
+  set xtics step_of(frequency_end / 6)
   set ytics autofreq
   set xlabel "Frequency (Hz) {/:Bold (" . letter(2 * r - 1) . ")}"
   set ylabel speed_label
@@ -72,9 +72,7 @@ do for [r = 1:int(rows)] {
   set xlabel speed_label . " {/:Bold (" . letter(2 * r) . ")}"
   set ylabel "Amplitude (µm)"
   set xrange [frequency_from - 0.02 * span : frequency_to + 0.02 * span]
-  raw = span / 6
-  power = 10 ** floor(log10(raw))
-  set xtics power * (raw / power > 5 ? 10 : raw / power > 2 ? 5 : raw / power > 1 ? 2 : 1)
+  set xtics step_of(span / 6)
   set mxtics 2
   set logscale y
   set format y "10^{%L}"

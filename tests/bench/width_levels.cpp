@@ -35,7 +35,7 @@ Level at(Scene scene, WidthModel width) {
   Level out;
   const double start = cpu_seconds();
   const std::vector<ReducedBody> body =
-      bodies_of({body_parameters(scene, driver), body_parameters(scene, driven)}, kFlankPoints);
+      bodies_of({body_parameters(scene, driver), body_parameters(scene, driven)});
   const double reduced = cpu_seconds();
   out.rest =
       static_transmission(body[0], body[1], through_file(static_parameters(scene), read_static_parameters),
@@ -95,7 +95,7 @@ void print_cost(int teeth, double width, int degree) {
       body.element_size = kModule / 3;
       body.width = {of, kModule / 3};
       const double start = cpu_seconds();
-      reduce(make_sector_mesh(d, body), {207e9, 0.3, 7800, false}, body.modes, kFlankPoints);
+      reduce(make_sector_mesh(d, body), {207e9, 0.3, 7800, false}, body.modes);
       seconds[of > 0] = cpu_seconds() - start;
     }
     char cell[64];

@@ -175,6 +175,7 @@ TEST_CASE("a planetary train that the ring drives: forces at rest of the motion 
                     {"sun", System::DriveKind::held, 0, 0},
                     {"carrier", System::DriveKind::held, 0, 0}};
     for (SystemScene::Mesh& mesh : scene.meshes) std::swap(mesh.spec.gear[0], mesh.spec.gear[1]);
+    std::swap(scene.meshes[0], scene.meshes[1]);
   });
   int both = 0;
   for (const System::Mesh& a : system.layout.meshes)

@@ -169,7 +169,7 @@ TEST_CASE("the summary names the key numbers in an engineer's units") {
   budget.root.stress.col(0) << 96e6, 99e6, 100e6;
   write("error_budget.h5", budget, kMade);
   const std::string changes = words_of("error_budget.h5", "whine/error_budget");
-  CHECK(contains(changes, "sum: 0.06 % of the mean stiffness"));
+  CHECK(contains(changes, "error: 0.06 % of the mean stiffness"));
   CHECK(contains(changes, "or contact strips: mean stiffness 25 %"));
   CHECK(
       contains(changes, "root stress of pinion: 3 % from 0.8 to 0.4 mm, 1 % from 0.4 to 0.2 mm, order 1.58"));

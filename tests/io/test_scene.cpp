@@ -83,8 +83,8 @@ TEST_CASE(
   said("[[bearing]]\ngear = \"wheel\"\n", "lacks 'stiffness_N_um'");
   said("[[bearing]]\ngear = \"whel\"\nstiffness_N_um = 1\n",
        "names no [gear.<name>] section; did you mean 'wheel'");
-  said("[[bearing]]\ngear = \"wheel\"\nstiffness_N_um = 0\n", "must be greater than 0 N_um");
-  said("[[bearing]]\ngear = \"wheel\"\nstiffness_N_um = 1e7\n", "must be at most 1000000 N_um");
+  said("[[bearing]]\ngear = \"wheel\"\nstiffness_N_um = 0\n", "must be greater than 0 N/µm");
+  said("[[bearing]]\ngear = \"wheel\"\nstiffness_N_um = 1e7\n", "must be at most 1000000 N/µm");
   said("[[bearing]]\ngear = \"wheel\"\nstiffnes_N_um = 100\n", "did you mean 'stiffness_N_um'?");
   said("[bearing]\ngear = \"wheel\"\nstiffness_N_um = 100\n", "write [[bearing]]");
   said(one + "[[bearing]]\ngear = \"wheel\"\nstiffness_N_um = 1\n", "has a bearing already");

@@ -125,7 +125,7 @@ TEST_CASE(
   CHECK(!has_no_number(table));
   // part, quantity, value, unit, remark: of what is known.
   for (const char* row :
-       {"sun\ttorque, mean\t400.00\tN m\tdriven\t\n", "planet1\ttorque, mean\t0.00\tN m\tfree\t\n",
+       {"sun\ttorque, mean\t400.00\tN m\tinput\t\n", "planet1\ttorque, mean\t0.00\tN m\tfree\t\n",
         "ring\ttorque, mean\t-1466.60\tN m\theld\t\n",
         "carrier\ttorque, mean\t-1866.60\tN m\theld (the frame)\t\n",
         "sun-planet2\tmesh force at rest, mean\t1100.0\tN\t\t\n",
@@ -193,7 +193,7 @@ TEST_CASE(
        "sun-planet2\tlargest RMS of the dynamic transmission error, speed falling\t1.000\tµm\t",
        "sun-planet2\tlargest mesh force over its mean at rest, speed rising\t2.00\t1\t",
        "sun-planet2\tmesh frequency of that factor, speed rising\t2000\tHz\t",
-       "sun-planet1\tdynamic factor: largest mesh force over its mean at rest, speed falling\t1.50\t1\t",
+       "sun-planet1\tdynamic factor: largest mesh force, sustained for 1/64 of a mesh period, over its mean at rest, speed falling\t1.50\t1\t",
        "sun-planet2\ttime without contact, largest, speed rising\t25.00\t%\t\t\n400\tsun-planet2\tmesh frequency of that time, speed rising\t2000\tHz\t",
        "planet2\tlargest force on the bearing, speed rising\t777.5\tN\t\t\n400\tplanet2\tmesh frequency of that force, speed rising\t2000\tHz\t",
        "400\t\tspeeds whose motion is not periodic, speed rising\t1\t1\t1000\t\n"})
