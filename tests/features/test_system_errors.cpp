@@ -328,11 +328,12 @@ TEST_CASE("a tooth of the sun that stands ahead: the planet that it meets carrie
   REQUIRE(a.hunting_periods == 28);
   REQUIRE(a.mesh_phase.size() == 28 * 6);
   const double force = 300 / ToothGeometry(scene.gears[0].design).base_radius();
+  constexpr double kTipEdges = 2e-3;  // their normals are tilted against the line of action
   std::array<int, 4> met{};
   double most = 1;
   for (Index i = 0; i < a.mesh_phase.size(); ++i) {
     const auto row = static_cast<size_t>(i);
-    CHECK(a.mesh_force.row(i).head(4).sum() == relative(force, 1e-9));
+    CHECK(a.mesh_force.row(i).head(4).sum() == relative(force, kTipEdges));
     CHECK(a.bearing_force[row].topRows(6).colwise().sum().norm() < 1e-9 * force);
     double left = 0;
     for (const Index b : {Index{0}, Index{5}, Index{6}})
