@@ -132,7 +132,7 @@ Figure system_static_figure(const SystemStaticResult& a) {
   figure.notes.emplace_back(
       "transmission error along the line of action, with the displacements of the bearings; mesh force along the normals of the flanks");
   figure.notes.emplace_back(
-      "mesh stiffness: secant, mesh force over what it adds to the transmission error, without bearings");
+      "mesh stiffness: secant, of the transverse force over what it adds to the transmission error, without bearings");
   figure.notes.push_back(
       text("bearing force: its magnitude; on a rigid axis the sum of the contact forces",
            stresses.empty() ? "" : "; root stress: the largest beside the loaded flanks of a gear"));

@@ -39,8 +39,8 @@ KeyGiven only(std::set<std::string> keys) {
 
 TEST_CASE("an accepted error: the bounds of what is chosen stay below it and near it, finer for less") {
   double element = 1, rate = 0;
-  int modes = 0;
-  for (const double accepted : {0.1, 0.02, 0.01, 0.005, 0.002}) {
+  int modes = 0, flank_points = 0;
+  for (const double accepted : {0.1, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0005}) {
     CAPTURE(accepted);
     Scene scene = paper_scene(accepted);
     choose_discretisation(scene, only({}));
@@ -49,10 +49,13 @@ TEST_CASE("an accepted error: the bounds of what is chosen stay below it and nea
     CHECK(bound > 0.8 * accepted);
     CHECK(scene.body.element_modules <= element);
     CHECK(scene.body.modes >= modes);
+    CHECK(scene.body.flank_points >= flank_points);
+    if (accepted >= 0.01) CHECK(scene.body.flank_points == BodyDiscretisation{}.flank_points);
     CHECK(scene.time.min_sample_rate > rate);
     CHECK(scene.contact.strips % 4 == 0);
     element = scene.body.element_modules;
     modes = scene.body.modes;
+    flank_points = scene.body.flank_points;
     rate = scene.time.min_sample_rate;
   }
   Scene untold = paper_scene(0);
