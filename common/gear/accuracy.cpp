@@ -12,7 +12,7 @@ namespace whine {
 namespace {
 
 // e = bound (x / at)^power. share: of e^2, where the key is open; elements and modes take most of it, since the reduction takes most of
-// the time. That of the points of a flank is beside the others, which share what the default of 24 leaves.
+// the time.
 struct Law {
   const char* key;
   double bound, at, power, share;
@@ -26,8 +26,6 @@ constexpr Law kStrips{"strips", 5.5e-3, 4, -1.6, 0.15}, kPoints{"face_points", 1
     kModesOfTrain{"modes", 3e-2, 21, -1.3, 0.40}, kFlankPoints{"flank_points", 1.1e-3, 24, -2, 0.03},
     kSteps{"min_sample_rate_kHz", 22, 1, -2, 0.25},
     kStepsOfMassDamping{"min_sample_rate_kHz", 100, 1, -2, 0.25};
-
-constexpr int kDefaultFlankPoints = BodyDiscretisation{}.flank_points, kMostFlankPoints = 96;
 
 // N m-1 per m, c_gamma of steel gears as practice takes it.
 constexpr double kMeshStiffness = 20e9, kSteelModulus = 206e9;
@@ -82,6 +80,12 @@ std::vector<Governed> governed(const Settings& s, bool any_body = false) {
     held = std::clamp(step * static_cast<int>(std::ceil(x / step - 1e-9)), least, most);
     return static_cast<double>(held);
   };
+  constexpr int kLeastFlankPoints = BodyDiscretisation{}.flank_points, kMostFlankPoints = 96;
+  int& flank_points = s.body.flank_points;
+  out.push_back(
+      {&kFlankPoints, static_cast<double>(flank_points),
+       [&, whole](double x) { return whole(flank_points, x, kLeastFlankPoints, kMostFlankPoints, 1); },
+       static_cast<double>(flank_points)});
   if (s.on_strips) {
     constexpr int kFour = 4, kMost = 64;  // a candidate zone holds whole fours
     int& strips = s.contact.strips;
@@ -100,11 +104,6 @@ std::vector<Governed> governed(const Settings& s, bool any_body = false) {
                    },
                    static_cast<double>(n)});
   }
-  int& flank_points = s.body.flank_points;
-  out.push_back(
-      {&kFlankPoints, static_cast<double>(flank_points),
-       [&, whole](double x) { return whole(flank_points, x, kDefaultFlankPoints, kMostFlankPoints, 1); },
-       static_cast<double>(flank_points)});
   if (any_body ? s.fidelity.body != BodyModel::full : s.fidelity.body == BodyModel::modal) {
     constexpr int kLeast = 9, kMost = 1001;
     int& modes = s.body.modes;
@@ -173,10 +172,7 @@ void choose(const Settings& s) {
   std::vector<Governed> open;
   double rest = accepted * accepted, shares = 0;
   for (Governed& one : governed(s)) {
-    const bool given = s.given(one.law->key);
-    if (one.law == &kFlankPoints && !given)
-      one.x = one.set(one.law->value(std::sqrt(one.law->share) * accepted));
-    if (given || one.law == &kFlankPoints) {
+    if (s.given(one.law->key)) {
       const double error = one.law->error(one.x);
       rest -= error * error;
     } else {
@@ -198,12 +194,12 @@ void choose(const Settings& s) {
 
 // Each by its own share, whatever the scene gives: a key that it adds then changes itself alone, and no body that does not read it.
 void choose_unasked(const Settings& s) {
+  // The default number of points of a flank leaves more than its share would ask for.
   const double all = kAcceptedError * kAcceptedError - kFlankPoints.bound * kFlankPoints.bound;
   bool open = false;
   for (const Governed& one : governed(s, true)) {
-    if (one.law == &kFlankPoints || s.given(one.law->key) || !beyond(s, *one.law).empty()) continue;
-    one.set(one.law->value(std::sqrt(all * one.law->share)));
-    open = true;
+    if (s.given(one.law->key) || !beyond(s, *one.law).empty()) continue;
+    open |= one.set(one.law->value(std::sqrt(all * one.law->share))) != one.x;
   }
   s.time.accepted_error = open ? kAcceptedError : 0;
   if (open) choose_stored_samples(s);

@@ -21,7 +21,7 @@ std::string name_in(const Key& key, Dialect dialect) {
 }
 
 std::string unit_of(const Key& key) {
-  const std::string unit = in_words(key.unit);
+  const std::string unit = key.unit.in_words();
   return unit.empty() ? "" : " " + unit;
 }
 

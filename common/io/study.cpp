@@ -479,7 +479,7 @@ VariedKey varied_key(const std::string& name) {
   out.units = out.number ? key.unit.si : "1";
   out.meaning = key.meaning;
   const std::string suffix(key.unit.suffix), owner = find_key(name).owner;
-  out.scene_units = suffix.empty() ? "1" : in_words(key.unit);
+  out.scene_units = suffix.empty() ? "1" : key.unit.in_words();
   out.label = key.name;
   out.label.resize(out.label.size() - suffix.size());
   std::replace(out.label.begin(), out.label.end(), '_', ' ');

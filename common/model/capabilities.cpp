@@ -132,6 +132,7 @@ const TraitWords& words_of(Trait trait) {
       TraitWords{full_body, "body = \"full\" in [fidelity]",
                  "write body = \"modal\", \"relaxed\" or \"quasi-static\""},
       TraitWords{lines, "contact = \"line\" in [fidelity]", "write contact = \"strips\""}};
+  static_assert(kTraits.size() == static_cast<size_t>(lines) + 1, "words of each trait");
   return *std::find_if(kTraits.begin(), kTraits.end(), [&](const TraitWords& t) { return t.trait == trait; });
 }
 

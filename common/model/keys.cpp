@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
-#include <map>
 
 namespace whine {
 
@@ -36,14 +35,8 @@ void Key::take_fallback() const {
              slot);
 }
 
-std::string in_words(const Unit& unit) {
-  static const std::map<std::string, std::string> spelt{
-      {"_um", "µm"},      {"_Nm", "N m"},     {"_deg", "°"},      {"_kgm2", "kg m²"},
-      {"_per_s", "1/s"},  {"_kgm3", "kg/m³"}, {"_N_um", "N/µm"},  {"_mPas", "mPa s"},
-      {"_Ns_m", "N s/m"}, {"_percent", "%"},  {"_N_mm2", "N/mm²"}};
-  const auto found = spelt.find(unit.suffix);
-  if (found != spelt.end()) return found->second;
-  return *unit.suffix ? unit.suffix + 1 : "";
+std::string Unit::in_words() const {
+  return *spelt ? spelt : *suffix ? suffix + 1 : "";
 }
 
 std::string Key::si_name() const {

@@ -46,9 +46,10 @@ struct Unit {
   const char* suffix;  // of the key's name in a scene: "_mm"
   const char* si;      // UDUNITS form
   double multiply = 1, divide = 1;
+  const char* spelt = "";  // as messages and figures have it, if it is not the suffix: "N/µm"
+
+  std::string in_words() const;  // "" of numbers without unit
 };
-// "N/µm" of "_N_um": as messages and figures say it; "" of numbers without unit.
-std::string in_words(const Unit& unit);
 
 // Range in the scene's unit; of a range of speeds: of its two ends. None if `most` is not above `least`.
 struct Limits {

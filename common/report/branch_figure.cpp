@@ -137,8 +137,8 @@ Figure branch_figure(const BranchResult& b, const std::vector<ResponseResult>& s
                                 jump_words(b.fold_frequency.segment(i, 1), b.fold_width.segment(i, 1)), ", ",
                                 b.fold_smooth[i] ? "smooth" : "at a kink"));
   if (const Index more = b.fold_frequency.size() - kShownFolds; more > 0)
-    figure.notes.push_back(text(more, more == 1 ? " more fold stands" : " more folds stand",
-                                " in /fold_frequency of branch.h5"));
+    figure.notes.push_back(text(more, more == 1 ? " more fold is" : " more folds are", " in ",
+                                without_markup("/fold_frequency"), " of branch.h5"));
   if (b.mesh_names.size() > meshes)
     figure.notes.push_back(text("the first ", meshes, " of ", b.mesh_names.size(), " meshes"));
   figure.panels = {vibration_panel(b, figure.blocks, meshes), multiplier_panel(figure.blocks)};

@@ -14,7 +14,7 @@ const ErrorBudgetResult* budget_of(const ReportContent& c, double torque);
 // Of the sweep at a torque in a direction; nullptr: not measured.
 const SweepErrorsResult* errors_of(const ReportContent& c, double torque, Direction direction);
 
-// Sum of relative changes, as the budget means it; kNoError without budget, or if they are not known.
+// 1: sum of the errors that the changes of a budget stand for; kNoError without budget, or if they are not known.
 double sum_of(const ErrorBudgetResult* budget, const Eigen::VectorXd StaticChanges::*change);
 // m: of harmonic n, from 1, of the transmission error, whose first is `first` (m).
 double harmonic_error(const ErrorBudgetResult* budget, Eigen::Index n, double first);

@@ -47,8 +47,9 @@ struct ReportContent {
   const StaticResult& pair() const { return statics.at(0).mesh.at(0); }
 };
 
+// N m: the same but for round-off and what torque_of() rounds.
+bool one_torque(double a, double b);
 // N m: on the driver of a pair, on the input of a train.
-bool one_torque(double a, double b);  // N m, but for round-off and what torque_of() rounds
 double torque_of(const SystemStaticResult& rest);
 double torque_of(const MotionSource& motion);
 

@@ -27,7 +27,8 @@ struct StaticChanges {
   Eigen::VectorXd root_stress_change = {};
   // (entry) 1, relative, of K_Hbeta of the reference pair at mesh phase 0; empty: of one slice over the face
   Eigen::VectorXd load_factor_change = {};
-  Eigen::VectorXd order = {};  // (entry) 1, with which its error falls; 0: none shows; empty: no errors
+  // (entry) 1, with which its errors of stiffness and transmission error fall; 0: none shows; empty: no errors
+  Eigen::VectorXd order = {};
 
   // 1: sum of the errors that the changes stand for; of harmonic n over the first.
   double error(const Eigen::VectorXd StaticChanges::*change) const;

@@ -13,9 +13,9 @@ namespace whine {
 
 inline constexpr int kJudgedSpeeds = 40;  // most speeds of a sweep that are judged
 
-// Of a pair: time steps, finite elements, points of the flank table, strips of contact, points over the face, kept modes, periodicity. As sweep() takes
-// the rest; reference gives the mean stiffness of the dampers. At most kJudgedSpeeds speeds from end to end of the scene's, so that
-// branches are followed as in a sweep. report(done, total, note) counts sweeps. Errors as of sweep(), make_sector_mesh(), reduce().
+// Of a pair: time steps, finite elements, points of the flank table, strips of contact, points over the face, kept modes, periodicity. As
+// sweep() takes the rest; reference gives the mean stiffness of the dampers. At most kJudgedSpeeds speeds from end to end of the scene's,
+// so that branches are followed as in a sweep. report(done, total, note) counts sweeps. Errors as of sweep(), make_sector_mesh(), reduce().
 SweepErrorsResult sweep_errors(const ReducedBody& driver, const ReducedBody& driven,
                                const StaticResult& statics, const StaticResult& reference,
                                const SweepParameters& settings, Direction direction,

@@ -9,7 +9,6 @@ lift = room(feet)
 set multiplot title heading offset 0, -0.3
 set tics out nomirror front
 set palette defined (0 "#f7fbff", 0.1 "#d6e6f4", 0.25 "#abcfe6", 0.45 "#6aaed6", 0.7 "#2e7ebc", 1 "#08306b")
-letters = "abcdefghij"
 first = 0
 do for [r = 1:int(rows)] {
   half_face = real(word(ranges, 3 * r - 2))
@@ -20,7 +19,7 @@ do for [r = 1:int(rows)] {
   unset grid
   set lmargin at screen 0.08
   set rmargin at screen 0.46
-  set xlabel "Along the face, from its middle (mm)\n{/:Bold (".letters[2 * r - 1:2 * r - 1].")} line load (N/mm), lines of contact"
+  set xlabel "Along the face, from its middle (mm)\n{/:Bold (".letter(2 * r - 1).")} line load (N/mm), lines of contact"
   set ylabel "Path of contact, driver's root to tip (mm)"
   set xrange [-half_face:half_face]
   set yrange [real(word(ranges, 3 * r - 1)):real(word(ranges, 3 * r))]
@@ -36,7 +35,7 @@ do for [r = 1:int(rows)] {
   set lmargin at screen 0.66
   set rmargin at screen 0.97
   set grid lt 1 dt solid lc rgb "#e4e4e4" lw 1
-  set xlabel "Along the face, from its middle (mm)\n{/:Bold (".letters[2 * r:2 * r].")} mesh phase 0"
+  set xlabel "Along the face, from its middle (mm)\n{/:Bold (".letter(2 * r).")} mesh phase 0"
   set ylabel "Line load (N/mm of face)"
   set yrange [0:1.35 * line_largest]  # room for the key
   set key top right Right samplen 2.5 spacing 1.2 font ",14"

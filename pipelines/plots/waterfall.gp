@@ -19,7 +19,6 @@ eval(of_areas)
 set multiplot title heading offset 0, -0.4
 # of a row of panels
 tall = (height - 175.0) / rows
-letter(n) = word("a b c d", int(n))
 do for [r = 1:int(rows)] {
   set tmargin at screen (1 - (175.0 + (r - 1) * tall + (rows > 1 ? 30 : 0)) / height) + lift
   set bmargin at screen 1 - (175.0 + r * tall - 115) / height + lift
