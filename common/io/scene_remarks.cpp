@@ -74,7 +74,8 @@ Lines scene_lines(const Scene& scene, const std::string& path) {
   if (const std::string words = near_interference(scene, ForceBound::largest); !words.empty())
     out.push_back("warning: " + scene_place(path, {"mesh"}, "") + ": statics may find that " + words);
   add_of_gears_and_damping(scene, path, out);
-  if (const auto& [level, why] = traits(scene)[0];
+  const Traits of = traits(scene);
+  if (const auto& [level, why] = of[0];
       level == Trait::pair_of_bodies && !scene_gives(path, "fidelity", "width"))
     out.push_back(text("note: ", path, ": ", why,
                        ", so width = \"body\" in [fidelity]: bodies in three dimensions, at rest; ",
