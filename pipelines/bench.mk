@@ -16,8 +16,8 @@ $(stress_benches): bench-stress-of-%: $(B)/bin/whine-bench-stress out/%/params/s
 bench-stress: $(stress_benches) ## root stress of two pairs at one position beside CalculiX, which `deps-bench` installs (SCENE: of its pair)
 
 .PHONY: bench-width
-bench-width: $(B)/bin/whine-bench-width ## bodies over the face width beside CalculiX in three dimensions, spur and helical, which `deps-bench` installs
-	@$<
+bench-width: $(B)/bin/whine-bench-width ## beside CalculiX, which `deps-bench` installs: bodies over the face width, spur and helical, and the load over the face of a misaligned pair
+	@$< data/scenes/parker2000-misaligned.toml
 
 .PHONY: bench-levels
 bench-levels: $(B)/bin/whine-bench-levels ## levels of [fidelity] width side by side, of five scenes: stiffness, transmission error, K_Hbeta, CPU time; what the width costs a body

@@ -51,6 +51,8 @@ inputs_fig07 = $(call both_ways,$1,$(call each,$2),response) $(call impacts,$1,$
 # The same with the orbits that no sweep finds.
 inputs_fig05-branches = $(inputs_fig05) $(foreach s,$1,out/$s/T$(firstword $2)/branch.h5)
 inputs_fig07-branches = $(inputs_fig07) $(foreach s,$1,$(foreach t,$(call each,$2),out/$s/T$t/branch.h5))
+# Of a train without its ring-downs.
+inputs_histories = $(call both_ways,$1,$(firstword $2),sweep) $(if $(call is_pair,$1),$(call impacts,$1,$(firstword $2)))
 inputs_multipliers = out/$1/T$(firstword $2)/branch.h5
 inputs_fig08 = $(call both_ways,$1,$(firstword $2),sweep) $(call impacts,$1,$(firstword $2))
 inputs_fig12 = $(foreach t,$(call each,$2),out/$1/T$t/static.h5)
@@ -87,7 +89,7 @@ shown_names := fig01:finite-elements fig03:contact-zone fig05:response fig05-bra
 shown_as = $(if $(SCENE),$(call paired,$1,$(shown_names)),$1)
 # Those that are made from what another one is made from, and those that are drawn as another one.
 same_inputs := fig07-600:fig07 fig09:fig08 fig10:fig08 fig11:fig08 fig13:fig12 load-sharing:fig12 tooth-loads:fig08 fig14-elastic:fig07 relief-jumps:fig05 \
-  flank-pressure:root-stress runup-down:runup-up histories:fig08 history-loads:fig08
+  flank-pressure:root-stress runup-down:runup-up history-loads:fig08
 same_drawing := fig07:fig05 fig07-600:fig05 fig05-branches:fig05 fig07-branches:fig05 fig09:fig08 fig11:fig10 fig14:fig16 fig14-elastic:fig16 profile-chart:profile \
   relief-jumps:fig05 root-stress-branches:root-stress histories:fig08 history-loads:fig10 runup-up:runup runup-down:runup
 paired = $(or $(patsubst $1:%,%,$(filter $1:%,$2)),$1)
@@ -102,7 +104,7 @@ inputs = $(call inputs_$(call paired,$(call numbered,$1),$(same_inputs)),$2,$3)
 # Mesh frequencies in Hz: P2000's, its upper and lower branch, or time histories at one of the sweep's, figures of their own for each.
 shown_at := fig08:2400 fig10:2400 fig09:1300 fig11:1300 fig15:2200$(,)2150
 options = $(patsubst $1:%,--mesh-frequency %,$(filter $1:%,$(shown_at) histories:$(AT) history-loads:$(AT)))
-history_figures = $(foreach f,histories history-loads,$(figure_folder)/$f-$(AT)Hz-T$(TORQUE))
+history_figures = $(foreach f,histories $(if $(filter train,$(SCENE_$(own_scene)_KIND)),,history-loads),$(figure_folder)/$f-$(AT)Hz-T$(TORQUE))
 
 beside_figures := fig05 fig07 fig05-branches fig07-branches fig07-600 fig08 fig09 fig10 fig11 fig14-elastic
 paper_scenes_flank-load := $(helical_scene)
@@ -158,7 +160,7 @@ $(if $(DB),$(if $(call not_drawn_with,$(level_figures)),$(error DB=$(DB): $(firs
   is not drawn in dB; leave DB out. It is for order-cuts$(,) runup$(,) compare$(,) report$(,) branches$(,) of a train sweep)))
 axis_options = $(strip $(if $(AXIS),$(if $(filter $1,$(speed_figures)),--axis '$(AXIS)')) $(if $(DB),$(if $(filter $1,$(level_figures)),--db $(DB))))
 
-# Figures, by the path out/$1 of a file without its ending: out/S/report/fig05, out/figures/histories-1250Hz-T150. Those of a scene depend on its
+# Figures, by the path out/$1 of a file without its ending: out/S/report/fig05, out/figures/histories-1300Hz-T150. Those of a scene depend on its
 # fragment, too, which says its torques: not only on what stands at each.
 figure_of = $(or $(strip $(foreach f,histories history-loads compare-rest compare-motion fold-curves harris-map,$(if $(filter $f-%,$(notdir $1)),$f))),\
   $(if $(filter runup-%,$(notdir $1)),runup-$(WAY)),$(patsubst harris-dynamic,harris-map,$(patsubst %-fine,%,$(notdir $1))))
@@ -181,13 +183,13 @@ $(B)/plans/axes/%: $$(call differs,$$@,$$(plan_of_axes))
 
 # Heard at a speed of the user's choice, the rising branch first, or of a run-up, then of the run-down over the same speeds; with a
 # transfer function a file of its own.
-sound_file = $(figure_folder)/sound-$(if $(sound_of_runup),runup-$(subst _,-,$(runup_stem)),$(AT)Hz)-T$(TORQUE)$(if $(TRANSFER),-$(basename $(notdir $(TRANSFER))))
+sound_file = $(figure_folder)/sound-$(if $(sound_of_runup),runup-$(subst _,-,$(runup_stem)),$(AT)Hz)-T$(TORQUE)$(if $(MESH),-$(MESH))$(if $(TRANSFER),-$(basename $(notdir $(TRANSFER))))
 # Path and content: a transfer function of the same name in another folder may be older than the sound of the first.
 sound_plan_file = $(if $(TRANSFER),$(B)/plans/$(own_scene)/$(notdir $(sound_file)))
 sound_plan = --transfer $(TRANSFER) $(firstword $(shell sha256sum 2>/dev/null < '$(TRANSFER)'))
 sound_inputs = $(if $(sound_of_runup),out/$1/T$(TORQUE)/up/runup_$(runup_stem).h5 out/$1/T$(TORQUE)/down/runup_$(RATE)$(if $(FROM),_$(TO)_$(FROM)).h5,$(call both_ways,$1,$(TORQUE),sweep))
 out/%.wav: $$(call sound_inputs,$$(own_scene)) $(TRANSFER) $$(sound_plan_file) $(call id,gear-sound) | $(B)/bin/gear-sound $(with_deps)
-	$(B)/bin/gear-sound $(patsubst %,$(if $(sound_of_runup),--runup,--sweep) %,$(filter %.h5,$^)) $(if $(sound_of_runup),,--mesh-frequency $(AT)) $(if $(TRANSFER),--transfer '$(TRANSFER)') --output out/$*
+	$(B)/bin/gear-sound $(patsubst %,$(if $(sound_of_runup),--runup,--sweep) %,$(filter %.h5,$^)) $(if $(sound_of_runup),,--mesh-frequency $(AT)) $(if $(MESH),--mesh '$(MESH)') $(if $(TRANSFER),--transfer '$(TRANSFER)') --output out/$*
 
 # Results beside the REXS model that the scene was imported from. Path, stage and content, as for a sound.
 export_file = $(figure_folder)/$(basename $(notdir $(MODEL)))-results$(suffix $(MODEL))
@@ -227,7 +229,7 @@ $(animation_files): $$(call animation_needs,$$*,$$(call animated_scene,$$*)) \
 teeth = $(filter $2,$(SCENE_$1_TEETH))
 # BRANCHES=yes: with the branch at the first torque, which takes about as long as four sweeps.
 BRANCHES ?= no
-system_figures := system system-static load-sharing flank-load modes campbell system-sweep motion-errors order-cuts residual-signal ring-down branch multipliers harris-map fold-curves
+system_figures := histories system system-static load-sharing flank-load modes campbell system-sweep motion-errors order-cuts residual-signal ring-down branch multipliers harris-map fold-curves
 over_face = $(filter slices body,$(SCENE_$1_WIDTH))
 moves = $(filter yes,$(SCENE_$1_MOVES))
 branched = $(if $(call teeth,$1,alike),$(filter yes,$(BRANCHES)))
@@ -275,9 +277,9 @@ table1: $(figure_folder)/table1.txt ## natural frequencies by ring-down at 100, 
 	@cat $<
 scorecard: out/figures/scorecard.txt ## every number and statement of the paper, its value in three scenes of its pair, whether it agrees
 	@cat $<
-histories: $(if $(filter histories,$(goals)),$$(addsuffix .png,$$(history_figures))) ## DTE over time, its spectrum and the tooth loads at one mesh frequency in Hz, both branches: AT=1250 TORQUE=150 (SCENE: its first torque)
+histories: $(if $(filter histories,$(goals)),$$(addsuffix .png,$$(history_figures))) ## DTE over time, its spectrum and the tooth loads (of a train mesh and bearing forces) at one mesh frequency in Hz, both branches: AT=1300 TORQUE=150 (SCENE: its first torque)
 	$(call stands,histories: $(addsuffix .{png$(,)svg$(,)tsv},$(history_figures)))
-sound: $(if $(filter sound,$(goals)),$$(sound_file).wav) ## what is heard of the mesh force at one mesh frequency in Hz, rising branch, then falling, as WAV: AT=2400; or of a run-up, then a run-down: RATE=100 (rpm/s) FROM=2400 TO=2800; TORQUE=150 TRANSFER=file.csv (SCENE: its first torque)
+sound: $(if $(filter sound,$(goals)),$$(sound_file).wav) ## what is heard of the mesh force at one mesh frequency in Hz, rising branch, then falling, as WAV: AT=2400; or of a run-up, then a run-down: RATE=100 (rpm/s) FROM=2400 TO=2800; TORQUE=150 TRANSFER=file.csv (SCENE: its first torque; of a train the first mesh, or MESH=sun-planet2)
 	$(call stands,sound: $(sound_file).{wav$(,)tsv})
 runup: $(if $(filter runup,$(goals)),$$(runup_figure).png) ## run-up or run-down: spectrogram of the mesh force, orders of the DTE, tooth loads: RATE=100 (rpm/s) WAY=up FROM=2400 TO=2800 (Hz; else the scene's speeds) TORQUE=150 (SCENE: its first torque)
 	$(call stands,runup: $(runup_figure).{png$(,)svg$(,)tsv})

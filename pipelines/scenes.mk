@@ -64,8 +64,9 @@ fragment = @new=$(call new,$@); said=$$($1 --output $$new --out out --ids $(B)/i
   if cmp -s $$new $@; then rm $$new; else mv $$new $@; echo "$$said" >&2; fi
 empty_fragments = $(foreach f,$(filter-out $(wildcard $1),$1),$(shell mkdir -p $(dir $f) && touch $f))
 
-# $(call required,scene): goals that it may not reach
-required = $(patsubst %,--goal %,$(filter $(if $(filter $1,$(compared)),compare) $(if $(filter $1,$(scene_stem)),$(pair_goals) $(system_goals) figures $(figures) table1 animation),$(goals)))
+# $(call required,scene): goals that it may not reach, an axis, a mesh and a speed that it may not have
+required = $(patsubst %,--goal %,$(filter $(if $(filter $1,$(compared)),compare) $(if $(filter $1,$(scene_stem)),$(pair_goals) $(system_goals) figures $(figures) table1 animation),$(goals))) \
+  $(if $(filter $1,$(own_scene)),$(if $(AXIS),--axis '$(AXIS)') $(if $(filter harris-map sound,$(goals)),$(if $(MESH),--mesh '$(MESH)')) $(if $(filter histories sound,$(goals)),$(if $(AT),--at '$(AT)')))
 
 scene_fragments := $(scenes:%=$(B)/scenes/%.mk)
 $(call empty_fragments,$(scene_fragments))

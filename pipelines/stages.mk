@@ -44,7 +44,7 @@ TORQUE ?= $(if $(SCENE),$(SCENE_$(own_scene)_REFERENCE_TORQUE),150)
 PHASE ?= 0.25
 # Without AT and with RATE: the sound of a run-up, then of a run-down.
 sound_of_runup := $(if $(AT),,$(if $(RATE),$(filter sound,$(goals))))
-RATE ?= 100
+RATE ?=
 WAY ?= up
 # The rate (rpm/s) stands in the path, and the ends of the ramp (Hz) where they are not the scene's: runup_100.h5,
 # runup_100_2400_2800.h5.

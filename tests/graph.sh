@@ -159,14 +159,14 @@ refuses "a scene as a target is told SCENE=" 'own.toml SCENE=own.toml' own.toml
 rm own.toml
 refuses "a damping in per cent is told the share" 'DAMPING=5 0 1 0.05' DAMPING=5 calibrate
 refuses "a damping with a decimal comma is rejected" 'DAMPING=0,05 share' DAMPING=0,05 calibrate
-refuses "histories without a speed are told how to say one" 'Hz make histories AT=1250' histories
+refuses "histories without a speed are told how to say one" 'Hz make histories AT=1300' histories
 refuses "a sound without a speed is told how to say one" 'Hz make sound AT=2400' sound
-says "a sound at a speed and a torque of one's own" 'gear-sound --sweep out/parker2000/T100/up/sweep.h5 --sweep out/parker2000/T100/down/sweep.h5 --mesh-frequency 1250 .*--output out/figures/sound-1250Hz-T100' AT=1250 TORQUE=100 sound
+says "a sound at a speed and a torque of one's own" 'gear-sound --sweep out/parker2000/T100/up/sweep.h5 --sweep out/parker2000/T100/down/sweep.h5 --mesh-frequency 1300 .*--output out/figures/sound-1300Hz-T100' AT=1300 TORQUE=100 sound
 says "the sound of a run-up, then of the run-down over the same speeds" 'gear-sound --runup out/parker2000/T100/up/runup_500_2400_2800.h5 --runup out/parker2000/T100/down/runup_500_2800_2400.h5 .*--output out/figures/sound-runup-500-2400-2800-T100' RATE=500 FROM=2400 TO=2800 TORQUE=100 sound
 mkdir -p a b; echo first > a/mic.csv; echo second > b/mic.csv; touch -d 2000-01-01 a/mic.csv b/mic.csv
-make_ AT=1250 TORQUE=100 TRANSFER=a/mic.csv sound; plans "a sound behind a transfer function is up to date" "" AT=1250 TORQUE=100 TRANSFER=a/mic.csv sound
-plans "a transfer function of the same name in another folder, however old, makes the sound again" "gear-sound*1" AT=1250 TORQUE=100 TRANSFER=b/mic.csv sound
-cp -p b/mic.csv a/mic.csv; plans "and so does another one in its place" "gear-sound*1" AT=1250 TORQUE=100 TRANSFER=a/mic.csv sound
+make_ AT=1300 TORQUE=100 TRANSFER=a/mic.csv sound; plans "a sound behind a transfer function is up to date" "" AT=1300 TORQUE=100 TRANSFER=a/mic.csv sound
+plans "a transfer function of the same name in another folder, however old, makes the sound again" "gear-sound*1" AT=1300 TORQUE=100 TRANSFER=b/mic.csv sound
+cp -p b/mic.csv a/mic.csv; plans "and so does another one in its place" "gear-sound*1" AT=1300 TORQUE=100 TRANSFER=a/mic.csv sound
 refuses "an export without a model is told what it needs" 'export model make SCENE=my-pair.toml MODEL=stage.rexs' export
 refuses "an export to a model that is not there" 'MODEL=a/none.rexs file' MODEL=a/none.rexs export
 echo first > a/stage.rexsj; make_ MODEL=a/stage.rexsj STAGE='First stage' export; plans "an export is up to date" "" MODEL=a/stage.rexsj STAGE='First stage' export
@@ -212,18 +212,23 @@ done
 make_ -n AXIS=rpm:sun DB=1e-6 SCENE=data/scenes/oh58-planetary.toml report branches
 [ "$(grep -c "gear-plot.* --axis 'rpm:sun'" "$log")" = 4 ] && [ "$(grep -c "gear-plot.* --db 1e-6" "$log")" = 3 ] && ok "speeds in rpm and levels of a train: Campbell diagram, sweeps, branch" ||
   wrong "speeds in rpm and levels of a train" "$(grep 'gear-plot' "$log" | cut -c1-120 | tail -n 6)"
+train="SCENE=data/scenes/oh58-planetary.toml"
+refuses "a speed of a gear that the scene does not have, before anything is computed" 'AXIS=rpm:pinion sun planet4 carrier' AXIS=rpm:pinion $train report
+refuses "a speed that its sweeps do not have" 'AT=1470 1450 600 6000 50' AT=1470 $train sound
+refuses "and a mesh that it does not have" 'MESH=sun-planet5 sun-planet4' AT=1450 MESH=sun-planet5 $train sound
+says "the motion of a train at one speed" 'gear-plot fig08 --output out/oh58-planetary/report/histories-1450Hz-T400 --mesh-frequency 1450 out/oh58-planetary/T400/up/sweep.h5 out/oh58-planetary/T400/down/sweep.h5' AT=1450 $train histories
 refuses "a figure that has no amplitudes in dB" 'DB=1e-6 fig05' DB=1e-6 fig05
-refuses "a sound at a speed and of a run-up" 'AT=1250 RATE=500' AT=1250 RATE=500 sound
+refuses "a sound at a speed and of a run-up" 'AT=1300 RATE=500' AT=1300 RATE=500 sound
 refuses "a speed of something" 'AXIS=order:1 rpm:<gear>' AXIS=order:1 fig05
 refuses "decibels of nothing" 'DB=0 length 0' DB=0 order-cuts
 mkfifo a/pipe.csv a/pipe.rexs a/pipe.toml
-for given in 'TRANSFER=a/pipe.csv AT=1250 sound' 'MODEL=a/pipe.rexs export' 'MODEL=/dev/zero export' 'SCENE=a/pipe.toml report' 'STUDY=a/pipe.toml study'; do
+for given in 'TRANSFER=a/pipe.csv AT=1300 sound' 'MODEL=a/pipe.rexs export' 'MODEL=/dev/zero export' 'SCENE=a/pipe.toml report' 'STUDY=a/pipe.toml study'; do
   timeout 60 make $sanitize -n $given > "$log" 2>&1
   grep -q "\*\*\* ${given%% *}: it is no regular file" "$log" && ok "${given%% *}, which has no end, is not read" || wrong "${given%% *}, which has no end, is not read" "$(tail -n 1 "$log")"
 done
 rm a/pipe.*
-refuses "a transfer function that is not there" 'TRANSFER=a/none.csv file' TRANSFER=a/none.csv AT=1250 sound
-refuses "a file whose name is that of an option" 'option ./-t.csv' TRANSFER=-t.csv AT=1250 sound
+refuses "a transfer function that is not there" 'TRANSFER=a/none.csv file' TRANSFER=a/none.csv AT=1300 sound
+refuses "a file whose name is that of an option" 'option ./-t.csv' TRANSFER=-t.csv AT=1300 sound
 refuses "a share whose numbers overflow" 'SHARE=18446744073709551617/18446744073709551617 i/n' STUDY=tolerances SHARE=18446744073709551617/18446744073709551617 study
 refuses "a variant whose name leads out of its folder" 'VARIANTS ../..:bore_radius_mm=35 folder' VARIANTS=../..:bore_radius_mm=35 sensitivity
 refuses "a variant without a change" 'VARIANTS ../.. name:key=value' VARIANTS=../.. sensitivity
@@ -233,14 +238,15 @@ FAIL=out/figures/order-cuts make_ DB=1e-6 order-cuts
 [ "$(ls out/figures/order-cuts.*)" = "$before" ] && [ "$(wc -l <<< "$before")" -ge 3 ] && ok "a figure that fails leaves all files of the earlier one" ||
   wrong "a figure that fails leaves all files of the earlier one" "$(printf '%s ' out/figures/order-cuts.*)"
 refuses "a run-up at a rate that is none is told what it is" 'RATE=fast rpm/s' RATE=fast runup
+refuses "a run-up without a rate is told how to say one" 'rpm/s make runup RATE=1000' runup
 refuses "a run-up with one end is told to give both" 'both none' FROM=2400 runup
 make_ -n RATE=500 WAY=down FROM=2800 TO=2400 TORQUE=100 runup
 grep -q "gear-runup --params .*T100/static.h5 .*--direction down --rate '500' --from '2800' --to '2400' --output out/parker2000/T100/down/runup_500_2800_2400.h5" "$log" &&
   grep -q 'gear-plot runup --output out/figures/runup-500-2800-2400-down-T100 ' "$log" &&
   ok "a run-down between two speeds" || wrong "a run-down between two speeds" "$(tail -n 1 "$log")"
-make_ -n AT=1250 TORQUE=100 histories
-grep -q 'gear-plot fig08 --output out/figures/histories-1250Hz-T100 --mesh-frequency 1250 .*out/parker2000/T100/up/sweep.h5' "$log" &&
-  grep -q 'gear-plot fig10 --output out/figures/history-loads-1250Hz-T100 --mesh-frequency 1250 ' "$log" && ok "histories at a speed and a torque of one's own" ||
+make_ -n AT=1300 TORQUE=100 histories
+grep -q 'gear-plot fig08 --output out/figures/histories-1300Hz-T100 --mesh-frequency 1300 .*out/parker2000/T100/up/sweep.h5' "$log" &&
+  grep -q 'gear-plot fig10 --output out/figures/history-loads-1300Hz-T100 --mesh-frequency 1300 ' "$log" && ok "histories at a speed and a torque of one's own" ||
   wrong "histories at a speed and a torque of one's own" "$(tail -n 1 "$log")"
 refuses "a phase beyond the mesh period is told its range" 'PHASE=1.2 share 0 1' PHASE=1.2 loaded
 make_ help

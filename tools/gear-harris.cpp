@@ -16,65 +16,19 @@
 #include "base/number_list.h"
 #include "base/progress.h"
 #include "base/tool.h"
-#include "dynamics/lines_motion.h"
 #include "gear/body_inertia.h"
 #include "io/artifacts.h"
-#include "io/compatibility.h"
 #include "io/pair_inputs.h"
 #include "io/provenance.h"
 #include "io/scene.h"
+#include "io/static_words.h"
 #include "io/system_scene.h"
 #include "results/harris_map.h"
-#include "results/static.h"
 #include "studies/harris_plan.h"
-#include "system/load_balance.h"
 
 namespace {
 
 using namespace whine;
-
-// What a map is of: a pair, or one mesh of a train.
-struct MappedPair {
-  StaticParameters settings;
-  std::vector<ReducedBody> body;  // driver, driven
-  double torque = 0;              // N m on the driver, of a train its share; 0: of a pair
-};
-
-// The mesh called `name` ("sun-planet1") of a train. Its teeth are alike.
-MappedPair mesh_of_train(const std::string& params, const std::string& name, const NamedFiles& files) {
-  const SystemStaticParameters train = read_system_static_parameters(params);
-  size_t m = train.layout.meshes.size();
-  std::string known;
-  for (size_t n = 0; n < train.layout.meshes.size(); ++n) {
-    const std::string own = mesh_name(train.layout, n);
-    known += (known.empty() ? "" : ", ") + own;
-    if (own == name) m = n;
-  }
-  if (m == train.layout.meshes.size())
-    fail(Failure::usage, "--mesh ",
-         name.empty() ? "is needed of a train" : name + ": the train has no such mesh", "; there are ",
-         known);
-  const System::Mesh& mesh = train.layout.meshes[m];
-  MappedPair out{{train.mesh[static_cast<size_t>(train.section[m])], train.fidelity, train.contact}, {}, 0};
-  const std::vector<ReducedBody> bodies = read_bodies(files, train);
-  require_able("harris-map", traits(train, bodies));
-  for (size_t g = 0; g < kSides; ++g)
-    for (size_t b = 0; b < train.body.size(); ++b)
-      if (train.body[b].first == out.settings.mesh.gear[g]) {
-        out.settings.body[g] = train.body[b].second;
-        out.body.push_back(bodies[b]);
-      }
-  out.settings.mesh.centre_distance = mesh.centre_distance;
-  out.torque = load_balance(train.layout).load[static_cast<Eigen::Index>(m)] *
-               train.layout.bodies[static_cast<size_t>(mesh.side[0].body)].radius;
-  return out;
-}
-
-MappedPair drawn_pair(const std::string& params, const NamedFiles& files) {
-  const StaticParameters settings = read_static_parameters(params);
-  const PairBodies bodies = read_bodies(files, settings);
-  return {settings, {bodies.begin(), bodies.end()}, 0};
-}
 
 // The map at rest, checked at so many points; with params (of sweeps) in motion, too. took: s of this processor.
 HarrisMapResult computed(const ReducedBody& first, const ReducedBody& second,
@@ -97,23 +51,6 @@ HarrisMapResult computed(const ReducedBody& first, const ReducedBody& second,
     progress.reset();
   }
   return map;
-}
-
-void tell_results(const HarrisPlan& plan, const HarrisMapResult& map, double took,
-                  const std::string& output) {
-  log_line("gear-harris: ", plan.torque.size(), " torques x ", plan.relief.size(), " reliefs x ",
-           plan.length.size(), " starts in ", took, " s of CPU -> ", output);
-  for (Eigen::Index s = 0; s < map.length.size(); ++s) {
-    const bool at_edge = plan.relief.size() > 1 && map.optimum_relief[s] >= plan.relief.back();
-    log_line("gear-harris: start ", map.start_roll(s, 0) * 180 / std::numbers::pi, " deg: at ",
-             map.design_torque, " N m ", map.optimum_relief[s] * 1e6, " µm leave ",
-             map.optimum_peak_to_peak[s] * 1e6, " µm peak to peak",
-             at_edge ? "; that is the edge of the map: more relief may leave less, widen --relief-um" : "");
-  }
-  if (map.checked > 0)
-    log_line("gear-harris: ", map.checked,
-             " points solved again with 3 times the strips and positions differ by ", map.largest_error * 100,
-             " % of the peak to peak at most");
 }
 
 void body(int argc, char** argv) {
@@ -169,9 +106,7 @@ void body(int argc, char** argv) {
   const NamedFiles files("--body", bodies);
   const bool train = is_system_scene(static_params);
   if (train && dynamic) fail(Failure::usage, "--dynamic: the map of a train is at rest; leave it out");
-  if (!train && !mesh.empty()) fail(Failure::usage, "--mesh ", mesh, ": ", static_params, " is of a pair");
-  const MappedPair mapped =
-      train ? mesh_of_train(static_params, mesh, files) : drawn_pair(static_params, files);
+  const MeshInputs mapped = read_mesh_inputs(static_params, mesh, files);
   const StaticParameters& settings = mapped.settings;
   const ReducedBody &first = mapped.body[0], &second = mapped.body[1];
   if (!design.empty()) plan.design_torque = number_option("--design-torque", design);
@@ -194,7 +129,8 @@ void body(int argc, char** argv) {
   const HarrisMapResult map = computed(first, second, settings, plan, static_cast<int>(checks),
                                        dynamic ? params : "", reference, took);
   write(output, map, provenance);
-  tell_results(plan, map, took, output);
+  for (const std::string& line : harris_words(map)) log_line("gear-harris: ", line);
+  log_line("gear-harris: ", took, " s of CPU -> ", output);
 }
 
 }  // namespace

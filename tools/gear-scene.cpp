@@ -40,10 +40,10 @@ void tell_lines(const std::vector<std::string>& lines) {
 
 // A system (several meshes, carriers or drives): its stage parameters and its fragment.
 void cut_system(const std::string& path, const std::string& stem, const std::string& folder,
-                const std::vector<std::string>& goals, const std::string& output) {
+                const SceneRequest& asked, const std::string& output) {
   const SystemScene scene = read_system_scene(path);
   const System layout = layout_in(scene, path);
-  check_goals(goals, traits(scene, layout), path);
+  check_asked(asked, scene, layout, path);
   const std::string home = folder + "/" + stem;
   if (scene.rigid())
     rigid_system(layout);
@@ -60,10 +60,10 @@ void cut_system(const std::string& path, const std::string& stem, const std::str
 }
 
 void cut_pair(const std::string& path, const std::string& stem, const std::string& folder,
-              const std::vector<std::string>& goals, const std::string& ids, const std::string& output) {
+              const SceneRequest& asked, const std::string& ids, const std::string& output) {
   const Scene scene = read_scene(path);  // 1. The whole scene is checked before anything is written.
   check_scene(scene, path);
-  check_goals(goals, traits(scene), path);
+  check_asked(asked, scene, path);
   const std::string home = folder + "/" + stem;
   record_scene(home, path);
   // Together: program ids, results and stage parameters keep their order.
@@ -91,7 +91,8 @@ void cut_pair(const std::string& path, const std::string& stem, const std::strin
 
 void body(int argc, char** argv) {
   std::string path, output, variant, ids, goals, folder = "out";
-  std::vector<std::string> changes, given, of_scene;
+  std::vector<std::string> changes, given;
+  SceneRequest asked;
   bool keys = false, plan = false, features = false;
   whine::Options options{"Checks a scene and writes what each stage needs of it", "gear-scene"};
   Option scene_option = options.add("--scene", path, "scene file (TOML)");
@@ -102,16 +103,16 @@ void body(int argc, char** argv) {
       "--ids", ids,
       "folder of the files that tell make which programs have changed: those with a time in the future get the time of now");
   Option keys_option = options.flag("--keys", keys, "print the table of scene keys and end");
-  options.flag("--features", features,
-               "print what goals and stages do not take of a scene, and why, and end");
+  options.flag("--features", features, "print what goals and stages do not take, and why, and end");
   Option variant_option = options.add("--variant", variant, "scene to write with the changes of --set");
   Option set_option = options.add("--set", changes, "key=value, any number of times");
-  Option goals_option =
-      options.add("--goals", goals,
-                  "goals of make, with a blank between: prints what is wrong with them and with --given");
+  Option goals_option = options.add(
+      "--goals", goals, "goals of make, with blanks between: prints what is wrong with them and --given");
   options.add("--given", given, "NAME=value, a variable of make, any number of times").needs(goals_option);
-  options.add("--goal", of_scene,
-              "a goal of make, any number of times: rejected if the scene cannot reach it");
+  options.add("--goal", asked.goals, "a goal of make, any number of times: one that can be reached");
+  options.add("--axis", asked.axis, "AXIS of make: of a gear or carrier that turns");
+  options.add("--mesh", asked.mesh, "MESH of make: one that there is");
+  options.add("--at", asked.at, "AT of make, Hz: a speed of the sweeps");
   Option plan_option = options.flag(
       "--plan", plan, "print settings, their errors, expected CPU time and memory of a scene and end");
   plan_option.needs(scene_option).excludes(output_option).excludes(variant_option);
@@ -124,8 +125,7 @@ void body(int argc, char** argv) {
       "  gear-scene --scene data/scenes/parker2000.toml --output build/scenes/parker2000.mk --out out\n"
       "  gear-scene --scene data/scenes/parker2000.toml --set bore_radius_mm=35 --variant out/parker2000/variants/bore35.toml\n"
       "  gear-scene --scene data/scenes/lin-parker-planetary.toml --output build/scenes/lin-parker-planetary.mk --out out\n"
-      "  gear-scene --plan --scene data/scenes/parker2000.toml\n"
-      "  gear-scene --keys");
+      "  gear-scene --plan --scene data/scenes/parker2000.toml");
   options.parse(argc, argv);
   if (keys || features || !goals.empty()) {
     std::cout << (keys ? scene_key_table() : features ? capability_table() : wrong_with(goals, given));
@@ -139,8 +139,8 @@ void body(int argc, char** argv) {
   if (path.empty() || output.empty())
     fail(Failure::usage, "--scene and --output are needed, or --keys; see --help");
   const std::string stem = checked_scene_stem(path);
-  if (is_system_scene(path)) return cut_system(path, stem, folder, of_scene, output);
-  cut_pair(path, stem, folder, of_scene, ids, output);
+  if (is_system_scene(path)) return cut_system(path, stem, folder, asked, output);
+  cut_pair(path, stem, folder, asked, ids, output);
 }
 
 }  // namespace

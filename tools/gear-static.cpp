@@ -68,44 +68,15 @@ AtRest train_results(const StageCommand& stage) {
   return {system_at_rest(settings, read_bodies(stage.bodies(), settings))};
 }
 
-std::string range(double least, double most) {
-  return least == most ? text(least) : text(least, " to ", most);
-}
-
-// Of one mesh its transmission error over the period, of several their means.
-void tell(const SystemStaticResult& a, const std::string& output) {
-  double least = 1e30, most = -1e30, soft = 1e30, stiff = 0, force = 0;
-  for (const StaticResult& mesh : a.mesh) {
-    const auto& te = mesh.transmission_error;
-    least = std::min(least, a.of_train() ? te.mean() : te.minCoeff());
-    most = std::max(most, a.of_train() ? te.mean() : te.maxCoeff());
-    soft = std::min(soft, mesh.mean_stiffness);
-    stiff = std::max(stiff, mesh.mean_stiffness);
-  }
-  for (const MatrixRM& at : a.bearing_force) force = std::max(force, at.rowwise().norm().maxCoeff());
-  if (a.of_train() && a.hunting_periods > 1)
-    log_line("gear-static: teeth differ: ", a.hunting_periods,
-             " mesh periods, after which the same ones meet, of ", a.settings.contact.positions,
-             " positions each");
-  const std::string what = a.of_train()
-                               ? text(a.body_names.size(), " bodies, ", a.mesh.size(), " meshes")
-                               : text(a.mesh[0].torque, " N m, contact ratio ", a.mesh[0].contact_ratio);
-  log_line("gear-static: ", what, ", mean stiffness ", range(soft * 1e-6, stiff * 1e-6), " N/µm, ",
-           a.of_train() ? "mean transmission errors " : "transmission error ", least * 1e6, " to ",
-           most * 1e6, " µm",
-           a.of_train() ? text(", shares of the load up to ", a.load_share.maxCoeff() * 100,
-                               " %, bearing forces up to ", force, " N")
-                        : std::string(),
-           " -> ", output);
-  tell(face_load_words(a));
-}
-
 void at_rest(const StageCommand& stage, const Provenance& made, double torque, bool next_level) {
   std::optional<StepsShown> steps(std::in_place, "gear-static");
   const AtRest rest = stage.of_train() ? train_results(stage) : pair_results(stage, torque, next_level);
   steps.reset();
   write(stage.output(), rest.result, made);
-  tell(rest.result, stage.output());
+  std::vector<std::string> summary = summary_words(rest.result);
+  summary.back() += " -> " + stage.output();
+  tell(summary);
+  tell(face_load_words(rest.result));
   if (rest.change) {
     const int strips = rest.result.mesh[0].contact.strips;
     tell(change_words("where a pair carries load off the line of action", rest.change->corner, strips));

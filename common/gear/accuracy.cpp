@@ -22,9 +22,8 @@ struct Law {
 };
 constexpr Law kStrips{"strips", 5.5e-3, 4, -1.6, 0.15}, kPoints{"face_points", 1.2e-3, 8, -1.4, 0.03},
     kElements{"element_mm", 4.7e-2, 1, 2, 0.15}, kPeriodicity{"periodicity", 3e-4, 1e-4, 1, 0.02},
-    kPeriodicityOfTrain{"periodicity", 1e-2, 1e-4, 1, 0.02}, kModes{"modes", 1.2e-2, 21, -1.3, 0.40},
-    kModesOfTrain{"modes", 3e-2, 21, -1.3, 0.40}, kFlankPoints{"flank_points", 1.1e-3, 24, -2, 0.03},
-    kSteps{"min_sample_rate_kHz", 22, 1, -2, 0.25},
+    kPeriodicityOfTrain{"periodicity", 1e-2, 1e-4, 1, 0.02}, kModes{"modes", 4.5e-3, 1, -1.6, 0.40},
+    kFlankPoints{"flank_points", 1.1e-3, 24, -2, 0.03}, kSteps{"min_sample_rate_kHz", 22, 1, -2, 0.25},
     kStepsOfMassDamping{"min_sample_rate_kHz", 100, 1, -2, 0.25};
 
 // N m-1 per m, c_gamma of steel gears as practice takes it.
@@ -61,6 +60,7 @@ struct Settings {
   ContactDiscretisation& contact;
   TimeDiscretisation& time;
   double natural_frequency, module, fastest;  // Hz, m, Hz
+  double first_modes;                         // of the largest gear, those in which its teeth bend
   bool on_strips, train, mass_damped;
   const KeyGiven& given;
 };
@@ -107,10 +107,10 @@ std::vector<Governed> governed(const Settings& s, bool any_body = false) {
   if (any_body ? s.fidelity.body != BodyModel::full : s.fidelity.body == BodyModel::modal) {
     constexpr int kLeast = 9, kMost = 1001;
     int& modes = s.body.modes;
-    out.push_back({s.train || s.fidelity.width != WidthModel::one ? &kModesOfTrain : &kModes,
-                   static_cast<double>(modes),
-                   [&, whole](double x) { return whole(modes, x, kLeast, kMost, 1); },
-                   static_cast<double>(modes)});
+    out.push_back(
+        {&kModes, modes / s.first_modes,
+         [&, whole, n = s.first_modes](double x) { return whole(modes, x * n, kLeast, kMost, 1) / n; },
+         static_cast<double>(modes)});
   }
   const double size = relative_element_size(s.body, s.module);
   out.push_back({&kElements, size,
@@ -212,6 +212,14 @@ double smallest_module(const AnyScene& scene) {
   return out;
 }
 
+template <class AnyScene>
+double first_modes(const AnyScene& scene) {
+  constexpr int kOfDisc = 11;  // that lie among those of the teeth
+  int teeth = 0;
+  for (const auto& gear : scene.gears) teeth = std::max(teeth, gear.design.teeth);
+  return teeth + kOfDisc;
+}
+
 // Whether most of the damping at a frequency (Hz) is that of the mass, so that none is left for fast modes.
 bool mass_damped(const Damping& damping, double frequency) {
   const double omega = 2 * std::numbers::pi * frequency;
@@ -246,6 +254,7 @@ Settings settings_of(AnyScene& scene, const KeyGiven& given) {
           frequency,
           smallest_module(scene),
           scene.operation.frequency_to,
+          first_modes(scene),
           on_strips(scene),
           in_train(scene),
           mass_damped(scene.damping, frequency),

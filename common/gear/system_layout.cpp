@@ -71,6 +71,7 @@ class Layout {
     take_carriers();
     take_pins();
     take_drives();
+    check_room();
     return std::move(system_);
   }
 
@@ -243,8 +244,8 @@ class Layout {
         reject("mesh", m, "[[mesh]] of '", first.name, "' and '", second.name,
                "': cannot be assembled: the teeth of '", to, "' miss the spaces by ", miss, " of a pitch");
     }
-    System::Mesh& made = system_.meshes.back();
-    made.stiffness = scene_.meshes[m].stiffness;
+    system_.meshes.back().stiffness = scene_.meshes[m].stiffness;
+    section_.push_back(m);
   }
 
   static double inertia_of(const SystemScene::Gear& gear) {
@@ -266,7 +267,11 @@ class Layout {
       if (room <= 2 * tip)
         reject("carrier", c, "planets ", n + 1, " and ", (n + 1) % at.size() + 1, " of carrier '",
                carrier.name, "' run into each other: their axes are ", millimetres(room),
-               " apart, their tip diameter is ", millimetres(2 * tip), "; take fewer planets");
+               " apart, their tip diameter is ", millimetres(2 * tip), "; ",
+               tip < radius
+                   ? text("give positions more than ", shown_number(2 * std::asin(tip / radius) * kInDegrees),
+                          " degrees apart, or take fewer planets")
+                   : "take one planet");
     }
   }
 
@@ -349,8 +354,69 @@ class Layout {
     }
   }
 
+  // Where an axis may stand: on a circle, which a planet goes round whose carrier is free; of all others a point.
+  struct Path {
+    std::array<double, 2> centre;
+    double radius;
+  };
+  Path path_of(const System::Body& body) const {
+    if (body.on == System::kGround || system_.held(body.on)) return {body.centre, 0};
+    const System::Body& carrier = system_.bodies[static_cast<size_t>(body.on)];
+    return {carrier.centre, carrier.radius};
+  }
+
+  // Gears without a mesh with each other do not share a place: the middles of all faces stand in one plane. Planets of one carrier:
+  // check_neighbours().
+  void check_room() const {
+    const std::vector<std::string> gears = gears_of(scene_, system_);
+    std::vector<const GearDesign*> design(gears.size());
+    for (size_t b = 0; b < gears.size(); ++b)
+      for (const SystemScene::Gear& gear : scene_.gears)
+        if (gear.name == gears[b]) design[b] = &gear.design;
+    for (size_t b = 0; b < gears.size(); ++b)
+      for (size_t a = 0; a < b; ++a)
+        if (design[a] && design[b] && !meet(a, b) &&
+            (system_.bodies[a].on == System::kGround || system_.bodies[a].on != system_.bodies[b].on))
+          check_apart(a, *design[a], b, *design[b]);
+  }
+
+  bool meet(size_t a, size_t b) const {
+    return std::any_of(system_.meshes.begin(), system_.meshes.end(), [&](const System::Mesh& mesh) {
+      const auto first = static_cast<size_t>(mesh.side[0].body),
+                 second = static_cast<size_t>(mesh.side[1].body);
+      return (first == a && second == b) || (first == b && second == a);
+    });
+  }
+
+  void check_apart(size_t a, const GearDesign& of_a, size_t b, const GearDesign& of_b) const {
+    if (of_a.internal && of_b.internal) return;
+    const size_t ring = of_a.internal ? a : b, gear = ring == a ? b : a;
+    const GearDesign &around = ring == a ? of_a : of_b, &inside = ring == a ? of_b : of_a;
+    const Path one = path_of(system_.bodies[a]), other = path_of(system_.bodies[b]);
+    const double between = std::hypot(other.centre[0] - one.centre[0], other.centre[1] - one.centre[1]),
+                 most = between + one.radius + other.radius,
+                 least = std::max({between - one.radius - other.radius,
+                                   std::abs(one.radius - other.radius) - between, 0.0}),
+                 tips = ToothGeometry(around).tip_radius(), reach = ToothGeometry(inside).tip_radius();
+    const bool internal = around.internal;
+    const double room = internal ? tips - reach : tips + reach, beyond = around.rim_outer_radius + reach;
+    if (internal ? most <= room || least >= beyond : least >= room) return;
+    // The mesh that placed it.
+    size_t m = 0;
+    while (m + 1 < section_.size() && system_.meshes[m].side[1].body != static_cast<int>(b)) ++m;
+    const std::string names = text("'", system_.bodies[ring].name, "' and '", system_.bodies[gear].name,
+                                   "', which have no mesh, run into each other: their axes are ",
+                                   millimetres(internal && most < beyond ? most : least), " apart"),
+                      remedy = "; change direction_deg of a [[mesh]], positions of planets or teeth";
+    if (internal)
+      reject("mesh", section_[m], names, ", inside of the ring there is room up to ", millimetres(room),
+             ", beyond its rim from ", millimetres(beyond), remedy);
+    reject("mesh", section_[m], names, ", their tip circles reach ", millimetres(room), remedy);
+  }
+
   const SystemScene& scene_;
   System system_;
+  std::vector<size_t> section_;                 // [mesh] of the scene
   std::vector<std::vector<double>> positions_;  // [carrier] rad
 };
 
@@ -401,43 +467,6 @@ std::vector<int> sections_of(const std::vector<GearMeshSpec>& meshes, const std:
       fail(Failure::input, "no [[mesh]] joins '", layout.bodies[static_cast<size_t>(mesh.side[0].body)].name,
            "' and '", layout.bodies[static_cast<size_t>(mesh.side[1].body)].name, "'");
   }
-  return out;
-}
-
-std::vector<std::string> colliding_gears(const System& layout, const std::vector<const GearDesign*>& design) {
-  const auto in_mesh = [&](size_t a, size_t b) {
-    return std::any_of(layout.meshes.begin(), layout.meshes.end(), [&](const System::Mesh& mesh) {
-      const auto first = static_cast<size_t>(mesh.side[0].body),
-                 second = static_cast<size_t>(mesh.side[1].body);
-      return (first == a && second == b) || (first == b && second == a);
-    });
-  };
-  std::vector<std::string> out;
-  for (size_t b = 0; b < layout.bodies.size(); ++b)
-    for (size_t a = 0; a < b; ++a) {
-      const System::Body &first = layout.bodies[a], &second = layout.bodies[b];
-      const bool planets = first.on != System::kGround && second.on != System::kGround;
-      if (!design[a] || !design[b] || planets || in_mesh(a, b)) continue;
-      const double apart = std::hypot(second.centre[0] - first.centre[0], second.centre[1] - first.centre[1]),
-                   reach_a = ToothGeometry(*design[a]).tip_radius(),
-                   reach_b = ToothGeometry(*design[b]).tip_radius(), room = reach_a + reach_b;
-      if (design[a]->internal != design[b]->internal) {
-        const size_t ring = design[a]->internal ? a : b;
-        const double tips = ring == a ? reach_a : reach_b, reach = ring == a ? reach_b : reach_a,
-                     rim = design[ring]->rim_outer_radius;
-        if (apart + reach > tips && apart - reach < rim)
-          out.push_back(text(
-              "'", layout.bodies[ring == a ? b : a].name, "' has no mesh with the ring '",
-              layout.bodies[ring].name, "' and stands through it: from the axis of the ring it reaches from ",
-              (apart - reach) * 1e3, " to ", (apart + reach) * 1e3, " mm, the ring from ", tips * 1e3, " to ",
-              rim * 1e3, " mm; change direction_deg of a [[mesh]], unless they lie side by side"));
-      } else if (!design[a]->internal && apart < room) {
-        out.push_back(text("'", first.name, "' and '", second.name,
-                           "' have no mesh and run into each other: their axes are ", apart * 1e3,
-                           " mm apart, their tip circles reach ", room * 1e3,
-                           " mm; change direction_deg of a [[mesh]], unless they lie side by side"));
-      }
-    }
   return out;
 }
 

@@ -26,18 +26,13 @@ void require_joined(const std::vector<std::array<std::string, 2>>& meshes);
 
 // Bodies are in the order in which meshes name them, planets as <gear>1, <gear>2, ... in the order of their positions, carriers
 // last. Throws SystemSceneError with the section that is wrong: unknown names, gears that do not mesh, planets that cannot be
-// assembled or run into each other, meshes that do not form one train.
+// assembled, gears without a mesh that run into each other, meshes that do not form one train.
 System layout_of(const SystemScene& scene);
 
 // [body] the [gear.<name>] that a body of the layout is, "" of a carrier; [mesh] the [[mesh]] that a mesh of it comes from.
 std::vector<std::string> gears_of(const SystemScene& scene, const System& layout);
 std::vector<int> sections_of(const std::vector<GearMeshSpec>& meshes, const std::vector<std::string>& gears,
                              const System& layout);
-
-// A line for each two external gears that do not mesh and whose tip circles overlap, and for each that reaches through a ring: they run
-// into each other unless they lie side by side. Planets among themselves are left out, which layout_of() checks. design: [body]
-// nullptr: not known, of carriers.
-std::vector<std::string> colliding_gears(const System& layout, const std::vector<const GearDesign*>& design);
 
 // Whether a body is an internal gear: in its meshes both sides turn in one sense, and it has more teeth.
 bool is_ring(const System& system, int body);

@@ -213,7 +213,7 @@ void check_motions(const MakeRequest& request) {
     refuse("DAMPING", damping, "it is a share of critical damping, above 0 and below 1: 0.05 for 5 %");
   if (request.asks("histories") && !positive(at))
     fail(Failure::input, "histories: AT=", at,
-         ": say the mesh frequency in Hz, one of the sweep: make histories AT=1250");
+         ": say the mesh frequency in Hz, one of the sweep: make histories AT=1300");
   if (sound && !runup && !at.empty() && !rate.empty())
     fail(Failure::input, "sound: AT=", at, " and RATE=", rate,
          ": a sound is of one speed (AT) or of a run-up (RATE); leave one of them out");
@@ -229,6 +229,10 @@ void check_motions(const MakeRequest& request) {
     if ((!from.empty() || !to.empty()) && (!positive(from) || !positive(to)))
       fail(Failure::input, "FROM=", from, " TO=", to,
            ": give both or none: mesh frequencies in Hz at the start and the end of the ramp");
+    if (rate.empty())
+      fail(
+          Failure::input,
+          "runup: RATE=: say the rate in rpm/s of the driving gear: make runup RATE=1000; a tenth of it takes ten times as long");
   }
   if (request.asks("loaded") && !phase.empty() && !within(phase, 0, 1))
     refuse("PHASE", phase, "it is a share of the mesh period, 0 up to, not including, 1");

@@ -3,13 +3,16 @@
 #include <utility>
 
 #include "base/error.h"
+#include "dynamics/lines_motion.h"
 #include "gear/body_inertia.h"
 #include "io/artifact_kinds.h"
 #include "io/artifacts.h"
 #include "io/compatibility.h"
 #include "io/provenance.h"
+#include "io/system_scene.h"
 #include "results/reduced_body.h"
 #include "results/static.h"
+#include "system/load_balance.h"
 
 namespace whine {
 namespace {
@@ -38,6 +41,45 @@ PairBodies read_bodies(const NamedFiles& files, const StaticParameters& settings
   for (size_t g = 0; g < kSides; ++g)
     require_body(body[g], settings.body[g], settings.mesh.gear[g], paths[g]);
   return body;
+}
+
+namespace {
+
+size_t mesh_called(const std::string& name, const System& layout) {
+  std::string known;
+  for (size_t m = 0; m < layout.meshes.size(); ++m) {
+    const std::string own = mesh_name(layout, m);
+    if (own == name) return m;
+    known += (known.empty() ? "" : ", ") + own;
+  }
+  fail(Failure::usage, "--mesh ",
+       name.empty() ? "is needed of a train" : name + ": the train has no such mesh", "; there are ", known);
+}
+
+}  // namespace
+
+MeshInputs read_mesh_inputs(const std::string& params, const std::string& name, const NamedFiles& files) {
+  if (!is_system_scene(params)) {
+    if (!name.empty()) fail(Failure::usage, "--mesh ", name, ": ", params, " is of a pair");
+    const StaticParameters settings = read_static_parameters(params);
+    return {settings, read_bodies(files, settings)};
+  }
+  const SystemStaticParameters train = read_system_static_parameters(params);
+  const size_t m = mesh_called(name, train.layout);
+  const System::Mesh& mesh = train.layout.meshes[m];
+  MeshInputs out{{train.mesh[static_cast<size_t>(train.section[m])], train.fidelity, train.contact}, {}};
+  const std::vector<ReducedBody> bodies = read_bodies(files, train);
+  require_able("harris-map", traits(train, bodies));
+  for (size_t g = 0; g < kSides; ++g)
+    for (size_t b = 0; b < train.body.size(); ++b)
+      if (train.body[b].first == out.settings.mesh.gear[g]) {
+        out.settings.body[g] = train.body[b].second;
+        out.body[g] = bodies[b];
+      }
+  out.settings.mesh.centre_distance = mesh.centre_distance;
+  out.torque = load_balance(train.layout).load[static_cast<Eigen::Index>(m)] *
+               train.layout.bodies[static_cast<size_t>(mesh.side[0].body)].radius;
+  return out;
 }
 
 PairInputs read_pair_inputs(const NamedFiles& files, const std::string& statics, const std::string& reference,

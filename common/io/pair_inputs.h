@@ -19,6 +19,18 @@ using PairBodies = std::array<ReducedBody, kSides>;  // driver, driven
 // NamedFiles::of.
 PairBodies read_bodies(const NamedFiles& files, const StaticParameters& settings);
 
+// Two gears at rest that are a pair, or one mesh of a train, whose teeth are alike and whose bearings are rigid.
+struct MeshInputs {
+  StaticParameters settings;
+  PairBodies body;
+  double torque =
+      0;  // N m on the driver: of a train what the mesh carries, of a pair 0, as its settings have none
+};
+
+// mesh: its name in a train, "sun-planet1". Throws Error(usage) for one that is not there, of a pair for any, Error(input) for trains that
+// Harris maps do not take, and errors of read_bodies().
+MeshInputs read_mesh_inputs(const std::string& params, const std::string& mesh, const NamedFiles& files);
+
 // Of a pair in motion.
 struct PairInputs {
   PairBodies body;

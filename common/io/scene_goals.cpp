@@ -1,8 +1,12 @@
 #include "io/scene_goals.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/error.h"
+#include "base/format.h"
+#include "gear/shafts.h"
+#include "studies/sweep.h"
 
 namespace whine {
 
@@ -56,6 +60,52 @@ void check_goals(const std::vector<std::string>& goals, const Traits& scene, con
   for (const std::string& goal : goals)
     if (const std::string words = refusal(goal, scene); !words.empty())
       fail(Failure::input, which, ": ", words, "; for it there is: make ", which, " ", instead);
+}
+
+namespace {
+
+void check_speed(double at, const Operation& speeds, const std::string& path) {
+  if (!(at > 0) || !(speeds.frequency_to > 0)) return;
+  double nearest = speeds.frequency_from;
+  for (const double f :
+       swept_speeds(speeds.frequency_from, speeds.frequency_to, speeds.frequency_step, Direction::up))
+    if (std::abs(f - at) < std::abs(nearest - at)) nearest = f;
+  if (std::abs(nearest - at) > 1e-9 * at)
+    fail(Failure::input, "AT=", shown_number(at), ": the sweeps of ", path,
+         " hold no such speed; the nearest is ", shown_number(nearest), " Hz: mesh_frequency_Hz goes from ",
+         shown_number(speeds.frequency_from), " to ", shown_number(speeds.frequency_to), " in steps of ",
+         shown_number(speeds.frequency_step));
+}
+
+void check_mesh(const std::string& mesh, const std::vector<std::string>& known) {
+  if (mesh.empty() || std::find(known.begin(), known.end(), mesh) != known.end()) return;
+  std::string there;
+  for (const std::string& name : known) there += (there.empty() ? "" : ", ") + name;
+  fail(Failure::input, "MESH=", mesh, ": there is no such mesh; there ", known.size() == 1 ? "is " : "are ",
+       there);
+}
+
+}  // namespace
+
+void check_asked(const SceneRequest& asked, const Scene& scene, const std::string& path) {
+  check_goals(asked.goals, traits(scene), path);
+  check_speed(asked.at, scene.operation, path);
+  check_mesh(asked.mesh, {scene.mesh.gear[0] + "-" + scene.mesh.gear[1]});
+  if (!asked.axis.empty())
+    shaft_called(asked.axis,
+                 shafts_of(scene.mesh.gear, {scene.gear(scene.mesh.gear[0]).design.teeth,
+                                             scene.gear(scene.mesh.gear[1]).design.teeth}),
+                 "AXIS=" + asked.axis);
+}
+
+void check_asked(const SceneRequest& asked, const SystemScene& scene, const System& layout,
+                 const std::string& path) {
+  check_goals(asked.goals, traits(scene, layout), path);
+  check_speed(asked.at, scene.operation, path);
+  std::vector<std::string> meshes;
+  for (size_t m = 0; m < layout.meshes.size(); ++m) meshes.push_back(mesh_name(layout, m));
+  check_mesh(asked.mesh, meshes);
+  if (!asked.axis.empty()) shaft_called(asked.axis, shafts_of(layout), "AXIS=" + asked.axis);
 }
 
 }  // namespace whine

@@ -18,10 +18,11 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-// Where a force stands that is asked for: on the bearing of a body, in one direction, or in a mesh.
+// Where a force stands that is asked for: on the bearing of a body, in one direction, or in a mesh; and in words.
 struct Place {
   bool on_bearing = false;
   Index body = 0, axis = 0, mesh = 0;
+  std::string words = {};
 };
 
 // has_bearing(b): whether the artifact holds the force on the bearing of a body.
@@ -37,14 +38,15 @@ Place place_of(const std::string& path, const HeardForce& wanted, const std::vec
     for (size_t b = 0; b < bodies.size(); ++b)
       for (const int axis : {0, 1})
         if (has_bearing(b) && wanted.bearing == bodies[b] + (axis == 0 ? ":x" : ":y"))
-          return {true, static_cast<Index>(b), axis, 0};
+          return {true, static_cast<Index>(b), axis, 0,
+                  "force on the bearing of " + bodies[b] + (axis == 0 ? ", x" : ", y")};
     fail(Failure::usage, "--bearing ", printable(wanted.bearing, 80),
          ": wanted is <body>:x or <body>:y of a body on an elastic bearing; ", path, " is of ",
          listed(bodies));
   }
-  if (wanted.mesh.empty()) return {};
   for (size_t m = 0; m < meshes.size(); ++m)
-    if (wanted.mesh == meshes[m]) return {false, 0, 0, static_cast<Index>(m)};
+    if (wanted.mesh.empty() || wanted.mesh == meshes[m])
+      return {false, 0, 0, static_cast<Index>(m), "mesh force of " + meshes[m]};
   fail(Failure::usage, "--mesh ", printable(wanted.mesh, 80), ": there is no such mesh; ", path, " has ",
        listed(meshes));
 }
@@ -82,7 +84,8 @@ HeardMotion heard_motion(const std::string& path, double frequency, const HeardF
               samples = std::min<Index>(periods * sweep.steps_per_period(), sweep.samples());
   const Place at = place_of(path, force, sweep.mesh_names, sweep.body_names,
                             [&](size_t b) { return !sweep.bearing_force[b].empty(); });
-  HeardMotion out{name_of(sweep.direction), sweep.mesh_frequency[row] / static_cast<double>(periods), {}};
+  HeardMotion out{
+      name_of(sweep.direction), at.words, sweep.mesh_frequency[row] / static_cast<double>(periods), {}};
   out.record = at.on_bearing ? VectorXd(sweep.bearing_force[static_cast<size_t>(at.body)][of].col(at.axis))
                              : VectorXd(sweep.mesh_force[of].col(at.mesh));
   out.record.conservativeResize(samples);
@@ -96,7 +99,7 @@ HeardRunup heard_runup(const std::string& path, const HeardForce& force) {
          " samples a second, a sound a whole number; make the run-up with --sample-rate 48000");
   const Place at =
       place_of(path, force, a.mesh_names, a.body_names, [&](size_t b) { return a.has_bearing(b); });
-  return {name_of(a.direction), static_cast<int>(a.sample_rate), a.samples.mesh_frequency,
+  return {name_of(a.direction), at.words, static_cast<int>(a.sample_rate), a.samples.mesh_frequency,
           at.on_bearing ? a.samples.bearing_force[static_cast<size_t>(at.body)].col(at.axis)
                         : a.samples.mesh_force.col(at.mesh)};
 }

@@ -21,6 +21,7 @@ struct HeardForce {
 // One whole period of a motion.
 struct HeardMotion {
   std::string name;        // direction of its sweep
+  std::string force;       // "mesh force of sun-planet1"
   double fundamental;      // Hz
   Eigen::VectorXd record;  // (sample) N
 };
@@ -31,6 +32,7 @@ HeardMotion heard_motion(const std::string& path, double mesh_frequency, const H
 
 struct HeardRunup {
   std::string name;                        // direction of its ramp
+  std::string force;                       // as that of a motion
   int rate;                                // Hz of the samples
   Eigen::VectorXd mesh_frequency, record;  // (sample) Hz, N
 };

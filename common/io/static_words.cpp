@@ -2,11 +2,44 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <sstream>
 
 #include "base/error.h"
 
 namespace whine {
+namespace {
+
+std::string range(double least, double most) {
+  return least == most ? text(least) : text(least, " to ", most);
+}
+
+}  // namespace
+
+std::vector<std::string> summary_words(const SystemStaticResult& a) {
+  double least = 1e30, most = -1e30, soft = 1e30, stiff = 0, force = 0;
+  for (const StaticResult& mesh : a.mesh) {
+    const auto& te = mesh.transmission_error;
+    least = std::min(least, a.of_train() ? te.mean() : te.minCoeff());
+    most = std::max(most, a.of_train() ? te.mean() : te.maxCoeff());
+    soft = std::min(soft, mesh.mean_stiffness);
+    stiff = std::max(stiff, mesh.mean_stiffness);
+  }
+  for (const MatrixRM& at : a.bearing_force) force = std::max(force, at.rowwise().norm().maxCoeff());
+  std::vector<std::string> lines;
+  if (a.of_train() && a.hunting_periods > 1)
+    lines.push_back(text("teeth differ: ", a.hunting_periods,
+                         " mesh periods, after which the same ones meet, of ", a.settings.contact.positions,
+                         " positions each"));
+  const std::string stiffness = text(", mean stiffness ", range(soft * 1e-6, stiff * 1e-6), " N/µm, ");
+  const std::string error = text(least * 1e6, " to ", most * 1e6, " µm");
+  lines.push_back(a.of_train() ? text(a.body_names.size(), " bodies, ", a.mesh.size(), " meshes", stiffness,
+                                      "mean transmission errors ", error, ", shares of the load up to ",
+                                      a.load_share.maxCoeff() * 100, " %, bearing forces up to ", force, " N")
+                               : text(a.mesh[0].torque, " N m, contact ratio ", a.mesh[0].contact_ratio,
+                                      stiffness, "transmission error ", error));
+  return lines;
+}
 
 std::vector<std::string> change_words(const std::string& where, const StaticDifference& change, int strips) {
   if (change.positions == 0) return {};
@@ -61,12 +94,29 @@ std::vector<std::string> face_load_words(const SystemStaticResult& all) {
     else
       out << " slices";
     out << " along each contact line: overlap ratio " << face.overlap_ratio << ", face load factor K_Hbeta "
-        << face.load_factor << " +- " << std::round(1e3 * face.load_factor_error) / 1e3
+        << face.load_factor << " ± " << std::round(1e3 * face.load_factor_error) / 1e3
         << " of the reference pair at the pitch point, largest line load " << face.line_load_max * 1e-3
         << " N/mm (inner 90 % of face and path; all of the load over the face: " << mean * 1e-3 << " N/mm)";
     if (face.axial_force != 0) out << ", axial force on the driver " << face.axial_force << " N";
     lines.push_back(out.str());
   }
+  return lines;
+}
+
+std::vector<std::string> harris_words(const HarrisMapResult& map) {
+  std::vector<std::string> lines{
+      text(map.torque.size(), " torques x ", map.relief.size(), " reliefs x ", map.length.size(), " starts")};
+  const double widest = map.relief.tail<1>()[0];
+  for (Eigen::Index s = 0; s < map.length.size(); ++s) {
+    const bool at_edge = map.relief.size() > 1 && map.optimum_relief[s] >= widest;
+    lines.push_back(
+        text("start ", map.start_roll(s, 0) * 180 / std::numbers::pi, " deg: at ", map.design_torque, " N m ",
+             map.optimum_relief[s] * 1e6, " µm leave ", map.optimum_peak_to_peak[s] * 1e6, " µm peak to peak",
+             at_edge ? "; that is the edge of the map: more relief may leave less, widen --relief-um" : ""));
+  }
+  if (map.checked > 0)
+    lines.push_back(text(map.checked, " points solved again with 3 times the strips and positions differ by ",
+                         map.largest_error * 100, " % of the peak to peak at most"));
   return lines;
 }
 

@@ -1,6 +1,9 @@
 #include "io/variant.h"
 
 #include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstring>
 #include <filesystem>
 #include <sstream>
 
@@ -54,6 +57,33 @@ bool add_pin(toml::table& scene, const std::string& planet) {
     if (toml::table* table = item.as_table(); table && owner_of(*table, "pin") == planet) return false;
   pins->push_back(toml::table{{"planet", planet}});
   return true;
+}
+
+// toml++ writes 17 digits, 0.29999999999999999: here the fewest that give the same number, 0.3. Texts stay as they are.
+std::string in_fewest_digits(const std::string& toml) {
+  std::string out;
+  for (size_t i = 0; i < toml.size();) {
+    const char c = toml[i];
+    size_t end = i + 1;
+    if (c == '"' || c == '\'') {
+      while (end < toml.size() && toml[end] != c) end += c == '"' && toml[end] == '\\' ? 2 : 1;
+      end = std::min(end + 1, toml.size());
+    } else if (std::isdigit(static_cast<unsigned char>(c)) && i > 0 && std::strchr(" [,-+", toml[i - 1])) {
+      end = std::min(toml.find_first_not_of("0123456789.eE+-", i), toml.size());
+      double value = 0;
+      const auto [rest, error] = std::from_chars(&toml[i], &toml[end], value);
+      if (error == std::errc() && rest == &toml[end] && toml.find('.', i) < end) {
+        char digits[40];
+        const std::string fewest(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+        out += fewest + (fewest.find_first_of(".e") == std::string::npos ? ".0" : "");
+        i = end;
+        continue;
+      }
+    }
+    out.append(toml, i, end - i);
+    i = end;
+  }
+  return out;
 }
 
 }  // namespace
@@ -130,8 +160,8 @@ std::string scene_variant(const std::string& path, const std::vector<std::string
                         .lexically_normal()
                         .string());
   std::ostringstream out;
-  out << "# Made by gear-scene --set from another scene; edit that one.\n" << scene << "\n";
-  return out.str();
+  out << scene << "\n";
+  return "# Made by gear-scene --set from another scene; edit that one.\n" + in_fewest_digits(out.str());
 }
 
 }  // namespace whine

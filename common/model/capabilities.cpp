@@ -22,7 +22,7 @@ constexpr const char
 // Goals of make, in the order in which messages offer them; then stages that have no goal of their own. "other": goals that are none of
 // these.
 constexpr std::string_view kGoals =
-    "report mesh reduce static flank-load fig01 fig12 fig13 profile-chart error-budget load-sharing sweep "
+    "report mesh reduce static flank-load fig01 fig12 fig13 profile-chart error-budget load-sharing sweep motion-errors "
     "face-load fig05 fig07 fig14-elastic tooth-loads order-cuts waterfall histories sound runup branches "
     "fig05-branches fig07-branches multipliers fold-curves impact sidebands crack residual-signal efficiency bearing-forces teeth "
     "harris-map jump-map lumped loaded animation compare modes mode-shapes";
@@ -40,19 +40,28 @@ const std::vector<Row>& rows() {
       {"modes mode-shapes",
        {pair, pair_in_slices, pair_of_bodies},
        "natural modes are of systems, a ring-down finds the one of a mesh"},
-      {"mesh reduce static flank-load fig01 fig12 fig13 profile-chart error-budget load-sharing sweep "
+      {"mesh reduce static flank-load fig01 fig12 fig13 profile-chart error-budget load-sharing sweep motion-errors "
        "face-load fig05 fig07 fig14-elastic tooth-loads order-cuts waterfall histories sound runup branches "
        "fig05-branches fig07-branches multipliers fold-curves impact sidebands crack residual-signal efficiency "
        "bearing-forces teeth harris-map jump-map lumped loaded animation compare motion other",
        {rigid_gears},
        "they have natural modes alone"},
-      {"fig01 fig12 fig13 profile-chart error-budget sidebands crack efficiency bearing-forces loaded other",
+      {"fig12 fig13", {train, train_in_slices}, "static draws them, of each mesh"},
+      {"fig05 fig07 fig14-elastic efficiency bearing-forces",
        {train, train_in_slices},
-       "its axes are those of a pair"},
-      {"face-load fig05 fig07 fig14-elastic tooth-loads waterfall histories fig05-branches fig07-branches "
-       "jump-map lumped animation",
+       "sweep draws them, of each mesh and body"},
+      {"fig05-branches fig07-branches", {train, train_in_slices}, "branches draws them, of each mesh"},
+      {"waterfall",
        {train, train_in_slices},
-       "its axes are those of a pair"},
+       "order-cuts draws what it shows, of the meshes that vibrate most"},
+      {"tooth-loads", {train, train_in_slices}, "report has them as numbers, of each mesh"},
+      {"sidebands crack", {train, train_in_slices}, "residual-signal draws them, in motion"},
+      {"error-budget",
+       {train, train_in_slices},
+       "errors at rest are those of one mesh; motion-errors has those of sweeps"},
+      {"jump-map lumped", {train, train_in_slices}, "one degree of freedom stands for one mesh"},
+      {"fig01 profile-chart loaded animation", {train, train_in_slices}, "it draws the two gears of a pair"},
+      {"face-load other", {train, train_in_slices}, "it is of one mesh"},
       {"flank-load face-load", {one_slice}, "it carries the same load all over the face"},
       {"efficiency", {no_friction}, "it loses nothing"},
       {"bearing-forces", {no_bearings}, "nothing gives way"},
@@ -60,10 +69,10 @@ const std::vector<Row>& rows() {
       {"crack", {no_crack}, "it has nothing to show"},
       {"residual-signal", {like_teeth}, "all mesh periods are alike"},
       {"load-sharing", {no_planets}, "one mesh shares its load with none"},
-      {"sweep order-cuts sound runup branches multipliers fold-curves impact residual-signal",
+      {"sweep motion-errors order-cuts histories sound runup branches multipliers fold-curves impact residual-signal",
        {no_speeds},
        "nothing moves"},
-      {"sweep order-cuts sound runup branches multipliers fold-curves motion",
+      {"sweep motion-errors order-cuts sound runup branches multipliers fold-curves motion",
        {pair_of_bodies},
        "what sections of a body hold each other by has no inertia yet"},
       {"face-load fig05 fig07 fig14-elastic tooth-loads waterfall histories fig05-branches fig07-branches",

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "report/distinct_curves.h"
 #include "report/figure_words.h"
 #include "report/one_system.h"
 #include "signal/jump_words.h"
@@ -68,26 +69,29 @@ PanelCurve look_of(const std::string& block) {
           .size = up ? 0.9 : 1.1};
 }
 
-// Meshes that are alike lie on each other: the wider line below shows.
-Panel vibration_panel(const BranchResult& b, const std::vector<FigureBlock>& blocks, size_t meshes) {
+// numbers: of the meshes among those that differ. Where they are near each other for a while, the wider line below shows.
+Panel vibration_panel(const BranchResult& b, const std::vector<FigureBlock>& blocks,
+                      const std::vector<size_t>& numbers) {
+  const size_t meshes = numbers.size(), distinct = count_of_distinct(numbers);
   Panel panel{.heading = "RMS of the transmission error",
               .x = {.label = "Mesh frequency (Hz)", .speed = true},
               .y = {.label = "RMS (µm)", .from_zero = true, .level = true},
               .height = 560};
   for (size_t m = 0; m < meshes; ++m)
-    panel.curves.push_back({.colour = curve_colour(m),
+    panel.curves.push_back({.colour = curve_colour(numbers[m]),
                             .label = without_markup(short_name(b.mesh_names[m])),
                             .width = 3,
-                            .dash = m < 6 ? 1 : 2});
+                            .dash = numbers[m] < 6 ? 1 : 2});
   for (const FigureBlock& block : blocks) {
     const PanelCurve look = look_of(block.name);
     for (size_t m = 0; m < meshes; ++m) {
+      if (!is_first(numbers, m)) continue;
       PanelCurve curve = look;
       curve.y = static_cast<int>(m) + (look.style == PanelStyle::line ? 3 : 2);
-      curve.colour = curve_colour(m);
+      curve.colour = curve_colour(numbers[m]);
       curve.label = "";
       if (block.name == "stable") {
-        curve.width = 2 + 1.2 * static_cast<double>(meshes - 1 - m);
+        curve.width = 2 + 1.2 * static_cast<double>(distinct - 1 - numbers[m]);
         curve.dash = panel.curves[m].dash;
       }
       panel.curves.push_back(curve);
@@ -141,7 +145,12 @@ Figure branch_figure(const BranchResult& b, const std::vector<ResponseResult>& s
                                 without_markup("/fold_frequency"), " of branch.h5"));
   if (b.mesh_names.size() > meshes)
     figure.notes.push_back(text("the first ", meshes, " of ", b.mesh_names.size(), " meshes"));
-  figure.panels = {vibration_panel(b, figure.blocks, meshes), multiplier_panel(figure.blocks)};
+  std::vector<Eigen::VectorXd> vibration;
+  vibration.reserve(meshes);
+  for (size_t m = 0; m < meshes; ++m) vibration.emplace_back(b.dte_rms.col(static_cast<Index>(m)));
+  const std::vector<size_t> numbers = distinct_curves(vibration, b.dte_rms.maxCoeff());
+  if (count_of_distinct(numbers) < meshes) figure.notes.emplace_back(kOneColour);
+  figure.panels = {vibration_panel(b, figure.blocks, numbers), multiplier_panel(figure.blocks)};
   add_shafts(b, figure);
   return figure;
 }

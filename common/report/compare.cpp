@@ -148,6 +148,22 @@ std::string differences_table(const std::vector<Design>& designs, const std::vec
   return html::table(caption, head, cells);
 }
 
+// Meshes and bodies of which a quantity is the same in each design in one row: those of planets that are alike.
+std::vector<Difference> by_parts(const std::vector<Difference>& rows) {
+  std::vector<Difference> out;
+  for (const Difference& row : rows) {
+    const auto same = std::find_if(out.begin(), out.end(), [&](const Difference& other) {
+      return !row.part.empty() && !other.part.empty() && other.quantity == row.quantity &&
+             other.unit == row.unit && other.value == row.value;
+    });
+    if (same == out.end())
+      out.push_back(row);
+    else
+      same->part += ", " + row.part;
+  }
+  return out;
+}
+
 std::string compared_picture(const ReportPicture& picture) {
   const bool rest = picture.name.starts_with("compare-rest");
   const char* title = rest ? "At rest" : "In motion";
@@ -277,7 +293,8 @@ std::string compare_html(const std::vector<Design>& designs, const std::vector<R
     names += (names.empty() ? "" : " / ") + d.name;
     list += html::tagged("li", html::escaped(d.content.scene)) + "\n";
   }
-  const std::vector<Difference> found = differences(designs);
+  const std::vector<Difference> found =
+      any_train(designs) ? by_parts(differences(designs)) : differences(designs);
   const bool starred = std::any_of(found.begin(), found.end(), [](const Difference& row) {
     return std::any_of(row.value.begin(), row.value.end(),
                        [](const std::string& value) { return value.ends_with(kStar); });
@@ -287,7 +304,7 @@ std::string compare_html(const std::vector<Design>& designs, const std::vector<R
       differences_table(
           designs, found,
           any_train(designs)
-              ? "Results that differ, each design at its own torque; of a pair its one mesh stands beside each mesh. Change against the first design. compare.tsv holds the same."
+              ? "Results that differ, each design at its own torque; of a pair its one mesh stands beside each mesh. Meshes and bodies with the same values share a row. Change against the first design. compare.tsv holds the same."
               : "Results that differ, at the torques that all designs have, then geometry; change against the first design. compare.tsv holds the same.",
           false) +
       (starred

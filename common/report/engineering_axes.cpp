@@ -30,41 +30,25 @@ bool is_speed_column(const std::string& column) {
 }
 
 const Shaft& shaft_of(const std::string& wanted, const Figure& figure) {
-  constexpr const char* kKind = "rpm:";
-  if (!wanted.starts_with(kKind))
-    fail(Failure::usage, "--axis ", printable(wanted, 80), ": it is rpm:<gear>, such as rpm:driver");
-  if (figure.shafts.empty())
-    fail(Failure::usage, "--axis ", printable(wanted, 80), ": ",
+  const std::string said = "--axis " + printable(wanted, 80);
+  if (wanted.starts_with("rpm:") && figure.shafts.empty())
+    fail(Failure::usage, said, ": ",
          figure.no_shafts.empty()
              ? "this figure is not against the speed of one pair of gears or train: its axis stays as it is"
              : figure.no_shafts);
-  const std::string name = wanted.substr(4);
-  std::string known, roles;
-  for (const Shaft& shaft : figure.shafts) {
-    if (name != shaft.gear && (shaft.role.empty() || name != shaft.role)) {
-      known += (known.empty() ? "" : ", ") + shaft.gear;
-      if (!shaft.role.empty()) roles += (roles.empty() ? ", also called " : " and ") + shaft.role;
-      continue;
-    }
-    if (shaft.turns == 0)
-      fail(Failure::usage, "--axis ", printable(wanted, 80), ": ", shaft.gear,
-           " stands still; take another gear or the carrier of the train");
-    return shaft;
-  }
-  fail(Failure::usage, "--axis ", printable(wanted, 80), ": there is no gear ", printable(name, 80),
-       "; there are ", known, roles);
+  return shaft_called(wanted, figure.shafts, said);
 }
 
-// "at 5600 Hz" as "at 13440 rpm (5600 Hz)"; lists in rpm alone: "rising 5757, falling 5529 Hz" as "rising 13817, falling 13270 rpm".
+// "at 5600 ± 2 Hz" as "at 13440 rpm (5600 ± 2 Hz)"; lists in rpm alone: "rising 5757, falling 5529 Hz" as "rising 13817, falling 13270 rpm".
 std::string speeds_in_rpm(const std::string& words, double scale) {
   static const std::regex kSpeeds(
-      R"((\d+(\.\d+)?( and \d+ more)?((, | to | and )(rising |falling )?\d+(\.\d+)?( and \d+ more)?)*) Hz)"),
+      R"((\d+(\.\d+)?( and \d+ more)?((, | to | and )(rising |falling )?\d+(\.\d+)?( and \d+ more)?)*)(?: ± \d+(?:\.\d+)?)? Hz)"),
       kNumber(R"(\d+(\.\d+)?(?! more)(?![\d.]))");
   std::string out;
   auto from = words.cbegin();
   for (std::sregex_iterator list(words.begin(), words.end(), kSpeeds), end; list != end; ++list) {
     out.append(from, (*list)[0].first);
-    const std::string speeds = (*list)[1];
+    const std::string speeds = (*list)[1], whole = list->str();
     auto rest = speeds.cbegin();
     size_t count = 0;
     for (std::sregex_iterator one(speeds.begin(), speeds.end(), kNumber); one != end; ++one, ++count) {
@@ -73,7 +57,7 @@ std::string speeds_in_rpm(const std::string& words, double scale) {
       rest = (*one)[0].second;
     }
     out.append(rest, speeds.cend());
-    out += count == 1 ? " rpm (" + speeds + " Hz)" : " rpm";
+    out += count == 1 ? " rpm (" + whole + ")" : " rpm";
     from = (*list)[0].second;
   }
   return out.append(from, words.cend());

@@ -201,6 +201,10 @@ double rank_correlation(const std::vector<double>& x, const std::vector<double>&
 // the load. Throws Error(input) for a pair.
 Figure system_static_figure(const SystemStaticResult& a);
 
+// One speed of a train: transmission error and force of each mesh, force on each bearing, over the mesh periods of the motion, and their
+// harmonics; where rising and falling speed lead to two motions, of both. Throws Error(input) for a speed that a sweep does not hold.
+Figure train_history_figure(const std::vector<SweepResult>& sweeps, double mesh_frequency);
+
 // Of each [[mesh]] of planets the share of each over the mesh period, and the loads of the tooth pairs of its first mesh. Throws
 // Error(input) for a system without planets.
 Figure system_load_sharing_figure(const SystemStaticResult& a);

@@ -120,6 +120,17 @@ Captioned<SweepResult> read_sweeps(const Paths& inputs) {
   return captions;
 }
 
+// Where the first input is one; else none.
+std::vector<SweepResult> sweeps_of_train(const Paths& inputs) {
+  std::vector<SweepResult> out;
+  for (const std::string& path : inputs) {
+    if (out.empty() && read_origin(path).schema != kind_of<SweepResult>().schema()) break;
+    out.push_back(read<SweepResult>(path));
+    if (!out[0].of_train()) return {};
+  }
+  return out;
+}
+
 // Of a pair among its teeth, one curve per torque; of a train among its planets.
 Figure draw_load_sharing(const DrawnFrom& from) {
   if (const auto first = read<SystemStaticResult>(from.inputs.front()); first.of_train()) {
@@ -257,9 +268,11 @@ Drawings drawings_of_motions() {
           return response_figure(captions.sweeps, captions.background);
         }}},
       {"fig08",
-       {"dynamic transmission error over time and its spectrum, both branches at one speed",
-        "sweep.h5 of sweeps up and down of one torque, any choices; impact.h5 of that torque, for damping ratios",
+       {"dynamic transmission error over time and its spectrum, both branches at one speed; of a train also forces",
+        "sweep.h5 of sweeps up and down of one torque, any choices; impact.h5 of that torque, for damping ratios; sweep.h5 of one train",
         [](const DrawnFrom& from) {
+          if (const std::vector<SweepResult> train = sweeps_of_train(from.inputs); !train.empty())
+            return train_history_figure(train, from.mesh_frequencies[0]);
           const auto captions = read_sweeps(from.inputs);
           return vibration_figure(captions.sweeps, from.mesh_frequencies[0], captions.background);
         },

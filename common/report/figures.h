@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/format.h"
+#include "gear/shafts.h"
 #include "io/publish.h"
 #include "report/panels.h"
 #include "results/static.h"
@@ -31,14 +32,6 @@ struct FigureBlock {
   std::string curve =
       {};                // which rows of that table are its, in its first column; "": the table has no other
   bool drawing = false;  // lines and areas of a drawing, which are in no table
-};
-
-// A gear or carrier whose rotation can stand for the mesh frequency: speed (rpm) = 60 turns x mesh frequency (Hz).
-struct Shaft {
-  std::string gear;
-  double turns = 0;       // revolutions in a mesh period: of a gear whose axis stands still 1 / teeth
-  std::string role;       // "driver", by which it may be called, too; "": none
-  std::string with = {};  // against what it turns: "carrier at rest"; "": nothing that has to be said
 };
 
 // A column (µm) that can be drawn as levels in dB.
@@ -74,8 +67,7 @@ std::string letter_of(size_t i);
 // Driver and driven gear of an artifact with gears and a mesh.
 template <class Artifact>
 std::vector<Shaft> shafts_of(const Artifact& a) {
-  return {{a.mesh.gear[0], 1.0 / a.gear[0].design.teeth, kRole[0]},
-          {a.mesh.gear[1], 1.0 / a.gear[1].design.teeth, kRole[1]}};
+  return shafts_of(a.mesh.gear, {a.gear[0].design.teeth, a.gear[1].design.teeth});
 }
 // Of several: none where their gears differ in number of teeth; gears of other names are called by their role.
 template <class Artifacts>

@@ -21,7 +21,7 @@ struct Shown {
   const char *axis, *column, *unit;
   double factor;  // of the value; of damping of its ratio
 };
-Shown shown(FoldQuantity quantity) {
+Shown shown_as(FoldQuantity quantity) {
   switch (quantity) {
     case FoldQuantity::damping:
       return {"Damping ratio (%)", "damping_ratio [%]", " %", kPercent};
@@ -35,10 +35,10 @@ Shown shown(FoldQuantity quantity) {
   return {};
 }
 double shown_value(const FoldCurvesResult& a, Index i) {
-  return shown(a.quantity).factor * (over_damping(a) ? a.damping_ratio : a.value)[i];
+  return shown_as(a.quantity).factor * (over_damping(a) ? a.damping_ratio : a.value)[i];
 }
 double shown_cusp(const FoldCurvesResult& a, Index i) {
-  return shown(a.quantity).factor * (over_damping(a) ? a.cusp_damping_ratio : a.cusp_value)[i];
+  return shown_as(a.quantity).factor * (over_damping(a) ? a.cusp_damping_ratio : a.cusp_value)[i];
 }
 
 bool same_pair(const FoldCurvesResult& a, const JumpMapResult& m) {
@@ -141,7 +141,7 @@ Figure fold_curve_figure(const std::vector<FoldCurvesResult>& curves,
                          const std::vector<JumpMapResult>& maps) {
   require_one_quantity(curves);
   Figure figure;
-  const Shown what = shown(curves[0].quantity);
+  const Shown what = shown_as(curves[0].quantity);
   const std::string column = what.column;
   const bool two_pairs =
       over_damping(curves[0]) && !curves[0].of_train() && curves[0].fidelity.width == WidthModel::one;

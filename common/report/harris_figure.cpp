@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "report/figure_words.h"
 
 namespace whine {
 
@@ -57,9 +58,11 @@ Figure harris_map_figure(const HarrisMapResult& map) {
   figure.notes.push_back(text(
       "relief over ", rounded(map.length[best] * 1e3, 2), " mm of roll, from roll angle ", start_words(best),
       " of the driver; strips on a cached body, ", map.contact.positions, " mesh positions"));
-  figure.notes.push_back(text("design torque ", map.design_torque,
-                              " N m: ", rounded(map.optimum_relief[best] * kMicro, 2), " µm leave ",
+  figure.notes.push_back(text("design torque ", map.design_torque, " N m on ", short_name(map.mesh.gear[0]),
+                              ", in mesh with ", short_name(map.mesh.gear[1]), ": ",
+                              rounded(map.optimum_relief[best] * kMicro, 2), " µm leave ",
                               rounded(map.optimum_peak_to_peak[best] * kMicro, 3), " µm peak to peak"));
+  plain_captions(figure.notes.size(), figure);
   const auto cube = [&](const std::string& name, const MatrixRM& values, double scale) {
     FigureBlock block{name, {"relief [µm]", "torque [N m]", "value"}, {}, "", "", true};
     for (Index t = 0; t < map.torque.size(); ++t) {

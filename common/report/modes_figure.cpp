@@ -129,8 +129,8 @@ Figure modes_figure(const ModesResult& a) {
   const System& s = a.layout;
   Figure figure;
   const bool elastic = a.frozen_frequency.size() > 0;
-  figure.title = elastic ? "Natural modes of a system with the mean stiffness of its elastic gears"
-                         : "Natural modes of a system of rigid bodies";
+  figure.title = elastic ? "Natural modes of a train with the mean stiffness of its elastic gears"
+                         : "Natural modes of a train of rigid bodies";
   figure.blocks = {frequency_block(a)};
   figure.panels = {frequency_panel(a)};
   figure.columns = 5;

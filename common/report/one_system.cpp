@@ -38,20 +38,11 @@ bool one_system(const System& a, const System& b) {
 }
 
 void add_shafts(const System& system, Figure& figure) {
-  TrainSpeeds speeds;
   try {
-    speeds = train_speeds(system);
+    figure.shafts = shafts_of(system);
   } catch (const Error& error) {
     if (error.kind() != Failure::input) throw;
     figure.no_shafts = error.what();
-    return;
-  }
-  for (size_t b = 0; b < system.bodies.size(); ++b) {
-    const System::Body& body = system.bodies[b];
-    const std::string with = body.on != System::kGround ? "on its pin"
-                             : speeds.at_rest.empty()   ? ""
-                                                        : speeds.at_rest + " at rest";
-    figure.shafts.push_back({body.name, speeds.turns[b], "", with});
   }
 }
 

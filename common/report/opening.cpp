@@ -69,7 +69,9 @@ std::string critical_speed_line(const CriticalSpeeds& c) {
       met.push_back(
           text(natural.name, " (", natural_words(natural), ") is met by ", listed(orders), outside));
   }
-  const std::string of = c.member.turns > 0 ? " Speeds are those of " + c.member.name + "." : "";
+  const std::string of = c.member.turns > 0 ? text(" Speeds are those of ", c.member.name,
+                                                   c.member.with.empty() ? "" : ", " + c.member.with, ".")
+                                            : "";
   std::string out;
   for (size_t i = 0; i < met.size(); ++i) out += (i == 0 ? "" : "; ") + met[i];
   if (out.empty())

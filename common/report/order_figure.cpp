@@ -70,11 +70,12 @@ Figure orders_of_train(const std::vector<ResponseResult>& sweeps) {
   const System& s = a.train.layout;
   require_one_system("another sweep", a, sweeps);
   Figure figure;
-  figure.title = "Order cuts of the dynamic transmission error (DTE) of a system";
+  figure.title = "Order cuts of the dynamic transmission error (DTE) of a train";
   figure.notes = in_lines(bodies_words(s, a.drive));
-  figure.notes.emplace_back("orders of the mesh frequency; solid: rising speed, dashed: falling speed");
+  figure.notes.emplace_back(
+      "orders of the mesh frequency; solid: rising speed, dashed: falling speed, where it is another");
   constexpr size_t kMostPanels = 4;
-  // Planets of a carrier are alike: of their meshes with one gear the first.
+  // Of the meshes of planets of a carrier with one gear that which vibrates most.
   const auto body = [&](size_t m, size_t side) {
     return s.bodies[static_cast<size_t>(s.meshes[m].side[side].body)];
   };
@@ -87,12 +88,23 @@ Figure orders_of_train(const std::vector<ResponseResult>& sweeps) {
     }
     return planets && same;
   };
+  const auto vibration = [&](size_t m) {
+    double most = 0;
+    for (const ResponseResult& sweep : sweeps)
+      most = std::max(most, sweep.dte_rms.col(static_cast<Eigen::Index>(m)).maxCoeff());
+    return most;
+  };
+  constexpr double kMore = 1.001;  // what rounding makes of planets that do the same is below it
   std::vector<size_t> meshes;
-  for (size_t m = 0; m < s.meshes.size(); ++m)
-    if (std::none_of(meshes.begin(), meshes.end(), [&](size_t n) { return alike(m, n); }))
+  for (size_t m = 0; m < s.meshes.size(); ++m) {
+    const auto same = std::find_if(meshes.begin(), meshes.end(), [&](size_t n) { return alike(m, n); });
+    if (same == meshes.end())
       meshes.push_back(m);
+    else if (vibration(m) > kMore * vibration(*same))
+      *same = m;
+  }
   if (meshes.size() < s.meshes.size())
-    figure.notes.emplace_back("of planets that are alike the meshes of the first");
+    figure.notes.emplace_back("of the meshes of planets with one gear that which vibrates most");
   if (meshes.size() > kMostPanels) {
     figure.notes.push_back(text("the first ", kMostPanels, " of ", meshes.size(), " meshes"));
     meshes.resize(kMostPanels);

@@ -130,6 +130,16 @@ double step_of(double x) {
   return 10 * power;
 }
 
+// As gnuplot writes a number: 1.5×10^{-5} where it needs a power of ten.
+double width_of_tick(double value) {
+  const std::string words = shown(value, 6);
+  const size_t power = words.find('e');
+  if (power == std::string::npos) return text_width(words);
+  constexpr double kRaised = 0.8;  // of the size of the letters
+  return text_width(words.substr(0, power) + "×10") +
+         kRaised * text_width(std::to_string(std::stoi(words.substr(power + 1))));
+}
+
 // most: that find room.
 AxisTicks ticks_of(const PanelAxis& axis, AxisRange r, double most) {
   AxisTicks ticks;
@@ -141,12 +151,12 @@ AxisTicks ticks_of(const PanelAxis& axis, AxisRange r, double most) {
   if (axis.log) {
     const std::vector<double> own = log_ticks(r);
     if (own.empty()) ticks.widest = text_width("10") + 1.6;
-    for (const double tick : own) ticks.widest = std::max(ticks.widest, text_width(shown(tick, 6)));
+    for (const double tick : own) ticks.widest = std::max(ticks.widest, width_of_tick(tick));
     return ticks;
   }
   ticks.step = step_of(r.span() / std::max(1.0, most));
   for (double k = std::ceil(r.from / ticks.step - 1e-6); k * ticks.step <= r.to; ++k)
-    ticks.widest = std::max(ticks.widest, text_width(shown(k * ticks.step + 0.0, 6)));
+    ticks.widest = std::max(ticks.widest, width_of_tick(k * ticks.step + 0.0));
   return ticks;
 }
 

@@ -151,7 +151,8 @@ TurningMember driver_of(const ReportContent& c) {
   }
   Figure speeds;
   add_shafts(s, speeds);
-  return {s.bodies[driver].name, speeds.shafts.empty() ? 0 : std::abs(speeds.shafts[driver].turns)};
+  if (speeds.shafts.empty()) return {s.bodies[driver].name, 0};
+  return {s.bodies[driver].name, std::abs(speeds.shafts[driver].turns), speeds.shafts[driver].with};
 }
 
 double static_force(const StaticResult& s) {

@@ -260,7 +260,7 @@ const std::vector<ExplainedFigure>& explained_figures() {
       {"contact-zone", "rest", "Contact zone",
        same_words(
            "Contact zone of the reference pair at the pitch point: strips, gap and pressure, beside Hertz's.")},
-      {"system-static", "rest", "The system at rest", system_at_rest_caption},
+      {"system-static", "rest", "The train at rest", system_at_rest_caption},
       {"transmission-error", "rest", "Static transmission error", transmission_error_caption},
       {"mesh-stiffness", "rest", "Mesh stiffness", stiffness_caption},
       {"flank-load", "rest", "Load over the flank", flank_load_caption},
@@ -281,7 +281,7 @@ const std::vector<ExplainedFigure>& explained_figures() {
       {"ring-down", "modes", "Ring-down",
        same_words(
            "Natural frequency and damping ratio of each mode by ring-down at each mesh phase, beside the eigenvalues of the frozen contact.")},
-      {"system-sweep", "motion", "The system over its speeds", system_sweep_caption},
+      {"system-sweep", "motion", "The train over its speeds", system_sweep_caption},
       {"response", "motion", "Vibration over speed", response_caption},
       {"responses-by-torque", "motion", "Vibration over speed", response_caption},
       {"response-branches", "motion", "Branches of periodic motions",

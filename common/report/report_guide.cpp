@@ -111,7 +111,7 @@ constexpr GuideRow kRows[] =
         {Needs::figure, "waterfall order-cuts sidebands", "Spectra and orders over speed",
          "Which frequencies sound at which speed. Orders of the mesh frequency run along rays; teeth that differ add orders of the shafts around them.",
          "Amplitudes as the RMS; below 1/1000 of the largest they are numerical.",
-         "make histories AT=1250 shows the motion at one speed."},
+         "make histories AT=1300 shows the motion at one speed."},
         {Needs::one_slice, "root-stress root-stress-branches", "Root stress, loss factor",
          "Tension in the roots, at rest and in motion; sigma_F0 is that of ISO 6336-3, method B, with its own assumptions (one pair carries the load, a beam with a notch).",
          "At rest as the line root stress of the error budget; in motion as the tooth load, from which it follows as at rest: the inertia of the body, kept modes included, adds none.",

@@ -97,7 +97,7 @@ bool equally_spaced(const System& s, const std::vector<size_t>& meshes) {
   return true;
 }
 
-// What no stage says, because it is of several meshes: pressure and tip edges of those that are alike, sharing, room, rigid axes.
+// What no stage says, because it is of several meshes: pressure and tip edges of those that are alike, sharing, rigid axes.
 std::vector<Remark> remarks_on_meshes(const SystemStaticResult& a) {
   constexpr double kSmall = 0.01;   // of the largest load of a pair
   constexpr double kUnequal = 1.3;  // of an equal share
@@ -127,7 +127,6 @@ std::vector<Remark> remarks_on_meshes(const SystemStaticResult& a) {
                : equally_spaced(s, of.meshes)
                    ? ". Let a central gear float on a softer [[bearing]]"
                    : ". Let a central gear float on a softer [[bearing]], or space the planets equally"));
-  for (const std::string& words : colliding_gears(s, designs_of(a))) out.push_back({true, words});
   std::string rigid;
   for (const System::Body& body : s.bodies)
     if (!body.bearing.elastic()) rigid += (rigid.empty() ? "" : ", ") + body.name;

@@ -66,10 +66,10 @@ struct Adder {
     (*this)(quantity, unit, with.error.empty() ? plain : with.value, remark);
     out->back().error = with.error;
   }
-  // With a relative error, of values above 0.
+  // With a relative error, below 0 without: the value may be 0.
   void judged(const std::string& quantity, const std::string& unit, double value, double error,
               const std::string& plain, const std::string& remark = "") const {
-    told(quantity, unit, value, error * value, plain, remark);
+    told(quantity, unit, value, error < 0 ? error : error * value, plain, remark);
   }
   // error: relative
   void speed(const std::string& quantity, double mesh_frequency, const std::string& remark = "",

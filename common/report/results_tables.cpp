@@ -106,6 +106,9 @@ std::string results_tables(const ReportContent& c) {
                                        " mesh periods after which the same teeth meet.")
                                 : "",
       load_sharing(first).empty() ? "" : " Share: at one instant, of the load of the meshes of one [[mesh]].",
+      first.of_train()
+          ? " A torque is positive where it acts in the sense in which its body rotates (The gears)."
+          : "",
       " Forces on bearings: on a rigid axis the sum of the contact forces; what oscillates acts on the housing."));
   using Of = ReportNumber::Of;
   for (const auto& [of, names, heading] : {std::tuple{Of::whole, std::vector<std::string>{""}, ""},

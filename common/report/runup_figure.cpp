@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/error.h"
+#include "report/distinct_curves.h"
 #include "report/one_system.h"
 #include "report/system_picture.h"
 #include "signal/orders.h"
@@ -137,15 +138,28 @@ FigureBlock runup_period_block(const RunupResult& a, Figure& figure) {
       row.push_back(a.periods.separation_fraction.col(m).segment(k, n).maxCoeff() * kPercent);
     block.rows.push_back(std::move(row));
   }
+  bool alike = false;
   const auto curves = [&](Index first, int colour) {
+    std::vector<VectorXd> values;
+    values.reserve(static_cast<size_t>(a.meshes()));
+    double most = 0;
+    for (Index m = 0; m < a.meshes(); ++m) {
+      VectorXd& own = values.emplace_back(static_cast<Index>(block.rows.size()));
+      for (size_t k = 0; k < block.rows.size(); ++k)
+        own[static_cast<Index>(k)] = block.rows[k][static_cast<size_t>(first - 1 + m)];
+      most = std::max(most, own.maxCoeff());
+    }
+    const std::vector<size_t> numbers = distinct_curves(values, most);
+    alike = alike || count_of_distinct(numbers) < numbers.size();
     std::vector<PanelCurve> out;
-    for (Index m = 0; m < a.meshes(); ++m)
-      out.push_back({.block = "periods",
-                     .y = static_cast<int>(first + m),
-                     .colour = a.of_train() ? curve_colour(static_cast<size_t>(m)) : colour,
-                     .label = without_markup(name(m)),
+    out.reserve(numbers.size());
+    for (size_t m = 0; m < numbers.size(); ++m)
+      out.push_back({.block = is_first(numbers, m) ? "periods" : "",
+                     .y = static_cast<int>(first) + static_cast<int>(m),
+                     .colour = a.of_train() ? curve_colour(numbers[m]) : colour,
+                     .label = without_markup(name(static_cast<Index>(m))),
                      .width = 1.8,
-                     .dash = m < 6 ? 1 : 2});
+                     .dash = numbers[m] < 6 ? 1 : 2});
     return out;
   };
   // A line of the key takes 30 pixels.
@@ -160,6 +174,7 @@ FigureBlock runup_period_block(const RunupResult& a, Figure& figure) {
                            .y = {.label = "Time (%)", .from_zero = true},
                            .curves = curves(2 + a.meshes(), kVermilion),
                            .height = height});
+  if (alike) figure.notes.emplace_back(kOneColour);
   return block;
 }
 

@@ -36,7 +36,7 @@ std::string tones(const std::vector<HeardMotion>& branches, const std::vector<Ve
                   const std::string& unit) {
   std::ostringstream out;
   out.precision(9);
-  out << "# RMS of each branch; level re 1 " << unit
+  out << "# " << branches[0].force << ", RMS of each branch; level re 1 " << unit
       << "\nbranch\tfundamental_Hz\trms\tlevel_dB\tabove_first_dB\n";
   for (size_t b = 0; b < branches.size(); ++b) {
     const double rms = rms_of(sounds[b]), here = level(rms, 1), above = here - level(rms_of(sounds[0]), 1);
@@ -72,7 +72,8 @@ std::string bands(const std::vector<HeardRunup>& runs, const std::vector<VectorX
   const VectorXd edges = VectorXd::LinSpaced(count + 1, low, high);
   std::ostringstream out;
   out.precision(9);
-  out << "# level re 1 " << unit << " in bands of the mesh frequency\nmesh_frequency_Hz";
+  out << "# " << runs[0].force << ", level re 1 " << unit
+      << " in bands of the mesh frequency\nmesh_frequency_Hz";
   std::vector<VectorXd> rms;
   for (size_t b = 0; b < runs.size(); ++b) {
     rms.push_back(band_rms(sounds[b], runs[b].mesh_frequency, edges, least));

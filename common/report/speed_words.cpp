@@ -63,17 +63,17 @@ std::string speed_words(const TurningMember& member, const std::vector<SpeedRang
 
 std::string with_rpm(const TurningMember& member, const std::string& words) {
   if (!(member.turns > 0)) return words;
-  // A list of numbers before "Hz" that is no part of a word.
+  // A list of numbers before "Hz" that is no part of a word; "2645 ± 0.4 Hz" is one number.
   static const std::regex speeds(
-      R"((^|[^A-Za-z0-9_.-])(\d+(?:\.\d+)?(?:(?: to |, | and )\d+(?:\.\d+)?)*) Hz)"),
+      R"((^|[^A-Za-z0-9_.-])(\d+(?:\.\d+)?(?:(?: to |, | and )\d+(?:\.\d+)?)*)(?: ± \d+(?:\.\d+)?)? Hz)"),
       number(R"(\d+(?:\.\d+)?)");
   std::string out;
   std::sregex_iterator end;
   auto last = words.cbegin();
   for (std::sregex_iterator found(words.begin(), words.end(), speeds); found != end; ++found) {
-    // Not those that have it before them, nor what is said of the width of a jump.
+    // Not those that have it before them.
     const std::string before = words.substr(0, static_cast<size_t>((*found).position(2))), list = (*found)[2];
-    if (before.ends_with("rpm (") || before.ends_with("+- ")) continue;
+    if (before.ends_with("rpm (") || before.ends_with("± ")) continue;
     std::string turned;
     auto from = list.cbegin();
     for (std::sregex_iterator one(list.begin(), list.end(), number); one != end; ++one) {

@@ -20,6 +20,7 @@ std::map<double, bool> but_not(std::map<double, bool> speeds, const std::map<dou
 struct TurningMember {
   std::string name;
   double turns = 0;  // revolutions in a mesh period, >= 0: of a gear on a fixed axis 1 / teeth; 0: not known
+  std::string with = {};  // against what it turns: "carrier at rest"; "": nothing that has to be said
 
   double rpm(double mesh_frequency) const { return 60 * turns * mesh_frequency; }
 };

@@ -109,6 +109,9 @@ Figure sweep_errors_figure(const std::vector<SweepErrorsResult>& sweeps) {
     figure.panels.push_back(errors_panel(a, figure.blocks.back()));
   }
   for (size_t p = 0; p + 1 < figure.panels.size(); ++p) figure.panels[p].x.label.clear();
+  if (sweeps[0].of_train())
+    figure.notes.push_back(text("RMS: of ", short_name(sweeps[0].mesh_names.at(0)),
+                                "; errors: at each speed of the mesh where they are largest"));
   figure.notes.push_back(
       "each discretisation alone twice as fine (modes 1.5 times as many); in all: sum of the changes, each with the order with which its error falls, where one shows; *: not in all refined sweeps");
   plain_captions(figure.notes.size(), figure);

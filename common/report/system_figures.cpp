@@ -5,8 +5,10 @@
 #include "base/units.h"
 #include "gear/layout.h"
 #include "report/alike_meshes.h"
+#include "report/distinct_curves.h"
 #include "report/figure_list.h"
 #include "report/figure_words.h"
+#include "report/one_system.h"
 #include "report/period_curves.h"
 #include "report/system_picture.h"
 #include "signal/spectrum.h"
@@ -14,42 +16,67 @@
 namespace whine {
 
 using Eigen::Index;
+using Eigen::VectorXd;
 
 namespace {
 
-// Over the mesh period, or over the hunting period of teeth that differ.
-PanelAxis phase_axis(const SystemStaticResult& a) {
-  return {.label = "Mesh phase (mesh periods)", .from = 0, .to = static_cast<double>(a.hunting_periods)};
+// Over the mesh period, or over the hunting period of teeth that differ or the periods of a motion.
+PanelAxis phase_axis(int periods) {
+  return {.label = "Mesh phase (mesh periods)", .from = 0, .to = static_cast<double>(periods)};
 }
 
-// Curves lie on each other where meshes are alike: what is drawn first shows on either side of what is drawn on it.
-PanelCurve alike_curve(const std::string& block, size_t i, size_t curves, bool dense) {
+// Curve i of those with these numbers among the distinct ones. Where some are near each other for a while, what is drawn first shows on
+// either side of what is drawn on it.
+PanelCurve numbered_curve(const std::string& block, size_t i, const std::vector<size_t>& numbers,
+                          bool dense) {
+  const size_t n = numbers[i];
   return {.block = block,
           .y = static_cast<int>(i) + 2,
-          .colour = curve_colour(i),
-          .width = dense ? 1.2 : 2 + 0.8 * static_cast<double>(curves - 1 - i),
-          .dash = i < 6 ? 1 : 3};
+          .colour = curve_colour(n),
+          .width = dense ? 1.2 : 2 + 0.8 * static_cast<double>(count_of_distinct(numbers) - 1 - n),
+          .dash = n < 6 ? 1 : 3};
 }
 
-// One row of the figure: curves over the mesh period, or over the hunting period of teeth that differ, and their harmonics of the mesh
-// frequency.
-void add_row(const SystemStaticResult& a, const std::string& quantity, const std::string& axis,
+void note_alike(const std::vector<size_t>& numbers, Figure& figure) {
+  if (count_of_distinct(numbers) < numbers.size() &&
+      std::find(figure.notes.begin(), figure.notes.end(), kOneColour) == figure.notes.end())
+    figure.notes.emplace_back(kOneColour);
+}
+
+// By both panels of a row.
+std::vector<size_t> distinct_of(const std::vector<PeriodCurve>& curves, double span, double most) {
+  std::vector<Eigen::VectorXd> both;
+  both.reserve(curves.size());
+  for (const PeriodCurve& curve : curves) {
+    both.emplace_back(curve.values.size() + curve.amplitudes.size());
+    both.back() << curve.values / std::max(span, 1e-12), curve.amplitudes / std::max(most, 1e-12);
+  }
+  return distinct_curves(both, 1);
+}
+
+// Phases at which the curves of a figure are given, of the mesh periods after which they repeat.
+struct Phases {
+  Eigen::VectorXd phase;
+  int periods = 1;
+};
+
+// One row of the figure: curves over these periods, and their harmonics of the mesh frequency.
+void add_row(const Phases& of, const std::string& quantity, const std::string& axis,
              const std::string& short_axis, const std::string& unit, std::vector<PeriodCurve> curves,
              Figure& figure) {
   if (curves.size() > kMostLines) {
     figure.notes.push_back(text(axis, ": the first ", kMostLines, " of ", curves.size(), " curves"));
     curves.resize(kMostLines);
   }
-  const int count = resolved_harmonics(a.mesh_phase.size(), kShownHarmonics, a.hunting_periods);
+  const int count = resolved_harmonics(of.phase.size(), kShownHarmonics, of.periods);
   double low = curves[0].values.minCoeff(), high = curves[0].values.maxCoeff(), most = 0;
   for (PeriodCurve& curve : curves) {
-    curve.amplitudes = harmonics(curve.values, count, a.hunting_periods).amplitude;
+    curve.amplitudes = harmonics(curve.values, count, of.periods).amplitude;
     low = std::min(low, curve.values.minCoeff());
     high = std::max(high, curve.values.maxCoeff());
     if (count > 0) most = std::max(most, curve.amplitudes.maxCoeff());
   }
-  const FigureBlock period = period_block(quantity, unit, a.mesh_phase, a.hunting_periods, curves,
-                                          "period " + quantity),
+  const FigureBlock period = period_block(quantity, unit, of.phase, of.periods, curves, "period " + quantity),
                     spectrum = spectrum_block(quantity, unit, curves, "harmonics " + quantity);
   figure.blocks.push_back(period);
   figure.blocks.push_back(spectrum);
@@ -57,7 +84,7 @@ void add_row(const SystemStaticResult& a, const std::string& quantity, const std
   const double size = std::max({std::abs(low), std::abs(high), 1e-12}),
                room = std::max(0.06 * (high - low), 1e-3 * size);
   Panel over_period{.heading = axis,
-                    .x = phase_axis(a),
+                    .x = phase_axis(of.periods),
                     .y = {.label = text(short_axis, " (", unit, ")"), .from = low - room, .to = high + room},
                     .key = PanelKey::none},
       harmonic{
@@ -65,19 +92,22 @@ void add_row(const SystemStaticResult& a, const std::string& quantity, const std
           .x = {.label = "Harmonic of the mesh frequency", .from = 0.4, .to = kShownHarmonics + 0.6},
           .y = {
               .label = text("Amplitude (", unit, ")"), .from = 0, .to = std::max(1.08 * most, 1e-4 * size)}};
-  const double drawn = static_cast<double>(curves.size()), step = 0.8 / drawn;
+  const std::vector<size_t> numbers = distinct_of(curves, high - low + 2 * room, most);
+  note_alike(numbers, figure);
+  const double drawn = static_cast<double>(count_of_distinct(numbers)), step = 0.8 / drawn;
   for (size_t i = 0; i < curves.size(); ++i) {
-    PanelCurve curve = alike_curve(period.name, i, curves.size(), a.hunting_periods > 1);
-    over_period.curves.push_back(curve);
+    PanelCurve curve = numbered_curve(period.name, i, numbers, of.periods > 1);
+    if (is_first(numbers, i)) over_period.curves.push_back(curve);
     curve.label = without_markup(short_name(curves[i].name));
     curve.block = "";
     curve.width = 3;
     harmonic.curves.push_back(curve);
+    if (!is_first(numbers, i)) continue;
     curve.label = "";
     curve.block = spectrum.name;
     curve.style = PanelStyle::bars;
     curve.width = 0.7 * step;
-    curve.shift = (static_cast<double>(i) - 0.5 * (drawn - 1)) * step;
+    curve.shift = (static_cast<double>(numbers[i]) - 0.5 * (drawn - 1)) * step;
     harmonic.curves.push_back(curve);
   }
   figure.panels.push_back(over_period);
@@ -124,7 +154,7 @@ Figure system_static_figure(const SystemStaticResult& a) {
   const System& s = a.settings.layout;
   Figure figure;
   std::vector<PeriodCurve> stresses = root_stresses(a);
-  figure.title = text("A system at rest: transmission errors, stiffnesses, forces",
+  figure.title = text("A train at rest: transmission errors, stiffnesses, forces",
                       stresses.empty() ? "" : ", root stresses");
   figure.notes = in_lines(bodies_words(s, a.torque.colwise().mean().transpose()));
   if (const std::string sharing = sharing_words(a); !sharing.empty())
@@ -152,14 +182,89 @@ Figure system_static_figure(const SystemStaticResult& a) {
       size[i] = a.bearing_force[static_cast<size_t>(i)].row(static_cast<Index>(b)).norm();
     bearings.push_back({s.bodies[b].name + (s.bodies[b].on != System::kGround ? " (pin)" : ""), size, {}});
   }
-  add_row(a, "transmission_error", "Transmission error", "Error", "µm", std::move(errors), figure);
-  add_row(a, "mesh_stiffness", "Mesh stiffness", "Stiffness", "N/µm", std::move(stiffnesses), figure);
-  add_row(a, "mesh_force", "Mesh force", "Force", "N", std::move(forces), figure);
-  add_row(a, "bearing_force", "Bearing force", "Force", "N", std::move(bearings), figure);
+  const Phases phases{a.mesh_phase, a.hunting_periods};
+  add_row(phases, "transmission_error", "Transmission error", "Error", "µm", std::move(errors), figure);
+  add_row(phases, "mesh_stiffness", "Mesh stiffness", "Stiffness", "N/µm", std::move(stiffnesses), figure);
+  add_row(phases, "mesh_force", "Mesh force", "Force", "N", std::move(forces), figure);
+  add_row(phases, "bearing_force", "Bearing force", "Force", "N", std::move(bearings), figure);
   if (!stresses.empty())
-    add_row(a, "root_stress", "Root stress", "Stress", "MPa", std::move(stresses), figure);
+    add_row(phases, "root_stress", "Root stress", "Stress", "MPa", std::move(stresses), figure);
   figure.columns = 2;
   add_hunting(a, "over which all is drawn; harmonics are those of the mesh frequency", figure);
+  return figure;
+}
+
+namespace {
+
+// Rows of one motion: its transmission errors, mesh forces and forces on bearings; way: "", or which of two motions it is.
+void add_motion(const SweepResult& a, Index row, const std::string& way, Figure& figure) {
+  const int periods = a.period_multiple[row] > 0 ? a.period_multiple[row]
+                                                 : static_cast<int>(a.samples() / a.steps_per_period());
+  const Index samples = std::min<Index>(periods * a.steps_per_period(), a.samples());
+  const Phases phases{VectorXd::LinSpaced(samples, 0, periods * (1 - 1.0 / static_cast<double>(samples))),
+                      periods};
+  const auto of_meshes = [&](const std::vector<MatrixRM>& values, double scale) {
+    std::vector<PeriodCurve> out;
+    for (size_t m = 0; m < a.mesh_names.size(); ++m)
+      out.push_back({a.mesh_names[m],
+                     values[static_cast<size_t>(row)].col(static_cast<Index>(m)).head(samples) * scale,
+                     {}});
+    return out;
+  };
+  std::vector<PeriodCurve> bearings;
+  for (size_t b = 0; b < a.body_names.size(); ++b)
+    if (!a.bearing_force[b].empty())
+      bearings.push_back({a.body_names[b] + (a.train.layout.bodies[b].on != System::kGround ? " (pin)" : ""),
+                          a.bearing_force[b][static_cast<size_t>(row)].topRows(samples).rowwise().norm(),
+                          {}});
+  const std::string of = way.empty() ? "" : " " + way, behind = way.empty() ? "" : ", speed " + way;
+  add_row(phases, "transmission_error" + of, "Transmission error" + behind, "Error", "µm",
+          of_meshes(a.transmission_error, kMicro), figure);
+  add_row(phases, "mesh_force" + of, "Mesh force" + behind, "Force", "N", of_meshes(a.mesh_force, 1), figure);
+  if (!bearings.empty())
+    add_row(phases, "bearing_force" + of, "Bearing force" + behind, "Force", "N", std::move(bearings),
+            figure);
+}
+
+}  // namespace
+
+Figure train_history_figure(const std::vector<SweepResult>& sweeps, double mesh_frequency) {
+  constexpr double kSameBranch = 0.02;  // of the larger RMS
+  std::vector<Index> rows;
+  std::vector<double> rms;
+  for (const SweepResult& a : sweeps) {
+    if (!a.of_train() || !one_system(a.train.layout, sweeps[0].train.layout))
+      fail(Failure::input, "figure: sweeps of another scene beside those of a train; give those of one");
+    Index row = 0;
+    const double off = (a.mesh_frequency.array() - mesh_frequency).abs().minCoeff(&row);
+    if (off > 1e-6 * mesh_frequency)
+      fail(Failure::input, "figure: the sweep ", a.direction, " holds no speed of ", mesh_frequency,
+           " Hz; the nearest is ", a.mesh_frequency[row], " Hz");
+    rows.push_back(row);
+    rms.push_back(std::sqrt((a.transmission_error[static_cast<size_t>(row)].rowwise() -
+                             a.transmission_error[static_cast<size_t>(row)].colwise().mean())
+                                .squaredNorm()));
+  }
+  const bool one = sweeps.size() == 1 || (sweeps.size() == 2 && std::abs(rms[0] - rms[1]) <=
+                                                                    kSameBranch * std::max(rms[0], rms[1]));
+  const SweepResult& a = sweeps[0];
+  Figure figure;
+  figure.title = text("A train in motion at a mesh frequency of ", shown(mesh_frequency, 6), " Hz");
+  figure.notes = in_lines(bodies_words(a.train.layout, a.drive));
+  figure.notes.push_back(text("a mesh period lasts ", shown(1e3 / mesh_frequency, 4), " ms; ",
+                              sweeps.size() == 1 ? text("speed ", a.direction)
+                              : one              ? "with speed rising and falling the motion is the same"
+                                                 : "with speed rising and falling it is another one"));
+  figure.notes.emplace_back(
+      "transmission error of the rotations, along the line of action; bearing force: its magnitude, on a rigid axis the sum of the contact forces");
+  for (size_t i = 0; i < (one ? 1 : sweeps.size()); ++i)
+    add_motion(sweeps[i], rows[i],
+               one                                    ? ""
+               : sweeps[i].direction == Direction::up ? "rising"
+                                                      : "falling",
+               figure);
+  figure.columns = 2;
+  plain_captions(figure.notes.size(), figure);
   return figure;
 }
 
@@ -234,16 +339,23 @@ FigureBlock shares_block(const SystemStaticResult& a, const LoadSharing& of, siz
 
 // Shares of all meshes, and the loads of the tooth pairs of the first.
 void add_sharing_panels(const SystemStaticResult& a, const LoadSharing& of, const std::string& shares,
-                        const FigureBlock& loads, Figure& figure) {
+                        const FigureBlock& loads, double span, Figure& figure) {
   const System& s = a.settings.layout;
   const size_t shown = std::min(of.meshes.size(), kMostLines);
   Panel share{.heading = "shares of the load",
-              .x = phase_axis(a),
+              .x = phase_axis(a.hunting_periods),
               .y = {.label = "Share (%)"},
               .rules = {{'y', kPercent / static_cast<double>(of.meshes.size()), "equal", kDark, 2, true}}};
+  std::vector<Eigen::VectorXd> columns;
+  columns.reserve(shown);
+  for (size_t i = 0; i < shown; ++i)
+    columns.emplace_back(a.load_share.col(static_cast<Index>(of.meshes[i])) * kPercent);
+  const std::vector<size_t> numbers = distinct_curves(columns, span);
+  note_alike(numbers, figure);
   for (size_t i = 0; i < shown; ++i) {
-    share.curves.push_back(alike_curve(shares, i, shown, a.hunting_periods > 1));
-    share.curves.back().label = without_markup(short_name(mesh_name(s, of.meshes[i])));
+    PanelCurve curve = numbered_curve(is_first(numbers, i) ? shares : "", i, numbers, a.hunting_periods > 1);
+    curve.label = without_markup(short_name(mesh_name(s, of.meshes[i])));
+    share.curves.push_back(curve);
   }
   const std::string first = without_markup(short_name(mesh_name(s, of.meshes[0])));
   Panel load{.heading = "loads of the tooth pairs of " + first,
@@ -274,6 +386,13 @@ Figure system_load_sharing_figure(const SystemStaticResult& a) {
   figure.notes.emplace_back(
       "left: share of the load of all meshes of a [[mesh]]; right: loads of the tooth pairs of its first mesh over a period of its own, 0: reference pair at the pitch point");
   double low = 100, high = 0;
+  for (const LoadSharing& of : sharing)
+    for (const size_t m : of.meshes) {
+      const auto column = a.load_share.col(static_cast<Index>(m));
+      low = std::min(low, column.minCoeff() * kPercent);
+      high = std::max(high, column.maxCoeff() * kPercent);
+    }
+  const double room = std::max(0.12 * (high - low), 0.5);
   for (size_t k = 0; k < sharing.size(); ++k) {
     const LoadSharing& of = sharing[k];
     const std::string row = std::to_string(k + 1);
@@ -281,18 +400,12 @@ Figure system_load_sharing_figure(const SystemStaticResult& a) {
     if (shown < of.meshes.size())
       figure.notes.push_back(
           text(of.name, ": the shares of the first ", shown, " of ", of.meshes.size(), " meshes"));
-    for (const size_t m : of.meshes) {
-      const auto column = a.load_share.col(static_cast<Index>(m));
-      low = std::min(low, column.minCoeff() * kPercent);
-      high = std::max(high, column.maxCoeff() * kPercent);
-    }
     // By number: names may be long, and tables become files.
     figure.blocks.push_back(shares_block(a, of, shown, "share " + row));
     const FigureBlock loads = pair_loads(a, of.meshes[0], "loads " + row);
-    add_sharing_panels(a, of, figure.blocks.back().name, loads, figure);
+    add_sharing_panels(a, of, figure.blocks.back().name, loads, high - low + 2 * room, figure);
     figure.blocks.push_back(loads);
   }
-  const double room = std::max(0.12 * (high - low), 0.5);
   for (size_t k = 0; k < figure.panels.size(); k += 2)
     figure.panels[k].y.from = low - room, figure.panels[k].y.to = high + room;
   figure.columns = 2;

@@ -315,8 +315,8 @@ Figure picture_of(Train t, const Eigen::VectorXd& torque) {
       torque.size() > 0
           ? "unloaded at mesh phase 0; black: paths of contact; below a name its number of teeth"
           : "rigid gears: a working pitch circle for each mesh, a tick at each tooth; black: lines of action, one base pitch long; below a name its number of teeth");
-  figure.notes.push_back(
-      text("arrows: senses of rotation", carriers ? " relative to the carrier; green: its arms" : ""));
+  figure.notes.push_back(text("arrows: senses of rotation", carriers ? " relative to the carrier" : "",
+                              ", in which torques are positive", carriers ? "; green: its arms" : ""));
   for (const std::string& line : in_lines(numbers)) figure.notes.push_back(line);
   add_labels(t, figure);
   const size_t close_ups = add_close_ups(t, figure);

@@ -1,10 +1,12 @@
 #include "report/figure_list.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "base/error.h"
 #include "gear/layout.h"
+#include "report/distinct_curves.h"
 #include "report/figure_words.h"
 #include "report/one_system.h"
 #include "report/system_picture.h"
@@ -88,19 +90,38 @@ FigureBlock block_of(const Quantity& q, const ResponseResult& a, size_t curves) 
   return block;
 }
 
-// Meshes that are alike lie on each other: dashes and the wider line below let both show.
-void add_curves(const Quantity& q, const std::vector<ResponseResult>& sweeps, size_t i, size_t curves,
-                const std::string& name, Panel& panel) {
+// By the sweeps in both directions.
+std::vector<size_t> distinct_of(const Quantity& q, const std::vector<ResponseResult>& sweeps, size_t curves) {
+  std::vector<Eigen::VectorXd> all(curves);
+  double low = q.parts == Parts::whole ? std::numeric_limits<double>::infinity() : 0, high = -low;
+  for (const ResponseResult& sweep : sweeps) {
+    const MatrixRM values = q.values(sweep);
+    low = std::min(low, values.minCoeff());
+    high = std::max(high, values.maxCoeff());
+    for (size_t i = 0; i < curves; ++i) {
+      const Index before = all[i].size();
+      all[i].conservativeResize(before + values.rows());
+      all[i].tail(values.rows()) = values.col(static_cast<Index>(i));
+    }
+  }
+  return distinct_curves(all, high - low);
+}
+
+// Where curves are near each other for a while, dashes and the wider line below let both show.
+void add_curves(const Quantity& q, const std::vector<ResponseResult>& sweeps, size_t i,
+                const std::vector<size_t>& numbers, const std::string& name, Panel& panel) {
+  const size_t n = numbers[i];
   PanelCurve curve{.y = static_cast<int>(i) + 2,
-                   .colour = curve_colour(i),
-                   .width = 1.6 + 0.7 * static_cast<double>(curves - 1 - i),
-                   .dash = i < 2   ? 1
-                           : i < 4 ? 2
-                           : i < 6 ? 4
+                   .colour = curve_colour(n),
+                   .width = 1.6 + 0.7 * static_cast<double>(count_of_distinct(numbers) - 1 - n),
+                   .dash = n < 2   ? 1
+                           : n < 4 ? 2
+                           : n < 6 ? 4
                                    : 3,
-                   .mark = i < 6 ? 6 : 4,
+                   .mark = n < 6 ? 6 : 4,
                    .size = 0.9};
   for (const ResponseResult& sweep : sweeps) {
+    if (!is_first(numbers, i)) break;
     curve.block = text(q.name, " ", name_of(sweep.direction));
     curve.style = sweep.direction == Direction::up ? PanelStyle::line : PanelStyle::points;
     panel.curves.push_back(curve);
@@ -122,7 +143,7 @@ Figure system_sweep_figure(const std::vector<ResponseResult>& sweeps) {
   const System& s = a.train.layout;
   require_one_system("another sweep", a, sweeps);
   Figure figure;
-  figure.title = "A system over its speeds: vibration, contact loss, forces on bearings, root stress";
+  figure.title = "A train over its speeds: vibration, contact loss, forces on bearings, root stress";
   figure.notes = in_lines(bodies_words(s, a.drive));
   figure.notes.push_back(text("body \"", a.train.fidelity.body, "\", contact \"", a.train.fidelity.contact,
                               "\", damping ", shown(a.train.damping.rayleigh_stiffness, 3),
@@ -133,6 +154,7 @@ Figure system_sweep_figure(const std::vector<ResponseResult>& sweeps) {
   figure.notes.push_back(
       text("lines: rising speed; open marks: falling speed; force on a rigid axis: sum of the contact forces",
            pins ? ", on a rigid pin less the inertia force of the planet" : ""));
+  bool alike = false;
   for (const Quantity& q : kQuantities) {
     if (std::any_of(sweeps.begin(), sweeps.end(),
                     [&](const ResponseResult& one) { return q.values(one).size() == 0; }))
@@ -142,6 +164,8 @@ Figure system_sweep_figure(const std::vector<ResponseResult>& sweeps) {
       figure.notes.push_back(text(q.heading, ": the first ", kMostLines, " of ", names.size(), " curves"));
     const size_t curves = std::min(names.size(), kMostLines);
     const bool vibration = &q == &kQuantities[0];
+    const std::vector<size_t> numbers = distinct_of(q, sweeps, curves);
+    alike = alike || count_of_distinct(numbers) < curves;
     for (const ResponseResult& sweep : sweeps) figure.blocks.push_back(block_of(q, sweep, curves));
     Panel panel{.heading = q.heading,
                 .x = {.label = "Mesh frequency (Hz)", .speed = true},
@@ -150,10 +174,11 @@ Figure system_sweep_figure(const std::vector<ResponseResult>& sweeps) {
                       .level = vibration}};
     for (size_t i = 0; i < curves; ++i) {
       if (vibration) figure.levels.push_back({column_of(q, names[i]), false});
-      add_curves(q, sweeps, i, curves, short_name(names[i]), panel);
+      add_curves(q, sweeps, i, numbers, short_name(names[i]), panel);
     }
     figure.panels.push_back(panel);
   }
+  if (alike) figure.notes.emplace_back(kOneColour);
   add_shafts(s, figure);
   plain_captions(figure.notes.size(), figure);
   return figure;

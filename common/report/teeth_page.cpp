@@ -96,12 +96,13 @@ WordTable at_rest(const StaticResult& s, const IsoComparison& iso, const std::st
 
 // Of each mesh; of a pair K_v of `iso` stands beside forces.
 WordTable in_motion(const SystemStaticResult& all, const std::vector<const ResponseResult*>& sweeps,
-                    const IsoComparison& iso) {
+                    const IsoComparison& iso, const TurningMember& member) {
   WordTable out{
       text(
           "In motion at ", torque_words(torque_of(all)),
           ": the largest over all speeds, sustained for 1/64 of a mesh period, with the mesh frequency at which it stands; of forces and of root stress, which goes with them, what it is over its value at rest (the dynamic factor), and K_v of ISO 6336-1, method B, at that speed; of root stress, where: tangent of the root against the tooth's centre line, phase of the tooth's pair from the pitch point."),
-      {"", "speed", "largest", "at (Hz)", "where", "dynamic factor", "K_v there"},
+      {"", "speed", "largest", member.turns > 0 ? "at (Hz; rpm of " + member.name + ")" : "at (Hz)", "where",
+       "dynamic factor", "K_v there"},
       {}};
   const auto add_mesh = [&](const ResponseResult& r, size_t number) {
     const auto m = static_cast<Index>(number);
@@ -116,8 +117,9 @@ WordTable in_motion(const SystemStaticResult& all, const std::vector<const Respo
       const double most = values.maxCoeff(&top), speed = r.mesh_frequency[top];
       out.rows.push_back(
           {of + what, way, most > 0 ? fixed(most * scale, scale == 1 ? 0 : 1) + unit : "none",
-           most > 0 ? fixed(speed, 0) : html::kNoValue, most > 0 && where ? where(top) : html::kNoValue,
-           rest > 0 ? fixed(most / rest, 2) : html::kNoValue,
+           most > 0 ? fixed(speed, 0) + (member.turns > 0 ? "; " + fixed(member.rpm(speed), 0) : "")
+                    : html::kNoValue,
+           most > 0 && where ? where(top) : html::kNoValue, rest > 0 ? fixed(most / rest, 2) : html::kNoValue,
            rest > 0 && !r.of_train() ? or_dash(iso.dynamic_factor(speed), 2) : html::kNoValue});
     };
     const auto lasting = [&](const MatrixRM& sustained, const MatrixRM& largest) {
@@ -220,12 +222,12 @@ std::vector<WordTable> teeth_tables(const ReportContent& c) {
     out.push_back(at_rest(
         mesh, iso,
         rest.of_train()
-            ? text(rest.mesh_names[m], " at rest, ", torque_words(mesh.torque), " on ", mesh.mesh.gear[0],
-                   ", of the meshes of its [[mesh]] the one with the largest root stress")
+            ? text(rest.mesh_names[m], " at rest, its part of the torque ", torque_words(mesh.torque), " on ",
+                   mesh.mesh.gear[0], ", of the meshes of its [[mesh]] the one with the largest root stress")
             : "At rest at " + torque_words(mesh.torque)));
     out.back().caption += range_of(iso);
   }
-  if (!sweeps.empty()) out.push_back(in_motion(rest, sweeps, iso));
+  if (!sweeps.empty()) out.push_back(in_motion(rest, sweeps, iso, driver_of(c)));
   return out;
 }
 

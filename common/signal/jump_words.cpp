@@ -13,7 +13,7 @@ std::string jump_words(const Eigen::VectorXd& frequency, const Eigen::VectorXd& 
     const double half = 0.5 * width[j];
     const int digits = half > 0 && half < 0.1 ? static_cast<int>(std::ceil(-std::log10(half))) : 1;
     const double unit = std::pow(10, digits), own = digits > 1 ? 10 * unit : 1;
-    out += text(j ? ", " : "", std::round(frequency[j] * own) / own, " +- ", std::round(half * unit) / unit,
+    out += text(j ? ", " : "", std::round(frequency[j] * own) / own, " ± ", std::round(half * unit) / unit,
                 " Hz");
   }
   return out.empty() ? "none" : out;

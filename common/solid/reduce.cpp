@@ -210,17 +210,24 @@ Harmonics solve_harmonics(const Reduction& r, FlankLoads& loads, Eigen::Index sh
   return out;
 }
 
-// The lowest modes, doublets whole, and the torsional one.
+// The lowest modes, doublets whole, the torsional one, and of zero diameters the first ones, up to twice the frequency of these: they couple
+// with the hub, and the lowest of them in which the teeth bend changes a motion more than all the others of its band.
 std::vector<KeptMode> lowest_of(const Reduction& r, std::vector<KeptMode> found) {
   std::stable_sort(found.begin(), found.end(),
                    [](const KeptMode& a, const KeptMode& b) { return a.omega_squared < b.omega_squared; });
   size_t torsional = 0;
   for (size_t k = 0; k < found.size(); ++k)
     if (std::abs(found[k].coupling) > std::abs(found[torsional].coupling)) torsional = k;
+  constexpr int kOfZeroDiameters = 3;
   std::vector<KeptMode> kept;
-  int real_modes = 0;
+  int real_modes = 0, of_zero_diameters = 0;
+  double highest = 0;  // s-2
   for (size_t k = 0; k < found.size(); ++k) {
-    if (!r.all && real_modes >= r.modes && k != torsional) continue;
+    const bool low = r.all || real_modes < r.modes, couples = found[k].harmonic == 0 &&
+                                                              of_zero_diameters++ < kOfZeroDiameters &&
+                                                              found[k].omega_squared < 4 * highest;
+    if (low) highest = found[k].omega_squared;
+    if (!low && k != torsional && !couples) continue;
     real_modes += r.sector.single(found[k].harmonic) ? 1 : 2;
     kept.push_back(found[k]);
   }

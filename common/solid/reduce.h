@@ -31,8 +31,8 @@ constexpr int kOffsets = 3;
 // loaded one, needs no solution of its own. A tooth is its own mirror image, so a force on the other flank moves the driving
 // flank of tooth -d by X_d, and by reciprocity X_d = X_d^T.
 //
-// modes: elastic modes of the whole gear to keep, 0 or more, or kAllModes; the first torsional zero-diameter mode is always
-// among them. Near field and points of the flank are those of mesh.discretisation. Throws Error(input) for a matching depth whose points are
+// modes: elastic modes of the whole gear to keep, 0 or more, or kAllModes; the torsional zero-diameter mode is always among them, and
+// the first three of zero diameters up to twice the highest frequency of the others. Near field and points of the flank are those of mesh.discretisation. Throws Error(input) for a matching depth whose points are
 // not all inside the tooth and for kAllModes of a mesh that is too fine for dense algebra, Error(numerical) if a
 // factorisation, an eigensolution or a table does not pass its check.
 ReducedBody reduce(const SectorGrid& mesh, const Material& material, int modes);

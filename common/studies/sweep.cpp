@@ -425,7 +425,8 @@ SweepResult system_sweep(const SystemSweepParameters& settings, const std::vecto
   static_cast<MotionSource&>(out) = motion.source();
   out.direction = direction;
   swept(motion, {speeds, report, nullptr, jump_width}, out);
-  out.remarks = remarks_on_carriers(out, bodies);
+  // Said once of a pair of sweeps, as those of a pair of gears are.
+  if (direction == Direction::up) out.remarks = remarks_on_carriers(out, bodies);
   return out;
 }
 

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/dense.h"
 #include "gear/face_width.h"
 
 namespace whine {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 int face_points_of(const std::vector<GearMeshSpec>& meshes, const ContactDiscretisation& contact) {
@@ -70,6 +72,22 @@ double parabola(const Eigen::Vector3d& at, const Eigen::Vector3d& value, double 
   return sum;
 }
 
+// At x, of the cubic with the least weighted squares from values above 0; below five of them a polynomial of two degrees less than there are.
+double smoothed(const VectorXd& at, const VectorXd& value, const VectorXd& weight, double x) {
+  constexpr Index kTerms = 4;
+  const Index terms = std::min(kTerms, (value.array() > 0).count() - 1);
+  if (terms < 1) return 0;
+  const double scale = at.cwiseAbs().maxCoeff();
+  MatrixXd powers = MatrixXd::Ones(at.size(), terms);
+  for (Index j = 1; j < terms; ++j) powers.col(j) = powers.col(j - 1).cwiseProduct(at) / scale;
+  const VectorXd root = (value.array() > 0).select(weight, 0).cwiseSqrt();
+  const VectorXd factor =
+      least_squares(MatrixXd(root.asDiagonal() * powers), MatrixXd(root.cwiseProduct(value)));
+  double sum = 0;
+  for (Index j = terms - 1; j >= 0; --j) sum = sum * x / scale + factor[j];
+  return sum;
+}
+
 }  // namespace
 
 double face_load_factor(const Eigen::Ref<const VectorXd>& z, const Eigen::Ref<const VectorXd>& weight,
@@ -82,12 +100,17 @@ double face_load_factor(const Eigen::Ref<const VectorXd>& z, const Eigen::Ref<co
     count -= 2;
   }
   const VectorXd at = z.segment(first, count), own = load.segment(first, count);
-  double most = own.maxCoeff();
-  if (count >= 3) {
-    most = std::max(most, parabola(at.head(3), own.head(3), line.from));
-    most = std::max(most, parabola(at.tail(3), own.tail(3), line.to));
-  }
-  return most / mean;
+  const double most = own.maxCoeff();
+  if (count < 3) return most / mean;
+  if (inner == 1)
+    return std::max({most, parabola(at.head(3), own.head(3), line.from),
+                     parabola(at.tail(3), own.tail(3), line.to)}) /
+           mean;
+  const auto carried = [&](Index outermost, double end) {
+    if (!(own[outermost] > 0)) return 0.0;
+    return smoothed(at.array() - middle, own, weight.segment(first, count), end - middle);
+  };
+  return std::max({most, carried(0, line.from), carried(count - 1, line.to)}) / mean;
 }
 
 }  // namespace whine

@@ -54,12 +54,14 @@ FacePoints face_points(const GearPair& pair, const FaceGap& gap, const std::vect
 // 1 (point of `line`, a): value at z of the polynomial that is 1 at the point a of the line and 0 at its others.
 Eigen::RowVectorXd interpolation(const FacePoints& points, int line, double z);
 
-// Of bodies in three dimensions K_Hbeta is read through this part of the line: at the very end of a face the load of teeth in three
+// Of bodies in three dimensions K_Hbeta is read from this part of the line: at the very end of a face the load of teeth in three
 // dimensions falls off, which no polynomial holds.
 inline constexpr double kInnerFace = 0.8;
 
 // K_Hbeta = w_max / w_mean of the loads w (N m-1) at points z (m, ascending) with these weights: the largest of the points in the inner part
-// `inner` of the line and of both ends of the line, to which a parabola through the three outermost of them leads.
+// `inner` of the line and of both ends of the line. To these leads a parabola through the three outermost points of the whole line; of an
+// inner part, where polynomials of the body ripple by a per cent, which three points carry to the end five to ten times as large, the
+// cubic of least squares through all its points with load.
 double face_load_factor(const Eigen::Ref<const Eigen::VectorXd>& z,
                         const Eigen::Ref<const Eigen::VectorXd>& weight,
                         const Eigen::Ref<const Eigen::VectorXd>& load, const ContactLine& line,

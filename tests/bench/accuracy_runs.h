@@ -24,7 +24,7 @@
 
 namespace whine {
 
-inline constexpr int kJudgedSpeedsOfScene = 96;
+inline constexpr int kJudgedSpeedsOfScene = 48;
 
 struct SceneRun {
   ResponseResult response;

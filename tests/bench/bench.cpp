@@ -304,7 +304,7 @@ void beside_calculix(const whine::ReducedBody& driver, const whine::ReducedBody&
   const GearMeshModel model(in_plane_strain(driver), in_plane_strain(driven), settings.mesh);
   const PositionTimes whine = static_position(model, settings, torque, phase, "plane strain");
   std::printf("The same position by CalculiX\n");
-  if (!CalculixPair::installed()) {
+  if (!calculix_installed()) {
     std::printf("  (no CalculiX to compare with: make deps-bench)\n");
     return;
   }

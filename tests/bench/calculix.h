@@ -3,19 +3,11 @@
 // gear fixed, bore of the driver turned as a rigid ring, contact of surfaces by a penalty that is stiff against the teeth. The driven
 // gear may be internal: its rim is then fixed, and it works with its trailing flanks.
 #pragma once
-#include <gmsh.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
-#include <functional>
 #include <iomanip>
 #include <map>
 #include <numbers>
@@ -24,25 +16,11 @@
 #include <vector>
 
 #include "base/error.h"
+#include "bench/ccx.h"
+#include "bench/gear_mesh.h"
 #include "gear/pair.h"
 
 namespace whine {
-
-// What a child process took.
-struct Usage {
-  double seconds = 0;    // CPU, user and system
-  double megabytes = 0;  // largest resident set
-};
-
-// Waits for a child; throws Error(numerical) with `what` if it did not end with status 0.
-inline Usage wait_for(pid_t child, const std::string& what) {
-  int status = 0;
-  rusage usage{};
-  if (wait4(child, &status, 0, &usage) != child || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    fail(Failure::numerical, what, " ended with status ", WIFEXITED(status) ? WEXITSTATUS(status) : -1);
-  const auto seconds = [](const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_usec); };
-  return {seconds(usage.ru_utime) + seconds(usage.ru_stime), double(usage.ru_maxrss) / 1024};
-}
 
 struct CalculixPosition {
   double torque =
@@ -73,44 +51,26 @@ class CalculixPair {
       fail(Failure::numerical, "the gears stand at another centre distance than that of the pair, by ", off);
   }
 
-  static bool installed() { return std::system("command -v ccx > /dev/null 2>&1") == 0; }
-
   // rotation: rad, of the driver's bore from where the unloaded flanks touch. Throws Error(numerical) if ccx does not
   // converge; its files then stay where the message says.
   CalculixPosition solve(double rotation) const {
-    namespace fs = std::filesystem;
-    std::string folder = (fs::temp_directory_path() / "whine-bench-XXXXXX").string();
-    if (!mkdtemp(folder.data())) fail(Failure::io, "no folder ", folder, " for the deck of CalculiX");
+    const CalculixFolder folder;
     const std::array<Mesh, 2> meshes{mesh(0), mesh(1)};
-    write_deck(folder + "/pair.inp", meshes, rotation);
+    write_deck(folder.file("pair.inp"), meshes, rotation);
     CalculixPosition result;
     result.nodes = static_cast<int>(meshes[0].node.size() + meshes[1].node.size());
-    std::fflush(nullptr);
-    const pid_t child = fork();
-    if (child == 0) {
-      setenv("OMP_NUM_THREADS", "1", 1);
-      setenv("CCX_NPROC_EQUATION_SOLVER", "1", 1);
-      if (chdir(folder.c_str()) == 0 && std::freopen("ccx.log", "w", stdout) &&
-          std::freopen("ccx.err", "w", stderr))
-        execlp("ccx", "ccx", "-i", "pair", static_cast<char*>(nullptr));
-      _exit(127);
-    }
-    result.usage = wait_for(child, "ccx in " + folder);
-    result.torque = read_torque(folder + "/pair.dat", meshes);
-    if (root_ > 0) result.root_stress = read_root_stress(folder + "/pair.frd", meshes);
+    result.usage = folder.run("pair");
+    result.torque = read_torque(folder.file("pair.dat"), meshes);
+    if (root_ > 0) result.root_stress = read_root_stress(folder.file("pair.frd"), meshes);
     for (std::size_t g = 0; g < 2; ++g) result.root_parameter[g] = meshes[g].root_parameter;
-    fs::remove_all(folder);
     return result;
   }
 
  private:
-  struct Mesh {
-    std::map<std::size_t, Vec2> node;                 // m, in the plane of both gears
-    std::vector<std::array<std::size_t, 6>> element;  // corners counter-clockwise, mid-sides
-    std::vector<std::size_t> bore;
-    std::vector<std::pair<std::size_t, int>> contact;  // element (from 0), side (from 1) on flanks in reach
-    std::vector<std::pair<std::size_t, Vec2>> root;    // node, tangent, from the flank on; of tooth 0
-    std::vector<double> root_parameter;                // 1: of the nodes of `root`
+  struct Mesh : GearMesh {                              // in the plane of both gears
+    std::vector<std::pair<std::size_t, int>> contact;   // element (from 0), side (from 1) on flanks in reach
+    std::vector<std::pair<std::size_t, Vec2>> tangent;  // of the nodes of the root, from the flank on
+    std::vector<double> root_parameter;                 // 1: of these nodes
     Vec2 centre;
   };
 
@@ -118,7 +78,6 @@ class CalculixPair {
 
   // Whether gear g works with the flank that trails in counter-clockwise rotation, the mirror image of flank_point().
   bool trails(int g) const { return g == 1 && gears_.internal(); }
-  static Vec2 as_it_works(bool trailing, const Vec2& p) { return {trailing ? -p.x() : p.x(), p.y()}; }
 
   // The common normal of the flanks lies along x; the driver's centre is the origin.
   double turn(int g) const {
@@ -133,140 +92,37 @@ class CalculixPair {
            Eigen::Rotation2Dd(turn(1)) * as_it_works(trails(1), gears_.gear(1).flank_point(contact.roll[1]));
   }
 
+  // Where pairs touch, or would a little later: tooth, roll angle.
+  std::vector<std::pair<int, double>> places(int g) const {
+    std::vector<std::pair<int, double>> out;
+    const int teeth = gears_.gear(g).design().teeth;
+    for (int pair = -1; pair <= 1; ++pair)
+      out.emplace_back(((g == 0 || trails(g) ? pair : -pair) + teeth) % teeth,
+                       gears_.contact(phase_ + pair).roll[g]);
+    return out;
+  }
+
   Mesh mesh(int g) const {
-    constexpr double kScale = 1e3;  // gmsh's tolerances are meant for numbers near 1
-    constexpr double kGrowth = 0.2;
     const ToothGeometry& tooth = gears_.gear(g);
-    const double even = 0.1 * tooth.design().module, coarse = tooth.design().module;  // m
-    const int teeth = tooth.design().teeth;
-    const Vec2 middle = centre(g);
-    const double turned = turn(g);
-    Mesh mesh;
-    mesh.centre = middle;
-
-    gmsh::initialize(0, nullptr, false);
-    gmsh::option::setNumber("General.Terminal", 0);
-    gmsh::option::setNumber("General.NumThreads", 1);
-    gmsh::model::add("gear");
-    namespace geo = gmsh::model::geo;
-    const auto point = [&](const Vec2& p) { return geo::addPoint(p.x() * kScale, p.y() * kScale, 0); };
-    const auto spline = [&](int from, int to, int pieces, const std::function<Vec2(double)>& curve) {
-      std::vector<int> points{from};
-      for (int i = 1; i < pieces; ++i) points.push_back(point(curve(double(i) / pieces)));
-      points.push_back(to);
-      return geo::addSpline(points);
-    };
-    const double form = tooth.form_roll_angle(), tip = tooth.tip_roll_angle();
-    std::vector<int> outer, flank_of_tooth;
-    int root_of_tooth = 0;          // 0
-    std::vector<int> first(teeth);  // point in the tooth space clockwise of the tooth
-    const auto placed = [&](int j, const Vec2& p, bool mirrored) -> Vec2 {
-      return Eigen::Rotation2Dd(turned + 2 * std::numbers::pi * j / teeth) * as_it_works(mirrored, p);
-    };
-    const auto on_flank = [&](double roll) {
-      return tooth.flank_point(std::clamp(roll, tooth.least_roll_angle(), tooth.largest_roll_angle()));
-    };
-    for (int j = 0; j < teeth; ++j) first[j] = point(placed(j, tooth.root_point(1), true));
-    const int axis = point({0, 0});
-    for (int j = 0; j < teeth; ++j) {
-      const int a = point(placed(j, tooth.flank_point(form), true)),
-                b = point(placed(j, tooth.flank_point(tip), true));
-      const int c = point(placed(j, tooth.flank_point(tip), false)),
-                d = point(placed(j, tooth.flank_point(form), false));
-      const auto flank = [&](double t) { return tooth.flank_point(form + (tip - form) * t); };
-      outer.push_back(
-          spline(first[j], a, 30, [&](double t) { return placed(j, tooth.root_point(1 - t), true); }));
-      outer.push_back(spline(a, b, 60, [&](double t) { return placed(j, flank(t), true); }));
-      if (trails(g)) flank_of_tooth.push_back(outer.back());
-      outer.push_back(geo::addCircleArc(b, axis, c));
-      outer.push_back(spline(c, d, 60, [&](double t) { return placed(j, flank(1 - t), false); }));
-      if (!trails(g)) flank_of_tooth.push_back(outer.back());
-      outer.push_back(spline(d, first[(j + 1) % teeth], root_ > 0 ? 200 : 30,
-                             [&](double t) { return placed(j, tooth.root_point(t), false); }));
-      if (j == 0) root_of_tooth = outer.back();
-    }
-    std::vector<int> bore, quarter;
-    for (int k = 0; k < 4; ++k)
-      quarter.push_back(point(tooth.design().clamped_radius() *
-                              Vec2(std::cos(k * std::numbers::pi / 2), std::sin(k * std::numbers::pi / 2))));
-    for (int k = 0; k < 4; ++k) bore.push_back(geo::addCircleArc(quarter[k], axis, quarter[(k + 1) % 4]));
-    std::vector<int> loops{geo::addCurveLoop(outer), geo::addCurveLoop(bore)};
-    if (tooth.internal()) std::swap(loops[0], loops[1]);
-    const int surface = geo::addPlaneSurface(loops);
-    geo::remove({{0, axis}});
-
-    // Where pairs touch, or would a little later.
-    std::vector<std::pair<int, Vec2>> places;  // tooth, nominal point in the body's own place
-    std::vector<double> touching;
-    for (int pair = -1; pair <= 1; ++pair) {
-      const PairContact contact = gears_.contact(phase_ + pair);
-      const int number = ((g == 0 || trails(g) ? pair : -pair) + teeth) % teeth;
-      places.emplace_back(number, placed(number, on_flank(contact.roll[g]), trails(g)));
-      touching.push_back(point(places.back().second));
-    }
-    std::vector<double> of_root;
+    const double module = tooth.design().module;
+    GearMeshPlan plan;
+    plan.turned = turn(g);
+    plan.trailing = trails(g);
+    plan.coarse = module;
+    const GearMesher bare(tooth, plan);
+    FineAround touching{{}, element_, 0.1 * module}, of_root{{}, root_, 4 * root_};
+    for (const auto& [number, roll] : places(g))
+      touching.point.push_back(bare.placed(number, bare.on_flank(roll), trails(g)));
     for (int i = 0; root_ > 0 && i <= 200; ++i)
-      of_root.push_back(point(placed(0, tooth.root_point(i / 200.0), false)));
-    geo::synchronize();
-    namespace field = gmsh::model::mesh::field;
-    const int distance = field::add("Distance"), threshold = field::add("Threshold");
-    field::setNumbers(distance, "PointsList", touching);
-    field::setNumber(threshold, "InField", distance);
-    field::setNumber(threshold, "SizeMin", element_ * kScale);
-    field::setNumber(threshold, "DistMin", even * kScale);
-    field::setNumber(threshold, "SizeMax", coarse * kScale);
-    field::setNumber(threshold, "DistMax", (even + (coarse - element_) / kGrowth) * kScale);
-    if (root_ > 0) {
-      const int from_root = field::add("Distance"), at_root = field::add("Threshold"),
-                least = field::add("Min");
-      field::setNumbers(from_root, "PointsList", of_root);
-      field::setNumber(at_root, "InField", from_root);
-      field::setNumber(at_root, "SizeMin", root_ * kScale);
-      field::setNumber(at_root, "DistMin", 4 * root_ * kScale);
-      field::setNumber(at_root, "SizeMax", coarse * kScale);
-      field::setNumber(at_root, "DistMax", (4 * root_ + (coarse - root_) / kGrowth) * kScale);
-      field::setNumbers(least, "FieldsList", {double(threshold), double(at_root)});
-      field::setAsBackgroundMesh(least);
-    } else {
-      field::setAsBackgroundMesh(threshold);
-    }
-    for (const char* off :
-         {"Mesh.MeshSizeExtendFromBoundary", "Mesh.MeshSizeFromPoints", "Mesh.MeshSizeFromCurvature"})
-      gmsh::option::setNumber(off, 0);
-    gmsh::option::setNumber("Mesh.Algorithm", 6);
-    gmsh::model::mesh::generate(2);
-    gmsh::model::mesh::setOrder(2);
-
-    std::vector<std::size_t> tags, nodes;
-    std::vector<double> at, parameters;
-    std::vector<int> types;
-    std::vector<std::vector<std::size_t>> element_tags, element_nodes;
-    gmsh::model::mesh::getElements(types, element_tags, element_nodes, 2, surface);
-    for (size_t t = 0; t < types.size(); ++t)
-      for (size_t e = 0; e < element_tags[t].size(); ++e) {
-        std::array<std::size_t, 6> six;
-        std::copy_n(element_nodes[t].begin() + static_cast<std::ptrdiff_t>(6 * e), 6, six.begin());
-        mesh.element.push_back(six);
-      }
-    gmsh::model::mesh::getNodes(tags, at, parameters, 2, surface, true, false);
-    for (size_t i = 0; i < tags.size(); ++i) mesh.node[tags[i]] = Vec2(at[3 * i], at[3 * i + 1]) / kScale;
-    for (int curve : bore) {
-      gmsh::model::mesh::getNodes(tags, at, parameters, 1, curve, true, false);
-      mesh.bore.insert(mesh.bore.end(), tags.begin(), tags.end());
-    }
-    std::sort(mesh.bore.begin(), mesh.bore.end());
-    mesh.bore.erase(std::unique(mesh.bore.begin(), mesh.bore.end()), mesh.bore.end());
-    const double reach =
-        0.12 * tooth.design().module;  // contact is looked for so far from the nominal points
-    std::map<std::size_t, bool> near;  // nodes of these flanks, and whether they lie in reach
-    for (const auto& [number, place] : places) {
-      gmsh::model::mesh::getNodes(tags, at, parameters, 1, flank_of_tooth[number], true, false);
-      for (std::size_t tag : tags) {  // from the spline onto the involute
-        Vec2& p = mesh.node.at(tag);
-        p = placed(number, on_flank(tooth.roll_angle_at_radius(p.norm())), trails(g));
-        near[tag] = (p - place).norm() < reach;
-      }
-    }
+      of_root.point.push_back(bare.placed(0, tooth.root_point(i / 200.0), false));
+    plan.fine.push_back(touching);
+    if (root_ > 0) plan.fine.push_back(of_root);
+    Mesh mesh{GearMesher(tooth, plan).mesh(), {}, {}, {}, centre(g)};
+    const double reach = 0.12 * module;  // contact is looked for so far from the nominal points
+    std::map<std::size_t, bool> near;    // nodes of these flanks, and whether they lie in reach
+    for (std::size_t i = 0; i < touching.point.size(); ++i)
+      for (const FlankNode& node : mesh.flank[0][static_cast<std::size_t>(places(g)[i].first)])
+        near[node.tag] = (mesh.node.at(node.tag) - touching.point[i]).norm() < reach;
     for (size_t e = 0; e < mesh.element.size(); ++e)
       for (int s = 0; s < 3; ++s) {
         const auto middle_node = near.find(mesh.element[e][3 + s]);
@@ -277,10 +133,9 @@ class CalculixPair {
     if (root_ > 0) {
       // From the spline onto the root curve's own tangents.
       constexpr int kSteps = 2000;
-      gmsh::model::mesh::getNodes(tags, at, parameters, 1, root_of_tooth, true, false);
       std::map<int, std::size_t> along;  // by the nearest of steps on the root curve
-      const auto on_root = [&](int k) { return placed(0, tooth.root_point(double(k) / kSteps), false); };
-      for (std::size_t tag : tags) {
+      const auto on_root = [&](int k) { return bare.placed(0, tooth.root_point(double(k) / kSteps), false); };
+      for (std::size_t tag : mesh.root) {
         int nearest = 0;
         for (int k = 1; k <= kSteps; ++k)
           if ((on_root(k) - mesh.node.at(tag)).norm() < (on_root(nearest) - mesh.node.at(tag)).norm())
@@ -289,12 +144,11 @@ class CalculixPair {
       }
       for (const auto& [k, tag] : along) {
         const Vec2 tangent = on_root(std::min(k + 1, kSteps)) - on_root(std::max(k - 1, 0));
-        mesh.root.emplace_back(tag, tangent.normalized());
+        mesh.tangent.emplace_back(tag, tangent.normalized());
         mesh.root_parameter.push_back(double(k) / kSteps);
       }
     }
-    gmsh::finalize();
-    for (auto& [tag, p] : mesh.node) p += middle;
+    for (auto& [tag, p] : mesh.node) p += mesh.centre;
     return mesh;
   }
 
@@ -386,7 +240,7 @@ class CalculixPair {
     }
     std::array<std::vector<double>, 2> out;
     for (std::size_t g = 0; g < 2; ++g)
-      for (const auto& [tag, tangent] : meshes[g].root) {
+      for (const auto& [tag, tangent] : meshes[g].tangent) {
         const auto found = stress.find(tag + (g == 0 ? 0 : meshes[0].node.rbegin()->first));
         if (found == stress.end())
           fail(Failure::numerical, path, " holds no stress at node ", tag, " of gear ", g);

@@ -84,7 +84,7 @@ void compare(const whine::ReducedBody& driver, const whine::ReducedBody& driven,
       "  %g N m, plane strain, phase of the pair %.4f, elements of %g and %g mm, load of the pair %.1f N of %.1f N\n",
       torque, phase, driver.discretisation.element_size * 1e3, driven.discretisation.element_size * 1e3,
       s.tooth_load(row, pair), torque / gears.gear(0).base_radius());
-  if (!CalculixPair::installed()) {
+  if (!calculix_installed()) {
     std::printf("  (no CalculiX to compare with: make deps-bench)\n");
     return;
   }
@@ -139,8 +139,7 @@ void time_of_sweeps(const whine::ReducedBody& driver, const whine::ReducedBody& 
     const SweepResult swept = sweep(with ? driver : plain[0], with ? driven : plain[1], s, s.mean_stiffness,
                                     sweeps, Direction::up, [](long, long, const std::string&) {});
     least[turn % 2] = std::min(least[turn % 2], double(std::clock() - start) / CLOCKS_PER_SEC);
-    if (with == (swept.root_stress[0].size() == 0))
-      fail(Failure::numerical, "root stress where there is none");
+    if (with == swept.root_stress.empty()) fail(Failure::numerical, "root stress where there is none");
   }
   std::printf("  sweep up with root stress: CPU %.3f s, %.3f times that without\n", least[0],
               least[0] / least[1]);

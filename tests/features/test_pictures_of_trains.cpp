@@ -45,6 +45,18 @@ TEST_CASE("pictures of trains: no text is cut or lies on other text, eight meshe
   check(orders, "order-cuts");
   apply({"rpm:" + scene.gears[0].name, 1e-6}, orders);
   check(orders, "order-cuts");
+  // One speed: two motions of forces of five digits, and one where rising and falling speed agree.
+  std::vector<SweepResult> motions{small_sweep(rest, Direction::up), small_sweep(rest, Direction::down)};
+  check(train_history_figure(motions, 2000), "histories");
+  for (SweepResult& a : motions) {
+    const double size = a.direction == Direction::up ? 1 : 2;
+    a.transmission_error.assign(2, size * 23e-6 * (MatrixRM::Random(64, 8).array() + 2));
+    a.mesh_force.assign(2, 12345 * (MatrixRM::Random(64, 8).array() + 2));
+    for (std::vector<MatrixRM>& of : a.bearing_force) of.assign(2, 12345 * MatrixRM::Random(64, 2));
+  }
+  const Figure two = train_history_figure(motions, 2000);
+  CHECK(two.panels.size() == 12);
+  check(two, "histories");
   const ModesResult modes = natural_modes(rest.settings.layout);
   check(modes_figure(modes), "modes");
   check(campbell_figure(modes), "campbell");

@@ -68,11 +68,11 @@ TEST_CASE("an accepted error: the bounds of what is chosen stay below it and nea
 
 TEST_CASE("an accepted error: keys that the scene gives stay, and the others make up for them") {
   Scene open = paper_scene(0.01), given = paper_scene(0.01);
-  given.body.modes = 31;
+  given.body.modes = 47;
   given.contact.strips = 5;
   choose_discretisation(open, only({}));
   choose_discretisation(given, only({"modes", "strips"}));
-  CHECK(given.body.modes == 31);
+  CHECK(given.body.modes == 47);
   CHECK(given.contact.strips == 5);
   CHECK(given.time.min_sample_rate > open.time.min_sample_rate);
   CHECK(discretisation_plan(given, only({"modes", "strips"})).error() <= 0.01 * (1 + 1e-12));

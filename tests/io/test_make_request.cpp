@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "io/make_request.h"
+#include "io/scene.h"
 #include "io/scene_goals.h"
+#include "io/system_scene.h"
 #include "own_folder.h"
 #include "refusal.h"
 
@@ -132,10 +134,11 @@ TEST_CASE("numbers and words of goals say their range") {
   CHECK(begins(said("histories", {}), "histories: AT=: say the mesh frequency in Hz"));
   CHECK(begins(said("sound", {"AT=fast"}), "sound: AT=fast: say the mesh frequency"));
   CHECK(
-      begins(said("sound", {"AT=1250", "RATE=500"}), "sound: AT=1250 and RATE=500: a sound is of one speed"));
+      begins(said("sound", {"AT=1300", "RATE=500"}), "sound: AT=1300 and RATE=500: a sound is of one speed"));
   CHECK(begins(said("runup", {"RATE=0"}), "RATE=0: it is the change of the driver's speed in rpm/s"));
   CHECK(begins(said("runup", {"FROM=2400"}), "FROM=2400 TO=: give both or none"));
   CHECK(begins(said("runup", {"WAY=left"}), "WAY=left: it is up or down"));
+  CHECK(begins(said("runup", {}), "runup: RATE=: say the rate in rpm/s"));
   CHECK(begins(said("loaded", {"PHASE=1.0"}),
                "PHASE=1.0: it is a share of the mesh period, 0 up to, not including, 1"));
   CHECK(begins(said("loaded", {"TORQUE=080"}), "out/parker2000/T080: the torque in a path"));
@@ -150,7 +153,7 @@ TEST_CASE("numbers and words of goals say their range") {
   CHECK(begins(said("", {"VARIANTS=../.."}), "VARIANTS: ../..: write name:key=value"));
   CHECK(begins(said("", {"VARIANTS=../..:a=1"}), "VARIANTS: ../..:a=1: the name '../..' becomes a folder"));
   CHECK(said("calibrate histories loaded runup out/a/T62.5/static.h5 out/a/T1e+06/static.h5",
-             {"DAMPING=0.05", "AT=1250", "PHASE=0", "RATE=100", "FROM=1", "TO=2", "DB=1e-6",
+             {"DAMPING=0.05", "AT=1300", "PHASE=0", "RATE=100", "FROM=1", "TO=2", "DB=1e-6",
               "TORQUE=62.5"}) == "");
 }
 
@@ -207,6 +210,34 @@ TEST_CASE("files of scenes, studies and models are there, can be read to the end
                "TRANSFER=none.csv: there is no such file"));
 }
 
+TEST_CASE("an axis and a speed that a scene does not have are rejected before anything is computed") {
+  const std::string pair = "data/scenes/first-pair.toml", train = "data/scenes/oh58-planetary.toml";
+  const Scene two = read_scene(pair);
+  const SystemScene planets = read_system_scene(train);
+  const System layout = layout_in(planets, train);
+  const auto of_pair = [&](const std::string& axis, double at) {
+    return message_of([&] { check_asked({{"report"}, axis, "", at}, two, pair); });
+  };
+  const auto of_train = [&](const std::string& axis, double at) {
+    return message_of([&] { check_asked({{"report"}, axis, "", at}, planets, layout, train); });
+  };
+  for (const char* axis : {"", "rpm:pinion", "rpm:driven"})
+    CHECK(of_pair(axis, two.operation.frequency_from) == "");
+  CHECK(begins(of_pair("rpm:sun", 0), "AXIS=rpm:sun: there is no gear sun; there are pinion, wheel"));
+  for (const char* axis : {"", "rpm:sun", "rpm:planet3", "rpm:ring"}) CHECK(of_train(axis, 1450) == "");
+  CHECK(begins(of_train("rpm:carrier", 0), "AXIS=rpm:carrier: carrier stands still"));
+  CHECK(
+      begins(of_train("rpm:pinion", 0), "AXIS=rpm:pinion: there is no gear pinion; there are sun, planet1"));
+  CHECK(names(of_train("", 1470), {"AT=1470", "1450", 600, 6000, 50}));
+  CHECK(names(of_train("", 9000), {"AT=9000", "6000"}));
+  CHECK(names(of_train("", 7), {"AT=7", "600 Hz"}));
+  const auto mesh = [&](const char* name) {
+    return message_of([&] { check_asked({{"sound"}, "", name, 0}, planets, layout, train); });
+  };
+  CHECK(mesh("planet4-ring") == "");
+  CHECK(names(mesh("planet5-ring"), {"MESH=planet5-ring", "sun-planet1", "planet4-ring"}));
+}
+
 TEST_CASE("goals that a scene cannot reach name what there is of it") {
   const auto said = [](const std::vector<std::string>& goals, const Traits& scene) {
     return message_of_input([&] { check_goals(goals, scene, "my.toml"); });
@@ -229,9 +260,10 @@ TEST_CASE("goals that a scene cannot reach name what there is of it") {
   const Traits rigid{{rigid_gears, ""}, {no_speeds, ""}, {no_planets, ""}},
       elastic{{train, ""}, {no_speeds, ""}, {no_planets, ""}},
       moving{{train, ""}, {one_slice, ""}, {like_teeth, ""}};
-  const std::vector<std::string> all{"report",      "mesh",     "reduce",     "static",       "sweep",
-                                     "impact",      "branches", "order-cuts", "load-sharing", "modes",
-                                     "mode-shapes", "runup",    "sound",      "harris-map",   "compare"};
+  const std::vector<std::string> all{"report",      "mesh",         "reduce",     "static",       "sweep",
+                                     "impact",      "branches",     "order-cuts", "load-sharing", "modes",
+                                     "mode-shapes", "runup",        "sound",      "harris-map",   "compare",
+                                     "histories",   "motion-errors"};
   CHECK(said(all, moving) == "");
   CHECK(said({"teeth"}, {{train, ""}, {differing, ""}}) == "");
   CHECK(said({"report", "modes", "mode-shapes"}, rigid) == "");
@@ -243,12 +275,12 @@ TEST_CASE("goals that a scene cannot reach name what there is of it") {
   for (const char* goal : {"sweep", "impact", "branches", "order-cuts"})
     CHECK(refuses(goal, elastic, "a scene without speeds: "));
   CHECK(refuses("compare", rigid, "rigid gears"));
-  for (const char* goal : {"histories", "fig05", "lumped", "error-budget", "no-such-goal"}) {
+  for (const char* goal : {"waterfall", "fig05", "lumped", "error-budget", "no-such-goal"}) {
     CHECK(refuses(goal, moving, "a system of several meshes, carriers or drives: "));
     CHECK(
         said({goal}, moving)
             .ends_with(
-                "report, or of it mesh reduce static load-sharing sweep order-cuts sound runup branches multipliers fold-curves impact teeth harris-map compare modes mode-shapes"));
+                "report, or of it mesh reduce static load-sharing sweep motion-errors order-cuts histories sound runup branches multipliers fold-curves impact teeth harris-map compare modes mode-shapes"));
   }
 }
 

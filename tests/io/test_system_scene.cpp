@@ -351,36 +351,43 @@ TEST_CASE("remarks on the motion of a system: contact on lines, a damping that n
   CHECK(motion_remarks(scene).empty());
 }
 
-TEST_CASE("gears that run into each other without a mesh are named, planets and meshes are not") {
-  const auto layout = [](double direction) {
-    SystemScene scene = read_system_scene("data/scenes/three-in-line.toml");
-    scene.meshes[1].direction = direction;
-    const System system = layout_of(scene);
-    std::vector<const GearDesign*> design;
-    for (const std::string& name : gears_of(scene, system))
-      for (const SystemScene::Gear& gear : scene.gears)
-        if (gear.name == name) design.push_back(&gear.design);
-    return colliding_gears(system, design);
+TEST_CASE(
+    "gears without a mesh that run into each other are rejected with their distance and what it has to be") {
+  SystemScene line = read_system_scene("data/scenes/three-in-line.toml");
+  CHECK_NOTHROW(layout_of(line));
+  line.meshes[1].direction = 3.14159265358979;
+  // Tip circles of 30 and 120 teeth of module 2: 32 and 122 mm.
+  CHECK(names(message_of_input([&] { layout_of(line); }),
+              {"'pinion'", "'wheel'", "90 mm", "154 mm", "direction_deg"}));
+  // A further gear that meshes with the sun of a planetary train: a small one has room midway between planets, but where the carrier
+  // is free they come round to it.
+  const auto beside = [](int teeth, double degrees, bool free) {
+    SystemScene scene = planetary_train(3);
+    SystemScene::Gear gear = scene.gears[0];
+    gear.name = "pump";
+    gear.design = rigid_gear(teeth);
+    scene.gears.push_back(gear);
+    SystemScene::Mesh mesh = scene.meshes[0];
+    mesh.spec.gear = {"sun", "pump"};
+    mesh.spec.centre_distance = 0.5 * (scene.gears[0].design.teeth + teeth) * gear.design.module;
+    mesh.direction = degrees * 3.14159265358979 / 180;
+    scene.meshes.push_back(mesh);
+    if (!free) scene.drives.push_back({"carrier", System::DriveKind::held, 0, 1e9});
+    return message_of([&] { layout_of(scene); });
   };
-  CHECK(layout(0).empty());
-  const std::vector<std::string> folded = layout(3.14159265358979);
-  REQUIRE(folded.size() == 1);
-  CHECK(folded[0].starts_with(
-      "'pinion' and 'wheel' have no mesh and run into each other: their axes are 90 mm apart"));
-  // A gear inside of a ring, through its rim, beyond it.
-  const GearDesign gear = rigid_gear(27), ring = rigid_gear(99, true);
-  System two;
-  two.bodies.resize(2);
-  two.bodies[0].name = "ring";
-  two.bodies[1].name = "gear";
-  for (const auto& [apart, hits] :
-       {std::pair{0.0, size_t{0}}, std::pair{0.14, size_t{1}}, std::pair{0.25, size_t{0}}}) {
-    two.bodies[1].centre = {apart, 0};
-    const std::vector<std::string> found = colliding_gears(two, {&ring, &gear});
-    REQUIRE(found.size() == hits);
-    if (hits > 0)
-      CHECK(found[0].starts_with("'gear' has no mesh with the ring 'ring' and stands through it"));
-  }
+  CHECK(beside(10, 60, false).empty());
+  CHECK(names(beside(10, 0, false), {"'pump'", "'planet1'", "positions"}));
+  CHECK(names(beside(60, 60, false), {"'pump'", "'planet1'"}));
+  CHECK(names(beside(10, 60, true), {"'pump'", "'planet1'"}));
+}
+
+TEST_CASE("planets of one carrier that run into each other are told how far apart they have to be") {
+  SystemScene scene = read_system_scene("data/scenes/oh58-planetary.toml");
+  const double step = 2 * 3.14159265358979 / 126;
+  // Two tip circles of 102.79 mm on one of 88.9 mm: 2 asin(102.79 / 177.8) = 70.64 degrees.
+  scene.carriers[0].positions = {0, 15 * step, 63 * step, 78 * step};
+  CHECK(names(message_of_input([&] { layout_of(scene); }),
+              {"planets 1 and 2", "carrier", "64.9576 mm", "102.791 mm", "70.6375"}));
 }
 
 TEST_CASE("a thin rim of a gear of a train is warned of, with its place; shipped trains have none") {

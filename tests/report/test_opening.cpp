@@ -45,7 +45,7 @@ TEST_CASE("speeds in words get their rotation once, whatever the list") {
   CHECK(with("f_n = 2900.5 Hz: 1000, 1100 to 1200 and 1500 Hz") ==
         "f_n = 2900.5 Hz (3481 rpm): 1000, 1100 to 1200 and 1500 Hz (1200, 1320 to 1440 and 1800 rpm)");
   CHECK(with("3168 rpm (2640 Hz)") == "3168 rpm (2640 Hz)");
-  CHECK(with("2645 +- 0.4 Hz") == "2645 +- 0.4 Hz");
+  CHECK(with("2645 ± 0.4 Hz") == "2645 ± 0.4 Hz (3174 rpm)");
   CHECK(with("mesh_frequency_Hz, gear7 Hz") == "mesh_frequency_Hz, gear7 Hz");
   CHECK(with_rpm(TurningMember{}, "1000 Hz") == "1000 Hz");
 }

@@ -195,6 +195,7 @@ TEST_CASE(
        "sun-planet2\tmesh frequency of that factor, speed rising\t2000\tHz\t",
        "sun-planet1\tdynamic factor: largest mesh force, sustained for 1/64 of a mesh period, over its mean at rest, speed falling\t1.50\t1\t",
        "sun-planet2\ttime without contact, largest, speed rising\t25.00\t%\t\t\n400\tsun-planet2\tmesh frequency of that time, speed rising\t2000\tHz\t",
+       "sun-planet1\ttime without contact, largest, speed rising\t0.00\t%\t\t\n",
        "planet2\tlargest force on the bearing, speed rising\t777.5\tN\t\t\n400\tplanet2\tmesh frequency of that force, speed rising\t2000\tHz\t",
        "400\t\tspeeds whose motion is not periodic, speed rising\t1\t1\t1000\t\n"})
     CHECK_MESSAGE(contains(table, row), row);
@@ -411,8 +412,8 @@ TEST_CASE("teeth of a train: of each [[mesh]] the worst mesh at rest beside ISO 
   REQUIRE(moving.size() == 3);
   REQUIRE(moving[2].rows.size() == 24);
   // The mean force of mesh 1 at rest is 1100 N; K_v is of pairs.
-  CHECK(moving[2].rows[4] ==
-        std::vector<std::string>{"sun-planet2: mesh force", "rising", "2200 N", "2000", "–", "2.00", "–"});
+  CHECK(moving[2].rows[4] == std::vector<std::string>{"sun-planet2: mesh force", "rising", "2200 N",
+                                                      "2000; 4444", "–", "2.00", "–"});
   const std::string page = teeth_html(r);
   for (const char* id : {"remarks", "rest", "motion", "limits", "gears", "provenance"})
     CHECK(contains(page, text("<section id=\"", id, "\">")));

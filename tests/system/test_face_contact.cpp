@@ -113,6 +113,32 @@ const double kHelicalDistance = 0.150 / std::cos(20 * kOneDegreeOfFace);
 
 }  // namespace
 
+TEST_CASE(
+    "K_Hbeta of bodies: a cubic over the loaded part of a face is carried to its end, a ripple hardly is") {
+  const GaussRule rule = gauss_rule(12);
+  const double half = 10e-3;
+  const ContactLine line{0, -half, half};
+  const VectorXd z = half * rule.point, weight = half * rule.weight;
+  const auto factor = [&](const auto& load) {
+    VectorXd w(z.size());
+    for (Index i = 0; i < z.size(); ++i) w[i] = load(z[i] / half);
+    return face_load_factor(z, weight, w, line, kInnerFace);
+  };
+  // Means of 100 and 105.
+  CHECK(factor([](double t) { return 100 - 50 * t; }) == relative(1.5, 1e-12));
+  CHECK(factor([](double t) { return 100 - 30 * t + 15 * t * t - 20 * t * t * t; }) ==
+        relative(165.0 / 105, 1e-12));
+  // The end without load does not count, and the load at the very end is not read.
+  const auto part = [](double t) { return std::max(0.0, 60 - 100 * t); };
+  double mean = 0;
+  for (Index i = 0; i < z.size(); ++i) mean += 0.5 * rule.weight[i] * part(rule.point[i]);
+  CHECK(factor(part) == relative(160 / mean, 1e-12));
+  CHECK(factor([](double t) { return t < -0.9 ? 90 - 50 * t : 100 - 50 * t; }) == relative(1.5, 0.02));
+  // A ripple of 1 % at the end of the inner part.
+  const auto rippled = [](double t) { return 100 - 50 * t + 1.4 * std::cos(12 * (t + 0.8)); };
+  CHECK(factor(rippled) == relative(1.5, 0.01));
+}
+
 TEST_CASE("independent slices under misalignment: K = 1 + q, then 2 sqrt(q) with the share 1 / sqrt(q)") {
   const double load = 2000, c = 14e9, b = 20e-3;
   for (const double q : {0.2, 0.7, 1.0}) {
@@ -476,8 +502,8 @@ TEST_CASE(
     };
     MESSAGE((helical ? "helical" : "spur")
             << ": K_Hbeta of degrees 6, 8, " << ten.face.degree << ": " << six.face.load_factor << ", "
-            << eight.face.load_factor << " +- " << eight.face.load_factor_error << ", "
-            << ten.face.load_factor << "; transmission error off by " << off(six) << ", " << off(eight));
+            << eight.face.load_factor << " ± " << eight.face.load_factor_error << ", " << ten.face.load_factor
+            << "; transmission error off by " << off(six) << ", " << off(eight));
     CHECK(off(eight) < 2e-3);
     CHECK(std::abs(eight.face.load_factor - ten.face.load_factor) < eight.face.load_factor_error);
     CHECK(eight.face.load_factor_error < 0.15 * eight.face.load_factor);

@@ -1,0 +1,181 @@
+// A gear in three dimensions by CalculiX: the section of the whole gear in quadratic triangles (gear_mesh.h), extruded along axes that turn
+// with the helix to wedges of fifteen nodes (C3D15), held at its bore.
+#pragma once
+#include <Eigen/CholmodSupport>
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <numbers>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "bench/ccx.h"
+#include "bench/gear_mesh.h"
+#include "gear/helix.h"
+#include "model/gear.h"
+
+namespace whine {
+
+class CalculixGear {
+ public:
+  // A point of a flank: [0: those that work, 1: the others][tooth], roll angle (rad), z (m).
+  struct Point {
+    std::size_t side, tooth;
+    double roll, z;
+  };
+  using Weights = std::vector<std::pair<int, double>>;  // node of the deck, 1
+  using Vectors = std::map<int, Eigen::Vector3d>;       // node of the deck; 1
+
+  // border: m, ascending, of the layers of wedges; their middles are levels too.
+  CalculixGear(const GearDesign& design, const Material& material, const GearMeshPlan& plan,
+               const std::vector<double>& border)
+      : tooth_(design),
+        material_(material),
+        helix_(helix_twist(design)),
+        turned_(plan.turned),
+        mesh_(GearMesher(tooth_, plan).mesh()) {
+    level_.push_back(border[0]);
+    for (std::size_t i = 1; i < border.size(); ++i) {
+      level_.push_back(0.5 * (border[i - 1] + border[i]));
+      level_.push_back(border[i]);
+    }
+    std::set<std::size_t> corners;
+    for (const auto& element : mesh_.element) corners.insert(element.begin(), element.begin() + 3);
+    for (const auto& [tag, at] : mesh_.node)
+      for (std::size_t i = 0; i < level_.size(); ++i)
+        if (i % 2 == 0 || corners.contains(tag)) {
+          place_.push_back(turned({at.x(), at.y(), level_[i]}, level_[i]));
+          number_[{tag, i}] = static_cast<int>(place_.size());
+        }
+  }
+
+  const ToothGeometry& tooth() const { return tooth_; }
+  const GearMesh& mesh() const { return mesh_; }
+  const std::vector<double>& level() const { return level_; }  // m
+  std::size_t nodes() const { return place_.size(); }
+  int number(std::size_t tag, std::size_t level) const { return number_.at({tag, level}); }
+
+  // Of axes that turn with the helix, and of those of the section at z.
+  Eigen::Vector3d turned(const Eigen::Vector3d& v, double z) const {
+    return Eigen::AngleAxisd(helix_ * z, Eigen::Vector3d::UnitZ()) * v;
+  }
+  // Inward normal of the flank that works at a roll angle of a tooth, at z.
+  Eigen::Vector3d inward(std::size_t tooth, double roll, double z) const {
+    const Vec2 n = Eigen::Rotation2Dd(turned_ + 2 * std::numbers::pi * static_cast<double>(tooth) /
+                                                    tooth_.design().teeth) *
+                   tooth_.flank_normal(roll);
+    return -turned({n.x(), n.y(), -helix_ * tooth_.base_radius()}, z).normalized();
+  }
+
+  // Adds the nodal forces of the force n at a point, or its reading of displacements.
+  void add(Vectors& to, const Point& point, const Eigen::Vector3d& n) const {
+    for (const auto& [node, weight] : at(point))
+      to.try_emplace(node, Eigen::Vector3d::Zero()).first->second += weight * n;
+  }
+  // What the eight nodes of a side of a wedge say of a point on it; as a load, the nodal forces of a unit force.
+  Weights at(const Point& point) const {
+    const std::vector<FlankNode>& flank = mesh_.flank[point.side][point.tooth];
+    std::size_t i = 0, k = 0;
+    while (i + 4 < flank.size() && flank[i + 2].roll < point.roll) i += 2;
+    while (k + 4 < level_.size() && level_[k + 2] < point.z) k += 2;
+    const auto arc = [&](double roll) { return tooth_.arc_length(roll); };
+    const double a = arc(flank[i].roll), m = arc(flank[i + 1].roll), b = arc(flank[i + 2].roll);
+    double x = 0;
+    for (int step = 0; step < 5; ++step)
+      x -= (m + 0.5 * (b - a) * x + (0.5 * (a + b) - m) * x * x - arc(point.roll)) /
+           (0.5 * (b - a) + (a + b - 2 * m) * x);
+    const double y = (point.z - level_[k + 1]) / (0.5 * (level_[k + 2] - level_[k]));
+    Weights out;
+    for (int p = -1; p <= 1; ++p)
+      for (int q = -1; q <= 1; ++q) {
+        if (p == 0 && q == 0) continue;
+        const double weight = p == 0   ? 0.5 * (1 - x * x) * (1 + q * y)
+                              : q == 0 ? 0.5 * (1 + p * x) * (1 - y * y)
+                                       : 0.25 * (1 + p * x) * (1 + q * y) * (p * x + q * y - 1);
+        out.emplace_back(
+            number(flank[i + 1 + static_cast<std::size_t>(p)].tag, k + 1 + static_cast<std::size_t>(q)),
+            weight);
+      }
+    return out;
+  }
+
+  // (i, j) of f_i^T K^-1 f_j, nodal vectors f of forces or readings (1) and K the stiffness that CalculiX stores: m N-1. It is factored here, once,
+  // where ccx would do so for each load. Throws Error(numerical) if the files are not those of this gear.
+  Eigen::MatrixXd flexibility(const std::vector<Vectors>& functional) {
+    const CalculixFolder folder;
+    std::ofstream out(folder.file("gear.inp"));
+    write_model(out);
+    out << "*STEP\n*FREQUENCY, SOLVER=MATRIXSTORAGE\n1\n*END STEP\n";
+    if (!out) fail(Failure::io, folder.file("gear.inp"), " could not be written");
+    out.close();
+    usage_ = folder.run("gear");
+    std::map<std::pair<int, int>, Eigen::Index> unknown;  // node, direction
+    std::ifstream in(folder.file("gear.dof"));
+    int node = 0, direction = 0;
+    for (char point = 0; in >> node >> point >> direction;)
+      unknown.try_emplace({node, direction}, unknown.size());
+    const auto size = static_cast<Eigen::Index>(unknown.size());
+    std::vector<Eigen::Triplet<double>> entries;  // upper triangle, N mm-1
+    std::ifstream stored(folder.file("gear.sti"));
+    for (std::string line; std::getline(stored, line);) {
+      char* at = line.data();
+      const long row = std::strtol(at, &at, 10) - 1, column = std::strtol(at, &at, 10) - 1;
+      entries.emplace_back(static_cast<int>(row), static_cast<int>(column), std::strtod(at, nullptr));
+    }
+    Eigen::SparseMatrix<double> stiffness(size, size);
+    stiffness.setFromTriplets(entries.begin(), entries.end());
+    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(size, static_cast<Eigen::Index>(functional.size()));
+    for (std::size_t k = 0; k < functional.size(); ++k)
+      for (const auto& [of, value] : functional[k])
+        for (int c = 0; c < 3; ++c)
+          if (value[c] != 0) right(unknown.at({of, c + 1}), static_cast<Eigen::Index>(k)) = value[c];
+    Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Upper> factor(stiffness);
+    if (factor.info() != Eigen::Success)
+      fail(Failure::numerical, "the stiffness in ", folder.file("gear.sti"), " is not positive definite");
+    return 1e-3 * right.transpose() * factor.solve(right);
+  }
+  double seconds() const { return usage_.seconds; }  // CPU of ccx
+
+ private:
+  void write_model(std::ofstream& out) const {
+    out.precision(12);
+    out << "*NODE, NSET=ALL\n";
+    for (std::size_t i = 0; i < place_.size(); ++i)
+      out << i + 1 << ", " << 1e3 * place_[i].x() << ", " << 1e3 * place_[i].y() << ", "
+          << 1e3 * place_[i].z() << "\n";
+    out << "*ELEMENT, TYPE=C3D15, ELSET=GEAR\n";
+    int wedge = 0;
+    for (const auto& e : mesh_.element)
+      for (std::size_t k = 0; k + 2 < level_.size(); k += 2) {
+        out << ++wedge;
+        for (const std::size_t up : {std::size_t{0}, std::size_t{2}})
+          for (std::size_t n = 0; n < 3; ++n) out << ", " << number(e[n], k + up);
+        for (const std::size_t up : {std::size_t{0}, std::size_t{2}})
+          for (std::size_t n = 3; n < 6; ++n) out << ", " << number(e[n], k + up);
+        out << ",\n"
+            << number(e[0], k + 1) << ", " << number(e[1], k + 1) << ", " << number(e[2], k + 1) << "\n";
+      }
+    out << "*MATERIAL, NAME=STEEL\n*ELASTIC\n"
+        << material_.youngs_modulus * 1e-6 << ", " << material_.poisson_ratio << "\n*DENSITY\n1e-9"
+        << "\n*SOLID SECTION, ELSET=GEAR, MATERIAL=STEEL\n*NSET, NSET=BORE\n";
+    for (const std::size_t tag : mesh_.bore)
+      for (std::size_t i = 0; i < level_.size(); ++i)
+        if (const auto found = number_.find({tag, i}); found != number_.end()) out << found->second << ",\n";
+    out << "*BOUNDARY\nBORE, 1, 3\n";
+  }
+
+  ToothGeometry tooth_;
+  Material material_;
+  double helix_, turned_;
+  GearMesh mesh_;
+  std::vector<double> level_;
+  std::map<std::pair<std::size_t, std::size_t>, int> number_;  // node of the section, level
+  std::vector<Eigen::Vector3d> place_;                         // m
+  Usage usage_;
+};
+
+}  // namespace whine
