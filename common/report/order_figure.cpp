@@ -63,19 +63,9 @@ Figure orders_of_pair(const std::vector<ResponseResult>& sweeps) {
   return figure;
 }
 
-Figure orders_of_train(const std::vector<ResponseResult>& sweeps) {
-  if (sweeps.empty() || sweeps[0].mesh_frequency.size() == 0)
-    fail(Failure::input, "figure: a sweep of no speeds was given");
-  const ResponseResult& a = sweeps.front();
-  const System& s = a.train.layout;
-  require_one_system("another sweep", a, sweeps);
-  Figure figure;
-  figure.title = "Order cuts of the dynamic transmission error (DTE) of a train";
-  figure.notes = in_lines(bodies_words(s, a.drive));
-  figure.notes.emplace_back(
-      "orders of the mesh frequency; solid: rising speed, dashed: falling speed, where it is another");
-  constexpr size_t kMostPanels = 4;
-  // Of the meshes of planets of a carrier with one gear that which vibrates most.
+// Of the meshes of planets of a carrier with one gear that which vibrates most.
+std::vector<size_t> most_vibrating_meshes(const std::vector<ResponseResult>& sweeps) {
+  const System& s = sweeps.front().train.layout;
   const auto body = [&](size_t m, size_t side) {
     return s.bodies[static_cast<size_t>(s.meshes[m].side[side].body)];
   };
@@ -103,6 +93,22 @@ Figure orders_of_train(const std::vector<ResponseResult>& sweeps) {
     else if (vibration(m) > kMore * vibration(*same))
       *same = m;
   }
+  return meshes;
+}
+
+Figure orders_of_train(const std::vector<ResponseResult>& sweeps) {
+  if (sweeps.empty() || sweeps[0].mesh_frequency.size() == 0)
+    fail(Failure::input, "figure: a sweep of no speeds was given");
+  const ResponseResult& a = sweeps.front();
+  const System& s = a.train.layout;
+  require_one_system("another sweep", a, sweeps);
+  Figure figure;
+  figure.title = "Order cuts of the dynamic transmission error (DTE) of a train";
+  figure.notes = in_lines(bodies_words(s, a.drive));
+  figure.notes.emplace_back(
+      "orders of the mesh frequency; solid: rising speed, dashed: falling speed, where it is another");
+  constexpr size_t kMostPanels = 4;
+  std::vector<size_t> meshes = most_vibrating_meshes(sweeps);
   if (meshes.size() < s.meshes.size())
     figure.notes.emplace_back("of the meshes of planets with one gear that which vibrates most");
   if (meshes.size() > kMostPanels) {
