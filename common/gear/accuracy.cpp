@@ -73,6 +73,13 @@ struct Governed {
   double shown;                       // in the key's unit
 };
 
+// To ten digits, which no order of rounding moves: machines choose the same.
+double to_digits(double x) {
+  constexpr double kDigits = 1e10;
+  const double scale = std::pow(10, std::floor(std::log10(x)) + 1) / kDigits;
+  return std::round(x / scale) * scale;
+}
+
 // Whole numbers first, since what they leave can go to the others. any_body: the modes of a body that a motion does not read, too.
 std::vector<Governed> governed(const Settings& s, bool any_body = false) {
   std::vector<Governed> out;
@@ -116,16 +123,16 @@ std::vector<Governed> governed(const Settings& s, bool any_body = false) {
   out.push_back({&kElements, size,
                  [&](double x) {
                    constexpr double kFinest = 0.04, kCoarsest = 0.25;
-                   return s.body.element_modules = std::clamp(x, kFinest, kCoarsest);
+                   return s.body.element_modules = to_digits(std::clamp(x, kFinest, kCoarsest));
                  },
                  size * s.module * 1e3});
   double& periodicity = s.time.periodicity;
   out.push_back({s.train ? &kPeriodicityOfTrain : &kPeriodicity, periodicity,
-                 [&](double x) { return periodicity = std::clamp(x, 1e-9, 1e-3); }, periodicity});
+                 [&](double x) { return periodicity = to_digits(std::clamp(x, 1e-9, 1e-3)); }, periodicity});
   double& rate = s.time.min_sample_rate;
   out.push_back({s.mass_damped ? &kStepsOfMassDamping : &kSteps, rate / s.natural_frequency,
                  [&, f = s.natural_frequency](double x) {
-                   rate = x * f;
+                   rate = to_digits(x * f);
                    return x;
                  },
                  rate * 1e-3});

@@ -15,6 +15,8 @@ using namespace whine;
 
 namespace {
 
+constexpr double kDigits = 1e-9;  // settings are chosen to ten digits
+
 Scene paper_scene(double accepted) {
   Scene scene;
   for (const char* name : {"pinion", "wheel"}) {
@@ -45,7 +47,7 @@ TEST_CASE("an accepted error: the bounds of what is chosen stay below it and nea
     Scene scene = paper_scene(accepted);
     choose_discretisation(scene, only({}));
     const double bound = discretisation_plan(scene, only({})).error();
-    CHECK(bound <= accepted * (1 + 1e-12));
+    CHECK(bound <= accepted * (1 + kDigits));
     CHECK(bound > 0.8 * accepted);
     CHECK(scene.body.element_modules <= element);
     CHECK(scene.body.modes >= modes);
@@ -75,7 +77,7 @@ TEST_CASE("an accepted error: keys that the scene gives stay, and the others mak
   CHECK(given.body.modes == 47);
   CHECK(given.contact.strips == 5);
   CHECK(given.time.min_sample_rate > open.time.min_sample_rate);
-  CHECK(discretisation_plan(given, only({"modes", "strips"})).error() <= 0.01 * (1 + 1e-12));
+  CHECK(discretisation_plan(given, only({"modes", "strips"})).error() <= 0.01 * (1 + kDigits));
   Scene coarse = paper_scene(0.005);
   coarse.body.modes = 9;
   choose_discretisation(coarse, only({"modes"}));
@@ -88,7 +90,7 @@ TEST_CASE(
   choose_discretisation(asked, only({}));
   choose_by_default(silent, only({}));
   CHECK(silent.time.accepted_error == kAcceptedError);
-  CHECK(discretisation_plan(silent, only({})).error() <= kAcceptedError * (1 + 1e-12));
+  CHECK(discretisation_plan(silent, only({})).error() <= kAcceptedError * (1 + kDigits));
   CHECK(discretisation_plan(silent, only({})).error() > 0.8 * kAcceptedError);
   CHECK(silent.time.steps_per_period == asked.time.steps_per_period);
   Scene given = paper_scene(0);
