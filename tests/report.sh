@@ -126,7 +126,7 @@ for gear in 1 2; do
   between "sigma_F0 of gear $gear is F_t Y_F Y_S / (b m)" "$(awk -v f="$(of_page 'form factor Y_F, ISO 6336-3 1' $gear)" -v s="$(of_page 'stress correction factor Y_S 1' $gear)" \
     -v sigma="$(of_page 'sigma_F0 MPa' $gear)" 'BEGIN { print sigma / (200 / 0.036 * f * s / (0.014 * 0.0045) * 1e-6) }')" 0.999 1.001
 done
-grep -q -E 'pressure inside the flanks rising [0-9.]+ MPa [0-9]+ – – –' <<< "$said" && grep -q -E 'mesh force rising [0-9.]+ N [0-9]+ – [0-9.]+ [0-9.]+' <<< "$said" && ok "K_v stands beside forces, not beside pressures" ||
+grep -q -E 'pressure inside the flanks rising [0-9.]+ MPa [0-9]+; [0-9]+ – – –' <<< "$said" && grep -q -E 'mesh force rising [0-9.]+ N [0-9]+; [0-9]+ – [0-9.]+ [0-9.]+' <<< "$said" && ok "K_v stands beside forces, not beside pressures" ||
   wrong "K_v stands beside forces, not beside pressures" "$(grep -o 'pressure inside the flanks rising.\{40\}' <<< "$said")"
 found=$(grep -l -e '{' -e driver -e driven out/fzg/report/root-stress*.tsv out/fzg/report/flank-pressure*.tsv)
 [ -z "$found" ] && grep -q 'root_stress_pinion' out/fzg/report/root-stress-speed.tsv && ok "stresses and pressures are named by the scene's gears, without markup" || wrong "stresses and pressures are named by the scene's gears, without markup" "$found"

@@ -65,7 +65,7 @@ struct Settings {
   const KeyGiven& given;
 };
 
-// A setting under its law: x, and what makes x a setting again, rounded to the side of less error.
+// A setting under its law: x, and what makes x a setting again, a whole number to the side of less error.
 struct Governed {
   const Law* law;
   double x;
@@ -73,10 +73,10 @@ struct Governed {
   double shown;                       // in the key's unit
 };
 
-// To ten digits, which no order of rounding moves: machines choose the same.
+// To ten digits, so that builds that round in another order choose the same.
 double to_digits(double x) {
-  constexpr double kDigits = 1e10;
-  const double scale = std::pow(10, std::floor(std::log10(x)) + 1) / kDigits;
+  constexpr int kDigits = 10;
+  const double scale = std::pow(10, std::floor(std::log10(x)) + 1 - kDigits);
   return std::round(x / scale) * scale;
 }
 
@@ -133,7 +133,7 @@ std::vector<Governed> governed(const Settings& s, bool any_body = false) {
   out.push_back({s.mass_damped ? &kStepsOfMassDamping : &kSteps, rate / s.natural_frequency,
                  [&, f = s.natural_frequency](double x) {
                    rate = to_digits(x * f);
-                   return x;
+                   return rate / f;
                  },
                  rate * 1e-3});
   return out;

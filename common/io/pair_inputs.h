@@ -23,8 +23,7 @@ PairBodies read_bodies(const NamedFiles& files, const StaticParameters& settings
 struct MeshInputs {
   StaticParameters settings;
   PairBodies body;
-  double torque =
-      0;  // N m on the driver: of a train what the mesh carries, of a pair 0, as its settings have none
+  double torque = 0;  // N m on the driver: what the mesh of a train carries, 0 of a pair
 };
 
 // mesh: its name in a train, "sun-planet1". Throws Error(usage) for one that is not there, of a pair for any, Error(input) for trains that

@@ -223,9 +223,10 @@ std::vector<KeptMode> lowest_of(const Reduction& r, std::vector<KeptMode> found)
   int real_modes = 0, of_zero_diameters = 0;
   double highest = 0;  // s-2
   for (size_t k = 0; k < found.size(); ++k) {
-    const bool low = r.all || real_modes < r.modes, couples = found[k].harmonic == 0 &&
-                                                              of_zero_diameters++ < kOfZeroDiameters &&
-                                                              found[k].omega_squared < 4 * highest;
+    const bool low = r.all || real_modes < r.modes, of_zero = found[k].harmonic == 0;
+    const bool couples =
+        of_zero && of_zero_diameters < kOfZeroDiameters && found[k].omega_squared < 4 * highest;
+    of_zero_diameters += of_zero;
     if (low) highest = found[k].omega_squared;
     if (!low && k != torsional && !couples) continue;
     real_modes += r.sector.single(found[k].harmonic) ? 1 : 2;

@@ -217,13 +217,15 @@ SweepErrorsResult measured(const std::vector<Entry>& entries, const SweepWith& s
     out.entry.push_back(entry.name);
     const SweepResult refined = run(entry.finer, entry.name);
     const ResponseResult finer = response(refined);
-    for (const Sizes& coarser : entry.coarser) try {
+    for (const Sizes& coarser : entry.coarser) {
+      try {
         out.order[e] = order_by(response(run(coarser, entry.name + ", its order")), base, finer, entry.ratio);
       } catch (const Error& error) {
         // What is coarser than the scene may be beyond what can be computed: then no order shows, and the change itself counts.
         if (error.kind() != Failure::numerical) throw;
         report(++done, total, entry.name + ": no order");
       }
+    }
     out.compared.row(e) = comparable(base, finer).transpose();
     const Eigen::VectorXi compared = out.compared.row(e);
     compare_jumps(base, finer, 2 * step, e, out);
