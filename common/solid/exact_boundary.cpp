@@ -78,15 +78,14 @@ Vec2 ExactBoundary::put(Curve kind, const Vec2& p) const {
 
 Vec2 ExactBoundary::middle(Curve kind, const Vec2& a, const Vec2& b) const {
   if (kind == Curve::flank) {
-    const double from = roll_angle(a), to = roll_angle(b), middle = 0.5 * (from + to);
-    // The arc length goes with the square of the roll angle: near the base circle the middle of the angle is that of the first
-    // quarter of the side, where the element's map has no inverse at its end.
-    constexpr double kLeastShare = 0.35;
-    const double share = (middle * middle - from * from) / (to * to - from * from);
-    if (std::abs(share - 0.5) <= 0.5 - kLeastShare) return tooth_.flank_point(middle);
-    return tooth_.flank_point(std::sqrt(0.5 * (from * from + to * to)));
+    const double from = roll_angle(a), to = roll_angle(b);
+    return tooth_.flank_point(roll_angle_between(from, to, 0));
   }
   return put(kind, 0.5 * (a + b));
+}
+
+double roll_angle_between(double from, double to, double a) {
+  return std::sqrt(0.5 * ((1 - a) * from * from + (1 + a) * to * to));
 }
 
 void make_exact(HalfGrid& half, const ToothGeometry& tooth, const ExactBoundary& exact) {

@@ -23,6 +23,10 @@ class ExactBoundary {
   Vec2 edge_;
 };
 
+// rad: of the point of a side of the flank that has its ends at these roll angles, a: -1 to 1 along the side. It goes with the arc length,
+// r_b xi^2 / 2, as the middle node does: near the base circle the middle of the angle lies at a quarter of the side.
+double roll_angle_between(double from, double to, double a);
+
 // Moves boundary nodes onto their curves; a corner of the sector goes onto both of its curves by taking the
 // point of the geometry itself.
 void make_exact(HalfGrid& half, const ToothGeometry& tooth, const ExactBoundary& exact);

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/units.h"
 #include "contact/half_plane.h"
+#include "solid/exact_boundary.h"
 
 namespace whine {
 namespace {
@@ -78,9 +79,9 @@ class TractionIntegral {
     const size_t n = side.node.size();
     if (side.flank) {  // the exact involute: the half-plane's traction next to the load knows the difference
       const double from = roll_.at(side.node[0]), to = roll_.at(side.node[1]);
-      const double xi = 0.5 * (from + to) + 0.5 * a * (to - from);
+      const double xi = roll_angle_between(from, to, a);
       return {tooth_.flank_point(xi),
-              tooth_.flank_normal(xi) * (tooth_.base_radius() * xi * 0.5 * std::abs(to - from))};
+              tooth_.flank_normal(xi) * (0.5 * std::abs(tooth_.arc_length(to) - tooth_.arc_length(from)))};
     }
     const SideShape shape = side_shape(n, a);
     Vec2 point = Vec2::Zero(), along = Vec2::Zero();
@@ -158,7 +159,8 @@ SparseReal FlankReader::displacement(const Eigen::VectorXd& xi) const {
     Eigen::Index side = 0;
     while (side + step < last && mesh_.flank_roll_angle[side + step] < xi[i]) side += step;
     const double from = mesh_.flank_roll_angle[side], to = mesh_.flank_roll_angle[side + step];
-    const SideShape shape = side_shape(static_cast<size_t>(step + 1), (2 * xi[i] - from - to) / (to - from));
+    const double share = (xi[i] * xi[i] - from * from) / (to * to - from * from);  // of the side's arc length
+    const SideShape shape = side_shape(static_cast<size_t>(step + 1), 2 * share - 1);
     const Eigen::Index node[3] = {side, side + step, side + 1};
     for (int k = 0; k < step + 1; ++k)
       for (int c = 0; c < 2; ++c)
