@@ -39,12 +39,12 @@ inline const whine::ReducedBody& train_body(int teeth, bool internal) {
 // Sun, planets and ring; the sun floats, planets stand on elastic pins; ring and carrier are held. change: of the scene.
 inline whine::SystemModel train(const std::array<int, 3>& teeth, int planets = 3,
                                 const whine::Bearing& of_ring = {},
-                                const std::function<void(whine::SystemScene&)>& change = {}) {
+                                const std::function<void(whine::Scene&)>& change = {}) {
   using namespace whine;
-  SystemScene scene = planetary_train(planets);
+  Scene scene = planetary_train(planets);
   const std::array stiffness{2e7, 3e8, 0.0};
   for (size_t g = 0; g < 3; ++g) {
-    SystemScene::Gear& gear = scene.gears[g];
+    SceneGear& gear = scene.gears[g];
     gear.design = rigid_gear(teeth[g], g == 2);
     if (g < 2) gear.design.bore_radius = (0.5 * teeth[g] - 5) * kTrainModule;
     gear.equivalent_mass = 0;
@@ -52,7 +52,7 @@ inline whine::SystemModel train(const std::array<int, 3>& teeth, int planets = 3
   }
   scene.gears[2].bearing = of_ring;
   scene.carriers[0].bearing = {};
-  for (SystemScene::Mesh& mesh : scene.meshes)
+  for (Scene::Mesh& mesh : scene.meshes)
     mesh.spec.centre_distance = 0.5 * (teeth[0] + teeth[1]) * kTrainModule;
   scene.drives = {{"sun", System::DriveKind::torque, kTrainTorque, 0},
                   {"ring", System::DriveKind::held, 0, 0},

@@ -2,7 +2,7 @@
 #pragma once
 #include <numbers>
 
-#include "model/system_scene.h"
+#include "model/scene.h"
 
 inline whine::GearDesign rigid_gear(int teeth, bool internal = false, double pressure_angle_deg = 24.6) {
   whine::GearDesign design;
@@ -19,14 +19,14 @@ inline whine::GearDesign rigid_gear(int teeth, bool internal = false, double pre
 }
 
 // Sun, planets, ring: 27, 36, 99 teeth for three planets, 28, 36, 100 for four, 30, 35, 100 for five.
-inline whine::SystemScene planetary_train(int planets) {
+inline whine::Scene planetary_train(int planets) {
   using namespace whine;
   const std::array<int, 3> teeth = planets == 4   ? std::array{28, 36, 100}
                                    : planets == 5 ? std::array{30, 35, 100}
                                                   : std::array{27, 36, 99};
-  SystemScene scene;
+  Scene scene;
   const auto add = [&](const char* name, int z, bool internal, double equivalent, double mass) {
-    SystemScene::Gear gear;
+    SceneGear gear;
     gear.name = name;
     gear.design = rigid_gear(z, internal);
     gear.equivalent_mass = equivalent;
@@ -36,7 +36,7 @@ inline whine::SystemScene planetary_train(int planets) {
   add("sun", teeth[0], false, 0.39, 0.4);
   add("planet", teeth[1], false, 0.61, 0.66);
   add("ring", teeth[2], true, 3.00, 2.35);
-  SystemScene::Carrier carrier;
+  Scene::Carrier carrier;
   carrier.name = "carrier";
   carrier.planet = "planet";
   carrier.planets = planets;
@@ -44,7 +44,7 @@ inline whine::SystemScene planetary_train(int planets) {
   carrier.bearing = {1e8, 0, 5.43};
   scene.carriers = {carrier};
   for (const auto& [driver, driven] : {std::pair{"sun", "planet"}, std::pair{"planet", "ring"}}) {
-    SystemScene::Mesh mesh;
+    Scene::Mesh mesh;
     mesh.spec.gear = {driver, driven};
     mesh.spec.centre_distance = 0.5 * (teeth[0] + teeth[1]) * 2.776e-3;
     mesh.stiffness = 5e8;
@@ -56,11 +56,11 @@ inline whine::SystemScene planetary_train(int planets) {
 }
 
 // Planets of 27, 36 and 99 teeth at 0, 32, 63 and 95 steps of 1/126 turn: mesh phases that differ.
-inline whine::SystemScene unequal_train() {
-  whine::SystemScene scene = planetary_train(4);
+inline whine::Scene unequal_train() {
+  whine::Scene scene = planetary_train(4);
   const std::array teeth{27, 36, 99};
   for (size_t g = 0; g < 3; ++g) scene.gears[g].design = rigid_gear(teeth[g], g == 2);
-  for (whine::SystemScene::Mesh& mesh : scene.meshes) mesh.spec.centre_distance = 0.5 * 63 * 2.776e-3;
+  for (whine::Scene::Mesh& mesh : scene.meshes) mesh.spec.centre_distance = 0.5 * 63 * 2.776e-3;
   scene.carriers[0].planets = 0;
   for (const double angle : {0.0, 91.43, 180.0, 271.43})
     scene.carriers[0].positions.push_back(angle * std::numbers::pi / 180);

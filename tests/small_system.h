@@ -4,7 +4,7 @@
 
 #include "gear/layout.h"
 #include "gear/system_layout.h"
-#include "io/system_scene.h"
+#include "io/scene.h"
 #include "planetary_train.h"
 #include "results/response.h"
 #include "results/static.h"
@@ -39,7 +39,7 @@ inline whine::StaticResult small_mesh(const whine::SystemStaticResult& a, size_t
 }
 
 // A train at two phases, numbers without meaning.
-inline whine::SystemStaticResult small_system(whine::SystemScene scene = planetary_train(3)) {
+inline whine::SystemStaticResult small_system(whine::Scene scene = planetary_train(3)) {
   using namespace whine;
   scene.fidelity = {BodyModel::modal, ContactModel::line, Integrator::exact};
   // Of sun and planet, one of them in two meshes, and none of the ring.
@@ -47,7 +47,7 @@ inline whine::SystemStaticResult small_system(whine::SystemScene scene = planeta
   relieved.tip.amount = 20e-6;
   relieved.tip.length = 1.5e-3;
   crowned.crowning = 5e-6;
-  for (SystemScene::Mesh& mesh : scene.meshes)
+  for (Scene::Mesh& mesh : scene.meshes)
     for (size_t g = 0; g < kSides; ++g) {
       if (mesh.spec.gear[g] == "sun") mesh.spec.modification[g] = relieved;
       if (mesh.spec.gear[g] == "planet") mesh.spec.modification[g] = crowned;
@@ -58,7 +58,7 @@ inline whine::SystemStaticResult small_system(whine::SystemScene scene = planeta
              meshes = static_cast<Eigen::Index>(settings.layout.meshes.size());
   SystemStaticResult a;
   a.settings = settings;
-  for (const SystemScene::Gear& gear : scene.gears) {
+  for (const SceneGear& gear : scene.gears) {
     a.drawing.push_back({gear.design, Material{206e9, 0.3, 7850, true}, {}});
     a.drawing.back().design.bore_radius = gear.design.internal ? 0 : 10e-3;
     a.drawing.back().discretisation.element_size = 1e-3;

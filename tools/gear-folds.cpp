@@ -16,7 +16,6 @@
 #include "io/pair_inputs.h"
 #include "io/scene.h"
 #include "io/stage_command.h"
-#include "io/system_scene.h"
 #include "results/fold_curves.h"
 #include "studies/fold_curves.h"
 

@@ -22,7 +22,6 @@
 #include "io/provenance.h"
 #include "io/scene.h"
 #include "io/static_words.h"
-#include "io/system_scene.h"
 #include "results/harris_map.h"
 #include "studies/harris_plan.h"
 

@@ -12,7 +12,6 @@
 #include "io/rexs/scene.h"
 #include "io/scene.h"
 #include "io/scene_place.h"
-#include "io/system_scene.h"
 
 namespace {
 
@@ -23,13 +22,9 @@ void check(const std::string& path) {
   const ScenePlace where = [&](const std::vector<std::string>& sections, const std::string& words) {
     return scene_place(path, sections, words);
   };
-  if (!is_system_scene(path)) {
-    check_geometry(read_scene(path), where);
-    return;
-  }
-  const SystemScene scene = read_system_scene(path);
+  const Scene scene = read_scene(path);
   const System layout = layout_in(scene, path);
-  check_system_geometry(scene, where);
+  check_geometry(scene, where);
   check_at_rest_in(scene, layout, path);
 }
 

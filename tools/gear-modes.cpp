@@ -12,7 +12,7 @@
 #include "base/tool.h"
 #include "io/artifacts.h"
 #include "io/provenance.h"
-#include "io/system_scene.h"
+#include "io/scene.h"
 #include "results/modes.h"
 #include "results/static.h"
 #include "system/mode_view.h"

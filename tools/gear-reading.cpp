@@ -72,7 +72,7 @@ void body(int argc, char** argv) {
       fail(Failure::usage, "--confirm takes a number from 1 to 1000, one readings.h5, --scene and --printed");
     const Provenance provenance =
         made_by(argc, argv, {"readings=" + parts.front(), "scene=" + scene_path, "claims=" + printed});
-    const ReadingsResult best = confirmed(read<ReadingsResult>(parts.front()), read_scene(scene_path),
+    const ReadingsResult best = confirmed(read<ReadingsResult>(parts.front()), read_pair_scene(scene_path),
                                           static_cast<int>(count), read_claims(printed));
     write(output, best, provenance);
     log_line("gear-reading: ", best.readings.size(), " readings confirmed with strips -> ", output);
@@ -101,7 +101,7 @@ void body(int argc, char** argv) {
   if (printed.empty()) fail(Failure::usage, "--plan needs --printed: data/published/claims.toml");
   const Provenance provenance = made_by(argc, argv, {"plan=" + plan_path, "claims=" + printed});
   const ReadingPlan plan = read_reading_plan(plan_path);
-  const ReadingsResult result = run_part(plan, read_scene(plan.scene), number, of, read_claims(printed));
+  const ReadingsResult result = run_part(plan, read_pair_scene(plan.scene), number, of, read_claims(printed));
   write(output, result, provenance);
   log_line("gear-reading: ", result.readings.size(), " readings, ", result.outside, " outside the model -> ",
            output);

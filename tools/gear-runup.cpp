@@ -16,7 +16,6 @@
 #include "io/runup_file.h"
 #include "io/scene.h"
 #include "io/stage_command.h"
-#include "io/system_scene.h"
 #include "studies/runup.h"
 
 namespace {

@@ -27,66 +27,40 @@
 #include "io/scene_goals.h"
 #include "io/scene_plan.h"
 #include "io/scene_remarks.h"
-#include "io/system_scene.h"
 #include "io/variant.h"
-#include "system/rigid_system.h"
 
 namespace {
 using namespace whine;
 
-void tell_lines(const std::vector<std::string>& lines) {
-  for (const std::string& line : lines) log_line("gear-scene: ", line);
+// "2 gears, 1 body, 150 N m"
+std::string parts_in_words(const Scene& scene, const System& layout, const BodyHashes& bodies) {
+  if (!scene.pair()) return text(layout.bodies.size(), " bodies, ", layout.meshes.size(), " meshes");
+  const size_t count = different(bodies).size();
+  return text(scene.gears.size(), " gears, ", count, count == 1 ? " body, " : " bodies, ",
+              torques_in_words(scene.operation.torques));
 }
 
-// A system (several meshes, carriers or drives): its stage parameters and its fragment.
-void cut_system(const std::string& path, const std::string& stem, const std::string& folder,
-                const SceneRequest& asked, const std::string& output) {
-  const SystemScene scene = read_system_scene(path);
-  const System layout = layout_in(scene, path);
-  check_asked(asked, scene, layout, path);
-  const std::string home = folder + "/" + stem;
-  if (scene.rigid())
-    rigid_system(layout);
-  else
-    check_scene(scene, layout, path);
-  record_scene(home, path);
-  for (const auto& [name, words] : stage_parameters_of(scene, layout))
-    publish_if_changed(home + "/params/" + name, words);
-  publish_if_changed(home + "/params/title.txt", visible(scene.title) + "\n");
-  publish(output, system_fragment(scene, layout, path, stem,
-                                  publish_bodies(home, folder, body_parameters_of(scene))));
-  tell_lines(scene_lines(scene, layout, path));
-  log_line("gear-scene: ", path, ": ", layout.bodies.size(), " bodies, ", layout.meshes.size(), " meshes");
-}
-
-void cut_pair(const std::string& path, const std::string& stem, const std::string& folder,
-              const SceneRequest& asked, const std::string& ids, const std::string& output) {
+void cut(const std::string& path, const std::string& folder, const SceneRequest& asked,
+         const std::string& ids, const std::string& output) {
+  const std::string stem = checked_scene_stem(path), home = folder + "/" + stem;
   const Scene scene = read_scene(path);  // 1. The whole scene is checked before anything is written.
-  check_scene(scene, path);
-  check_asked(asked, scene, path);
-  const std::string home = folder + "/" + stem;
+  const System layout = layout_in(scene, path);
+  check_scene(scene, layout, path);
+  check_asked(asked, scene, layout, path);
   record_scene(home, path);
   // Together: program ids, results and stage parameters keep their order.
   if (const int moved = bring_to_present({home, folder + "/bodies", ids}); moved > 0)
     log_line("gear-scene: ", home, ": ", moved,
              " files had times in the future and have those of now instead");
   // 2. Stage parameters and links; unchanged ones are left alone, so that make sees what did change.
-  BodySettings settings;
-  for (const SceneGear& gear : scene.gears)
-    settings.emplace_back(gear.name, body_parameters(scene, gear.name));
-  const BodyHashes bodies = publish_bodies(home, folder, settings);
-  const std::pair<const char*, std::string> parameters[] = {
-      {"static.toml", static_parameters(scene)},       {"impact.toml", impact_parameters(scene)},
-      {"sweep.toml", sweep_parameters(scene)},         {"map.toml", map_parameters(scene)},
-      {"lumped.toml", lumped_parameters(scene, true)}, {"lumped_map.toml", lumped_parameters(scene, false)},
-      {"title.txt", visible(scene.title) + "\n"}};
-  for (const auto& [file, content] : parameters) publish_if_changed(home + "/params/" + file, content);
+  const BodyHashes bodies = publish_bodies(home, folder, body_parameters_of(scene));
+  for (const auto& [name, words] : stage_parameters_of(scene, layout))
+    publish_if_changed(home + "/params/" + name, words);
+  publish_if_changed(home + "/params/title.txt", visible(scene.title) + "\n");
   // 3. The fragment, always written.
-  publish(output, scene_fragment(scene, path, stem, bodies));
-  tell_lines(scene_lines(scene, path));
-  log_line("gear-scene: ", path, ": ", scene.gears.size(), " gears, ", different(bodies).size(),
-           (different(bodies).size() == 1 ? " body, " : " bodies, "),
-           torques_in_words(scene.operation.torques));
+  publish(output, scene_fragment(scene, layout, path, stem, bodies));
+  for (const std::string& line : scene_lines(scene, layout, path)) log_line("gear-scene: ", line);
+  log_line("gear-scene: ", path, ": ", parts_in_words(scene, layout, bodies));
 }
 
 void body(int argc, char** argv) {
@@ -138,9 +112,7 @@ void body(int argc, char** argv) {
   if (!variant.empty()) return static_cast<void>(publish_if_changed(variant, scene_variant(path, changes)));
   if (path.empty() || output.empty())
     fail(Failure::usage, "--scene and --output are needed, or --keys; see --help");
-  const std::string stem = checked_scene_stem(path);
-  if (is_system_scene(path)) return cut_system(path, stem, folder, asked, output);
-  cut_pair(path, stem, folder, asked, ids, output);
+  cut(path, folder, asked, ids, output);
 }
 
 }  // namespace

@@ -57,15 +57,13 @@ void body(int argc, char** argv) {
   const whine::Provenance provenance = whine::made_by(argc, argv, files.and_inputs({"params=" + params}));
   whine::VariantParameters settings = whine::read_variant_parameters(params);
   std::vector<whine::ReducedBody> gears;
-  whine::VariantResult result;
   if (settings.of_train()) {
     gears = whine::read_bodies(files, settings.train);
-    result = whine::variant_parameters(settings);
   } else {
     for (const whine::ReducedBody& gear : whine::read_bodies(files, settings.statics)) gears.push_back(gear);
     if (!settings.directions.empty()) whine::as_drawn(settings.motion, {gears[0].inertia, gears[1].inertia});
-    result = whine::variant_parameters(gears[0], gears[1], settings);
   }
+  whine::VariantResult result = whine::variant_parameters(gears, settings);
   std::vector<whine::Remark> remarks;
   try {
     std::optional<whine::Progress> progress;
@@ -73,9 +71,7 @@ void body(int argc, char** argv) {
       if (!progress) progress.emplace("gear-variant", total);
       progress->update(done, note);
     };
-    const whine::VariantResponse quantities =
-        settings.of_train() ? whine::variant_response(gears, settings, report)
-                            : whine::variant_response(gears[0], gears[1], settings, report);
+    const whine::VariantResponse quantities = whine::variant_response(gears, settings, report);
     result.quantity = quantities.quantity;
     remarks = quantities.remarks;
   } catch (const whine::Error& error) {

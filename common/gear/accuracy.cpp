@@ -35,8 +35,7 @@ double base_radius(const GearDesign& d) {
 }
 
 // kg-1: r_b^2 / I. An inertia that is left open is that of a disc from the bore to the pitch circle.
-template <class AnyGear>
-double inverse_mass(const AnyGear& gear) {
+double inverse_mass(const SceneGear& gear) {
   const GearDesign& d = gear.design;
   const double pitch = 0.5 * d.module * d.teeth / std::cos(d.helix_angle),
                disc = 0.5 * gear.material.density * std::numbers::pi * d.face_width *
@@ -45,8 +44,7 @@ double inverse_mass(const AnyGear& gear) {
   return base * base / (gear.total_inertia > 0 ? gear.total_inertia : disc);
 }
 
-template <class AnyGear>
-double natural_frequency_of(const AnyGear& a, const AnyGear& b) {
+double natural_frequency_of(const SceneGear& a, const SceneGear& b) {
   const double modulus = 2 * a.material.youngs_modulus * b.material.youngs_modulus /
                          (a.material.youngs_modulus + b.material.youngs_modulus),
                stiffness = kMeshStiffness * contact_width(a.design, b.design) * modulus / kSteelModulus;
@@ -212,15 +210,13 @@ void choose_unasked(const Settings& s) {
   if (open) choose_stored_samples(s);
 }
 
-template <class AnyScene>
-double smallest_module(const AnyScene& scene) {
+double smallest_module(const Scene& scene) {
   double out = scene.gears.front().design.module;
   for (const auto& gear : scene.gears) out = std::min(out, gear.design.module);
   return out;
 }
 
-template <class AnyScene>
-double first_modes(const AnyScene& scene) {
+double first_modes(const Scene& scene) {
   constexpr int kOfDisc = 11;  // that lie among those of the teeth
   int teeth = 0;
   for (const auto& gear : scene.gears) teeth = std::max(teeth, gear.design.teeth);
@@ -235,24 +231,16 @@ bool mass_damped(const Damping& damping, double frequency) {
 
 // Hubs on bearings or several meshes have slow modes of little damping, which take long to settle.
 bool in_train(const Scene& scene) {
-  return std::any_of(scene.gears.begin(), scene.gears.end(),
-                     [](const SceneGear& gear) { return gear.bearing.elastic(); });
-}
-
-bool in_train(const SystemScene&) {
-  return true;
+  return !scene.pair() || std::any_of(scene.gears.begin(), scene.gears.end(),
+                                      [](const SceneGear& gear) { return gear.bearing.elastic(); });
 }
 
 bool on_strips(const Scene& scene) {
-  return scene.fidelity.contact == ContactModel::strips && scene.fidelity.width == WidthModel::one;
+  return scene.pair() && scene.fidelity.contact == ContactModel::strips &&
+         scene.fidelity.width == WidthModel::one;
 }
 
-bool on_strips(const SystemScene&) {
-  return false;
-}
-
-template <class AnyScene>
-Settings settings_of(AnyScene& scene, const KeyGiven& given) {
+Settings settings_of(Scene& scene, const KeyGiven& given) {
   const double frequency = expected_natural_frequency(scene);
   return {scene.fidelity,
           scene.body,
@@ -283,18 +271,9 @@ double relative_element_size(const BodyDiscretisation& body, double module) {
 }
 
 double expected_natural_frequency(const Scene& scene) {
-  return natural_frequency_of(scene.gear(scene.mesh.gear[0]), scene.gear(scene.mesh.gear[1]));
-}
-
-double expected_natural_frequency(const SystemScene& scene) {
   double out = 0;
-  for (const SystemScene::Mesh& mesh : scene.meshes) {
-    const auto gear = [&](int g) {
-      return std::find_if(scene.gears.begin(), scene.gears.end(),
-                          [&](const SystemScene::Gear& own) { return own.name == mesh.spec.gear[g]; });
-    };
-    out = std::max(out, natural_frequency_of(*gear(0), *gear(1)));
-  }
+  for (const GearMeshSpec& mesh : scene.specs())
+    out = std::max(out, natural_frequency_of(scene.gear(mesh.gear[0]), scene.gear(mesh.gear[1])));
   return out;
 }
 
@@ -303,24 +282,11 @@ DiscretisationPlan discretisation_plan(const Scene& scene, const KeyGiven& given
   return plan_of(settings_of(s, given));
 }
 
-DiscretisationPlan discretisation_plan(const SystemScene& scene, const KeyGiven& given) {
-  SystemScene s = scene;
-  return plan_of(settings_of(s, given));
-}
-
 void choose_discretisation(Scene& scene, const KeyGiven& given) {
   if (scene.time.accepted_error > 0) choose(settings_of(scene, given));
 }
 
-void choose_discretisation(SystemScene& scene, const KeyGiven& given) {
-  if (scene.time.accepted_error > 0) choose(settings_of(scene, given));
-}
-
 void choose_by_default(Scene& scene, const KeyGiven& given) {
-  choose_unasked(settings_of(scene, given));
-}
-
-void choose_by_default(SystemScene& scene, const KeyGiven& given) {
   choose_unasked(settings_of(scene, given));
 }
 

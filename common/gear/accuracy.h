@@ -19,7 +19,6 @@
 #include <vector>
 
 #include "model/scene.h"
-#include "model/system_scene.h"
 
 namespace whine {
 
@@ -43,25 +42,21 @@ double relative_element_size(const BodyDiscretisation& body, double module);
 
 // Hz. Inertias that a scene leaves open are those of discs from the bore to the pitch circle.
 double expected_natural_frequency(const Scene& scene);
-double expected_natural_frequency(const SystemScene& scene);
 
 // Whether the scene gives a key of [fidelity] or [discretisation]: "modes".
 using KeyGiven = std::function<bool(const std::string& key)>;
 
 // The plan of a scene as it stands.
 DiscretisationPlan discretisation_plan(const Scene& scene, const KeyGiven& given);
-DiscretisationPlan discretisation_plan(const SystemScene& scene, const KeyGiven& given);
 
 // 1: what a scene accepts that does not say.
 constexpr double kAcceptedError = 0.01;
 
 // Chooses what the scene leaves open so that e is at most scene.time.accepted_error, if what it gives allows that; 0: changes nothing.
 void choose_discretisation(Scene& scene, const KeyGiven& given);
-void choose_discretisation(SystemScene& scene, const KeyGiven& given);
 
 // The same for a scene that says nothing of accuracy: kAcceptedError for each key that is open and whose law is known for what
 // the scene asks (the others have their defaults); accepted_error stays 0 if there is none. What is given moves nothing else.
 void choose_by_default(Scene& scene, const KeyGiven& given);
-void choose_by_default(SystemScene& scene, const KeyGiven& given);
 
 }  // namespace whine

@@ -292,15 +292,6 @@ bool beyond_help(const DrawnGears& gears) {
   });
 }
 
-DrawnGears of_gears(const std::vector<const SceneGear*>& gears) {
-  DrawnGears out;
-  for (const SceneGear* gear : gears) {
-    out.name.push_back(gear->name);
-    out.design.push_back(gear->design);
-  }
-  return out;
-}
-
 void add_mesh(DrawnGears& out, const GearMeshSpec& mesh) {
   const auto number = [&](const std::string& name) {
     return static_cast<size_t>(std::find(out.name.begin(), out.name.end(), name) - out.name.begin());
@@ -313,16 +304,16 @@ void add_mesh(DrawnGears& out, const GearMeshSpec& mesh) {
 }  // namespace
 
 DrawnGears drawn_gears(const Scene& scene) {
-  DrawnGears out = of_gears({&scene.gear(scene.mesh.gear[0]), &scene.gear(scene.mesh.gear[1])});
-  add_mesh(out, scene.mesh);
-  return out;
-}
-
-DrawnGears drawn_gears(const SystemScene& scene) {
-  std::vector<const SceneGear*> gears;
-  for (const SystemScene::Gear& gear : scene.gears) gears.push_back(&gear);
-  DrawnGears out = of_gears(gears);
-  for (const SystemScene::Mesh& mesh : scene.meshes) add_mesh(out, mesh.spec);
+  DrawnGears out;
+  const auto add = [&](const SceneGear& gear) {
+    out.name.push_back(gear.name);
+    out.design.push_back(gear.design);
+  };
+  if (scene.pair())
+    for (const std::string& name : scene.mesh().gear) add(scene.gear(name));
+  else
+    for (const SceneGear& gear : scene.gears) add(gear);
+  for (const Scene::Mesh& mesh : scene.meshes) add_mesh(out, mesh.spec);
   return out;
 }
 

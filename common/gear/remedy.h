@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "model/system_scene.h"
+#include "model/scene.h"
 
 namespace whine {
 
@@ -17,8 +17,7 @@ struct DrawnGears {
   std::vector<GearDesign> design;  // [gear]
   std::vector<Mesh> mesh;
 };
-DrawnGears drawn_gears(const Scene& scene);
-DrawnGears drawn_gears(const SystemScene& scene);
+DrawnGears drawn_gears(const Scene& scene);  // of a pair the driver first, without gears that do not mesh
 
 // The first thing that ToothGeometry or GearPair rejects, in its words; "" if all gears exist and all meshes mesh.
 std::string fault(const DrawnGears& gears);

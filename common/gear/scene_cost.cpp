@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <type_traits>
 
 #include "base/error.h"
 #include "base/format.h"
@@ -18,8 +17,7 @@ constexpr double kMinute = 60, kStart = 0.5, kMemory = 2e8;  // s; s: reading bo
 
 // 0.24 s for 30 teeth, 4 elements in a module and 21 modes; 71 s for 12 elements and 121 modes: unknowns grow with the square of
 // 1 / element_mm, factors and modes with the cube of that.
-template <class AnyScene>
-void add_reductions(const AnyScene& scene, std::vector<StageCost>& out) {
+void add_reductions(const Scene& scene, std::vector<StageCost>& out) {
   constexpr double kElements = 2.5e-3, kModes = 8.7e-5, kBytes = 8e4,
                    kLeast = 7e7;  // s, s, of a tooth and the square of elements
   constexpr double kDefault = 7.5;
@@ -40,12 +38,6 @@ void add_reductions(const AnyScene& scene, std::vector<StageCost>& out) {
          text("element_mm = ", shown_number(size_of_element * gear.design.module * 1e3), " is ",
               shown_number(size_of_element), " modules, and has modes = ", scene.body.modes)});
   }
-}
-
-template <class AnyScene>
-const SceneGear& gear_of(const AnyScene& scene, const std::string& name) {
-  return *std::find_if(scene.gears.begin(), scene.gears.end(),
-                       [&](const SceneGear& gear) { return gear.name == name; });
 }
 
 // Of one slice, or a contact line of several points: tooth pairs that an instant looks at, corners included.
@@ -93,29 +85,21 @@ struct Work {
   }
 };
 
-template <class AnyScene>
-Work work_of(const AnyScene& scene) {
-  constexpr bool kTrain = std::is_same_v<AnyScene, SystemScene>;
+Work work_of(const Scene& scene) {
   Work out{scene.fidelity, scene.contact, scene.operation,
-           scene.time,     kTrain,        kTrain ? 1 : static_cast<int>(scene.operation.torques.size())};
+           scene.time,     !scene.pair(), std::max(1, static_cast<int>(scene.operation.torques.size()))};
   const double points = !out.sliced()                   ? 1
                         : scene.contact.face_points > 0 ? scene.contact.face_points
                                                         : kFacePoints;
-  const auto add = [&](const GearMeshSpec& mesh, double times) {
-    out.meshes += times;
-    out.contacts += times * points *
-                    pairs_in_reach(gear_of(scene, mesh.gear[0]).design, gear_of(scene, mesh.gear[1]).design);
-  };
-  if constexpr (!kTrain) {
-    add(scene.mesh, 1);
-  } else {
-    for (const SystemScene::Mesh& mesh : scene.meshes) {
-      size_t times = 1;
-      for (const SystemScene::Carrier& carrier : scene.carriers)
-        if (carrier.planet == mesh.spec.gear[0] || carrier.planet == mesh.spec.gear[1])
-          times = carrier.planets > 0 ? static_cast<size_t>(carrier.planets) : carrier.positions.size();
-      add(mesh.spec, static_cast<double>(times));
-    }
+  for (const GearMeshSpec& mesh : scene.specs()) {
+    size_t times = 1;
+    for (const Scene::Carrier& carrier : scene.carriers)
+      if (carrier.planet == mesh.gear[0] || carrier.planet == mesh.gear[1])
+        times = carrier.planets > 0 ? static_cast<size_t>(carrier.planets) : carrier.positions.size();
+    const auto meshes = static_cast<double>(times);
+    out.meshes += meshes;
+    out.contacts +=
+        meshes * points * pairs_in_reach(scene.gear(mesh.gear[0]).design, scene.gear(mesh.gear[1]).design);
   }
   out.periods = hunting_periods(scene);
   out.positions = static_positions(scene);
@@ -158,8 +142,9 @@ StageCost sweep_of(const Work& work) {
           work.in_motion()};
 }
 
-template <class AnyScene>
-std::vector<StageCost> costs_of_stages(const AnyScene& scene) {
+}  // namespace
+
+std::vector<StageCost> stage_costs(const Scene& scene) {
   std::vector<StageCost> out;
   add_reductions(scene, out);
   const Work work = work_of(scene);
@@ -168,10 +153,10 @@ std::vector<StageCost> costs_of_stages(const AnyScene& scene) {
   return out;
 }
 
-template <class AnyScene>
-std::vector<std::string> costs_in_words(const AnyScene& scene) {
+std::vector<std::string> costs(const Scene& scene) {
   std::vector<std::string> out;
-  for (const StageCost& stage : costs_of_stages(scene))
+  if (scene.rigid()) return out;
+  for (const StageCost& stage : stage_costs(scene))
     if (const double s = stage.seconds; s > (stage.stage == "gear-sweep" ? 10 : 1) * kMinute) {
       const double all = s / kMinute, digit = std::pow(10, std::floor(std::log10(all)));
       out.push_back(text(stage.stage, " takes about ", std::round(all / digit) * digit, " min: ", stage.by));
@@ -180,24 +165,6 @@ std::vector<std::string> costs_in_words(const AnyScene& scene) {
     out.push_back(
         "body = \"full\" finds all modes by dense algebra: about a minute a gear for a thousand unknowns a sector, eight times that for twice as many");
   return out;
-}
-
-}  // namespace
-
-std::vector<StageCost> stage_costs(const Scene& scene) {
-  return costs_of_stages(scene);
-}
-
-std::vector<StageCost> stage_costs(const SystemScene& scene) {
-  return costs_of_stages(scene);
-}
-
-std::vector<std::string> costs(const Scene& scene) {
-  return costs_in_words(scene);
-}
-
-std::vector<std::string> costs(const SystemScene& scene) {
-  return scene.rigid() ? std::vector<std::string>() : costs_in_words(scene);
 }
 
 }  // namespace whine

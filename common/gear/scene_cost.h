@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "model/scene.h"
-#include "model/system_scene.h"
 
 namespace whine {
 
@@ -17,11 +16,9 @@ struct StageCost {
   std::string by = {};  // the settings that it goes with, in words
 };
 std::vector<StageCost> stage_costs(const Scene& scene);
-std::vector<StageCost> stage_costs(const SystemScene& scene);
 
 // A line for each stage that takes more than a minute of CPU, a sweep more than ten; none for an ordinary scene. A program that computes
 // says how far it is (base/progress.h).
 std::vector<std::string> costs(const Scene& scene);
-std::vector<std::string> costs(const SystemScene& scene);
 
 }  // namespace whine

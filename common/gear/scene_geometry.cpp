@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <vector>
 
 #include "base/error.h"
@@ -51,40 +52,25 @@ void check_gear(const SceneGear& gear, const DrawnGears& gears, const ScenePlace
 
 }  // namespace
 
-void check_system_geometry(const SystemScene& scene, const ScenePlace& where) {
-  const DrawnGears gears = drawn_gears(scene);
-  for (const SystemScene::Gear& gear : scene.gears) check_gear(gear, gears, where);
-}
-
 void check_geometry(const Scene& scene, const ScenePlace& where) {
   const DrawnGears gears = drawn_gears(scene);
   for (const SceneGear& gear : scene.gears) check_gear(gear, gears, where);
-  in_section(where, "[[mesh]]", {"mesh", "gear." + scene.mesh.gear[1], "gear." + scene.mesh.gear[0]}, gears,
-             [&] {
-               GearPair pair(scene.gear(scene.mesh.gear[0]).design, scene.gear(scene.mesh.gear[1]).design,
-                             scene.mesh.centre_distance);
-             });
-}
-
-namespace {
-
-void check_gear_inertia(const SceneGear& gear, const ScenePlace& where) {
-  const std::string section = "gear." + gear.name;
-  in_section(where, "[" + section + "]", {section}, {}, [&] {
-    const double least = least_body_inertia(ToothGeometry(gear.design), gear.material);
-    if (gear.total_inertia != 0 && gear.total_inertia < least)
-      fail(Failure::input, too_light(gear.total_inertia, "by its drawing at least " + shown_number(least)));
+  if (!scene.pair()) return;
+  const std::string &driver = scene.mesh().gear[0], &driven = scene.mesh().gear[1];
+  in_section(where, "[[mesh]]", {"mesh", "gear." + driven, "gear." + driver}, gears, [&] {
+    GearPair(scene.gear(driver).design, scene.gear(driven).design, scene.mesh().centre_distance);
   });
 }
 
-}  // namespace
-
 void check_inertia(const Scene& scene, const ScenePlace& where) {
-  for (const SceneGear& gear : scene.gears) check_gear_inertia(gear, where);
-}
-
-void check_inertia(const SystemScene& scene, const ScenePlace& where) {
-  for (const SystemScene::Gear& gear : scene.gears) check_gear_inertia(gear, where);
+  for (const SceneGear& gear : scene.gears) {
+    const std::string section = "gear." + gear.name;
+    in_section(where, "[" + section + "]", {section}, {}, [&] {
+      const double least = least_body_inertia(ToothGeometry(gear.design), gear.material);
+      if (gear.total_inertia != 0 && gear.total_inertia < least)
+        fail(Failure::input, too_light(gear.total_inertia, "by its drawing at least " + shown_number(least)));
+    });
+  }
 }
 
 std::string thin_rim(const GearDesign& design, const std::string& name) {
@@ -110,18 +96,6 @@ std::string flywheel(const GearDesign& design, const Material& material, double 
 namespace {
 
 constexpr double kOrdinaryBacklash = 0.1, kLargestBacklash = 0.2;  // modules, on the line of action
-
-template <class AnyScene>
-void add_shortened_path(const AnyScene& scene, const GearMeshSpec& mesh, const ScenePlace& where,
-                        std::vector<std::string>& out) {
-  const auto design = [&](int g) {
-    return std::find_if(scene.gears.begin(), scene.gears.end(),
-                        [&](const auto& gear) { return gear.name == mesh.gear[static_cast<size_t>(g)]; })
-        ->design;
-  };
-  const std::string words = shortened_path_words({design(0), design(1), mesh.centre_distance}, mesh.gear);
-  if (!words.empty()) out.push_back(where({"mesh"}, words) + ": " + words);
-}
 
 double backlash_of(const DrawnGears& gears, const DrawnGears::Mesh& mesh) {
   return GearPair(gears.design[mesh.first], gears.design[mesh.second], mesh.centre_distance).backlash();
@@ -174,75 +148,44 @@ void warn_of_backlash(const DrawnGears& gears, const ScenePlace& where, std::vec
 std::vector<std::string> scene_warnings(const Scene& scene, const ScenePlace& where) {
   std::vector<std::string> out;
   warn_of_backlash(drawn_gears(scene), where, out);
+  if (scene.rigid()) return out;
   for (const SceneGear& gear : scene.gears)
     for (const std::string& words : {undercut_words(gear.design, gear.name), thin_rim(gear.design, gear.name),
                                      flywheel(gear.design, gear.material, gear.total_inertia, gear.name)})
       if (!words.empty()) out.push_back(where({"gear." + gear.name}, words) + ": " + words);
-  add_shortened_path(scene, scene.mesh, where, out);
+  std::set<std::string> meshed;
+  for (const auto& [mesh, direction, stiffness] : scene.meshes) {
+    meshed.insert(mesh.gear.begin(), mesh.gear.end());
+    const std::string words = shortened_path_words(
+        {scene.gear(mesh.gear[0]).design, scene.gear(mesh.gear[1]).design, mesh.centre_distance}, mesh.gear);
+    if (!words.empty()) out.push_back(where({"mesh"}, words) + ": " + words);
+  }
   for (const SceneGear& gear : scene.gears)
-    if (gear.name != scene.mesh.gear[0] && gear.name != scene.mesh.gear[1])
+    if (!meshed.contains(gear.name))
       out.push_back(text(where({"gear." + gear.name}, ""), ": [gear.", gear.name,
                          "] is in no [[mesh]] and carries nothing; ", kOneShaft));
   return out;
 }
 
-namespace {
-
-// gear(name): one of the scene's gears.
-template <class GearOf>
-void add_width_words(const GearMeshSpec& mesh, const GearOf& gear, std::vector<std::string>& out) {
-  const std::string words =
-      width_words(gear(mesh.gear[0]).design, mesh.gear[0], gear(mesh.gear[1]).design, mesh.gear[1]);
-  if (!words.empty()) out.push_back(words);
-}
-
-// Elements that the scene gives and that are long beside the smallest module.
-template <class AnyScene>
-void add_coarse_elements(const AnyScene& scene, std::vector<std::string>& out) {
+std::vector<std::string> scene_remarks(const Scene& scene) {
+  std::vector<std::string> out;
+  if (scene.rigid() || scene.gears.empty()) return out;
+  for (const GearMeshSpec& mesh : scene.specs()) {
+    const auto& [driver, driven] = mesh.gear;
+    const std::string words =
+        width_words(scene.gear(driver).design, driver, scene.gear(driven).design, driven);
+    if (!words.empty()) out.push_back(words);
+  }
   const double fewest =
       scene.body.element_order == 1 ? 7 : 3.5;  // a module, measured: common/solid/README.md
   const auto gear =
       std::min_element(scene.gears.begin(), scene.gears.end(),
                        [](const auto& a, const auto& b) { return a.design.module < b.design.module; });
-  if (gear == scene.gears.end()) return;
   const double elements = gear->design.module / scene.body.element_size;  // infinite: left open
-  if (!(elements < fewest)) return;
-  out.push_back(text("element_mm = ", scene.body.element_size * 1e3, " puts ", shown_number(elements),
-                     " elements of order ", scene.body.element_order, " on a module of [gear.", gear->name,
-                     "]: with fewer than ", fewest, " root stress is off by more than 1 %; leave it out"));
-}
-
-}  // namespace
-
-std::vector<std::string> scene_remarks(const Scene& scene) {
-  std::vector<std::string> out;
-  add_width_words(
-      scene.mesh, [&](const std::string& name) { return scene.gear(name); }, out);
-  add_coarse_elements(scene, out);
-  return out;
-}
-
-std::vector<std::string> scene_remarks(const SystemScene& scene) {
-  std::vector<std::string> out;
-  if (scene.rigid()) return out;
-  const auto gear = [&](const std::string& name) {
-    return *std::find_if(scene.gears.begin(), scene.gears.end(),
-                         [&](const SystemScene::Gear& of) { return of.name == name; });
-  };
-  for (const SystemScene::Mesh& mesh : scene.meshes) add_width_words(mesh.spec, gear, out);
-  add_coarse_elements(scene, out);
-  return out;
-}
-
-std::vector<std::string> scene_warnings(const SystemScene& scene, const ScenePlace& where) {
-  std::vector<std::string> out;
-  warn_of_backlash(drawn_gears(scene), where, out);
-  if (scene.rigid()) return out;
-  for (const SystemScene::Gear& gear : scene.gears)
-    for (const std::string& words :
-         {undercut_words(gear.design, gear.name), thin_rim(gear.design, gear.name)})
-      if (!words.empty()) out.push_back(where({"gear." + gear.name}, words) + ": " + words);
-  for (const SystemScene::Mesh& mesh : scene.meshes) add_shortened_path(scene, mesh.spec, where, out);
+  if (elements < fewest)
+    out.push_back(text("element_mm = ", scene.body.element_size * 1e3, " puts ", shown_number(elements),
+                       " elements of order ", scene.body.element_order, " on a module of [gear.", gear->name,
+                       "]: with fewer than ", fewest, " root stress is off by more than 1 %; leave it out"));
   return out;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "model/system_scene.h"
+#include "model/scene.h"
 
 namespace whine {
 
@@ -14,26 +14,19 @@ using ScenePlace =
     std::function<std::string(const std::vector<std::string>& sections, const std::string& words)>;
 
 // Throws what ToothGeometry, crack_slit, FlankDeviation and GearPair throw, with the section of the scene before it and `where`
-// before that.
+// before that. Of a train the gears alone; its meshes are checked where it is laid out.
 void check_geometry(const Scene& scene, const ScenePlace& where);
-// The gears of a system alone; its meshes are checked where it is laid out.
-void check_system_geometry(const SystemScene& scene, const ScenePlace& where);
 
 // Error(input), in the same words, for a gear whose total inertia lies below least_body_inertia; of gears that check_geometry
 // has passed. Statics do not depend on it.
 void check_inertia(const Scene& scene, const ScenePlace& where);
-void check_inertia(const SystemScene& scene, const ScenePlace& where);  // of elastic gears
 
 // What a scene may mean but hardly does, each with its place before it: more backlash than 0.2 modules, gears in no mesh, thin rims, inertias of flywheels, undercut and what it takes
 // of the path of contact. Nothing is computed for it.
 std::vector<std::string> scene_warnings(const Scene& scene, const ScenePlace& where);
-std::vector<std::string> scene_warnings(
-    const SystemScene& scene,
-    const ScenePlace& where);  // backlash; thin rims and undercut of elastic gears
 
 // What to know of a scene that is as it should be: gears of unequal face widths, elements long beside the module.
 std::vector<std::string> scene_remarks(const Scene& scene);
-std::vector<std::string> scene_remarks(const SystemScene& scene);  // of elastic gears
 
 // Less than a module between the bore and the root circle of [gear.<name>], in words; "" if there is more.
 std::string thin_rim(const GearDesign& design, const std::string& name);

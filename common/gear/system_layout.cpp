@@ -14,11 +14,11 @@ namespace {
 
 template <class... Parts>
 [[noreturn]] void reject(const char* section, size_t number, const Parts&... parts) {
-  throw SystemSceneError(section, number, text(parts...));
+  throw SectionError(section, number, text(parts...));
 }
 
 // rad, 0 to 2 pi, ascending.
-std::vector<double> wanted_positions(const SystemScene::Carrier& carrier, size_t number) {
+std::vector<double> wanted_positions(const Scene::Carrier& carrier, size_t number) {
   std::vector<double> out;
   out.reserve(carrier.positions.size() + static_cast<size_t>(std::max(carrier.planets, 0)));
   if ((carrier.planets > 0) == !carrier.positions.empty())
@@ -43,7 +43,7 @@ bool called_like_planet(const std::string& name, const std::string& planet) {
 
 class Layout {
  public:
-  explicit Layout(const SystemScene& scene) : scene_(scene) {}
+  explicit Layout(const Scene& scene) : scene_(scene) {}
 
   System make() {
     if (scene_.meshes.empty()) reject("mesh", 0, "a system needs one [[mesh]] at least");
@@ -60,7 +60,7 @@ class Layout {
       check_new(m);
       try {
         take_mesh(m);
-      } catch (const SystemSceneError&) {
+      } catch (const SectionError&) {
         throw;
       } catch (const Error& error) {
         const auto& gear = scene_.meshes[m].spec.gear;
@@ -76,8 +76,8 @@ class Layout {
   }
 
  private:
-  const SystemScene::Gear& gear_called(const std::string& name, size_t mesh) const {
-    for (const SystemScene::Gear& gear : scene_.gears)
+  const SceneGear& gear_called(const std::string& name, size_t mesh) const {
+    for (const SceneGear& gear : scene_.gears)
       if (gear.name == name) return gear;
     reject("mesh", mesh, "[[mesh]] names '", name, "', and there is no [gear.", name, "] section");
   }
@@ -101,20 +101,20 @@ class Layout {
   }
 
   void check_carrier(size_t c) {
-    const SystemScene::Carrier& carrier = scene_.carriers[c];
+    const Scene::Carrier& carrier = scene_.carriers[c];
     const auto names_gear = [](const std::string& name) {
-      return [name](const SystemScene::Gear& gear) { return gear.name == name; };
+      return [name](const SceneGear& gear) { return gear.name == name; };
     };
     if (std::any_of(scene_.gears.begin(), scene_.gears.end(), names_gear(carrier.name)))
       reject("carrier", c, "carrier '", carrier.name, "' is called like a gear; give it a name of its own");
     for (size_t other = 0; other < c; ++other)
       if (scene_.carriers[other].name == carrier.name)
         reject("carrier", c, "two carriers are called '", carrier.name, "'; give each a name of its own");
-    for (const SystemScene::Carrier& other : scene_.carriers)
+    for (const Scene::Carrier& other : scene_.carriers)
       if (called_like_planet(carrier.name, other.planet))
         reject("carrier", c, "carrier '", carrier.name, "' is called like one of the planets of carrier '",
                other.name, "' (", other.planet, "1, ", other.planet, "2, ...); rename it");
-    for (const SystemScene::Gear& gear : scene_.gears)
+    for (const SceneGear& gear : scene_.gears)
       if (called_like_planet(gear.name, carrier.planet))
         reject("carrier", c, "[gear.", gear.name, "] is called like one of the planets of carrier '",
                carrier.name, "' (", carrier.planet, "1, ", carrier.planet, "2, ...); rename it");
@@ -142,7 +142,7 @@ class Layout {
   }
 
   void take_assembly(size_t c) {
-    const SystemScene::Carrier& carrier = scene_.carriers[c];
+    const Scene::Carrier& carrier = scene_.carriers[c];
     const auto [sun, ring] = central_teeth(c);
     if (sun == 0 || ring == 0) return;
     const int steps = sun + ring;
@@ -176,9 +176,8 @@ class Layout {
   }
 
   void take_mesh(size_t m) {
-    const SystemScene::Mesh& mesh = scene_.meshes[m];
-    const SystemScene::Gear *first = &gear_called(mesh.spec.gear[0], m),
-                            *second = &gear_called(mesh.spec.gear[1], m);
+    const Scene::Mesh& mesh = scene_.meshes[m];
+    const SceneGear *first = &gear_called(mesh.spec.gear[0], m), *second = &gear_called(mesh.spec.gear[1], m);
     const int c_first = carrier_of(first->name), c_second = carrier_of(second->name);
     if (c_first >= 0 && c_second >= 0)
       reject("mesh", m, "[[mesh]] of '", first->name, "' and '", second->name,
@@ -193,7 +192,7 @@ class Layout {
     }
     const size_t planets = carrier < 0 ? 1 : positions_[static_cast<size_t>(carrier)].size();
     for (size_t n = 0; n < planets; ++n) {
-      const auto called = [&](const SystemScene::Gear& gear) {
+      const auto called = [&](const SceneGear& gear) {
         return carrier_of(gear.name) >= 0 ? gear.name + std::to_string(n + 1) : gear.name;
       };
       double direction = mesh.direction;
@@ -221,8 +220,8 @@ class Layout {
     }
   }
 
-  void take_one(size_t m, const SystemScene::Gear& first, const std::string& on,
-                const SystemScene::Gear& second, const std::string& to, double direction) {
+  void take_one(size_t m, const SceneGear& first, const std::string& on, const SceneGear& second,
+                const std::string& to, double direction) {
     const double distance = scene_.meshes[m].spec.centre_distance;
     const int a = placed(on), b = placed(to);
     if (a < 0)
@@ -248,17 +247,17 @@ class Layout {
     section_.push_back(m);
   }
 
-  static double inertia_of(const SystemScene::Gear& gear) {
+  static double inertia_of(const SceneGear& gear) {
     const double base = ToothGeometry(gear.design).base_radius();
     return gear.equivalent_mass > 0 ? gear.equivalent_mass * base * base : gear.total_inertia;
   }
 
   // Planets run into each other where their tip circles overlap.
   void check_neighbours(size_t c) {
-    const SystemScene::Carrier& carrier = scene_.carriers[c];
+    const Scene::Carrier& carrier = scene_.carriers[c];
     const std::vector<double>& at = positions_[c];
     double tip = 0;
-    for (const SystemScene::Gear& gear : scene_.gears)
+    for (const SceneGear& gear : scene_.gears)
       if (gear.name == carrier.planet) tip = ToothGeometry(gear.design).tip_radius();
     const double radius = pin_radius(c);
     for (size_t n = 0; n < at.size() && at.size() > 1; ++n) {
@@ -286,7 +285,7 @@ class Layout {
 
   void take_carriers() {
     for (size_t c = 0; c < scene_.carriers.size(); ++c) {
-      const SystemScene::Carrier& carrier = scene_.carriers[c];
+      const Scene::Carrier& carrier = scene_.carriers[c];
       const double radius = pin_radius(c);
       if (radius == 0)
         reject("carrier", c, "the planets '", carrier.planet, "' of carrier '", carrier.name,
@@ -313,7 +312,7 @@ class Layout {
       }
       system_.bodies.push_back(body);
     }
-    for (const SystemScene::Gear& gear : scene_.gears)
+    for (const SceneGear& gear : scene_.gears)
       if (placed(gear.name) < 0 && carrier_of(gear.name) < 0)
         reject("mesh", 0, "[gear.", gear.name,
                "] is in no [[mesh]]; take it out, or give its mesh: ", kOneShaft);
@@ -321,7 +320,7 @@ class Layout {
 
   void take_pins() {
     for (size_t p = 0; p < scene_.pins.size(); ++p) {
-      const SystemScene::Pin& pin = scene_.pins[p];
+      const Scene::Pin& pin = scene_.pins[p];
       std::string planets;
       for (const System::Body& body : system_.bodies)
         if (body.on != System::kGround) planets += (planets.empty() ? "" : ", ") + body.name;
@@ -342,7 +341,7 @@ class Layout {
 
   void take_drives() {
     for (size_t d = 0; d < scene_.drives.size(); ++d) {
-      const SystemScene::Drive& drive = scene_.drives[d];
+      const Scene::Drive& drive = scene_.drives[d];
       const int body = placed(drive.gear);
       if (body < 0 || system_.bodies[static_cast<size_t>(body)].on != System::kGround)
         reject("drive", d, "'gear' in [drive] = '", drive.gear,
@@ -371,7 +370,7 @@ class Layout {
     const std::vector<std::string> gears = gears_of(scene_, system_);
     std::vector<const GearDesign*> design(gears.size());
     for (size_t b = 0; b < gears.size(); ++b)
-      for (const SystemScene::Gear& gear : scene_.gears)
+      for (const SceneGear& gear : scene_.gears)
         if (gear.name == gears[b]) design[b] = &gear.design;
     for (size_t b = 0; b < gears.size(); ++b)
       for (size_t a = 0; a < b; ++a)
@@ -414,7 +413,7 @@ class Layout {
     reject("mesh", section_[m], names, ", their tip circles reach ", millimetres(room), remedy);
   }
 
-  const SystemScene& scene_;
+  const Scene& scene_;
   System system_;
   std::vector<size_t> section_;                 // [mesh] of the scene
   std::vector<std::vector<double>> positions_;  // [carrier] rad
@@ -436,18 +435,18 @@ void require_joined(const std::vector<std::array<std::string, 2>>& meshes) {
              "': ", kOneShaft);
 }
 
-System layout_of(const SystemScene& scene) {
+System layout_of(const Scene& scene) {
   return Layout(scene).make();
 }
 
-std::vector<std::string> gears_of(const SystemScene& scene, const System& layout) {
+std::vector<std::string> gears_of(const Scene& scene, const System& layout) {
   std::vector<std::string> out;
   for (const System::Body& body : layout.bodies) {
     out.emplace_back();
     if (body.kind == System::BodyKind::carrier) continue;
-    for (const SystemScene::Gear& gear : scene.gears)
+    for (const SceneGear& gear : scene.gears)
       if (gear.name == body.name) out.back() = gear.name;
-    for (const SystemScene::Carrier& carrier : scene.carriers)
+    for (const Scene::Carrier& carrier : scene.carriers)
       if (body.on != System::kGround && layout.bodies[static_cast<size_t>(body.on)].name == carrier.name)
         out.back() = carrier.planet;
   }

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "gear/train.h"
-#include "model/system_scene.h"
+#include "model/scene.h"
 
 namespace whine {
 
@@ -21,16 +21,16 @@ inline constexpr double kPositionDigits = 0.05;
 inline constexpr const char* kOneShaft =
     "gears that share a shaft are not computed, only gears in mesh; compute each stage by a scene of its own";
 
-// SystemSceneError at the first of the meshes (names of their gears) that no others join to the first mesh.
+// SectionError at the first of the meshes (names of their gears) that no others join to the first mesh.
 void require_joined(const std::vector<std::array<std::string, 2>>& meshes);
 
 // Bodies are in the order in which meshes name them, planets as <gear>1, <gear>2, ... in the order of their positions, carriers
-// last. Throws SystemSceneError with the section that is wrong: unknown names, gears that do not mesh, planets that cannot be
+// last. Throws SectionError with the section that is wrong: unknown names, gears that do not mesh, planets that cannot be
 // assembled, gears without a mesh that run into each other, meshes that do not form one train.
-System layout_of(const SystemScene& scene);
+System layout_of(const Scene& scene);
 
 // [body] the [gear.<name>] that a body of the layout is, "" of a carrier; [mesh] the [[mesh]] that a mesh of it comes from.
-std::vector<std::string> gears_of(const SystemScene& scene, const System& layout);
+std::vector<std::string> gears_of(const Scene& scene, const System& layout);
 std::vector<int> sections_of(const std::vector<GearMeshSpec>& meshes, const std::vector<std::string>& gears,
                              const System& layout);
 

@@ -185,40 +185,23 @@ int hunting_periods_of(std::vector<int> teeth) {
 }
 
 int hunting_periods(const Scene& scene) {
-  int periods = 1;
-  for (const std::string& name : scene.mesh.gear)
-    if (const SceneGear& gear = scene.gear(name); gear.teeth_differ())
-      periods = std::lcm(periods, gear.design.teeth);
-  return periods;
-}
-
-int hunting_periods(const SystemScene& scene) {
+  if (scene.pair()) {
+    const SceneGear &a = scene.gear(scene.mesh().gear[0]), &b = scene.gear(scene.mesh().gear[1]);
+    return std::lcm(a.teeth_differ() ? a.design.teeth : 1, b.teeth_differ() ? b.design.teeth : 1);
+  }
   std::vector<int> teeth;
   teeth.reserve(scene.gears.size());
-  for (const SystemScene::Gear& gear : scene.gears)
+  for (const SceneGear& gear : scene.gears)
     if (gear.teeth_differ()) teeth.push_back(gear.design.teeth);
   return hunting_periods_of(teeth);
 }
 
-namespace {
-
-constexpr int kStaticPositions = 128;
-
-int positions_of(int given, int periods, int most) {
-  constexpr int kMostInAll = 16384, kLeast = 16;
-  if (given > 0) return given;
-  return periods > 1 ? std::clamp(kMostInAll / periods, kLeast, most) : most;
-}
-
-}  // namespace
-
 int static_positions(const Scene& scene) {
-  return positions_of(scene.contact.positions, hunting_periods(scene),
-                      std::max(kStaticPositions, scene.time.steps_per_period));
-}
-
-int static_positions(const SystemScene& scene) {
-  return positions_of(scene.contact.positions, hunting_periods(scene), kStaticPositions);
+  constexpr int kMostInAll = 16384, kLeast = 16, kUsual = 128;
+  if (scene.contact.positions > 0) return scene.contact.positions;
+  const int periods = hunting_periods(scene),
+            most = scene.pair() ? std::max(kUsual, scene.time.steps_per_period) : kUsual;
+  return periods > 1 ? std::clamp(kMostInAll / periods, kLeast, most) : most;
 }
 
 }  // namespace whine

@@ -11,7 +11,6 @@
 
 #include "gear/involute.h"
 #include "model/scene.h"
-#include "model/system_scene.h"
 
 namespace whine {
 
@@ -62,11 +61,9 @@ int hunting_periods_of(std::vector<int> teeth);
 
 // The same of a scene; that of a pair has no limit.
 int hunting_periods(const Scene& scene);
-int hunting_periods(const SystemScene& scene);
 
 // Positions of the static stage in a mesh period: as the scene says; else 128, of a pair its steps_per_period if these are more, and fewer
 // where teeth differ.
 int static_positions(const Scene& scene);
-int static_positions(const SystemScene& scene);
 
 }  // namespace whine

@@ -65,23 +65,6 @@ void require_contact(const StaticResult& statics, const Fidelity& wanted, const 
        "\", the parameters of this stage say \"", wanted.contact, "\"; ", rebuild_advice(path));
 }
 
-std::string parameters_for(const Scene& scene, const std::string& path) {
-  const std::filesystem::path place(path);
-  const std::string name = place.filename().string();
-  if (name == "static.toml") return static_parameters(scene);
-  if (name == "impact.toml") return impact_parameters(scene);
-  if (name == "sweep.toml") return sweep_parameters(scene);
-  if (name == "map.toml") return map_parameters(scene);
-  if (name == "lumped.toml" || name == "lumped_map.toml")
-    return lumped_parameters(scene, name == "lumped.toml");
-  for (const SceneGear& gear : scene.gears) {
-    const std::string settings = body_parameters(scene, gear.name),
-                      folder = place.parent_path().filename().string();
-    if (name == "body.toml" && (folder == body_hash(settings) || folder == gear.name)) return settings;
-  }
-  return "";
-}
-
 std::string recorded_scene(const std::string& home) {
   const std::string path = home + kRecord;
   if (!std::filesystem::is_regular_file(path)) return "";

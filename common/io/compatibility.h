@@ -30,10 +30,6 @@ std::vector<ReducedBody> read_bodies(const NamedFiles& files, const SystemStatic
 // stage parameters of a later stage say.
 void require_contact(const StaticResult& statics, const Fidelity& wanted, const std::string& path);
 
-// The stage parameters that a scene gives now for the path of an earlier one, .../params/<stage>.toml or .../<gear's
-// hash>/body.toml; empty if none of the scene's stage parameters stand there.
-std::string parameters_for(const Scene& scene, const std::string& path);
-
 // The file that gear-scene last cut into the folder `home` (out/<scene>), from the working folder; empty if not known.
 std::string recorded_scene(const std::string& home);
 

@@ -7,7 +7,7 @@
 #include "base/tool.h"
 #include "io/compatibility.h"
 #include "io/publish.h"
-#include "io/system_scene.h"
+#include "io/scene.h"
 
 namespace whine {
 namespace {
@@ -28,11 +28,7 @@ std::string scene_of_settings(const std::string& settings) {
 std::string against_scene(const std::string& artifact, const InputRecord& input, std::string scene,
                           bool& fresh) {
   if (scene.empty()) scene = scene_of_settings(input.path);
-  const auto today = [&] {
-    if (is_system_scene(scene)) return system_parameters_for(scene, input.path);
-    return parameters_for(read_scene(scene), input.path);
-  };
-  const std::string now = scene.empty() ? "" : today();
+  const std::string now = scene.empty() ? "" : parameters_for(scene, input.path);
   if (now.empty())
     return text("fresh: the stage parameters are what they were; not compared with a scene",
                 scene.empty() ? ", give --scene" : "");

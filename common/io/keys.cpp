@@ -14,12 +14,12 @@ const KeyList& scene_keys() {
   static struct {
     std::string error_file, bearing_gear;
     GearWords words;
-    SystemScene::Gear gear;
+    SceneGear gear;
     Scene scene;
-    SystemScene::Mesh mesh;
-    SystemScene::Carrier carrier;
-    SystemScene::Pin pin;
-    SystemScene::Drive drive;
+    Scene::Mesh mesh;
+    Scene::Carrier carrier;
+    Scene::Pin pin;
+    Scene::Drive drive;
   } v;
   static const KeyList list = [] {
     GearDesign& design = v.gear.design;
@@ -31,10 +31,10 @@ const KeyList& scene_keys() {
                                 error_file_key(v.error_file),
                                 keys(design).section("crack"),
                                 keys(v.gear.material),
-                                keys(v.scene.mesh).section("mesh"),
+                                keys(v.mesh.spec).section("mesh"),
                                 bearing_gear_key(v.bearing_gear),
                                 keys(v.gear.bearing),
-                                keys(v.scene.mesh.friction),
+                                keys(v.mesh.spec.friction),
                                 keys(v.scene.damping),
                                 keys(v.scene.operation),
                                 keys(v.scene.fidelity),

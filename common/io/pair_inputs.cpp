@@ -9,7 +9,7 @@
 #include "io/artifacts.h"
 #include "io/compatibility.h"
 #include "io/provenance.h"
-#include "io/system_scene.h"
+#include "io/scene.h"
 #include "results/reduced_body.h"
 #include "results/static.h"
 #include "system/load_balance.h"

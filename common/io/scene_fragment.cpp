@@ -95,55 +95,46 @@ class Fragment {
   std::ostringstream out_;
 };
 
-}  // namespace
-
-namespace {
-
 std::string teeth_words(const Traits& of) {
   const bool cracked = has(of, Trait::cracked);
   return text(has(of, Trait::differing) ? "differ" : cracked ? "" : "alike", cracked ? " cracked" : "");
 }
 
-}  // namespace
-
-std::string system_fragment(const SystemScene& scene, const System& layout, const std::string& path,
-                            const std::string& stem, const BodyHashes& bodies) {
-  const Traits able = traits(scene, layout);
-  const bool rigid = has(able, Trait::rigid_gears);
-  Fragment out(path, stem);
-  out("KIND", rigid ? "rigid" : "train");
-  out.yes_or_no("PLANETS", !has(able, Trait::no_planets));
-  if (rigid) return out.words();
-  out.gears(bodies, {input_torque(layout)});
-  out.yes_or_no("MOVES", !has(able, Trait::no_speeds));
-  out("WIDTH", scene.fidelity.width);
-  out("TEETH", teeth_words(able));
-  std::string meshes;
-  for (size_t m = 0; m < layout.meshes.size(); ++m) meshes += (m > 0 ? " " : "") + mesh_name(layout, m);
-  out("MESHES", meshes);
-  return out.words();
+// What makefiles ask of pairs alone.
+void add_pair(Fragment& out, const Scene& scene, Traits able) {
+  const GearMeshSpec& mesh = scene.mesh();
+  out("DRIVER", mesh.gear[0]);
+  out("DRIVEN", mesh.gear[1]);
+  const auto modified = [&](size_t g) {
+    return scene.gear(mesh.gear[g]).modification != FlankModification{};
+  };
+  out.yes_or_no("MODIFIED", modified(0) || modified(1));
+  out.yes_or_no("FRICTION", mesh.friction.acts());
+  out("BEARINGS", mesh.on_bearings() ? "elastic" : "rigid");
+  for (auto& level : traits(scene.fidelity)) able.push_back(std::move(level));
+  out.yes_or_no("RINGS_DOWN", not_taken("impact", able).empty());
 }
 
-std::string scene_fragment(const Scene& scene, const std::string& path, const std::string& stem,
-                           const BodyHashes& bodies) {
-  const Traits able = traits(scene);
-  bool modified = false;
-  for (const std::string& gear : scene.mesh.gear)
-    modified |= scene.gear(gear).modification != FlankModification{};
-  Traits still = able;
-  for (auto& level : traits(scene.fidelity)) still.push_back(std::move(level));
+}  // namespace
+
+std::string scene_fragment(const Scene& scene, const System& layout, const std::string& path,
+                           const std::string& stem, const BodyHashes& bodies) {
+  const Traits able = traits(scene, layout);
   Fragment out(path, stem);
-  out("KIND", "pair");
-  out.gears(bodies, scene.operation.torques);
-  out("DRIVER", scene.mesh.gear[0]);
-  out("DRIVEN", scene.mesh.gear[1]);
-  out.yes_or_no("MOVES", not_taken("sweep", able).empty());
+  out("KIND", scene.pair() ? "pair" : scene.rigid() ? "rigid" : "train");
+  if (!scene.pair()) out.yes_or_no("PLANETS", !has(able, Trait::no_planets));
+  if (scene.rigid()) return out.words();
+  out.gears(bodies, scene.pair() ? scene.operation.torques : std::vector{input_torque(layout)});
+  out.yes_or_no("MOVES", scene.pair() ? not_taken("sweep", able).empty() : !has(able, Trait::no_speeds));
   out("WIDTH", has(able, Trait::pair) ? WidthModel::one : scene.fidelity.width);
-  out.yes_or_no("RINGS_DOWN", not_taken("impact", still).empty());
   out("TEETH", teeth_words(able));
-  out.yes_or_no("MODIFIED", modified);
-  out.yes_or_no("FRICTION", scene.mesh.friction.acts());
-  out("BEARINGS", scene.mesh.on_bearings() ? "elastic" : "rigid");
+  if (scene.pair()) {
+    add_pair(out, scene, able);
+  } else {
+    std::string meshes;
+    for (size_t m = 0; m < layout.meshes.size(); ++m) meshes += (m > 0 ? " " : "") + mesh_name(layout, m);
+    out("MESHES", meshes);
+  }
   return out.words();
 }
 

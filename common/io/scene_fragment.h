@@ -23,7 +23,6 @@
 #include <vector>
 
 #include "io/scene.h"
-#include "io/system_scene.h"
 
 namespace whine {
 
@@ -43,12 +42,9 @@ std::string checked_scene_stem(const std::string& path);
 // without any.
 double input_torque(const System& layout);
 
-// Of a system; bodies: of elastic gears, empty of rigid ones.
-std::string system_fragment(const SystemScene& scene, const System& layout, const std::string& path,
-                            const std::string& stem, const BodyHashes& bodies);
-
-// path: of the scene; stem: its name without folder and extension, which the variables carry.
-std::string scene_fragment(const Scene& scene, const std::string& path, const std::string& stem,
-                           const BodyHashes& bodies);
+// path: of the scene; stem: its name without folder and extension, which the variables carry; layout: layout_in(); bodies: of elastic
+// gears, empty of rigid ones.
+std::string scene_fragment(const Scene& scene, const System& layout, const std::string& path,
+                           const std::string& stem, const BodyHashes& bodies);
 
 }  // namespace whine

@@ -10,9 +10,11 @@
 
 namespace whine {
 
-Traits traits(const Scene& scene) {
-  Traits out = traits(scene.mesh, scene.gear(scene.mesh.gear[0]).design,
-                      scene.gear(scene.mesh.gear[1]).design, scene.fidelity.width);
+namespace {
+
+Traits traits_of_pair(const Scene& scene) {
+  Traits out = traits(scene.mesh(), scene.gear(scene.mesh().gear[0]).design,
+                      scene.gear(scene.mesh().gear[1]).design, scene.fidelity.width);
   const auto lacks = [&](bool trait, Trait without) {
     if (!trait) out.emplace_back(without, "");
   };
@@ -21,7 +23,7 @@ Traits traits(const Scene& scene) {
   lacks(has(out, Trait::friction), Trait::no_friction);
   lacks(has(out, Trait::bearings), Trait::no_bearings);
   if (cracked) out.emplace_back(Trait::unlike_pair, "");
-  for (const std::string& gear : scene.mesh.gear)
+  for (const std::string& gear : scene.mesh().gear)
     if (!scene.gear(gear).errors.none())
       for (const Trait own : {Trait::unlike_pair, Trait::differing})
         out.emplace_back(own, "[gear." + gear + ".error]");
@@ -31,7 +33,10 @@ Traits traits(const Scene& scene) {
   return out;
 }
 
-Traits traits(const SystemScene& scene, const System& layout) {
+}  // namespace
+
+Traits traits(const Scene& scene, const System& layout) {
+  if (scene.pair()) return traits_of_pair(scene);
   const bool slices = scene.fidelity.width != WidthModel::one;
   Traits out{{scene.rigid() ? Trait::rigid_gears
               : slices      ? Trait::train_in_slices
@@ -41,7 +46,7 @@ Traits traits(const SystemScene& scene, const System& layout) {
     out.emplace_back(Trait::no_speeds,
                      "[operation] mesh_frequency_Hz = { from = 500, to = 5000, step = 50 }");
   if (layout.meshes.size() <= scene.meshes.size()) out.emplace_back(Trait::no_planets, "");
-  for (const SystemScene::Gear& gear : scene.gears) {
+  for (const SceneGear& gear : scene.gears) {
     if (!gear.errors.none()) out.emplace_back(Trait::differing, "[gear." + gear.name + ".error]");
     if (gear.design.crack.depth > 0) out.emplace_back(Trait::cracked, "[gear." + gear.name + ".crack]");
   }
@@ -87,25 +92,19 @@ void check_mesh(const std::string& mesh, const std::vector<std::string>& known) 
 
 }  // namespace
 
-void check_asked(const SceneRequest& asked, const Scene& scene, const std::string& path) {
-  check_goals(asked.goals, traits(scene), path);
-  check_speed(asked.at, scene.operation, path);
-  check_mesh(asked.mesh, {scene.mesh.gear[0] + "-" + scene.mesh.gear[1]});
-  if (!asked.axis.empty())
-    shaft_called(asked.axis,
-                 shafts_of(scene.mesh.gear, {scene.gear(scene.mesh.gear[0]).design.teeth,
-                                             scene.gear(scene.mesh.gear[1]).design.teeth}),
-                 "AXIS=" + asked.axis);
-}
-
-void check_asked(const SceneRequest& asked, const SystemScene& scene, const System& layout,
+void check_asked(const SceneRequest& asked, const Scene& scene, const System& layout,
                  const std::string& path) {
   check_goals(asked.goals, traits(scene, layout), path);
   check_speed(asked.at, scene.operation, path);
   std::vector<std::string> meshes;
   for (size_t m = 0; m < layout.meshes.size(); ++m) meshes.push_back(mesh_name(layout, m));
+  if (scene.pair()) meshes = {scene.mesh().gear[0] + "-" + scene.mesh().gear[1]};
   check_mesh(asked.mesh, meshes);
-  if (!asked.axis.empty()) shaft_called(asked.axis, shafts_of(layout), "AXIS=" + asked.axis);
+  if (asked.axis.empty()) return;
+  const auto teeth = [&](size_t g) { return scene.gear(scene.mesh().gear[g]).design.teeth; };
+  shaft_called(asked.axis,
+               scene.pair() ? shafts_of(scene.mesh().gear, {teeth(0), teeth(1)}) : shafts_of(layout),
+               "AXIS=" + asked.axis);
 }
 
 }  // namespace whine

@@ -6,12 +6,11 @@
 #include "model/capabilities.h"
 #include "model/scene.h"
 #include "model/system.h"
-#include "model/system_scene.h"
 
 namespace whine {
 
-Traits traits(const Scene& scene);
-Traits traits(const SystemScene& scene, const System& layout);
+// layout: layout_in() of io/scene.h.
+Traits traits(const Scene& scene, const System& layout);
 
 // path: as SCENE gives it. Error(input) names the first goal that the scene cannot reach, and what there is instead.
 void check_goals(const std::vector<std::string>& goals, const Traits& scene, const std::string& path);
@@ -26,8 +25,7 @@ struct SceneRequest {
 
 // check_goals(), and Error for an axis that no body gives, for a mesh that is none, and for a speed that the sweeps do not have, with the
 // nearest one.
-void check_asked(const SceneRequest& asked, const Scene& scene, const std::string& path);
-void check_asked(const SceneRequest& asked, const SystemScene& scene, const System& layout,
+void check_asked(const SceneRequest& asked, const Scene& scene, const System& layout,
                  const std::string& path);
 
 }  // namespace whine

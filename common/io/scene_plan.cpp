@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <sstream>
-#include <type_traits>
 
 #include "base/error.h"
 #include "base/format.h"
@@ -10,7 +9,6 @@
 #include "gear/scene_cost.h"
 #include "io/scene.h"
 #include "io/scene_sections.h"
-#include "io/system_scene.h"
 
 namespace whine {
 namespace {
@@ -24,8 +22,7 @@ void add_row(std::ostringstream& out, const std::string& first, const std::strin
   out << padded(first, kWide) << padded(second, kNarrow) << padded(third, kNarrow) << fourth << "\n";
 }
 
-template <class AnyScene>
-std::string words_of(const AnyScene& scene, const KeyGiven& given) {
+std::string words_of(const Scene& scene, const KeyGiven& given) {
   constexpr double kPercent = 100, kMegabyte = 1e6;
   const DiscretisationPlan plan = discretisation_plan(scene, given);
   const double accepted = scene.time.accepted_error;
@@ -47,8 +44,8 @@ std::string words_of(const AnyScene& scene, const KeyGiven& given) {
                               ? ", which the settings that the scene gives do not allow"
                               : "")
                    : std::string("; [accuracy] rms_percent would choose settings by an accepted error")));
-  out << "mesh resonance " << (std::is_same_v<AnyScene, Scene> ? "" : "of two gears alone, the highest, ")
-      << "expected near " << fixed(plan.natural_frequency, 0) << " Hz, of 20 N/(mm um) and the inertias\n\n";
+  out << "mesh resonance " << (scene.pair() ? "" : "of two gears alone, the highest, ") << "expected near "
+      << fixed(plan.natural_frequency, 0) << " Hz, of 20 N/(mm um) and the inertias\n\n";
   add_row(out, "stage", "runs", "CPU (s) each", "memory (MB)");
   double all = 0;
   for (const StageCost& cost : stage_costs(scene)) {
@@ -64,8 +61,7 @@ std::string words_of(const AnyScene& scene, const KeyGiven& given) {
 
 std::string plan_words(const std::string& path) {
   const Source source(path);
-  if (!is_system(source)) return words_of(read_scene(path), keys_given(source));
-  const SystemScene scene = read_system_scene(path);
+  const Scene scene = read_scene(path);
   if (scene.rigid())
     fail(Failure::input, path,
          ": gears of body = \"rigid\" have no discretisation; there is nothing to plan");

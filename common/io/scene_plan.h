@@ -5,7 +5,7 @@
 namespace whine {
 
 // A table in words: settings, whether the scene gives them or [accuracy] chose them, their errors of the RMS in motion; CPU time and
-// memory of the stages. Errors as read_scene() and read_system_scene(); Error(input) for a system of rigid gears.
+// memory of the stages. Errors as read_scene(); Error(input) for a system of rigid gears.
 std::string plan_words(const std::string& path);
 
 }  // namespace whine

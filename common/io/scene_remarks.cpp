@@ -6,10 +6,11 @@
 #include "gear/rack_tip.h"
 #include "gear/scene_cost.h"
 #include "gear/scene_geometry.h"
+#include "io/scene.h"
 #include "io/scene_goals.h"
 #include "io/scene_place.h"
-#include "io/system_scene.h"
 #include "system/near_interference.h"
+#include "system/rigid_system.h"
 #include "system/undamped_depth.h"
 
 namespace whine {
@@ -23,9 +24,8 @@ ScenePlace place_in(const std::string& path) {
 }
 
 // Defaults that are not what the table of keys says, since that does not fit.
-template <class AnyScene>
-void add_defaults(const AnyScene& scene, const std::string& path, Lines& out) {
-  for (const auto& gear : scene.gears) {
+void add_defaults(const Scene& scene, const std::string& path, Lines& out) {
+  for (const SceneGear& gear : scene.gears) {
     const double radius = gear.design.rack_tip_radius;
     const std::string section = "gear." + gear.name;
     if (radius == kStandardRackTip || scene_gives(path, section, "rack_tip_radius")) continue;
@@ -37,8 +37,26 @@ void add_defaults(const AnyScene& scene, const std::string& path, Lines& out) {
   }
 }
 
-template <class AnyScene>
-void add_of_gears_and_damping(const AnyScene& scene, const std::string& path, Lines& out) {
+}  // namespace
+
+void check_scene(const Scene& scene, const System& layout, const std::string& path) {
+  if (scene.rigid()) return static_cast<void>(rigid_system(layout));
+  const ScenePlace where = place_in(path);
+  check_geometry(scene, where);
+  check_inertia(scene, where);
+  check_at_rest_in(scene, layout, path);
+  check_undamped_depth(scene, layout, where);
+}
+
+Lines scene_lines(const Scene& scene, const System& layout, const std::string& path) {
+  Lines out;
+  add_defaults(scene, path, out);
+  if (!scene.rigid())
+    for (const auto& [section, words] : near_interferences(scene, layout, ForceBound::largest)) {
+      const auto& [driver, driven] = scene.meshes[section].spec.gear;
+      out.push_back(text("warning: ", scene.pair() ? scene_place(path, {"mesh"}, "") : path,
+                         ": [[mesh]] of '", driver, "' and '", driven, "': statics may find that ", words));
+    }
   for (const std::string& warning : scene_warnings(scene, place_in(path)))
     out.push_back("warning: " + warning);
   const std::string damping =
@@ -47,51 +65,12 @@ void add_of_gears_and_damping(const AnyScene& scene, const std::string& path, Li
     out.push_back("warning: " + scene_place(path, {"damping"}, damping) +
                   ": motions are rejected: " + damping);
   for (const std::string& remark : scene_remarks(scene)) out.push_back(path + ": " + remark);
-}
-
-}  // namespace
-
-void check_scene(const Scene& scene, const std::string& path) {
-  const ScenePlace where = place_in(path);
-  check_geometry(scene, where);
-  check_inertia(scene, where);
-  check_undamped_depth(scene, where);
-  if (const std::string words = near_interference(scene, ForceBound::least); !words.empty())
-    fail(Failure::input, where({"mesh"}, ""), ": [[mesh]]: ", words);
-}
-
-void check_scene(const SystemScene& scene, const System& layout, const std::string& path) {
-  const ScenePlace where = place_in(path);
-  check_system_geometry(scene, where);
-  check_inertia(scene, where);
-  check_at_rest_in(scene, layout, path);
-  check_undamped_depth(scene, layout, where);
-}
-
-Lines scene_lines(const Scene& scene, const std::string& path) {
-  Lines out;
-  add_defaults(scene, path, out);
-  if (const std::string words = near_interference(scene, ForceBound::largest); !words.empty())
-    out.push_back("warning: " + scene_place(path, {"mesh"}, "") + ": statics may find that " + words);
-  add_of_gears_and_damping(scene, path, out);
-  const Traits of = traits(scene);
+  const Traits of = traits(scene, layout);
   if (const auto& [level, why] = of[0];
       level == Trait::pair_of_bodies && !scene_gives(path, "fidelity", "width"))
     out.push_back(text("note: ", path, ": ", why,
                        ", so width = \"body\" in [fidelity]: bodies in three dimensions, at rest; ",
                        "motion needs width = \"slices\""));
-  for (const std::string& cost : costs(scene)) out.push_back(path + ": " + cost);
-  return out;
-}
-
-Lines scene_lines(const SystemScene& scene, const System& layout, const std::string& path) {
-  Lines out;
-  add_defaults(scene, path, out);
-  if (!scene.rigid())
-    for (const auto& [section, words] : near_interferences(scene, layout, ForceBound::largest))
-      out.push_back(text("warning: ", path, ": [[mesh]] of '", scene.meshes[section].spec.gear[0], "' and '",
-                         scene.meshes[section].spec.gear[1], "': statics may find that ", words));
-  add_of_gears_and_damping(scene, path, out);
   for (const std::string& cost : costs(scene)) out.push_back(path + ": " + cost);
   for (const std::string& remark : motion_remarks(scene)) out.push_back(remark);
   return out;

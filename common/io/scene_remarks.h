@@ -5,17 +5,14 @@
 
 #include "model/scene.h"
 #include "model/system.h"
-#include "model/system_scene.h"
 
 namespace whine {
 
-// Throws Error(input) for gears that cannot exist or run together, and for contacts that statics would reject.
-void check_scene(const Scene& scene, const std::string& path);
-void check_scene(const SystemScene& scene, const System& layout, const std::string& path);
+// Throws Error(input) for gears that cannot exist or run together, and for contacts that statics would reject. layout: layout_in().
+void check_scene(const Scene& scene, const System& layout, const std::string& path);
 
 // What to know of a scene that passes, a line each: defaults that do not fit, what statics or motions may reject, faces of
 // unequal width, what takes long.
-std::vector<std::string> scene_lines(const Scene& scene, const std::string& path);
-std::vector<std::string> scene_lines(const SystemScene& scene, const System& layout, const std::string& path);
+std::vector<std::string> scene_lines(const Scene& scene, const System& layout, const std::string& path);
 
 }  // namespace whine

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "io/artifact.h"
-#include "io/system_scene.h"
+#include "io/scene.h"
 
 namespace whine {
 namespace {

@@ -1,5 +1,7 @@
 #include "io/scene.h"
 
+#include <filesystem>
+
 #include "base/error.h"
 #include "gear/tooth_errors.h"
 #include "io/keys.h"
@@ -7,7 +9,6 @@
 #include "io/section_reader.h"
 #include "io/stage_parameters_text.h"
 #include "io/study.h"
-#include "io/system_scene.h"
 #include "model/capabilities.h"
 
 namespace whine {
@@ -52,10 +53,10 @@ std::string body_parameters(const BodyParameters& chosen) {
 namespace {
 
 StaticParameters static_of(const Scene& scene) {
-  StaticParameters out{scene.mesh, scene.fidelity, scene.contact};
+  StaticParameters out{scene.mesh(), scene.fidelity, scene.contact};
   out.contact.positions = static_positions(scene);
   // make redoes static.h5 by these hashes when a scene goes back to an earlier design, whose body.h5 is older than it.
-  for (int g = 0; g < kSides; ++g) out.body[g] = body_hash(body_parameters(scene, scene.mesh.gear[g]));
+  for (int g = 0; g < kSides; ++g) out.body[g] = body_hash(body_parameters(scene, scene.mesh().gear[g]));
   return out;
 }
 
@@ -85,7 +86,7 @@ struct Motion {
 Motion motion_of(const Scene& scene) {
   if (scene.operation.torques.empty()) fail(Failure::input, "the scene lists no torque");
   Motion out;
-  for (int g = 0; g < kSides; ++g) out.p.inertia[g] = scene.gear(scene.mesh.gear[g]).total_inertia;
+  for (int g = 0; g < kSides; ++g) out.p.inertia[g] = scene.gear(scene.mesh().gear[g]).total_inertia;
   out.p.damping = scene.damping;
   out.p.fidelity = scene.fidelity;
   out.p.frequency_from = scene.operation.frequency_from;
@@ -160,8 +161,45 @@ std::string variant_stage_parameters(const Scene& scene, double torque,
 }
 
 std::string variant_stage_parameters(const StudyVariant& variant, const std::vector<Direction>& directions) {
-  return variant.train ? system_variant_parameters(*variant.train, variant.layout, directions)
-                       : variant_stage_parameters(variant.scene, variant.torque, directions);
+  return variant.scene.pair() ? variant_stage_parameters(variant.scene, variant.torque, directions)
+                              : system_variant_parameters(variant.scene, variant.layout, directions);
+}
+
+BodySettings body_parameters_of(const Scene& scene) {
+  BodySettings out;
+  for (const SceneGear& gear : scene.gears)
+    if (!scene.rigid()) out.emplace_back(gear.name, body_parameters(scene, gear.name));
+  return out;
+}
+
+std::vector<std::pair<std::string, std::string>> stage_parameters_of(const Scene& scene,
+                                                                     const System& layout) {
+  if (scene.rigid()) return {{"modes.toml", system_parameters(layout)}};
+  if (scene.pair())
+    return {{"static.toml", static_parameters(scene)},
+            {"impact.toml", impact_parameters(scene)},
+            {"sweep.toml", sweep_parameters(scene)},
+            {"map.toml", map_parameters(scene)},
+            {"lumped.toml", lumped_parameters(scene, true)},
+            {"lumped_map.toml", lumped_parameters(scene, false)}};
+  std::vector<std::pair<std::string, std::string>> out{
+      {"static.toml", system_static_parameters(static_parameters_of(scene, layout))}};
+  if (scene.operation.frequency_to == 0) return out;
+  const SystemSweepParameters moving = sweep_parameters_of(scene, layout);
+  out.emplace_back("sweep.toml", system_sweep_parameters(moving));
+  out.emplace_back("impact.toml", system_impact_parameters(moving));
+  return out;
+}
+
+std::string parameters_for(const std::string& path_of_scene, const std::string& path) {
+  const Scene scene = read_scene(path_of_scene);
+  const std::filesystem::path place(path);
+  const std::string name = place.filename().string(), folder = place.parent_path().filename().string();
+  for (const auto& [own, words] : stage_parameters_of(scene, layout_in(scene, path_of_scene)))
+    if (name == own) return words;
+  for (const auto& [gear, settings] : body_parameters_of(scene))
+    if (name == "body.toml" && (folder == body_hash(settings) || folder == gear)) return settings;
+  return "";
 }
 
 std::string body_hash(const std::string& settings) {

@@ -17,9 +17,9 @@
 #include "gear/system_layout.h"
 #include "io/keys.h"
 #include "io/publish.h"
+#include "io/scene.h"
 #include "io/section_reader.h"
 #include "io/suggestion.h"
-#include "io/system_scene.h"
 #include "io/toml.h"
 #include "io/variant.h"
 
@@ -311,7 +311,7 @@ void read_fixed(const StudyFile& file, const toml::table& table, const std::stri
 TrainNames names_in_train(const StudyFile& file, const Study& study) {
   Words changes;
   for (const auto& [name, value] : study.fixed) changes.push_back(name + "=" + value);
-  const SystemScene scene = read_system_variant_of(study.scene, scene_variant(study.scene, changes));
+  const Scene scene = read_variant_of(study.scene, scene_variant(study.scene, changes));
   const toml::node& at = *file.root().get("scene");
   if (scene.rigid())
     file.reject(at, study.scene,
@@ -576,13 +576,10 @@ StudyVariant study_variant(const Study& study, long index, const std::vector<std
   }
   try {
     const std::string variant = scene_variant(study.scene, changes);
-    if (!study.train.empty()) {
-      SystemScene train = read_system_variant_of(study.scene, variant);
-      System layout = layout_of(train);
-      return {{}, 0, std::move(train), std::move(layout)};
-    }
-    const Scene scene = read_variant_of(study.scene, variant);
-    return {scene, torque > 0 ? torque : scene.operation.torques.front(), std::nullopt, {}};
+    Scene scene = read_variant_of(study.scene, variant);
+    if (scene.pair() && torque == 0) torque = scene.operation.torques.front();
+    System layout = scene.pair() ? System() : layout_of(scene);
+    return {std::move(scene), torque, std::move(layout)};
   } catch (const Error& error) {
     // The line of the key that the error is about, if it varies.
     std::string line;

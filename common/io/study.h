@@ -22,7 +22,6 @@
 //   colour = "operation.torque_Nm"
 //   map = ["overlap_ratio", "damping.rayleigh_stiffness_s"]  # in place of keys and colour, of a grid of two keys: cells over x and y
 #pragma once
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -90,11 +89,10 @@ std::vector<std::string> design_changes(const Study& study, size_t which);
 std::vector<std::string> variant_values(const Study& study, long index);
 
 struct StudyVariant {
-  Scene scene;  // of a pair
+  Scene scene;
   double torque =
-      0;  // N m: the one that varies, else the scene's first, which sets the bearing dampers anyway
-  std::optional<SystemScene> train;
-  System layout;  // of the train
+      0;  // N m, of a pair: the one that varies, else the scene's first, which sets the bearing dampers anyway
+  System layout;  // of a train
 };
 
 // The scene of variant `index`, whose values these are. Error(input) names study, variant and values, for whatever

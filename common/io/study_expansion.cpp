@@ -12,7 +12,6 @@
 #include "io/provenance.h"
 #include "io/publish.h"
 #include "io/scene.h"
-#include "io/system_scene.h"
 #include "results/variant.h"
 #include "system/system_rest.h"
 
@@ -47,9 +46,9 @@ void add_probes(const Study& study, std::vector<GatheredVariant>& variants) {
 
 // Gears and the stage parameters of their bodies; of a pair the driver first.
 BodySettings bodies_of(const StudyVariant& variant) {
-  if (variant.train) return body_parameters_of(*variant.train);
+  if (!variant.scene.pair()) return body_parameters_of(variant.scene);
   BodySettings out;
-  for (const std::string& gear : variant.scene.mesh.gear)
+  for (const std::string& gear : variant.scene.mesh().gear)
     out.emplace_back(gear, body_parameters(variant.scene, gear));
   return out;
 }
@@ -57,22 +56,19 @@ BodySettings bodies_of(const StudyVariant& variant) {
 // Where variants outside the model's range are marked their stage checks the inertias.
 void check_variant(const StudyVariant& variant, const Study& study, const ScenePlace& where) {
   const bool inertia = !study.directions.empty() && !study.marks_outside;
-  if (!variant.train) {
-    check_geometry(variant.scene, where);
-    if (inertia) check_inertia(variant.scene, where);
-    return;
-  }
-  check_system_geometry(*variant.train, where);
-  if (inertia) check_inertia(*variant.train, where);
+  check_geometry(variant.scene, where);
+  if (inertia) check_inertia(variant.scene, where);
+  if (variant.scene.pair()) return;
   try {
-    check_at_rest(*variant.train, variant.layout);
-  } catch (const SystemSceneError& error) {
+    check_at_rest(variant.scene, variant.layout);
+  } catch (const SectionError& error) {
     fail(Failure::input, where({}, ""), ": ", error.what());
   }
 }
 
 void require_one_train(const StudyVariant& variant, const Study& study, const std::string& where) {
-  if (variant.train && train_names(static_parameters_of(*variant.train, variant.layout)) != study.train)
+  if (!variant.scene.pair() &&
+      train_names(static_parameters_of(variant.scene, variant.layout)) != study.train)
     fail(
         Failure::input, where,
         ": the study varies which gears mesh; its quantities are of the meshes of the scene, so make a study of each");

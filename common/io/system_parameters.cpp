@@ -8,7 +8,6 @@
 #include "io/layout_codec.h"
 #include "io/scene.h"
 #include "io/stage_parameters_text.h"
-#include "io/system_scene.h"
 #include "io/variant.h"
 #include "system/rigid_system.h"
 #include "system/system_rest.h"
@@ -94,10 +93,10 @@ System read_system_parameters(const std::string& path) {
 namespace {
 
 // [body] Planets have the errors of their gear; what is drawn within a class differs from planet to planet by the seed.
-std::vector<ToothErrors> errors_of(const SystemScene& scene, const std::vector<std::string>& gear_of) {
+std::vector<ToothErrors> errors_of(const Scene& scene, const std::vector<std::string>& gear_of) {
   std::vector<ToothErrors> out(gear_of.size());
   for (size_t b = 0; b < gear_of.size(); ++b)
-    for (const SystemScene::Gear& gear : scene.gears)
+    for (const SceneGear& gear : scene.gears)
       if (gear.name == gear_of[b]) {
         const auto before =
             std::count(gear_of.begin(), gear_of.begin() + static_cast<std::ptrdiff_t>(b), gear.name);
@@ -109,19 +108,11 @@ std::vector<ToothErrors> errors_of(const SystemScene& scene, const std::vector<s
 
 }  // namespace
 
-BodySettings body_parameters_of(const SystemScene& scene) {
-  BodySettings out;
-  if (scene.rigid()) return out;
-  for (const SystemScene::Gear& gear : scene.gears)
-    out.emplace_back(gear.name, body_parameters({gear.design, gear.material, scene.body}));
-  return out;
-}
-
-SystemStaticParameters static_parameters_of(const SystemScene& scene, const System& layout) {
+SystemStaticParameters static_parameters_of(const Scene& scene, const System& layout) {
   SystemStaticParameters out;
   out.layout = layout;
   out.gear = gears_of(scene, layout);
-  for (const SystemScene::Mesh& mesh : scene.meshes) out.mesh.push_back(mesh.spec);
+  out.mesh = scene.specs();
   out.section = sections_of(out.mesh, out.gear, layout);
   out.fidelity = scene.fidelity;
   out.contact = scene.contact;
@@ -132,7 +123,7 @@ SystemStaticParameters static_parameters_of(const SystemScene& scene, const Syst
   return out;
 }
 
-SystemSweepParameters sweep_parameters_of(const SystemScene& scene, const System& layout) {
+SystemSweepParameters sweep_parameters_of(const Scene& scene, const System& layout) {
   SystemSweepParameters out;
   static_cast<SystemStaticParameters&>(out) = static_parameters_of(scene, layout);
   out.damping = scene.damping;
@@ -260,7 +251,7 @@ SystemSweepParameters read_system_impact_parameters(const std::string& path) {
   return read_system_motion(path, kSystemImpact, false);
 }
 
-std::string system_variant_parameters(const SystemScene& scene, const System& layout,
+std::string system_variant_parameters(const Scene& scene, const System& layout,
                                       const std::vector<Direction>& directions) {
   SystemSweepParameters p = sweep_parameters_of(scene, layout);
   StageParameters out(kSystemVariant);
@@ -281,30 +272,6 @@ VariantParameters read_system_variant_parameters(const std::string& path) {
   out.directions = *directions;
   walk(in, out.train, out.directions.empty() ? nullptr : &out.train, true);
   return out;
-}
-
-std::vector<std::pair<std::string, std::string>> stage_parameters_of(const SystemScene& scene,
-                                                                     const System& layout) {
-  if (scene.rigid()) return {{"modes.toml", system_parameters(layout)}};
-  std::vector<std::pair<std::string, std::string>> out{
-      {"static.toml", system_static_parameters(static_parameters_of(scene, layout))}};
-  if (scene.operation.frequency_to == 0) return out;
-  const SystemSweepParameters moving = sweep_parameters_of(scene, layout);
-  out.emplace_back("sweep.toml", system_sweep_parameters(moving));
-  out.emplace_back("impact.toml", system_impact_parameters(moving));
-  return out;
-}
-
-std::string system_parameters_for(const std::string& scene, const std::string& path) {
-  const SystemScene read = read_system_scene(scene);
-  const std::filesystem::path place(path);
-  const std::string name = place.filename().string();
-  for (const auto& [own, words] : stage_parameters_of(read, layout_in(read, scene)))
-    if (name == own) return words;
-  const std::string folder = place.parent_path().filename().string();
-  for (const auto& [gear, settings] : body_parameters_of(read))
-    if (name == "body.toml" && (folder == body_hash(settings) || folder == gear)) return settings;
-  return "";
 }
 
 }  // namespace whine

@@ -16,9 +16,11 @@ struct TraitWords {
   Trait trait;
   const char *name, *remedy;
 };
-constexpr const char
-    *kOneSlice = "take another goal, or spur gears under even load with width = \"one\" in [fidelity]",
-    *kSlices = "write width = \"slices\" in [fidelity]", *kTakeOut = "take the section out";
+constexpr const char *
+    kOneSlice = "take another goal, or spur gears under even load with width = \"one\" in [fidelity]",
+   *kSlices = "write width = \"slices\" in [fidelity]", *kTakeOut = "take the section out",
+   *kAsTrain =
+       "tell the pair as a train, of a helical or misaligned one with width = \"slices\" in [fidelity]: in place of torque_Nm a [[drive]] for each gear with its torque_Nm, that of the driven gear negative";
 // Goals of make, in the order in which messages offer them; then stages that have no goal of their own. "other": goals that are none of
 // these.
 constexpr std::string_view kGoals =
@@ -26,24 +28,22 @@ constexpr std::string_view kGoals =
     "face-load fig05 fig07 fig14-elastic tooth-loads order-cuts waterfall histories sound runup branches "
     "fig05-branches fig07-branches multipliers fold-curves impact sidebands crack residual-signal efficiency bearing-forces teeth "
     "harris-map jump-map lumped loaded animation compare modes mode-shapes";
-constexpr std::string_view kStages = "other one-slice motion width width-body";
+constexpr std::string_view kStages = "calibrate other one-slice motion width width-body";
 
-// Features of a list do not take these traits, for this reason.
+// Features of a list do not take these traits, for this reason; a remedy of its own stands in place of those of the traits.
 struct Row {
   std::string_view features;
   std::vector<Trait> traits;
-  const char* reason;
+  const char *reason, *remedy = nullptr;
 };
 const std::vector<Row>& rows() {
   using enum Trait;
   static const std::vector<Row> all{
-      {"modes mode-shapes",
-       {pair, pair_in_slices, pair_of_bodies},
-       "natural modes are of systems, a ring-down finds the one of a mesh"},
+      {"modes mode-shapes", {pair, pair_in_slices, pair_of_bodies}, "natural modes are of systems", kAsTrain},
       {"mesh reduce static flank-load fig01 fig12 fig13 profile-chart error-budget load-sharing sweep motion-errors "
        "face-load fig05 fig07 fig14-elastic tooth-loads order-cuts waterfall histories sound runup branches "
        "fig05-branches fig07-branches multipliers fold-curves impact sidebands crack residual-signal efficiency "
-       "bearing-forces teeth harris-map jump-map lumped loaded animation compare motion other",
+       "bearing-forces teeth harris-map jump-map lumped loaded animation compare calibrate motion other",
        {rigid_gears},
        "they have natural modes alone"},
       {"fig12 fig13", {train, train_in_slices}, "static draws them, of each mesh"},
@@ -61,7 +61,7 @@ const std::vector<Row>& rows() {
        "errors at rest are those of one mesh; motion-errors has those of sweeps"},
       {"jump-map lumped", {train, train_in_slices}, "one degree of freedom stands for one mesh"},
       {"fig01 profile-chart loaded animation", {train, train_in_slices}, "it draws the two gears of a pair"},
-      {"face-load other", {train, train_in_slices}, "it is of one mesh"},
+      {"face-load calibrate other", {train, train_in_slices}, "it is of one mesh"},
       {"flank-load face-load", {one_slice}, "it carries the same load all over the face"},
       {"efficiency", {no_friction}, "it loses nothing"},
       {"bearing-forces", {no_bearings}, "nothing gives way"},
@@ -79,7 +79,11 @@ const std::vector<Row>& rows() {
        {pair_of_bodies},
        "what sections of a body hold each other by has no inertia yet"},
       {"width", {train_of_bodies}, "they are of one mesh alone"},
-      {"impact sidebands crack residual-signal efficiency bearing-forces harris-map jump-map lumped loaded animation "
+      {"impact calibrate",
+       {pair_in_slices, pair_of_bodies},
+       "ring-downs over the face are of trains, which show the damping ratio of a rayleigh_stiffness_s",
+       kAsTrain},
+      {"sidebands crack residual-signal efficiency bearing-forces harris-map jump-map lumped loaded animation "
        "one-slice other",
        {pair_in_slices, pair_of_bodies},
        "it is of spur gears under even load"},
@@ -146,11 +150,11 @@ const TraitWords& words_of(Trait trait) {
 }
 
 // Of a feature and a trait; nullptr: taken.
-const char* reason_of(std::string_view feature, Trait trait) {
+const Row* row_of(std::string_view feature, Trait trait) {
   for (const Row& row : rows())
     if (lists(row.features, feature) &&
         std::find(row.traits.begin(), row.traits.end(), trait) != row.traits.end())
-      return row.reason;
+      return &row;
   return nullptr;
 }
 
@@ -167,15 +171,16 @@ std::vector<std::string> words_in(std::string_view words) {
 
 std::string not_taken(const std::string& feature, const Traits& of) {
   for (const auto& [trait, where] : of)
-    if (const char* reason = reason_of(known(feature), trait))
-      return text(words_of(trait).name, where.empty() ? "" : " (" + where + ")", ": ", reason);
+    if (const Row* row = row_of(known(feature), trait))
+      return text(words_of(trait).name, where.empty() ? "" : " (" + where + ")", ": ", row->reason);
   return "";
 }
 
 std::string refusal(const std::string& feature, const Traits& of) {
   for (const auto& fact : of)
-    if (const std::string why = not_taken(feature, {fact}); !why.empty())
-      return text(feature, " does not take ", why, "; ", words_of(fact.first).remedy);
+    if (const Row* row = row_of(known(feature), fact.first))
+      return text(feature, " does not take ", not_taken(feature, {fact}), "; ",
+                  row->remedy ? row->remedy : words_of(fact.first).remedy);
   return "";
 }
 
@@ -249,11 +254,11 @@ std::string capability_table() {
     std::vector<std::string> features = words_in(row.features), rest;
     for (const std::string& goal : known_goals())
       if (!lists(row.features, goal)) rest.push_back(goal);
-    std::string traits, remedies;
+    std::string traits, remedies = row.remedy ? row.remedy : "";
     for (const Trait trait : row.traits) {
       const TraitWords& words = words_of(trait);
       traits += (traits.empty() ? "" : ", ") + std::string(words.name);
-      if (remedies.find(words.remedy) == std::string::npos)
+      if (!row.remedy && remedies.find(words.remedy) == std::string::npos)
         remedies += (remedies.empty() ? "" : "; ") + std::string(words.remedy);
     }
     out << "| " << traits << " | "

@@ -148,6 +148,8 @@ struct SceneGear {
   FlankModification modification = {};
   ToothErrors errors = {};
   Bearing bearing = {};
+  double equivalent_mass =
+      0;  // kg: I / r_b^2, in place of total_inertia, of a rigid gear of a train; 0: not given
 
   bool teeth_differ() const { return !errors.none() || design.crack.depth > 0; }
 };

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "model/system_scene.h"
+#include "model/scene.h"
 
 namespace whine {
 
@@ -161,10 +161,10 @@ KeyList keys(BodyDiscretisation& body);  // of the plane body
 KeyList keys(WidthDiscretisation& width);
 KeyList keys(ContactDiscretisation& contact);
 KeyList keys(TimeDiscretisation& time);
-KeyList keys(SystemScene::Mesh& mesh);  // what a mesh of a system has beside `spec`
-KeyList keys(SystemScene::Carrier& carrier);
-KeyList keys(SystemScene::Pin& pin);
-KeyList keys(SystemScene::Drive& drive);
+KeyList keys(Scene::Mesh& mesh);  // what a mesh of a system has beside `spec`
+KeyList keys(Scene::Carrier& carrier);
+KeyList keys(Scene::Pin& pin);
+KeyList keys(Scene::Drive& drive);
 KeyList keys(System::Body& body);
 KeyList offset_keys(System::Body& body);  // its position error
 KeyList keys(System::Mesh& mesh);

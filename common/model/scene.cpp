@@ -1,7 +1,5 @@
 #include "model/scene.h"
 
-#include "base/error.h"
-
 namespace whine {
 
 const SceneGear& Scene::gear(const std::string& name) const {
@@ -9,6 +7,13 @@ const SceneGear& Scene::gear(const std::string& name) const {
     if (candidate.name == name) return candidate;
   }
   fail(Failure::input, "the scene has no gear '", name, "'");
+}
+
+std::vector<GearMeshSpec> Scene::specs() const {
+  std::vector<GearMeshSpec> out;
+  out.reserve(meshes.size());
+  for (const Mesh& own : meshes) out.push_back(own.spec);
+  return out;
 }
 
 }  // namespace whine

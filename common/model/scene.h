@@ -1,11 +1,13 @@
-// What a scene says, in SI: gears, their mesh, damping, operation, fidelity and accuracy. No file: io/ reads and writes it.
+// What a scene says, in SI: gears, their meshes, damping, operation, fidelity and accuracy. No file: io/ reads and writes it.
 #pragma once
 #include <array>
 #include <limits>
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "model/gear.h"
+#include "model/system.h"
 
 namespace whine {
 
@@ -158,18 +160,69 @@ struct TimeDiscretisation {
   double accepted_error = 0;
 };
 
+// What a scene says: gears and carriers, the meshes that join them, drives. A pair is a scene of one mesh whose torques stand in
+// `operation`; a train has drives. Positions of the bodies of a train follow from it (gear/system_layout.h).
 struct Scene {
+  struct Carrier {
+    std::string name, planet;       // planet: the gear at each position
+    int planets = 0;                // at equal spacing; 0: at `positions`
+    std::vector<double> positions;  // (planet) rad, counter-clockwise from +x
+    // kg m2: I, of the carrier about its axis. Planets on elastic pins are not included, each has its own mass. Planets on rigid pins
+    // are point masses of it: + N m r^2, r the radius of the pins. Likewise the mass of the carrier's bearing: + N m.
+    double inertia = 0;
+    double equivalent_mass = 0;  // kg: I / r^2, in place of inertia, of the same masses; 0: not given
+    Bearing bearing = {};
+  };
+  // Position error of the pin of one planet, from where the carrier should have it.
+  struct Pin {
+    std::string planet;                 // planet2: the gear of the carrier and a number, from 1
+    double radial = 0, tangential = 0;  // m: away from the carrier's axis; counter-clockwise about it
+  };
+  struct Mesh {
+    GearMeshSpec spec;  // that of one planet is for all planets
+    double direction =
+        0;  // rad, counter-clockwise from +x: to the pitch point; of planets their positions say it
+    double stiffness = 0;  // N m-1 along the line of action, mean; of rigid bodies
+  };
+  struct Drive {
+    std::string gear;  // or carrier
+    System::DriveKind kind = System::DriveKind::free;
+    double torque = 0, stiffness = 0;  // as System::Drive
+  };
   std::string title;
   std::vector<SceneGear> gears;  // `like` resolved
-  GearMeshSpec mesh;
+  std::vector<Carrier> carriers;
+  std::vector<Pin> pins;  // of planets that stand beside their places
+  std::vector<Mesh> meshes;
+  std::vector<Drive> drives;
   Damping damping;
-  Operation operation;
+  Operation operation;  // of a train the speeds alone; no speeds: no motion is asked for
   Fidelity fidelity;
   BodyDiscretisation body;
   ContactDiscretisation contact;
   TimeDiscretisation time;
 
+  bool pair() const { return carriers.empty() && drives.empty() && meshes.size() == 1; }
+  // Bodies of a train between springs, which have natural modes alone.
+  bool rigid() const { return !pair() && fidelity.body == BodyModel::rigid; }
   const SceneGear& gear(const std::string& name) const;  // throws Error(input) if there is none
+  // Of a pair, or the first one.
+  GearMeshSpec& mesh() { return meshes.front().spec; }
+  const GearMeshSpec& mesh() const { return meshes.front().spec; }
+  std::vector<GearMeshSpec> specs() const;  // [mesh]
+};
+
+// An error about one section of a list ([[mesh]], [[carrier]], [[drive]]), which who reads the file gives its line.
+class SectionError : public Error {
+ public:
+  SectionError(const char* section, size_t number, const std::string& message)
+      : Error(Failure::input, message), section_(section), number_(number) {}
+  const char* section() const { return section_; }
+  size_t number() const { return number_; }  // from 0, in the order of the file
+
+ private:
+  const char* section_;
+  size_t number_;
 };
 
 }  // namespace whine

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "model/scene.h"
+#include "model/gear.h"
 
 namespace whine {
 

@@ -12,14 +12,14 @@ KeyList equivalent_mass_key(double& equivalent_mass) {
   return k;
 }
 
-KeyList keys(SystemScene::Mesh& m) {
+KeyList keys(Scene::Mesh& m) {
   KeyList k("train_mesh");
   k.add(&m.direction, "direction_deg", kDegree, "90", {-360, 360}, "of a system: from the driver's axis to the pitch point, counter-clockwise from +x; without meaning where a planet takes part, whose positions say it");
   k.add(&m.stiffness, "stiffness_N_um", kNewtonPerMicrometre, "0.0", {0, 1e6}, "of a system with body = \"rigid\", which needs it: mean stiffness along the line of action");
   return k;
 }
 
-KeyList keys(SystemScene::Carrier& c) {
+KeyList keys(Scene::Carrier& c) {
   KeyList k("carrier");
   k.add(&c.name, "name", kNone, nullptr, {}, "name of the carrier, for [[bearing]] and [[drive]]");
   k.add(&c.planet, "planet", kNone, nullptr, {}, "name of the gear that it carries at each position; a [[mesh]] or [[bearing]] of this gear is one of each planet, its bearing a pin of the carrier");
@@ -30,7 +30,7 @@ KeyList keys(SystemScene::Carrier& c) {
   return k;
 }
 
-KeyList keys(SystemScene::Pin& p) {
+KeyList keys(Scene::Pin& p) {
   KeyList k("pin");
   k.add(&p.planet, "planet", kNone, nullptr, {}, "name of the planet: that of the carrier's gear and its number, in the order of the positions from 1, as planet2");
   k.add(&p.radial, "radial_um", kMicrometre, "0.0", {-1000, 1000}, "position error of its pin, away from the carrier's axis");
@@ -38,7 +38,7 @@ KeyList keys(SystemScene::Pin& p) {
   return k;
 }
 
-KeyList keys(SystemScene::Drive& d) {
+KeyList keys(Scene::Drive& d) {
   KeyList k("drive");
   k.add(&d.gear, "gear", kNone, nullptr, {}, "name of the gear or carrier that it acts on; one without a drive is free of torque");
   k.choice(d.kind, "kind", nullptr, "a torque, a rotation that is held, or nothing");

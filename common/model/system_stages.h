@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "model/scene.h"
 #include "model/stages.h"
-#include "model/system_scene.h"
 
 namespace whine {
 

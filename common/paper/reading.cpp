@@ -40,7 +40,7 @@ std::string path_at(int torque, const std::string& rest) {
 
 StaticParameters statics_of_reading(const Scene& scene, const CornerRule& corner, ContactModel contact) {
   StaticParameters settings;
-  settings.mesh = scene.mesh;
+  settings.mesh = scene.mesh();
   settings.mesh.corner = corner;
   settings.contact = scene.contact;
   settings.contact.positions = kPositions;
@@ -99,7 +99,7 @@ Index row_of(const ImpactResult& impact, const std::string& state) {
 }  // namespace
 
 BoreFamily::BoreFamily(const Scene& scene, const OpenChoices& choices)
-    : scene_(scene), gear_(scene.gear(scene.mesh.gear[0])) {
+    : scene_(scene), gear_(scene.gear(scene.mesh().gear[0])) {
   gear_.design.dedendum = choices.dedendum;
   gear_.design.tooth_thinning = choices.tooth_thinning;
   gear_.design.rack_tip_radius = choices.rack_tip_share * largest_rack_tip_radius(gear_.design);

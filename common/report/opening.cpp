@@ -167,8 +167,12 @@ std::string advice_line(const Advice& a) {
                        " times the damping ratio, ", fixed(kLossLimit * *a.damping_ratio * kPercent, 1),
                        " % here: lower the one by relief, contact ratio or torque, or raise the other."));
   out.insert(out.end(), a.more.begin(), a.more.end());
-  if (out.empty())
-    return "Nothing stands out: no tip edge carries load, and the vibration has no peak within the speeds.";
+  if (out.empty()) {
+    const char *edges = a.edges ? "no tip edge carries load" : "",
+               *peaks = a.moves ? "the vibration has no peak within the speeds" : "";
+    return text("Nothing stands out", a.edges || a.moves ? ": " : "", edges,
+                a.edges && a.moves ? ", and " : "", peaks, ".", a.moves ? "" : " No motion is computed.");
+  }
   std::string words;
   for (const std::string& sentence : out) words += (words.empty() ? "" : " ") + sentence;
   return words;

@@ -79,6 +79,8 @@ struct Advice {
   std::optional<double> stiffness_swing,
       damping_ratio;              // 1: first harmonic of the mesh stiffness over its mean; of the mesh
   std::vector<std::string> more;  // sentences of their own
+  bool edges = true,
+       moves = true;  // whether contact of tip edges off the line of action, and motion, are computed
 };
 // What to change first.
 std::string advice_line(const Advice& advice);

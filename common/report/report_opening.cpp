@@ -229,6 +229,10 @@ std::string advice(const FirstTorque& t) {
       if (of.factor > kUnequal)
         out.more.push_back(text("One of the meshes of ", of.name, " carries ", fixed(of.factor, 2),
                                 " times an equal share: let a central gear float on a softer [[bearing]]."));
+  out.moves = !t.sweeps.empty();
+  out.edges = t.rest && !t.rest->mesh[0].gear[0].design.helical();
+  if (!out.moves && t.rest && t.rest->mesh[0].fidelity.width == WidthModel::body)
+    out.more.emplace_back("Write width = \"slices\" in [fidelity] to see at which speeds it vibrates.");
   out.parts = parts(t.sweeps);
   out.avoid = speeds_to_avoid(t, out.parts);
   if (t.rest && t.sections.size() == 1 && t.rest->mesh[0].stiffness_harmonic.size() > 1)

@@ -51,20 +51,21 @@ void add_harmonics(Quantities& quantities, const Eigen::VectorXd& te, int period
   for (int h = 1; h <= count; ++h) quantities[text("te_harmonic_", h, end)] = spectrum.amplitude[h - 1];
 }
 
-void add_static(Quantities& quantities, const StaticResult& rest) {
+// Of one mesh at rest; end: as of add_mesh().
+void add_at_rest(Quantities& quantities, const StaticResult& rest, const std::string& end) {
   const Eigen::VectorXd& te = rest.transmission_error;
-  quantities["contact_ratio"] = rest.contact_ratio;
-  quantities["overlap_ratio"] = rest.face.overlap_ratio;
-  quantities["mean_stiffness"] = rest.mean_stiffness;
-  add_harmonics(quantities, te, rest.hunting_periods, "");
+  quantities["contact_ratio" + end] = rest.contact_ratio;
+  quantities["overlap_ratio" + end] = rest.face.overlap_ratio;
+  quantities["mean_stiffness" + end] = rest.mean_stiffness;
+  add_harmonics(quantities, te, rest.hunting_periods, end);
   const Index positions = te.size() / rest.hunting_periods;
   double largest = 0;
   for (int period = 0; period < rest.hunting_periods; ++period) {
     const auto own = te.segment(period * positions, positions);
     largest = std::max(largest, own.maxCoeff() - own.minCoeff());
   }
-  quantities["te_peak_to_peak_mesh"] = largest;
-  quantities["tooth_load_static"] = rest.tooth_load.maxCoeff();
+  quantities["te_peak_to_peak_mesh" + end] = largest;
+  quantities["tooth_load_static" + end] = rest.tooth_load.maxCoeff();
 }
 
 // Load sharing of the planets of each [[mesh]] that stands for several.
@@ -91,36 +92,28 @@ void add_sharing(Quantities& quantities, const SystemStaticResult& rest) {
   }
 }
 
-void add_static(Quantities& quantities, const SystemStaticResult& rest) {
-  const System& layout = rest.settings.layout;
-  add_sharing(quantities, rest);
-  for (size_t m = 0; m < rest.mesh.size(); ++m) {
-    const StaticResult& mesh = rest.mesh[m];
-    const std::string end = "." + rest.mesh_names[m];
-    add_harmonics(quantities, mesh.transmission_error, rest.hunting_periods, end);
-    quantities["mean_stiffness" + end] = mesh.mean_stiffness;
-    quantities["mesh_force_static" + end] = rest.mesh_force.col(static_cast<Index>(m)).maxCoeff();
-    quantities["tooth_load_static" + end] = mesh.tooth_load.maxCoeff();
-  }
-  for (size_t b = 0; b < layout.bodies.size(); ++b) {
-    double force = 0;
-    for (const MatrixRM& forces : rest.bearing_force)
-      force = std::max(force, forces.row(static_cast<Index>(b)).norm());
-    quantities["bearing_force_static." + layout.bodies[b].name] = force;
-  }
-}
-
 }  // namespace
 
 Quantities quantities_of(const StaticResult& rest) {
   Quantities out;
-  add_static(out, rest);
+  add_at_rest(out, rest, "");
   return out;
 }
 
 Quantities quantities_of(const SystemStaticResult& rest) {
+  if (!rest.of_train()) return quantities_of(rest.mesh[0]);
   Quantities out;
-  add_static(out, rest);
+  add_sharing(out, rest);
+  for (size_t m = 0; m < rest.mesh.size(); ++m) {
+    const std::string end = "." + rest.mesh_names[m];
+    add_at_rest(out, rest.mesh[m], end);
+    out["mesh_force_static" + end] = rest.mesh_force.col(static_cast<Index>(m)).maxCoeff();
+  }
+  for (size_t b = 0; b < rest.body_names.size(); ++b) {
+    double& force = out["bearing_force_static." + rest.body_names[b]];
+    for (const MatrixRM& forces : rest.bearing_force)
+      force = std::max(force, forces.row(static_cast<Index>(b)).norm());
+  }
   return out;
 }
 

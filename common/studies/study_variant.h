@@ -10,12 +10,9 @@
 
 namespace whine {
 
-// Fills what of the artifact is a parameter: gears, mesh, operation, damping, discretisation.
-VariantResult variant_parameters(const ReducedBody& driver, const ReducedBody& driven,
-                                 const VariantParameters& settings);
-
-// Of a train: its layout and what its quantities are of.
-VariantResult variant_parameters(const VariantParameters& settings);
+// Fills what of the artifact is a parameter: gears, mesh, operation, damping, discretisation; of a train its layout and what its
+// quantities are of. bodies: driver and driven gear, of a train [gear] of settings.train.body.
+VariantResult variant_parameters(const std::vector<ReducedBody>& bodies, const VariantParameters& settings);
 
 struct VariantResponse {
   Eigen::VectorXd quantity;     // SI, in the order of response_quantities()
@@ -23,12 +20,8 @@ struct VariantResponse {
 };
 
 // The response quantities are those of static_transmission at the variant's torque and of the response of sweep() in each
-// direction; equal to what the stages one by one answer, and so are the remarks. report(done, total, note) is called after
-// each speed. Throws as static_transmission, sweep and response.
-VariantResponse variant_response(const ReducedBody& driver, const ReducedBody& driven,
-                                 const VariantParameters& settings,
-                                 const std::function<void(long, long, const std::string&)>& report);
-// The same of a train, from system_at_rest and system_sweep. bodies: [gear] of settings.train.body.
+// direction, of a train of system_at_rest and system_sweep; equal to what the stages one by one answer, and so are the remarks.
+// report(done, total, note) is called after each speed. Throws as these.
 VariantResponse variant_response(const std::vector<ReducedBody>& bodies, const VariantParameters& settings,
                                  const std::function<void(long, long, const std::string&)>& report);
 

@@ -98,40 +98,31 @@ std::string near_interference(const SceneGear& driver, const SceneGear& driven, 
       ", or lower the torque");
 }
 
-std::string near_interference(const Scene& scene, ForceBound force) {
-  const double torque = *std::max_element(scene.operation.torques.begin(), scene.operation.torques.end());
-  const auto under = [&](double given, ForceBound bound) {
-    const SceneGear &driver = scene.gear(scene.mesh.gear[0]), &driven = scene.gear(scene.mesh.gear[1]);
-    return near_interference(driver, driven, scene.mesh, given / ToothGeometry(driver.design).base_radius(),
-                             bound);
-  };
-  const std::string words = under(torque, force);
-  return words.empty() ? words : words + torque_in_n_mm(torque, [&](double less) {
-                                   return under(less, ForceBound::largest).empty();
-                                 });
-}
-
-std::vector<std::pair<size_t, std::string>> near_interferences(const SystemScene& scene, const System& layout,
+std::vector<std::pair<size_t, std::string>> near_interferences(const Scene& scene, const System& layout,
                                                                ForceBound force) {
-  std::vector<GearMeshSpec> specs;
-  for (const SystemScene::Mesh& mesh : scene.meshes) specs.push_back(mesh.spec);
-  const std::vector<std::string> gears = gears_of(scene, layout);
-  const std::vector<int> sections = sections_of(specs, gears, layout);
-  const LoadBalance balance = load_balance(layout);
-  const auto gear_of = [&](int body) -> const SceneGear& {
-    return *std::find_if(scene.gears.begin(), scene.gears.end(), [&](const SceneGear& gear) {
-      return gear.name == gears[static_cast<size_t>(body)];
-    });
+  const auto under = [&](const GearMeshSpec& mesh, double load, ForceBound bound) {
+    return near_interference(scene.gear(mesh.gear[0]), scene.gear(mesh.gear[1]), mesh, load, bound);
   };
   std::vector<std::pair<size_t, std::string>> out;
+  if (scene.pair()) {
+    const double torque = *std::max_element(scene.operation.torques.begin(), scene.operation.torques.end()),
+                 radius = ToothGeometry(scene.gear(scene.mesh().gear[0]).design).base_radius();
+    const std::string words = under(scene.mesh(), torque / radius, force);
+    if (!words.empty())
+      out.emplace_back(0, words + torque_in_n_mm(torque, [&](double less) {
+                            return under(scene.mesh(), less / radius, ForceBound::largest).empty();
+                          }));
+    return out;
+  }
+  const std::vector<GearMeshSpec> specs = scene.specs();
+  const std::vector<int> sections = sections_of(specs, gears_of(scene, layout), layout);
+  const LoadBalance balance = load_balance(layout);
   for (size_t m = 0; m < layout.meshes.size(); ++m) {
     const auto section = static_cast<size_t>(sections[m]);
-    const auto& side = layout.meshes[m].side;
     // Planets are alike.
     if (!out.empty() && out.back().first == section) continue;
     const std::string words =
-        near_interference(gear_of(side[0].body), gear_of(side[1].body), specs[section],
-                          std::max(0.0, balance.load[static_cast<Eigen::Index>(m)]), force);
+        under(specs[section], std::max(0.0, balance.load[static_cast<Eigen::Index>(m)]), force);
     if (!words.empty()) out.emplace_back(section, words);
   }
   return out;

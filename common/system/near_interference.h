@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "gear/pair.h"
-#include "model/system_scene.h"
+#include "model/scene.h"
 
 namespace whine {
 
@@ -25,11 +25,9 @@ enum class ForceBound { least, largest };
 std::string near_interference(const SceneGear& driver, const SceneGear& driven, const GearMeshSpec& mesh,
                               double load, ForceBound force);
 
-// Of a pair under its largest torque.
-std::string near_interference(const Scene& scene, ForceBound force);
-
-// Of the meshes of a system of elastic gears that is in balance: number of the [[mesh]] section and words.
-std::vector<std::pair<size_t, std::string>> near_interferences(const SystemScene& scene, const System& layout,
+// Of a pair under its largest torque, of the meshes of a train of elastic gears that is in balance: number of the [[mesh]] section and
+// words.
+std::vector<std::pair<size_t, std::string>> near_interferences(const Scene& scene, const System& layout,
                                                                ForceBound force);
 
 }  // namespace whine

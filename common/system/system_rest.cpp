@@ -190,10 +190,13 @@ std::vector<Remark> remarks_on_train(const SystemStaticResult& a) {
 
 }  // namespace
 
-void check_at_rest(const SystemScene& scene, const System& layout) {
-  const auto reject = [](const char* section, size_t number, const auto&... words) {
-    throw SystemSceneError(section, number, text(words...));
-  };
+namespace {
+
+[[noreturn]] void reject(const char* section, size_t number, const auto&... words) {
+  throw SectionError(section, number, text(words...));
+}
+
+void check_balance(const Scene& scene, const System& layout) {
   for (size_t c = 0; c < scene.carriers.size(); ++c)
     for (size_t b = 0; b < layout.bodies.size(); ++b) {
       const System::Body& body = layout.bodies[b];
@@ -203,8 +206,7 @@ void check_at_rest(const SystemScene& scene, const System& layout) {
             "carrier", c, "carrier '", body.name,
             "' may turn and has no inertia: give 'inertia_kgm2' or 'equivalent_mass_kg', or hold it by a [[drive]] with kind = \"held\"");
     }
-  std::vector<GearMeshSpec> specs;
-  for (const SystemScene::Mesh& mesh : scene.meshes) specs.push_back(mesh.spec);
+  const std::vector<GearMeshSpec> specs = scene.specs();
   for (size_t m = 1; m < specs.size(); ++m)
     if (specs[m].contact_plane != specs[0].contact_plane)
       reject("mesh", m, "contact_plane = \"", specs[m].contact_plane, "\", and of the first [[mesh]] \"",
@@ -224,9 +226,16 @@ void check_at_rest(const SystemScene& scene, const System& layout) {
            " N); ", kFlowOfPower);
   }
   if (!(balance.load.maxCoeff() > 0)) reject("drive", 0, kNoTorque);
-  for (const auto& [section, words] : near_interferences(scene, layout, ForceBound::least))
-    reject("mesh", section, "[[mesh]] of '", specs[section].gear[0], "' and '", specs[section].gear[1],
-           "': ", words);
+}
+
+}  // namespace
+
+void check_at_rest(const Scene& scene, const System& layout) {
+  if (!scene.pair()) check_balance(scene, layout);
+  for (const auto& [section, words] : near_interferences(scene, layout, ForceBound::least)) {
+    const auto& [driver, driven] = scene.meshes[section].spec.gear;
+    reject("mesh", section, "[[mesh]] of '", driver, "' and '", driven, "': ", words);
+  }
 }
 
 SystemStaticResult system_at_rest(const SystemStaticParameters& settings,

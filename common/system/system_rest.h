@@ -3,17 +3,17 @@
 #include <string>
 #include <vector>
 
-#include "model/system_scene.h"
+#include "model/scene.h"
 #include "results/reduced_body.h"
 #include "results/static.h"
 #include "system/system.h"
 
 namespace whine {
 
-// Checks of a scene before its bodies are computed. Throws SystemSceneError with the section that is wrong: a carrier that may
+// Checks of a scene before its bodies are computed. Throws SectionError with the section that is wrong: a carrier that may
 // turn without an inertia, meshes of different contact_plane, torques that are not balanced, that pull a mesh apart or that no mesh
-// carries.
-void check_at_rest(const SystemScene& scene, const System& layout);
+// carries; of pairs, too, contact that leaves an involute at its root.
+void check_at_rest(const Scene& scene, const System& layout);
 
 // Of bodies ([gear] of settings.body) that of a gear, by its name.
 const ReducedBody& body_of(const SystemStaticParameters& settings, const std::vector<ReducedBody>& bodies,

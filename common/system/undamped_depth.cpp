@@ -41,8 +41,7 @@ struct Motion {
   double shortest_step = 0;  // s
 };
 
-template <class AnyScene>
-Motion motion_of(const AnyScene& scene, ContactModel contact) {
+Motion motion_of(const Scene& scene, ContactModel contact) {
   Motion out{
       scene.fidelity, scene.damping,
       1 / std::max(scene.time.min_sample_rate, scene.time.steps_per_period * scene.operation.frequency_to)};
@@ -71,14 +70,13 @@ std::string judged(const SceneGear& driver, const SceneGear& driven, const GearM
   return half_width > widest ? beyond_undamped_depth(half_width, widest, depth) : "";
 }
 
-}  // namespace
-
-void check_undamped_depth(const Scene& scene, const ScenePlace& where) {
-  const SceneGear &driver = scene.gear(scene.mesh.gear[0]), &driven = scene.gear(scene.mesh.gear[1]);
+// At the largest of the torques.
+void check_pair(const Scene& scene, const ScenePlace& where) {
+  const SceneGear &driver = scene.gear(scene.mesh().gear[0]), &driven = scene.gear(scene.mesh().gear[1]);
   if (scene.operation.torques.empty()) return;
   const double torque = *std::max_element(scene.operation.torques.begin(), scene.operation.torques.end());
   const auto under = [&](double given) {
-    return judged(driver, driven, scene.mesh, given / ToothGeometry(driver.design).base_radius(),
+    return judged(driver, driven, scene.mesh(), given / ToothGeometry(driver.design).base_radius(),
                   motion_of(scene, scene.fidelity.contact));
   };
   const std::string words = under(torque);
@@ -87,21 +85,19 @@ void check_undamped_depth(const Scene& scene, const ScenePlace& where) {
        torque_in_n_mm(torque, [&](double less) { return under(less).empty(); }));
 }
 
-void check_undamped_depth(const SystemScene& scene, const System& layout, const ScenePlace& where) {
+}  // namespace
+
+void check_undamped_depth(const Scene& scene, const System& layout, const ScenePlace& where) {
+  if (scene.pair()) return check_pair(scene, where);
   if (scene.rigid() || !(scene.operation.frequency_to > 0)) return;
   const LoadBalance balance = load_balance(layout);
-  std::vector<GearMeshSpec> specs;
-  for (const SystemScene::Mesh& mesh : scene.meshes) specs.push_back(mesh.spec);
+  const std::vector<GearMeshSpec> specs = scene.specs();
   const std::vector<int> section = sections_of(specs, gears_of(scene, layout), layout);
-  const auto gear = [&](const std::string& name) -> const SceneGear& {
-    return *std::find_if(scene.gears.begin(), scene.gears.end(),
-                         [&](const SystemScene::Gear& of) { return of.name == name; });
-  };
   for (size_t m = 0; m < section.size(); ++m) {
     const GearMeshSpec& spec = specs[static_cast<size_t>(section[m])];
     const std::string words =
-        judged(gear(spec.gear[0]), gear(spec.gear[1]), spec, balance.load[static_cast<Eigen::Index>(m)],
-               motion_of(scene, ContactModel::line));
+        judged(scene.gear(spec.gear[0]), scene.gear(spec.gear[1]), spec,
+               balance.load[static_cast<Eigen::Index>(m)], motion_of(scene, ContactModel::line));
     if (!words.empty())
       fail(Failure::input, where({"damping", "mesh"}, words), ": [[mesh]] of '", spec.gear[0], "' and '",
            spec.gear[1], "': ", words);

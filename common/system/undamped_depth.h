@@ -11,7 +11,7 @@
 
 #include "contact/half_plane_strip.h"
 #include "gear/scene_geometry.h"
-#include "model/system_scene.h"
+#include "model/scene.h"
 
 namespace whine {
 
@@ -26,7 +26,6 @@ std::string torque_in_n_mm(double torque, const std::function<bool(double)>& pas
 
 // Throws Error(input), with its place, for a scene whose largest torque, carried by one pair of teeth, makes a contact by Hertz that its
 // motion cannot hold: of lines, or of strips with time steps shorter than eta.
-void check_undamped_depth(const Scene& scene, const ScenePlace& where);
-void check_undamped_depth(const SystemScene& scene, const System& layout, const ScenePlace& where);
+void check_undamped_depth(const Scene& scene, const System& layout, const ScenePlace& where);
 
 }  // namespace whine

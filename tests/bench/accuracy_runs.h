@@ -14,7 +14,6 @@
 #include "gear/body_inertia.h"
 #include "gear/system_layout.h"
 #include "io/scene.h"
-#include "io/system_scene.h"
 #include "signal/response.h"
 #include "solid/mesher.h"
 #include "solid/reduce.h"
@@ -60,10 +59,20 @@ inline std::vector<ReducedBody> bodies_of(const std::vector<std::string>& texts)
 
 inline void no_report(long /*done*/, long /*total*/, const std::string& /*note*/) {}
 
+inline SceneRun run_train(const Scene& scene) {
+  const double start = cpu_seconds();
+  std::vector<std::string> texts;
+  for (const auto& [gear, words] : body_parameters_of(scene)) texts.push_back(words);
+  const SystemSweepParameters settings = sweep_parameters_of(scene, layout_of(scene));
+  return {response(system_sweep(settings, bodies_of(texts), Direction::up, no_report)),
+          cpu_seconds() - start};
+}
+
 inline SceneRun run_scene(const Scene& scene) {
+  if (!scene.pair()) return run_train(scene);
   const double start = cpu_seconds();
   const std::vector<ReducedBody> body =
-      bodies_of({body_parameters(scene, scene.mesh.gear[0]), body_parameters(scene, scene.mesh.gear[1])});
+      bodies_of({body_parameters(scene, scene.mesh().gear[0]), body_parameters(scene, scene.mesh().gear[1])});
   const StaticResult rest =
       static_transmission(body[0], body[1], through_file(static_parameters(scene), read_static_parameters),
                           scene.operation.torques.front());
@@ -74,17 +83,7 @@ inline SceneRun run_scene(const Scene& scene) {
   return {response(swept), cpu_seconds() - start};
 }
 
-inline SceneRun run_scene(const SystemScene& scene) {
-  const double start = cpu_seconds();
-  std::vector<std::string> texts;
-  for (const auto& [gear, words] : body_parameters_of(scene)) texts.push_back(words);
-  const SystemSweepParameters settings = sweep_parameters_of(scene, layout_of(scene));
-  return {response(system_sweep(settings, bodies_of(texts), Direction::up, no_report)),
-          cpu_seconds() - start};
-}
-
-template <class AnyScene>
-AnyScene at_few_speeds(AnyScene scene) {
+inline Scene at_few_speeds(Scene scene) {
   Operation& speeds = scene.operation;
   speeds.frequency_step = (speeds.frequency_to - speeds.frequency_from) / (kJudgedSpeedsOfScene - 1);
   return scene;
@@ -95,9 +94,8 @@ inline bool no_key(const std::string& /*key*/) {
 }
 
 // All settings left open, then chosen as by a scene that says nothing of accuracy.
-template <class AnyScene>
-AnyScene unasked(AnyScene scene) {
-  const AnyScene none;
+inline Scene unasked(Scene scene) {
+  const Scene none;
   scene.body = none.body;
   scene.contact = none.contact;
   scene.time = none.time;
@@ -106,10 +104,9 @@ AnyScene unasked(AnyScene scene) {
 }
 
 // The same for an accepted error.
-template <class AnyScene>
-AnyScene accepting(const AnyScene& of, double error) {
-  const AnyScene none;
-  AnyScene scene = of;
+inline Scene accepting(const Scene& of, double error) {
+  const Scene none;
+  Scene scene = of;
   scene.body = none.body;
   scene.contact = none.contact;
   scene.time = none.time;
@@ -119,10 +116,9 @@ AnyScene accepting(const AnyScene& of, double error) {
 }
 
 // Settings of which the laws of gear/accuracy.h say a quarter of an accepted error, 0.2 % at most, periodicity a thousandth of its own.
-template <class AnyScene>
-AnyScene reference_of(const AnyScene& of, double least_accepted) {
+inline Scene reference_of(const Scene& of, double least_accepted) {
   constexpr double kFarFiner = 0.25, kFine = 0.002, kPeriodicity = 1e-3;
-  AnyScene scene = accepting(of, std::min(kFine, kFarFiner * least_accepted));
+  Scene scene = accepting(of, std::min(kFine, kFarFiner * least_accepted));
   scene.time.periodicity *= kPeriodicity;
   return scene;
 }

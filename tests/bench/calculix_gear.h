@@ -1,5 +1,6 @@
 // A gear in three dimensions by CalculiX: the section of the whole gear in quadratic triangles (gear_mesh.h), extruded along axes that turn
-// with the helix to wedges of fifteen nodes (C3D15), held at its bore.
+// with the helix to wedges of fifteen nodes (C3D15), held at its bore. What is fine about one point of a flank, a patch, stays about the
+// contact line through it: sections slide along the involute, all of whose parallels have the same normals.
 #pragma once
 #include <Eigen/CholmodSupport>
 #include <Eigen/Geometry>
@@ -30,13 +31,15 @@ class CalculixGear {
   using Weights = std::vector<std::pair<int, double>>;  // node of the deck, 1
   using Vectors = std::map<int, Eigen::Vector3d>;       // node of the deck; 1
 
-  // border: m, ascending, of the layers of wedges; their middles are levels too.
+  // border: m, ascending, of the layers of wedges; their middles are levels too. With a patch flanks of tooth 0 that work know points of it alone.
   CalculixGear(const GearDesign& design, const Material& material, const GearMeshPlan& plan,
                const std::vector<double>& border)
       : tooth_(design),
         material_(material),
         helix_(helix_twist(design)),
         turned_(plan.turned),
+        patch_(plan.sides > 0 && helix_ != 0 ? plan.reach : 0),
+        middle_(plan.middle),
         mesh_(GearMesher(tooth_, plan).mesh()) {
     level_.push_back(border[0]);
     for (std::size_t i = 1; i < border.size(); ++i) {
@@ -48,7 +51,8 @@ class CalculixGear {
     for (const auto& [tag, at] : mesh_.node)
       for (std::size_t i = 0; i < level_.size(); ++i)
         if (i % 2 == 0 || corners.contains(tag)) {
-          place_.push_back(turned({at.x(), at.y(), level_[i]}, level_[i]));
+          const Vec2 p = slid(at, level_[i]);
+          place_.push_back(turned({p.x(), p.y(), level_[i]}, level_[i]));
           number_[{tag, i}] = static_cast<int>(place_.size());
         }
   }
@@ -79,15 +83,17 @@ class CalculixGear {
   // What the eight nodes of a side of a wedge say of a point on it; as a load, the nodal forces of a unit force.
   Weights at(const Point& point) const {
     const std::vector<FlankNode>& flank = mesh_.flank[point.side][point.tooth];
-    std::size_t i = 0, k = 0;
-    while (i + 4 < flank.size() && flank[i + 2].roll < point.roll) i += 2;
-    while (k + 4 < level_.size() && level_[k + 2] < point.z) k += 2;
     const auto arc = [&](double roll) { return tooth_.arc_length(roll); };
+    const double own =
+        arc(point.roll) - (point.side == 0 && point.tooth == 0 && patch_ > 0 ? slide(point.z) : 0);
+    std::size_t i = 0, k = 0;
+    while (i + 4 < flank.size() && arc(flank[i + 2].roll) < own) i += 2;
+    while (k + 4 < level_.size() && level_[k + 2] < point.z) k += 2;
     const double a = arc(flank[i].roll), m = arc(flank[i + 1].roll), b = arc(flank[i + 2].roll);
     double x = 0;
     for (int step = 0; step < 5; ++step)
-      x -= (m + 0.5 * (b - a) * x + (0.5 * (a + b) - m) * x * x - arc(point.roll)) /
-           (0.5 * (b - a) + (a + b - 2 * m) * x);
+      x -=
+          (m + 0.5 * (b - a) * x + (0.5 * (a + b) - m) * x * x - own) / (0.5 * (b - a) + (a + b - 2 * m) * x);
     const double y = (point.z - level_[k + 1]) / (0.5 * (level_[k + 2] - level_[k]));
     Weights out;
     for (int p = -1; p <= 1; ++p)
@@ -141,6 +147,32 @@ class CalculixGear {
   double seconds() const { return usage_.seconds; }  // CPU of ccx
 
  private:
+  // m of arc: how far the contact line has gone along the flank at z.
+  double slide(double z) const {
+    return tooth_.arc_length(middle_ + helix_ * z) - tooth_.arc_length(middle_);
+  }
+  // A point of the section in that at z: the patch and what is near it go with the contact line, the less the deeper and the nearer to the ends
+  // of the flank. A point lies at the depth d below the flank on the normal of a roll angle xi, which meets the base circle at r_b xi - d.
+  Vec2 slid(const Vec2& at, double z) const {
+    const double base = tooth_.base_radius(),
+                 tangent = std::sqrt(std::max(0.0, at.squaredNorm() - base * base));
+    if (patch_ == 0 || tangent == 0) return at;
+    const Vec2 p = Eigen::Rotation2Dd(-turned_) * at, n = tooth_.flank_normal(middle_),
+               pitch = tooth_.flank_point(middle_), later = tooth_.flank_normal(middle_ + 0.1);
+    const auto cross = [](const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); };
+    const double sense = cross(n, later) > 0 ? 1 : -1, side = std::copysign(base, cross(n, pitch));
+    const Vec2 own = Eigen::Rotation2Dd(-std::atan2(side, tangent)) * p;
+    const double roll = middle_ + sense * std::atan2(cross(n, own), n.dot(own)),
+                 depth = base * roll - tangent, first = tooth_.form_roll_angle(),
+                 last = tooth_.tip_roll_angle(), room = 0.45 * tooth_.design().module, even = 1.5 * patch_;
+    if (roll <= first || roll >= last || depth < -1e-9 || depth >= room + even) return at;
+    const double arc = tooth_.arc_length(roll), from = arc - tooth_.arc_length(middle_),
+                 free = std::abs(tooth_.arc_length(from > 0 ? last : first) - tooth_.arc_length(middle_)),
+                 share = std::min(1.0, (free - std::abs(from)) / (free - even)) *
+                         std::min(1.0, (room + even - depth) / room),
+                 now = std::sqrt(2 * (arc + share * slide(z)) / base);
+    return Eigen::Rotation2Dd(turned_) * Vec2(tooth_.flank_point(now) - depth * tooth_.flank_normal(now));
+  }
   void write_model(std::ofstream& out) const {
     out.precision(12);
     out << "*NODE, NSET=ALL\n";
@@ -170,7 +202,8 @@ class CalculixGear {
 
   ToothGeometry tooth_;
   Material material_;
-  double helix_, turned_;
+  double helix_, turned_, patch_,
+      middle_;  // rad m-1; rad; m of arc to either side of the roll angle (rad), 0: none slides
   GearMesh mesh_;
   std::vector<double> level_;
   std::map<std::pair<std::size_t, std::size_t>, int> number_;  // node of the section, level

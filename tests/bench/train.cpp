@@ -18,7 +18,6 @@
 #include "io/compatibility.h"
 #include "io/named_files.h"
 #include "io/scene.h"
-#include "io/system_scene.h"
 #include "rolling.h"
 #include "signal/rms.h"
 #include "system/rolling_mesh.h"
@@ -50,9 +49,9 @@ double carrying(const Eigen::MatrixXd& forces, int steps) {
 // The pair, two gears and a mesh, in the words of trains.
 SystemSweepParameters as_train(const std::array<ReducedBody, kSides>& body, const StaticParameters& statics,
                                const SweepParameters& pair, double torque) {
-  SystemScene scene;
+  Scene scene;
   for (size_t g = 0; g < kSides; ++g) {
-    SystemScene::Gear gear;
+    SceneGear gear;
     gear.name = statics.mesh.gear[g];
     gear.design = body[g].design;
     gear.material = body[g].material;

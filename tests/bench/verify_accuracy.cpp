@@ -27,13 +27,12 @@ struct Verdict {
   int runs = 0, above = 0, far_above = 0;
 };
 
-template <class AnyScene>
-void verify(const std::string& name, const AnyScene& whole, const std::vector<double>& accepted,
+void verify(const std::string& name, const Scene& whole, const std::vector<double>& accepted,
             Verdict& verdict) {
-  const AnyScene scene = at_few_speeds(whole);
+  const Scene scene = at_few_speeds(whole);
   const SceneRun fine = run_scene(reference_of(scene, *std::min_element(accepted.begin(), accepted.end())));
   for (const double error : accepted) {
-    const AnyScene chosen = error == kAcceptedError ? unasked(scene) : accepting(scene, error);
+    const Scene chosen = error == kAcceptedError ? unasked(scene) : accepting(scene, error);
     const SceneRun own = run_scene(chosen);
     const RmsDifference found = difference(own.response, fine.response);
     double cheapest = own.seconds;
@@ -63,6 +62,7 @@ Scene random_pair(std::mt19937& random, bool helical) {
   };
   for (;;) {
     Scene scene;
+    scene.meshes.resize(1);
     const double module = between(1, 6) * 1e-3, shift = between(0, 0.4), width = between(5, 9) * module,
                  helix = helical ? between(10, 25) * std::numbers::pi / 180 : 0;
     for (int g = 0; g < kSides; ++g) {
@@ -81,10 +81,10 @@ Scene random_pair(std::mt19937& random, bool helical) {
       gear.material = {206e9, 0.3, 7850, false};
       gear.total_inertia = between(1.1, 3) * least_body_inertia(ToothGeometry(d), gear.material);
       scene.gears.push_back(gear);
-      scene.mesh.gear[g] = gear.name;
+      scene.mesh().gear[g] = gear.name;
     }
     const int teeth = scene.gears[0].design.teeth + scene.gears[1].design.teeth;
-    scene.mesh.centre_distance = 0.5 * module * teeth / std::cos(helix);
+    scene.mesh().centre_distance = 0.5 * module * teeth / std::cos(helix);
     if (helical) scene.fidelity.width = WidthModel::slices;
     const double f = expected_natural_frequency(scene);
     scene.damping.rayleigh_stiffness = 2 * 0.05 / (2 * std::numbers::pi * f);
@@ -106,7 +106,6 @@ void verify_argument(const std::string& word, const std::vector<double>& accepte
   const size_t colon = word.find(':');
   if (!word.starts_with("random")) {
     const std::string name = std::filesystem::path(word).stem();
-    if (is_system_scene(word)) return verify(name, read_system_scene(word), accepted, verdict);
     return verify(name, read_scene(word), accepted, verdict);
   }
   const bool helical = word.starts_with("random-helical");

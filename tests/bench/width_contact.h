@@ -1,9 +1,10 @@
-// The load over the face of a misaligned spur pair of equal gears at the pitch point beside CalculiX.
+// The load over the face of a misaligned pair of equal gears, spur or helical, at the pitch point beside CalculiX.
 //
 // Signorini's problem: pressures p >= 0 on a patch of the flank, with gaps g = e - x + u(p) >= 0 and p g = 0 in the mean over the shape of each
-// pressure, sum of all forces T / r_b. u is CalculiX's alone, of a whole gear whose mesh on the patch is fine enough to hold the dent:
-// no law of Hertz, no half-plane, no polynomials. Turned by half a turn about the pitch point either gear lies on the other, so one
-// body serves for both. Pressures are bilinear on the sides of the wedges, along the flank and over the face.
+// pressure, sum of all forces T / (r_b cos beta_b). u is CalculiX's alone, of a whole gear whose mesh on the patch is fine enough to hold the dent:
+// no law of Hertz, no half-plane, no polynomials. The image of either gear in the
+// pitch point, at the other end of the face, is the other one, of the other hand, so one body serves for both. Pressures are bilinear on the sides of
+// the wedges, along the flank and over the face, about the contact line.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -16,6 +17,8 @@
 #include "bench/accuracy_runs.h"
 #include "bench/calculix_gear.h"
 #include "contact/complementarity.h"
+#include "gear/contact_lines.h"
+#include "gear/helix.h"
 #include "system/face_points.h"
 
 namespace whine {
@@ -53,21 +56,22 @@ class MisalignedFlanks {
                 const Index pressure = (k + b) * (sides_ + 1) + i + a;
                 area_[pressure] += shape;
                 gap_[pressure] += shape * gap(arc, at);
-                body_.add(force[static_cast<size_t>(pressure)], {0, 0, roll(arc), at}, {-shape, 0, 0});
+                body_.add(force[static_cast<size_t>(pressure)], {0, 0, roll(arc, at), at},
+                          shape * body_.inward(0, roll(0, at), at));
               }
           }
     const Eigen::MatrixXd own = body_.flexibility(force);
     Eigen::VectorXi image(pressures);
     for (Index k = 0; k < rows_; ++k)
       for (int i = 0; i <= sides_; ++i)
-        image[k * (sides_ + 1) + i] = static_cast<int>(k * (sides_ + 1)) + sides_ - i;
+        image[k * (sides_ + 1) + i] = static_cast<int>((rows_ - 1 - k) * (sides_ + 1)) + sides_ - i;
     compliance_ = own + own(image, image);
     compliance_ = (0.5 * (compliance_ + compliance_.transpose())).eval();
   }
 
-  // Under this force (N): approach x (m), N m-1 at the borders of the layers.
+  // Under this force (N, normal): approach (m), N m-1 at the borders of the layers.
   struct Load {
-    double approach = 0;
+    double approach = 0;  // along the transverse line of action
     Eigen::VectorXd line_load;
   };
   Load under(double force) const {
@@ -81,7 +85,7 @@ class MisalignedFlanks {
       solver.solve(compliance_, gap_ - x * area_, active, pressure, open);
       (pressure.dot(area_) > force ? high : low) = x;
     }
-    Load out{low, Eigen::VectorXd::Zero(rows_)};
+    Load out{low / cosine_, Eigen::VectorXd::Zero(rows_)};
     const double step = 2 * reach_ / sides_;
     for (Index k = 0; k < rows_; ++k) {
       const auto row = pressure.segment(k * (sides_ + 1), sides_ + 1);
@@ -96,13 +100,20 @@ class MisalignedFlanks {
  private:
   using Index = Eigen::Index;
   double pitch_roll() const { return tooth_.roll_angle_at_radius(tooth_.pitch_radius()); }
-  double roll(double arc) const {  // rad; arc: m from the pitch point
-    return std::sqrt(pitch_roll() * pitch_roll() + 2 * arc / tooth_.base_radius());
+  // rad; arc: m from the contact line at z.
+  double roll(double arc, double z) const {
+    const double contact = pitch_roll() + twist_ * z;
+    return std::sqrt(contact * contact + 2 * arc / tooth_.base_radius());
   }
+  // Along the normal: the transverse one times cos beta_b. z: of the driver, whose mate has its own the other way in its image.
   double gap(double arc, double z) const {
-    const Vec2 normal = tooth_.flank_normal(pitch_roll()), pitch = tooth_.flank_point(pitch_roll());
-    return misalignment_ * z / tooth_.design().face_width -
-           normal.dot(tooth_.flank_point(roll(arc)) + tooth_.flank_point(roll(-arc)) - 2 * pitch);
+    double out = 0;
+    for (const double way : {1.0, -1.0}) {
+      const double contact = roll(0, way * z);
+      out -= tooth_.flank_normal(contact).dot(tooth_.flank_point(roll(way * arc, way * z)) -
+                                              tooth_.flank_point(contact));
+    }
+    return misalignment_ * z / tooth_.design().face_width + cosine_ * out;
   }
   GearMeshPlan plan() const {
     GearMeshPlan out;
@@ -124,17 +135,18 @@ class MisalignedFlanks {
   int sides_;
   double misalignment_;
   ToothGeometry tooth_;
+  double twist_ = helix_twist(tooth_.design());
+  double cosine_ = std::cos(base_helix_angle(tooth_.design()));
   CalculixGear body_;
   Index rows_ = 0;
   Eigen::VectorXd area_, gap_;  // (pressure) m2, m3: of its shape
   Eigen::MatrixXd compliance_;  // (pressure, pressure) m5 N-1
 };
 
-// Difference of K_Hbeta, 1, of a misaligned scene of two equal spur gears at its first torque on bodies in three dimensions. Both are read at the
-// points of the program by its rule for the ends, over the mean of the whole face.
-inline double compare_face_load(const std::string& path) {
-  Scene scene = read_scene(path);
-  const auto& [driver, driven] = scene.mesh.gear;
+// Difference of K_Hbeta, 1, of a misaligned scene of two equal gears at its first torque on bodies in three dimensions, with one pair of teeth
+// in contact at the pitch point. Both are read at the points of the program by its rule for the ends, over the mean of the whole face.
+inline double compare_face_load(const std::string& name, Scene scene) {
+  const auto& [driver, driven] = scene.mesh().gear;
   const GearDesign design = scene.gear(driver).design;
   scene.fidelity.width = WidthModel::body;
   scene.body.width.degree = degree_of_width(design, scene.gear(driven).design);
@@ -144,11 +156,11 @@ inline double compare_face_load(const std::string& path) {
   const StaticResult rest = static_transmission(
       body[0], body[1], through_file(static_parameters(scene), read_static_parameters), torque);
   const auto reference = std::find(rest.pair.begin(), rest.pair.end(), 0) - rest.pair.begin();
-  const double force = torque / ToothGeometry(design).base_radius(), width = design.face_width;
+  const double force = helical_forces(GearPair(rest), torque).normal, width = design.face_width;
   const Eigen::VectorXd z = rest.face.position[0].row(reference), weight = rest.face.width[0].row(reference),
                         ours = rest.face.line_load[0].row(reference);
   if (std::abs(ours.dot(weight) / force - 1) > 1e-6)
-    fail(Failure::input, path, ": other teeth carry ", 100 * (1 - ours.dot(weight) / force),
+    fail(Failure::input, name, ": other teeth carry ", 100 * (1 - ours.dot(weight) / force),
          " % at the pitch point");
 
   std::vector<double> border;
@@ -159,10 +171,10 @@ inline double compare_face_load(const std::string& path) {
   std::sort(border.begin(), border.end());
   const double modulus = scene.gear(driver).material.youngs_modulus /
                          (2 * (1 - std::pow(scene.gear(driver).material.poisson_ratio, 2)));
-  const double radius =
-      0.5 * ToothGeometry(design).pitch_radius() * std::sin(design.pressure_angle);            // m, relative
+  const double radius = 0.5 * ToothGeometry(design).pitch_radius() *
+                        std::sin(transverse_section(design).pressure_angle);                   // m, relative
   const double half = std::sqrt(4 * ours.maxCoeff() * radius / (std::numbers::pi * modulus));  // m
-  const MisalignedFlanks flanks(design, scene.gear(driver).material, scene.mesh.misalignment, border,
+  const MisalignedFlanks flanks(design, scene.gear(driver).material, scene.mesh().misalignment, border,
                                 1.6 * half, 10);
   const MisalignedFlanks::Load load = flanks.under(force);
   Eigen::VectorXd theirs(z.size());
@@ -177,7 +189,7 @@ inline double compare_face_load(const std::string& path) {
   const auto factor = [&](const Eigen::VectorXd& w) {
     return face_load_factor(z, weight, w, line, kInnerFace) * w.dot(weight) / force;
   };
-  std::printf("  %s at %g N m, pitch point: z (mm), line load here and in CalculiX (N/mm)\n", path.c_str(),
+  std::printf("  %s at %g N m, pitch point: z (mm), line load here and in CalculiX (N/mm)\n", name.c_str(),
               torque);
   for (Eigen::Index i = 0; i < z.size(); ++i)
     std::printf("    %8.3f %9.3f %9.3f\n", 1e3 * z[i], 1e-3 * ours[i], 1e-3 * theirs[i]);

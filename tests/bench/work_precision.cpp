@@ -29,15 +29,13 @@ using namespace whine;
 
 constexpr double kPercent = 100, kDefaultAccepted = 0.01;
 
-template <class AnyScene>
 class Front {
  public:
-  Front(const AnyScene& scene, double least_accepted)
-      : fine_(run_scene(reference_of(scene, least_accepted))) {
+  Front(const Scene& scene, double least_accepted) : fine_(run_scene(reference_of(scene, least_accepted))) {
     log_line("work-precision: the reference took ", shown(fine_.seconds, 3), " s");
   }
 
-  void add(const AnyScene& scene, double setting, FigureBlock& block) const {
+  void add(const Scene& scene, double setting, FigureBlock& block) const {
     const SceneRun own = run_scene(scene);
     const RmsDifference off = difference(own.response, fine_.response);
     const double bound = discretisation_plan(scene, no_key).error();
@@ -56,49 +54,46 @@ FigureBlock block_of(const std::string& name, const std::string& setting) {
 }
 
 // A setting that is made coarser and finer by a factor alone.
-template <class AnyScene>
 struct Alone {
   std::string name, unit;
-  std::function<double(AnyScene&, double)> scale;  // gives the setting, in the unit
+  std::function<double(Scene&, double)> scale;  // gives the setting, in the unit
   bool acts;
 };
-template <class AnyScene>
-std::vector<Alone<AnyScene>> alone_of(const AnyScene& scene, bool pair) {
+std::vector<Alone> alone_of(const Scene& scene) {
   const bool sliced = scene.fidelity.width != WidthModel::one;
   const auto whole = [](int& n, double factor, int step) {
     n = std::max(step, step * static_cast<int>(std::lround(n * factor / step)));
     return static_cast<double>(n);
   };
   return {{"elements", "of a module",
-           [](AnyScene& s, double finer) { return s.body.element_modules /= std::sqrt(finer); }, true},
-          {"modes", "1", [whole](AnyScene& s, double finer) { return whole(s.body.modes, finer, 1); },
+           [](Scene& s, double finer) { return s.body.element_modules /= std::sqrt(finer); }, true},
+          {"modes", "1", [whole](Scene& s, double finer) { return whole(s.body.modes, finer, 1); },
            scene.fidelity.body == BodyModel::modal},
           {"least rate of time steps", "kHz",
-           [](AnyScene& s, double finer) { return 1e-3 * (s.time.min_sample_rate *= finer); }, true},
-          {"strips", "1", [whole](AnyScene& s, double finer) { return whole(s.contact.strips, finer, 4); },
-           pair && !sliced && scene.fidelity.contact == ContactModel::strips},
+           [](Scene& s, double finer) { return 1e-3 * (s.time.min_sample_rate *= finer); }, true},
+          {"strips", "1", [whole](Scene& s, double finer) { return whole(s.contact.strips, finer, 4); },
+           scene.pair() && !sliced && scene.fidelity.contact == ContactModel::strips},
           {"points of a face", "1",
-           [whole](AnyScene& s, double finer) { return whole(s.contact.face_points, finer, 2); }, sliced},
+           [whole](Scene& s, double finer) { return whole(s.contact.face_points, finer, 2); }, sliced},
           {"periodicity", "1",
-           [](AnyScene& s, double finer) { return s.time.periodicity /= finer * finer * finer; }, true}};
+           [](Scene& s, double finer) { return s.time.periodicity /= finer * finer * finer; }, true}};
 }
 
-template <class AnyScene>
-void measure(const AnyScene& whole, bool pair, Figure& figure) {
-  const AnyScene scene = at_few_speeds(whole);
+void measure(const Scene& whole, Figure& figure) {
+  const Scene scene = at_few_speeds(whole);
   constexpr std::array kLevels{0.08, 0.04, 0.02, 0.01, 0.005, 0.003};
-  const Front<AnyScene> front(scene, kLevels.back());
+  const Front front(scene, kLevels.back());
   std::printf("%-44s %10s %9s %9s %9s\n", "", "setting", "CPU (s)", "error (%)", "bound (%)");
   const double accepted = scene.time.accepted_error > 0 ? scene.time.accepted_error : kDefaultAccepted;
   FigureBlock accepting_all = block_of("settings for an accepted error", "%");
   for (const double error : kLevels) front.add(accepting(scene, error), error * kPercent, accepting_all);
   figure.blocks.push_back(accepting_all);
-  const AnyScene chosen = accepting(scene, accepted);
-  for (const Alone<AnyScene>& one : alone_of(chosen, pair)) {
+  const Scene chosen = accepting(scene, accepted);
+  for (const Alone& one : alone_of(chosen)) {
     if (!one.acts) continue;
     FigureBlock block = block_of(one.name + " alone", one.unit);
     for (const double finer : {0.5, 1.0, 2.0}) {
-      AnyScene other = chosen;
+      Scene other = chosen;
       const double setting = one.scale(other, finer);
       front.add(other, setting, block);
     }
@@ -124,17 +119,11 @@ void body(int argc, char** argv) {
   figure.notes = {text("against settings for a quarter of the least accepted error; ", kJudgedSpeedsOfScene,
                        " speeds, rising"),
                   "one setting alone: half, once and twice as fine, elements by their number"};
-  if (is_system_scene(path)) {
-    const SystemScene scene = read_system_scene(path);
-    if (scene.rigid() || !(scene.operation.frequency_to > 0))
-      fail(Failure::input, path, ": work-precision is of elastic gears in motion; give [operation] speeds");
-    figure.title = "Error against CPU time: " + scene.title;
-    measure(scene, false, figure);
-  } else {
-    const Scene scene = read_scene(path);
-    figure.title = "Error against CPU time: " + scene.title;
-    measure(scene, true, figure);
-  }
+  const Scene scene = read_scene(path);
+  if (scene.rigid() || !(scene.operation.frequency_to > 0))
+    fail(Failure::input, path, ": work-precision is of elastic gears in motion; give [operation] speeds");
+  figure.title = "Error against CPU time: " + scene.title;
+  measure(scene, figure);
   add_work_precision_panel(figure);
   const std::string recipe = template_of(figure, plots, "work-precision");
   const PlotFile data(figure);

@@ -170,11 +170,11 @@ TEST_CASE(
 
 // Planets then work on one flank with the ring and on the other with the sun.
 TEST_CASE("a planetary train that the ring drives: forces at rest of the motion are those of its statics") {
-  const SystemModel system = train({26, 37, 100}, 3, {}, [](SystemScene& scene) {
+  const SystemModel system = train({26, 37, 100}, 3, {}, [](Scene& scene) {
     scene.drives = {{"ring", System::DriveKind::torque, kTorque, 0},
                     {"sun", System::DriveKind::held, 0, 0},
                     {"carrier", System::DriveKind::held, 0, 0}};
-    for (SystemScene::Mesh& mesh : scene.meshes) std::swap(mesh.spec.gear[0], mesh.spec.gear[1]);
+    for (Scene::Mesh& mesh : scene.meshes) std::swap(mesh.spec.gear[0], mesh.spec.gear[1]);
     std::swap(scene.meshes[0], scene.meshes[1]);
   });
   int both = 0;
@@ -530,7 +530,7 @@ TEST_CASE("time of a step of planetary trains over the number of meshes" * docte
     std::unique_ptr<SystemDynamics> dynamics = {};
   };
   const auto with = [](bool turns, double stiffness, bool pins) {
-    return train({27, 36, 99}, 3, {}, [=](SystemScene& scene) {
+    return train({27, 36, 99}, 3, {}, [=](Scene& scene) {
       if (turns) scene.drives[2] = {"carrier", System::DriveKind::torque, -kTrainTorque * (1 + 99.0 / 27), 0};
       if (stiffness > 0) scene.carriers[0].bearing = {stiffness, 4000, 5.43};
       if (!pins) scene.gears[1].bearing = {};

@@ -100,14 +100,14 @@ MatrixXd balanced(const SystemCoordinates& c, const MatrixXd& of) {
 
 SystemModel turning_train(double stiffness_of_carrier = 2e8, bool elastic_pins = true, bool corner = true,
                           const Bearing& of_ring = {}) {
-  return train(kTeeth, 3, of_ring, [&](SystemScene& scene) {
+  return train(kTeeth, 3, of_ring, [&](Scene& scene) {
     const auto torque = System::DriveKind::torque, held = System::DriveKind::held;
     scene.drives = {{"sun", torque, kTrainTorque, 0},
                     {"ring", held, 0, 0},
                     {"carrier", torque, -kTrainTorque * 126 / 26, 0}};
     if (stiffness_of_carrier > 0) scene.carriers[0].bearing = {stiffness_of_carrier, 4000, 5.43};
     if (!elastic_pins) scene.gears[1].bearing = {};
-    for (SystemScene::Mesh& mesh : scene.meshes) mesh.spec.corner.enabled = corner;
+    for (Scene::Mesh& mesh : scene.meshes) mesh.spec.corner.enabled = corner;
   });
 }
 

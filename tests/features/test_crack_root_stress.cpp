@@ -8,7 +8,7 @@
 
 #include "cracked_gear.h"
 #include "gear/system_layout.h"
-#include "io/system_scene.h"
+#include "io/scene.h"
 #include "paper_pair.h"
 #include "relative.h"
 #include "signal/response.h"
@@ -140,9 +140,9 @@ SweepResult cracked_sweep(ContactModel contact, double frequency) {
 }
 
 SystemSweepParameters cracked_train(double frequency) {
-  SystemScene scene;
+  Scene scene;
   for (const char* name : {"pinion", "wheel"}) {
-    SystemScene::Gear& gear = scene.gears.emplace_back();
+    SceneGear& gear = scene.gears.emplace_back();
     gear.name = name;
     gear.design = moving_body(scene.gears.size() == 1).design;
     gear.material = paper_steel();

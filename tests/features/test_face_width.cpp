@@ -195,7 +195,8 @@ Scene two_gears(double module) {
     gear.design.module = module;
     scene.gears.push_back(gear);
   }
-  scene.mesh.gear = {"pinion", "wheel"};
+  scene.meshes.resize(1);
+  scene.mesh().gear = {"pinion", "wheel"};
   return scene;
 }
 
@@ -228,12 +229,8 @@ TEST_CASE("elements that are long beside the smallest module are remarked, those
   CHECK(scene_remarks(scene).empty());
   scene.body.element_size = 0.58e-3;
   CHECK(scene_remarks(scene).size() == 1);
-  SystemScene system;
-  for (const SceneGear& gear : scene.gears) {
-    SystemScene::Gear of;
-    static_cast<SceneGear&>(of) = gear;
-    system.gears.push_back(of);
-  }
+  Scene system;
+  system.gears = scene.gears;
   system.gears[1].design.module = 1e-3;
   system.body.element_size = 0.28e-3;
   CHECK(scene_remarks(system).empty());

@@ -387,10 +387,10 @@ TEST_CASE("friction: without it nothing changes, and static.h5 keeps it") {
 
 TEST_CASE("friction: the section of a scene, and what it is rejected with") {
   const SceneFile file;
-  CHECK(!file.read(kScene).mesh.friction.acts());
+  CHECK(!file.read(kScene).mesh().friction.acts());
   const Scene scene = file.read(with_section("[friction]\ncoefficient = 0.05\nsmoothing = 0.02\n"));
-  CHECK(scene.mesh.friction.coefficient == 0.05);
-  CHECK(scene.mesh.friction.smoothing == 0.02);
+  CHECK(scene.mesh().friction.coefficient == 0.05);
+  CHECK(scene.mesh().friction.smoothing == 0.02);
   const std::string stage = static_parameters(scene);
   CHECK(contains(stage, "[friction]"));
   CHECK(read_static_parameters(file.path(stage)).mesh.friction.coefficient == 0.05);
@@ -399,6 +399,6 @@ TEST_CASE("friction: the section of a scene, and what it is rejected with") {
         static_parameters(file.read(kScene)));
   const Scene oil = file.read(with_section(
       "[friction]\nlaw = \"schlenk\"\nviscosity_mPas = 15\nroughness_um = 0.4\nstatic_frequency_Hz = 600\n"));
-  CHECK(oil.mesh.friction.viscosity == relative(0.015, 1e-12));
-  CHECK(oil.mesh.friction.roughness == relative(0.4e-6, 1e-12));
+  CHECK(oil.mesh().friction.viscosity == relative(0.015, 1e-12));
+  CHECK(oil.mesh().friction.roughness == relative(0.4e-6, 1e-12));
 }

@@ -25,7 +25,7 @@ constexpr size_t kSun = 0, kRing = 4, kCarrier = 5;
 // ring_drives: the sun is held, and planets push it; else the ring is held. The carrier is held. Tip edges are left out.
 SystemModel train_of(double coefficient, bool ring_drives = false, double stiffness_of_carrier = 0,
                      const Bearing& of_ring = {}) {
-  SystemModel out = train(kTeeth, 3, of_ring, [&](SystemScene& scene) {
+  SystemModel out = train(kTeeth, 3, of_ring, [&](Scene& scene) {
     const auto held = System::DriveKind::held, torque = System::DriveKind::torque;
     if (ring_drives) {
       scene.meshes[0].spec.gear = {"ring", "planet"};
@@ -35,7 +35,7 @@ SystemModel train_of(double coefficient, bool ring_drives = false, double stiffn
                     {ring_drives ? "sun" : "ring", held, 0, 0},
                     {"carrier", held, 0, 0}};
     if (stiffness_of_carrier > 0) scene.carriers[0].bearing = {stiffness_of_carrier, 4000, 5.43};
-    for (SystemScene::Mesh& mesh : scene.meshes) {
+    for (Scene::Mesh& mesh : scene.meshes) {
       mesh.spec.corner.enabled = false;
       mesh.spec.friction.coefficient = coefficient;
     }
@@ -148,9 +148,9 @@ TEST_CASE("a pair told as a train with friction is the pair") {
     settings.fidelity.contact = contact;
     const ReducedBody& body = paper_body(40e-3, 1.2e-3, 12);
     const StaticResult pair = static_transmission(body, body, settings, 150);
-    SystemScene scene;
+    Scene scene;
     for (const char* name : {"pinion", "wheel"}) {
-      SystemScene::Gear gear;
+      SceneGear gear;
       gear.name = name;
       gear.design = paper_gear();
       gear.material = paper_steel();
@@ -178,11 +178,11 @@ TEST_CASE(
     "without friction a train has the bits that it had; one that rolls is refused until its output is held") {
   const SystemModel none = train_of(0);
   CHECK(!none.slides());
-  SystemModel rolls = train(kTeeth, 3, {}, [](SystemScene& scene) {
+  SystemModel rolls = train(kTeeth, 3, {}, [](Scene& scene) {
     scene.drives = {{"sun", System::DriveKind::torque, kTrainTorque, 0},
                     {"ring", System::DriveKind::held, 0, 0},
                     {"carrier", System::DriveKind::torque, -kTrainTorque * 126 / 26, 0}};
-    for (SystemScene::Mesh& mesh : scene.meshes) mesh.spec.friction.coefficient = kFriction;
+    for (Scene::Mesh& mesh : scene.meshes) mesh.spec.friction.coefficient = kFriction;
   });
   take_friction(rolls);
   CHECK(names(message_of([&] { rest_over_period(rolls, ContactModel::line, 8, 1); }), {"roll", "held"}));

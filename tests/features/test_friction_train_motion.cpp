@@ -174,14 +174,14 @@ namespace {
 
 // Sun, three planets and a ring; tip edges out of reach unless `corner`.
 SystemModel planetary(double coefficient, bool carrier_turns, bool corner = true, double of_carrier = 0) {
-  return train(kTeeth, 3, {}, [&](SystemScene& scene) {
+  return train(kTeeth, 3, {}, [&](Scene& scene) {
     const auto held = System::DriveKind::held, torque = System::DriveKind::torque;
     scene.drives = {
         {"sun", torque, kTrainTorque, 0},
         {"ring", held, 0, 0},
         {"carrier", carrier_turns ? torque : held, carrier_turns ? -kTrainTorque * 126 / 26 : 0, 0}};
     if (of_carrier > 0) scene.carriers[0].bearing = {of_carrier, 4000, 5.43};
-    for (SystemScene::Mesh& mesh : scene.meshes) {
+    for (Scene::Mesh& mesh : scene.meshes) {
       mesh.spec.corner.enabled = corner;
       mesh.spec.friction.coefficient = coefficient;
     }
@@ -206,9 +206,9 @@ SystemMotion with_losses(const SystemModel& system, double eta = 1e-6) {
 
 // 30, 20 and 30 teeth in line, the idler on a bearing; both ends turn.
 SystemModel three_in_line(double coefficient) {
-  SystemScene scene;
+  Scene scene;
   for (const auto& [name, teeth] : {std::pair{"a", 30}, std::pair{"b", 20}, std::pair{"c", 30}}) {
-    SystemScene::Gear gear;
+    SceneGear gear;
     gear.name = name;
     gear.design = gear_of(teeth).design;
     gear.material = paper_steel();
@@ -217,7 +217,7 @@ SystemModel three_in_line(double coefficient) {
     scene.gears.push_back(gear);
   }
   for (const auto& [driver, driven] : {std::pair{"a", "b"}, std::pair{"b", "c"}}) {
-    SystemScene::Mesh mesh;
+    Scene::Mesh mesh;
     mesh.spec.gear = {driver, driven};
     mesh.spec.centre_distance = 75e-3;
     mesh.spec.friction.coefficient = coefficient;

@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "gear/scene_geometry.h"
+#include "io/scene.h"
 #include "io/scene_goals.h"
 #include "io/scene_remarks.h"
-#include "io/system_scene.h"
 #include "scene_file.h"
 
 using namespace whine;
@@ -38,7 +38,7 @@ TEST_CASE("a helical scene: helix, hand and level, in the scene and in stage par
   const std::string path = file.path(static_parameters(scene), "static.toml");
   const StaticParameters read = read_static_parameters(path);
   CHECK(read.fidelity.width == WidthModel::slices);
-  CHECK(read.mesh.modification[0] == scene.mesh.modification[0]);
+  CHECK(read.mesh.modification[0] == scene.mesh().modification[0]);
   CHECK(!read.mesh.modification[0].of_profile());
   const std::string body = file.path(body_parameters(scene, "wheel"), "body.toml");
   CHECK(read_body_parameters(body).design.hand == Hand::left);
@@ -78,12 +78,30 @@ TEST_CASE("a spur scene says nothing of helix, leads or slices") {
       CHECK(words.find(std::string("\n") + word) == std::string::npos);
 }
 
+TEST_CASE(
+    "keys of the face width at nothing, or of levels that are not taken, leave the texts of a spur scene") {
+  const SceneFile file;
+  const Scene bare = file.read(kScene);
+  std::string keys =
+      scene_with("pressure_angle_deg = 20\n", "pressure_angle_deg = 20\nhelix_angle_deg = 0\n");
+  keys.replace(keys.find("driver = "), 9, "misalignment_um = 0\nface_offset_mm = 0\ndriver = ");
+  const Scene scene = file.read(
+      keys +
+      "[gear.wheel.modification]\nlead_crowning_um = 0\nlead_slope_um = 0\nend_relief_um = 0\nend_relief_length_mm = 0\n" +
+      "[fidelity]\nwidth = \"one\"\n[discretisation]\nface_points = 12\nsection_element_mm = 2\nwidth_degree = 0\n");
+  CHECK(static_parameters(scene) == static_parameters(bare));
+  CHECK(sweep_parameters(scene) == sweep_parameters(bare));
+  CHECK(impact_parameters(scene) == impact_parameters(bare));
+  for (const char* gear : {"pinion", "wheel"})
+    CHECK(body_parameters(scene, gear) == body_parameters(bare, gear));
+}
+
 TEST_CASE("what helical scenes are refused with") {
   const SceneFile file;
   const auto check = [&](const std::string& text) {
     return message_of_input([&] {
       const std::string path = file.path(text);
-      check_scene(read_scene(path), path);
+      check_scene(read_scene(path), {}, path);
     });
   };
   CHECK(check(helical_scene()).empty());
@@ -98,18 +116,22 @@ TEST_CASE("what helical scenes are refused with") {
 
 TEST_CASE("goals of make that a helical or misaligned scene does not reach are named") {
   const SceneFile file;
-  const Traits helical = traits(file.read(helical_scene()));
+  const Traits helical = traits(file.read(helical_scene()), {});
   check_goals({"mesh", "reduce", "static", "report", "error-budget", "sweep", "face-load"}, helical,
               "x.toml");
   CHECK(names(message_of_input([&] { check_goals({"teeth"}, helical, "x.toml"); }),
               {"teeth", "[gear.pinion]", 12, "report", "face-load"}));
+  for (const char* goal : {"impact", "calibrate", "modes"})
+    CHECK(names(message_of_input([&] { check_goals({goal}, helical, "x.toml"); }),
+                {goal, "as a train", "torque_Nm", "[[drive]]", "slices"}));
   const Traits askew = traits(
-      file.read(scene_with("centre_distance_mm = 150", "centre_distance_mm = 150\nmisalignment_um = 10")));
+      file.read(scene_with("centre_distance_mm = 150", "centre_distance_mm = 150\nmisalignment_um = 10")),
+      {});
   check_goals({"report", "flank-load"}, askew, "x.toml");
   const std::string unmoved = message_of_input([&] { check_goals({"sweep"}, askew, "x.toml"); });
   CHECK(names(unmoved, {"sweep", "misalignment_um = 10", "width = \"slices\"", "static"}));
   CHECK(unmoved.find("face-load") == std::string::npos);
-  check_goals({"sweep"}, traits(file.read(kScene)), "x.toml");
+  check_goals({"sweep"}, traits(file.read(kScene), {}), "x.toml");
 }
 
 TEST_CASE("sweeps take slices, a ring-down does not; of systems slices alone") {
@@ -118,16 +140,16 @@ TEST_CASE("sweeps take slices, a ring-down does not; of systems slices alone") {
   CHECK(read_sweep_parameters(file.path(sweep_parameters(scene), "sweep.toml")).fidelity.contact ==
         ContactModel::line);
   const std::string path = file.path(impact_parameters(scene), "impact.toml");
-  CHECK(names(message_of_input([&] { read_impact_parameters(path); }), {"width = \"slices\"", "one"}));
+  CHECK(names(message_of_input([&] { read_impact_parameters(path); }), {"width = \"slices\"", "[[drive]]"}));
   const std::string drive = "[[drive]]\ngear = \"pinion\"\nkind = \"torque\"\ntorque_Nm = 1\n";
   std::string train = helical_scene() + drive + "[[drive]]\ngear = \"wheel\"\nkind = \"held\"\n";
   train.erase(train.find("[operation]"), train.find("[fidelity]") - train.find("[operation]"));
   train.replace(train.find("plane = \"stress\""), 16, "plane = \"strain\"");
   const auto system = [&](const std::string& text) {
-    return message_of_input([&] { read_system_scene(file.path(text)); });
+    return message_of_input([&] { read_scene(file.path(text)); });
   };
   CHECK(system(train).empty());
-  CHECK(read_system_scene(file.path(train)).fidelity.contact == ContactModel::line);
+  CHECK(read_scene(file.path(train)).fidelity.contact == ContactModel::line);
   const auto with = [&](const std::string& what, const std::string& other) {
     std::string out = train;
     out.replace(out.find(what), what.size(), other);
@@ -135,7 +157,7 @@ TEST_CASE("sweeps take slices, a ring-down does not; of systems slices alone") {
   };
   std::string open = train;
   open.erase(open.find("width = "), 17);
-  CHECK(read_system_scene(file.path(open)).fidelity.width == WidthModel::slices);
+  CHECK(read_scene(file.path(open)).fidelity.width == WidthModel::slices);
   CHECK(names(system(with("width = \"slices\"", "width = \"one\"")),
               {"width = \"one\"", "[gear.pinion]", 12, "slices"}));
   CHECK(names(system(with("width = \"slices\"", "width = \"body\"")), {"width = \"body\"", "slices"}));
@@ -147,14 +169,14 @@ TEST_CASE("sweeps take slices, a ring-down does not; of systems slices alone") {
   CHECK(names(system(with("driver = ", "face_offset_mm = 1\ndriver = ")), {"face_offset_mm", "plane"}));
   const std::string same = message_of_input([&] {
     const std::string at = file.path(with("hand = \"left\"", "hand = \"right\""));
-    layout_in(read_system_scene(at), at);
+    layout_in(read_scene(at), at);
   });
   CHECK(names(same, {"same hand", "\"right\"", "hand = \"left\""}));
   // What stage parameters hold of it comes back.
   std::string uneven =
       with("driver = ", "misalignment_um = 7\ndriver = ") + "[gear.wheel.modification]\nlead_slope_um = 3\n";
   const std::string path_of_uneven = file.path(uneven);
-  const SystemScene read = read_system_scene(path_of_uneven);
+  const Scene read = read_scene(path_of_uneven);
   const SystemStaticParameters own = static_parameters_of(read, layout_in(read, path_of_uneven)),
                                back = read_system_static_parameters(
                                    file.path(system_static_parameters(own), "static.toml"));

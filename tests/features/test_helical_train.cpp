@@ -13,7 +13,7 @@
 #include "gear/drawing_quantities.h"
 #include "gear/helix.h"
 #include "gear/layout.h"
-#include "io/system_scene.h"
+#include "io/scene.h"
 #include "orbits/periodic_motion.h"
 #include "system/face_mesh.h"
 #include "system/statics.h"
@@ -63,7 +63,7 @@ struct Train {
     scene = planetary_train(3);
     const std::array stiffness{2e7, 3e8, 0.0};
     for (size_t g = 0; g < 3; ++g) {
-      SystemScene::Gear& gear = scene.gears[g];
+      SceneGear& gear = scene.gears[g];
       GearDesign section = rigid_gear(d.teeth[g], g == 2);
       if (g < 2) section.bore_radius = (0.5 * d.teeth[g] - 5) * kTrainModule;
       section.face_width *= d.wider[g];
@@ -76,7 +76,7 @@ struct Train {
       bodies.back().design = gear.design;
     }
     scene.gears[2].bearing = scene.carriers[0].bearing = {};
-    for (SystemScene::Mesh& mesh : scene.meshes) {
+    for (Scene::Mesh& mesh : scene.meshes) {
       mesh.spec.centre_distance = 0.5 * (d.teeth[0] + d.teeth[1]) * kTrainModule;
       mesh.spec.corner.enabled = d.corner;
     }
@@ -90,7 +90,7 @@ struct Train {
     settings = static_parameters_of(scene, layout_of(scene));
   }
   SystemStaticResult at_rest() const { return system_at_rest(settings, bodies); }
-  SystemScene scene;
+  Scene scene;
   SystemStaticParameters settings;
   std::vector<ReducedBody> bodies;  // [gear]
 };
@@ -274,11 +274,11 @@ TEST_CASE(
 
 TEST_CASE("a helical pair told as a train is the pair") {
   const Train train(kUneven);
-  SystemScene scene = train.scene;
+  Scene scene = train.scene;
   scene.carriers.clear();
   scene.gears.pop_back();
   scene.meshes.pop_back();
-  for (SystemScene::Gear& gear : scene.gears) gear.bearing = {};
+  for (SceneGear& gear : scene.gears) gear.bearing = {};
   scene.drives = {{"sun", System::DriveKind::torque, kTrainTorque, 0},
                   {"planet", System::DriveKind::held, 0, 0}};
   const std::vector<ReducedBody> bodies{train.bodies[0], train.bodies[1]};
@@ -301,11 +301,11 @@ TEST_CASE("a helical pair told as a train is the pair") {
 
 TEST_CASE("three helical gears in line: the idler's meshes push it to one side each and tilt it") {
   const Train train(kHelical);
-  SystemScene scene = train.scene;
+  Scene scene = train.scene;
   scene.carriers.clear();
   scene.gears[2] = scene.gears[0];
   scene.gears[2].name = "ring";  // an external gear like the sun
-  for (SystemScene::Gear& gear : scene.gears) gear.bearing = {};
+  for (SceneGear& gear : scene.gears) gear.bearing = {};
   scene.drives = {{"sun", System::DriveKind::torque, kTrainTorque, 0},
                   {"ring", System::DriveKind::held, 0, 0}};
   const SystemStaticResult a = system_at_rest(static_parameters_of(scene, layout_of(scene)),

@@ -355,24 +355,24 @@ constexpr double kPlanetTorque = 300;  // N m on the sun
 // Sun of 27, planets of 35 and ring of 99 teeth at rest; the sun carries the torque, ring and carrier are held. The sun floats on a
 // soft bearing, planets stand on elastic pins.
 SystemModel elastic_train(const std::vector<int>& steps) {
-  SystemScene scene;
+  Scene scene;
   for (const auto& [name, design, stiffness] :
        {std::tuple{"sun", sun_gear(), 1e7}, std::tuple{"planet", planet_gear(), 3e8},
         std::tuple{"ring", ring_gear(), 0.0}}) {
-    SystemScene::Gear gear;
+    SceneGear gear;
     gear.name = name;
     gear.design = design;
     gear.bearing.stiffness = stiffness;
     scene.gears.push_back(gear);
   }
-  SystemScene::Carrier carrier;
+  Scene::Carrier carrier;
   carrier.name = "carrier";
   carrier.planet = "planet";
   for (const int step : steps) carrier.positions.push_back(2 * kPi * step / 126);
   scene.carriers = {carrier};
   for (const auto& gears :
        {std::array<std::string, 2>{"sun", "planet"}, std::array<std::string, 2>{"planet", "ring"}}) {
-    SystemScene::Mesh mesh;
+    Scene::Mesh mesh;
     mesh.spec.gear = gears;
     mesh.spec.centre_distance = kInternalDistance;
     mesh.spec.corner.enabled = false;

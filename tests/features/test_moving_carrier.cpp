@@ -11,7 +11,7 @@
 #include "dynamics/system_period_map.h"
 #include "elastic_train.h"
 #include "gear/system_layout.h"
-#include "io/system_scene.h"
+#include "io/scene.h"
 #include "orbits/periodic_motion.h"
 #include "refusal.h"
 #include "relative.h"
@@ -33,7 +33,7 @@ constexpr double kOfRing = kTrainTorque * 100 / 26, kOfCarrier = kTrainTorque * 
 constexpr int kSteps = 48;                 // threes, over which planets hand their motion on
 constexpr size_t kRing = 4, kCarrier = 5;  // bodies of a train of three planets
 
-using Drives = std::vector<SystemScene::Drive>;
+using Drives = std::vector<Scene::Drive>;
 const System::DriveKind kTorque = System::DriveKind::torque, kHeld = System::DriveKind::held;
 const Drives kCarrierTurns = {
     {"sun", kTorque, kTrainTorque, 0}, {"ring", kHeld, 0, 0}, {"carrier", kTorque, -kOfCarrier, 0}};
@@ -41,12 +41,12 @@ const Drives kCarrierTurns = {
 // stiffness_of_carrier: N m-1 of its bearing; 0: a rigid axis.
 SystemModel train_with(const Drives& drives, double stiffness_of_carrier = 0, bool corner = true,
                        bool elastic_pins = true, double inertia_factor = 1) {
-  return train(kTeeth, 3, {}, [&](SystemScene& scene) {
+  return train(kTeeth, 3, {}, [&](Scene& scene) {
     scene.drives = drives;
     if (stiffness_of_carrier > 0) scene.carriers[0].bearing = {stiffness_of_carrier, 4000, 5.43};
     if (!elastic_pins) scene.gears[1].bearing = {};
     scene.carriers[0].equivalent_mass *= inertia_factor;
-    for (SystemScene::Mesh& mesh : scene.meshes) mesh.spec.corner.enabled = corner;
+    for (Scene::Mesh& mesh : scene.meshes) mesh.spec.corner.enabled = corner;
   });
 }
 
@@ -413,9 +413,9 @@ TEST_CASE(
 
 TEST_CASE(
     "the shipped train whose carrier turns is the one whose carrier is held, with the carrier of Lin and Parker") {
-  const SystemScene held = read_system_scene("data/scenes/oh58-planetary.toml"),
-                    scene = read_system_scene("data/scenes/oh58-planetary-carrier.toml"),
-                    rigid = read_system_scene("data/scenes/lin-parker-planetary.toml");
+  const Scene held = read_scene("data/scenes/oh58-planetary.toml"),
+              scene = read_scene("data/scenes/oh58-planetary-carrier.toml"),
+              rigid = read_scene("data/scenes/lin-parker-planetary.toml");
   const System layout = layout_of(scene), other = layout_of(held);
   check_at_rest(scene, layout);
   REQUIRE(layout.bodies.size() == other.bodies.size());

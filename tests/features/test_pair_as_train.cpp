@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "gear/system_layout.h"
-#include "io/system_scene.h"
+#include "io/scene.h"
 #include "paper_pair.h"
 #include "refusal.h"
 #include "relative.h"
@@ -34,9 +34,9 @@ struct Both {
     pair.time.steps_per_period = 64;
     pair.time.min_sample_rate = 0;
     pair.reference_torque = 150;
-    SystemScene scene;
+    Scene scene;
     for (const char* name : {"pinion", "wheel"}) {
-      SystemScene::Gear gear;
+      SceneGear gear;
       gear.name = name;
       gear.design = paper_gear();
       gear.material = paper_steel();

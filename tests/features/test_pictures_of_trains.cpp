@@ -14,13 +14,13 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 TEST_CASE("pictures of trains: no text is cut or lies on other text, eight meshes and long names") {
-  SystemScene scene = planetary_train(4);
-  for (SystemScene::Gear& gear : scene.gears) gear.name += "_of_the_first_stage_01";
-  for (SystemScene::Mesh& mesh : scene.meshes)
+  Scene scene = planetary_train(4);
+  for (SceneGear& gear : scene.gears) gear.name += "_of_the_first_stage_01";
+  for (Scene::Mesh& mesh : scene.meshes)
     for (std::string& gear : mesh.spec.gear) gear += "_of_the_first_stage_01";
   scene.carriers[0].planet += "_of_the_first_stage_01";
   scene.carriers[0].name += "_of_the_first_stage_01";
-  for (SystemScene::Drive& drive : scene.drives) drive.gear += "_of_the_first_stage_01";
+  for (Scene::Drive& drive : scene.drives) drive.gear += "_of_the_first_stage_01";
   SystemStaticResult rest = small_system(scene);
   // Numbers of five digits, which differ over the mesh period.
   for (StaticResult& mesh : rest.mesh) {

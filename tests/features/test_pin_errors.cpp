@@ -4,7 +4,7 @@
 
 #include "elastic_train.h"
 #include "gear/layout.h"
-#include "io/system_scene.h"
+#include "io/scene.h"
 #include "io/variant.h"
 #include "own_folder.h"
 #include "refusal.h"
@@ -23,7 +23,7 @@ constexpr double kError = 5e-6;  // m
 SystemModel train_with_pin(int planets, double radial, double tangential, double sun,
                            double torque = kTrainTorque) {
   const std::array<int, 3> teeth = planets == 4 ? std::array{28, 36, 100} : std::array{27, 36, 99};
-  return train(teeth, planets, {}, [&](SystemScene& scene) {
+  return train(teeth, planets, {}, [&](Scene& scene) {
     scene.pins = {{"planet1", radial, tangential}};
     scene.gears[0].bearing = sun > 0 ? Bearing{sun, 0, 0} : Bearing{};
     scene.drives[0].torque = torque;
@@ -110,16 +110,16 @@ namespace {
 
 const char* const kScene = "data/scenes/oh58-planetary.toml";
 
-SystemScene with(const std::vector<std::string>& changes) {
-  return read_system_variant_of(kScene, scene_variant(kScene, changes));
+Scene with(const std::vector<std::string>& changes) {
+  return read_variant_of(kScene, scene_variant(kScene, changes));
 }
 
 }  // namespace
 
 TEST_CASE(
     "[[pin]] turns with the position of its planet, and stage parameters hold it where it is not 0 alone") {
-  const SystemScene off = with({"pin.planet2.tangential_um=20", "pin.planet2.radial_um=-5"});
-  const System layout = layout_of(off), plain = layout_of(read_system_scene(kScene));
+  const Scene off = with({"pin.planet2.tangential_um=20", "pin.planet2.radial_um=-5"});
+  const System layout = layout_of(off), plain = layout_of(read_scene(kScene));
   const double angle = std::atan2(layout.bodies[2].centre[1], layout.bodies[2].centre[0]);
   REQUIRE(layout.bodies[2].name == "planet2");
   CHECK(layout.bodies[2].offset[0] == relative(-5e-6 * std::cos(angle) - 20e-6 * std::sin(angle), 1e-12));
@@ -141,11 +141,10 @@ TEST_CASE("a [[pin]] of no planet, given twice, too large or of rigid gears is r
   CHECK(names(why({"pin.planet5.radial_um=1"}), {"planet5", "planet1, planet2, planet3, planet4"}));
   CHECK(names(why({"pin.sun.radial_um=1"}), {"[[pin]]", "sun", "planet4"}));
   CHECK(names(why({"pin.planet1.radial_um=2000"}), {"radial_um", 2000, 1000}));
-  SystemScene twice = read_system_scene(kScene);
+  Scene twice = read_scene(kScene);
   twice.pins = {{"planet1", 1e-6, 0}, {"planet1", 0, 1e-6}};
   CHECK(names(message_of([&] { layout_of(twice); }), {"planet1", "one"}));
   const char* const rigid = "data/scenes/oh58-planetary-rigid.toml";
-  CHECK(names(
-      message_of([&] { read_system_variant_of(rigid, scene_variant(rigid, {"pin.planet1.radial_um=1"})); }),
-      {"[pin]", "rigid"}));
+  CHECK(names(message_of([&] { read_variant_of(rigid, scene_variant(rigid, {"pin.planet1.radial_um=1"})); }),
+              {"[pin]", "rigid"}));
 }

@@ -76,8 +76,9 @@ TEST_CASE(
     gear.material = paper_steel();
     gear.total_inertia = 0.0148;
   }
-  scene.mesh.gear = {"pinion", "wheel"};
-  scene.mesh.centre_distance = 150e-3;
+  scene.meshes.resize(1);
+  scene.mesh().gear = {"pinion", "wheel"};
+  scene.mesh().centre_distance = 150e-3;
   std::string section, key;
   const auto where = [&](const std::vector<std::string>& sections, const std::string& words) {
     section = sections.front();
@@ -157,7 +158,7 @@ TEST_CASE("a study answers the peak to peak within a mesh period beside that ove
     settings.statics = paper_statics(16);
     settings.statics.mesh.errors[0].eccentricity = eccentricity;
     settings.torque = 150;
-    const Eigen::VectorXd all = variant_response(body, body, settings, no_report).quantity;
+    const Eigen::VectorXd all = variant_response({body, body}, settings, no_report).quantity;
     std::map<std::string, double> out;
     const auto kinds = response_quantities({});
     for (size_t i = 0; i < kinds.size(); ++i) out[kinds[i].name] = all[static_cast<Eigen::Index>(i)];

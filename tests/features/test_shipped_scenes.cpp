@@ -87,16 +87,16 @@ TEST_CASE("the page of the scenes shows what fzg-c and nasa28 give at rest and b
           read_body_parameters(file.path(body_parameters(scene, gear), text(gear, ".toml")));
       return reduce(make_sector_mesh(p.design, p.discretisation), p.material, p.discretisation.modes);
     };
-    const ReducedBody driver = body(scene.mesh.gear[0]), driven = body(scene.mesh.gear[1]);
+    const ReducedBody driver = body(scene.mesh().gear[0]), driven = body(scene.mesh().gear[1]);
     StaticParameters statics;
-    statics.mesh = scene.mesh;
+    statics.mesh = scene.mesh();
     statics.contact = scene.contact;
     statics.contact.positions = 128;
     const StaticResult s = static_transmission(driver, driven, statics, torque);
     const StaticResult reference =
         static_transmission(driver, driven, statics, scene.operation.torques.front());
     ImpactParameters settings;
-    for (size_t g = 0; g < kSides; ++g) settings.inertia[g] = scene.gear(scene.mesh.gear[g]).total_inertia;
+    for (size_t g = 0; g < kSides; ++g) settings.inertia[g] = scene.gear(scene.mesh().gear[g]).total_inertia;
     settings.damping = scene.damping;
     settings.fidelity = scene.fidelity;
     settings.reference_torque = reference.torque;
@@ -125,10 +125,10 @@ TEST_CASE("the page of the scenes shows what fzg-c and nasa28 give at rest and b
 TEST_CASE(
     "the default scene is resolved: 1024 steps a period leave RMS and loads at 2400 Hz, on both branches") {
   const Scene scene = read_scene("data/scenes/parker2000.toml");
-  const SceneGear& gear = scene.gear(scene.mesh.gear[0]);
+  const SceneGear& gear = scene.gear(scene.mesh().gear[0]);
   const ReducedBody body = reduce(make_sector_mesh(gear.design, scene.body), gear.material, scene.body.modes);
   StaticParameters at_rest;
-  at_rest.mesh = scene.mesh;
+  at_rest.mesh = scene.mesh();
   at_rest.contact = scene.contact;
   at_rest.contact.positions = 128;
   const StaticResult statics = static_transmission(body, body, at_rest, 150);

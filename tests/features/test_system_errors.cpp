@@ -13,7 +13,7 @@
 #include "gear/tooth_errors.h"
 #include "io/artifacts.h"
 #include "io/publish.h"
-#include "io/system_scene.h"
+#include "io/scene.h"
 #include "mixed_errors.h"
 #include "paper_pair.h"
 #include "planetary_train.h"
@@ -48,11 +48,11 @@ GearDesign line_gear(int teeth) {
   return d;
 }
 
-SystemScene line(ContactModel contact = ContactModel::line) {
-  SystemScene scene;
+Scene line(ContactModel contact = ContactModel::line) {
+  Scene scene;
   const std::array<std::string, 3> name{"a", "b", "c"};
   for (size_t g = 0; g < 3; ++g) {
-    SystemScene::Gear gear;
+    SceneGear gear;
     gear.name = name[g];
     gear.design = line_gear(kTeeth[g]);
     gear.material = paper_steel();
@@ -60,7 +60,7 @@ SystemScene line(ContactModel contact = ContactModel::line) {
     scene.gears.push_back(gear);
   }
   for (size_t m = 0; m < 2; ++m) {
-    SystemScene::Mesh mesh;
+    Scene::Mesh mesh;
     mesh.spec.gear = {name[m], name[m + 1]};
     mesh.spec.centre_distance = (kTeeth[m] + kTeeth[m + 1]) * 1e-3;
     mesh.spec.corner.enabled = false;
@@ -80,17 +80,16 @@ SystemScene line(ContactModel contact = ContactModel::line) {
 
 std::vector<ReducedBody> line_bodies() {
   std::vector<ReducedBody> out;
-  const SystemScene scene = line();
-  for (const SystemScene::Gear& gear : scene.gears)
-    out.push_back(kept_body(gear.design, gear.material, scene.body));
+  const Scene scene = line();
+  for (const SceneGear& gear : scene.gears) out.push_back(kept_body(gear.design, gear.material, scene.body));
   return out;
 }
 
-SystemStaticResult rest_of(const SystemScene& scene) {
+SystemStaticResult rest_of(const Scene& scene) {
   return system_at_rest(static_parameters_of(scene, layout_of(scene)), line_bodies());
 }
 
-SweepResult swept(const SystemScene& scene) {
+SweepResult swept(const Scene& scene) {
   return system_sweep(sweep_parameters_of(scene, layout_of(scene)), line_bodies(), Direction::up, no_report);
 }
 
@@ -163,7 +162,7 @@ TEST_CASE(
 TEST_CASE("two gears as a system have the transmission errors of the pair with the same errors, at rest") {
   for (const ContactModel contact : {ContactModel::line, ContactModel::strips}) {
     CAPTURE(contact);
-    SystemScene scene = line(contact);
+    Scene scene = line(contact);
     scene.gears.pop_back();
     scene.meshes.pop_back();
     scene.gears[1].bearing = {};
@@ -252,7 +251,7 @@ TEST_CASE("an idler whose flanks stand all alike ahead is an idler that has turn
   for (const ContactModel contact : {ContactModel::line, ContactModel::strips}) {
     CAPTURE(contact);
     const SystemStaticResult plain = rest_of(line(contact));
-    SystemScene scene = line(contact);
+    Scene scene = line(contact);
     const double ahead = 3 * kMicrometre;
     scene.gears[1].errors = pitch(20, ahead, 0);
     const SystemStaticResult a = rest_of(scene);
@@ -275,7 +274,7 @@ TEST_CASE("an idler whose flanks stand all alike ahead is an idler that has turn
 TEST_CASE(
     "an error of one idler tooth: felt in both meshes where that tooth carries load, and nowhere else") {
   const SystemStaticResult plain = rest_of(line());
-  SystemScene scene = line();
+  Scene scene = line();
   scene.gears[1].errors = pitch(20, 0, 3 * kMicrometre);
   const SystemStaticResult a = rest_of(scene);
   const Index n = plain.mesh_phase.size();
@@ -301,7 +300,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a tooth of the sun that stands ahead: the planet that it meets carries more, all else balances") {
-  SystemScene scene = planetary_train(4);
+  Scene scene = planetary_train(4);
   scene.fidelity = {BodyModel::modal, ContactModel::line, Integrator::exact};
   scene.contact = {4, 6};
   std::vector<ReducedBody> bodies;
@@ -310,7 +309,7 @@ TEST_CASE("a tooth of the sun that stands ahead: the planet that it meets carrie
   coarse.modes = 1;
   const std::array stiffness{0.0, 3e8, 0.0};
   for (size_t g = 0; g < 3; ++g) {
-    SystemScene::Gear& gear = scene.gears[g];
+    SceneGear& gear = scene.gears[g];
     if (!gear.design.internal) gear.design.bore_radius = (0.5 * gear.design.teeth - 5) * gear.design.module;
     gear.material = {206e9, 0.3, 7850, true};
     gear.equivalent_mass = 0;
@@ -380,7 +379,7 @@ TEST_CASE("a tooth of the sun that stands ahead: the planet that it meets carrie
 
 TEST_CASE(
     "a hunting period of teeth that do not differ repeats the mesh period in motion; the same bytes again") {
-  SystemScene scene = line();
+  Scene scene = line();
   scene.operation.frequency_from = scene.operation.frequency_to = 1500;
   scene.operation.frequency_step = 100;
   scene.time.periodicity = 1e-9;
@@ -409,11 +408,10 @@ TEST_CASE(
 }
 
 TEST_CASE("slow motion of teeth that differ follows their statics over the hunting period") {
-  SystemScene scene = line();
+  Scene scene = line();
   scene.gears[1].errors = mixed(20);
   scene.contact.positions = 64;
-  for (SystemScene::Mesh& mesh : scene.meshes)
-    mesh.spec.corner.enabled = true;  // without, pairs come at once
+  for (Scene::Mesh& mesh : scene.meshes) mesh.spec.corner.enabled = true;  // without, pairs come at once
   const SystemStaticResult rest = rest_of(scene);
   scene.time.steps_per_period = 256;
   scene.operation.frequency_step = 10;
@@ -449,7 +447,7 @@ TEST_CASE("slow motion of teeth that differ follows their statics over the hunti
 
 TEST_CASE(
     "errors of a system: written, read, as parameters and in artifacts; planets have draws of their own") {
-  SystemScene scene = line();
+  Scene scene = line();
   scene.gears[1].errors = mixed(20);
   scene.operation.frequency_from = 1000;
   scene.operation.frequency_to = 2000;
@@ -488,7 +486,7 @@ TEST_CASE(
   CHECK(read.mesh[0].transmission_error_order[20] ==
         relative(read.mesh[0].transmission_error_harmonic[1], 1e-9));
 
-  SystemScene train = planetary_train(3);
+  Scene train = planetary_train(3);
   train.fidelity.body = BodyModel::modal;
   train.gears[1].errors.iso_class = 6;
   train.gears[1].errors.seed = 2147483647;
@@ -505,7 +503,7 @@ TEST_CASE(
   CHECK(hunting_periods_of({}) == 1);
   CHECK(hunting_periods_of({27, 1, 35, 27}) == 945);
   CHECK(names(message_of_input([] { hunting_periods_of({27, 35, 99}); }), {10395, 27, 35, 99, 4096}));
-  SystemScene scene = line();
+  Scene scene = line();
   scene.gears[1].errors = mixed(20);
   scene.operation.frequency_from = 1000;
   scene.operation.frequency_to = 2000;

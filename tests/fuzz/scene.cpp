@@ -5,7 +5,6 @@
 #include "base/error.h"
 #include "file_of.h"
 #include "io/scene.h"
-#include "io/system_scene.h"
 #include "io/variant.h"
 
 namespace {
@@ -37,7 +36,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   Scene scene;
   bool valid = false;
   rejected_or_read([&] {
-    scene = read_scene(path);
+    scene = read_pair_scene(path);
     valid = true;
   });
   if (valid) require_readable(scene);
@@ -48,7 +47,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   rejected_or_read([&] { read_map_parameters(path); });
   rejected_or_read([&] { read_system_parameters(path); });
   rejected_or_read([&] {
-    const std::string settings = system_parameters(layout_in(read_system_scene(path), path));
+    const std::string settings = system_parameters(layout_in(read_scene(path), path));
     const FileOf again(reinterpret_cast<const std::uint8_t*>(settings.data()), settings.size());
     if (system_parameters(read_system_parameters(again.path())) != settings) std::abort();
   });

@@ -27,7 +27,8 @@ Scene paper_scene(double accepted) {
     gear.total_inertia = 0.0148;
     scene.gears.push_back(gear);
   }
-  scene.mesh = paper_statics(8).mesh;
+  scene.meshes.resize(1);
+  scene.mesh() = paper_statics(8).mesh;
   scene.operation = {{100}, 600, 4000, 20};
   scene.time.accepted_error = accepted;
   return scene;

@@ -136,7 +136,7 @@ TEST_CASE(
     return "x.toml: " + sections.front();
   };
   const auto said = [&](const GearDesign& a, const GearDesign& b, double distance) {
-    SystemScene scene;
+    Scene scene;
     scene.gears.resize(2);
     scene.gears[0].name = "pinion";
     scene.gears[1].name = "wheel";
@@ -269,15 +269,15 @@ TEST_CASE("what the drawing says of pressure that reaches the root is what stati
 }
 
 TEST_CASE("gears that share a shaft are told that this is not computed, others to follow the flow of power") {
-  SystemScene scene;
+  Scene scene;
   for (const char* name : {"a", "b", "c", "d"}) {
-    SystemScene::Gear own;
+    SceneGear own;
     own.name = name;
     own.design = gear(30);
     scene.gears.push_back(own);
   }
   const auto mesh = [&](const char* driver, const char* driven) {
-    SystemScene::Mesh out;
+    Scene::Mesh out;
     out.spec.gear = {driver, driven};
     out.spec.centre_distance = 30 * kModule;
     scene.meshes.push_back(out);

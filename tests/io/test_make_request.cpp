@@ -11,7 +11,6 @@
 #include "io/make_request.h"
 #include "io/scene.h"
 #include "io/scene_goals.h"
-#include "io/system_scene.h"
 #include "own_folder.h"
 #include "refusal.h"
 
@@ -213,10 +212,10 @@ TEST_CASE("files of scenes, studies and models are there, can be read to the end
 TEST_CASE("an axis and a speed that a scene does not have are rejected before anything is computed") {
   const std::string pair = "data/scenes/first-pair.toml", train = "data/scenes/oh58-planetary.toml";
   const Scene two = read_scene(pair);
-  const SystemScene planets = read_system_scene(train);
+  const Scene planets = read_scene(train);
   const System layout = layout_in(planets, train);
   const auto of_pair = [&](const std::string& axis, double at) {
-    return message_of([&] { check_asked({{"report"}, axis, "", at}, two, pair); });
+    return message_of([&] { check_asked({{"report"}, axis, "", at}, two, {}, pair); });
   };
   const auto of_train = [&](const std::string& axis, double at) {
     return message_of([&] { check_asked({{"report"}, axis, "", at}, planets, layout, train); });

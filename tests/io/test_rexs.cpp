@@ -46,8 +46,8 @@ TEST_CASE("REXS: a model in XML, JSON and zip gives the gears of the scene that 
       CHECK(scene.gears[g].material.density == expected.gears[g].material.density);
     }
     CHECK(scene.gears[0].name == "pinion_a");
-    CHECK(scene.mesh.gear[0] == "pinion_a");
-    CHECK(scene.mesh.centre_distance == expected.mesh.centre_distance);
+    CHECK(scene.mesh().gear[0] == "pinion_a");
+    CHECK(scene.mesh().centre_distance == expected.mesh().centre_distance);
     CHECK(scene.operation.torques == std::vector<double>{60});
     // 6000 1/min of 30 teeth: 3000 Hz, from a fifth of it to half beyond
     CHECK(scene.operation.frequency_from == 600);
@@ -127,9 +127,9 @@ TEST_CASE(
   CHECK(names(message_of_input([&] { scene_of_rexs(read_rexs(path), "Fifth", 1); }), {"Fifth"}));
   for (const char* stage : {"62", "Second stage"}) {
     const Scene scene = imported(folder, path, stage);
-    CHECK(scene.mesh.gear[0] == "fourth");
-    CHECK(scene.mesh.gear[1] == "third");
-    CHECK(scene.mesh.centre_distance == 76e-3);
+    CHECK(scene.mesh().gear[0] == "fourth");
+    CHECK(scene.mesh().gear[1] == "third");
+    CHECK(scene.mesh().centre_distance == 76e-3);
     CHECK(scene.gears[0].design.dedendum == 1.25);
     CHECK(scene.gears[0].material.youngs_modulus == 206e9);
   }
@@ -167,7 +167,7 @@ TEST_CASE(
     for (const std::string& path :
          {folder.file("pair.rexs", xml(box)), folder.file("pair.rexsj", json(box))}) {
       const RexsScene scene = scene_of_rexs(read_rexs(path), "", 1);
-      CHECK(read_scene(folder.file("scene.toml", scene.text)).mesh.gear[0] == c.driver);
+      CHECK(read_scene(folder.file("scene.toml", scene.text)).mesh().gear[0] == c.driver);
       CHECK(says(scene.assumed, "mesh.driver") == (*c.assumed != 0));
       CHECK(says(scene.assumed, c.assumed));
       CHECK((contains(scene.text, "# ASSUMED: gear_1 of the stage")) == (*c.assumed != 0));
@@ -248,6 +248,8 @@ TEST_CASE(
   CHECK(!scene.gears[0].material.plane_stress);
   CHECK(scene.gears[0].modification.lead.crowning == relative(6e-6, 1e-12));
   CHECK(scene.fidelity.width == WidthModel::body);
+  CHECK(contains(imported().text, "# width = \"slices\""));
+  CHECK(!contains(imported().text, "calibrate"));  // which helical pairs do not have
   // Angles without their hand.
   set(box, 11, "helix_angle_reference_diameter", "deg", "20");
   CHECK(read().gears[1].design.hand == Hand::left);

@@ -7,7 +7,7 @@
 #include "gear/pair.h"
 #include "gear/scene_geometry.h"
 #include "gear/system_layout.h"
-#include "io/system_scene.h"
+#include "io/scene.h"
 #include "refusal.h"
 #include "relative.h"
 #include "rexs_models.h"
@@ -24,11 +24,11 @@ RexsScene scene_in(const Folder& folder, const Gearbox& box, const std::string& 
 
 struct Train {
   RexsScene text;
-  SystemScene scene;
+  Scene scene;
   System layout;
 
-  const SystemScene::Drive& drive(const std::string& gear) const {
-    for (const SystemScene::Drive& d : scene.drives)
+  const Scene::Drive& drive(const std::string& gear) const {
+    for (const Scene::Drive& d : scene.drives)
       if (d.gear == gear) return d;
     FAIL("no drive of ", gear);
     return scene.drives[0];
@@ -38,7 +38,7 @@ struct Train {
 Train train_in(const Folder& folder, const Gearbox& box) {
   Train out{scene_in(folder, box), {}, {}};
   const std::string path = folder.file("train.toml", out.text.text);
-  out.scene = read_system_scene(path);
+  out.scene = read_scene(path);
   out.layout = layout_in(out.scene, path);
   check_at_rest_in(out.scene, out.layout, path);
   return out;
@@ -154,7 +154,7 @@ TEST_CASE(
     const RexsScene text = scene_in(folder, planetary(), c.stage);
     const Scene scene = read_scene(folder.file("mesh.toml", text.text));
     check_geometry(scene, [](const auto&, const auto&) { return std::string(); });
-    CHECK(scene.mesh.gear[0] == c.driver);
+    CHECK(scene.mesh().gear[0] == c.driver);
     CHECK(scene.operation.torques == std::vector<double>{c.torque});
     CHECK(scene.operation.frequency_to == 594);
     CHECK(says(text.assumed, "of 3 planets that share 300 N m on the sun equally one"));
@@ -164,7 +164,8 @@ TEST_CASE(
   // The other way round: the carrier drives, and with the held ring so do the planets the sun.
   Gearbox box = planetary();
   set(box, 7, "torque_around_u_axis", "N m", "-300");
-  CHECK(read_scene(folder.file("mesh.toml", scene_in(folder, box, "Sun 0").text)).mesh.gear[0] == "planet_0");
+  CHECK(read_scene(folder.file("mesh.toml", scene_in(folder, box, "Sun 0").text)).mesh().gear[0] ==
+        "planet_0");
   // A gear of several stages without a planetary stage: its share is not known.
   box = planetary();
   std::erase_if(box.links,
@@ -189,7 +190,7 @@ TEST_CASE("REXS: the dedendum of a hob is not the addendum of its gear; tip circ
   Gearbox box = planetary();
   // As drawn, whatever its pressure reaches under load.
   const auto gear = [&](size_t g) {
-    return read_system_scene(folder.file("train.toml", scene_in(folder, box).text)).gears[g].design;
+    return read_scene(folder.file("train.toml", scene_in(folder, box).text)).gears[g].design;
   };
   CHECK(gear(0).addendum == 1.0);
   CHECK(gear(0).dedendum == 1.25);
@@ -226,7 +227,7 @@ TEST_CASE(
   for (const auto& [id, v, w] : {std::tuple{10, 100.0, 0.0}, std::tuple{11, 100 + 94.5 * 0.6, 94.5 * 0.8}})
     place(box, id, v, w);
   const auto pair = [&] { return read_scene(folder.file("pair.toml", scene_in(folder, box).text)); };
-  CHECK(pair().mesh.centre_distance == 94.5e-3);
+  CHECK(pair().mesh().centre_distance == 94.5e-3);
   CHECK(says(
       scene_in(folder, box).assumed,
       "mesh.centre_distance_mm = 94.5: the model has no center_distance; from cylindrical_gear 10 'Pinion A', support_vector"));
@@ -235,7 +236,7 @@ TEST_CASE(
 
   // A pair without backlash: what is not said of one gear, or of both.
   const auto backlash = [](const Scene& scene) {
-    return GearPair(scene.gears[0].design, scene.gears[1].design, scene.mesh.centre_distance).backlash();
+    return GearPair(scene.gears[0].design, scene.gears[1].design, scene.mesh().centre_distance).backlash();
   };
   box = first_pair();
   for (const int flank : {20, 21}) unset(box, flank, "addendum_modification_coefficient");
@@ -290,7 +291,7 @@ TEST_CASE("REXS: assumed tips of a pair with large shifts leave the other's root
   CHECK(one.addendum == two.addendum);
   CHECK(one.addendum < 1);
   one.addendum = two.addendum += 0.05;
-  CHECK(names(message_of_input([&] { GearPair(one, two, scene.mesh.centre_distance); }), {"gears", "jam"}));
+  CHECK(names(message_of_input([&] { GearPair(one, two, scene.mesh().centre_distance); }), {"gears", "jam"}));
 }
 
 TEST_CASE("REXS: planets stand where positions or angles say; equal spacing is found in them") {

@@ -39,12 +39,12 @@ TEST_CASE("the standard tooth of P2000 reads as it stands, in SI") {
   CHECK(s.gears[0].design.bore_radius == 0.04);
   CHECK(s.gears[0].material.youngs_modulus == 207e9);
   CHECK(s.gears[0].material.plane_stress);
-  CHECK(s.mesh.centre_distance == 0.15);
-  CHECK(s.mesh.corner.enabled);
-  CHECK(s.mesh.contact_plane ==
+  CHECK(s.mesh().centre_distance == 0.15);
+  CHECK(s.mesh().corner.enabled);
+  CHECK(s.mesh().contact_plane ==
         ContactPlane::body);  // its stage parameters, and so its results, are those of one plane state
   CHECK(!contains(static_parameters(s), "contact_plane"));
-  CHECK(std::isinf(s.mesh.corner.largest_angle));
+  CHECK(std::isinf(s.mesh().corner.largest_angle));
   CHECK(s.damping.rayleigh_stiffness == 7.7e-6);
   CHECK(s.operation.torques == std::vector<double>{100, 150, 200, 300});
   CHECK(s.operation.frequency_to == 4000);
@@ -62,10 +62,10 @@ TEST_CASE(
       "[[bearing]]\ngear = \"wheel\"\nstiffness_N_um = 100\ndamping_Ns_m = 900\nmass_kg = 5.5\n";
   const Scene s = file.read(with_section(one));
   CHECK(!s.gear("pinion").bearing.elastic());
-  CHECK(!s.mesh.bearing[0].elastic());
-  CHECK(s.mesh.bearing[1].stiffness == 1e8);
-  CHECK(s.mesh.bearing[1].damping == 900);
-  CHECK(s.mesh.bearing[1].mass == 5.5);
+  CHECK(!s.mesh().bearing[0].elastic());
+  CHECK(s.mesh().bearing[1].stiffness == 1e8);
+  CHECK(s.mesh().bearing[1].damping == 900);
+  CHECK(s.mesh().bearing[1].mass == 5.5);
   const std::string settings = static_parameters(s);
   CHECK(contains(
       settings,
@@ -201,7 +201,7 @@ TEST_CASE("a gear at the top of a scene is told its section, one in no mesh is w
   const std::string path = file.path(with_section("[gear.wheel2]\nlike = \"pinion\"\n"));
   const Scene scene = read_scene(path);
   std::string said;
-  for (const std::string& line : scene_lines(scene, path)) said += line + "\n";
+  for (const std::string& line : scene_lines(scene, {}, path)) said += line + "\n";
   CHECK(contains(
       said,
       path +
@@ -212,11 +212,11 @@ TEST_CASE("a torque in N mm is named where a thousandth of it passes") {
   const SceneFile file;
   for (const double torque : {80000.0, 200000.0}) {
     const std::string path = file.path(scene_with("[100, 150]", text("[", torque, "]")));
-    const std::string said = message_of([&] { check_scene(read_scene(path), path); });
+    const std::string said = message_of([&] { check_scene(read_scene(path), {}, path); });
     CHECK(names(said, {"torque_Nm", torque, torque / 1000}));
   }
   const std::string path = file.path(scene_with("[100, 150]", "[200]"));
-  CHECK(near_interference(read_scene(path), ForceBound::least).empty());
+  CHECK(near_interferences(read_scene(path), {}, ForceBound::least).empty());
 }
 
 TEST_CASE("a ring whose diameters ask for the shift of the other sign is told so") {
@@ -336,7 +336,8 @@ TEST_CASE("the corner rule is on, off, or an angle") {
   const SceneFile file;
   const auto rule = [&](const std::string& value) {
     return file.read(scene_with("driver = \"pinion\"", "driver = \"pinion\"\ncorner_contact = " + value))
-        .mesh.corner;
+        .mesh()
+        .corner;
   };
   CHECK(rule("true").enabled);
   CHECK(std::isinf(rule("true").largest_angle));
@@ -467,9 +468,9 @@ TEST_CASE("stage parameters read back bit by bit") {
   const StaticParameters statics = read_static_parameters(file.path(static_parameters(s), "static.toml"));
   CHECK(statics.mesh.gear[0] == "pinion");
   CHECK(statics.mesh.gear[1] == "wheel");
-  CHECK(statics.mesh.centre_distance == s.mesh.centre_distance);
+  CHECK(statics.mesh.centre_distance == s.mesh().centre_distance);
   CHECK(statics.mesh.corner.enabled);
-  CHECK(statics.mesh.corner.largest_angle == s.mesh.corner.largest_angle);
+  CHECK(statics.mesh.corner.largest_angle == s.mesh().corner.largest_angle);
   CHECK(statics.mesh.contact_plane == ContactPlane::strain);  // the default
   CHECK(statics.fidelity.contact == ContactModel::strips);
   CHECK(statics.contact.strips == 8);
@@ -562,10 +563,10 @@ TEST_CASE("modifications of flanks: units, taken over by like, own starts take t
   wheel.tip.start_roll = 0;
   wheel.tip.start_radius = 76.5 / 1000;
   CHECK(s.gear("wheel").modification == wheel);
-  CHECK(s.mesh.modification[0] == pinion);
-  CHECK(s.mesh.modification[1] == wheel);
+  CHECK(s.mesh().modification[0] == pinion);
+  CHECK(s.mesh().modification[1] == wheel);
   const StaticParameters settings = read_static_parameters(file.path(static_parameters(s), "static.toml"));
-  CHECK(settings.mesh.modification == s.mesh.modification);
+  CHECK(settings.mesh.modification == s.mesh().modification);
   CHECK(body_parameters(s, "wheel") == body_parameters(file.read(kScene), "wheel"));
   CHECK(!contains(static_parameters(file.read(kScene)), "modification"));
 }
@@ -630,7 +631,7 @@ TEST_CASE("errors of teeth: lists in SI, a gear's own, in the static stage param
   CHECK(errors.seed == 7);
   CHECK(errors.profile_form_waves == 3);
   CHECK(scene.gear("pinion").errors.none());
-  CHECK(scene.mesh.errors[1].single_pitch == errors.single_pitch);
+  CHECK(scene.mesh().errors[1].single_pitch == errors.single_pitch);
   CHECK(body_parameters(scene, "wheel") == body_parameters(plain, "wheel"));
   CHECK(static_parameters(scene) != static_parameters(plain));
   const StaticParameters back = read_static_parameters(file.path(static_parameters(scene), "static.toml"));

@@ -12,7 +12,6 @@
 #include "io/compatibility.h"
 #include "io/publish.h"
 #include "io/scene.h"
-#include "io/system_scene.h"
 
 using namespace whine;
 
@@ -27,9 +26,7 @@ TEST_CASE("stage texts of shipped scenes are what they were, byte by byte") {
     CAPTURE(name);
     const std::string scene = "data/scenes/" + name + ".toml";
     listed.insert(name);
-    while (cells >> place)
-      words += is_system_scene(scene) ? system_parameters_for(scene, name + "/" + place)
-                                      : parameters_for(read_scene(scene), name + "/" + place);
+    while (cells >> place) words += parameters_for(scene, name + "/" + place);
     CHECK(sha256(words) == hash);
   }
   CHECK(listed == shipped);

@@ -155,7 +155,7 @@ TEST_CASE("a grid holds all combinations, the last key fastest") {
   CHECK(third.scene.operation.torques.front() == 100);  // which sets the dampers
   // The wheel is like the pinion.
   for (int g = 0; g < kSides; ++g)
-    CHECK(third.scene.mesh.modification[g].tip.amount == relative(0.3e-6, 1e-15));
+    CHECK(third.scene.mesh().modification[g].tip.amount == relative(0.3e-6, 1e-15));
 }
 
 TEST_CASE("variants are the scene as if their keys were edited in it") {
@@ -166,7 +166,7 @@ TEST_CASE("variants are the scene as if their keys were edited in it") {
               last = study_variant(study, 2, variant_values(study, 2)).scene;
   CHECK(first.gear("wheel").design.bore_radius == 0.035);
   CHECK(first.gear("pinion").design.bore_radius == base.gear("pinion").design.bore_radius);
-  CHECK(first.mesh.corner.largest_angle == relative(5 * std::numbers::pi / 180, 1e-15));
+  CHECK(first.mesh().corner.largest_angle == relative(5 * std::numbers::pi / 180, 1e-15));
   CHECK(first.fidelity.contact == ContactModel::line);
   CHECK(!study.keys[1].number);
   // A variant with the scene's own values is the scene, stage parameters and all.
@@ -227,7 +227,7 @@ TEST_CASE("stage parameters of variants depend on what their stage computes, on 
         variant_stage_parameters(damped, 150, {Direction::up}));
   CHECK(variant_stage_parameters(scene, 150, {}) != variant_stage_parameters(scene, 151, {}));
   Scene relieved = scene;
-  relieved.mesh.modification[0].tip.amount = 1e-6;
+  relieved.mesh().modification[0].tip.amount = 1e-6;
   CHECK(variant_stage_parameters(scene, 150, {}) != variant_stage_parameters(relieved, 150, {}));
   const Written file(variant_stage_parameters(relieved, 150, {Direction::up, Direction::down}), "slice.toml");
   const VariantParameters settings = read_variant_parameters(file.path);
@@ -322,12 +322,12 @@ TEST_CASE(
   CHECK(study.train.shared == std::vector<std::string>{"sun-planet", "planet-ring"});
   const StudyVariant last = study_variant(study, 3, variant_values(study, 3)),
                      first = study_variant(study, 0, variant_values(study, 0));
-  REQUIRE(last.train);
+  REQUIRE(!last.scene.pair());
   CHECK(last.layout.torque(0) == 500);
   CHECK(std::hypot(last.layout.bodies[2].offset[0], last.layout.bodies[2].offset[1]) ==
         relative(20e-6, 1e-12));
-  CHECK(last.train->meshes[0].spec.corner.enabled);
-  CHECK(!last.train->meshes[1].spec.corner.enabled);
+  CHECK(last.scene.meshes[0].spec.corner.enabled);
+  CHECK(!last.scene.meshes[1].spec.corner.enabled);
   // The pin of variant 0 stands where the drawing has it: the scene itself, but for torque and corners.
   CHECK(first.layout.bodies[2].offset == std::array{0.0, 0.0});
   const Written file(variant_stage_parameters(last, {Direction::down}), "variant.toml"),

@@ -13,7 +13,6 @@
 #include "gear/system_layout.h"
 #include "gear/tooth_errors.h"
 #include "io/scene.h"
-#include "io/system_scene.h"
 #include "planetary_train.h"
 #include "refusal.h"
 #include "relative.h"
@@ -55,7 +54,7 @@ int line_of(const std::string& words, int n = 1) {
 void rejects(const std::string& text, int line, const std::vector<Field>& fields) {
   const SceneFile file;
   const std::string path = file.path(text);
-  const std::string said = message_of_input([&] { natural_modes(layout_in(read_system_scene(path), path)); });
+  const std::string said = message_of_input([&] { natural_modes(layout_in(read_scene(path), path)); });
   CHECK(said.starts_with(path + ":" + std::to_string(line) + ": "));
   CHECK(names(said, fields));
 }
@@ -65,7 +64,7 @@ void rejects(const std::string& text, int line, const std::vector<Field>& fields
 TEST_CASE("the planetary train that ships has the frequencies of the table, whatever its teeth") {
   CHECK(is_system_scene(kShipped));
   CHECK(!is_system_scene("data/scenes/first-pair.toml"));
-  const ModesResult a = natural_modes(layout_in(read_system_scene(kShipped), kShipped)),
+  const ModesResult a = natural_modes(layout_in(read_scene(kShipped), kShipped)),
                     b = natural_modes(layout_of(planetary_train(4)));
   REQUIRE(a.natural_frequency.size() == b.natural_frequency.size());
   CHECK(a.natural_frequency[0] == 0);
@@ -80,7 +79,7 @@ TEST_CASE("the planetary train that ships has the frequencies of the table, what
   for (size_t m = 0; m < 8; ++m) CHECK(std::abs(ahead(a.layout, m, 0)) < 1e-9);
   const SceneFile file;
   const System moved = layout_in(
-      read_system_scene(file.path(edited("planets = 4", "positions_deg = [0, 92.8125, 180, 267.1875]"))), "");
+      read_scene(file.path(edited("planets = 4", "positions_deg = [0, 92.8125, 180, 267.1875]"))), "");
   const std::array steps{0.0, 33.0, 64.0, 95.0};
   for (size_t n = 0; n < 4; ++n) {
     CHECK(std::abs(ahead(moved, n, -28 * steps[n] / 128)) < 1e-9);
@@ -91,9 +90,9 @@ TEST_CASE("the planetary train that ships has the frequencies of the table, what
 
 TEST_CASE("mesh phases of planets follow from tooth numbers") {
   const System three = layout_of([] {
-    SystemScene scene = planetary_train(3);
+    Scene scene = planetary_train(3);
     for (size_t g = 0; g < 3; ++g) scene.gears[g].design = rigid_gear(std::array{26, 37, 100}[g], g == 2);
-    for (SystemScene::Mesh& mesh : scene.meshes) mesh.spec.centre_distance = 0.5 * 63 * 2.776e-3;
+    for (Scene::Mesh& mesh : scene.meshes) mesh.spec.centre_distance = 0.5 * 63 * 2.776e-3;
     return scene;
   }());
   for (size_t n = 0; n < 3; ++n) {
@@ -107,14 +106,14 @@ TEST_CASE("mesh phases of planets follow from tooth numbers") {
 
 TEST_CASE("stage parameters of a system: read as written, the same modes to the last bit") {
   const SceneFile file;
-  const System layout = layout_in(read_system_scene(kShipped), kShipped);
+  const System layout = layout_in(read_scene(kShipped), kShipped);
   const std::string text = system_parameters(layout);
   const System again = read_system_parameters(file.path(text));
   CHECK(system_parameters(again) == text);
   CHECK(natural_modes(again).shape == natural_modes(layout).shape);
   // A comment, the title and the order of sections change nothing.
-  CHECK(system_parameters(layout_in(
-            read_system_scene(file.path("# a comment\n" + edited("title", "# title"))), "")) == text);
+  CHECK(system_parameters(
+            layout_in(read_scene(file.path("# a comment\n" + edited("title", "# title"))), "")) == text);
   const auto said = [&](const std::string& from, const std::string& to) {
     std::string changed = text;
     changed.replace(changed.find(from), from.size(), to);
@@ -137,7 +136,7 @@ TEST_CASE("stages on one shaft are told so before anything else that their scene
   const std::string second =
       "[gear.pinion2]\nlike = \"pinion\"\n[gear.wheel2]\nlike = \"pinion\"\n[[mesh]]\ndriver = \"pinion2\"\ndriven = \"wheel2\"\ncentre_distance_mm = 150\n";
   const std::string path = file.path(with_section(second));
-  const std::string said = message_of([&] { read_system_scene(path); });
+  const std::string said = message_of([&] { read_scene(path); });
   CHECK(names(said, {path + ":27", "[[mesh]]", "pinion2", "wheel2", "pinion"}));
 }
 
@@ -147,7 +146,8 @@ TEST_CASE("faults of a scene of a system are rejected with their line") {
   rejects(edited("planets = 4", "planets = 5"), carrier, {5, "divide"});
   rejects(edited("planets = 4", "positions_deg = [0, 91, 180, 270]"), carrier, {0, 90, 180, 270});
   rejects(edited("planets = 4", "planets = 4\npositions_deg = [0]"), carrier, {"either", "needs"});
-  rejects(edited("driven = \"ring\"", "driven = \"rim\""), second, {"[gear.rim]"});
+  rejects(edited("driven = \"ring\"", "driven = \"rim\""), line_of("driven = \"ring\""),
+          {"rim", "ring", "driven"});
   rejects(edited("88.448", "88.4482"), second, {"distance", "meshes"});
   rejects(edited("mass_kg = 0.66\n", ""), pin, {"mass_kg"});
   rejects(edited("gear = \"carrier\"", "gear = \"carier\""), line_of("gear = \"carrier\""), {"carrier"});
@@ -166,7 +166,7 @@ TEST_CASE("faults of a scene of a system are rejected with their line") {
   rejects(shipped() + "[gear.sun.modification]\ncrowning_um = 5\n", end, {"modification"});
   rejects(shipped() + "[gear.ring.error]\neccentricity_um = 5\n", end, {"error"});
   const SceneFile file;
-  CHECK_THROWS_AS(read_scene(kShipped), Error);
+  CHECK_THROWS_AS(read_pair_scene(kShipped), Error);
 }
 
 TEST_CASE("elastic systems: what their rest needs is checked with its line before bodies are made") {
@@ -187,7 +187,7 @@ TEST_CASE("elastic systems: what their rest needs is checked with its line befor
     }
     const std::string path = file.path(text);
     const std::string said = message_of_input([&] {
-      const SystemScene scene = read_system_scene(path);
+      const Scene scene = read_scene(path);
       const System layout = layout_in(scene, path);
       check_inertia(scene, [&](const auto&, const auto&) { return path; });
       check_at_rest_in(scene, layout, path);
@@ -252,12 +252,12 @@ TEST_CASE(
   const SceneFile file;
   const auto said = [&](const std::string& added) {
     const std::string path = file.path(whole.str() + added);
-    return message_of([&] { read_system_scene(path); });
+    return message_of([&] { read_scene(path); });
   };
   CHECK(said("").empty());
   // Friction acts in all meshes, at rest and in motion.
   const std::string path = file.path(whole.str() + "\n[friction]\ncoefficient = 0.05\n");
-  const SystemScene scene = read_system_scene(path);
+  const Scene scene = read_scene(path);
   const System layout = layout_in(scene, path);
   const std::string still = file.path(system_static_parameters(static_parameters_of(scene, layout)));
   for (const GearMeshSpec& mesh : read_system_static_parameters(still).mesh)
@@ -281,23 +281,23 @@ TEST_CASE(
 }
 
 TEST_CASE("what a system makes expensive is said with the key that makes it so, nothing of an ordinary one") {
-  const SystemScene ordinary = read_system_scene("data/scenes/three-in-line.toml");
+  const Scene ordinary = read_scene("data/scenes/three-in-line.toml");
   CHECK(costs(ordinary).empty());
   const auto said = [&](const auto& change) {
-    SystemScene scene = ordinary;
+    Scene scene = ordinary;
     change(scene);
     std::string out;
     for (const std::string& cost : costs(scene)) out += cost + "\n";
     INFO(out);
     return out;
   };
-  CHECK(contains(said([](SystemScene& s) { s.contact.strips = 1001; }),
-                 "strips = 1001, 128 positions of 2 meshes"));
-  const std::string fine = said([](SystemScene& s) { s.body.element_size = 0.05e-3; });
+  CHECK(
+      contains(said([](Scene& s) { s.contact.strips = 1001; }), "strips = 1001, 128 positions of 2 meshes"));
+  const std::string fine = said([](Scene& s) { s.body.element_size = 0.05e-3; });
   for (const char* gear : {"pinion", "idler", "wheel"})
     CHECK(contains(fine, text("gear-reduce, ", gear, " takes about ")));
   CHECK(contains(fine, "element_mm = 0.05 is 0.025 modules"));
-  CHECK(contains(said([](SystemScene& s) { s.time.min_sample_rate = 1e9; }), "min_sample_rate_kHz"));
+  CHECK(contains(said([](Scene& s) { s.time.min_sample_rate = 1e9; }), "min_sample_rate_kHz"));
 }
 
 TEST_CASE(
@@ -310,9 +310,9 @@ TEST_CASE(
   };
   told(seconds(read_scene("data/scenes/parker2000.toml")), 2.9);
   told(seconds(read_scene("data/scenes/helical-17-67.toml")), 3.0);
-  told(seconds(read_system_scene("data/scenes/three-in-line.toml")), 2.5);
-  told(seconds(read_system_scene("data/scenes/oh58-planetary.toml")), 8.9);
-  SystemScene helical = read_system_scene("data/scenes/helical-planetary.toml");
+  told(seconds(read_scene("data/scenes/three-in-line.toml")), 2.5);
+  told(seconds(read_scene("data/scenes/oh58-planetary.toml")), 8.9);
+  Scene helical = read_scene("data/scenes/helical-planetary.toml");
   told(seconds(helical), 38);
   told(stage_costs(helical).back().memory, 760e6);
   helical.contact.face_points = 8;
@@ -330,7 +330,7 @@ TEST_CASE("mesh periods after which the same teeth meet: errors and cracks count
   CHECK(hunting_periods(pair) == 2550);
   CHECK(static_positions(pair) == 16);
   CHECK(contains(static_parameters(pair), "positions = 16"));
-  SystemScene train = read_system_scene("data/scenes/three-in-line.toml");
+  Scene train = read_scene("data/scenes/three-in-line.toml");
   train.gears[0].design.crack.depth = 1e-3;
   train.gears[1].errors.iso_class = 5;
   CHECK(hunting_periods(train) == std::lcm(train.gears[0].design.teeth, train.gears[1].design.teeth));
@@ -338,7 +338,7 @@ TEST_CASE("mesh periods after which the same teeth meet: errors and cracks count
 }
 
 TEST_CASE("remarks on the motion of a system: contact on lines, a damping that nobody chose") {
-  SystemScene scene = read_system_scene("data/scenes/three-in-line.toml");
+  Scene scene = read_scene("data/scenes/three-in-line.toml");
   scene.fidelity.contact = ContactModel::line;
   CHECK(motion_remarks(scene).empty());
   scene.fidelity.contact = ContactModel::strips;
@@ -353,7 +353,7 @@ TEST_CASE("remarks on the motion of a system: contact on lines, a damping that n
 
 TEST_CASE(
     "gears without a mesh that run into each other are rejected with their distance and what it has to be") {
-  SystemScene line = read_system_scene("data/scenes/three-in-line.toml");
+  Scene line = read_scene("data/scenes/three-in-line.toml");
   CHECK_NOTHROW(layout_of(line));
   line.meshes[1].direction = 3.14159265358979;
   // Tip circles of 30 and 120 teeth of module 2: 32 and 122 mm.
@@ -362,12 +362,12 @@ TEST_CASE(
   // A further gear that meshes with the sun of a planetary train: a small one has room midway between planets, but where the carrier
   // is free they come round to it.
   const auto beside = [](int teeth, double degrees, bool free) {
-    SystemScene scene = planetary_train(3);
-    SystemScene::Gear gear = scene.gears[0];
+    Scene scene = planetary_train(3);
+    SceneGear gear = scene.gears[0];
     gear.name = "pump";
     gear.design = rigid_gear(teeth);
     scene.gears.push_back(gear);
-    SystemScene::Mesh mesh = scene.meshes[0];
+    Scene::Mesh mesh = scene.meshes[0];
     mesh.spec.gear = {"sun", "pump"};
     mesh.spec.centre_distance = 0.5 * (scene.gears[0].design.teeth + teeth) * gear.design.module;
     mesh.direction = degrees * 3.14159265358979 / 180;
@@ -382,7 +382,7 @@ TEST_CASE(
 }
 
 TEST_CASE("planets of one carrier that run into each other are told how far apart they have to be") {
-  SystemScene scene = read_system_scene("data/scenes/oh58-planetary.toml");
+  Scene scene = read_scene("data/scenes/oh58-planetary.toml");
   const double step = 2 * 3.14159265358979 / 126;
   // Two tip circles of 102.79 mm on one of 88.9 mm: 2 asin(102.79 / 177.8) = 70.64 degrees.
   scene.carriers[0].positions = {0, 15 * step, 63 * step, 78 * step};
@@ -394,9 +394,9 @@ TEST_CASE("a thin rim of a gear of a train is warned of, with its place; shipped
   const auto where = [](const std::vector<std::string>& sections, const std::string&) {
     return "x.toml: " + sections.front();
   };
-  SystemScene scene = read_system_scene("data/scenes/oh58-planetary.toml");
+  Scene scene = read_scene("data/scenes/oh58-planetary.toml");
   CHECK(scene_warnings(scene, where).empty());
-  for (SystemScene::Gear& gear : scene.gears)
+  for (SceneGear& gear : scene.gears)
     if (gear.design.internal)
       gear.design.rim_outer_radius = ToothGeometry(gear.design).root_radius() + 0.5e-3;
   const std::vector<std::string> said = scene_warnings(scene, where);

@@ -133,7 +133,7 @@ const Difference& row(const std::vector<Difference>& rows, const std::string& pa
 TEST_CASE(
     "speeds in rpm of a train: Willis, by what is held, with what stands still beside the name of the axis") {
   const System held = [] {
-    SystemScene scene = planetary_train(3);
+    Scene scene = planetary_train(3);
     scene.drives = {{"ring", System::DriveKind::held}, {"carrier", System::DriveKind::held}};
     return layout_of(scene);
   }();
@@ -155,7 +155,7 @@ TEST_CASE(
   CHECK(turns(ring, "sun") / turns(ring, "carrier") == relative(1 + 99 / 27.0, 1e-14));
   CHECK(turns(ring, "sun") == relative(1 / 27.0 + 1 / 99.0, 1e-15));
   CHECK(turns(ring, "planet2") == relative(1 / 36.0, 1e-15));  // on its pin
-  SystemScene scene = planetary_train(3);
+  Scene scene = planetary_train(3);
   scene.drives = {{"sun", System::DriveKind::held}};
   const System sun = layout_of(scene);
   CHECK(turns(sun, "ring") / turns(sun, "carrier") == relative(1 + 27 / 99.0, 1e-14));

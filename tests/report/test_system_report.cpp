@@ -83,12 +83,12 @@ TEST_CASE(
 namespace {
 
 // The ring drives three planets and these the sun.
-SystemScene driving_ring() {
-  SystemScene scene = planetary_train(3);
+Scene driving_ring() {
+  Scene scene = planetary_train(3);
   const std::array teeth{26, 37, 100};
   for (size_t g = 0; g < 3; ++g) scene.gears[g].design = rigid_gear(teeth[g], g == 2);
   std::swap(scene.meshes[0], scene.meshes[1]);
-  for (SystemScene::Mesh& mesh : scene.meshes) {
+  for (Scene::Mesh& mesh : scene.meshes) {
     std::swap(mesh.spec.gear[0], mesh.spec.gear[1]);
     mesh.spec.centre_distance = 0.5 * 63 * 2.776e-3;
   }
@@ -96,19 +96,19 @@ SystemScene driving_ring() {
 }
 
 // Three gears whose axes form an angle.
-SystemScene idler_at_an_angle() {
-  SystemScene scene;
+Scene idler_at_an_angle() {
+  Scene scene;
   const std::array teeth{27, 36, 31};
   const std::array names{"first", "idler", "last"};
   for (size_t g = 0; g < 3; ++g) {
-    SystemScene::Gear gear;
+    SceneGear gear;
     gear.name = names[g];
     gear.design = rigid_gear(teeth[g]);
     gear.equivalent_mass = 0.4;
     scene.gears.push_back(gear);
   }
   for (size_t m = 0; m < 2; ++m) {
-    SystemScene::Mesh mesh;
+    Scene::Mesh mesh;
     mesh.spec.gear = {names[m], names[m + 1]};
     mesh.spec.centre_distance = 0.5 * (teeth[m] + teeth[m + 1]) * 2.776e-3;
     mesh.direction = m == 0 ? 0.7 : 2.1;
@@ -137,8 +137,7 @@ Vec2 pitch_point_of(const System& s, const System::Mesh& mesh) {
 TEST_CASE(
     "the picture of a system: drawn teeth touch where every mesh is at its phase, on its path of contact, arrows turn as bodies do") {
   constexpr double kChord = 5e-6;  // m: of drawn flanks of ten points
-  for (const SystemScene& scene :
-       {planetary_train(3), unequal_train(), driving_ring(), idler_at_an_angle()}) {
+  for (const Scene& scene : {planetary_train(3), unequal_train(), driving_ring(), idler_at_an_angle()}) {
     const SystemStaticResult a = small_system(scene);
     const System& s = a.settings.layout;
     const Figure figure = system_picture(a);

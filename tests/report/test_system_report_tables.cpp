@@ -11,7 +11,7 @@
 #include "base/visible.h"
 #include "gear/system_layout.h"
 #include "io/artifacts.h"
-#include "io/system_scene.h"
+#include "io/scene.h"
 #include "refusal.h"
 #include "relative.h"
 #include "report/figure_list.h"
@@ -38,7 +38,7 @@ namespace {
 const Provenance kMade{"gear-test", "gear-test --output x.h5", {}};
 
 // Sun driven, ring and carrier held, numbers that differ from mesh to mesh and from body to body.
-SystemStaticResult varied(SystemScene scene = planetary_train(3)) {
+SystemStaticResult varied(Scene scene = planetary_train(3)) {
   scene.drives = {{"sun", System::DriveKind::torque, 400, 0},
                   {"ring", System::DriveKind::held, 0, 0},
                   {"carrier", System::DriveKind::held, 0, 0}};
@@ -350,15 +350,15 @@ TEST_CASE("odd names in the figures of a system: marks of gnuplot, names that ar
   // A mark in front of a character that is not ASCII has no width, and the character its own.
   CHECK(text_width("\\é") == text_width("é"));
   // A tower of gears is no taller than wide pictures are, and says what it leaves out.
-  SystemScene tower;
+  Scene tower;
   for (int i = 0; i < 6; ++i) {
-    SystemScene::Gear gear;
+    SceneGear gear;
     gear.name = text("gear_", i);
     gear.design = rigid_gear(27);
     gear.equivalent_mass = 1;
     tower.gears.push_back(gear);
     if (i == 0) continue;
-    SystemScene::Mesh mesh;
+    Scene::Mesh mesh;
     mesh.spec.gear = {text("gear_", i - 1), text("gear_", i)};
     mesh.spec.centre_distance = 27 * 2.776e-3 + 20e-6;
     mesh.direction = 0.5 * std::numbers::pi;

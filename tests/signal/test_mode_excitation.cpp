@@ -20,11 +20,10 @@ TEST_CASE(
        {Train{3, 27, 36}, Train{3, 28, 35}, Train{4, 27, 35}, Train{4, 28, 36}, Train{5, 33, 32}}) {
     CAPTURE(of.planets);
     CAPTURE(of.sun);
-    SystemScene scene = planetary_train(of.planets);
+    Scene scene = planetary_train(of.planets);
     const std::array teeth{of.sun, of.planet, of.sun + 2 * of.planet};
     for (size_t g = 0; g < 3; ++g) scene.gears[g].design = rigid_gear(teeth[g], g == 2);
-    for (SystemScene::Mesh& mesh : scene.meshes)
-      mesh.spec.centre_distance = 0.5 * (of.sun + of.planet) * 2.776e-3;
+    for (Scene::Mesh& mesh : scene.meshes) mesh.spec.centre_distance = 0.5 * (of.sun + of.planet) * 2.776e-3;
     const ModesResult modes = natural_modes(layout_of(scene));
     std::vector<size_t> suns, rings;
     for (size_t m = 0; m < modes.layout.meshes.size(); ++m)

@@ -363,7 +363,7 @@ TEST_CASE("a variant of a scene has the changed keys and nothing else changed") 
     CHECK(to.gear(gear).design.dedendum == from.gear(gear).design.dedendum);
     CHECK(!to.gear(gear).material.plane_stress);
   }
-  CHECK(!to.mesh.corner.enabled);
+  CHECK(!to.mesh().corner.enabled);
   CHECK(to.time.steps_per_period == 256);
   CHECK(to.operation.torques == from.operation.torques);
   CHECK(to.damping.rayleigh_stiffness == from.damping.rayleigh_stiffness);

@@ -15,7 +15,7 @@
 #include "gear/system_layout.h"
 #include "io/artifacts.h"
 #include "io/publish.h"
-#include "io/system_scene.h"
+#include "io/scene.h"
 #include "orbits/periodic_orbit.h"
 #include "planetary_train.h"
 #include "refusal.h"
@@ -48,7 +48,7 @@ struct Train {
 
 const Train& train() {
   static const Train out = [] {
-    SystemScene scene = planetary_train(3);
+    Scene scene = planetary_train(3);
     const std::array teeth{26, 37, 100};
     const std::array stiffness{2e7, 3e8, 0.0};
     scene.fidelity = {BodyModel::modal, ContactModel::strips, Integrator::exact};
@@ -57,7 +57,7 @@ const Train& train() {
     scene.body.modes = 15;
     Train train;
     for (size_t g = 0; g < 3; ++g) {
-      SystemScene::Gear& gear = scene.gears[g];
+      SceneGear& gear = scene.gears[g];
       gear.design = rigid_gear(teeth[g], g == 2);
       if (g < 2) gear.design.bore_radius = (0.5 * teeth[g] - 5) * kModule;
       gear.material = {206e9, 0.3, 7850, true};
@@ -66,7 +66,7 @@ const Train& train() {
       train.bodies.push_back(kept_body(gear.design, gear.material, scene.body));
     }
     scene.carriers[0].bearing = {};
-    for (SystemScene::Mesh& mesh : scene.meshes) mesh.spec.centre_distance = 0.5 * 63 * kModule;
+    for (Scene::Mesh& mesh : scene.meshes) mesh.spec.centre_distance = 0.5 * 63 * kModule;
     scene.drives = {{"sun", System::DriveKind::torque, 300, 0},
                     {"ring", System::DriveKind::held, 0, 0},
                     {"carrier", System::DriveKind::held, 0, 0}};

@@ -245,6 +245,26 @@ TEST_CASE("points of a spur pair under even load are one slice, whatever their n
   }
 }
 
+TEST_CASE("a spur pair in one slice has the bits of the plane body, on bodies in three dimensions too") {
+  const GearDesign design = gear_with_helix(0, Hand::right, 20e-3);
+  const ReducedBody &plane = strained_body(design), &wide = strained_body(design, 4, 3e-3);
+  StaticParameters settings = paper_statics(24);
+  for (const ContactModel contact : {ContactModel::strips, ContactModel::line}) {
+    settings.fidelity.contact = contact;
+    const StaticResult a = static_transmission(wide, wide, settings, 150),
+                       b = static_transmission(plane, plane, settings, 150);
+    CHECK(a.transmission_error == b.transmission_error);
+    CHECK(a.tooth_load == b.tooth_load);
+    CHECK(a.stiffness_tangent == b.stiffness_tangent);
+    CHECK(a.contact_half_width == b.contact_half_width);
+    // One point over the face is that slice, but for the order of a sum.
+    if (contact == ContactModel::line)
+      CHECK((static_transmission(plane, plane, slices(24, 1), 150).transmission_error - b.transmission_error)
+                .cwiseAbs()
+                .maxCoeff() < 1e-14 * b.transmission_error.mean());
+  }
+}
+
 TEST_CASE("a helical pair: equilibrium, axial force, certificate; the other hand is its mirror image") {
   StaticParameters settings = slices(16, 8, kHelicalDistance);
   settings.mesh.modification[0].lead.crowning = 3e-6;

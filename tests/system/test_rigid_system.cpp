@@ -41,7 +41,7 @@ char letter(ModeType type) {
   return type == ModeType::rotational ? 'R' : type == ModeType::translational ? 'T' : 'P';
 }
 
-std::string said(const SystemScene& scene) {
+std::string said(const Scene& scene) {
   return message_of([&] { natural_modes(layout_of(scene)); });
 }
 
@@ -79,10 +79,10 @@ TEST_CASE(
 
 TEST_CASE("torsional planetary train with a fixed ring: closed numbers") {
   // Pitch radii 0.5 and 0.5 m; springs along the pitch line are those along the line of action times cos^2 of the pressure angle.
-  SystemScene scene = planetary_train(3);
+  Scene scene = planetary_train(3);
   const double angle = 20 * kPi / 180, c = std::cos(angle);
   const auto gear = [&](int number, int teeth, bool internal, double inertia) {
-    SystemScene::Gear& of = scene.gears[static_cast<size_t>(number)];
+    SceneGear& of = scene.gears[static_cast<size_t>(number)];
     of.design = rigid_gear(teeth, internal, 20);
     of.design.module = 1.0 / 36;
     if (internal) of.design.rim_outer_radius = 2;
@@ -184,7 +184,7 @@ TEST_CASE("types are those of the structure: what central members and planets do
 TEST_CASE(
     "where planets stand does not change the modes of equal spacing; unequal planets are typed by their motion") {
   const ModesResult equal = natural_modes(layout_of(planetary_train(4)));
-  SystemScene turned = planetary_train(4);
+  Scene turned = planetary_train(4);
   turned.carriers[0].planets = 0;
   for (int n = 0; n < 4; ++n) turned.carriers[0].positions.push_back(0.3 + n * kPi / 2);
   const ModesResult rotated = natural_modes(layout_of(turned));
@@ -193,10 +193,10 @@ TEST_CASE(
     CHECK(rotated.type[static_cast<size_t>(i)] == equal.type[static_cast<size_t>(i)]);
   }
   // The helicopter train of the same authors: opposite planets, not at equal spacing. Structure stays, double modes split.
-  SystemScene opposite = planetary_train(4);
+  Scene opposite = planetary_train(4);
   const std::array<int, 3> teeth{27, 36, 99};
   for (size_t g = 0; g < 3; ++g) opposite.gears[g].design = rigid_gear(teeth[g], g == 2);
-  for (SystemScene::Mesh& mesh : opposite.meshes) mesh.spec.centre_distance = 0.5 * 63 * 2.776e-3;
+  for (Scene::Mesh& mesh : opposite.meshes) mesh.spec.centre_distance = 0.5 * 63 * 2.776e-3;
   CHECK(names(said(opposite), {"positions_deg", 0, "88.5714", 180, "268.5714"}));
   opposite.carriers[0].planets = 0;
   for (const double angle : {0.0, 91.43, 180.0, 271.43})
@@ -214,9 +214,9 @@ TEST_CASE(
 }
 
 TEST_CASE("the way that power flows does not change the modes: a ring that drives") {
-  SystemScene reversed = planetary_train(3);
+  Scene reversed = planetary_train(3);
   std::swap(reversed.meshes[0], reversed.meshes[1]);
-  for (SystemScene::Mesh& mesh : reversed.meshes) std::swap(mesh.spec.gear[0], mesh.spec.gear[1]);
+  for (Scene::Mesh& mesh : reversed.meshes) std::swap(mesh.spec.gear[0], mesh.spec.gear[1]);
   const System layout = layout_of(reversed);
   CHECK(layout.bodies[0].name == "ring");
   CHECK(layout.bodies.back().sense == layout.bodies[0].sense);
@@ -230,7 +230,7 @@ TEST_CASE("the way that power flows does not change the modes: a ring that drive
 
 TEST_CASE(
     "planets on rigid pins are masses of the carrier: the limit of stiff pins, of first order in their flexibility") {
-  SystemScene rigid = planetary_train(3);
+  Scene rigid = planetary_train(3);
   rigid.gears[1].bearing = {};
   rigid.carriers[0].equivalent_mass += 3 * 0.66;
   rigid.carriers[0].bearing.mass += 3 * 0.66;
@@ -238,7 +238,7 @@ TEST_CASE(
   REQUIRE(b.natural_frequency.size() == 12);
   double before = 0;
   for (const double stiff : {1e12, 1e13}) {
-    SystemScene scene = planetary_train(3);
+    Scene scene = planetary_train(3);
     scene.gears[1].bearing.stiffness = stiff;
     const ModesResult a = natural_modes(layout_of(scene));
     double error = 0;
@@ -251,15 +251,15 @@ TEST_CASE(
 }
 
 TEST_CASE("a pair of rigid gears: the closed form of one degree of freedom; stiff bearings lead to it") {
-  SystemScene scene;
+  Scene scene;
   for (const int z : {28, 36}) {
-    SystemScene::Gear gear;
+    SceneGear gear;
     gear.name = z == 28 ? "a" : "b";
     gear.design = rigid_gear(z);
     gear.equivalent_mass = z == 28 ? 0.4 : 0.9;
     scene.gears.push_back(gear);
   }
-  SystemScene::Mesh mesh;
+  Scene::Mesh mesh;
   mesh.spec.gear = {"a", "b"};
   mesh.spec.centre_distance = 32 * 2.776e-3;
   mesh.direction = 0.4;
@@ -282,7 +282,7 @@ TEST_CASE("a pair of rigid gears: the closed form of one degree of freedom; stif
 }
 
 TEST_CASE("what a system scene says wrong is named, with the section that says it") {
-  SystemScene scene = planetary_train(4);
+  Scene scene = planetary_train(4);
   scene.carriers[0].planets = 5;
   CHECK(names(said(scene), {28, 100, 128, 5}));
   scene.carriers[0].planets = 8;
@@ -325,11 +325,11 @@ TEST_CASE("what a system scene says wrong is named, with the section that says i
   scene.gears[0].bearing.mass = 0;
   CHECK(names(said(scene), {"sun", 0}));
   try {
-    SystemScene other = planetary_train(4);
+    Scene other = planetary_train(4);
     other.meshes[1].spec.gear[1] = "rim";
     layout_of(other);
     FAIL("a mesh with an unknown gear is taken");
-  } catch (const SystemSceneError& error) {
+  } catch (const SectionError& error) {
     CHECK(std::string(error.section()) == "mesh");
     CHECK(error.number() == 1);
   }

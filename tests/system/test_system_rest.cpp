@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "gear/system_layout.h"
-#include "io/system_scene.h"
+#include "io/scene.h"
 #include "planetary_train.h"
 #include "refusal.h"
 #include "relative.h"
@@ -45,20 +45,20 @@ const ReducedBody& body_of(int teeth, bool internal) {
 }
 
 // Sun, three planets and ring; the sun floats, planets stand on elastic pins; ring and carrier are held.
-SystemScene train(const std::array<int, 3>& teeth, ContactModel contact, bool corner) {
-  SystemScene scene = planetary_train(3);
+Scene train(const std::array<int, 3>& teeth, ContactModel contact, bool corner) {
+  Scene scene = planetary_train(3);
   scene.fidelity = {BodyModel::modal, contact, Integrator::exact};
   scene.contact = {4, kPositions};
   const std::array stiffness{2e7, 3e8, 0.0};
   for (size_t g = 0; g < 3; ++g) {
-    SystemScene::Gear& gear = scene.gears[g];
+    SceneGear& gear = scene.gears[g];
     gear.design = elastic_gear(teeth[g], g == 2);
     gear.material = {206e9, 0.3, 7850, true};
     gear.equivalent_mass = 0;
     gear.bearing = {stiffness[g], 0, 0};
   }
   scene.carriers[0].bearing = {};
-  for (SystemScene::Mesh& mesh : scene.meshes) {
+  for (Scene::Mesh& mesh : scene.meshes) {
     mesh.spec.centre_distance = 0.5 * (teeth[0] + teeth[1]) * kModule;
     mesh.spec.corner.enabled = corner;
   }
@@ -68,9 +68,9 @@ SystemScene train(const std::array<int, 3>& teeth, ContactModel contact, bool co
   return scene;
 }
 
-SystemStaticResult at_rest(const SystemScene& scene) {
+SystemStaticResult at_rest(const Scene& scene) {
   std::vector<ReducedBody> bodies;
-  for (const SystemScene::Gear& gear : scene.gears)
+  for (const SceneGear& gear : scene.gears)
     bodies.push_back(body_of(gear.design.teeth, gear.design.internal));
   return system_at_rest(static_parameters_of(scene, layout_of(scene)), bodies);
 }
@@ -130,10 +130,10 @@ TEST_CASE(
 }
 
 TEST_CASE("a zone of contact that was too narrow leaves nothing in the balance of the position") {
-  const SystemScene scene = train({26, 37, 100}, ContactModel::strips, true);
+  const Scene scene = train({26, 37, 100}, ContactModel::strips, true);
   std::vector<ReducedBody> bodies;
   bodies.reserve(scene.gears.size());
-  for (const SystemScene::Gear& gear : scene.gears)
+  for (const SceneGear& gear : scene.gears)
     bodies.push_back(body_of(gear.design.teeth, gear.design.internal));
   SystemStaticResult a = system_at_rest(static_parameters_of(scene, layout_of(scene)), bodies);
   const SystemModel system = elastic_system(a.settings, bodies);
@@ -226,7 +226,7 @@ TEST_CASE(
     "frozen stiffness: the assembly of the modes, translations condensed, is the tangent of the statics") {
   for (const ContactModel contact : {ContactModel::line, ContactModel::strips}) {
     CAPTURE(contact);
-    const SystemScene scene = train({26, 37, 100}, contact, false);
+    const Scene scene = train({26, 37, 100}, contact, false);
     const SystemStaticResult a = at_rest(scene);
     const System& layout = a.settings.layout;
     std::vector<ReducedBody> bodies;
@@ -285,12 +285,12 @@ TEST_CASE("modes of an elastic train have the structure of the rigid one and the
 }
 
 TEST_CASE("a third gear without torque: no stiffness in its mesh, one more free motion, modes of the pair") {
-  SystemScene scene = train({26, 37, 100}, ContactModel::line, false);
+  Scene scene = train({26, 37, 100}, ContactModel::line, false);
   scene.carriers.clear();
   scene.gears[2] = scene.gears[0];
   scene.gears[2].name = "last";
   scene.meshes[1].spec.gear[1] = "last";
-  for (SystemScene::Gear& gear : scene.gears) gear.bearing = {};
+  for (SceneGear& gear : scene.gears) gear.bearing = {};
   scene.drives = {{"sun", System::DriveKind::torque, kTorque, 0}, {"planet", System::DriveKind::held, 0, 0}};
   const SystemStaticResult a = at_rest(scene);
   for (const MatrixRM& k : a.mesh_stiffness) {
@@ -314,8 +314,7 @@ TEST_CASE("a third gear without torque: no stiffness in its mesh, one more free 
 TEST_CASE("the four-planet set that ships and its rigid twin stand, turn and mesh alike") {
   const char *const elastic = "data/scenes/oh58-planetary.toml", *const rigid =
                                                                      "data/scenes/oh58-planetary-rigid.toml";
-  const System a = layout_in(read_system_scene(elastic), elastic),
-               b = layout_in(read_system_scene(rigid), rigid);
+  const System a = layout_in(read_scene(elastic), elastic), b = layout_in(read_scene(rigid), rigid);
   REQUIRE(a.bodies.size() == b.bodies.size());
   for (size_t i = 0; i < a.bodies.size(); ++i) {
     CHECK(a.bodies[i].name == b.bodies[i].name);
@@ -336,7 +335,7 @@ TEST_CASE("the four-planet set that ships and its rigid twin stand, turn and mes
 TEST_CASE("a sun floats on any soft bearing: loads of no bearing to the first order, nothing jumps") {
   for (const ContactModel contact : {ContactModel::line, ContactModel::strips}) {
     const auto on = [&](double stiffness) {
-      SystemScene scene = train({26, 37, 100}, contact, true);
+      Scene scene = train({26, 37, 100}, contact, true);
       scene.contact.positions = 4;
       scene.gears[0].bearing.stiffness = stiffness;
       return at_rest(scene);
@@ -361,7 +360,7 @@ TEST_CASE("a sun floats on any soft bearing: loads of no bearing to the first or
 TEST_CASE(
     "stage parameters of elastic systems: read as written; what a scene of elastic gears cannot have is rejected") {
   const char* const kTrain = "data/scenes/oh58-planetary.toml";
-  const SystemScene scene = read_system_scene(kTrain);
+  const Scene scene = read_scene(kTrain);
   CHECK(!scene.rigid());
   const SystemStaticParameters p = static_parameters_of(scene, layout_in(scene, kTrain));
   CHECK(p.gears() == std::vector<std::string>{"sun", "planet", "ring"});
@@ -375,7 +374,7 @@ TEST_CASE(
     std::ostringstream whole;
     whole << in.rdbuf() << more;
     const std::string path = file.path(whole.str());
-    return message_of([&] { read_system_scene(path); });
+    return message_of([&] { read_scene(path); });
   };
   CHECK(said("").empty());
   CHECK(said("[gear.sun.modification]\ncrowning_um = 5\n").empty());
@@ -404,7 +403,7 @@ TEST_CASE(
                           ? scene_text.size()
                           : scene_text.find("\nmesh_frequency_Hz") + 1,
                       more);
-    return message_of([&] { read_system_scene(file.path(scene_text)); });
+    return message_of([&] { read_scene(file.path(scene_text)); });
   };
   CHECK(names(reads(kTrain, "torque_Nm = 5.0\n"), {"[[drive]]"}));
   CHECK(names(reads("data/scenes/lin-parker-planetary.toml", "[damping]\n"), {"belongs", "elastic"}));
@@ -413,13 +412,13 @@ TEST_CASE(
 namespace {
 
 // Coarse bodies of a scene's gears, and what of its statics does not need many positions.
-SystemStaticResult coarsely_at_rest(SystemScene scene, ContactModel contact) {
+SystemStaticResult coarsely_at_rest(Scene scene, ContactModel contact) {
   scene.fidelity.contact = contact;
   scene.contact = {4, kPositions};
   scene.body.element_size = 2.5e-3;
   scene.body.modes = 1;
   std::vector<ReducedBody> bodies;
-  for (const SystemScene::Gear& gear : scene.gears)
+  for (const SceneGear& gear : scene.gears)
     bodies.push_back(kept_body(gear.design, gear.material, scene.body));
   return system_at_rest(static_parameters_of(scene, layout_of(scene)), bodies);
 }
@@ -427,8 +426,8 @@ SystemStaticResult coarsely_at_rest(SystemScene scene, ContactModel contact) {
 }  // namespace
 
 TEST_CASE("the rigid twin of the four-planet set has its phases, stiffnesses, inertias and masses") {
-  const SystemScene scene = read_system_scene("data/scenes/oh58-planetary.toml"),
-                    rigid = read_system_scene("data/scenes/oh58-planetary-rigid.toml");
+  const Scene scene = read_scene("data/scenes/oh58-planetary.toml"),
+              rigid = read_scene("data/scenes/oh58-planetary-rigid.toml");
   const SystemStaticResult a = coarsely_at_rest(scene, ContactModel::line);
   const System &elastic = a.settings.layout, twin = layout_of(rigid);
   REQUIRE(elastic.bodies.size() == twin.bodies.size());
@@ -462,7 +461,7 @@ TEST_CASE("the rigid twin of the four-planet set has its phases, stiffnesses, in
 }
 
 TEST_CASE("a tip that comes too close to the root of its mate is told of, of lines and of strips") {
-  SystemScene scene = read_system_scene("data/scenes/oh58-planetary.toml");
+  Scene scene = read_scene("data/scenes/oh58-planetary.toml");
   scene.gears[0].design.dedendum = 1.25;
   scene.drives[0].torque = 1500;
   for (const ContactModel contact : {ContactModel::line, ContactModel::strips}) {

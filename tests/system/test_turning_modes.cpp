@@ -152,7 +152,7 @@ TEST_CASE(
     CHECK(row[3] == relative(row[1] * row[2], 1e-12));
     CHECK(std::abs(f[static_cast<Index>(row[0]) - 1] - row[3]) < 1e-3 * row[3]);
   }
-  SystemScene scene = planetary_train(4);
+  Scene scene = planetary_train(4);
   scene.drives.push_back({"carrier", System::DriveKind::held, 0, 0});
   ModesResult held = natural_modes(layout_of(scene));
   add_turning_frequencies(held, {});
@@ -161,8 +161,8 @@ TEST_CASE(
 }
 
 TEST_CASE("which way and how fast the frame of a layout turns") {
-  const auto turns = [](const std::vector<SystemScene::Drive>& drives) {
-    SystemScene scene = planetary_train(3);
+  const auto turns = [](const std::vector<Scene::Drive>& drives) {
+    Scene scene = planetary_train(3);
     scene.drives = drives;
     return frame_turns(layout_of(scene));
   };
@@ -174,8 +174,8 @@ TEST_CASE("which way and how fast the frame of a layout turns") {
   CHECK(turns({{"sun", held, 0, 0}, {"ring", held, 0, 0}}) == 0);
   CHECK(turns({{"ring", held, 0, 0}, {"carrier", held, 0, 0}}) == 0);
   CHECK(turns({}) == 0);
-  const SystemScene scene = [] {
-    SystemScene of = planetary_train(3);
+  const Scene scene = [] {
+    Scene of = planetary_train(3);
     of.drives = {{"ring", System::DriveKind::held, 0, 0}};
     return of;
   }();

@@ -38,7 +38,7 @@ TEST_CASE(
   const auto said = [&](const std::string& damping) {
     const std::string path = file.path(with_section("[damping]\n" + damping));
     return message_of_input([&] {
-      check_undamped_depth(read_scene(path), [&](const auto& sections, const std::string& words) {
+      check_undamped_depth(read_scene(path), {}, [&](const auto& sections, const std::string& words) {
         return scene_place(path, sections, words);
       });
     });

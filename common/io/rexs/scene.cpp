@@ -197,7 +197,13 @@ void write_pair(RexsReader& reader, RexsStage stage, const MeshOfTrain& mesh, Re
   out.value("driven", "\"" + name[1] + "\"", quoted_name(reader.component(stage.gear[1])));
   out.value("centre_distance_mm", "mesh.", distance);
   out.section("[damping]");
-  out.assumed("rayleigh_stiffness_s", "damping.", kStiffnessDamping, "make calibrate DAMPING=0.05 finds it");
+  const bool helical = gear[0].design().helical();
+  out.assumed("rayleigh_stiffness_s", "damping.", kStiffnessDamping,
+              helical ? "pi times the natural frequency times this is about the damping ratio"
+                      : "make calibrate DAMPING=0.05 finds it");
+  if (helical)
+    out.line(
+        "\n# [fidelity]\n# width = \"slices\"  # for vibration over speed; without it bodies in three dimensions, at rest alone");
   out.section("[operation]");
   if (train) {
     write_share(reader, stage, *train, gear[0].teeth.value, out);
