@@ -149,7 +149,7 @@ figure_folder := $(if $(SCENE),out/$(basename $(notdir $(SCENE)))/report,out/fig
 AXIS ?=
 DB ?=
 speed_figures := $(foreach f,fig05 fig05-branches fig07 fig07-branches fig14 fig14-elastic fig16,$(call paired,$f,$(shown_names))) fig05 fig07 fig05-branches fig07-branches fig07-600 fig14 fig14-elastic fig16 relief-jumps waterfall order-cuts residual-signal tooth-loads face-load bearing-forces efficiency root-stress root-stress-branches flank-pressure compare-motion runup-up runup-down campbell system-sweep branch
-level_figures := order-cuts compare-motion runup-up runup-down system-sweep branch
+level_figures := order-cuts waterfall compare-motion runup-up runup-down system-sweep branch
 # A figure that would not take them is not drawn without them; `modes` draws the Campbell diagram, too, `branches` its figure, and `sweep`
 # that of a train.
 not_drawn_with = $(filter-out $1,$(filter $(figures) table1 static impact histories multipliers fold-curves jump-map sensitivity harris-map modes \
@@ -157,7 +157,7 @@ not_drawn_with = $(filter-out $1,$(filter $(figures) table1 static impact histor
 $(if $(AXIS),$(if $(call not_drawn_with,modes $(speed_figures)),$(error AXIS=$(AXIS): $(firstword $(call not_drawn_with,modes $(speed_figures))) \
   is not drawn against the speed of a gear; leave AXIS out. It is for $(filter-out compare-motion runup-up runup-down campbell branch system-%,$(speed_figures))$(,) modes$(,) runup$(,) compare$(,) report$(,) branches$(,) of a train sweep)))
 $(if $(DB),$(if $(call not_drawn_with,$(level_figures)),$(error DB=$(DB): $(firstword $(call not_drawn_with,$(level_figures))) \
-  is not drawn in dB; leave DB out. It is for order-cuts$(,) runup$(,) compare$(,) report$(,) branches$(,) of a train sweep)))
+  is not drawn in dB; leave DB out. It is for order-cuts$(,) waterfall$(,) runup$(,) compare$(,) report$(,) branches$(,) of a train sweep)))
 axis_options = $(strip $(if $(AXIS),$(if $(filter $1,$(speed_figures)),--axis '$(AXIS)')) $(if $(DB),$(if $(filter $1,$(level_figures)),--db $(DB))))
 
 # Figures, by the path out/$1 of a file without its ending: out/S/report/fig05, out/figures/histories-1300Hz-T150. Those of a scene depend on its
@@ -229,20 +229,21 @@ $(animation_files): $$(call animation_needs,$$*,$$(call animated_scene,$$*)) \
 teeth = $(filter $2,$(SCENE_$1_TEETH))
 # BRANCHES=yes: with the branch at the first torque, which takes about as long as four sweeps.
 BRANCHES ?= no
-system_figures := histories system system-static load-sharing flank-load modes campbell system-sweep motion-errors order-cuts residual-signal ring-down branch multipliers harris-map fold-curves
+system_figures := histories system system-static load-sharing error-budget flank-load modes campbell system-sweep motion-errors order-cuts residual-signal ring-down branch multipliers harris-map fold-curves
 over_face = $(filter slices body,$(SCENE_$1_WIDTH))
 moves = $(filter yes,$(SCENE_$1_MOVES))
 branched = $(if $(call teeth,$1,alike),$(filter yes,$(BRANCHES)))
-pair_at_rest = finite-elements $(if $(filter yes,$(SCENE_$1_MODIFIED)),profile-chart) $(if $(call teeth,$1,alike),transmission-error mesh-stiffness load-sharing error-budget) \
+budgeted = $(and $2,$(call teeth,$1,alike))
+pair_at_rest = finite-elements $(if $(filter yes,$(SCENE_$1_MODIFIED)),profile-chart) $(if $(call teeth,$1,alike),transmission-error mesh-stiffness load-sharing) \
   $(if $(call over_face,$1),flank-load) $(if $(call teeth,$1,cracked),$(if $(call teeth,$1,differ),,crack)) $(if $(filter yes,$(SCENE_$1_FRICTION)),efficiency) \
   $(if $(filter elastic,$(SCENE_$1_BEARINGS)),bearing-forces) $(if $(call teeth,$1,differ),sidebands)
 pair_in_motion = responses-by-torque $(if $(call branched,$1),response-branches) waterfall tooth-loads $(if $(call over_face,$1),face-load,$(if $(call teeth,$1,alike),root-stress))
 train_at_rest = $(if $2,system-static $(if $(filter yes,$(SCENE_$1_PLANETS)),load-sharing) $(if $(call over_face,$1),flank-load)) modes campbell
 train_in_motion = system-sweep $(if $(call branched,$1),branch)
 of_kind_in = $(call $(if $(call is_pair,$2),pair,train)_$1,$2,$3)
-report_shows = system $(call of_kind_in,at_rest,$1,$2) $(if $(call moves,$1),$(call of_kind_in,in_motion,$1) order-cuts $(if $(call branched,$1),multipliers) \
+report_shows = system $(call of_kind_in,at_rest,$1,$2) $(if $(call budgeted,$1,$2),error-budget) $(if $(call moves,$1),$(call of_kind_in,in_motion,$1) order-cuts $(if $(call branched,$1),multipliers) \
   $(if $(or $(call teeth,$1,alike),$(call over_face,$1)),,residual-signal))
-report_artifacts = $(foreach t,$2,out/$1/T$t/static.h5) $(if $(call is_pair,$1),$(call impacts,$1,$2) $(if $(call teeth,$1,alike),out/$1/T$(firstword $2)/error_budget.h5),out/$1/modes.h5) \
+report_artifacts = $(foreach t,$2,out/$1/T$t/static.h5) $(if $(call budgeted,$1,$2),out/$1/T$(firstword $2)/error_budget.h5) $(if $(call is_pair,$1),$(call impacts,$1,$2),out/$1/modes.h5) \
   $(if $(call moves,$1),$(call both_ways,$1,$2,response) $(call measured_errors,$1,$2))
 of_report = $(call report_$1,$2,$(SCENE_$2_TORQUES))
 page_inputs = $(call of_report,artifacts,$1) $(patsubst %,out/$1/report/%.png,$(call of_report,shows,$1))

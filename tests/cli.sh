@@ -325,7 +325,6 @@ rejected "a branch from a sweep's motion without its speed" 2 '--from-sweep --at
 rejected "a branch from a speed outside the scene's" 3 '900 mesh_frequency_Hz 2000' "${stage_orbit[@]}" --from-sweep up --at 900
 # One program, pairs and trains: options that one of them alone has.
 rejected "a torque for a train" 2 '--torque train drives' "${stage_system[@]}" --torque 60
-rejected "an error budget of a train" 2 '--error-budget train' "${stage_system[@]}" --error-budget
 rejected "statics for the sweep of a train" 2 '--static train' "${stage_system_sweep[@]}" --static out/scene-inline/T60/static.h5
 rejected "another level for the sweep of a train" 2 '--next-level train' "${stage_system_sweep[@]}" --next-level
 rejected "modes of a pair that rings down" 2 '--modes pair' "${stage_impact[@]}" --modes 3

@@ -72,6 +72,8 @@ class Filling : public whine::ArtifactReader {
     for (const char* pair :
          {"/parameters/driver_", "/parameters/driven_", "/parameters/modification_", "/parameters/lead_"})
       if (train && name.starts_with(pair)) return false;
+    if (name == "/parameters/operation/torque")
+      return optional_ != Optional::all;  // what makes it one of a pair
     if (optional_ == Optional::none) return false;
     if (optional_ != Optional::all && name == "/layout/body/name") return false;
     const bool excludes = name == "/parameters/fidelity/model" || name.find("_rim/") != std::string::npos;

@@ -25,7 +25,7 @@ struct FrictionMotion {
   FrictionMotion(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& at_rest,
                  const std::array<double, kSides>& of_gears, BodyModel body, double eta)
       : statics(at_rest), model(driver, driven, statics.mesh), inertia(of_gears), dynamics(model, [&] {
-          ImpactParameters settings;
+          SweepParameters settings;
           settings.inertia = inertia;
           settings.damping.rayleigh_stiffness = eta;
           settings.fidelity.body = body;

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "gear/train.h"
 #include "one_mesh.h"
 #include "own_folder.h"
 #include "paper_pair.h"
@@ -86,11 +87,13 @@ inline void set_gears(GearPairParameters& pair, const std::array<std::string, 2>
   pair.contact = {17, 128};
 }
 
-inline void set_motions(MotionParameters& motion) {
+template <class Motions>
+void set_motions(Motions& motion) {
   set_gears(motion);
   motion.time = {64, 250e3, 1e-6};
   motion.damping = {1234.5, 7.65432e-6, 0.4567e-3, 0.00512};
   motion.inertia = {0.0148, 0.0148};
+  if constexpr (requires { motion.place_pair(pair_system(motion)); }) motion.place_pair(pair_system(motion));
 }
 
 inline StaticResult at_rest(double torque) {
@@ -203,7 +206,7 @@ inline SweepResult sweep_at(double torque, Direction direction) {
   s.mesh_frequency = VectorXd::LinSpaced(speeds, 1000, 9000);
   if (direction == Direction::down) s.mesh_frequency.reverseInPlace();
   s.period_multiple = Eigen::VectorXi::Ones(speeds);
-  s.name_parts();
+  s.place_pair(pair_system(s));
   s.transmission_error.assign(speeds, MatrixRM::Zero(n, 1));
   s.mesh_force = s.transmission_error;
   s.pair = Eigen::Vector3i(-1, 0, 1);

@@ -86,9 +86,12 @@ inline whine::SystemStaticResult small_system(whine::Scene scene = planetary_tra
 inline whine::SweepResult small_sweep(const whine::SystemStaticResult& rest, whine::Direction direction) {
   using namespace whine;
   SweepResult a;
-  static_cast<SystemStaticParameters&>(a.train) = rest.settings;
+  a.layout = rest.settings.layout;
+  a.section = rest.settings.section;
+  a.errors = rest.settings.errors;
+  a.fidelity = rest.settings.fidelity;
   a.name_parts();
-  a.train.damping.rayleigh_stiffness = 2e-6;
+  a.damping.rayleigh_stiffness = 2e-6;
   a.direction = direction;
   const Eigen::Index bodies = a.bodies(), meshes = a.meshes();
   a.drive = rest.torque.colwise().mean().transpose();

@@ -68,7 +68,7 @@ void impact_of_train(const StageCommand& stage, const Provenance& made, const Sy
 // ratio: to calibrate for, in place of a file.
 void impact_of_pair(const StageCommand& stage, const Provenance& made, const ImpactPlan& plan,
                     std::optional<double> ratio, ContactState state) {
-  ImpactParameters settings = read_impact_parameters(stage.params());
+  SweepParameters settings = read_impact_parameters(stage.params());
   const auto [pair, at_torque, at_reference] =
       read_pair_inputs(stage.bodies(), stage.statics(), stage.reference(), settings);
   const auto& [driver, driven] = pair;

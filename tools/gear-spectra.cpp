@@ -36,8 +36,7 @@ void body(int argc, char** argv) {
   std::snprintf(peak_words, sizeof peak_words, "%.3f µm at %.0f Hz", rms * 1e6, result.mesh_frequency[peak]);
   whine::log_line("gear-spectra: ", result.of_train() ? "" : whine::text(result.torque, " N m "),
                   result.direction, ", ", result.mesh_frequency.size(), " speeds, largest RMS ", peak_words,
-                  result.of_train() ? " of " + result.mesh_names[static_cast<size_t>(mesh)] : "", ", ",
-                  result.jump_frequency.size(),
+                  result.of_mesh(mesh), ", ", result.jump_frequency.size(),
                   result.jump_frequency.size() == 1 ? " jump -> " : " jumps -> ", output);
 }
 

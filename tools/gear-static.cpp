@@ -5,7 +5,7 @@
 //                     pair of teeth, compliance, losses; of each body bearing force and torque; load sharing; certificate
 // Equations: d = A p + C q + e >= 0, p >= 0, p . d = 0 (Eq. 18) with B p = lambda (Eq. 20), of a train for every body that is not
 // held (common/system/system.h); k = (T / r_b) / STE.
-// Of a pair, with --error-budget: error_budget.h5, the changes of mean stiffness, peak to peak and harmonics by each refinement, and
+// With --error-budget: error_budget.h5, the changes of mean stiffness, peak to peak and harmonics by each refinement, and
 // for information those by the other near field and the other contact.
 // Of a pair, with --next-level: beside static.h5, in words, what contact = "strips" would change in the result of contact = "line", and of
 // helical, misaligned and lead-modified pairs what bodies in three dimensions would change in slices, or two degrees less in such bodies.
@@ -86,14 +86,22 @@ void at_rest(const StageCommand& stage, const Provenance& made, double torque, b
   tell_remarks(rest.result.remarks);
 }
 
-void error_budget_of(const StageCommand& stage, const Provenance& made, double torque) {
+ErrorBudgetResult errors_of(const StageCommand& stage, double torque) {
+  if (stage.of_train()) {
+    const SystemStaticParameters settings = read_system_static_parameters(stage.params());
+    return error_budget(settings, read_bodies(stage.bodies(), settings));
+  }
   const StaticParameters settings = read_static_parameters(stage.params());
   const auto [driver, driven] = read_bodies(stage.bodies(), settings);
+  return error_budget(driver, driven, settings, torque);
+}
+
+void error_budget_of(const StageCommand& stage, const Provenance& made, double torque) {
   std::optional<StepsShown> steps(std::in_place, "gear-static");
-  const ErrorBudgetResult errors = error_budget(driver, driven, settings, torque);
+  const ErrorBudgetResult errors = errors_of(stage, torque);
   steps.reset();
   write(stage.output(), errors, made);
-  log_line("gear-static: error budget at ", torque, " N m (", errors.refinement.entry,
+  log_line("gear-static: error budget at ", errors.torque, " N m (", errors.refinement.entry,
            "): mean stiffness to ", errors.refinement.mean_stiffness_change.cwiseAbs().sum() * 100,
            " % in all -> ", stage.output());
   tell(root_stress_words(errors));

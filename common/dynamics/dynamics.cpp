@@ -34,7 +34,7 @@ void require_memory(double own, double beside, double most, const char* remedy, 
 }  // namespace
 
 DynamicParameters dynamic_parameters(const StaticResult& statics, double mean_stiffness,
-                                     const ImpactParameters& settings, double highest_frequency) {
+                                     const SweepParameters& settings, double highest_frequency) {
   require_able("one-slice", traits(settings.fidelity));
   require_relaxation_range(settings.damping, settings.fidelity.body, highest_frequency);
   return {statics.torque,

@@ -65,7 +65,7 @@ struct DynamicParameters {
 // Those of the pair of `statics` at its torque, in motion; mean_stiffness: N m-1, sets the bearing dampers.
 // Throws as require_relaxation_range(); highest_frequency: Hz, largest mesh frequency of the motions, 0 of gears that do not roll.
 DynamicParameters dynamic_parameters(const StaticResult& statics, double mean_stiffness,
-                                     const ImpactParameters& settings, double highest_frequency);
+                                     const SweepParameters& settings, double highest_frequency);
 // Throws Error(input) for bodies whose residual flexibility relaxes, if the Rayleigh time is more than kMostRelaxation of a mesh period:
 // a pair that comes in then meets the undamped compliance alone, which the motion depends on more than on all else.
 inline constexpr double kMostRelaxation = 0.25;

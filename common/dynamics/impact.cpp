@@ -97,7 +97,7 @@ ContactState state_of(int pairs) {
 class FixedPhasePair {
  public:
   FixedPhasePair(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
-                 double mean_stiffness, const ImpactParameters& settings, const ImpactPlan& plan)
+                 double mean_stiffness, const SweepParameters& settings, const ImpactPlan& plan)
       : plan_(plan) {
     Traits of = traits(statics.mesh, driver.design, driven.design);
     for (auto& level : traits(settings.fidelity)) of.push_back(std::move(level));
@@ -115,8 +115,8 @@ class FixedPhasePair {
     // As a sweep begins, so that the strips are the same.
     dynamics.set_zone(candidate_zone(model, statics, MotionBounds(model, statics)), plan_.phases);
     set_motion(blank_, {driver, driven}, statics, settings);
-    blank_.name_parts();
     blank_.torque = statics.torque;
+    blank_.place_pair(pair_system(blank_));
     blank_.torque_step = plan.torque_step;
     blank_.mean_stiffness = mean_stiffness;
     for (int g = 0; g < kSides; ++g) blank_.bearing_damper[g] = dynamics.bearing_damper(g);
@@ -360,14 +360,14 @@ FixedPhaseMesh with_rayleigh_stiffness(FixedPhaseMesh mesh, double eta, BodyMode
 
 std::vector<FixedPhaseState> fixed_phase_states(const ReducedBody& driver, const ReducedBody& driven,
                                                 const StaticResult& statics, double mean_stiffness,
-                                                const ImpactParameters& settings, int phases) {
+                                                const SweepParameters& settings, int phases) {
   ImpactPlan plan;
   plan.phases = phases;
   return FixedPhasePair(driver, driven, statics, mean_stiffness, settings, plan).states();
 }
 
 ImpactResult frozen_impact(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
-                           double mean_stiffness, const ImpactParameters& settings, int phases) {
+                           double mean_stiffness, const SweepParameters& settings, int phases) {
   ImpactPlan plan;
   plan.phases = phases;
   return FixedPhasePair(driver, driven, statics, mean_stiffness, settings, plan)
@@ -375,7 +375,7 @@ ImpactResult frozen_impact(const ReducedBody& driver, const ReducedBody& driven,
 }
 
 ImpactResult impact(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
-                    double mean_stiffness, const ImpactParameters& settings, const ImpactPlan& plan,
+                    double mean_stiffness, const SweepParameters& settings, const ImpactPlan& plan,
                     const std::function<void(long, long)>& report) {
   ImpactResult out = FixedPhasePair(driver, driven, statics, mean_stiffness, settings, plan)
                          .run(settings.damping.rayleigh_stiffness, report);
@@ -391,7 +391,7 @@ ImpactResult impact(const ReducedBody& driver, const ReducedBody& driven, const 
 }
 
 ImpactResult calibrate(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
-                       double mean_stiffness, const ImpactParameters& settings, const ImpactPlan& plan,
+                       double mean_stiffness, const SweepParameters& settings, const ImpactPlan& plan,
                        double damping_ratio, ContactState contact_state,
                        const std::function<void(long, long)>& report) {
   if (!(damping_ratio > 0 && damping_ratio < 1))

@@ -46,7 +46,7 @@ struct FixedPhaseState {
 // phases: even, at which states are looked for. Other arguments and errors as impact().
 std::vector<FixedPhaseState> fixed_phase_states(const ReducedBody& driver, const ReducedBody& driven,
                                                 const StaticResult& statics, double mean_stiffness,
-                                                const ImpactParameters& settings, int phases);
+                                                const SweepParameters& settings, int phases);
 
 // The same with eta (s) of Eq. 21. body: the model level of [fidelity].
 FixedPhaseMesh with_rayleigh_stiffness(FixedPhaseMesh mesh, double eta, BodyModel body);
@@ -55,20 +55,20 @@ FixedPhaseMesh with_rayleigh_stiffness(FixedPhaseMesh mesh, double eta, BodyMode
 // bearing dampers. report(done, total) is called after each phase. Errors as ring_down and fit_decay; Error(input)
 // for a contact level other than strips, Error(numerical) if damped exponentials leave more than 1e-5 of a decay.
 ImpactResult impact(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
-                    double mean_stiffness, const ImpactParameters& settings, const ImpactPlan& plan,
+                    double mean_stiffness, const SweepParameters& settings, const ImpactPlan& plan,
                     const std::function<void(long, long)>& report);
 
 // The same from eigenvalues of the frozen contact, without decays, for searches: amid each contact state, and as the mean
 // over the period. What decays and eigenvalues give at each phase stays 0, and the decays of the states are empty. The ring-down
 // of impact() differs by less than 0.002 % in frequency and damping of the states.
 ImpactResult frozen_impact(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
-                           double mean_stiffness, const ImpactParameters& settings, int phases);
+                           double mean_stiffness, const SweepParameters& settings, int phases);
 
 // The same at the Rayleigh stiffness factor (settings.damping.rayleigh_stiffness of the result) that gives a damping
 // ratio in one contact state, to 1e-7 of it. Throws Error(input) if the state does not
 // occur, or if no factor gives the ratio.
 ImpactResult calibrate(const ReducedBody& driver, const ReducedBody& driven, const StaticResult& statics,
-                       double mean_stiffness, const ImpactParameters& settings, const ImpactPlan& plan,
+                       double mean_stiffness, const SweepParameters& settings, const ImpactPlan& plan,
                        double damping_ratio, ContactState contact_state,
                        const std::function<void(long, long)>& report);
 

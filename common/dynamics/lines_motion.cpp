@@ -261,18 +261,20 @@ std::unique_ptr<MotionMap> LinesMotion::map(int steps) {
 
 MotionSource LinesMotion::source() const {
   MotionSource out;
-  SystemSweepParameters& used = out.train = settings_;
-  used.fidelity = motion_.fidelity;
-  out.drive.setZero(static_cast<Index>(used.layout.bodies.size()));
+  out.layout = settings_.layout;
+  out.damping = settings_.damping;
+  out.fidelity = motion_.fidelity;
+  out.time = settings_.time;
+  out.drive.setZero(out.bodies());
   out.axis_frequency = motion_.axis_frequency / (2 * std::numbers::pi);
   for (size_t b = 0; b < system_.layout.bodies.size(); ++b) {
     const System::Body& body = system_.layout.bodies[b];
-    out.drive[static_cast<Index>(b)] = used.layout.torque(static_cast<int>(b));
-    used.layout.bodies[b].inertia = body.inertia;
+    out.drive[static_cast<Index>(b)] = out.layout.torque(static_cast<int>(b));
+    out.layout.bodies[b].inertia = body.inertia;
     // On a rigid pin a planet has the mass of its body, of which a moving carrier's pins feel the inertia.
-    used.layout.bodies[b].bearing.mass = body.on != System::kGround && !body.bearing.elastic()
-                                             ? system_.body[b]->body().mass
-                                             : body.bearing.mass;
+    out.layout.bodies[b].bearing.mass = body.on != System::kGround && !body.bearing.elastic()
+                                            ? system_.body[b]->body().mass
+                                            : body.bearing.mass;
   }
   out.name_parts();
   return out;

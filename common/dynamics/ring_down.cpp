@@ -119,8 +119,7 @@ void set_decay(const Decay& fit, int contact_changes, Index phase, Index mode, I
 void set_root(const DampedRoot& root, Index phase, Index mode, ImpactResult& out) {
   out.eigen_frequency(phase, mode) = root.frequency;
   out.eigen_damping_ratio(phase, mode) = root.damping_ratio;
-  out.rayleigh_damping_ratio(phase, mode) =
-      rayleigh_ratio(out.damping_used(), out.undamped_frequency(phase, mode));
+  out.rayleigh_damping_ratio(phase, mode) = rayleigh_ratio(out.damping, out.undamped_frequency(phase, mode));
 }
 
 }  // namespace whine

@@ -20,11 +20,11 @@ struct Law {
   double error(double x) const { return bound * std::pow(x / at, power); }
   double value(double error) const { return at * std::pow(error / bound, 1 / power); }
 };
-constexpr Law kStrips{"strips", 5.5e-3, 4, -1.6, 0.15}, kPoints{"face_points", 1.2e-3, 8, -1.4, 0.03},
+constexpr Law kStrips{"strips", 5.5e-3, 4, -1.6, 0.15}, kPoints{"face_points", 2.4e-3, 8, -1.4, 0.06},
     kElements{"element_mm", 4.7e-2, 1, 2, 0.15}, kPeriodicity{"periodicity", 3e-4, 1e-4, 1, 0.02},
     kPeriodicityOfTrain{"periodicity", 1e-2, 1e-4, 1, 0.02}, kModes{"modes", 4.5e-3, 1, -1.6, 0.40},
     kFlankPoints{"flank_points", 1.1e-3, 24, -2, 0.03}, kSteps{"min_sample_rate_kHz", 22, 1, -2, 0.25},
-    kStepsOfMassDamping{"min_sample_rate_kHz", 100, 1, -2, 0.25};
+    kStepsOfMassDamping{"min_sample_rate_kHz", 400, 1, -2, 0.25};
 
 // N m-1 per m, c_gamma of steel gears as practice takes it.
 constexpr double kMeshStiffness = 20e9, kSteelModulus = 206e9;

@@ -3,11 +3,11 @@
 //
 //   e^2 = sum e_i^2,   e_i: bounds of the RMS of the transmission error over all speeds, relative
 //   time steps     22 (f_n / r)^2          f_n: natural frequency of a mesh of 20 N/(mm um), r: least sample rate;
-//                  100 (f_n / r)^2       where most of the damping at f_n is of the mass, which damps no fast mode
+//                  400 (f_n / r)^2       where most of the damping at f_n is of the mass, which damps no fast mode
 //   modes          4.5e-3 (z / n)^1.6      n: of the whole gear, z: teeth of the largest one and 11
 //   strips         5.5e-3 (4 / n)^1.6      across the contact width; of pairs
 //   elements       4.7e-2 (h / m)^2        second order; h / m: in modules
-//   face points    1.2e-3 (8 / n)^1.4      along a contact line; of slices
+//   face points    2.4e-3 (8 / n)^1.4      along a contact line; of slices; one of six pairs is above it, 6.6e-3 at 10 points
 //   periodicity    3e-4 (p / 1e-4)         of trains and of gears on bearings, whose slow modes are hardly damped, 1e-2
 //   flank points   1.1e-3 (24 / n)^2       of the flexibility table of a flank
 // Bounds of what refinements changed on nine spur pairs, three helical pairs and three gears in line (tests/README.md). A whole gear has one

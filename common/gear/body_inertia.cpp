@@ -40,13 +40,13 @@ double least_body_inertia(const ToothGeometry& tooth, const Material& material) 
          (0.5 * std::numbers::pi * std::abs(std::pow(root, 4) - std::pow(held, 4)) + teeth);
 }
 
-void as_drawn(ImpactParameters& settings, const std::array<double, 2>& body_inertia) {
+void as_drawn(SweepParameters& settings, const std::array<double, 2>& body_inertia) {
   constexpr double kMore = 1.001;
   for (int g = 0; g < kSides; ++g)
     if (settings.inertia[g] == 0) settings.inertia[g] = kMore * body_inertia[g];
 }
 
-void as_outlined(ImpactParameters& settings, const GearPairParameters& pair) {
+void as_outlined(SweepParameters& settings, const GearPairParameters& pair) {
   constexpr double kFillets = 1.015;
   for (int g = 0; g < kSides; ++g)
     if (settings.inertia[g] == 0)

@@ -14,10 +14,10 @@ double least_body_inertia(const ToothGeometry& tooth, const Material& material);
 
 // Inertias of a stage that the scene leaves to the drawing (0) become those of the bodies (kg m2; driver, driven gear), 0.1 %
 // more: what the body lacks is lumped on the hub, and a finer mesh of the body must not be heavier than all that turns.
-void as_drawn(ImpactParameters& settings, const std::array<double, 2>& body_inertia);
+void as_drawn(SweepParameters& settings, const std::array<double, 2>& body_inertia);
 
 // The same for a stage that has no bodies, by the outline of the gears; fillets make it 2 % off at most.
-void as_outlined(ImpactParameters& settings, const GearPairParameters& pair);
+void as_outlined(SweepParameters& settings, const GearPairParameters& pair);
 
 // ModelRangeError that names section, key and limit unless the gears' total inertias (kg m2) are above those of their bodies,
 // which a stage knows that has them.

@@ -71,6 +71,7 @@ class Layout {
     take_carriers();
     take_pins();
     take_drives();
+    system_.load = System::Load::drives;
     check_room();
     return std::move(system_);
   }

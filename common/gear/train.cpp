@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/units.h"
+#include "gear/helix.h"
 
 namespace whine {
 namespace {
@@ -110,6 +111,13 @@ System pair_system(const GearMeshSpec& mesh, const GearDesign& driver, const Gea
   const int output = add_driven_gear(system, 0, driver, mesh.gear[1], driven, mesh.centre_distance, 0.5 * kPi,
                                      mesh.bearing[1]);
   system.drives.push_back({output, System::DriveKind::held, 0});
+  return system;
+}
+
+System pair_system(const MotionParameters& pair) {
+  System system = pair_system(pair.mesh, transverse_section(pair.gear[0].design),
+                              transverse_section(pair.gear[1].design));
+  for (size_t g = 0; g < kSides; ++g) system.bodies[g].inertia = pair.inertia[g];
   return system;
 }
 

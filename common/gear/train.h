@@ -11,6 +11,7 @@
 #include <string>
 
 #include "gear/pair.h"
+#include "model/stages.h"
 #include "model/system.h"
 
 namespace whine {
@@ -30,6 +31,9 @@ int add_driven_gear(System& system, int on, const GearDesign& driver, const std:
 // miss the tooth spaces; 0 to round-off if the train can be assembled. Throws Error(input) if `to` would have to turn in
 // both senses, and what GearPair throws.
 double add_mesh(System& system, int on, const GearDesign& driver, int to, const GearDesign& gear);
+
+// The pair of a result, with its inertias.
+System pair_system(const MotionParameters& pair);
 
 // The pair of a scene: the driver at the origin, the driven gear, which is held, above it. No torque.
 System pair_system(const GearMeshSpec& mesh, const GearDesign& driver, const GearDesign& driven);

@@ -85,7 +85,6 @@ void describe_folds(Codec& c, BranchResult& a) {
 
 void describe(Codec& c, BranchResult& a) {
   describe_source(c, a);
-  describe_names(c, a.of_train(), a.mesh_names, a.body_names);
   describe_points(c, a);
   describe_stability(c, a);
   describe_folds(c, a);

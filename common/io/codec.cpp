@@ -299,8 +299,9 @@ void describe_torque(Codec& c, double& torque) {
   c(torque, "/parameters/operation/torque", "N m", kDrive, "", "torque on the driver");
 }
 
-void describe_speeds(Codec& c, double& from, double& to, double& step) {
-  for (const auto& [name, value] : {std::pair{"from", &from}, std::pair{"to", &to}, std::pair{"step", &step}})
+void describe_speeds(Codec& c, MeshSpeeds& s) {
+  for (const auto& [name, value] : {std::pair{"from", &s.frequency_from}, std::pair{"to", &s.frequency_to},
+                                    std::pair{"step", &s.frequency_step}})
     c(*value, text("/parameters/operation/mesh_frequency_", name), "Hz", kFrequency, "",
       "speeds of the sweeps");
 }

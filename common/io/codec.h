@@ -179,7 +179,7 @@ void describe_pair(Codec& codec, GearPairParameters& a, bool fidelity = true);
 void describe_motion(Codec& codec, MotionParameters& a, bool time = true);
 void describe_torque(Codec& codec, double& torque);
 // Speeds of sweeps, Hz.
-void describe_speeds(Codec& codec, double& from, double& to, double& step);
+void describe_speeds(Codec& codec, MeshSpeeds& speeds);
 // N m-1, N m s: bearing dampers and the mean stiffness that sets them.
 void describe_bearing_dampers(Codec& codec, double& mean_stiffness, std::array<double, kSides>& damper);
 // What a motion was computed with, by its name; of maps together with the rule of a lumped model's damper.

@@ -11,7 +11,7 @@ void describe_changes(Codec& c, const std::string& group, StaticChanges& a, cons
   const std::string axis = group.substr(1) + "/change";  // `entry` names them in one text
   c(a.entry, group + "/entry", "", what + ", in the order of the entries");
   c(a.mean_stiffness_change, group + "/mean_stiffness_change", "1", kSigned, axis,
-    "relative change of the mean secant stiffness");
+    "relative change of the mean secant stiffness; in a train every change is that of the mesh where it is largest");
   c(a.peak_to_peak_change, group + "/peak_to_peak_change", "1", kSigned, axis,
     "relative change of the peak-to-peak transmission error");
   if (c.optional(group + "/pressure_change", a.pressure_change.size() > 0))
@@ -35,6 +35,7 @@ void describe_changes(Codec& c, const std::string& group, StaticChanges& a, cons
 void describe(Codec& c, ErrorBudgetResult& a) {
   describe_pair(c, a);
   describe_torque(c, a.torque);
+  c(a.gear_names, "/gear_name", "gear_name", "names of the gears");
   describe_changes(c, "/refinement", a.refinement, "what was refined alone");
   c.numbers("harmonic", 1, "number of the harmonic of the mesh frequency");
   describe_changes(c, "/choice", a.choice,
@@ -43,14 +44,17 @@ void describe(Codec& c, ErrorBudgetResult& a) {
     c(a.choice_missing, "/choice/missing", "", "other choices that could not be computed, and why");
   if (c.optional("/root/element_size", a.root.element_size.size() > 0)) {
     c(a.root.element_size, "/root/element_size", "m", kSize, "root/level",
-      "size of the elements on the root of the driver; those of the driven gear in proportion");
-    c(a.root.stress, "/root/stress", "Pa", kStress, "root/level gear",
+      "size of the elements on the root of the first gear; those of the others in proportion");
+    c(a.root.stress, "/root/stress", "Pa", kStress, "root/level gear_name",
       "largest root stress at rest with elements of that size on the roots");
   }
 }
 
 std::string title(const ErrorBudgetResult& a) {
-  return "Error budget of the static transmission error: " + pair_title(a.mesh, a.torque);
+  const std::string what = "Error budget of the static transmission error";
+  return a.gear_names.size() == kSides
+             ? what + ": " + pair_title(a.mesh, a.torque)
+             : text(what, " of ", a.gear_names.size(), " gears with ", a.torque, " N m");
 }
 
 template struct ArtifactFile<ErrorBudgetResult>;

@@ -9,7 +9,6 @@ using namespace ranges;
 
 void describe(Codec& c, FoldCurvesResult& a) {
   describe_source(c, a);
-  describe_names(c, a.of_train(), a.mesh_names, a.body_names);
   c(a.quantity, "/quantity", "",
     "what varies beside the mesh frequency: damping, torque, tip_relief or bearing_stiffness");
   c(a.first_value, "/first_value", "1", kPositive, "",

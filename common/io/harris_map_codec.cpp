@@ -34,7 +34,7 @@ void describe_optima(Codec& c, HarrisMapResult& a) {
 
 void describe_dynamics(Codec& c, HarrisMapResult& a) {
   describe_motion(c, a);
-  describe_speeds(c, a.frequency_from, a.frequency_to, a.frequency_step);
+  describe_speeds(c, a);
   c(a.dynamic_rms, "/dynamic/rms", "m", kSize, kCube,
     "RMS of the oscillating part of the transmission error at the speed where it is largest, up or down");
   c(a.worst_frequency, "/dynamic/worst_frequency", "Hz", kFrequency, kCube,

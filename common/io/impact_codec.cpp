@@ -61,7 +61,6 @@ void describe_modes(Codec& c, ImpactResult& a) {
 
 void describe(Codec& c, ImpactResult& a) {
   describe_source(c, a, false);
-  describe_names(c, a.of_train(), a.mesh_names, a.body_names);
   describe_modes(c, a);
   c(a.rigid_frequency, "/rigid_frequency", "Hz", kFrequency, "rigid_mode",
     "natural frequencies of rigid gears on the mean stiffnesses of the meshes, free motions left out");

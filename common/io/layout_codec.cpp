@@ -85,7 +85,15 @@ void describe_holds(Codec& c, const LayoutPlace& place, System& s) {
 
 void describe_layout(Codec& c, System& s, const LayoutPlace& place) {
   if (c.in()) s = {};
+  const bool one_torque = c.optional("/parameters/operation/torque", s.load == System::Load::torque);
   const std::string body = "body" + place.axis_end, mesh = "mesh" + place.axis_end;
+  if (c.in()) {
+    s.load = one_torque ? System::Load::torque : System::Load::drives;
+    if (one_torque) {
+      c.axis(body, kSides);
+      c.axis(mesh, 1);
+    }
+  }
   describe_columns(c, place, "body", s.bodies, {"name", "is_carrier", "teeth", "sense", "stands_on"});
   describe_two<MatrixRM>(c, {place.group + "/body/centre", "m", "place of the axis", body + " xy", kPlace},
                          s.bodies, [](System::Body& body, size_t k) -> double& { return body.centre[k]; });
@@ -129,16 +137,14 @@ void describe_sections(Codec& c, std::vector<int>& section, const LayoutPlace& p
   if (c.in()) section.assign(numbers.begin(), numbers.end());
 }
 
-void describe_errors(Codec& c, SystemStaticParameters& s, const LayoutPlace& place) {
-  if (c.in()) s.errors.resize(s.layout.bodies.size());
+void describe_errors(Codec& c, System& s, std::vector<ToothErrors>& of_body, const LayoutPlace& place) {
+  of_body.resize(s.bodies.size());
   bool differ = false;
-  for (size_t b = 0; !c.lists() && b < s.layout.bodies.size(); ++b) {
-    const std::string section = "error_" + s.layout.bodies[b].name;
-    if (!c.optional("/parameters/" + section + "/iso_class", s.has_errors(b))) continue;
+  for (size_t b = 0; !c.lists() && b < s.bodies.size(); ++b) {
+    const std::string section = "error_" + s.bodies[b].name;
+    if (!c.optional("/parameters/" + section + "/iso_class", !of_body[b].none())) continue;
     differ = true;
-    ToothErrors errors = b < s.errors.size() ? s.errors[b] : ToothErrors{};
-    c.parameters(section, keys(errors));
-    if (c.in()) s.errors[b] = errors;
+    c.parameters(section, keys(of_body[b]));
   }
   if (!differ && !c.lists()) return;
   describe_two<MatrixRMi>(
@@ -148,7 +154,7 @@ void describe_errors(Codec& c, SystemStaticParameters& s, const LayoutPlace& pla
        "where teeth differ: tooth of each side in the reference pair of mesh period 0, counter-clockwise; in mesh period k pair p is that of first_tooth + sense (p - k)",
        "mesh" + place.axis_end + " side",
        {-(1 << 20), 1 << 20}},
-      s.layout.meshes, [](System::Mesh& mesh, size_t k) -> int& { return mesh.side[k].first_tooth; });
+      s.meshes, [](System::Mesh& mesh, size_t k) -> int& { return mesh.side[k].first_tooth; });
 }
 
 }  // namespace whine

@@ -38,9 +38,7 @@ LumpedInputs read_lumped_inputs(const std::string& statics, const std::string& r
   require_contact(at_torque, settings.fidelity, statics);
   options.time = settings.time;
   options.mass = reduced_mass(at_torque, settings.inertia);
-  options.frequency_from = settings.frequency_from;
-  options.frequency_to = settings.frequency_to;
-  options.frequency_step = settings.frequency_step;
+  static_cast<MeshSpeeds&>(options) = settings;
   if (!reference.empty() && inputs.at_reference.torque != settings.reference_torque)
     fail(Failure::input, reference, " is at ", inputs.at_reference.torque,
          " N m, but the scene's first torque is ", settings.reference_torque,

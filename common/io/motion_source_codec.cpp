@@ -7,33 +7,24 @@ namespace whine {
 
 using namespace ranges;
 
-void describe_system(Codec& c, SystemSweepParameters& s, Eigen::VectorXd& torque, const LayoutPlace& place) {
-  describe_layout(c, s.layout, place);
-  c(torque, place.group + "/body/torque", "N m", kMoment, "body" + place.axis_end,
-    "torque of the drive in the body's sense; 0 where none gives a torque");
-  c.parameters("fidelity", keys(s.fidelity));
-  c.parameters("damping", keys(s.damping));
-}
-
 void describe_source(Codec& c, MotionSource& a, bool time) {
-  if (c.optional("/layout/body/name", a.of_train())) {
-    describe_system(c, a.train, a.drive, {"/layout", ""});
+  describe_layout(c, a.layout, {"/layout", ""});
+  c(a.drive, "/layout/body/torque", "N m", kMoment, "body",
+    "torque of the drive in the body's sense; 0 where none gives a torque");
+  c.parameters("fidelity", keys(a.fidelity));
+  c.parameters("damping", keys(a.damping));
+  if (time) c.parameters("discretisation", keys(a.time));
+  describe_names(c, a.mesh_names, a.body_names);
+  if (c.lists() || a.of_train())
     c(a.axis_frequency, "/axis_frequency", "Hz", kFrequency, "",
       "highest natural frequency of the rigid train on its mean stiffnesses, to which the dampers of the axes refer");
-    if (time) c.parameters("discretisation", keys(a.train.time));
-  }
   if (a.of_train()) return;
-  describe_pair(c, a);
-  describe_motion(c, a, time);
+  describe_pair(c, a, false);
+  for (size_t g = 0; g < kSides; ++g) c.parameters(kRole[g], inertia_key(a.inertia[g]));
   describe_torque(c, a.torque);
 }
 
-void describe_names(Codec& c, bool of_train, std::vector<std::string>& meshes,
-                    std::vector<std::string>& bodies) {
-  if (!of_train && !c.lists()) {
-    c.axis("mesh", 1);
-    c.axis("body", kSides);
-  }
+void describe_names(Codec& c, std::vector<std::string>& meshes, std::vector<std::string>& bodies) {
   c(meshes, "/mesh", "mesh", "meshes by the names of their bodies, driving-driven");
   c(bodies, "/body", "body", "bodies by name; of a pair the driver, then the driven gear");
 }

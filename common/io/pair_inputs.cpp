@@ -83,7 +83,7 @@ MeshInputs read_mesh_inputs(const std::string& params, const std::string& name, 
 }
 
 PairInputs read_pair_inputs(const NamedFiles& files, const std::string& statics, const std::string& reference,
-                            ImpactParameters& settings) {
+                            SweepParameters& settings) {
   PairInputs inputs;
   inputs.at_torque = read_pair_statics(statics);
   inputs.at_reference = read_pair_statics(reference);

@@ -40,7 +40,7 @@ struct PairInputs {
 // Inertias of `settings` that the scene leaves to the drawing become those of the bodies. Throws Error(input), with the make
 // target, unless both results at rest were made from these bodies with the contact and at the reference torque of `settings`.
 PairInputs read_pair_inputs(const NamedFiles& files, const std::string& statics, const std::string& reference,
-                            ImpactParameters& settings);
+                            SweepParameters& settings);
 
 // Throw Error(input) for files of a train.
 StaticResult read_pair_statics(const std::string& path);

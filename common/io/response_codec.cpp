@@ -94,7 +94,6 @@ void describe(Codec& c, ResponseResult& a) {
     describe_model(c, a.model, "finite elements, or the name of a lumped model");
     describe_natural_frequency(c, a.natural_frequency);
   }
-  describe_names(c, a.of_train(), a.mesh_names, a.body_names);
   c(a.direction, "/parameters/operation/direction", "", "direction in which the speeds are run through");
   c(a.mesh_frequency, "/mesh_frequency", "Hz", kSpeed, kSpeeds,
     "mesh frequency, in the order in which they were computed");

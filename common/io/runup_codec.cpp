@@ -21,7 +21,6 @@ void describe_head(Codec& c, RunupResult& a) {
     c(a.pair, "/tooth_pair", "1", kPair, "tooth_pair",
       "number of the tooth pair: -1 following, 0 reference, +1 preceding");
   }
-  describe_names(c, a.of_train(), a.mesh_names, a.body_names);
   const std::string at = "/parameters/operation/";
   c(a.input, at + "input", "", "body whose rotational speed ramp_rate is of");
   c(a.direction, at + "direction", "", "direction in which the speed goes");

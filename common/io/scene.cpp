@@ -202,8 +202,7 @@ void take_levels(const Source& source, Scene& scene, bool train) {
                     .append(keys(scene.damping))
                     .append(keys(scene.time));
   if (!train) all.append(keys(scene.body.width)).append(keys(speeds));
-  if (train && moves)
-    all.append(speeds_key(speeds.frequency_from, speeds.frequency_to, speeds.frequency_step));
+  if (train && moves) all.append(speeds_key(speeds));
   if (const toml::node* node = source.root().at_path("operation.torque_Nm").node(); node && train)
     source.reject(*node, "'torque_Nm' in [operation] is of pairs, and this scene has ",
                   meshes > 1 ? text(meshes, " [[mesh]] sections") : "[[carrier]] or [[drive]]",

@@ -67,7 +67,7 @@ std::string body_hash(const std::string& settings);
 // Read what the functions above wrote; errors as read_scene.
 BodyParameters read_body_parameters(const std::string& path);
 StaticParameters read_static_parameters(const std::string& path);
-ImpactParameters read_impact_parameters(const std::string& path);
+SweepParameters read_impact_parameters(const std::string& path);
 SweepParameters read_sweep_parameters(const std::string& path);
 
 // Canonical text of the stage parameters of the modes of a train, and back: bodies, meshes and drives as they stand, in SI.

@@ -72,8 +72,7 @@ namespace {
 void check_speed(double at, const Operation& speeds, const std::string& path) {
   if (!(at > 0) || !(speeds.frequency_to > 0)) return;
   double nearest = speeds.frequency_from;
-  for (const double f :
-       swept_speeds(speeds.frequency_from, speeds.frequency_to, speeds.frequency_step, Direction::up))
+  for (const double f : swept_speeds(speeds, Direction::up))
     if (std::abs(f - at) < std::abs(nearest - at)) nearest = f;
   if (std::abs(nearest - at) > 1e-9 * at)
     fail(Failure::input, "AT=", shown_number(at), ": the sweeps of ", path,

@@ -142,7 +142,7 @@ SceneKeys keys_of_pair(const Artifact& a) {
 }
 
 // One of the gears of a system, and what all of its meshes have in common.
-View view_of(const SystemStaticResult& a, size_t g, const SystemSweepParameters* moving) {
+View view_of(const SystemStaticResult& a, size_t g, const MotionSource* moving) {
   View view;
   const std::string& name = a.settings.body[g].first;
   set_drawing(view, a.drawing[g]);
@@ -172,7 +172,7 @@ SceneKeys scene_keys_of(const ResponseResult& a) {
   return keys_of_pair(a);
 }
 
-SceneKeys scene_keys_of(const SystemStaticResult& a, const SystemSweepParameters* moving) {
+SceneKeys scene_keys_of(const SystemStaticResult& a, const MotionSource* moving) {
   std::vector<View> views;
   views.reserve(a.settings.body.size());
   for (size_t g = 0; g < a.settings.body.size(); ++g) views.push_back(view_of(a, g, moving));

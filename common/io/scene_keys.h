@@ -27,7 +27,7 @@ struct SceneKeys {
 SceneKeys scene_keys_of(const StaticResult& artifact);
 SceneKeys scene_keys_of(const ResponseResult& artifact);
 // moving: with what concerns motion; nullptr: without. Positions, torques and what is held are left out.
-SceneKeys scene_keys_of(const SystemStaticResult& artifact, const SystemSweepParameters* moving);
+SceneKeys scene_keys_of(const SystemStaticResult& artifact, const MotionSource* moving);
 
 // What two maps were made from that differs, in a scene's keys and units: "bore_radius_mm 40 -> 35"; "" if nothing
 // does. Gears by the driver's, if both gears changed alike.

@@ -81,7 +81,7 @@ HeardMotion heard_motion(const std::string& path, double frequency, const HeardF
   const auto of = static_cast<size_t>(row);
   // One motion; behind it the row repeats.
   const Index periods = sweep.period_multiple[row],
-              samples = std::min<Index>(periods * sweep.steps_per_period(), sweep.samples());
+              samples = std::min<Index>(periods * sweep.time.steps_per_period, sweep.samples());
   const Place at = place_of(path, force, sweep.mesh_names, sweep.body_names,
                             [&](size_t b) { return !sweep.bearing_force[b].empty(); });
   HeardMotion out{

@@ -28,7 +28,6 @@ constexpr std::array kOptions{
     KindOption{"--static", Kind::pair, true, kNoRest},
     KindOption{"--reference-static", Kind::pair, true, kNoRest},
     KindOption{"--static-params", Kind::pair, true, "its --params say how it is at rest"},
-    KindOption{"--error-budget", Kind::pair, false, kNotYet},
     KindOption{"--next-level", Kind::pair, false, kNotYet},
     KindOption{"--torque-step", Kind::pair, false, "its modes decay after an --impulse"},
     KindOption{"--calibrate", Kind::pair, false, kNotYet},

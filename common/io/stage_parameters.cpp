@@ -87,12 +87,8 @@ Motion motion_of(const Scene& scene) {
   if (scene.operation.torques.empty()) fail(Failure::input, "the scene lists no torque");
   Motion out;
   for (int g = 0; g < kSides; ++g) out.p.inertia[g] = scene.gear(scene.mesh().gear[g]).total_inertia;
-  out.p.damping = scene.damping;
+  static_cast<MotionSettings&>(out.p) = motion_settings(scene);
   out.p.fidelity = scene.fidelity;
-  out.p.frequency_from = scene.operation.frequency_from;
-  out.p.frequency_to = scene.operation.frequency_to;
-  out.p.frequency_step = scene.operation.frequency_step;
-  out.p.time = scene.time;
   out.torques = {scene.operation.torques.front()};
   return out;
 }
@@ -103,7 +99,7 @@ KeyList running_keys(Motion& m, const MotionStage& stage) {
   for (int g = 0; g < kSides; ++g) out.append(inertia_key(m.p.inertia[g]).labelled(kRole[g]));
   if (stage.damping) out.append(keys(m.p.damping));
   out.append(torque_key(m.torques));
-  if (stage.speeds) out.append(speeds_key(m.p.frequency_from, m.p.frequency_to, m.p.frequency_step));
+  if (stage.speeds) out.append(speeds_key(m.p));
   return out;
 }
 
@@ -271,7 +267,7 @@ VariantParameters read_variant_parameters(const std::string& path) {
   return out;
 }
 
-ImpactParameters read_impact_parameters(const std::string& path) {
+SweepParameters read_impact_parameters(const std::string& path) {
   return read_motion(path, kImpact);
 }
 

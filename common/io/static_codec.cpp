@@ -391,7 +391,7 @@ void share_with_meshes(SystemStaticResult& a) {
   for (size_t m = 0; m < a.mesh.size(); ++m) {
     StaticResult& mesh = a.mesh[m];
     if (a.of_train()) static_cast<GearPairParameters&>(mesh) = mesh_parameters(a, m);
-    mesh.mesh_phase = a.mesh_phase.array() + (a.of_train() ? a.settings.layout.meshes[m].phase : 0);
+    mesh.mesh_phase = a.mesh_phase.array() + a.settings.layout.meshes[m].phase;
     mesh.hunting_periods = a.hunting_periods;
     mesh.least_gap = a.least_gap;
     mesh.least_force = a.least_force;
@@ -421,8 +421,6 @@ void require_phases(const Codec& c, const SystemStaticResult& a) {
 
 void describe(Codec& c, SystemStaticResult& a) {
   describe_static_source(c, a);
-  describe_names(c, a.of_train(), a.mesh_names, a.body_names);
-  if (c.in()) a.mesh.resize(a.mesh_names.size());
   describe_curves(c, a);
   describe_loads(c, a);
   describe_bodies(c, a);

@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "io/codec.h"
 #include "io/keys.h"
-#include "io/layout_codec.h"
+#include "io/system_motion_codec.h"
 
 namespace whine {
 namespace {
@@ -28,7 +28,6 @@ void describe_modification(Codec& c, const std::string& gear, SystemStaticParame
 // Gears by name and what bodies and meshes are of them; [[mesh]] and [gear.<name>] of the scene as parameters.
 void describe_settings(Codec& c, SystemStaticResult& a) {
   SystemStaticParameters& s = a.settings;
-  describe_layout(c, s.layout, kPlaceOfLayout);
   std::vector<std::string> gears = s.gears();
   c(s.gear, "/layout/body/gear", "body", "name of its gear in the scene; empty of a carrier");
   c(gears, "/gear", "gear_number", "names of the gears of the scene, of a train");
@@ -54,7 +53,7 @@ void describe_settings(Codec& c, SystemStaticResult& a) {
     describe_gear(c, "gear_" + gears[g], a.drawing[g]);
     describe_modification(c, gears[g], s);
   }
-  describe_errors(c, s, kPlaceOfLayout);
+  describe_errors(c, s.layout, s.errors, kPlaceOfLayout);
 }
 
 // What figures and pages take for granted: at least one mesh, and of each gear the drawing with its teeth.
@@ -81,14 +80,15 @@ void require_drawings(const Codec& c, const SystemStaticResult& a) {
 }  // namespace
 
 void describe_static_source(Codec& c, SystemStaticResult& a) {
-  if (c.optional("/layout/body/name", a.of_train())) {
-    describe_settings(c, a);
-    if (c.in()) require_drawings(c, a);
-  }
+  describe_layout(c, a.settings.layout, kPlaceOfLayout);
+  describe_names(c, a.mesh_names, a.body_names);
+  if (!c.out()) a.mesh.resize(c.in() ? a.mesh_names.size() : 1);
+  if (c.lists() || a.of_train()) describe_settings(c, a);
+  if (c.in() && a.of_train()) require_drawings(c, a);
   if (a.of_train()) return;
-  if (a.mesh.empty()) a.mesh.resize(1);
   describe_pair(c, a.mesh[0]);
   describe_torque(c, a.mesh[0].torque);
+  if (c.in()) a.take_pair(a.settings.layout);
 }
 
 }  // namespace whine

@@ -63,9 +63,9 @@ std::string change_words(const WidthChange& change) {
 std::vector<std::string> root_stress_words(const ErrorBudgetResult& errors) {
   std::vector<std::string> lines;
   const RootConvergence root = convergence(errors.root);
-  for (int g = 0; g < kSides && root.order.rows() > 0; ++g) {
+  for (Eigen::Index g = 0; root.order.rows() > 0 && g < root.order.cols(); ++g) {
     std::ostringstream out;
-    out << "largest root stress of " << errors.mesh.gear[static_cast<size_t>(g)] << " changes by ";
+    out << "largest root stress of " << errors.gear_names[static_cast<size_t>(g)] << " changes by ";
     for (Eigen::Index k = 0; k < root.change.rows(); ++k)
       out << (k > 0 ? ", " : "") << std::round(1e5 * root.change(k, g)) / 1e3 + 0.0;
     out << " % each time the elements on the root are halved";
@@ -84,7 +84,7 @@ std::vector<std::string> face_load_words(const SystemStaticResult& all) {
     const StaticResult& statics = all.mesh[m];
     const FaceLoad& face = statics.face;
     const auto own = section.begin() + static_cast<std::ptrdiff_t>(m);
-    if (face.none() || (all.of_train() && std::find(section.begin(), own, section[m]) != own)) continue;
+    if (face.none() || std::find(section.begin(), own, section[m]) != own) continue;
     const double mean = statics.tooth_load.row(0).sum() / statics.face_width();
     std::ostringstream out;
     if (all.of_train()) out << all.mesh_names[m] << ": ";

@@ -203,7 +203,7 @@ void show(SummaryLines& lines, const ErrorBudgetResult& a) {
                       std::round(a.root.element_size[k] * 1e6) / 1e3, " to ",
                       std::round(a.root.element_size[k + 1] * 1e6) / 1e3, " mm");
     const double order = resolved_order(root, root.order.rows() - 1, g);
-    add(lines, "root stress of " + a.mesh.gear[static_cast<size_t>(g)], changes,
+    add(lines, "root stress of " + a.gear_names[static_cast<size_t>(g)], changes,
         std::isfinite(order) ? text(", order ", std::round(order * 100) / 100) : "");
   }
   rows(a.choice, "or ");
@@ -212,7 +212,7 @@ void show(SummaryLines& lines, const ErrorBudgetResult& a) {
 
 void show(SummaryLines& lines, const ImpactResult& a) {
   if (a.of_train()) {
-    show_model(lines, a.train);
+    show_model(lines, a);
   } else {
     if (a.mesh.friction.acts())
       add(lines, "friction", "left out of ring-downs: teeth do not slide at a fixed mesh phase");
@@ -260,6 +260,11 @@ void show_pair(SummaryLines& lines, const SweepResult& a) {
   show_bearings(lines, a.mesh);
 }
 
+// "150 N m on pinion, "; of a train nothing, whose drives stand with its bodies.
+std::string pair_torque(const MotionSource& a) {
+  return a.of_train() ? "" : text(a.torque, " N m on ", a.mesh.gear[0], ", ");
+}
+
 // Of the mesh that moves most.
 void show_motions(SummaryLines& lines, const SweepResult& a) {
   double peak = 0;
@@ -272,8 +277,7 @@ void show_motions(SummaryLines& lines, const SweepResult& a) {
         worst = f;
         mesh = m;
       }
-  add(lines, "largest DTE", peak * 1e6, " µm RMS at ", a.mesh_frequency[worst], " Hz",
-      a.of_train() ? " of " + a.mesh_names[static_cast<size_t>(mesh)] : "");
+  add(lines, "largest DTE", peak * 1e6, " µm RMS at ", a.mesh_frequency[worst], " Hz", a.of_mesh(mesh));
   add(lines, "steady state", a.periods.sum(), " periods run, largest residual ", a.residual.maxCoeff(),
       ", energy imbalance ", a.energy_imbalance.cwiseAbs().maxCoeff());
   if (a.lumped.cell_end.size() == 0) {
@@ -291,8 +295,7 @@ void show_motions(SummaryLines& lines, const SweepResult& a) {
 }
 
 void show(SummaryLines& lines, const SweepErrorsResult& a) {
-  add(lines, "operating point", a.of_train() ? "" : text(a.torque, " N m on ", a.mesh.gear[0], ", "),
-      a.direction, ", ", range_of(a.mesh_frequency));
+  add(lines, "operating point", pair_torque(a), a.direction, ", ", range_of(a.mesh_frequency));
   for (size_t e = 0; e < a.entry.size(); ++e) {
     const double order = a.order[static_cast<Eigen::Index>(e)];
     add(lines, a.entry[e], "RMS ", a.dte_rms.change[e].cwiseAbs().maxCoeff() * 100, " % at most, tooth load ",
@@ -306,11 +309,10 @@ void show(SummaryLines& lines, const SweepErrorsResult& a) {
 }
 
 void show(SummaryLines& lines, const SweepResult& a) {
-  add(lines, "operating point", a.of_train() ? "" : text(a.torque, " N m on ", a.mesh.gear[0], ", "),
-      a.direction, ", ", range_of(a.mesh_frequency));
+  add(lines, "operating point", pair_torque(a), a.direction, ", ", range_of(a.mesh_frequency));
   if (a.of_train()) {
-    show_model(lines, a.train);
-    show_differing_teeth(lines, a.train, a.hunting_periods);
+    show_model(lines, a);
+    show_differing_teeth(lines, a.layout, a.errors, a.hunting_periods);
   } else {
     show_pair(lines, a);
   }
@@ -324,8 +326,8 @@ void show(SummaryLines& lines, const SweepResult& a) {
 
 // Operating point and model of a pair or a train. over: speeds, or what varies.
 void show_motion(SummaryLines& lines, const MotionSource& a, const std::string& over) {
-  add(lines, "operating point", a.of_train() ? "" : text(a.torque, " N m on ", a.mesh.gear[0], ", "), over);
-  if (a.of_train()) return show_model(lines, a.train);
+  add(lines, "operating point", pair_torque(a), over);
+  if (a.of_train()) return show_model(lines, a);
   show_friction(lines, a.mesh);
   add(lines, "model", "body ", a.fidelity.body, ", contact ", a.fidelity.contact, ", integrator ",
       a.fidelity.integrator);
@@ -338,8 +340,7 @@ void show(SummaryLines& lines, const BranchResult& a) {
   if (points > 0) {
     Eigen::Index worst = 0, mesh = 0;
     const double peak = a.dte_rms.maxCoeff(&worst, &mesh);
-    add(lines, "largest DTE", peak * 1e6, " µm RMS at ", a.mesh_frequency[worst], " Hz",
-        a.of_train() ? " of " + a.mesh_names[static_cast<size_t>(mesh)] : "");
+    add(lines, "largest DTE", peak * 1e6, " µm RMS at ", a.mesh_frequency[worst], " Hz", a.of_mesh(mesh));
     add(lines, "orbits", points, ", of them ", points - a.stable.sum(), " unstable; largest residual ",
         a.residual.maxCoeff());
     for (const int periods : {2, 4, 8})
@@ -384,15 +385,10 @@ void show(SummaryLines& lines, const RunupResult& a) {
   }
 }
 
-// " of sun-planet1"; of a pair nothing.
-static std::string of_train_mesh(const ResponseResult& a, Eigen::Index mesh) {
-  return a.of_train() ? " of " + a.mesh_names[static_cast<size_t>(mesh)] : "";
-}
-
 void show(SummaryLines& lines, const ResponseResult& a) {
   if (a.of_train()) {
     add(lines, "operating point", a.direction, ", ", range_of(a.mesh_frequency));
-    show_model(lines, a.train);
+    show_model(lines, a);
   } else {
     show_friction(lines, a.mesh);
     add(lines, "operating point", a.torque, " N m, ", a.direction, ", ", range_of(a.mesh_frequency));
@@ -400,11 +396,10 @@ void show(SummaryLines& lines, const ResponseResult& a) {
   }
   if (a.mesh_frequency.size() > 0) {
     Eigen::Index worst = 0, mesh = 0;
-    const auto of_mesh = [&] { return of_train_mesh(a, mesh); };
     const double peak = a.dte_rms.maxCoeff(&worst, &mesh);
-    add(lines, "largest DTE", peak * 1e6, " µm RMS", of_mesh(), " at ", a.mesh_frequency[worst], " Hz");
+    add(lines, "largest DTE", peak * 1e6, " µm RMS", a.of_mesh(mesh), " at ", a.mesh_frequency[worst], " Hz");
     const double load = a.tooth_load_max.maxCoeff(&worst, &mesh);
-    add(lines, "largest tooth load", load, " N", of_mesh(), ", all pairs ", a.mesh_force_max.maxCoeff(),
+    add(lines, "largest tooth load", load, " N", a.of_mesh(mesh), ", all pairs ", a.mesh_force_max.maxCoeff(),
         " N");
     for (Eigen::Index b = 0; b < a.bearing_force_max.cols(); ++b)
       if (known_of(a.bearing_force_max, b))
@@ -414,8 +409,8 @@ void show(SummaryLines& lines, const ResponseResult& a) {
     for (Eigen::Index side = 0; side < a.root_stress_max.cols(); ++side)
       if (known_of(a.root_stress_max, side)) {
         const double stress = a.root_stress_sustained.col(side).maxCoeff(&worst);
-        add(lines, text("root stress of ", a.name_of_side(side), of_train_mesh(a, side / kSides)),
-            stress * 1e-6, " MPa sustained at ", a.mesh_frequency[worst], " Hz, at a tangent of ",
+        add(lines, text("root stress of ", a.name_of_side(side), a.of_mesh(side / kSides)), stress * 1e-6,
+            " MPa sustained at ", a.mesh_frequency[worst], " Hz, at a tangent of ",
             a.root_stress_angle(worst, side) * 180 / std::numbers::pi, " deg, phase of its pair ",
             a.root_stress_phase(worst, side));
       }

@@ -17,9 +17,10 @@ void show(SummaryLines& lines, const ModesResult& a) {
 }
 
 // Which gears have errors, and after which time the same teeth meet.
-void show_differing_teeth(SummaryLines& lines, const SystemStaticParameters& s, int periods) {
-  for (size_t b = 0; b < s.layout.bodies.size(); ++b)
-    if (s.has_errors(b)) add(lines, s.layout.bodies[b].name + "'s teeth", words_of(s.errors[b]));
+void show_differing_teeth(SummaryLines& lines, const System& layout, const std::vector<ToothErrors>& errors,
+                          int periods) {
+  for (size_t b = 0; b < errors.size(); ++b)
+    if (!errors[b].none()) add(lines, layout.bodies[b].name + "'s teeth", words_of(errors[b]));
   if (periods > 1) add(lines, "hunting period", periods, " mesh periods, after which the same teeth meet");
 }
 
@@ -28,7 +29,7 @@ void show(SummaryLines& lines, const SystemStaticResult& a) {
   const System& s = a.settings.layout;
   add(lines, "model", "contact ", a.settings.fidelity.contact, ", ", a.mesh_phase.size() / a.hunting_periods,
       " positions in a mesh period");
-  show_differing_teeth(lines, a.settings, a.hunting_periods);
+  show_differing_teeth(lines, s, a.settings.errors, a.hunting_periods);
   for (size_t b = 0; b < s.bodies.size(); ++b) {
     const auto column = static_cast<Eigen::Index>(b);
     double most = 0;
@@ -50,7 +51,7 @@ void show(SummaryLines& lines, const SystemStaticResult& a) {
   add(lines, "residual", a.torque_residual, " of the largest mesh force");
 }
 
-void show_model(SummaryLines& lines, const SystemSweepParameters& s) {
+void show_model(SummaryLines& lines, const MotionSource& s) {
   add(lines, "system", s.layout.bodies.size(), " bodies, ", s.layout.meshes.size(), " meshes");
   add(lines, "model", "body ", s.fidelity.body, ", contact ", s.fidelity.contact, ", damping ",
       s.damping.rayleigh_stiffness, " s and ", s.damping.rayleigh_mass, " 1/s");

@@ -38,11 +38,12 @@ inline std::string range_of(const Eigen::VectorXd& frequency) {
 std::string words_of(const ToothErrors& errors);
 
 // Of artifacts of systems of several meshes.
-void show_model(SummaryLines& lines, const SystemSweepParameters& s);
+void show_model(SummaryLines& lines, const MotionSource& s);
 void show(SummaryLines& lines, const ModesResult& a);
 void show(SummaryLines& lines, const StaticResult& a);  // of a pair
 void show(SummaryLines& lines, const SystemStaticResult& a);
 // Which gears have errors, and after how many mesh periods the same teeth meet.
-void show_differing_teeth(SummaryLines& lines, const SystemStaticParameters& s, int periods);
+void show_differing_teeth(SummaryLines& lines, const System& layout, const std::vector<ToothErrors>& errors,
+                          int periods);
 
 }  // namespace whine

@@ -52,7 +52,7 @@ void describe_bodies(Codec& c, SweepResult& a, const std::vector<std::string>& n
       c(a.bearing_force[b], "/bearing_force/" + names[b], "N", kForce, "mesh_frequency sample xy",
         text(
             "force of the body on its bearing or pin over the same; of a train on a rigid axis the sum of its contact forces",
-            c.lists() || (a.of_train() && on_rigid_moving_pin(a.train.layout, static_cast<int>(b)))
+            c.lists() || (a.of_train() && on_rigid_moving_pin(a.layout, static_cast<int>(b)))
                 ? ", on a rigid pin of a carrier that moves less the rate of its momentum"
                 : "",
             ", of a carrier the sum of its pins; x, y: of a pair the driven gear stands above the driver, which turns counter-clockwise"));
@@ -99,8 +99,7 @@ void describe_speed_by_speed(Codec& c, SweepResult& a) {
   c(a.drift_force, "/drift_force", "N", kForce, kAxis,
     "largest force that the output must supply to hold the mean speed");
   describe_certificate(c, a.least_gap, a.least_force, a.fallbacks);
-  const bool slides =
-      a.friction_coupling > 0 || (a.of_train() ? a.train.friction().acts() : a.mesh.friction.acts());
+  const bool slides = a.friction_coupling > 0 || a.friction.power.size() > 0 || a.mesh.friction.acts();
   if (c.optional("/certificate/friction_coupling", slides))
     c(a.friction_coupling, "/certificate/friction_coupling", "m", kSize, "",
       "largest change of a gap by what friction of the last forces moves, over all steps",
@@ -127,11 +126,10 @@ bool describe_source_of_pair(Codec& c, SweepResult& a) {
 void describe(Codec& c, SweepResult& a) {
   describe_source(c, a);
   if (c.lists() || a.of_train()) {
-    describe_sections(c, a.train.section, {"/layout", ""});
-    describe_errors(c, a.train, {"/layout", ""});
+    describe_sections(c, a.section, {"/layout", ""});
+    describe_errors(c, a.layout, a.errors, {"/layout", ""});
   }
   const bool lumped = !a.of_train() && describe_source_of_pair(c, a);
-  describe_names(c, a.of_train(), a.mesh_names, a.body_names);
   c(a.direction, "/parameters/operation/direction", "", "direction in which the speeds are run through");
   c(a.mesh_frequency, "/mesh_frequency", "Hz", kSpeed, kAxis,
     "mesh frequency, in the order in which they were computed");
@@ -147,8 +145,7 @@ void describe(Codec& c, SweepResult& a) {
   }
   if (!c.in()) return;
   if (a.mesh_frequency.size() == 0) c.in()->reject("dataset /mesh_frequency holds no speed");
-  if (a.of_train() && a.train.layout.meshes.empty())
-    c.in()->reject("dataset /layout/mesh/phase holds no mesh");
+  if (a.of_train() && a.layout.meshes.empty()) c.in()->reject("dataset /layout/mesh/phase holds no mesh");
 }
 
 std::string title(const SweepResult& a) {

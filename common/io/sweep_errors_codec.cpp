@@ -28,7 +28,6 @@ void describe(Codec& c, SweepErrorsResult& a) {
   constexpr const char* kSpeeds = "mesh_frequency";
   describe_source(c, a);
   if (!a.of_train()) describe_natural_frequency(c, a.natural_frequency);
-  describe_names(c, a.of_train(), a.mesh_names, a.body_names);
   c(a.direction, "/parameters/operation/direction", "", "direction in which the speeds are run through");
   c(a.mesh_frequency, "/mesh_frequency", "Hz", kSpeed, kSpeeds,
     "mesh frequencies at which errors were measured, in the order in which they were computed");

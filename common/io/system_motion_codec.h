@@ -12,14 +12,11 @@ namespace whine {
 
 class Codec;
 
-void describe_system(Codec& codec, SystemSweepParameters& settings, Eigen::VectorXd& torque,
-                     const LayoutPlace& place = {});
-// What pairs and trains in motion were computed from: /layout of a train, the parameters of two gears of a pair; `time`: its
-// discretisation, too.
+// What pairs and trains in motion were computed from: /layout, damping, model levels, of a pair the parameters of its gears; /mesh and
+// /body; `time`: its discretisation, too.
 void describe_source(Codec& codec, MotionSource& source, bool time = true);
-// /mesh and /body, the coordinates of the axes mesh and body: of a pair one mesh and two bodies, else those of the layout.
-void describe_names(Codec& codec, bool of_train, std::vector<std::string>& meshes,
-                    std::vector<std::string>& bodies);
+// /mesh and /body, the coordinates of the axes mesh and body.
+void describe_names(Codec& codec, std::vector<std::string>& meshes, std::vector<std::string>& bodies);
 // Load over the face in slices, (speed, mesh); left out of what has one slice.
 void describe_face_load(Codec& codec, MatrixRM& load_factor, MatrixRM& line_load);
 

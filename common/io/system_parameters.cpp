@@ -64,6 +64,7 @@ void walk(StageParameters& s, System& layout) {
       s(offset_keys(body).labelled(label));
   const Source* const source = s.source();
   if (!source) return;
+  layout.load = System::Load::drives;
   if (layout.bodies.empty()) source->reject("lists no [[body]]");
   if (const auto fault = layout_fault(layout)) {
     const toml::table& at = *source->list(fault->list)[fault->number];
@@ -126,11 +127,7 @@ SystemStaticParameters static_parameters_of(const Scene& scene, const System& la
 SystemSweepParameters sweep_parameters_of(const Scene& scene, const System& layout) {
   SystemSweepParameters out;
   static_cast<SystemStaticParameters&>(out) = static_parameters_of(scene, layout);
-  out.damping = scene.damping;
-  out.frequency_from = scene.operation.frequency_from;
-  out.frequency_to = scene.operation.frequency_to;
-  out.frequency_step = scene.operation.frequency_step;
-  out.time = scene.time;
+  static_cast<MotionSettings&>(out) = motion_settings(scene);
   return out;
 }
 
@@ -160,8 +157,8 @@ void walk_gears(StageParameters& s, SystemStaticParameters& p) {
   }
 }
 
-// moving: `p` itself, if it is of a motion; speeds: of one over speeds.
-void walk(StageParameters& s, SystemStaticParameters& p, SystemSweepParameters* moving, bool speeds) {
+// moving: of what moves; speeds: of a motion over speeds.
+void walk(StageParameters& s, SystemStaticParameters& p, MotionSettings* moving, bool speeds) {
   const bool reads = s.source();
   if (reads) {  // by their names sections are called
     walk(s, p.layout);
@@ -191,7 +188,7 @@ void walk(StageParameters& s, SystemStaticParameters& p, SystemSweepParameters* 
       s(keys(p.errors[b]).labelled(label));
   if (moving) {
     KeyList own = keys(moving->damping);
-    if (speeds) own.append(speeds_key(moving->frequency_from, moving->frequency_to, moving->frequency_step));
+    if (speeds) own.append(speeds_key(*moving));
     s(own);
   }
   s(level_keys(p.fidelity, p.contact, moving ? &moving->time : nullptr));

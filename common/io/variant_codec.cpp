@@ -19,7 +19,7 @@ namespace {
 void describe_train(Codec& c, VariantResult& a) {
   if (!c.optional("/layout/body/name", a.of_train())) return;
   describe_layout(c, a.train.layout, {"/layout", ""});
-  describe_names(c, true, a.names.meshes, a.names.bodies);
+  describe_names(c, a.names.meshes, a.names.bodies);
   if (c.optional("/shared_mesh", !a.names.shared.empty()))
     c(a.names.shared, "/shared_mesh", "shared_mesh", "[[mesh]] of several planets, which share its load");
   if (c.lists() || !c.optional("/parameters/damping/rayleigh_stiffness", !a.directions.empty())) return;
@@ -42,7 +42,7 @@ void describe(Codec& c, VariantResult& a) {
         "torque whose mean stiffness sets the bearing dampers");
     }
   }
-  if (moves) describe_speeds(c, a.frequency_from, a.frequency_to, a.frequency_step);
+  if (moves) describe_speeds(c, a);
   c(a.rejection, "/outside_model_reason", "",
     "why the variant lies outside the model's range; empty: it does not");
   if (!a.rejection.empty()) return;

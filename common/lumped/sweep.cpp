@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "gear/pair.h"
+#include "gear/train.h"
 #include "lumped/period_map.h"
 #include "lumped/stiffness.h"
 #include "orbits/branch.h"
@@ -227,16 +228,7 @@ std::vector<double> checked_speeds(const LumpedOptions& o) {
   if (!(o.damping_ratio >= 0 && o.damping_ratio < 1))
     fail(Failure::input, "lumped model: the damping ratio is ", o.damping_ratio,
          "; it must be 0 or above and below 1 (0.08 for 8 %)");
-  const int count =
-      static_cast<int>(std::floor((o.frequency_to - o.frequency_from) / o.frequency_step + 1e-9)) + 1;
-  if (!(o.frequency_from > 0) || !(o.frequency_step > 0) || !(o.frequency_to >= o.frequency_from) ||
-      count < 1)
-    fail(Failure::input, "the speed range from ", o.frequency_from, " to ", o.frequency_to,
-         " Hz in steps of ", o.frequency_step, " Hz is empty");
-  std::vector<double> speeds(count);
-  for (int i = 0; i < count; ++i)
-    speeds[i] = o.frequency_from + (o.direction == Direction::up ? i : count - 1 - i) * o.frequency_step;
-  return speeds;
+  return swept_speeds(o, o.direction);
 }
 
 // A sweep without its motions.
@@ -253,9 +245,9 @@ SweepResult described(const StaticResult& statics, const LumpedParameters& sprin
   a.damping = {};
   a.damping.rayleigh_stiffness = a.damping.bearing_ratio = 0;
   a.torque = statics.torque;
-  a.name_parts();
   // m = I1 I2 / (I1 r2^2 + I2 r1^2) with equal shares.
   for (int g = 0; g < kSides; ++g) a.inertia[g] = 2 * o.mass * std::pow(pair.gear(g).base_radius(), 2);
+  a.place_pair(pair_system(a));
   a.direction = o.direction;
   return a;
 }

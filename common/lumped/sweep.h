@@ -60,13 +60,12 @@ LumpedSpeeds integrate_speeds(LumpedOscillator& oscillator, const std::vector<do
 // kg m2.
 double reduced_mass(const StaticResult& statics, const std::array<double, kSides>& inertia);
 
-struct LumpedOptions {
+struct LumpedOptions : MeshSpeeds {
   MotionModel model = MotionModel::rectangular;
   double mass = 0;              // kg
   double damping_ratio = 0.08;  // 1: c = 2 ratio sqrt(k_avg m), k_avg the mean of k(t)
   DamperActs damper_acts = DamperActs::always;
   Integrator integrator = Integrator::exact;
-  double frequency_from = 0, frequency_to = 0, frequency_step = 0;  // mesh frequency, Hz
   TimeDiscretisation time;  // steps_per_period: stored samples, and least Newmark steps
   Direction direction = Direction::up;
 };

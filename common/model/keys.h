@@ -177,7 +177,7 @@ KeyList equivalent_mass_key(double& equivalent_mass);  // of a gear of a rigid s
 KeyList error_file_key(std::string& file);
 KeyList bearing_gear_key(std::string& gear);
 KeyList torque_key(std::vector<double>& torques);
-KeyList speeds_key(double& from, double& to, double& step);
+KeyList speeds_key(MeshSpeeds& speeds);
 
 // Units of the two numbers of a point.
 extern const std::array<Unit, 2> kPointUnits;

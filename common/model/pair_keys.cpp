@@ -64,14 +64,14 @@ KeyList torque_key(std::vector<double>& torques) {
   return k;
 }
 
-KeyList speeds_key(double& from, double& to, double& step) {
+KeyList speeds_key(MeshSpeeds& s) {
   KeyList k("operation");
-  k.add(RangeSlot{&from, &to, &step}, "mesh_frequency_Hz", kHertzUnit, nullptr, {1, 1e6, false, "slower, a mesh period takes more than 250000 time steps at the default rate; the static stage is the limit of zero speed"}, "speeds of a sweep: { from = , to = , step = }");
+  k.add(RangeSlot{&s.frequency_from, &s.frequency_to, &s.frequency_step}, "mesh_frequency_Hz", kHertzUnit, nullptr, {1, 1e6, false, "slower, a mesh period takes more than 250000 time steps at the default rate; the static stage is the limit of zero speed"}, "speeds of a sweep: { from = , to = , step = }");
   return k;
 }
 
 KeyList keys(Operation& o) {
-  return torque_key(o.torques).append(speeds_key(o.frequency_from, o.frequency_to, o.frequency_step));
+  return torque_key(o.torques).append(speeds_key(o));
 }
 
 KeyList keys(Fidelity& f) {

@@ -68,8 +68,8 @@ void add_rows(std::span<const QuantityRow> rows, const TrainNames& train, const 
 
 TrainNames train_names(const SystemStaticParameters& train) {
   TrainNames out;
-  for (size_t m = 0; m < train.layout.meshes.size(); ++m) out.meshes.push_back(mesh_name(train.layout, m));
-  for (const System::Body& body : train.layout.bodies) out.bodies.push_back(body.name);
+  out.meshes = mesh_names_of(train.layout);
+  out.bodies = body_names_of(train.layout);
   for (size_t s = 0; s < train.mesh.size(); ++s)
     if (std::count(train.section.begin(), train.section.end(), static_cast<int>(s)) > 1)
       out.shared.push_back(train.mesh[s].gear[0] + "-" + train.mesh[s].gear[1]);

@@ -102,9 +102,13 @@ struct Damping {
   double bearing_ratio = 0.005;    // 1
 };
 
-struct Operation {
-  std::vector<double> torques;                                      // N m on the driver
-  double frequency_from = 0, frequency_to = 0, frequency_step = 0;  // mesh frequency, Hz
+// Mesh frequencies of a sweep, Hz.
+struct MeshSpeeds {
+  double frequency_from = 0, frequency_to = 0, frequency_step = 0;
+};
+
+struct Operation : MeshSpeeds {
+  std::vector<double> torques;  // N m on the driver
 };
 
 // What of the elastic body moves by itself, cheapest first.

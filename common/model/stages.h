@@ -32,18 +32,21 @@ struct StaticParameters {
   std::array<std::string, kSides> body = {};  // hashes of their stage parameters; empty: these name none
 };
 
-// For gear-impact.
-struct ImpactParameters {
-  std::array<double, kSides> inertia = {};  // kg m2, total
+// Speeds in their order. Throws Error(input) where there are none.
+std::vector<double> swept_speeds(const MeshSpeeds& speeds, Direction direction);
+
+// Of whatever moves, pair or train; a ring-down has no speeds.
+struct MotionSettings : MeshSpeeds {
   Damping damping;
+  TimeDiscretisation time;
+};
+MotionSettings motion_settings(const Scene& scene);
+
+// For gear-sweep, gear-impact and gear-orbit of a pair.
+struct SweepParameters : MotionSettings {
+  std::array<double, kSides> inertia = {};  // kg m2, total
   double reference_torque = 0;  // N m: first torque listed, whose mean stiffness sets the bearing dampers
   Fidelity fidelity;
-};
-
-// For gear-sweep.
-struct SweepParameters : ImpactParameters {
-  double frequency_from = 0, frequency_to = 0, frequency_step = 0;  // mesh frequency, Hz
-  TimeDiscretisation time;
 };
 
 // What a result of a pair says of what it was computed from.
@@ -68,10 +71,10 @@ struct MotionParameters : GearPairParameters {
   std::array<double, kSides> inertia = {};  // kg m2, total
 };
 
-// What a result of a pair of these bodies says of it, at rest and, but for `time`, in motion.
+// What a result of a pair of these bodies says of it, at rest and in motion.
 void set_pair(GearPairParameters& pair, const std::array<BodyParameters, kSides>& gear,
               const StaticParameters& settings);
 void set_motion(MotionParameters& motion, const std::array<BodyParameters, kSides>& gear,
-                const GearPairParameters& rest, const ImpactParameters& settings);
+                const GearPairParameters& rest, const SweepParameters& settings);
 
 }  // namespace whine

@@ -60,6 +60,9 @@ struct System {
   std::vector<Body> bodies;
   std::vector<Mesh> meshes;
   std::vector<Drive> drives;  // a body without one is free of torque, as one of kind free is
+  // What loads the gears: a torque on the driver of a pair, given to the program, while the driven gear is held; or the drives.
+  enum class Load { torque, drives };
+  Load load = Load::torque;
 
   bool held(int body) const {
     for (const Drive& drive : drives)
@@ -84,6 +87,19 @@ inline std::string mesh_name(const System& system, size_t m) {
   const auto& side = system.meshes[m].side;
   return system.bodies[static_cast<size_t>(side[0].body)].name + "-" +
          system.bodies[static_cast<size_t>(side[1].body)].name;
+}
+
+inline std::vector<std::string> mesh_names_of(const System& system) {
+  std::vector<std::string> out;
+  out.reserve(system.meshes.size());
+  for (size_t m = 0; m < system.meshes.size(); ++m) out.push_back(mesh_name(system, m));
+  return out;
+}
+inline std::vector<std::string> body_names_of(const System& system) {
+  std::vector<std::string> out;
+  out.reserve(system.bodies.size());
+  for (const System::Body& body : system.bodies) out.push_back(body.name);
+  return out;
 }
 
 template <>

@@ -51,10 +51,7 @@ struct SystemStaticParameters {
 };
 
 // For gear-sweep, gear-impact and gear-orbit; `fidelity` holds the level of the bodies as well. Contact in motion is of lines.
-struct SystemSweepParameters : SystemStaticParameters {
-  Damping damping;
-  double frequency_from = 0, frequency_to = 0, frequency_step = 0;  // mesh frequency, Hz
-  TimeDiscretisation time;
+struct SystemSweepParameters : SystemStaticParameters, MotionSettings {
   // N m-1 of a pair in slices, to which the dampers of its axes refer: mean mesh stiffness at the reference torque; 0: of its own statics.
   double axis_stiffness = 0;
 };

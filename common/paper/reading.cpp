@@ -196,8 +196,8 @@ void PaperPair::add_lumped(const Scene& scene) {
   }
 }
 
-ImpactParameters PaperPair::impact_parameters(const OpenChoices& choices, double inertia) const {
-  ImpactParameters settings;
+SweepParameters PaperPair::impact_parameters(const OpenChoices& choices, double inertia) const {
+  SweepParameters settings;
   settings.inertia[0] = settings.inertia[1] = inertia;
   settings.damping.undamped_depth = choices.undamped_depth;
   settings.damping.rayleigh_stiffness = 0;
@@ -248,7 +248,7 @@ double PaperPair::tied_inertia(const std::string& from) {
 
 double PaperPair::tied_rayleigh_stiffness(const OpenChoices& choices, double inertia,
                                           double rayleigh_mass) const {
-  ImpactParameters settings = impact_parameters(choices, inertia);
+  SweepParameters settings = impact_parameters(choices, inertia);
   settings.damping.rayleigh_mass = rayleigh_mass;
   const StaticResult& rest = pair_.at_rest(kFigureTorque);
   const std::vector<FixedPhaseState> states = fixed_phase_states(
@@ -289,7 +289,7 @@ Reading PaperPair::evaluate(const OpenChoices& choices) {
   // Frequencies go as 1 / sqrt(inertia), but for the part of it in the bodies' modes.
   out.total_inertia = tied_inertia(choices.inertia_from) / std::pow(1 + choices.frequency_offset, 2);
   const double bearing_stiffness = pair_.at_rest(kTorques[0]).mean_stiffness;
-  const ImpactParameters at_phase = impact_parameters(choices, out.total_inertia);
+  const SweepParameters at_phase = impact_parameters(choices, out.total_inertia);
   {
     // mu = 2 zeta w with w of the contact state that has the printed ratio.
     const StaticResult& rest = pair_.at_rest(kFigureTorque);
@@ -304,7 +304,7 @@ Reading PaperPair::evaluate(const OpenChoices& choices) {
 Reading PaperPair::judge(Reading out) const {
   const OpenChoices& choices = out.choices;
   const double bearing_stiffness = pair_.at_rest(kTorques[0]).mean_stiffness;
-  ImpactParameters at_phase = impact_parameters(choices, out.total_inertia);
+  SweepParameters at_phase = impact_parameters(choices, out.total_inertia);
   at_phase.damping.rayleigh_mass = out.rayleigh_mass;
   at_phase.damping.rayleigh_stiffness = out.rayleigh_stiffness;
   out.verdict.clear();
@@ -315,8 +315,7 @@ Reading PaperPair::judge(Reading out) const {
   for (int torque : {100, 150, 200, 300})
     results.impacts[path_at(torque, "impact.h5")] =
         frozen_impact(body_, body_, pair_.at_rest(torque), bearing_stiffness, at_phase, kFixedPhases);
-  SweepParameters settings;
-  static_cast<ImpactParameters&>(settings) = at_phase;
+  SweepParameters settings = at_phase;
   settings.fidelity.contact = level_.contact;
   settings.frequency_from = level_.from;
   settings.frequency_to = level_.to;

@@ -69,7 +69,7 @@ class PaperPair {
  private:
   double tied_inertia(const std::string& from);
   double tied_rayleigh_stiffness(const OpenChoices& choices, double inertia, double rayleigh_mass) const;
-  ImpactParameters impact_parameters(const OpenChoices& choices, double inertia) const;
+  SweepParameters impact_parameters(const OpenChoices& choices, double inertia) const;
   void add_lumped(const Scene& scene);
 
   std::vector<Claim> claims_;

@@ -134,7 +134,7 @@ Figure branch_figure(const BranchResult& b, const std::vector<ResponseResult>& s
   figure.notes.push_back(text(b.mesh_frequency.size(), " orbits, ", b.mesh_frequency.size() - b.stable.sum(),
                               " unstable, ", b.fold_frequency.size(), " folds, ", b.flip_frequency.size(),
                               " period doublings, ", b.torus_frequency.size(), " tori; body \"",
-                              b.fidelity_used().body, "\", contact \"", b.fidelity_used().contact, "\""));
+                              b.fidelity.body, "\", contact \"", b.fidelity.contact, "\""));
   constexpr Index kShownFolds = 6;
   for (Index i = 0; i < std::min<Index>(b.fold_frequency.size(), kShownFolds); ++i)
     figure.notes.push_back(text("fold at ",

@@ -82,16 +82,16 @@ std::vector<double> common_torques(const std::vector<Design>& designs) {
 
 // Gears are called by their role: two designs may name them differently.
 ReportContent by_role(ReportContent c) {
-  const auto rename = [](auto& artifact) {
-    for (size_t g = 0; g < kSides; ++g) artifact.mesh.gear[g] = kRole[g];
-    if constexpr (requires { artifact.body_names; }) artifact.body_names = {kRole[0], kRole[1]};
+  const auto rename = [](auto& artifact, GearMeshSpec& mesh, System& layout) {
+    for (size_t g = 0; g < kSides; ++g)
+      artifact.body_names[g] = layout.bodies[g].name = mesh.gear[g] = kRole[g];
   };
   for (SystemStaticResult& s : c.statics) {
-    rename(s.mesh[0]);
-    s.body_names = {kRole[0], kRole[1]};
+    rename(s, s.mesh[0].mesh, s.settings.layout);
+    s.take_pair(s.settings.layout);
   }
-  for (ImpactResult& a : c.impacts) rename(a);
-  for (ResponseResult& sweep : c.sweeps) rename(sweep);
+  for (ImpactResult& a : c.impacts) rename(a, a.mesh, a.layout);
+  for (ResponseResult& sweep : c.sweeps) rename(sweep, sweep.mesh, sweep.layout);
   return c;
 }
 

@@ -215,7 +215,7 @@ Figure compared_motion_figure(const std::vector<OfDesign<ResponseResult>>& sweep
     all.push_back({one.design, r.of_train() ? 0 : r.torque});
     if (std::any_of(curves.begin(), curves.end(), [&](const auto& c) { return c.design == one.design; }))
       continue;
-    for (const size_t m : r.of_train() ? shown_meshes(r.train.layout) : std::vector<size_t>{0})
+    for (const size_t m : r.of_train() ? shown_meshes(r.layout) : std::vector<size_t>{0})
       curves.push_back(
           {one.design, static_cast<Index>(m), curve_name(one.design, r.of_train() ? r.mesh_names[m] : "")});
   }

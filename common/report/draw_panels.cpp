@@ -88,6 +88,9 @@ struct Using {
     if (panel.y.log && !std::isnan(panel.y.from))
       value = text("(", value, " < 0 ? NaN : ", value, " < ", number(panel.y.from), " ? ",
                    number(panel.y.from), " : ", value, ")");
+    // Without a place on the axis of colours: not drawn.
+    if (panel.colours && panel.colours->log && c.heat > 0)
+      value = text("(column(", c.heat, ") < colour_from ? NaN : ", value, ")");
     y = kept(value);
   }
   // Of the rows that are drawn.
@@ -142,8 +145,8 @@ std::string shape(const PanelCurve& c, const Using& of, const PanelPlace& place,
                   filled.substr(filled.find(' ')));
     }
     case PanelStyle::image:
-      return text("using ", of.x, ":", of.y,
-                  ":(column(3) > colour_from ? column(3) : NaN) with image pixels");
+      return text("using ", of.x, ":", of.y, ":(column(", c.heat, ") > colour_from ? column(", c.heat,
+                  ") : NaN) with image pixels");
     default:
       return "";
   }
@@ -288,6 +291,7 @@ void add_axes(const Panel& panel, const PanelPlace& place, Script& script) {
     return c.heat > 0 && c.style == PanelStyle::points;
   });
   script.add(marks ? "eval(of_marks)" : "eval(of_areas)");
+  if (panel.colours->log) script.add("set logscale cb");
   script.add(text("colour_from = ", number(panel.colours->from), "; set cbrange [colour_from:",
                   number(panel.colours->to), "]; set colorbox user origin screen ",
                   number((place.right + 16) / pixels::kWidth), ", screen 1 - ", number(place.bottom),
@@ -302,7 +306,9 @@ void add_words(const Panel& panel, const PanelPlace& place, Script& script) {
     script.add(text("set label ", script.word(w.words), " at first ", number(w.x), ", ",
                     above ? "graph 1 offset 0, 0.6 center"
                           : text("first ", number(w.y),
-                                 right ? " offset -0.8, 0.8 right boxed" : " offset 0.8, 0.8 left boxed"),
+                                 w.on    ? " center boxed"
+                                 : right ? " offset -0.8, 0.8 right boxed"
+                                         : " offset 0.8, 0.8 left boxed"),
                     " tc rgb colour[6] font \",13\" front"));
   }
 }

@@ -91,6 +91,7 @@ void in_rpm(const Shaft& shaft, Figure& figure) {
       panel.y.to *= scale;
       for (PanelCurve& curve : panel.curves)
         if (curve.style == PanelStyle::cells) curve.size *= scale;
+      for (PanelWords& words : panel.words) words.y *= scale;
     }
     if (!panel.x.speed) continue;
     // The axis above has the unit that the one below had.
@@ -145,11 +146,15 @@ void in_levels(double reference, Figure& figure) {
         if (!row.empty()) row[c] = std::max(highest - kSilence, level(*of, row[c]));
       block.columns[c] = block.columns[c].substr(0, block.columns[c].find(" [")) + " [" + label + "]";
     }
-  for (Panel& panel : figure.panels)
-    if (panel.y.level)
-      panel.y = {.label = panel.y.label.substr(0, panel.y.label.rfind(" (")) + " (" + label + ")",
-                 .from = foot,
-                 .to = std::ceil((highest + 4) / 10) * 10};
+  const auto to_levels = [&](PanelAxis& axis) {
+    axis = {.label = axis.label.substr(0, axis.label.rfind(" (")) + " (" + label + ")",
+            .from = foot,
+            .to = std::ceil((highest + 4) / 10) * 10};
+  };
+  for (Panel& panel : figure.panels) {
+    if (panel.y.level) to_levels(panel.y);
+    if (panel.colours && panel.colours->level) to_levels(*panel.colours);
+  }
 }
 
 }  // namespace
@@ -163,7 +168,7 @@ void apply(const EngineeringAxes& axes, Figure& figure) {
   if (figure.levels.empty())
     fail(
         Failure::usage, "--db ", reference,
-        ": this figure has no amplitudes of the transmission error; it is for order-cuts, system-sweep, branch, compare-motion and runup");
+        ": this figure has no amplitudes of the transmission error; it is for order-cuts, waterfall, system-sweep, branch, compare-motion and runup");
   in_levels(reference, figure);
 }
 

@@ -15,20 +15,22 @@ FigureBlock root_levels(const ErrorBudgetResult& budget, std::vector<std::string
   FigureBlock roots{"roots", {"element [mm]"}, {}, "roots", "largest root stress"};
   if (const RootConvergence root = convergence(budget.root); root.order.rows() > 0) {
     std::string words = "root stress with smaller elements on the roots:";
-    for (int g = 0; g < kSides; ++g) {
+    for (Eigen::Index g = 0; g < root.order.cols(); ++g) {
       const Eigen::Index last = root.change.rows() - 1;
       const double order = resolved_order(root, last - 1, g);
       // What the finest still changes the result by, and the last order.
-      words += text(g ? "; " : " ", budget.mesh.gear[g], " ",
+      const std::string& name = budget.gear_names[static_cast<size_t>(g)];
+      words += text(g ? "; " : " ", name, " ",
                     shown((budget.root.stress(last + 1, g) / budget.root.stress(0, g) - 1) * kPercent, 2),
                     " % from ", shown(budget.root.element_size[0] * 1e3, 3), " to ",
                     shown(budget.root.element_size[last + 1] * 1e3, 3), " mm",
                     std::isfinite(order) ? ", order " + fixed(order, 1) : "");
-      roots.columns.push_back(text("stress of ", budget.mesh.gear[g], " [MPa]"));
+      roots.columns.push_back(text("stress of ", name, " [MPa]"));
     }
-    for (Eigen::Index k = 0; k < budget.root.stress.rows(); ++k)
-      roots.rows.push_back({budget.root.element_size[k] * 1e3, budget.root.stress(k, 0) * 1e-6,
-                            budget.root.stress(k, 1) * 1e-6});
+    for (Eigen::Index k = 0; k < budget.root.stress.rows(); ++k) {
+      std::vector<double>& row = roots.rows.emplace_back(1, budget.root.element_size[k] * 1e3);
+      for (const double stress : budget.root.stress.row(k)) row.push_back(stress * 1e-6);
+    }
     notes.push_back(words);
   }
   return roots;

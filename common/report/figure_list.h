@@ -101,9 +101,8 @@ Figure tooth_load_figure(const std::vector<SweepResult>& sweeps, double mesh_fre
 // torques or sets of choices, else as response_figure.
 Figure dynamic_load_figure(const std::vector<SweepResult>& sweeps, CaptionSources background = {});
 
-// Spectra of the DTE, one above the other by mesh frequency (40 at most), and the amplitudes of the first orders of the mesh
-// frequency at every speed, of one sweep or of both directions of one. Amplitudes below 1e-4 of the largest are left out of the
-// spectra. Throws Error(input) for more sweeps, or two that are not of one torque and set of choices.
+// Spectra of the DTE (160 at most) as colours along the rays of their orders over mesh frequency, of one sweep or of both directions of
+// one. Amplitudes below 1e-4 of the largest are left out. Throws Error(input) for more sweeps, or two that are not of one torque and set of choices.
 Figure waterfall_figure(const std::vector<SweepResult>& sweeps);
 
 // Net mesh force over two mesh periods of lumped models, a panel for each of one or two mesh frequencies (Hz) at the stored

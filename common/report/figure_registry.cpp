@@ -296,9 +296,8 @@ Drawings drawings_of_motions() {
           const auto captions = read_responses(from.inputs);
           return response_figure(captions.sweeps, captions.background, true);
         }}},
-      {"waterfall",
-       of_all("spectra of the dynamic transmission error against mesh frequency, and its first orders",
-              "sweep.h5 of a sweep, or of those up and down of one torque", waterfall_figure)},
+      {"waterfall", of_all("spectra of the dynamic transmission error against mesh frequency",
+                           "sweep.h5 of a sweep, or of those up and down of one torque", waterfall_figure)},
       {"tooth-loads",
        {"tooth loads against mesh frequency, and over the mesh period at the speed with the largest RMS",
         "sweep.h5 of sweeps up and down of one torque; impact.h5 of that torque, for damping ratios",

@@ -13,8 +13,6 @@ using Eigen::Index;
 namespace {
 
 constexpr double kNewtonPerMillimetre = 1e-3;  // N m-1 -> N/mm
-constexpr int kRowHeight = 890,
-              kNameHeight = 50;  // pixels, of each mesh beyond the first, as in flank-load.gp; of its name
 
 // N m-1: of a pair at one phase, between its slices; 0 where it does not touch.
 double load_at(const FaceLoad& face, Index phase, Index pair, double z) {
@@ -75,14 +73,8 @@ double add_flank(const StaticResult& s, const GearPair& pair, const std::string&
   return most;
 }
 
-struct PairLoads {
-  std::string labels;
-  int curves = 0;
-  double largest = 0;  // N m-1
-};
-
 // Line load of each tooth pair at mesh phase 0, one block each.
-PairLoads add_pairs(const StaticResult& s, const std::string& row, const std::string& table, Figure& figure) {
+Panel pairs_panel(const StaticResult& s, const std::string& row, const std::string& table, Figure& figure) {
   const auto positions = static_cast<double>(s.mesh_phase.size());
   // Of a train: the position nearest to phase 0 of the mesh, whose pairs may be numbered one on.
   const double ahead = s.mesh_phase[0] - std::floor(s.mesh_phase[0]);
@@ -90,32 +82,54 @@ PairLoads add_pairs(const StaticResult& s, const std::string& row, const std::st
   const auto i = static_cast<size_t>(at);
   const int turn = static_cast<int>(
       std::lround(s.mesh_phase[at] - std::floor(s.mesh_phase[at])));  // 1: just before phase 0
-  PairLoads out;
-  for (Index k = 0; k < s.pair.size() && out.curves < static_cast<int>(kMostCurves); ++k) {
+  Panel panel{.heading = "at mesh phase 0",
+              .x = {.label = "Along the face, from its middle (mm)"},
+              .y = {.label = "Line load (N/mm of face)", .from_zero = true}};
+  for (Index k = 0; k < s.pair.size() && panel.curves.size() < kMostCurves; ++k) {
     if (!(s.face.width[i](k, 0) > 0) || !(s.tooth_load(at, k) > 0)) continue;
-    FigureBlock curve{text("pair", row, " ", ++out.curves),
+    const size_t curve = panel.curves.size();
+    FigureBlock block{text("pair", row, " ", curve + 1),
                       {"face [mm]", "line load [N/mm]"},
                       {},
                       table,
                       text("pair ", s.pair[k] + turn)};
-    out.largest = std::max(out.largest, s.face.line_load[i].row(k).maxCoeff());
     for (Index q = 0; q < s.face.line_load[i].cols(); ++q)
-      curve.rows.push_back(
+      block.rows.push_back(
           {s.face.position[i](k, q) * kMilli, s.face.line_load[i](k, q) * kNewtonPerMillimetre});
-    figure.blocks.push_back(curve);
-    out.labels += text("'tooth pair ", s.pair[k] + turn, "' ");
+    panel.curves.push_back({.block = block.name,
+                            .style = PanelStyle::line_points,
+                            .colour = curve_colour(curve),
+                            .label = "tooth " + block.curve,
+                            .size = 0.8});
+    figure.blocks.push_back(std::move(block));
   }
-  return out;
+  return panel;
+}
+
+Panel flank_panel(const StaticResult& s, const GearPair& pair, const std::string& row, Figure& figure) {
+  const double half = 0.5 * pair.face_width() * kMilli, largest = add_flank(s, pair, row, figure);
+  return {
+      .heading = "line load and lines of contact",
+      .x = {.label = "Along the face, from its middle (mm)", .from = -half, .to = half},
+      .y = {.label = "Path of contact, driver's root to tip (mm)",
+            .from = pair.path_start() * kMilli,
+            .to = pair.path_end() * kMilli},
+      .curves = {{.block = "flank" + row, .style = PanelStyle::image, .heat = 3},
+                 {.block = "lines" + row, .colour = kDark, .width = 1.4, .dash = 3}},
+      .key = PanelKey::none,
+      .height = 560,
+      .colours = PanelAxis{
+          .label = "Line load (N/mm)", .from = 0, .to = largest > 0 ? largest * kNewtonPerMillimetre : 1}};
 }
 
 // Of each [[mesh]] the one with the largest line load; of those that are alike but for the phases that are computed, the first.
 std::vector<size_t> shown_meshes(const SystemStaticResult& all) {
   constexpr double kClearly = 1.01;
-  const auto section = [&](size_t m) { return all.of_train() ? all.settings.section[m] : 0; };
+  const std::vector<int>& section = all.settings.section;
   std::vector<size_t> out;
   for (size_t m = 0; m < all.mesh.size(); ++m) {
     const auto same =
-        std::find_if(out.begin(), out.end(), [&](size_t own) { return section(own) == section(m); });
+        std::find_if(out.begin(), out.end(), [&](size_t own) { return section[own] == section[m]; });
     if (same == out.end())
       out.push_back(m);
     else if (all.mesh[m].face.line_load_max > kClearly * all.mesh[*same].face.line_load_max)
@@ -136,8 +150,7 @@ Figure flank_load_figure(const SystemStaticResult& all) {
   Figure figure;
   figure.title =
       train ? "Load over the flanks" : text("Load over the flank, ", torque_words(all.mesh[0].torque));
-  double most = 0, line_most = 0;  // N m-1
-  std::string ranges, names, labels, curves;
+  figure.columns = 2;
   for (size_t r = 0; r < drawn.size(); ++r) {
     const StaticResult& s = all.mesh[drawn[r]];
     const GearPair pair(s);
@@ -145,28 +158,24 @@ Figure flank_load_figure(const SystemStaticResult& all) {
     const std::string factor =
         text("K_{Hβ} ", rounded(s.face.load_factor, 3), " ± ", shown(s.face.load_factor_error, 1));
     figure.notes.push_back(train ? name + ": " + pair_words(s) : pair_words(s));
-    if (train) names += text("'", name, ", ", rounded(s.torque, 1), " N m: ", factor, "' ");
     if (!train || r + 1 == drawn.size())
       figure.notes.push_back(text(
           train ? "K_{Hβ}" : factor, " of the reference pair at mesh phase 0, ", s.face.line_load[0].cols(),
           " points along each contact line, a quarter of a mesh period between the lines, misalignment ",
           rounded(s.mesh.misalignment * kMicro, 2), " µm"));
-    most = std::max(most, add_flank(s, pair, row, figure));
-    const PairLoads pairs =
-        add_pairs(s, row, train ? "line load of " + name : "line load at mesh phase 0", figure);
-    line_most = std::max(line_most, pairs.largest);
-    labels += pairs.labels;
-    curves += text(pairs.curves, " ");
-    ranges += text(0.5 * pair.face_width() * kMilli, " ", pair.path_start() * kMilli, " ",
-                   pair.path_end() * kMilli, " ");
+    figure.panels.push_back(flank_panel(s, pair, row, figure));
+    if (train)
+      figure.panels.back().heading =
+          without_markup(name) + text(", ", rounded(s.torque, 1), " N m: ") + factor;
+    figure.panels.push_back(
+        pairs_panel(s, row, train ? "line load of " + name : "line load at mesh phase 0", figure));
   }
-  const auto rows = static_cast<int>(drawn.size());
-  figure.words = {{"labels", labels}, {"curves", curves}, {"names", names}, {"ranges", ranges}};
-  figure.numbers = {{"largest", most * kNewtonPerMillimetre},
-                    {"line_largest", line_most * kNewtonPerMillimetre},
-                    {"rows", rows},
-                    {"feet", static_cast<double>(figure.notes.size())}};
-  figure.height = 1000 + kRowHeight * (rows - 1) + (train ? kNameHeight : 0);
+  // One scale for all flanks.
+  double most = 0;
+  for (const Panel& panel : figure.panels)
+    if (panel.colours) most = std::max(most, panel.colours->to);
+  for (Panel& panel : figure.panels)
+    if (panel.colours) panel.colours->to = most;
   return figure;
 }
 

@@ -5,10 +5,12 @@
 
 #include "base/error.h"
 #include "report/figure_words.h"
+#include "report/level_lines.h"
 
 namespace whine {
 
 using Eigen::Index;
+using Eigen::VectorXd;
 
 namespace {
 
@@ -17,7 +19,7 @@ namespace {
 // the flat is narrow, the lines are of the places that are there. That of the least value where they do not meet near it.
 // Where a relief hardly helps, as one that is too short, values are within kAlike of the least one over many places, and which of
 // them is least is chance: the middle of that range then.
-double best_relief(const Eigen::VectorXd& relief, const Eigen::RowVectorXd& value) {
+double best_relief(const VectorXd& relief, const Eigen::RowVectorXd& value) {
   constexpr Index kFar = 4;  // places from the least value; the line goes through that and the one before
   constexpr double kAlike = 0.005;
   Index r = 0;
@@ -43,82 +45,135 @@ double best_relief(const Eigen::VectorXd& relief, const Eigen::RowVectorXd& valu
 
 }  // namespace
 
-Figure harris_map_figure(const HarrisMapResult& map) {
-  Figure figure;
-  Index best = 0;
-  for (Index s = 1; s < map.length.size(); ++s)
-    if (map.optimum_peak_to_peak[s] < map.optimum_peak_to_peak[best]) best = s;
-  const auto start_words = [&](Index s) {
-    return rounded(map.start_roll(s, 0) * 180 / std::numbers::pi, 2) + "°";
-  };
-  figure.title = text("Harris map: ", map.shape, " tip relief of ",
-                      map.relieved == Relieved::both     ? "both gears"
-                      : map.relieved == Relieved::driver ? "the driver"
-                                                         : "the driven gear");
-  figure.notes.push_back(text(
-      "relief over ", rounded(map.length[best] * 1e3, 2), " mm of roll, from roll angle ", start_words(best),
-      " of the driver; strips on a cached body, ", map.contact.positions, " mesh positions"));
-  figure.notes.push_back(text("design torque ", map.design_torque, " N m on ", short_name(map.mesh.gear[0]),
-                              ", in mesh with ", short_name(map.mesh.gear[1]), ": ",
-                              rounded(map.optimum_relief[best] * kMicro, 2), " µm leave ",
-                              rounded(map.optimum_peak_to_peak[best] * kMicro, 3), " µm peak to peak"));
-  plain_captions(figure.notes.size(), figure);
-  const auto cube = [&](const std::string& name, const MatrixRM& values, double scale) {
-    FigureBlock block{name, {"relief [µm]", "torque [N m]", "value"}, {}, "", "", true};
-    for (Index t = 0; t < map.torque.size(); ++t) {
-      if (t > 0) block.rows.push_back({});
-      for (Index r = 0; r < map.relief.size(); ++r)
-        block.rows.push_back({map.relief[r] * kMicro, map.torque[t], values(t, r) * scale});
-    }
-    figure.blocks.push_back(block);
-  };
-  FigureBlock whole{"map", {"relief [µm]", "torque [N m]", "peak to peak [µm]"}, {}};
-  for (int n = 0; n < 3; ++n) whole.columns.push_back(text("harmonic ", n + 1, " [µm]"));
+namespace {
+
+std::vector<double> edges_of(const VectorXd& middle) {
+  return cell_edges({middle.begin(), middle.end()});
+}
+
+// Of that length of relief every quantity over relief and torque, the first the peak to peak, the last two of motion.
+FigureBlock map_block(const HarrisMapResult& map, size_t length) {
+  FigureBlock out{"map", {"relief [µm]", "torque [N m]", "peak to peak [µm]"}, {}};
+  for (int n = 0; n < 3; ++n) out.columns.push_back(text("harmonic ", n + 1, " [µm]"));
   if (!map.dynamic_rms.empty())
-    whole.columns.insert(whole.columns.end(), {"dte_rms [µm]", "at mesh_frequency [Hz]"});
+    out.columns.insert(out.columns.end(), {"dte_rms [µm]", "at mesh_frequency [Hz]"});
+  for (const char* edge : {"relief_low [µm]", "relief_high [µm]", "torque_low [N m]", "torque_high [N m]"})
+    out.columns.emplace_back(edge);
+  const std::vector<double> x = edges_of(map.relief * kMicro), y = edges_of(map.torque);
   for (Index t = 0; t < map.torque.size(); ++t)
     for (Index r = 0; r < map.relief.size(); ++r) {
-      std::vector<double> row{map.relief[r] * kMicro, map.torque[t], map.peak_to_peak[best](t, r) * kMicro};
-      for (int n = 0; n < 3; ++n) row.push_back(map.harmonic[n][best](t, r) * kMicro);
+      std::vector<double> row{map.relief[r] * kMicro, map.torque[t], map.peak_to_peak[length](t, r) * kMicro};
+      for (const auto& harmonic : map.harmonic) row.push_back(harmonic[length](t, r) * kMicro);
       if (!map.dynamic_rms.empty())
-        row.insert(row.end(), {map.dynamic_rms[best](t, r) * kMicro, map.worst_frequency[best](t, r)});
-      whole.rows.push_back(row);
+        row.insert(row.end(), {map.dynamic_rms[length](t, r) * kMicro, map.worst_frequency[length](t, r)});
+      const auto i = static_cast<size_t>(r), k = static_cast<size_t>(t);
+      row.insert(row.end(), {x[i], x[i + 1], y[k], y[k + 1]});
+      out.rows.push_back(row);
     }
-  figure.blocks.push_back(whole);
-  cube("peak to peak", map.peak_to_peak[best], kMicro);
-  for (int n = 0; n < 3; ++n) cube(text("harmonic ", n + 1), map.harmonic[n][best], kMicro);
-  FigureBlock ridge{"best relief", {"relief [µm]", "torque [N m]"}, {}};
-  for (Index t = 0; t < map.torque.size(); ++t) {
-    ridge.rows.push_back({best_relief(map.relief, map.peak_to_peak[best].row(t)) * kMicro, map.torque[t]});
-  }
-  figure.blocks.push_back(ridge);
-  figure.blocks.push_back(
-      {"optimum",
-       {"relief [µm]", "torque [N m]", "peak to peak [µm]"},
-       {{map.optimum_relief[best] * kMicro, map.design_torque, map.optimum_peak_to_peak[best] * kMicro}}});
+  return out;
+}
+
+// A column of the map as colours, with lines of equal value.
+Panel map_panel(const HarrisMapResult& map, const MatrixRM& values, int column, const std::string& heading,
+                const std::string& label, Figure& figure) {
+  constexpr int kLines = 10;
+  const std::vector<double> x = edges_of(map.relief * kMicro), y = edges_of(map.torque);
+  const int first = map.dynamic_rms.empty() ? 7 : 9;  // column of the edges
+  const double most = values.maxCoeff() * kMicro;
+  LevelLines lines = level_lines("lines of " + label, {"relief [µm]", "torque [N m]"}, map.relief * kMicro,
+                                 map.torque, values * kMicro, kLines);
+  Panel panel{.heading = heading,
+              .x = {.label = "Tip relief (µm)", .from = x.front(), .to = x.back()},
+              .y = {.label = "Torque (N m)", .from = y.front(), .to = y.back()},
+              .curves = {{.block = "map",
+                          .style = PanelStyle::cells,
+                          .box = {first, first + 1, first + 2, first + 3},
+                          .heat = column},
+                         {.block = lines.lines.name, .colour = kMedium, .width = 1}},
+              .key = PanelKey::none,
+              .height = 560,
+              .colours = PanelAxis{.label = label, .from = 0, .to = most > 0 ? most : 1},
+              .words = lines.numbers};
+  figure.blocks.push_back(std::move(lines.lines));
+  return panel;
+}
+
+// Over torque: without relief, and with the best of each length.
+Panel cusp_panel(const HarrisMapResult& map, const std::vector<std::string>& starts, Figure& figure) {
   FigureBlock cusp{"cusp", {"torque [N m]", "no relief [µm]"}, {}};
-  std::string labels = "'no relief' ";
+  Panel panel{.heading = "peak-to-peak transmission error, best relief of each length",
+              .x = {.label = "Torque (N m)", .from_zero = true},
+              .y = {.label = "Peak to peak (µm)", .from_zero = true},
+              .curves = {{.block = "cusp", .colour = kBlack, .label = "no relief", .dash = 2}},
+              .rules = {{.at = map.design_torque, .label = "design torque"}},
+              .key = PanelKey::below};
   for (Index s = 0; s < map.length.size(); ++s) {
-    const std::string label = text(rounded(map.optimum_relief[s] * kMicro, 2), " µm from ", start_words(s));
-    labels += "'" + label + "' ";
+    const std::string label =
+        text(rounded(map.optimum_relief[s] * kMicro, 2), " µm from ", starts[static_cast<size_t>(s)]);
     cusp.columns.push_back(label + " [µm]");
+    panel.curves.push_back({.block = "cusp",
+                            .y = static_cast<int>(s) + 3,
+                            .colour = curve_colour(static_cast<size_t>(s)),
+                            .label = label});
   }
   for (Index t = 0; t < map.torque.size(); ++t) {
     std::vector<double> row{map.torque[t], map.unrelieved[t] * kMicro};
     for (Index s = 0; s < map.length.size(); ++s) row.push_back(map.cusp(s, t) * kMicro);
     cusp.rows.push_back(row);
   }
-  figure.blocks.push_back(cusp);
-  figure.words.emplace_back("labels", labels);
-  figure.numbers.emplace_back("curves", static_cast<double>(map.length.size() + 1));
-  figure.numbers.emplace_back("design_torque", map.design_torque);
-  figure.numbers.emplace_back("largest", map.peak_to_peak[best].maxCoeff() * kMicro);
-  figure.numbers.emplace_back("moving", map.dynamic_rms.empty() ? 0 : 1);
-  if (!map.dynamic_rms.empty()) {
-    cube("rms", map.dynamic_rms[best], kMicro);
-    cube("worst frequency", map.worst_frequency[best], 1);
-    figure.height = 1900;
-  }
+  figure.blocks.push_back(std::move(cusp));
+  return panel;
+}
+
+}  // namespace
+
+Figure harris_map_figure(const HarrisMapResult& map) {
+  Figure figure;
+  Index best = 0;
+  for (Index s = 1; s < map.length.size(); ++s)
+    if (map.optimum_peak_to_peak[s] < map.optimum_peak_to_peak[best]) best = s;
+  std::vector<std::string> starts;
+  for (Index s = 0; s < map.length.size(); ++s)
+    starts.push_back(rounded(map.start_roll(s, 0) * 180 / std::numbers::pi, 2) + "°");
+  figure.title = text("Harris map: ", map.shape, " tip relief of ",
+                      map.relieved == Relieved::both     ? "both gears"
+                      : map.relieved == Relieved::driver ? "the driver"
+                                                         : "the driven gear");
+  figure.notes = {
+      text("relief over ", rounded(map.length[best] * 1e3, 2), " mm of roll, from roll angle ",
+           starts[static_cast<size_t>(best)], " of the driver; strips on a cached body, ",
+           map.contact.positions, " mesh positions"),
+      text("design torque ", map.design_torque, " N m on ", short_name(map.mesh.gear[0]), ", in mesh with ",
+           short_name(map.mesh.gear[1]), ": ", rounded(map.optimum_relief[best] * kMicro, 2), " µm leave ",
+           rounded(map.optimum_peak_to_peak[best] * kMicro, 3), " µm peak to peak")};
+  plain_captions(figure.notes.size(), figure);
+  const auto length = static_cast<size_t>(best);
+  figure.blocks.push_back(map_block(map, length));
+  figure.columns = 2;
+  const MatrixRM& at_rest = map.peak_to_peak[length];
+  figure.panels = {map_panel(map, at_rest, 3, "peak-to-peak transmission error", "Peak to peak (µm)", figure),
+                   cusp_panel(map, starts, figure)};
+  FigureBlock ridge{"best relief", {"relief [µm]", "torque [N m]"}, {}};
+  for (Index t = 0; t < map.torque.size(); ++t)
+    ridge.rows.push_back({best_relief(map.relief, at_rest.row(t)) * kMicro, map.torque[t]});
+  figure.blocks.push_back(std::move(ridge));
+  figure.blocks.push_back(
+      {"optimum",
+       {"relief [µm]", "torque [N m]", "peak to peak [µm]"},
+       {{map.optimum_relief[best] * kMicro, map.design_torque, map.optimum_peak_to_peak[best] * kMicro}}});
+  std::vector<PanelCurve>& curves = figure.panels[0].curves;
+  curves.push_back({.block = "best relief", .colour = kVermilion, .label = "best relief", .dash = 3});
+  curves.push_back({.block = "optimum",
+                    .style = PanelStyle::points,
+                    .colour = kVermilion,
+                    .label = "design torque",
+                    .width = 2,
+                    .mark = 3,
+                    .size = 2.4});
+  figure.panels[0].key = PanelKey::below;
+  if (!map.dynamic_rms.empty())
+    figure.panels.push_back(
+        map_panel(map, map.dynamic_rms[length], 7, "RMS at the worst speed", "RMS (µm)", figure));
   return figure;
 }
 

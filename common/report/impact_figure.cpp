@@ -99,7 +99,7 @@ Figure impact_figure(const ImpactResult& a) {
     to = std::max(to, f.maxCoeff());
   }
   if (modes.rows.empty()) fail(Failure::input, "figure: no mode oscillates at all mesh phases");
-  const Damping& damping = a.damping_used();
+  const Damping& damping = a.damping;
   constexpr int kPoints = 100;
   const double low = 0.8 * from, high = 1.1 * to;
   for (int i = 0; i <= kPoints; ++i) {
@@ -115,7 +115,7 @@ Figure impact_figure(const ImpactResult& a) {
   figure.panels = {ringdown_panel(low, high, rigid)};
   add_states(a.states, figure);
   figure.notes.push_back(text(a.bodies(), " bodies, ", a.meshes(), a.meshes() == 1 ? " mesh" : " meshes",
-                              ", body \"", a.fidelity_used().body, "\"; ", a.mesh_phase.size(),
+                              ", body \"", a.fidelity.body, "\"; ", a.mesh_phase.size(),
                               " mesh phases: bars from the least to the largest"));
   figure.notes.push_back(text("[damping] ", shown(damping.rayleigh_stiffness, 3), " s x stiffness + ",
                               shown(damping.rayleigh_mass, 3), " 1/s x mass, dampers of the axes ",

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "report/level_lines.h"
 
 namespace whine {
 namespace {
@@ -83,16 +84,6 @@ Needed needed_for_loss(const std::vector<const JumpMapResult*>& maps) {
   return needed;
 }
 
-// Edges of cells about their middles: between neighbours, and as far beyond the ends.
-std::vector<double> edges(const std::vector<double>& middle) {
-  std::vector<double> edge(middle.size() + 1);
-  for (size_t i = 1; i < middle.size(); ++i) edge[i] = 0.5 * (middle[i - 1] + middle[i]);
-  const size_t n = middle.size();
-  edge[0] = n > 1 ? 2 * middle[0] - edge[1] : middle[0] - 0.5;
-  edge[n] = n > 1 ? 2 * middle[n - 1] - edge[n - 1] : middle[0] + 0.5;
-  return edge;
-}
-
 using MapPanel = std::pair<std::string, std::vector<const JumpMapResult*>>;
 
 std::vector<MapPanel> map_panels(const std::vector<JumpMapResult>& maps) {
@@ -153,7 +144,7 @@ FigureBlock cells(const std::string& name, const std::vector<const JumpMapResult
   std::vector<double> ratio, torque;
   for (double r : maps[0]->damping_ratio) ratio.push_back(r * 100);
   for (const JumpMapResult* a : maps) torque.push_back(std::log10(a->torque));
-  const std::vector<double> x = edges(ratio), y = edges(torque);
+  const std::vector<double> x = cell_edges(ratio), y = cell_edges(torque);
   for (size_t t = 0; t < maps.size(); ++t) {
     const JumpMapResult& a = *maps[t];
     if (t > 0) block.rows.emplace_back();
@@ -436,6 +427,62 @@ FigureBlock cusps_of(const std::string& block_name, const JumpMapResult& panel,
   return block;
 }
 
+struct CellClass {
+  const char* words;
+  int colour;
+  double fill;
+};
+constexpr std::array<CellClass, 3> kCellClasses{
+    {{"contact kept", kBlue, 0.15}, {"lost, one branch", kOrange, 0.4}, {"two branches", kVermilion, 0.6}}};
+
+// Cells of a map by their class, over damping and torque.
+Panel cells_panel(const FigureBlock& cells, double marked_ratio, bool first, int height) {
+  Panel panel{.heading = cells.curve,
+              .x = {.label = "Damping ratio (%)", .from = cells.rows.front()[2], .to = cells.rows.back()[3]},
+              .y = {.label = first ? "Torque (N m)" : "",
+                    .from = cells.rows.front()[4],
+                    .to = cells.rows.back()[5],
+                    .log = true},
+              .rules = {{.at = marked_ratio}},
+              .key = PanelKey::none,
+              .height = height,
+              .letter = false};
+  for (size_t n = 0; n < kCellClasses.size(); ++n)
+    panel.curves.push_back({.block = cells.name,
+                            .style = PanelStyle::boxes,
+                            .colour = kCellClasses[n].colour,
+                            .where = 7,
+                            .is = static_cast<double>(n),
+                            .box = {3, 4, 5, 6},
+                            .fill = kCellClasses[n].fill});
+  return panel;
+}
+
+// What the cells mean, below the row of that panel.
+void add_key(Panel& panel) {
+  panel.key = PanelKey::below;
+  for (size_t n = 0; n < kCellClasses.size(); ++n) panel.curves[n].label = kCellClasses[n].words;
+}
+
+// Largest tooth load (kN) over damping and torque, which stands on a logarithmic axis.
+LevelLines load_lines(const FigureBlock& cells, const std::vector<const JumpMapResult*>& maps) {
+  constexpr int kLines = 8;
+  const Index ratios = maps[0]->damping_ratio.size(), torques = static_cast<Index>(maps.size());
+  MatrixRM load(torques, ratios);
+  Eigen::VectorXd torque(torques);
+  for (Index t = 0; t < torques; ++t) {
+    const JumpMapResult& a = *maps[static_cast<size_t>(t)];
+    torque[t] = std::log10(a.torque);
+    load.row(t) = 1e-3 * a.sustained_tooth_load.rowwise().maxCoeff().transpose();
+  }
+  LevelLines out = level_lines("load lines of " + cells.curve, {"damping_ratio [%]", "torque [N m]"},
+                               maps[0]->damping_ratio * kPercent, torque, load, kLines);
+  for (auto& row : out.lines.rows)
+    if (!row.empty()) row[1] = std::pow(10, row[1]);
+  for (PanelWords& number : out.numbers) number.y = std::pow(10, number.y);
+  return out;
+}
+
 }  // namespace
 
 Figure jump_map_figure(std::vector<JumpMapResult> maps, const std::vector<FoldCurvesResult>& curves,
@@ -449,72 +496,38 @@ Figure jump_map_figure(std::vector<JumpMapResult> maps, const std::vector<FoldCu
 
   figure.notes = jump_map_notes(maps, panels, printed);
 
-  double largest = 0;
+  constexpr int kHeight = 460;
+  const double ratio = shown_ratio(maps[0], printed.damping_ratio) * kPercent;
+  const auto add = [&](Panel& panel, FigureBlock block, PanelCurve curve, const std::string& label) {
+    if (block.rows.empty()) return;
+    curve.block = block.name;
+    if (panel.key != PanelKey::none) curve.label = label;
+    panel.curves.push_back(curve);
+    figure.blocks.push_back(std::move(block));
+  };
+  figure.columns = panels.size();
   for (size_t p = 0; p < panels.size(); ++p) {
-    figure.blocks.push_back(cells(text("panel", p + 1), panels[p].second));
-    figure.blocks.back().curve = panels[p].first;
-    figure.words.emplace_back(text("panel", p + 1), panels[p].first);
-    FigureBlock cusps = cusps_of(text("cusps", p + 1), *panels[p].second[0], curves);
-    figure.numbers.emplace_back(text("cusps_", p + 1), static_cast<double>(cusps.rows.size()));
-    if (!cusps.rows.empty()) figure.blocks.push_back(std::move(cusps));
-    for (const JumpMapResult* a : panels[p].second)
-      largest = std::max(largest, a->sustained_tooth_load.maxCoeff() * 1e-3);
+    const auto& [name, of] = panels[p];
+    figure.blocks.push_back(cells(text("panel", p + 1), of));
+    figure.blocks.back().curve = name;
+    Panel panel = cells_panel(figure.blocks.back(), ratio, p == 0, kHeight);
+    if (p == 0) add_key(panel);
+    LevelLines loads = load_lines(FigureBlock(figure.blocks.back()), of);
+    panel.words = loads.numbers;
+    add(panel, std::move(loads.lines), {.colour = kBlue, .width = 1.6}, "largest tooth load, kN");
+    add(panel, cusps_of(text("cusps", p + 1), *of[0], curves),
+        {.style = PanelStyle::line_points, .colour = kDark, .width = 3, .mark = 6, .size = 1.6},
+        "cusp of the folds: two branches to the left");
+    if (!printed.torques.empty()) {
+      FigureBlock marks{text("printed", p + 1), {"damping_ratio [%]", "torque [N m]"}, {}, "", "", true};
+      for (double torque : printed.torques) marks.rows.push_back({printed.damping_ratio * kPercent, torque});
+      add(panel, std::move(marks), {.style = PanelStyle::points, .colour = kBlack, .mark = 13, .size = 2.2},
+          text(printed.source, ": jump printed at ", rounded(printed.damping_ratio * kPercent, 2), " %"));
+    }
+    figure.panels.push_back(std::move(panel));
   }
-  if (!printed.torques.empty()) {
-    FigureBlock marks{"printed", {"damping_ratio [%]", "torque [N m]"}, {}, "", "", true};
-    for (double torque : printed.torques) marks.rows.push_back({printed.damping_ratio * 100, torque});
-    figure.blocks.push_back(marks);
-    figure.words.emplace_back("printed_label", text(printed.source, ": jump printed at ",
-                                                    rounded(printed.damping_ratio * 100, 2), " %"));
-  }
-  const auto& extent = figure.blocks[0].rows;
-  for (const auto& [name, value] :
-       {std::pair{"panels", static_cast<double>(panels.size())},
-        std::pair{"printed", printed.torques.empty() ? 0.0 : 1.0}, std::pair{"ratio_from", extent.front()[2]},
-        std::pair{"ratio_to", extent.back()[3]}, std::pair{"torque_from", extent.front()[4]},
-        std::pair{"torque_to", extent.back()[5]}, std::pair{"first_ratio", extent.front()[0]},
-        std::pair{"last_ratio", extent.back()[0]},
-        std::pair{"notes", static_cast<double>(figure.notes.size())},
-        std::pair{"lines", panels[0].second.size() > 1 && maps[0].damping_ratio.size() > 1 ? 1.0 : 0.0},
-        std::pair{"largest", largest}})
-    figure.numbers.emplace_back(name, value);
   return figure;
 }
-
-namespace {
-
-struct CellClass {
-  const char* words;
-  int colour;
-  double fill;
-};
-constexpr std::array<CellClass, 3> kCellClasses{
-    {{"contact kept", kBlue, 0.15}, {"lost, one branch", kOrange, 0.4}, {"two branches", kVermilion, 0.6}}};
-
-// Cells of a map by their class, over damping and torque.
-Panel cells_panel(const FigureBlock& cells, double marked_ratio, bool first) {
-  Panel panel{.heading = cells.curve,
-              .x = {.label = "Damping ratio (%)", .from = cells.rows.front()[2], .to = cells.rows.back()[3]},
-              .y = {.label = first ? "Torque (N m)" : "",
-                    .from = cells.rows.front()[4],
-                    .to = cells.rows.back()[5],
-                    .log = true},
-              .rules = {{.at = marked_ratio}},
-              .key = PanelKey::none,
-              .height = 250,
-              .letter = false};
-  for (size_t n = 0; n < kCellClasses.size(); ++n)
-    panel.curves.push_back({.block = cells.name,
-                            .style = PanelStyle::boxes,
-                            .colour = kCellClasses[n].colour,
-                            .where = 7,
-                            .is = static_cast<double>(n),
-                            .box = {3, 4, 5, 6},
-                            .fill = kCellClasses[n].fill});
-  return panel;
-}
-
-}  // namespace
 
 Figure lumped_jump_map_figure(std::vector<JumpMapResult> maps, PrintedJumps printed) {
   const auto lumped = std::find_if(maps.begin(), maps.end(), [](const auto& a) { return !elastic(a); });
@@ -551,13 +564,10 @@ Figure lumped_jump_map_figure(std::vector<JumpMapResult> maps, PrintedJumps prin
         static_cast<size_t>(std::find(columns.begin(), columns.end(), a.model) - columns.begin());
     const bool in_contact = a.damper_acts == DamperActs::contact;
     figure.panels[column + (in_contact ? columns.size() : 0)] =
-        cells_panel(figure.blocks.back(), 100 * ratio, column == 0 || in_contact);
+        cells_panel(figure.blocks.back(), 100 * ratio, column == 0 || in_contact, 250);
   }
-  // Below all, what the cells mean.
-  Panel key{.key = PanelKey::below, .height = 4, .bare = true, .wide = true};
-  for (const CellClass& c : kCellClasses)
-    key.curves.push_back({.style = PanelStyle::boxes, .colour = c.colour, .label = c.words, .fill = c.fill});
-  figure.panels.push_back(std::move(key));
+  add_key(*std::find_if(figure.panels.rbegin(), figure.panels.rend(),
+                        [](const Panel& panel) { return !panel.curves.empty(); }));
   return figure;
 }
 

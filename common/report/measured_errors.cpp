@@ -61,7 +61,9 @@ std::string words_on_errors(const ReportContent& c) {
   if (!c.budget && c.errors.empty()) return "";
   std::string out =
       "Behind ± stands the discretisation error: each discretisation is refined alone, its error follows from the change and the order with which errors fall, and the errors are added up. Where no order shows, the change itself counts. ";
-  if (c.budget) out += text("Numbers at rest have it at ", torque_words(c.budget->torque), ". ");
+  if (c.budget)
+    out += text("Numbers at rest have it at ", torque_words(c.budget->torque),
+                c.of_train() ? ", the largest of all meshes. " : ". ");
   if (!c.errors.empty())
     return out + text("Numbers in motion have it at ", torque_words(torque_of(c.errors[0])), ", measured at ",
                       c.errors[0].mesh_frequency.size(),

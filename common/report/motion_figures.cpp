@@ -4,11 +4,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "base/error.h"
 #include "gear/drawing_quantities.h"
 #include "gear/pair.h"
 #include "report/figure_words.h"
+#include "report/panel_layout.h"
 #include "report/response_figures.h"
 #include "signal/response.h"
 #include "signal/spectrum.h"
@@ -224,9 +226,8 @@ Panel load_over_speed(double most, Eigen::Index speeds, bool lost, bool beyond) 
   return panel;
 }
 
-constexpr Eigen::Index kWaterfallOrders = 5;  // that a waterfall shows
-
-// Of each `group` neighbouring speeds the spectrum of the one with the largest RMS, up to `end` (Hz).
+// Of each `group` neighbouring speeds the spectrum of the one with the largest RMS, up to `end` (Hz): a ray over speed for each order, half ones
+// where the motion repeats after two periods.
 FigureBlock spectra_block(const SweepResult& sweep, const ResponseResult& r, Eigen::Index group, double end) {
   FigureBlock lines{text("spectra ", sweep.direction),
                     {"mesh_frequency [Hz]", "frequency [Hz]", "amplitude [µm]"},
@@ -234,6 +235,11 @@ FigureBlock spectra_block(const SweepResult& sweep, const ResponseResult& r, Eig
                     "spectra",
                     name_of(sweep.direction)};
   const Eigen::Index speeds = r.mesh_frequency.size();
+  struct Ray {
+    std::vector<std::vector<double>> rows;
+    Eigen::Index last = -1;  // number of the group of its last speed
+  };
+  std::map<double, Ray> rays;
   for (Eigen::Index g = 0; g < speeds; g += group) {
     Eigen::Index row = 0;
     r.dte_rms.col(0).segment(g, std::min(group, speeds - g)).maxCoeff(&row);
@@ -242,26 +248,53 @@ FigureBlock spectra_block(const SweepResult& sweep, const ResponseResult& r, Eig
     const Eigen::VectorXd x = m.orbit(sweep.transmission_error);
     const int count = resolved_harmonics(x.size(), static_cast<int>(std::floor(end / f * m.periods)));
     const Harmonics h = harmonics(x, count);
-    for (int k = 1; k <= count; ++k)
-      lines.rows.push_back({f, k * f / m.periods, h.amplitude[k - 1] * kMicro});
+    for (int k = 1; k <= count; ++k) {
+      const double order = static_cast<double>(k) / m.periods;
+      Ray& ray = rays[order];
+      if (ray.last >= 0 && ray.last + 1 < g / group) ray.rows.emplace_back();  // it was not there between
+      ray.last = g / group;
+      ray.rows.push_back({f, order * f, h.amplitude[k - 1] * kMicro});
+    }
+  }
+  for (const auto& [order, ray] : rays) {
+    if (!lines.rows.empty()) lines.rows.emplace_back();
+    lines.rows.insert(lines.rows.end(), ray.rows.begin(), ray.rows.end());
   }
   return lines;
 }
 
-// Amplitudes of the first `known` orders of the mesh frequency at every speed.
-FigureBlock orders_block(const ResponseResult& r, const ResponseResult* other, Eigen::Index known) {
-  FigureBlock orders{
-      text("orders ", r.direction), {"mesh_frequency [Hz]"}, {}, "orders", name_of(r.direction)};
-  for (Eigen::Index k = 1; k <= known; ++k) orders.columns.push_back(text("amplitude of order ", k, " [µm]"));
-  const std::vector<bool> broken = broken_after(r, other);
-  for (Eigen::Index i = 0; i < r.mesh_frequency.size(); ++i) {
-    std::vector<double> row{r.mesh_frequency[i]};
-    for (Eigen::Index k = 0; k < known; ++k)
-      row.push_back(r.dte_harmonic[static_cast<size_t>(i)](k, 0) * kMicro);
-    orders.rows.push_back(row);
-    if (broken[i]) orders.rows.emplace_back();
+// Lines of the first orders with their numbers where they leave the panel, f_n, and the spectra as colours over three decades.
+Panel spectra_panel(const FigureBlock& spectra, const AxisRange& speeds, double end, double largest,
+                    double natural_frequency, Figure& figure) {
+  constexpr int kOrders = 5;
+  constexpr double kBelowTop = 0.03, kSeen = 0.1;  // of the panel
+  Panel panel{
+      .x = {.label = "Frequency (Hz)", .from = 0, .to = end},
+      .y = {.label = "Mesh frequency (Hz)", .from = speeds.from, .to = speeds.to, .speed = true},
+      .rules = {{.at = natural_frequency, .label = "f_n"}},
+      .key = PanelKey::none,
+      .height = 560,
+      .colours = PanelAxis{
+          .label = "Amplitude (µm)", .from = 1e-3 * largest, .to = largest, .log = true, .level = true}};
+  FigureBlock orders{"orders " + spectra.curve, {"mesh_frequency [Hz]", "frequency [Hz]"}, {}, "", "", true};
+  for (int k = 1; k <= kOrders && k * speeds.from < end; ++k) {
+    const double top = std::min(speeds.to, end / k);
+    orders.rows.insert(orders.rows.end(), {{speeds.from, k * speeds.from}, {top, k * top}, {}});
+    const double number = top - kBelowTop * speeds.span();
+    if (top - speeds.from > kSeen * speeds.span())
+      panel.words.push_back({std::to_string(k), k * number, number, true});
   }
-  return orders;
+  panel.curves = {{.block = orders.name, .x = 2, .y = 1, .colour = kLight, .width = 1, .dash = 4},
+                  {.block = spectra.name,
+                   .x = 2,
+                   .y = 1,
+                   .style = PanelStyle::line_points,
+                   .width = 7,
+                   .mark = 5,
+                   .size = 0.6,
+                   .heat = 3}};
+  figure.blocks.push_back(std::move(orders));
+  return panel;
 }
 
 }  // namespace
@@ -399,6 +432,7 @@ Figure waterfall_figure(const std::vector<SweepResult>& sweeps) {
   const SweepResult& first = *shown.front();
   Figure figure;
   figure.shafts = shafts_of_all(sweeps);
+  figure.levels = {{"amplitude [µm]", true}};
   figure.title = text("Spectra of the dynamic transmission error against mesh frequency, ",
                       torque_words(first.torque), ", ",
                       shown.size() == 2                  ? "speed rising and falling"
@@ -406,51 +440,33 @@ Figure waterfall_figure(const std::vector<SweepResult>& sweeps) {
                                                          : "speed falling");
   figure.notes.push_back(elastic(first) ? choice_words(first)
                                         : choice_words(first) + "; " + lumped_words(first.lumped));
-  figure.height = shown.size() == 1 ? 1000 : 1760;
-
-  double slowest = std::numeric_limits<double>::infinity(), fastest = 0, end = 0;
-  Eigen::Index group = 1, known = kWaterfallOrders;
+  AxisRange speeds{std::numeric_limits<double>::infinity(), 0};
+  double end = 0, largest = 0;
+  Eigen::Index group = 1;
   for (const SweepResult* sweep : shown) {
-    slowest = std::min(slowest, sweep->mesh_frequency.minCoeff());
-    fastest = std::max(fastest, sweep->mesh_frequency.maxCoeff());
-    end = std::max({end, 2.5 * sweep->natural_frequency, 1.5 * fastest});
+    speeds.from = std::min(speeds.from, sweep->mesh_frequency.minCoeff());
+    speeds.to = std::max(speeds.to, sweep->mesh_frequency.maxCoeff());
+    end = std::max({end, 2.5 * sweep->natural_frequency, 1.5 * speeds.to});
     group = std::max(group, (sweep->mesh_frequency.size() + kMostSpectra - 1) / kMostSpectra);
   }
-  std::string directions;
-  double largest = 0;
-  std::vector<ResponseResult> responses;
-  responses.reserve(shown.size());
-  for (const SweepResult* sweep : shown) responses.push_back(response(*sweep));
+  for (const SweepResult* sweep : shown)
+    for (const auto& row :
+         figure.blocks.emplace_back(spectra_block(*sweep, response(*sweep), group, end)).rows)
+      if (!row.empty()) largest = std::max(largest, row[2]);
+  for (FigureBlock& block : figure.blocks)
+    for (auto& row : block.rows)
+      if (!row.empty() && row[2] < kLeast * largest) row.clear();
+  const double margin = 0.02 * (speeds.span() > 0 ? speeds.span() : 0.2 * speeds.to);
   for (size_t i = 0; i < shown.size(); ++i) {
-    const SweepResult* sweep = shown[i];
-    const ResponseResult& r = responses[i];
-    known = std::min(known, r.harmonics());
-    FigureBlock lines = spectra_block(*sweep, r, group, end);
-    for (const std::vector<double>& row : lines.rows) largest = std::max(largest, row[2]);
-    figure.blocks.insert(
-        figure.blocks.end(),
-        {std::move(lines), orders_block(r, shown.size() == 2 ? &responses[1 - i] : nullptr, known)});
-    directions += text(directions.empty() ? "" : " ", sweep->direction);
+    Panel panel = spectra_panel(FigureBlock(figure.blocks[i]), {speeds.from - margin, speeds.to + margin},
+                                end, largest > 0 ? largest : 1, first.natural_frequency, figure);
+    if (shown.size() == 2)
+      panel.heading = text("speed ", shown[i]->direction == Direction::up ? "rising" : "falling");
+    figure.panels.push_back(std::move(panel));
   }
   figure.notes.push_back(
       group == 1 ? "a spectrum at each speed"
                  : text("of ", group, " neighbouring speeds the spectrum of the one with the largest RMS"));
-  for (FigureBlock& block : figure.blocks)
-    if (block.name.starts_with("spectra"))
-      std::erase_if(block.rows, [&](const std::vector<double>& row) { return row[2] < kLeast * largest; });
-  figure.words = {{"directions", directions}};
-  figure.numbers = {
-      {"orders", static_cast<double>(known)},
-      {"largest", largest},
-      {"speed_step",
-       (fastest - slowest) / std::max<double>(1, std::ceil(static_cast<double>(first.mesh_frequency.size()) /
-                                                           static_cast<double>(group)) -
-                                                     1)},
-      {"natural_frequency", first.natural_frequency},
-      {"frequency_end", end},
-      {"rows", static_cast<double>(shown.size())},
-      {"frequency_from", slowest},
-      {"frequency_to", fastest}};
   return figure;
 }
 

@@ -16,7 +16,7 @@ bool agree(double a, double b) {
 }
 
 bool one_source(const MotionSource& a, const MotionSource& b) {
-  bool same = a.of_train() == b.of_train() && one_system(a.train.layout, b.train.layout);
+  bool same = a.of_train() == b.of_train() && one_system(a.layout, b.layout);
   for (size_t g = 0; same && g < kSides; ++g)
     same = a.gear[g].design.teeth == b.gear[g].design.teeth &&
            a.gear[g].design.module == b.gear[g].design.module;
@@ -48,7 +48,7 @@ void add_shafts(const System& system, Figure& figure) {
 
 void add_shafts(const MotionSource& source, Figure& figure) {
   if (source.of_train())
-    add_shafts(source.train.layout, figure);
+    add_shafts(source.layout, figure);
   else
     figure.shafts = shafts_of(source);
 }
@@ -68,7 +68,7 @@ void require_one_system(const std::string& what, const MotionSource& source,
         fail(Failure::input, "figure: the torque on '", source.body_names[static_cast<size_t>(b)], "' is ",
              torque[b], " N m in ", what, " and ", other_torque[b], " N m in ", of,
              "; give those of one scene");
-    const Damping &own = source.damping_used(), &other = sweep.damping_used();
+    const Damping &own = source.damping, &other = sweep.damping;
     if (!agree(own.rayleigh_stiffness, other.rayleigh_stiffness) ||
         !agree(own.rayleigh_mass, other.rayleigh_mass))
       fail(Failure::input, "figure: the damping is ", own.rayleigh_stiffness, " s x stiffness + ",

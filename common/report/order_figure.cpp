@@ -65,7 +65,7 @@ Figure orders_of_pair(const std::vector<ResponseResult>& sweeps) {
 
 // Of the meshes of planets of a carrier with one gear that which vibrates most.
 std::vector<size_t> most_vibrating_meshes(const std::vector<ResponseResult>& sweeps) {
-  const System& s = sweeps.front().train.layout;
+  const System& s = sweeps.front().layout;
   const auto body = [&](size_t m, size_t side) {
     return s.bodies[static_cast<size_t>(s.meshes[m].side[side].body)];
   };
@@ -100,7 +100,7 @@ Figure orders_of_train(const std::vector<ResponseResult>& sweeps) {
   if (sweeps.empty() || sweeps[0].mesh_frequency.size() == 0)
     fail(Failure::input, "figure: a sweep of no speeds was given");
   const ResponseResult& a = sweeps.front();
-  const System& s = a.train.layout;
+  const System& s = a.layout;
   require_one_system("another sweep", a, sweeps);
   Figure figure;
   figure.title = "Order cuts of the dynamic transmission error (DTE) of a train";

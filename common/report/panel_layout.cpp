@@ -21,6 +21,13 @@ bool holds(const PanelCurve& c, const std::vector<double>& row) {
   return c.is ? value == *c.is : value > 0;
 }
 
+double step_of(double x) {
+  const double power = std::pow(10, std::floor(std::log10(x)));
+  for (const double times : {1.0, 2.0, 5.0})
+    if (x <= times * power * (1 + 1e-9)) return times * power;
+  return 10 * power;
+}
+
 std::vector<double> log_ticks(AxisRange r) {
   std::vector<double> ticks;
   if (r.to / r.from > 100) return ticks;
@@ -122,14 +129,6 @@ AxisRange range_of(const Figure& figure, const Panel& panel, bool along_x) {
   return r.from < r.to ? r : AxisRange{r.from, r.from + span};
 }
 
-// 1, 2 or 5 times a power of ten and not below x > 0.
-double step_of(double x) {
-  const double power = std::pow(10, std::floor(std::log10(x)));
-  for (const double times : {1.0, 2.0, 5.0})
-    if (x <= times * power * (1 + 1e-9)) return times * power;
-  return 10 * power;
-}
-
 // As gnuplot writes a number: 1.5×10^{-5} where it needs a power of ten.
 double width_of_tick(double value) {
   const std::string words = shown(value, 6);
@@ -203,7 +202,8 @@ PanelPlace measured(const Figure& figure, const Panel& panel) {
   p.y_ticks = ticks_of(panel.y, p.y, panel.height / 44.0);
   const double letters = panel.y.names.empty() ? pixels::kAxisLetter : pixels::kNameLetter;
   p.left = 14 + (panel.y.label.empty() ? 0 : pixels::kLabelBeside) + p.y_ticks.widest * letters + 22;
-  p.right = kEdge;
+  // The last number of the x axis stands in the middle below the end of the frame.
+  p.right = std::max(kEdge, 0.5 * ticks_of(panel.x, p.x, 8).widest * pixels::kAxisLetter + 8);
   for (const std::string& label : key_of(panel))
     p.key_width = std::max(p.key_width, text_width(label) * pixels::kLetter + kSample);
   double beside = panel.key == PanelKey::right ? p.key_width : 0;

@@ -53,6 +53,9 @@ const FigureBlock& block_of(const Figure& figure, const std::string& name);
 // Whether a curve shows a row of its block.
 bool holds(const PanelCurve& c, const std::vector<double>& row);
 
+// 1, 2 or 5 times a power of ten and not below x > 0.
+double step_of(double x);
+
 // Of a logarithmic axis on which powers of ten alone would be too few: 1, 2, 5 times each; else none.
 std::vector<double> log_ticks(AxisRange r);
 

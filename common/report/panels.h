@@ -46,7 +46,7 @@ enum class PanelStyle {
   ranges,  // points with bars over `box`
   cells,   // rectangles about x and y over `box`, without one `width` by `size` in units of the axes
   arrows,  // from and to columns of `box`; size 0: lines without a head
-  image    // pixels at x and y in the colours of column 3, on the axis Panel::colours
+  image    // pixels at x and y on an even grid in the colours of column `heat`, on the axis Panel::colours
 };
 
 // Of line_points the line has all rows, the marks stand at every `every`th place along x from `first` on, counted from the least x of the
@@ -69,7 +69,7 @@ struct PanelCurve {
   std::array<int, 4> box = {};    // columns: x from, x to, y from, y to; 0: to the edge of the panel
   double fill = 1;                // of boxes, 0 to 1
   int rgb = 0, marks = 0;         // columns of colours and of marks; 0: all have `colour`, `mark`
-  int heat = 0;  // column of points and cells in the colours of Panel::colours; 0: all have `colour`
+  int heat = 0;  // column of points, lines and cells in the colours of Panel::colours; 0: all have `colour`
 };
 
 // A straight line across a panel: at a value of x or of y.
@@ -98,6 +98,7 @@ struct PanelAxis {
 struct PanelWords {
   std::string words;
   double x, y = kAutomatic;
+  bool on = false;  // centred on their place, not beside it
 };
 
 enum class PanelKey { right, below, none };  // below: across its row, if no other panel of it has a key
@@ -111,12 +112,13 @@ struct Panel {
   std::vector<PanelCurve> curves = {};
   std::vector<PanelRule> rules = {};
   PanelKey key = PanelKey::right;
-  int height = 360;                       // pixels of its frame; of panels side by side the largest counts
-  bool bare = false;                      // without axes, of one scale in x and y
-  bool square = false;                    // its frame
-  bool wide = false;                      // over all columns
-  bool letter = true;                     // (a) before its heading
-  std::optional<PanelAxis> colours = {};  // of an image, of `heat`
+  int height = 360;     // pixels of its frame; of panels side by side the largest counts
+  bool bare = false;    // without axes, of one scale in x and y
+  bool square = false;  // its frame
+  bool wide = false;    // over all columns
+  bool letter = true;   // (a) before its heading
+  std::optional<PanelAxis> colours =
+      {};  // of `heat`, from and to given; what is below a logarithmic one is not drawn
   std::vector<PanelWords> words = {};
 };
 

@@ -41,7 +41,7 @@ bool one_scene(const SystemStaticResult& first, const SystemStaticResult& a) {
 }
 bool one_scene(const SystemStaticResult& first, const MotionSource& a) {
   return first.of_train() == a.of_train() &&
-         (a.of_train() ? one_system(a.train.layout, first.settings.layout) : one_pair(a, first.mesh[0]));
+         (a.of_train() ? one_system(a.layout, first.settings.layout) : one_pair(a, first.mesh[0]));
 }
 
 }  // namespace
@@ -49,14 +49,6 @@ bool one_scene(const SystemStaticResult& first, const MotionSource& a) {
 bool one_torque(double a, double b) {
   constexpr double kRounded = 1e-6;  // N m, by torque_of()
   return std::abs(a - b) <= 1e-9 * std::abs(b) + kRounded;
-}
-
-double torque_of(const SystemStaticResult& rest) {
-  if (!rest.of_train()) return rest.mesh.at(0).torque;
-  double most = 0;
-  for (Index b = 0; b < rest.torque.cols(); ++b)
-    if (!rest.settings.layout.held(static_cast<int>(b))) most = std::max(most, rest.torque.col(b).mean());
-  return std::round(most * 1e6) * 1e-6;
 }
 
 double torque_of(const MotionSource& motion) {
@@ -130,7 +122,8 @@ void require_one_scene(const ReportContent& c) {
            " in static.h5; give artifacts of one scene");
   }
   if (c.budget)
-    take(!first.of_train() && one_pair(*c.budget, first.mesh[0]), c.budget->torque, "the error_budget.h5");
+    take(one_pair(*c.budget, first.mesh[0]) && c.budget->gear_names == first.settings.gears(),
+         c.budget->torque, "the error_budget.h5");
   for (const SweepErrorsResult& a : c.errors) take_motion(a, text("a sweep_errors.h5 ", a.direction));
 }
 

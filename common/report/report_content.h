@@ -50,7 +50,6 @@ struct ReportContent {
 // N m: the same but for round-off and what torque_of() rounds.
 bool one_torque(double a, double b);
 // N m: on the driver of a pair, on the input of a train.
-double torque_of(const SystemStaticResult& rest);
 double torque_of(const MotionSource& motion);
 
 // Bodies and meshes, of a pair, too.

@@ -112,15 +112,14 @@ std::string response_caption(const ReportContent& c) {
 
 std::string waterfall_caption(const ReportContent& c) {
   const ResponseResult& s = c.sweeps[0];
-  return text(
-      "Spectra of the dynamic transmission error at ", torque_words(s.torque),
-      sweep_of(c, s.torque, Direction::up) && sweep_of(c, s.torque, Direction::down)
-          ? ", speed rising (above) and falling (below)"
-          : ", " + way_words(s),
-      " as colours, one line for each speed (left), and the amplitudes of the first orders of the mesh frequency (right). Orders run along rays; each is strong where it crosses the natural frequency of ",
-      hertz(s.natural_frequency),
-      " Hz (mean over the period, contact frozen under the static load). The mesh frequency is ",
-      s.gear[0].design.teeth, " times the speed of the driver.", beyond_words(c, s.torque));
+  return text("Spectra of the dynamic transmission error at ", torque_words(s.torque),
+              sweep_of(c, s.torque, Direction::up) && sweep_of(c, s.torque, Direction::down)
+                  ? ", speed rising (above) and falling (below)"
+                  : ", " + way_words(s),
+              " as colours. Orders run along rays; each is strong where it crosses the natural frequency of ",
+              hertz(s.natural_frequency),
+              " Hz (mean over the period, contact frozen under the static load). The mesh frequency is ",
+              s.gear[0].design.teeth, " times the speed of the driver.", beyond_words(c, s.torque));
 }
 
 std::string tooth_loads_caption(const ReportContent& c) {

@@ -164,16 +164,11 @@ std::vector<Drawn> drawn_gears(const ReportContent& c) {
   std::vector<Drawn> out;
   const SystemStaticResult& a = c.statics[0];
   const System layout = layout_of(c);
-  for (size_t g = 0; g < (a.of_train() ? a.drawing.size() : kSides); ++g) {
-    if (!a.of_train()) {
-      const StaticResult& s = c.pair();
-      out.push_back({s.mesh.gear[g], text(" (", kRole[g], ")"), s.gear[g], s.mesh.modification[g],
-                     layout.bodies[g].inertia});
-      continue;
-    }
+  for (size_t g = 0; g < a.drawing.size(); ++g) {
     const std::string& name = a.settings.body[g].first;
     const auto body = std::find(a.settings.gear.begin(), a.settings.gear.end(), name);
-    out.push_back({name, "", a.drawing[g], a.settings.modification(name),
+    out.push_back({name, a.of_train() ? "" : text(" (", kRole[g], ")"), a.drawing[g],
+                   a.settings.modification(name),
                    body == a.settings.gear.end()
                        ? 0
                        : layout.bodies[static_cast<size_t>(body - a.settings.gear.begin())].inertia});

@@ -190,7 +190,7 @@ std::string guide_to_numbers(const ReportContent& c) {
   if (c.of_train() && has_planets(layout_of(c)))
     out += "<p>All numbers are those in the frame of the carrier, which turns at its mean speed.</p>\n";
   if (c.budget)
-    out += text("<p>For this pair the error budget at ", torque_words(c.budget->torque), " sums up to ",
+    out += text("<p>Of these gears the error budget at ", torque_words(c.budget->torque), " sums up to ",
                 shown(c.budget->refinement.error(&StaticChanges::mean_stiffness_change) * kPercent, 2),
                 " % of the mean mesh stiffness, ",
                 shown(c.budget->refinement.error(&StaticChanges::peak_to_peak_change) * kPercent, 2),

@@ -357,7 +357,7 @@ std::vector<Remark> remarks_on_sweep(const ReportContent& c, const ResponseResul
         true, "peaks at ", sharp, " Hz are one speed wide, of more than ", fixed(kSharpPeak, 0),
         " times the RMS beside them: their height is that of the step of mesh_frequency_Hz; lower it, or give the bearings their damping"));
   std::string undamped;
-  for (const System::Body& body : a.train.layout.bodies)
+  for (const System::Body& body : a.layout.bodies)
     if (body.bearing.elastic() && body.bearing.damping == 0)
       undamped += (undamped.empty() ? "" : ", ") + body.name;
   if (!undamped.empty())

@@ -194,11 +194,11 @@ std::string root_refinement_table(const ErrorBudgetResult& b) {
   if (b.root.element_size.size() == 0) return "";
   const RootConvergence found = convergence(b.root);
   html::Rows rows;
-  for (int g = 0; g < kSides; ++g)
+  for (Index g = 0; g < b.root.stress.cols(); ++g)
     for (Index k = 0; k < b.root.stress.rows(); ++k) {
       const bool changes = k > 0;
       const double order = k > 1 ? resolved_order(found, k - 2, g) : std::numeric_limits<double>::quiet_NaN();
-      rows.push_back({b.mesh.gear[g], shown(b.root.element_size[k] * 1e3, 4),
+      rows.push_back({b.gear_names[static_cast<size_t>(g)], shown(b.root.element_size[k] * 1e3, 4),
                       fixed(b.root.stress(k, g) * 1e-6, 2),
                       changes ? fixed(found.change(k - 1, g) * kPercent, 3) : "–",
                       std::isfinite(order) ? fixed(order, 1) : "–"});
@@ -206,7 +206,7 @@ std::string root_refinement_table(const ErrorBudgetResult& b) {
   return html::table(
       "Largest root stress at rest at " + torque_words(b.torque) +
           ", with smaller elements on the roots, all else as it is. Order: p, if the error goes with the power p of the element size; none of changes below 0.02 %, which go with where the elements lie.",
-      {"gear", "element on the driver's root (mm)", "root stress (MPa)", "change (%)", "order"}, rows);
+      {"gear", "element on the first gear's root (mm)", "root stress (MPa)", "change (%)", "order"}, rows);
 }
 
 }  // namespace
@@ -279,8 +279,7 @@ std::string scene_table(const std::string& caption, const SceneKeys& keys, const
 }  // namespace
 
 SceneKeys scene_keys_in(const ReportContent& c) {
-  if (c.of_train())
-    return scene_keys_of(c.statics.at(0), c.sweeps.empty() ? nullptr : &c.sweeps.front().train);
+  if (c.of_train()) return scene_keys_of(c.statics.at(0), c.sweeps.empty() ? nullptr : &c.sweeps.front());
   return c.sweeps.empty() ? scene_keys_of(c.pair()) : scene_keys_of(c.sweeps[0]);
 }
 

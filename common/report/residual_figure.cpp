@@ -19,7 +19,7 @@ constexpr double kLastOrder = 3.5, kFloor = 1e-12;  // of the mesh frequency; m:
 // Transmission error and residual signal over the hunting period, and its orders.
 void add_signal(const SweepResult& sweep, const ResponseResult& r, Index speed, Index mesh, Figure& figure) {
   const auto at = static_cast<size_t>(speed);
-  const Index steps = sweep.steps_per_period(), samples = steps * r.hunting_periods;
+  const Index steps = sweep.time.steps_per_period, samples = steps * r.hunting_periods;
   const Eigen::VectorXd error = sweep.transmission_error[at].col(mesh).head(samples),
                         residual = residual_signal(error, r.hunting_periods);
   FigureBlock signal{"signal", {"mesh_periods [1]", "transmission_error [µm]", "residual_signal [µm]"}, {}};
@@ -108,7 +108,7 @@ Figure residual_figure(const SweepResult& sweep, const ResponseResult& r) {
   add_signal(sweep, r, speed, mesh, figure);
   add_speeds(r, mesh, figure);
   if (r.of_train())
-    add_shafts(r.train.layout, figure);
+    add_shafts(r.layout, figure);
   else
     figure.shafts = shafts_of(r);
   figure.panels = panels_of_signal(r, "at " + fixed(r.mesh_frequency[speed], 0) + " Hz");

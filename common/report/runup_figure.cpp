@@ -73,7 +73,7 @@ FigureBlock spectrogram_block(const RunupResult& a, Figure& figure) {
       .y = {.label = "Frequency (Hz)", .from = 0, .to = most},
       .top = PanelAxis{.label = "Speed of " + without_markup(a.input) + " (rpm)"},
       .top_factor = a.ramp.rate / std::abs(a.mesh_acceleration),
-      .curves = {{.block = "spectrogram", .style = PanelStyle::image}},
+      .curves = {{.block = "spectrogram", .style = PanelStyle::image, .heat = 3}},
       .height = 400,
       .colours = PanelAxis{.label = "Mesh force (dB re 1 N RMS)", .from = loudest - 60, .to = loudest}};
   if (!a.of_train()) {
@@ -218,7 +218,7 @@ Figure runup_figure(const RunupResult& a, const std::vector<ResponseResult>& swe
   const bool up = a.direction == Direction::up;
   figure.title = text("Run-", a.direction, " at ", a.ramp.rate, " rpm/s, ",
                       a.of_train() ? "of a train" : torque_words(a.torque));
-  if (a.of_train()) figure.notes = in_lines(bodies_words(a.train.layout, a.drive));
+  if (a.of_train()) figure.notes = in_lines(bodies_words(a.layout, a.drive));
   figure.blocks.push_back(spectrogram_block(a, figure));
   figure.blocks.push_back(order_block(a, figure));
   figure.blocks.push_back(runup_period_block(a, figure));

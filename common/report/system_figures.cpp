@@ -199,8 +199,8 @@ namespace {
 // Rows of one motion: its transmission errors, mesh forces and forces on bearings; way: "", or which of two motions it is.
 void add_motion(const SweepResult& a, Index row, const std::string& way, Figure& figure) {
   const int periods = a.period_multiple[row] > 0 ? a.period_multiple[row]
-                                                 : static_cast<int>(a.samples() / a.steps_per_period());
-  const Index samples = std::min<Index>(periods * a.steps_per_period(), a.samples());
+                                                 : static_cast<int>(a.samples() / a.time.steps_per_period);
+  const Index samples = std::min<Index>(periods * a.time.steps_per_period, a.samples());
   const Phases phases{VectorXd::LinSpaced(samples, 0, periods * (1 - 1.0 / static_cast<double>(samples))),
                       periods};
   const auto of_meshes = [&](const std::vector<MatrixRM>& values, double scale) {
@@ -214,7 +214,7 @@ void add_motion(const SweepResult& a, Index row, const std::string& way, Figure&
   std::vector<PeriodCurve> bearings;
   for (size_t b = 0; b < a.body_names.size(); ++b)
     if (!a.bearing_force[b].empty())
-      bearings.push_back({a.body_names[b] + (a.train.layout.bodies[b].on != System::kGround ? " (pin)" : ""),
+      bearings.push_back({a.body_names[b] + (a.layout.bodies[b].on != System::kGround ? " (pin)" : ""),
                           a.bearing_force[b][static_cast<size_t>(row)].topRows(samples).rowwise().norm(),
                           {}});
   const std::string of = way.empty() ? "" : " " + way, behind = way.empty() ? "" : ", speed " + way;
@@ -233,7 +233,7 @@ Figure train_history_figure(const std::vector<SweepResult>& sweeps, double mesh_
   std::vector<Index> rows;
   std::vector<double> rms;
   for (const SweepResult& a : sweeps) {
-    if (!a.of_train() || !one_system(a.train.layout, sweeps[0].train.layout))
+    if (!a.of_train() || !one_system(a.layout, sweeps[0].layout))
       fail(Failure::input, "figure: sweeps of another scene beside those of a train; give those of one");
     Index row = 0;
     const double off = (a.mesh_frequency.array() - mesh_frequency).abs().minCoeff(&row);
@@ -250,7 +250,7 @@ Figure train_history_figure(const std::vector<SweepResult>& sweeps, double mesh_
   const SweepResult& a = sweeps[0];
   Figure figure;
   figure.title = text("A train in motion at a mesh frequency of ", shown(mesh_frequency, 6), " Hz");
-  figure.notes = in_lines(bodies_words(a.train.layout, a.drive));
+  figure.notes = in_lines(bodies_words(a.layout, a.drive));
   figure.notes.push_back(text("a mesh period lasts ", shown(1e3 / mesh_frequency, 4), " ms; ",
                               sweeps.size() == 1 ? text("speed ", a.direction)
                               : one              ? "with speed rising and falling the motion is the same"

@@ -28,7 +28,7 @@ struct Quantity {
 // (speed, gear): largest sustained root stress in any mesh of each gear; gears stand before carriers.
 MatrixRM root_stress_of_gears(const ResponseResult& a) {
   if (a.root_stress_sustained.size() == 0) return {};
-  const System& s = a.train.layout;
+  const System& s = a.layout;
   const auto gears = std::count_if(s.bodies.begin(), s.bodies.end(), [](const System::Body& body) {
     return body.kind == System::BodyKind::gear;
   });
@@ -70,7 +70,7 @@ std::string column_of(const Quantity& q, const std::string& curve) {
 }
 
 FigureBlock block_of(const Quantity& q, const ResponseResult& a, size_t curves) {
-  const std::vector<std::string> names = curve_names(a.train.layout, q.parts);
+  const std::vector<std::string> names = curve_names(a.layout, q.parts);
   const MatrixRM values = q.values(a);
   const std::string way = name_of(a.direction);
   FigureBlock block{text(q.name, " ", way), {"mesh_frequency [Hz]"}, {}, text(q.name, "_", way)};
@@ -137,17 +137,17 @@ void add_curves(const Quantity& q, const std::vector<ResponseResult>& sweeps, si
 
 Figure system_sweep_figure(const std::vector<ResponseResult>& sweeps) {
   for (const ResponseResult& one : sweeps)
-    if (one.mesh_frequency.size() == 0 || one.train.layout.meshes.empty())
+    if (one.mesh_frequency.size() == 0 || one.layout.meshes.empty())
       fail(Failure::input, "figure: a sweep of no speeds, or of a system without meshes, was given");
   const ResponseResult& a = sweeps.front();
-  const System& s = a.train.layout;
+  const System& s = a.layout;
   require_one_system("another sweep", a, sweeps);
   Figure figure;
   figure.title = "A train over its speeds: vibration, contact loss, forces on bearings, root stress";
   figure.notes = in_lines(bodies_words(s, a.drive));
-  figure.notes.push_back(text("body \"", a.train.fidelity.body, "\", contact \"", a.train.fidelity.contact,
-                              "\", damping ", shown(a.train.damping.rayleigh_stiffness, 3),
-                              " s x stiffness + ", shown(a.train.damping.rayleigh_mass, 3), " 1/s x mass"));
+  figure.notes.push_back(text("body \"", a.fidelity.body, "\", contact \"", a.fidelity.contact,
+                              "\", damping ", shown(a.damping.rayleigh_stiffness, 3), " s x stiffness + ",
+                              shown(a.damping.rayleigh_mass, 3), " 1/s x mass"));
   bool pins = false;
   for (int b = 0; b < static_cast<int>(s.bodies.size()); ++b) pins = pins || on_rigid_moving_pin(s, b);
   if (const std::string jumps = jump_note(sweeps); !jumps.empty()) figure.notes.push_back(jumps);

@@ -22,8 +22,9 @@ struct StaticChanges {
   Eigen::VectorXd peak_to_peak_change;    // (entry) 1, relative, of the transmission error
   // (entry) 1, relative, of the largest pressure inside a flank; empty: not known, or no contact stays inside
   Eigen::VectorXd pressure_change;
-  MatrixRM harmonic_change;  // (entry, harmonic 1..5) 1, of the transmission error, over its first harmonic
-  // (entry) 1, relative, of the largest root stress of both gears: the change that is larger; empty: not known
+  MatrixRM
+      harmonic_change;  // (entry, harmonic 1..) 1, five as far as the positions resolve them, of the transmission error, over its first harmonic
+  // (entry) 1, relative, of the largest root stress of both gears of a mesh: the change that is larger; empty: not known
   Eigen::VectorXd root_stress_change = {};
   // (entry) 1, relative, of K_Hbeta of the reference pair at mesh phase 0; empty: of one slice over the face
   Eigen::VectorXd load_factor_change = {};
@@ -37,8 +38,8 @@ struct StaticChanges {
 
 // Largest root stress at rest, read from meshes with elements of several sizes on the roots; from coarse, those of the result, to fine.
 struct RootRefinement {
-  Eigen::VectorXd element_size;  // (level) m, on the root of the driver; empty: not known
-  MatrixRM stress;               // (level, gear) Pa
+  Eigen::VectorXd element_size;  // (level) m, on the root of the first gear; empty: not known
+  MatrixRM stress;               // (level, gear) Pa: the largest of all meshes of a gear
 };
 
 // Of the stress: smaller changes go with where the elements lie, and have no order worth a word.
@@ -54,11 +55,12 @@ RootConvergence convergence(const RootRefinement& root);
 // 1: order(k, gear) where both changes that it is of exceed kOrderlessChange; else NaN: such changes go with where the elements lie.
 double resolved_order(const RootConvergence& root, Eigen::Index k, Eigen::Index gear);
 
-// error_budget.h5
+// error_budget.h5; of a train the parameters are those of its first mesh, changes the largest of all meshes.
 struct ErrorBudgetResult : GearPairParameters {
-  double torque = 0;         // N m on the driver
-  StaticChanges refinement;  // discretisations: their changes are errors and add up
-  StaticChanges choice;      // models that could be chosen instead: for information, no errors and in no sum
+  double torque = 0;                    // N m on the driver, of a train that of torque_of()
+  std::vector<std::string> gear_names;  // [gear]
+  StaticChanges refinement;             // discretisations: their changes are errors and add up
+  StaticChanges choice;  // models that could be chosen instead: for information, no errors and in no sum
   std::string choice_missing;  // which of them could not be computed, and why; "" if all were
   RootRefinement root;         // elements on the roots once, half, a quarter and an eighth as large
 };

@@ -21,7 +21,7 @@ inline bool relieves(Relieved relieved, int g) {
 
 // harris_map.h5: transmission error of a pair at rest, or its motion at the worst speed, against torque and tip relief. What
 // else is taken off the flanks is in `mesh`, whose tip reliefs are 0.
-struct HarrisMapResult : MotionParameters {
+struct HarrisMapResult : MotionParameters, MeshSpeeds {
   Relieved relieved = Relieved::both;
   ReliefShape shape = ReliefShape::linear;
   Eigen::VectorXd torque;    // (torque) N m, ascending
@@ -38,8 +38,7 @@ struct HarrisMapResult : MotionParameters {
   int checked = 0;             // points that were solved again with finer strips and at more positions
   double largest_error = 0;    // 1: largest difference from those, over the peak to peak there
   // On demand, empty otherwise: the larger of the sweeps up and down at the speed where it is largest.
-  std::vector<MatrixRM> dynamic_rms, worst_frequency;               // [start] (torque, relief) m, Hz
-  double frequency_from = 0, frequency_to = 0, frequency_step = 0;  // Hz
+  std::vector<MatrixRM> dynamic_rms, worst_frequency;  // [start] (torque, relief) m, Hz
 };
 
 }  // namespace whine

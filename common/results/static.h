@@ -159,10 +159,10 @@ struct StaticResult : GearPairParameters {
 // static.h5: meshes, bodies and what they have in common. Frame of a train: that of the carriers, which do not turn in it. A pair has one
 // mesh and the bodies driver and driven.
 struct SystemStaticResult {
-  // Of a train; inertias and masses of the layout that the scene leaves out are those of the bodies. Of a pair no bodies.
-  SystemStaticParameters settings;
-  std::vector<BodyParameters> drawing;  // [gear] of settings.body, of a train
-  bool of_train() const { return !settings.layout.bodies.empty(); }
+  SystemStaticParameters
+      settings;  // of a train with the inertias and masses of the bodies where the scene gives none
+  std::vector<BodyParameters> drawing;  // [gear] of settings.body
+  bool of_train() const { return settings.layout.load == System::Load::drives; }
   std::vector<std::string> mesh_names, body_names;  // "sun-planet1"; bodies
   std::vector<StaticResult> mesh;
 
@@ -187,7 +187,25 @@ struct SystemStaticResult {
   // trains without a carrier all are that of the train
   Eigen::VectorXd efficiency;
   std::vector<Remark> remarks;
+
+  // Settings and drawings of a pair, of which the mesh says all but the layout.
+  void take_pair(System layout) {
+    const StaticResult& own = mesh[0];
+    const auto& [driver, driven] = own.mesh.gear;
+    settings = {std::move(layout),
+                {driver, driven},
+                {own.mesh},
+                {0},
+                own.fidelity,
+                own.contact,
+                {{driver, ""}, {driven, ""}},
+                {own.mesh.errors[0], own.mesh.errors[1]}};
+    drawing = {own.gear[0], own.gear[1]};
+  }
 };
+
+// N m: that on the driver of a pair; of a train the largest on its drives that are not held, to 1e-6.
+double torque_of(const SystemStaticResult& rest);
 
 // Of the gear that a body of a train is; nullptr: of a carrier.
 inline const BodyParameters* drawing_of(const SystemStaticResult& a, int body) {

@@ -60,6 +60,8 @@ struct LumpedParameters {
 
 // sweep.h5: rows in the order in which they were computed. A pair has one mesh and two bodies, driver and driven.
 struct SweepResult : MotionSource {
+  std::vector<int> section;         // [mesh] of a train: number of its [[mesh]]
+  std::vector<ToothErrors> errors;  // [body] of a train; of a pair they are in `mesh`
   // Of a lumped model the fields of the bodies say where its stiffness comes from, and its damping is that of `lumped` alone.
   MotionModel model = MotionModel::finite_elements;
   LumpedParameters lumped;

@@ -20,7 +20,7 @@ void require_length(const char* what, size_t length, Eigen::Index speeds) {
 }
 
 void require_periods(const SweepResult& s) {
-  const int steps = s.steps_per_period();
+  const int steps = s.time.steps_per_period;
   const Eigen::Index samples = s.samples();
   if (steps < 1 || samples % steps != 0)
     fail(Failure::input, "sweep: ", samples, " samples are no whole number of periods of ", steps, " steps");
@@ -37,8 +37,8 @@ void require_periods(const SweepResult& s) {
 
 // Of the meshes of a train, each of which is of one [[mesh]].
 void require_sections(const SweepResult& s) {
-  const std::vector<int>& section = s.train.section;
-  if (s.meshes() == 0 || section.size() != s.train.layout.meshes.size())
+  const std::vector<int>& section = s.section;
+  if (s.meshes() == 0 || section.size() != s.layout.meshes.size())
     fail(Failure::input, "sweep: ", s.meshes(), " meshes, of which ", section.size(),
          " have a number of their [[mesh]]; 1 is the least, and all need one");
   if (const int least = *std::min_element(section.begin(), section.end()); least < 0)
@@ -199,13 +199,13 @@ void add_root_stress(const SweepResult& s, ResponseResult& r) {
     r.root_stress_max.row(f) = stress.colwise().maxCoeff();
     for (Index side = 0; side < stress.cols(); ++side)
       r.root_stress_sustained(f, side) =
-          sustained_load(stress.col(side), s.steps_per_period(), s.period_multiple[f]);
+          sustained_load(stress.col(side), s.time.steps_per_period, s.period_multiple[f]);
   }
 }
 
 // Of a train: largest share of each mesh in what those of its [[mesh]] carry together.
 void add_load_share(const SweepResult& s, const MatrixRM& force, Index f, ResponseResult& r) {
-  const std::vector<int>& section = s.train.section;
+  const std::vector<int>& section = s.section;
   VectorXd together(1 + *std::max_element(section.begin(), section.end()));
   for (Index n = 0; n < force.rows(); ++n) {
     together.setZero();
@@ -221,16 +221,16 @@ void add_tooth_loads(const SweepResult& s, Index f, Index m, ResponseResult& r) 
   const auto loads = s.loads_of(f, m);
   r.tooth_load_max(f, m) = loads.maxCoeff();
   if (r.tooth_load_sustained.size() == 0) return;
-  r.tooth_load_sustained(f, m) = sustained_load(loads, s.steps_per_period());
-  r.mesh_force_sustained(f, m) =
-      sustained_load(s.mesh_force[static_cast<size_t>(f)].col(m), s.steps_per_period(), s.period_multiple[f]);
+  r.tooth_load_sustained(f, m) = sustained_load(loads, s.time.steps_per_period);
+  r.mesh_force_sustained(f, m) = sustained_load(s.mesh_force[static_cast<size_t>(f)].col(m),
+                                                s.time.steps_per_period, s.period_multiple[f]);
 }
 
 }  // namespace
 
 ResponseResult response(const SweepResult& s) {
   require_shapes(s);
-  const Index speeds = s.mesh_frequency.size(), per_period = s.steps_per_period(), meshes = s.meshes();
+  const Index speeds = s.mesh_frequency.size(), per_period = s.time.steps_per_period, meshes = s.meshes();
   ResponseResult r;
   static_cast<MotionSource&>(r) = s;
   r.name_parts();
@@ -255,7 +255,7 @@ ResponseResult response(const SweepResult& s) {
   if (s.of_train() || !s.root_stress.empty() || s.face_load_factor.size() > 0)
     for (MatrixRM* x : {&r.tooth_load_sustained, &r.mesh_force_sustained}) x->resize(speeds, meshes);
   // Of the meshes of one [[mesh]].
-  const std::set<int> sections(s.train.section.begin(), s.train.section.end());
+  const std::set<int> sections(s.section.begin(), s.section.end());
   if (s.of_train() && static_cast<Index>(sections.size()) < meshes) r.load_share_max.setZero(speeds, meshes);
   for (Index f = 0; f < speeds; ++f) {
     const auto at = static_cast<size_t>(f);

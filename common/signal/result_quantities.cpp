@@ -124,7 +124,7 @@ Quantities quantities_of(const ResponseResult& motion, const SystemStaticParamet
   if (!motion.of_train()) {
     add_mesh(out, motion, 0, "");
     out["natural_frequency"] = motion.natural_frequency;
-    out["rayleigh_damping_ratio"] = rayleigh_ratio(motion.damping_used(), motion.natural_frequency);
+    out["rayleigh_damping_ratio"] = rayleigh_ratio(motion.damping, motion.natural_frequency);
     return out;
   }
   for (size_t m = 0; m < motion.mesh_names.size(); ++m)

@@ -195,8 +195,8 @@ void store_special(const std::vector<BranchSegment>& segments, BranchResult& a) 
 }
 
 // source: of what moves.
-BranchResult followed(Motion& motion, MotionSource source, const BranchSpeeds& speeds, const BranchPlan& plan,
-                      const BranchReport& report) {
+BranchResult followed(Motion& motion, MotionSource source, const MotionSettings& speeds,
+                      const BranchPlan& plan, const BranchReport& report) {
   BranchFollower follower(motion, speeds);
   const int steps = speeds.time.steps_per_period;
   MeasuredOrbit orbit(sustained_peaks(motion.system(), steps),
@@ -221,7 +221,7 @@ BranchResult pair_branch(const ReducedBody& driver, const ReducedBody& driven, c
                          double mean_stiffness, const SweepParameters& settings, const BranchReport& report,
                          const BranchPlan& plan) {
   const PairInMotion pair(driver, driven, statics, mean_stiffness, settings);
-  return followed(*pair.motion, pair.source, speeds_of(settings), plan, report);
+  return followed(*pair.motion, pair.source, settings, plan, report);
 }
 
 BranchResult system_branch(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
@@ -229,7 +229,7 @@ BranchResult system_branch(const SystemSweepParameters& settings, const std::vec
   require_able("branches", traits(settings, bodies));
   require_relaxation_range(settings.damping, settings.fidelity.body, settings.frequency_to);
   LinesMotion motion(settings, bodies, steps_at(settings.time, settings.frequency_from));
-  return followed(motion, motion.source(), speeds_of(settings), plan, report);
+  return followed(motion, motion.source(), settings, plan, report);
 }
 
 }  // namespace whine

@@ -44,8 +44,8 @@ void note_most_segments(OrbitBranch& branch) {
 
 namespace {
 
-BranchSettings branch_settings(const BranchSpeeds& speeds, int steps, bool at_folds, double tolerance) {
-  BranchSettings settings = segment_speeds(speeds.time, speeds.from, speeds.to, steps);
+BranchSettings branch_settings(const MotionSettings& speeds, int steps, bool at_folds, double tolerance) {
+  BranchSettings settings = segment_speeds(speeds.time, speeds.frequency_from, speeds.frequency_to, steps);
   settings.first_step = 0.02;
   settings.largest_step = at_folds ? 0.25 : 0.06;
   settings.straight = at_folds ? 0.95 : 0.99;
@@ -58,7 +58,7 @@ BranchSettings branch_settings(const BranchSpeeds& speeds, int steps, bool at_fo
 
 }  // namespace
 
-BranchFollower::BranchFollower(Motion& motion, const BranchSpeeds& speeds, Look look, double tolerance)
+BranchFollower::BranchFollower(Motion& motion, const MotionSettings& speeds, Look look, double tolerance)
     : motion_(motion), speeds_(speeds), look_(look), tolerance_(tolerance) {}
 
 auto BranchFollower::follow(const BranchPlan& plan, const Report& report) -> const std::vector<Segment>& {
@@ -66,9 +66,9 @@ auto BranchFollower::follow(const BranchPlan& plan, const Report& report) -> con
     fail(Failure::input, "orbits of ", plan.most_periods, " mesh periods are not followed; give 1, 2 or 4");
   if (!(plan.tolerance >= 1e-12 && plan.tolerance <= 1e-3))
     fail(Failure::input, "an orbit's tolerance of ", plan.tolerance, "; give 1e-12 to 1e-3");
-  if (!(speeds_.from > 0) || !(speeds_.to > speeds_.from))
-    fail(Failure::input, "a branch needs speeds to go through: mesh_frequency_Hz is from ", speeds_.from,
-         " to ", speeds_.to, " Hz");
+  if (!(speeds_.frequency_from > 0) || !(speeds_.frequency_to > speeds_.frequency_from))
+    fail(Failure::input, "a branch needs speeds to go through: mesh_frequency_Hz is from ",
+         speeds_.frequency_from, " to ", speeds_.frequency_to, " Hz");
   tolerance_ = plan.tolerance;
   plan.sweep ? follow_from_sweep(*plan.sweep, plan.at, report) : follow(report);
   follow_flips(plan.most_periods, report);
@@ -76,17 +76,17 @@ auto BranchFollower::follow(const BranchPlan& plan, const Report& report) -> con
 }
 
 auto BranchFollower::follow(const Report& report) -> const std::vector<Segment>& {
-  const int steps = steps_at(speeds_.time, speeds_.to);
-  begin(speeds_.to, steps);
+  const int steps = steps_at(speeds_.time, speeds_.frequency_to);
+  begin(speeds_.frequency_to, steps);
   run(steps, -1, 0, report);
   return segments_;
 }
 
 auto BranchFollower::follow_from_sweep(Direction direction, double at, const Report& report)
     -> const std::vector<Segment>& {
-  if (!(at >= speeds_.from && at <= speeds_.to))
-    fail(Failure::input, "a branch cannot begin at ", at, " Hz: mesh_frequency_Hz is from ", speeds_.from,
-         " to ", speeds_.to, " Hz");
+  if (!(at >= speeds_.frequency_from && at <= speeds_.frequency_to))
+    fail(Failure::input, "a branch cannot begin at ", at, " Hz: mesh_frequency_Hz is from ",
+         speeds_.frequency_from, " to ", speeds_.frequency_to, " Hz");
   begin_swept(direction, at);
   const int steps = map_->steps();
   const VectorXd start = orbit_.start;
@@ -100,8 +100,8 @@ auto BranchFollower::follow_from_sweep(Direction direction, double at, const Rep
 
 // From the orbit at hand, from segment to segment.
 void BranchFollower::run(int steps, int direction, int part, const Report& report) {
-  const double low = speeds_.from, high = speeds_.to, scale = 0.5 * (low + high);
-  const long total = std::max(1l, std::lround((high - low) / speeds_.step));
+  const double low = speeds_.frequency_from, high = speeds_.frequency_to, scale = 0.5 * (low + high);
+  const long total = std::max(1l, std::lround((high - low) / speeds_.frequency_step));
   const VectorXd first = orbit_.start;
   const double first_at = orbit_.parameter;
   const size_t before = segments_.size();
@@ -183,7 +183,7 @@ void BranchFollower::follow_flip(size_t of, size_t which, const Report& report) 
   }
   SpecialPoint here = flip;
   here.start = orbit_.start;
-  const double scale = 0.5 * (speeds_.from + speeds_.to);
+  const double scale = 0.5 * (speeds_.frequency_from + speeds_.frequency_to);
   const OrbitSearch beside = orbit_beyond_flip(*map_, here, multiple_, scale);
   if (!beside.found()) return none(beside.failure);
   // A branch between two flips has been followed from the other one; its last point is a step beyond its end.
@@ -239,8 +239,8 @@ void BranchFollower::begin_swept(Direction direction, double at) {
   motion_.restore(0);
   State state = motion_.rest();
   const double sign = direction == Direction::up ? 1 : -1;
-  double speed = direction == Direction::up ? speeds_.from : speeds_.to;
-  for (;; speed += sign * speeds_.step) {
+  double speed = direction == Direction::up ? speeds_.frequency_from : speeds_.frequency_to;
+  for (;; speed += sign * speeds_.frequency_step) {
     if (sign * (speed - at) > 0) speed = at;
     State start = state;
     std::optional<MotionRecord> settled;

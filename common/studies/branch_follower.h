@@ -38,16 +38,6 @@ struct BranchPlan {
   int most_periods = 1;  // 2 or 4: branches beyond period doublings too, up to orbits of so many periods
 };
 
-// Speeds of a stage between which branches are followed.
-struct BranchSpeeds {
-  TimeDiscretisation time;
-  double from = 0, to = 0, step = 0;  // Hz
-};
-template <class Stage>
-BranchSpeeds speeds_of(const Stage& stage) {
-  return {stage.time, stage.frequency_from, stage.frequency_to, stage.frequency_step};
-}
-
 struct BranchSegment {
   OrbitBranch branch;
   int steps = 0;     // per period
@@ -68,7 +58,7 @@ class BranchFollower {
   // folds to 1e-5 of their speed.
   enum class Look { close, at_folds };
   // The motion must live as long as this.
-  BranchFollower(Motion& motion, const BranchSpeeds& speeds, Look look = Look::close,
+  BranchFollower(Motion& motion, const MotionSettings& speeds, Look look = Look::close,
                  double tolerance = kOrbitTolerance);
   static constexpr double kOrbitTolerance = 1e-9;  // of an orbit's residual
 
@@ -102,7 +92,7 @@ class BranchFollower {
   bool found(const Eigen::VectorXd& start, double at, int steps);
 
   Motion& motion_;
-  const BranchSpeeds speeds_;
+  const MotionSettings speeds_;
   Look look_;
   double tolerance_;
   int multiple_ = 1;

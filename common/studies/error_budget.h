@@ -20,6 +20,11 @@ namespace whine {
 ErrorBudgetResult error_budget(const ReducedBody& driver, const ReducedBody& driven,
                                const StaticParameters& settings, double torque);
 
+// The same of a train, but for the choice of bodies in three dimensions, which trains do not have; bodies: as system_at_rest() takes them.
+// Changes are the largest of all meshes that carry a load, orders are those of all meshes together.
+ErrorBudgetResult error_budget(const SystemStaticParameters& settings,
+                               const std::vector<ReducedBody>& bodies);
+
 // Difference of two static results over some of the positions.
 struct StaticDifference {
   int positions = 0;

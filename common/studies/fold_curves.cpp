@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "base/model_range.h"
 #include "dynamics/lines_motion.h"
+#include "gear/train.h"
 #include "orbits/fold_curve.h"
 #include "studies/branch_follower.h"
 #include "studies/fold_scene.h"
@@ -195,7 +196,8 @@ void follow(FoldScene& scene, const TimeDiscretisation& time, const FoldCurvesPl
   Family family(scene, time, plan.from);
   const double first = scene.raw(plan.first);
   const std::unique_ptr<MotionAt> begin = scene.at(first);
-  BranchFollower follower(*begin->motion, {time, plan.from, plan.to, kStep}, BranchFollower::Look::at_folds);
+  BranchFollower follower(*begin->motion, {{plan.from, plan.to, kStep}, {}, time},
+                          BranchFollower::Look::at_folds);
   const auto values = static_cast<long>(plan.values.size());
   const auto& segments = follower.follow(
       [&](long done, long total, const std::string& note) { report(done, total * (1 + 2 * values), note); });
@@ -248,10 +250,9 @@ FoldCurvesResult fold_curves(const ReducedBody& driver, const ReducedBody& drive
   GearPairParameters rest;  // without what the curve varies
   set_pair(rest, {driver, driven}, statics);
   set_motion(a, rest.gear, rest, settings);
-  a.time = settings.time;
   if (plan.quantity == FoldQuantity::damping) a.damping.rayleigh_stiffness = 0;
   a.torque = torque;
-  a.name_parts();
+  a.place_pair(pair_system(a));
   follow(*scene, settings.time, plan, report, a);
   return a;
 }
@@ -263,7 +264,7 @@ FoldCurvesResult fold_curves(const SystemSweepParameters& settings, const std::v
   FoldCurvesPlan plan = given;
   FoldCurvesResult a;
   const std::unique_ptr<FoldScene> scene = fold_scene(settings, bodies, plan, a);
-  if (plan.quantity == FoldQuantity::damping) a.train.damping.rayleigh_stiffness = 0;
+  if (plan.quantity == FoldQuantity::damping) a.damping.rayleigh_stiffness = 0;
   follow(*scene, settings.time, plan, report, a);
   return a;
 }

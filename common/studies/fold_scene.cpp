@@ -43,7 +43,7 @@ class PairScene : public FoldScene {
     if (quantity_ == FoldQuantity::bearing_stiffness && !statics.mesh.on_bearings())
       fail(Failure::input, kNoBearing);
     own(plan.first);
-    ImpactParameters fixed = settings;
+    SweepParameters fixed = settings;
     fixed.fidelity.contact = ContactModel::strips;
     fixed.damping.rayleigh_stiffness = 0;
     for (FixedPhaseState& state :

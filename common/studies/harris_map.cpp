@@ -425,10 +425,7 @@ void add_dynamics(HarrisMapResult& map, const ReducedBody& driver, const Reduced
                   const SweepParameters& settings, double bearing_stiffness,
                   const std::function<void(long, long, const std::string&)>& report) {
   set_motion(map, {driver, driven}, map, settings);
-  map.time = settings.time;
-  map.frequency_from = settings.frequency_from;
-  map.frequency_to = settings.frequency_to;
-  map.frequency_step = settings.frequency_step;
+  static_cast<MeshSpeeds&>(map) = settings;
   StaticParameters statics;
   statics.fidelity = settings.fidelity;
   statics.contact = map.contact;

@@ -56,7 +56,7 @@ JumpMapResult jump_map(const ReducedBody& driver, const ReducedBody& driven, con
   const VectorXd speed =
       map_speeds(plan, std::sqrt(rest.mean_stiffness * inverse_mass) / (2 * std::numbers::pi));
 
-  ImpactParameters fixed = settings;
+  SweepParameters fixed = settings;
   fixed.fidelity.contact = ContactModel::strips;  // the body under a fixed contact is read on strips
   fixed.damping.rayleigh_stiffness = 0;
   JumpMapResult result;
@@ -72,7 +72,6 @@ JumpMapResult jump_map(const ReducedBody& driver, const ReducedBody& driven, con
          " N m no mesh phase has two pairs in contact, to which the damping ratio belongs");
   result.two_pair_frequency = two->undamped_frequency;
   set_motion(result, {driver, driven}, rest, settings);
-  result.time = settings.time;
   result.damping = fixed.damping;
   result.torque = torque;
   result.bearing_stiffness = bearing_stiffness;

@@ -27,7 +27,7 @@ std::vector<double> phases(const std::vector<MeshInstant>& instants) {
 
 // Of one side of a mesh at one speed, into its columns; orbits shorter than the row repeat in it.
 void add_side(MotionRootStress& roots, int side, Index m, Index speed, SweepResult& a) {
-  const int samples = a.steps_per_period();
+  const int samples = a.time.steps_per_period;
   const Index width = a.samples(), column = m * kSides + side, multiple = a.period_multiple[speed],
               orbit = multiple > 0 ? std::min<Index>(width, multiple * samples) : width;
   const auto loads = a.loads_of(speed, m);
@@ -60,7 +60,7 @@ RootStress MotionRootStress::largest(int side, Index sample, const Eigen::Vector
 void add_root_stress(const SystemModel& system, SweepResult& a) {
   const Index speeds = a.mesh_frequency.size(), columns = a.meshes() * kSides;
   for (Index m = 0; m < a.meshes(); ++m) {
-    MotionRootStress roots(system, m, a.steps_per_period());
+    MotionRootStress roots(system, m, a.time.steps_per_period);
     if (!roots.known()) continue;
     if (a.root_stress.empty()) {
       a.root_stress.assign(static_cast<size_t>(speeds), MatrixRM::Zero(a.samples(), columns));

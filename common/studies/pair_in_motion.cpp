@@ -29,11 +29,7 @@ SystemSweepParameters train_of_slices(const ReducedBody& driver, const ReducedBo
   out.errors.resize(kSides);
   out.fidelity = settings.fidelity;
   out.contact = statics.contact;
-  out.damping = settings.damping;
-  out.frequency_from = settings.frequency_from;
-  out.frequency_to = settings.frequency_to;
-  out.frequency_step = settings.frequency_step;
-  out.time = settings.time;
+  static_cast<MotionSettings&>(out) = settings;
   out.axis_stiffness = mean_stiffness;
   return out;
 }
@@ -44,9 +40,8 @@ PairInMotion::PairInMotion(const ReducedBody& driver, const ReducedBody& driven,
   require_inertia(statics.mesh, {driver.inertia, driven.inertia}, settings.inertia);
   const int positions = steps_at(settings.time, settings.frequency_from);
   set_motion(source, {driver, driven}, statics, settings);
-  source.time = settings.time;
   source.torque = statics.torque;
-  source.name_parts();
+  source.place_pair(pair_system(source));
   if (settings.fidelity.width == WidthModel::one) {
     motion = std::make_unique<StripsMotion>(
         driver, driven, statics, dynamic_parameters(statics, mean_stiffness, settings, settings.frequency_to),

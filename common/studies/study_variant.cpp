@@ -25,15 +25,11 @@ void add_remarks(const std::string& where, const std::vector<Remark>& remarks, V
 VariantResult variant_parameters(const std::vector<ReducedBody>& bodies, const VariantParameters& settings) {
   VariantResult out;
   out.directions = settings.directions;
-  const auto take_speeds = [&](const auto& motion) {
-    out.frequency_from = motion.frequency_from;
-    out.frequency_to = motion.frequency_to;
-    out.frequency_step = motion.frequency_step;
-  };
+  static_cast<MeshSpeeds&>(out) =
+      settings.of_train() ? MeshSpeeds(settings.train) : MeshSpeeds(settings.motion);
   if (settings.of_train()) {
     out.train = settings.train;
     out.names = train_names(settings.train);
-    take_speeds(settings.train);
     return out;
   }
   const std::array<BodyParameters, kSides> gears{bodies.at(0), bodies.at(1)};
@@ -41,9 +37,7 @@ VariantResult variant_parameters(const std::vector<ReducedBody>& bodies, const V
   set_motion(out, gears, out, settings.motion);
   if (settings.directions.empty()) out.fidelity = settings.statics.fidelity;
   out.torque = settings.torque;
-  out.time = settings.motion.time;
   out.reference_torque = settings.motion.reference_torque;
-  take_speeds(settings.motion);
   return out;
 }
 

@@ -235,7 +235,8 @@ void size_rows(const std::vector<double>& speeds, const SystemModel& system, Swe
     for (MatrixRM* x : {&out.face_load_factor, &out.line_load_max}) x->setZero(n, meshes);
   out.energy.setZero(n, static_cast<Index>(kEnergyLines.size()));
   for (VectorXd* x : {&out.residual, &out.energy_imbalance, &out.drift_force}) x->setZero(n);
-  if (out.of_train() ? out.train.friction().acts() : out.mesh.friction.acts())
+  if (std::any_of(system.mesh.begin(), system.mesh.end(),
+                  [](const GearMeshModel& mesh) { return mesh.friction.acts(); }))
     for (VectorXd* x : {&out.friction.coefficient, &out.friction.power, &out.friction.efficiency})
       x->setZero(n);
   out.periods.setZero(n);
@@ -250,7 +251,7 @@ void size_rows(const std::vector<double>& speeds, const SystemModel& system, Swe
 // the system.
 ToothLoads store_samples(const SystemModel& system, const MotionRecord& motion, size_t row,
                          SweepResult& out) {
-  const Index samples = out.steps_per_period(), meshes = out.meshes();
+  const Index samples = out.time.steps_per_period, meshes = out.meshes();
   const auto rows = static_cast<Index>(motion.record.size()) * samples;
   const auto every = [&](const auto& rows_of) {
     MatrixRM all;
@@ -339,7 +340,7 @@ struct SweepPlan {
 // `out` has what is moved and the direction. Returns m: the least transmission error of all steps.
 double swept(Motion& motion, const SweepPlan& plan, SweepResult& out) {
   const SystemModel& system = motion.system();
-  const TimeDiscretisation& time = out.of_train() ? out.train.time : out.time;
+  const TimeDiscretisation& time = out.time;
   MotionRig rig(motion, time);
   out.hunting_periods = motion.hunting_periods();
   require_memory(out, static_cast<Index>(plan.speeds.size()), time.steps_per_period, rig.state());
@@ -365,16 +366,6 @@ double swept(Motion& motion, const SweepPlan& plan, SweepResult& out) {
 
 }  // namespace
 
-std::vector<double> swept_speeds(double from, double to, double step, Direction direction) {
-  const int count = static_cast<int>(std::floor((to - from) / step + 1e-9)) + 1;
-  if (count < 1 || !(from > 0))
-    fail(Failure::input, "the speed range from ", from, " to ", to, " Hz in steps of ", step, " Hz is empty");
-  std::vector<double> speeds(static_cast<size_t>(count));
-  for (int i = 0; i < count; ++i)
-    speeds[static_cast<size_t>(i)] = from + (direction == Direction::up ? i : count - 1 - i) * step;
-  return speeds;
-}
-
 void require_jump_width(double jump_width) {
   constexpr double kFinest = 1e-5;  // Hz: below, runs beside the end of a branch take thousands of periods
   if (jump_width != 0 && !(jump_width >= kFinest && std::isfinite(jump_width)))
@@ -394,8 +385,7 @@ SweepResult sweep(const ReducedBody& driver, const ReducedBody& driven, const St
                   double mean_stiffness, const SweepParameters& settings, Direction direction,
                   const std::function<void(long, long, const std::string&)>& report,
                   std::vector<BranchPoint>* left_early, double jump_width) {
-  const std::vector<double> speeds =
-      swept_speeds(settings.frequency_from, settings.frequency_to, settings.frequency_step, direction);
+  const std::vector<double> speeds = swept_speeds(settings, direction);
   require_jump_width(jump_width);
   report(0, static_cast<long>(speeds.size()), "at rest");
   const PairInMotion pair(driver, driven, statics, mean_stiffness, settings);
@@ -415,18 +405,19 @@ SweepResult system_sweep(const SystemSweepParameters& settings, const std::vecto
                          Direction direction,
                          const std::function<void(long, long, const std::string&)>& report,
                          double jump_width) {
-  const std::vector<double> speeds =
-      swept_speeds(settings.frequency_from, settings.frequency_to, settings.frequency_step, direction);
+  const std::vector<double> speeds = swept_speeds(settings, direction);
   require_jump_width(jump_width);
   require_relaxation_range(settings.damping, settings.fidelity.body, settings.frequency_to);
   report(0, static_cast<long>(speeds.size()), "at rest");
   LinesMotion motion(settings, bodies, steps_at(settings.time, settings.frequency_from));
   SweepResult out;
   static_cast<MotionSource&>(out) = motion.source();
+  out.section = settings.section;
+  out.errors = settings.errors;
   out.direction = direction;
   swept(motion, {speeds, report, nullptr, jump_width}, out);
   // Said once of a pair of sweeps, as those of a pair of gears are.
-  if (direction == Direction::up) out.remarks = remarks_on_carriers(out, bodies);
+  if (direction == Direction::up) out.remarks = remarks_on_carriers(out, settings, bodies);
   return out;
 }
 

@@ -34,8 +34,6 @@ SweepResult system_sweep(const SystemSweepParameters& settings, const std::vecto
                          const std::function<void(long, long, const std::string&)>& report,
                          double jump_width = 0);
 
-// Hz: the speeds of a range in the order of the direction. Throws Error(input) if it is empty.
-std::vector<double> swept_speeds(double from, double to, double step, Direction direction);
 // Throws Error(input) for a width of jumps (Hz) that is neither 0, which stands for 1/64 of the step, nor 1e-5 or more.
 void require_jump_width(double jump_width);
 void store_jumps(const std::vector<BranchJump>& jumps, Eigen::VectorXd& frequency, Eigen::VectorXd& width);

@@ -82,7 +82,8 @@ TimeDiscretisation resized(TimeDiscretisation time, const Sizes& sizes) {
 }
 
 // Fewer speeds, from end to end.
-double judged_step(double from, double to, double step) {
+double judged_step(const MeshSpeeds& speeds) {
+  const auto& [from, to, step] = speeds;
   const double most = std::floor((to - from) / step);
   return step * std::max(1.0, std::ceil(most / (kJudgedSpeeds - 1)));
 }
@@ -250,7 +251,7 @@ void quiet(long /*done*/, long /*total*/, const std::string& /*note*/) {}
 SweepErrorsResult sweep_errors(const ReducedBody& driver, const ReducedBody& driven,
                                const StaticResult& statics, const StaticResult& reference,
                                const SweepParameters& settings, Direction direction, const Report& report) {
-  const double step = judged_step(settings.frequency_from, settings.frequency_to, settings.frequency_step);
+  const double step = judged_step(settings);
   std::vector<Entry> entries =
       entries_of(driver, settings.time, points_of(statics.fidelity, statics.mesh, statics.contact));
   if (settings.fidelity.contact == ContactModel::strips) {
@@ -285,7 +286,7 @@ SweepErrorsResult sweep_errors(const ReducedBody& driver, const ReducedBody& dri
 
 SweepErrorsResult sweep_errors(const SystemSweepParameters& settings, const std::vector<ReducedBody>& bodies,
                                Direction direction, const Report& report) {
-  const double step = judged_step(settings.frequency_from, settings.frequency_to, settings.frequency_step);
+  const double step = judged_step(settings);
   const auto sweep_with = [&](const Sizes& sizes) {
     SystemSweepParameters moved = settings;
     moved.frequency_step = step;

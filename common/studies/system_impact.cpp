@@ -90,7 +90,7 @@ ImpactResult system_impact(const SystemSweepParameters& settings, const std::vec
   ImpactResult out;
   static_cast<MotionSource&>(out) = rig.source();
   out.impulse = plan.impulse;
-  out.rigid_frequency = rigid_frequencies(out.train.layout, rig.mean_stiffness());
+  out.rigid_frequency = rigid_frequencies(out.layout, rig.mean_stiffness());
   const Index phases = plan.phases, modes = std::min<Index>(plan.modes, dynamics.coordinates().size());
   out.mesh_phase.setZero(phases);
   out.loaded_pairs.setZero(phases, dynamics.meshes());

@@ -33,9 +33,9 @@ void take_elastic(const SystemStaticParameters& settings, const std::vector<Redu
 
 }  // namespace
 
-std::vector<TurningCarrier> turning_carriers(const SweepResult& sweep,
+std::vector<TurningCarrier> turning_carriers(const SweepResult& sweep, const SystemStaticParameters& settings,
                                              const std::vector<ReducedBody>& bodies) {
-  const System& layout = sweep.train.layout;
+  const System& layout = sweep.layout;
   std::vector<TurningCarrier> out;
   if (sweep.mesh_frequency.size() == 0) return out;
   Index fastest = 0;
@@ -67,7 +67,7 @@ std::vector<TurningCarrier> turning_carriers(const SweepResult& sweep,
       of.centrifugal_force = mass * own.radius * of.speed * of.speed;
       of.coriolis = 2.0 / teeth;
       of.in_motion = frame_turns(layout) != 0;
-      if (of.in_motion) take_elastic(sweep.train, bodies, of);
+      if (of.in_motion) take_elastic(settings, bodies, of);
     }
     out.push_back(of);
   }
@@ -117,10 +117,11 @@ Remark remark_on(const System& layout, const TurningCarrier& of) {
 
 }  // namespace
 
-std::vector<Remark> remarks_on_carriers(const SweepResult& sweep, const std::vector<ReducedBody>& bodies) {
+std::vector<Remark> remarks_on_carriers(const SweepResult& sweep, const SystemStaticParameters& settings,
+                                        const std::vector<ReducedBody>& bodies) {
   std::vector<Remark> out;
-  for (const TurningCarrier& of : turning_carriers(sweep, bodies))
-    out.push_back(remark_on(sweep.train.layout, of));
+  for (const TurningCarrier& of : turning_carriers(sweep, settings, bodies))
+    out.push_back(remark_on(sweep.layout, of));
   return out;
 }
 

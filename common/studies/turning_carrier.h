@@ -31,10 +31,11 @@ struct TurningCarrier {
 
 // Carriers whose planets mesh with a held gear, or that turn. Planets without a mass count as weightless. bodies: of settings.body, or none.
 std::vector<TurningCarrier> turning_carriers(const SweepResult& sweep,
+                                             const SystemStaticParameters& settings = {},
                                              const std::vector<ReducedBody>& bodies = {});
 
 // The same in words.
-std::vector<Remark> remarks_on_carriers(const SweepResult& sweep,
+std::vector<Remark> remarks_on_carriers(const SweepResult& sweep, const SystemStaticParameters& settings = {},
                                         const std::vector<ReducedBody>& bodies = {});
 
 }  // namespace whine

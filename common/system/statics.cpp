@@ -84,10 +84,11 @@ SystemStaticResult pair_at_rest(const ReducedBody& driver, const ReducedBody& dr
   GearPairParameters of;
   set_pair(of, {driver, driven}, settings);
   if (settings.fidelity.width != WidthModel::one) of.fidelity.contact = ContactModel::line;
-  SystemStaticResult out =
-      record_pair(loaded_system(driver, driven, settings, torque), of, torque, zone_factor);
-  out.body_names = {settings.mesh.gear[0], settings.mesh.gear[1]};
-  out.mesh_names = {settings.mesh.gear[0] + "-" + settings.mesh.gear[1]};
+  const SystemModel system = loaded_system(driver, driven, settings, torque);
+  SystemStaticResult out = record_pair(system, of, torque, zone_factor);
+  out.take_pair(system.layout);
+  out.body_names = body_names_of(system.layout);
+  out.mesh_names = mesh_names_of(system.layout);
   out.remarks = out.mesh[0].remarks = remarks(out.mesh[0]);
   return out;
 }

@@ -239,7 +239,7 @@ void check_at_rest(const Scene& scene, const System& layout) {
 }
 
 SystemStaticResult system_at_rest(const SystemStaticParameters& settings,
-                                  const std::vector<ReducedBody>& bodies) {
+                                  const std::vector<ReducedBody>& bodies, double zone_factor) {
   SystemModel system = elastic_system(settings, bodies);
   hold_output(system);
   SystemStaticResult drawn;
@@ -250,15 +250,13 @@ SystemStaticResult system_at_rest(const SystemStaticParameters& settings,
   of.reserve(system.mesh.size());
   if (settings.fidelity.width != WidthModel::one) drawn.settings.fidelity.contact = ContactModel::line;
   for (size_t m = 0; m < system.mesh.size(); ++m) of.push_back(mesh_parameters(drawn, m));
-  SystemStaticResult out = record_rest(system, settings.section, of, 1, true);
+  SystemStaticResult out = record_rest(system, settings.section, of, zone_factor, true);
   out.settings = drawn.settings;
   out.drawing = std::move(drawn.drawing);
   take_masses(settings, bodies, out.settings.layout);
-  for (const System::Body& body : settings.layout.bodies) out.body_names.push_back(body.name);
-  for (size_t m = 0; m < out.mesh.size(); ++m) {
-    out.mesh_names.push_back(mesh_name(settings.layout, m));
-    add_harmonics(out.mesh[m]);
-  }
+  out.body_names = body_names_of(settings.layout);
+  out.mesh_names = mesh_names_of(settings.layout);
+  for (StaticResult& mesh : out.mesh) add_harmonics(mesh);
   if (system.slides()) take_efficiency(out);
   out.remarks = remarks_on_train(out);
   if (system.slides()) out.remarks.push_back(remark_on_friction(out));

@@ -44,7 +44,9 @@ void take_masses(const SystemStaticParameters& settings, const std::vector<Reduc
 // What holds a carrier, T_c = -sum (P - C) x F over its planets, and its bearing force, sum F, F what a planet presses its pin
 // with, follow from the planets. Where all axes of a train but those of planets are one, sum of sense T over bodies on the
 // ground is 0.
+//
+// zone_factor: as pair_at_rest() takes it.
 SystemStaticResult system_at_rest(const SystemStaticParameters& settings,
-                                  const std::vector<ReducedBody>& bodies);
+                                  const std::vector<ReducedBody>& bodies, double zone_factor = 1);
 
 }  // namespace whine

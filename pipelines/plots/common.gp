@@ -19,7 +19,6 @@ of_marks = 'set palette defined (0 "#1f4e9c", 0.5 "#1a9d8f", 1 "#e6a817")'
 
 # the step of numbers of an axis: 1, 2 or 5 times a power of ten and not below x > 0
 step_of(x) = 10 ** floor(log10(x)) * (x / 10 ** floor(log10(x)) > 5 ? 10 : x / 10 ** floor(log10(x)) > 2 ? 5 : x / 10 ** floor(log10(x)) > 1 ? 2 : 1)
-letter(n) = word("a b c d e f g h i j", int(n))  # of a panel
 
 foot_name = "note%d"
 foot_rows(n) = sprintf("rows_" . foot_name, n)

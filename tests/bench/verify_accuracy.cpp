@@ -90,10 +90,8 @@ Scene random_pair(std::mt19937& random, bool helical) {
     scene.damping.rayleigh_stiffness = 2 * 0.05 / (2 * std::numbers::pi * f);
     scene.damping.undamped_depth = module / 6;
     scene.operation = {
-        {between(150e3, 400e3) * module / 3e-3 * width * module * scene.gears[0].design.teeth / 2},
-        0.25 * f,
-        1.4 * f,
-        0.05 * f};
+        {0.25 * f, 1.4 * f, 0.05 * f},
+        {between(150e3, 400e3) * module / 3e-3 * width * module * scene.gears[0].design.teeth / 2}};
     try {
       check_geometry(scene, [](const auto&...) { return std::string(); });
       return scene;

@@ -7,8 +7,10 @@
 // Writes  <output>.{tsv,svg,png}, and the same table in words on standard output
 // Example: whine-work-precision --scene data/scenes/first-pair.toml --output out/figures/work-precision
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,7 @@ namespace {
 using namespace whine;
 
 constexpr double kPercent = 100, kDefaultAccepted = 0.01;
+constexpr std::array kLevels{0.08, 0.04, 0.02, 0.01, 0.005, 0.003};
 
 class Front {
  public:
@@ -35,18 +38,31 @@ class Front {
     log_line("work-precision: the reference took ", shown(fine_.seconds, 3), " s");
   }
 
-  void add(const Scene& scene, double setting, FigureBlock& block) const {
+  // {setting, CPU (s), error (%), bound (%)}
+  std::vector<double> row(const std::string& name, double setting, const Scene& scene) {
     const SceneRun own = run_scene(scene);
     const RmsDifference off = difference(own.response, fine_.response);
-    const double bound = discretisation_plan(scene, no_key).error();
-    block.rows.push_back({setting, own.seconds, off.most * kPercent, bound * kPercent});
-    std::printf("%-44s %10.4g %9.2f %9.3f %9.3f   %.0f Hz, %d speeds\n", block.name.c_str(), setting,
-                own.seconds, off.most * kPercent, bound * kPercent, off.mesh_frequency, off.compared);
+    slowest_ = std::min(slowest_, off.mesh_frequency);
+    fastest_ = std::max(fastest_, off.mesh_frequency);
+    std::vector<double> out{setting, own.seconds, off.most * kPercent,
+                            discretisation_plan(scene, no_key).error() * kPercent};
+    std::printf("%-44s %10.4g %9.2f %9.3f %9.3f   %.0f Hz, %d speeds\n", name.c_str(), setting, out[1],
+                out[2], out[3], off.mesh_frequency, off.compared);
     std::fflush(stdout);
+    return out;
+  }
+
+  std::string note(const Scene& scene) const {
+    const double bound = discretisation_plan(reference_of(scene, kLevels.back()), no_key).error();
+    return text("errors: against settings for ", shown(bound * kPercent, 2), " % (",
+                std::lround(fine_.seconds), " s of CPU), largest of ", kJudgedSpeedsOfScene,
+                " rising speeds, here at ", shown(slowest_, 4),
+                slowest_ < fastest_ ? text(" to ", shown(fastest_, 4)) : "", " Hz");
   }
 
  private:
   SceneRun fine_;
+  double slowest_ = std::numeric_limits<double>::infinity(), fastest_ = 0;  // Hz: where errors are largest
 };
 
 FigureBlock block_of(const std::string& name, const std::string& setting) {
@@ -81,30 +97,39 @@ std::vector<Alone> alone_of(const Scene& scene) {
 
 void measure(const Scene& whole, Figure& figure) {
   const Scene scene = at_few_speeds(whole);
-  constexpr std::array kLevels{0.08, 0.04, 0.02, 0.01, 0.005, 0.003};
-  const Front front(scene, kLevels.back());
+  Front front(scene, kLevels.back());
   std::printf("%-44s %10s %9s %9s %9s\n", "", "setting", "CPU (s)", "error (%)", "bound (%)");
   const double accepted = scene.time.accepted_error > 0 ? scene.time.accepted_error : kDefaultAccepted;
-  FigureBlock accepting_all = block_of("settings for an accepted error", "%");
-  for (const double error : kLevels) front.add(accepting(scene, error), error * kPercent, accepting_all);
-  figure.blocks.push_back(accepting_all);
   const Scene chosen = accepting(scene, accepted);
+  FigureBlock all = block_of("settings for an accepted error", "%"),
+              ring = block_of(text("chosen for ", shown(accepted * kPercent, 3), " %"), "%"),
+              own = block_of("the scene as it stands", "1");
+  ring.rows = {front.row(ring.name, accepted * kPercent, chosen)};
+  for (const double error : kLevels)
+    all.rows.push_back(error == accepted ? ring.rows.front()
+                                         : front.row(all.name, error * kPercent, accepting(scene, error)));
+  figure.blocks.push_back(all);
   for (const Alone& one : alone_of(chosen)) {
     if (!one.acts) continue;
     FigureBlock block = block_of(one.name + " alone", one.unit);
     for (const double finer : {0.5, 1.0, 2.0}) {
       Scene other = chosen;
       const double setting = one.scale(other, finer);
-      front.add(other, setting, block);
+      if (finer == 1) {  // what was measured once stands once in the figure: times scatter
+        block.rows.push_back(ring.rows.front());
+        block.rows.back()[0] = setting;
+      } else {
+        block.rows.push_back(front.row(block.name, setting, other));
+      }
     }
     figure.blocks.push_back(block);
   }
-  FigureBlock ring = block_of(text("chosen for ", shown(accepted * kPercent, 3), " %"), "%"),
-              own = block_of("the scene as it stands", "1");
-  front.add(chosen, accepted * kPercent, ring);
-  front.add(scene, 0, own);
+  own.rows = {front.row(own.name, 0, scene)};
   figure.blocks.push_back(ring);
   figure.blocks.push_back(own);
+  figure.notes = {
+      front.note(scene),
+      "one setting alone: half and twice as fine as chosen; elements by their number, periodicity 8 times"};
 }
 
 void body(int argc, char** argv) {
@@ -116,9 +141,6 @@ void body(int argc, char** argv) {
   options.parse(argc, argv);
 
   Figure figure;
-  figure.notes = {text("against settings for a quarter of the least accepted error; ", kJudgedSpeedsOfScene,
-                       " speeds, rising"),
-                  "one setting alone: half, once and twice as fine, elements by their number"};
   const Scene scene = read_scene(path);
   if (scene.rigid() || !(scene.operation.frequency_to > 0))
     fail(Failure::input, path, ": work-precision is of elastic gears in motion; give [operation] speeds");

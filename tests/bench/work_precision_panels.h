@@ -4,14 +4,16 @@
 #include <array>
 #include <cmath>
 
+#include "base/error.h"
+#include "base/format.h"
 #include "report/figures.h"
 
 namespace whine {
 
-// Of a figure with blocks of {setting, CPU (s), error (%), bound (%)}: first those of accepted errors, then those of single settings, then
-// "chosen" and "scene", of a point each.
+// Of a figure with blocks of {setting, CPU (s), error (%), bound (%)}: first those of accepted errors (%: their setting), then those of
+// single settings, then "chosen" and "scene", of a point each. A front below the dashed line keeps what is accepted.
 inline void add_work_precision_panel(Figure& figure) {
-  constexpr std::array kMarks{7, 5, 9, 11, 13, 4, 8};
+  constexpr std::array kMarks{7, 5, 9, 11, 13, 2, 8};
   constexpr std::array kColours{kBlue, kVermilion, kGreen, kOrange, kPurple, kDark, kGrey};
   Panel panel{.x = {.label = "CPU of meshes, reductions, statics and sweep (s)", .log = true},
               .y = {.label = "Largest error of the RMS (%)", .log = true},
@@ -36,6 +38,20 @@ inline void add_work_precision_panel(Figure& figure) {
       most = std::max(most, row[2]);
     }
   }
+  const FigureBlock& front = figure.blocks.front();
+  for (const auto& row : front.rows) {
+    panel.words.push_back({text(shown(row[0], 2), " %"), row[1], row[0]});
+    most = std::max(most, row[0]);
+  }
+  panel.curves.push_back({.block = front.name,
+                          .x = 2,
+                          .y = 1,
+                          .style = PanelStyle::line_points,
+                          .colour = kGrey,
+                          .label = "what is accepted",
+                          .width = 1.5,
+                          .dash = 2,
+                          .mark = 6});
   panel.y.from = 0.5 * least;
   panel.y.to = 2 * most;
   figure.panels.push_back(panel);

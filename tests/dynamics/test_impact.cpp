@@ -60,15 +60,15 @@ StaticResult coarse_statics(double torque, int strips = 15) {
   return static_transmission(coarse_body(), coarse_body(), settings, torque);
 }
 
-ImpactParameters coarse_impact() {
-  ImpactParameters settings;
+SweepParameters coarse_impact() {
+  SweepParameters settings;
   settings.inertia[0] = settings.inertia[1] = 0.0148;
   settings.damping.rayleigh_stiffness = 7.7e-6;
   settings.reference_torque = 100;
   return settings;
 }
 
-ImpactResult ring(const ImpactParameters& settings, double torque_step = ImpactPlan().torque_step) {
+ImpactResult ring(const SweepParameters& settings, double torque_step = ImpactPlan().torque_step) {
   return impact(coarse_body(), coarse_body(), coarse_statics(150), 463e6, settings, {torque_step, 16},
                 no_report);
 }
@@ -101,7 +101,7 @@ struct UnequalPair {
   }
   ReducedBody pinion, wheel;
   StaticResult statics;
-  ImpactParameters settings;
+  SweepParameters settings;
 };
 
 double furthest(const VectorXd& a, const VectorXd& b) {
@@ -221,7 +221,7 @@ TEST_CASE(
         Level{BodyModel::relaxed, Integrator::exact}, Level{BodyModel::quasi_static, Integrator::exact},
         Level{BodyModel::rigid, Integrator::exact}}) {
     INFO(level.body << " " << level.integrator);
-    ImpactParameters settings = coarse_impact();
+    SweepParameters settings = coarse_impact();
     settings.fidelity.body = level.body;
     settings.fidelity.integrator = level.integrator;
     // Small enough that hardly a strip comes or goes.
@@ -364,13 +364,13 @@ TEST_CASE(
 
 TEST_CASE("calibration: the factor that it finds gives the ratio, what cannot be is rejected") {
   const StaticResult statics = coarse_statics(150);
-  const auto calibrated = [&](const ImpactParameters& settings, double ratio, ContactState state) {
+  const auto calibrated = [&](const SweepParameters& settings, double ratio, ContactState state) {
     return calibrate(coarse_body(), coarse_body(), statics, 463e6, settings, {1e-6, 16}, ratio, state,
                      no_report);
   };
   for (const auto& [state, row] :
        {std::pair{ContactState::one, 0}, {ContactState::two, 1}, {ContactState::mean, 2}}) {
-    ImpactParameters settings = coarse_impact();
+    SweepParameters settings = coarse_impact();
     const ImpactResult found = calibrated(settings, 0.05, state);
     settings.damping.rayleigh_stiffness = found.damping.rayleigh_stiffness;
     CHECK(ring(settings).states.damping_ratio[row] == relative(0.05, 1e-6));
@@ -378,7 +378,7 @@ TEST_CASE("calibration: the factor that it finds gives the ratio, what cannot be
     settings.damping.rayleigh_stiffness = 1e-5;
     CHECK(calibrated(settings, 0.05, state).damping.rayleigh_stiffness == found.damping.rayleigh_stiffness);
   }
-  ImpactParameters settings = coarse_impact();
+  SweepParameters settings = coarse_impact();
   CHECK(names(message_of([&] { calibrated(settings, 0.05, ContactState::three); }), {"one", "two", "mean"}));
   CHECK(names(message_of([&] { calibrated(settings, 0.9, ContactState::two); }), {"largest", "near"}));
   CHECK(names(message_of([&] { calibrated(settings, 1.5, ContactState::two); }), {0, 1, 1.5}));

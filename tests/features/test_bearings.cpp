@@ -267,7 +267,7 @@ TEST_CASE("ring-down on bearings: the decay has the eigenvalue that the frozen c
   rest.contact.positions = 64;
   rest.contact.strips = 15;
   const StaticResult statics = at_rest(rest);
-  ImpactParameters settings;
+  SweepParameters settings;
   settings.inertia[0] = settings.inertia[1] = 0.0148;
   settings.damping.rayleigh_stiffness = 7.7e-6;
   settings.reference_torque = 100;

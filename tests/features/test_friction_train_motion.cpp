@@ -122,7 +122,7 @@ struct Both {
           inertia(of_gears),
           integrator(method),
           dynamics(model, [&] {
-            ImpactParameters settings;
+            SweepParameters settings;
             settings.inertia = inertia;
             settings.damping.rayleigh_stiffness = eta();
             settings.fidelity = {BodyModel::modal, ContactModel::line, integrator};

@@ -374,7 +374,7 @@ TEST_CASE(
     "what a sweep leaves out of a carrier that turns: forces at the highest speed, by which gear stands still") {
   const auto of = [](const Drives& drives) {
     SweepResult sweep;
-    sweep.train.layout = train_with(drives, 0).layout;
+    sweep.layout = train_with(drives, 0).layout;
     sweep.mesh_frequency = Eigen::Vector2d(3000, 1000);
     sweep.mesh_force.assign(2, MatrixRM::Constant(4, 6, 500));
     sweep.mesh_force[0].col(1).setConstant(2000);

@@ -11,10 +11,12 @@
 #include "relative.h"
 #include "signal/response.h"
 #include "studies/branch.h"
+#include "studies/error_budget.h"
 #include "studies/fold_curves.h"
 #include "studies/runup.h"
 #include "studies/sweep.h"
 #include "system/statics.h"
+#include "system/system_rest.h"
 
 using namespace whine;
 
@@ -240,4 +242,66 @@ TEST_CASE(
   };
   CHECK(names(refusal(FoldQuantity::tip_relief), {"tip_relief", "pairs"}));
   CHECK(names(refusal(FoldQuantity::bearing_stiffness), {"bearing_stiffness", "stiffness_N_um"}));
+}
+
+TEST_CASE("a pair as a train: its error budget is that of the pair, and names its gears") {
+  const Both both(2300, 3000, 5.5e-6);
+  StaticParameters settings = paper_statics(64);
+  settings.fidelity.contact = ContactModel::line;
+  settings.contact = both.train.contact;
+  // The driven hub of a pair is held: off the line of action the levers of its teeth are not in the ratio of the torques.
+  SystemStaticParameters held = both.train;
+  held.layout.drives[1].kind = System::DriveKind::held;
+  const ErrorBudgetResult pair = error_budget(body(), body(), settings, 150),
+                          train = error_budget(held, {body(), body()});
+  CHECK(train.torque == 150);
+  CHECK(train.gear_names == std::vector<std::string>{"pinion", "wheel"});
+  for (const auto part : {&ErrorBudgetResult::refinement, &ErrorBudgetResult::choice}) {
+    const StaticChanges &one = pair.*part, &other = train.*part;
+    REQUIRE(other.entry == one.entry);
+    REQUIRE(one.mean_stiffness_change.size() > 2);
+    constexpr double kRoundOff = 1e-8;  // of statics that are solved to 1e-9
+    for (const auto change : {&StaticChanges::mean_stiffness_change, &StaticChanges::peak_to_peak_change,
+                              &StaticChanges::pressure_change, &StaticChanges::root_stress_change})
+      CHECK((other.*change - one.*change).cwiseAbs().maxCoeff() < kRoundOff);
+    CHECK((other.harmonic_change - one.harmonic_change).cwiseAbs().maxCoeff() < kRoundOff);
+  }
+  CHECK((train.root.stress - pair.root.stress).cwiseAbs().maxCoeff() < 1e-8 * pair.root.stress.maxCoeff());
+}
+
+TEST_CASE("three gears in line: changes of the error budget are the largest of both meshes") {
+  Scene scene;
+  for (const char* name : {"first", "idler", "last"}) {
+    SceneGear gear;
+    gear.name = name;
+    gear.design = paper_gear();
+    gear.material = paper_steel();
+    gear.total_inertia = 0.0148;
+    scene.gears.push_back(gear);
+  }
+  scene.meshes.resize(2);
+  for (size_t m = 0; m < 2; ++m) {
+    scene.meshes[m].spec = paper_statics(16).mesh;
+    scene.meshes[m].spec.gear = {scene.gears[m].name, scene.gears[m + 1].name};
+  }
+  scene.meshes[1].spec.modification[1].crowning = 5e-6;
+  scene.drives = {{"first", System::DriveKind::torque, 150, 0}, {"last", System::DriveKind::held, 0, 0}};
+  scene.contact = {8, 16};
+  SystemStaticParameters settings = static_parameters_of(scene, layout_of(scene));
+  settings.fidelity.contact = ContactModel::strips;
+  const std::vector<ReducedBody> bodies(3, body());
+  const ErrorBudgetResult budget = error_budget(settings, bodies);
+  CHECK(budget.gear_names == std::vector<std::string>{"first", "idler", "last"});
+  CHECK(budget.root.stress.cols() == 3);
+  REQUIRE(budget.refinement.entry.starts_with("strips 8 to 16, "));
+  REQUIRE(budget.refinement.entry.find("search range 1 to 2 times") != std::string::npos);
+  const SystemStaticResult base = system_at_rest(settings, bodies);
+  settings.contact.strips = 16;
+  const SystemStaticResult finer = system_at_rest(settings, bodies);
+  double most = 0;
+  for (size_t m = 0; m < 2; ++m) {
+    const double change = finer.mesh[m].mean_stiffness / base.mesh[m].mean_stiffness - 1;
+    if (std::abs(change) > std::abs(most)) most = change;
+  }
+  CHECK(budget.refinement.mean_stiffness_change[0] == relative(most, 1e-9));
 }

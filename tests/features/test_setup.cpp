@@ -141,12 +141,12 @@ TEST_CASE(
   CHECK(says(setup_remarks(s, {0.0148, 0.0148}, left_out, {}), "the default, is for the gears of P2000"));
 
   const ReducedBody& body = paper_body(40e-3, 0.8e-3);
-  ImpactParameters settings;
+  SweepParameters settings;
   settings.inertia[1] = 0.0148;
   as_drawn(settings, {body.inertia, body.inertia});
   CHECK(settings.inertia[0] == relative(1.001 * body.inertia, 1e-12));
   CHECK(settings.inertia[1] == 0.0148);
-  ImpactParameters by_outline;
+  SweepParameters by_outline;
   as_outlined(by_outline, at_rest(40e-3));
   CHECK(by_outline.inertia[0] == relative(body.inertia, 0.01));
 }

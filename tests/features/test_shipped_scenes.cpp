@@ -95,7 +95,7 @@ TEST_CASE("the page of the scenes shows what fzg-c and nasa28 give at rest and b
     const StaticResult s = static_transmission(driver, driven, statics, torque);
     const StaticResult reference =
         static_transmission(driver, driven, statics, scene.operation.torques.front());
-    ImpactParameters settings;
+    SweepParameters settings;
     for (size_t g = 0; g < kSides; ++g) settings.inertia[g] = scene.gear(scene.mesh().gear[g]).total_inertia;
     settings.damping = scene.damping;
     settings.fidelity = scene.fidelity;

@@ -29,7 +29,7 @@ Scene paper_scene(double accepted) {
   }
   scene.meshes.resize(1);
   scene.mesh() = paper_statics(8).mesh;
-  scene.operation = {{100}, 600, 4000, 20};
+  scene.operation = {{600, 4000, 20}, {100}};
   scene.time.accepted_error = accepted;
   return scene;
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "dynamics/period_map.h"
 #include "gear/iso6336.h"
 #include "hard_cases/gears.h"
 #include "hard_cases/table.h"
@@ -77,6 +78,15 @@ void near_grazing(Table& table) {
                beyond = largest_multiplier(pair, settled(parts + 0.02), 1e-8);
   table.at_most("largest multiplier 0.02 Hz below the speed at which teeth begin to part", 1, before);
   table.relative("the same 0.02 Hz above: a force without a step keeps it continuous", before, beyond, 0.02);
+
+  RollingPeriodMap map(pair.dynamics, 128);
+  map.set_parameter(parts + 0.02);
+  map.apply(map.flat(settled(parts + 0.02)));
+  const double exact = general_eigenvalues(map.tangent()).values.cwiseAbs().maxCoeff();
+  table.relative("the same by the exact tangent", exact, beyond, 1e-4);
+  for (const int cut : {31, 64, 100})
+    table.relative(text("the same of the period cut at the end of step ", cut), exact,
+                   general_eigenvalues(map.tangent_from(cut)).values.cwiseAbs().maxCoeff(), 1e-8);
 }
 
 void damping_of_all_sizes(Table& table) {

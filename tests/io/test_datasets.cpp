@@ -159,7 +159,7 @@ TEST_CASE("the summary names the key numbers in an engineer's units") {
   CHECK(contains(statics, "463.5 N/µm"));
   CHECK(contains(statics, "5 µm mean, 2 µm peak to peak"));
   ErrorBudgetResult budget = any<ErrorBudgetResult>();
-  budget.mesh.gear = {"pinion", "wheel"};
+  budget.gear_names = {"pinion", "wheel"};
   const auto changes_of = [](const char* entries, const Eigen::VectorXd& mean) {
     return StaticChanges{entries, mean, mean, {}, MatrixRM::Constant(mean.size(), 5, 1e-4)};
   };

@@ -498,7 +498,7 @@ TEST_CASE("stage parameters read back bit by bit") {
   CHECK(sweep.time.periodicity == s.time.periodicity);
   CHECK(sweep.time.steady_state == s.time.steady_state);
 
-  const ImpactParameters impact = read_impact_parameters(file.path(impact_parameters(s), "impact.toml"));
+  const SweepParameters impact = read_impact_parameters(file.path(impact_parameters(s), "impact.toml"));
   CHECK(impact.inertia[0] == 0.0148);
   CHECK(impact.inertia[1] == 0.0148);
   CHECK(impact.damping.rayleigh_mass == 0.7);

@@ -114,7 +114,7 @@ TEST_CASE("readings: the largest tip radius of a rack is where its tooth becomes
 TEST_CASE("readings: eigenvalues of the frozen contact stand for ring-downs in a search") {
   const ReducedBody& body = paper_body(40e-3, 1e-3, 21);
   const StaticResult statics = static_transmission(body, body, paper_statics(64), 150);
-  ImpactParameters settings = paper_sweep(0, 0, 0);
+  SweepParameters settings = paper_sweep(0, 0, 0);
   settings.damping.rayleigh_mass = 300;
   ImpactPlan plan;
   plan.phases = 16;

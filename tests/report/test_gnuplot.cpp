@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "figure_block.h"
 #include "gear/pair.h"
+#include "gear/train.h"
 #include "own_folder.h"
 #include "paper/beside.h"
 #include "paper/table1.h"
@@ -179,7 +180,7 @@ TEST_CASE("templates: above a picture stand its title and its scene, in two line
       if (at != std::string::npos) CHECK(line.find("\\n", at) == std::string::npos);
     }
   }
-  CHECK(templates > 5);
+  CHECK(templates > 3);
 }
 
 TEST_CASE(
@@ -377,7 +378,7 @@ SweepResult some_sweep(Direction direction, double factor, int multiple = 1) {
   s.mesh_frequency = Eigen::Vector2d(1000, 1100);
   if (direction == Direction::down) s.mesh_frequency.reverseInPlace();
   s.period_multiple = Eigen::Vector2i::Constant(multiple);
-  s.name_parts();
+  s.place_pair(pair_system(s));
   s.transmission_error.assign(2, MatrixRM(n * multiple, 1));
   s.mesh_force = s.transmission_error;
   s.pair = Eigen::Vector3i(-1, 0, 1);

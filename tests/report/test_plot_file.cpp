@@ -115,7 +115,7 @@ TEST_CASE(
   REQUIRE(found.size() == 4);
   CHECK(contains(
       found[0].text,
-      "\nrelief [µm]\ttorque [N m]\tpeak to peak [µm]\tharmonic 1 [µm]\tharmonic 2 [µm]\tharmonic 3 [µm]\n0\t20\t"));
+      "\nrelief [µm]\ttorque [N m]\tpeak to peak [µm]\tharmonic 1 [µm]\tharmonic 2 [µm]\tharmonic 3 [µm]\trelief_low [µm]\trelief_high [µm]\ttorque_low [N m]\ttorque_high [N m]\n0\t20\t"));
   CHECK(std::count(found[0].text.begin(), found[0].text.end(), '\n') ==
         static_cast<std::ptrdiff_t>(figure.notes.size() + 2) + map.torque.size() * map.relief.size());
   // A relief that hardly helps: values within half a per cent over a range of places, the least of them by chance.

@@ -13,12 +13,14 @@
 #include "base/error.h"
 #include "figure_block.h"
 #include "gear/body_inertia.h"
+#include "gear/train.h"
 #include "io/publish.h"
 #include "io/scene_keys.h"
 #include "paper/beside.h"
 #include "paper_pair.h"
 #include "refusal.h"
 #include "relative.h"
+#include "report/engineering_axes.h"
 #include "report/figure_list.h"
 #include "report/measured_errors.h"
 #include "report/report.h"
@@ -68,7 +70,7 @@ SweepResult some_sweep(Direction direction, int speeds = 4) {
   if (direction == Direction::down) s.mesh_frequency.reverseInPlace();
   s.pair.resize(1);
   s.pair << 0;
-  s.name_parts();
+  s.place_pair(pair_system(s));
   s.transmission_error.assign(static_cast<size_t>(speeds), MatrixRM(2 * kSteps, 1));
   s.mesh_force = s.transmission_error;
   s.period_multiple = Eigen::VectorXi::Ones(speeds);
@@ -141,32 +143,45 @@ TEST_CASE(
     "waterfall: lines stand at the orders of what is known, half orders where the motion repeats after two periods") {
   const Figure figure = waterfall_figure({some_sweep(Direction::up)});
   std::map<std::pair<double, double>, double> lines;
-  for (const auto& row : block(figure, "spectra up").rows) lines[{row[0], row[1]}] = row[2];
+  for (const auto& row : block(figure, "spectra up").rows)
+    if (!row.empty()) lines[{row[0], row[1]}] = row[2];
   CHECK(lines.size() == 4 * 2 + 1);
   for (const double f : {1000.0, 1100.0, 1200.0, 1300.0}) {
     CHECK(lines.at({f, f}) == relative(3, 1e-12));
     CHECK(lines.at({f, 2 * f}) == relative(2, 1e-12));
   }
   CHECK(lines.at({1100, 550}) == relative(1, 1e-12));
-  const FigureBlock& orders = block(figure, "orders up");
-  REQUIRE(orders.rows.size() == 4);
-  for (const auto& row : orders.rows) {
-    CHECK(row[1] == relative(3, 1e-12));
-    CHECK(row[2] == relative(2, 1e-12));
-  }
+  // An order that is there at two speeds is not drawn between them.
+  SweepResult apart = some_sweep(Direction::up);
+  apart.period_multiple[3] = 2;
+  apart.transmission_error[3] = apart.transmission_error[1];
+  const std::vector<std::vector<double>> rays = block(waterfall_figure({apart}), "spectra up").rows;
+  const auto half =
+      std::find_if(rays.begin(), rays.end(), [](const auto& row) { return !row.empty() && row[1] == 550; });
+  REQUIRE(rays.end() - half > 2);
+  CHECK(half[1].empty());
+  CHECK(half[2][0] == 1300);
+  // In dB re 10 µm all lie below 0, and all are drawn.
+  Figure levels = figure;
+  apply({"", 1e-5}, levels);
+  CHECK(block(levels, "spectra up").columns[2] == "amplitude [dB re 10 µm RMS]");
+  CHECK(block(levels, "spectra up").rows[0][2] < 0);
+  CHECK(levels.panels[0].colours->to > levels.panels[0].colours->from);
+  CHECK(levels.panels[0].curves[1].where == 0);
   // Of many speeds those with the largest RMS: every second one of 320, but that of the half order.
   const Figure many = waterfall_figure({some_sweep(Direction::down, 320)});
   std::set<double> shown;
-  for (const auto& row : block(many, "spectra down").rows) shown.insert(row[0]);
+  for (const auto& row : block(many, "spectra down").rows)
+    if (!row.empty()) shown.insert(row[0]);
   CHECK(shown.size() == 160);
   CHECK(shown.count(32800) == 1);
-  for (const auto& [name, value] : many.numbers)
-    if (name == "speed_step") CHECK(value == relative(31900 / 159.0, 1e-12));
-  // Of two sweeps the rising one comes first, each with blocks of its own.
+  // Of two sweeps the rising one comes first, each with blocks of its own. Lines of orders end at the frame.
   const Figure both = waterfall_figure({some_sweep(Direction::down), some_sweep(Direction::up)});
   REQUIRE(both.blocks.size() == 4);
   CHECK(both.blocks[0].rows == block(figure, "spectra up").rows);
-  CHECK(block(both, "orders down").rows.front()[0] == 1300);
+  for (const PanelAxis& frequency : {both.panels[0].x, both.panels[1].x})
+    for (const auto& row : block(both, "orders down").rows)
+      if (!row.empty()) CHECK(row[1] <= frequency.to * (1 + 1e-12));
   CHECK_THROWS_AS(waterfall_figure({some_sweep(Direction::up), some_sweep(Direction::up)}), Error);
   SweepResult heavier = some_sweep(Direction::down);
   heavier.torque = 300;
@@ -423,6 +438,7 @@ TEST_CASE("report: measured errors stand beside numbers of their torque, rounded
   ErrorBudgetResult budget;
   static_cast<GearPairParameters&>(budget) = content.pair();
   budget.torque = 150;
+  budget.gear_names = content.statics[0].settings.gears();
   budget.refinement = {"strips, elements",
                        Eigen::Vector2d(1e-3, -2e-3),
                        Eigen::Vector2d(3e-3, 1e-3),

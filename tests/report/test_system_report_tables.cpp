@@ -262,10 +262,10 @@ TEST_CASE(
   SweepResult sweep;
   sweep.mesh_frequency = a.mesh_frequency;
   sweep.mesh_force.assign(4, MatrixRM::Constant(2, meshes, 1000));
-  for (System::Body& body : a.train.layout.bodies)
+  for (System::Body& body : a.layout.bodies)
     if (body.bearing.elastic()) body.bearing.damping = 100;
   const auto said = [&](const std::string& words) {
-    sweep.train.layout = a.train.layout;
+    sweep.layout = a.layout;
     a.remarks = remarks_on_carriers(sweep);
     for (const Remark& one : remarks_on_sweep(r, a))
       if (contains(one.words, words)) return one.warning ? 2 : 1;
@@ -277,7 +277,7 @@ TEST_CASE(
   CHECK(said("peaks at 1200 Hz are one speed wide") == 2);
   a.dte_rms(1, 1) = 1.1e-6;
   CHECK(said("one speed wide") == 0);
-  for (System::Body& body : a.train.layout.bodies)
+  for (System::Body& body : a.layout.bodies)
     if (body.name == "planet2") body.bearing = {1e8, 0, 1};
   CHECK(said("no damping_Ns_m in the [[bearing]] of planet2:") == 1);
   // The ring is held, and the carrier; then the carrier is let go.
@@ -285,8 +285,8 @@ TEST_CASE(
   sweep.mesh_force.assign(4, MatrixRM::Constant(2, meshes, 1e9));
   CHECK(said("In a machine in which ring stands still") == 1);
   sweep.mesh_force.assign(4, MatrixRM::Constant(2, meshes, 1000));
-  std::erase_if(a.train.layout.drives, [&](const System::Drive& drive) {
-    return a.train.layout.bodies[static_cast<size_t>(drive.body)].kind == System::BodyKind::carrier;
+  std::erase_if(a.layout.drives, [&](const System::Drive& drive) {
+    return a.layout.bodies[static_cast<size_t>(drive.body)].kind == System::BodyKind::carrier;
   });
   CHECK(said("rpm at 1300 Hz, ring being held: centrifugal forces on its planets of") == 1);
 }
@@ -310,10 +310,10 @@ TEST_CASE("figures of motion set only motions of one system beside each other, o
     CHECK(names(message_of_input([&] { system_sweep_figure(changed); }), fields));
     CHECK(names(message_of_input([&] { branch_figure(branch, changed); }), fields));
   };
-  said([](ResponseResult& c) { c.train.layout.bodies[0].teeth = 28; }, {"two", "systems"});
-  said([](ResponseResult& c) { c.train.layout.bodies[0].name = "other"; }, {"two", "systems"});
+  said([](ResponseResult& c) { c.layout.bodies[0].teeth = 28; }, {"two", "systems"});
+  said([](ResponseResult& c) { c.layout.bodies[0].name = "other"; }, {"two", "systems"});
   said([](ResponseResult& c) { c.drive[0] = 401; }, {"torque", "sun", 400, 401});
-  said([](ResponseResult& c) { c.train.damping.rayleigh_stiffness = 3e-6; }, {"damping", "2e-06", "3e-06"});
+  said([](ResponseResult& c) { c.damping.rayleigh_stiffness = 3e-6; }, {"damping", "2e-06", "3e-06"});
   said([](ResponseResult& c) { c.direction = Direction::up; }, {"up"});
 }
 

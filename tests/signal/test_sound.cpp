@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "gear/train.h"
 #include "io/artifacts.h"
 #include "io/runup_file.h"
 #include "io/transfer_function.h"
@@ -237,8 +238,7 @@ RunupResult some_runup(double seconds, double amplitude, Direction direction = D
   a.mesh_acceleration = (a.ramp.to - a.ramp.from) / seconds;
   a.sample_rate = 48000;
   a.pair = Eigen::VectorXi{{0}};
-  a.body_names = {"pinion", "wheel"};
-  a.mesh_names = {"pinion-wheel"};
+  a.place_pair(pair_system(a));
   a.input = "pinion";
   const auto n = static_cast<Index>(std::lround(seconds * a.sample_rate));
   RunupSamples& s = a.samples;

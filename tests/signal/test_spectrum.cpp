@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "gear/train.h"
 #include "refusal.h"
 #include "relative.h"
 #include "signal/jumps.h"
@@ -46,6 +47,9 @@ SweepResult small_sweep() {
   s.natural_frequency = 2950;
   s.time.steps_per_period = 32;  // rows of two periods, as long as the longest orbit
   s.torque = 150;
+  s.mesh.gear = {"pinion", "wheel"};
+  s.mesh.centre_distance = 0.15;
+  s.place_pair(pair_system(s));
   s.direction = Direction::down;
   const int n = 64;
   s.mesh_frequency = Eigen::VectorXd{{2000, 1900}};

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "dynamics/impact.h"
+#include "figure_block.h"
 #include "io/artifacts.h"
 #include "io/scene.h"
 #include "io/scene_keys.h"
@@ -159,7 +160,7 @@ TEST_CASE(
   ImpactPlan impact_plan;
   impact_plan.phases = 16;
   for (int c = 0; c < 2; ++c) {
-    ImpactParameters ring = motion();
+    SweepParameters ring = motion();
     ring.fidelity.contact = ContactModel::strips;
     ring.damping.rayleigh_stiffness = map.rayleigh_stiffness[c];
     const ImpactResult decay =
@@ -263,8 +264,8 @@ TEST_CASE("the map's figure says what its data say") {
   CHECK(says(figure, "P2000 prints 3.00 and 4.85; corner contact 2.4; no corner contact 2.4 and 2.4"));
   // First harmonic 0.1 of the mean; loss ends between 7 and 9 % at one torque, between 5 and 7 % at two.
   CHECK(says(figure, "above 1.67 (median of 3 limits"));
-  CHECK(figure.blocks[0].rows.size() == 11);
-  CHECK(figure.blocks[1].rows[0][6] == 2);
+  CHECK(block(figure, "panel1").rows.size() == 11);
+  CHECK(block(figure, "panel2").rows[0][6] == 2);
   for (JumpMapResult& a : maps)
     if (!a.mesh.corner.enabled && a.torque == 600) a.loss_to.setZero();
   figure = jump_map_figure(maps, {}, jumps_of_paper());

@@ -124,15 +124,15 @@ TEST_CASE(
     for (Index m = 0; m < 6; ++m) CHECK(falling.dte_rms(3 - i, m) == relative(rising.dte_rms(i, m), 1e-3));
     // Nothing turns faster and faster: torques on what stands on the ground, drives and what holds.
     double all = 0;
-    for (size_t b = 0; b < up.train.layout.bodies.size(); ++b)
-      if (const System::Body& body = up.train.layout.bodies[b]; body.on == System::kGround)
+    for (size_t b = 0; b < up.layout.bodies.size(); ++b)
+      if (const System::Body& body = up.layout.bodies[b]; body.on == System::kGround)
         all += body.sense * (up.drive[static_cast<Index>(b)] + up.holding_torque(i, static_cast<Index>(b)));
     CHECK(std::abs(all) < 1e-3 * 300);
     CHECK(std::abs(up.holding_torque(i, 4)) == relative(300.0 * 100 / 26, 1e-3));
     CHECK((up.holding_torque.row(i).segment(1, 3).array() == 0).all());
     // The sun is driven by its torque, in the mean of the vibration, too; sharing is equal in the mean.
     CHECK(up.mesh_force[static_cast<size_t>(i)].leftCols(3).rowwise().sum().mean() ==
-          relative(300 / up.train.layout.bodies[0].radius, 0.01));
+          relative(300 / up.layout.bodies[0].radius, 0.01));
     // Pins and sun and ring: the carrier has the sum of its pins.
     CHECK(up.bearing_force[5][static_cast<size_t>(i)] == up.bearing_force[1][static_cast<size_t>(i)] +
                                                              up.bearing_force[2][static_cast<size_t>(i)] +
@@ -246,7 +246,7 @@ TEST_CASE("losses of a planetary train in motion: the work of friction, and what
   CHECK(a.energy_imbalance[0] < 1e-9);
   Eigen::VectorXd torque = a.holding_torque.row(0).transpose();
   torque[0] = 300;
-  const double by_torques = efficiency_at_rest(a.train.layout, torque, -1);
+  const double by_torques = efficiency_at_rest(a.layout, torque, -1);
   // What dampers take of the vibration comes from the drives, too.
   double damped_away = 0;
   for (const Index line :
@@ -295,7 +295,7 @@ TEST_CASE(
   // While the tooth is in mesh.
   Index at = 0;
   residual_signal(a.transmission_error[0].col(0), kPlanet).cwiseAbs().maxCoeff(&at);
-  const int tooth = a.train.layout.meshes[0].side[1].tooth(-static_cast<int>(at) / 48);
+  const int tooth = a.layout.meshes[0].side[1].tooth(-static_cast<int>(at) / 48);
   const int ahead = ((tooth - kTooth) % kPlanet + kPlanet) % kPlanet;
   CHECK(std::min(ahead, kPlanet - ahead) <= 1);
   // N: the line at an order of the force on the ring, in the frame of the ring, over 3700 mesh periods.
@@ -306,13 +306,13 @@ TEST_CASE(
     for (Index i = 0; i < all; ++i) {
       const double mesh_periods = static_cast<double>(i) / 48;
       const Index row = i % force.rows();
-      sum += std::complex(force(row, 0), force(row, 1)) *
-             std::polar(
-                 1.0, 2 * std::numbers::pi * mesh_periods * (a.train.layout.bodies[5].sense / 100.0 - order));
+      sum +=
+          std::complex(force(row, 0), force(row, 1)) *
+          std::polar(1.0, 2 * std::numbers::pi * mesh_periods * (a.layout.bodies[5].sense / 100.0 - order));
     }
     return std::abs(sum) / static_cast<double>(all);
   };
-  const double pass = a.train.layout.bodies[5].sense / 100.0;
+  const double pass = a.layout.bodies[5].sense / 100.0;
   for (const double order : {1 - 1.0 / kPlanet, 1 + 1.0 / kPlanet}) {
     CHECK(line(order + pass) > 1e4 * line(order));
     CHECK(line(order + pass) > 1e4 * line(order + 2 * pass));
@@ -323,7 +323,7 @@ TEST_CASE("a sweep of a train whose rows do not fit each other is rejected with 
   const SweepResult good = small_sweep(small_system(), Direction::up);
   const auto said = [&](const auto& spoil) {
     SweepResult a = good;
-    a.train.time.steps_per_period = 4;
+    a.time.steps_per_period = 4;
     spoil(a);
     return message_of_input([&] { response(a); });
   };
@@ -331,9 +331,9 @@ TEST_CASE("a sweep of a train whose rows do not fit each other is rejected with 
   CHECK(names(said([](SweepResult& a) { a.mesh_force.pop_back(); }), {"mesh_force", 1, 2}));
   CHECK(names(said([](SweepResult& a) { a.tooth_load[1].resize(3, 12); }), {"tooth_load", 3, 4}));
   CHECK(names(said([](SweepResult& a) { a.bearing_force.pop_back(); }), {"bearing_force", 5, 6}));
-  CHECK(names(said([](SweepResult& a) { a.train.section.pop_back(); }), {"[[mesh]]", 5, 6}));
-  CHECK(names(said([](SweepResult& a) { a.train.section[0] = -1; }), {"[[mesh]]", -1}));
-  CHECK(names(said([](SweepResult& a) { a.train.time.steps_per_period = 3; }), {4, 3}));
+  CHECK(names(said([](SweepResult& a) { a.section.pop_back(); }), {"[[mesh]]", 5, 6}));
+  CHECK(names(said([](SweepResult& a) { a.section[0] = -1; }), {"[[mesh]]", -1}));
+  CHECK(names(said([](SweepResult& a) { a.time.steps_per_period = 3; }), {4, 3}));
   CHECK(names(said([](SweepResult& a) { a.period_multiple[0] = 2; }), {"period_multiple", 2}));
 }
 
