@@ -27,6 +27,16 @@ inline Material paper_steel() {
   return {207e9, 0.3, 7600, true};
 }
 
+// [gear.<name>] with it.
+inline SceneGear paper_scene_gear(const std::string& name) {
+  SceneGear out;
+  out.name = name;
+  out.design = paper_gear();
+  out.material = paper_steel();
+  out.total_inertia = 0.0148;
+  return out;
+}
+
 // The paper's gear at the default discretisation but for the number of modes, which statics do not see.
 inline const ReducedBody& paper_body(double bore = 40e-3, double element = 0.4e-3, int modes = 5) {
   return kept_body(paper_gear(50, bore), paper_steel(), element, modes);

@@ -18,7 +18,8 @@ struct LayoutPlace {
 };
 
 // /body/... and /mesh/...; of drives what is held, and whether one torque, a parameter of the file, loads the gears of a pair. A reader
-// rejects names, senses, teeth and places that no system has, and meshes of what is not two gears. Flanks and tooth numbers of the sides are left out.
+// rejects names, senses, teeth and places that no system has, and meshes of what is not two gears. Flanks and tooth numbers of the sides
+// are left out.
 void describe_layout(Codec& codec, System& layout, const LayoutPlace& place = {});
 // (mesh) number of its [[mesh]], from 0.
 void describe_sections(Codec& codec, std::vector<int>& section, const LayoutPlace& place = {});

@@ -15,13 +15,6 @@ namespace {
 constexpr double kDepth = 80;     // dB below the largest level: the foot of an axis of levels
 constexpr double kSilence = 300;  // dB below it: what stands for a level of nothing
 
-// Numbers of templates that are mesh frequencies, by how they begin.
-bool is_speed(const std::string& number) {
-  constexpr std::array kSpeeds{"natural_frequency", "frequency_from", "frequency_to", "speed_step",
-                               "resonance"};
-  return std::any_of(kSpeeds.begin(), kSpeeds.end(), [&](const char* s) { return number.starts_with(s); });
-}
-
 // Columns against which figures of motions are drawn; other frequencies stay.
 bool is_speed_column(const std::string& column) {
   constexpr std::array kSpeeds{"mesh_frequency [Hz]", "jump_frequency [Hz]", "jump_width [Hz]",
@@ -74,8 +67,6 @@ void in_rpm(const Shaft& shaft, Figure& figure) {
       for (auto& row : block.rows)
         if (!row.empty()) row[c] *= scale;
     }
-  for (auto& [name, value] : figure.numbers)
-    if (is_speed(name)) value *= scale;
   for (std::string& words : figure.captions) words = speeds_in_rpm(words, scale);
   constexpr std::string_view against = "against mesh frequency";
   if (const size_t at = figure.title.find(against); at != std::string::npos)
@@ -103,8 +94,6 @@ void in_rpm(const Shaft& shaft, Figure& figure) {
       if (rule.axis == 'x') rule.at *= scale;
     for (PanelWords& words : panel.words) words.x *= scale;
   }
-  figure.numbers.emplace_back("speed_scale", scale);
-  figure.words.emplace_back("speed_label", label);
 }
 
 // "dB re 1e-06 m" reads as "dB re 1 µm".

@@ -66,8 +66,6 @@ std::string prelude(const Figure& figure, const std::string& tsv_path, const std
                  "); notes = ", captions.size(), "; ");
   script += text("tsv = ", gnuplot_string(plain_path(tsv_path)),
                  "; title = ", gnuplot_string(fitting(figure.title, 1)), "; ");
-  // What engineering_axes() changes.
-  script += "speed_label = 'Mesh frequency (Hz)'; speed_scale = 1.0; ";
   std::string heading = fitting(without_markup(figure.title), 1), scenes;
   for (const std::string& scene : figure.scenes)
     scenes += (scenes.empty() ? "" : "; ") + without_markup(scene);

@@ -43,31 +43,29 @@ double best_relief(const VectorXd& relief, const Eigen::RowVectorXd& value) {
   return std::clamp(at, relief[low], relief[high]);
 }
 
-}  // namespace
-
-namespace {
-
 std::vector<double> edges_of(const VectorXd& middle) {
   return cell_edges({middle.begin(), middle.end()});
 }
 
-// Of that length of relief every quantity over relief and torque, the first the peak to peak, the last two of motion.
+constexpr int kPeakToPeak = 3, kEdges = 7, kDynamicRms = 11;  // columns of the map
+
+// Of that length of relief every quantity over relief and torque, and the edges of its cells.
 FigureBlock map_block(const HarrisMapResult& map, size_t length) {
   FigureBlock out{"map", {"relief [µm]", "torque [N m]", "peak to peak [µm]"}, {}};
   for (int n = 0; n < 3; ++n) out.columns.push_back(text("harmonic ", n + 1, " [µm]"));
-  if (!map.dynamic_rms.empty())
-    out.columns.insert(out.columns.end(), {"dte_rms [µm]", "at mesh_frequency [Hz]"});
   for (const char* edge : {"relief_low [µm]", "relief_high [µm]", "torque_low [N m]", "torque_high [N m]"})
     out.columns.emplace_back(edge);
+  if (!map.dynamic_rms.empty())
+    out.columns.insert(out.columns.end(), {"dte_rms [µm]", "at mesh_frequency [Hz]"});
   const std::vector<double> x = edges_of(map.relief * kMicro), y = edges_of(map.torque);
   for (Index t = 0; t < map.torque.size(); ++t)
     for (Index r = 0; r < map.relief.size(); ++r) {
       std::vector<double> row{map.relief[r] * kMicro, map.torque[t], map.peak_to_peak[length](t, r) * kMicro};
       for (const auto& harmonic : map.harmonic) row.push_back(harmonic[length](t, r) * kMicro);
-      if (!map.dynamic_rms.empty())
-        row.insert(row.end(), {map.dynamic_rms[length](t, r) * kMicro, map.worst_frequency[length](t, r)});
       const auto i = static_cast<size_t>(r), k = static_cast<size_t>(t);
       row.insert(row.end(), {x[i], x[i + 1], y[k], y[k + 1]});
+      if (!map.dynamic_rms.empty())
+        row.insert(row.end(), {map.dynamic_rms[length](t, r) * kMicro, map.worst_frequency[length](t, r)});
       out.rows.push_back(row);
     }
   return out;
@@ -78,7 +76,6 @@ Panel map_panel(const HarrisMapResult& map, const MatrixRM& values, int column, 
                 const std::string& label, Figure& figure) {
   constexpr int kLines = 10;
   const std::vector<double> x = edges_of(map.relief * kMicro), y = edges_of(map.torque);
-  const int first = map.dynamic_rms.empty() ? 7 : 9;  // column of the edges
   const double most = values.maxCoeff() * kMicro;
   LevelLines lines = level_lines("lines of " + label, {"relief [µm]", "torque [N m]"}, map.relief * kMicro,
                                  map.torque, values * kMicro, kLines);
@@ -87,7 +84,7 @@ Panel map_panel(const HarrisMapResult& map, const MatrixRM& values, int column, 
               .y = {.label = "Torque (N m)", .from = y.front(), .to = y.back()},
               .curves = {{.block = "map",
                           .style = PanelStyle::cells,
-                          .box = {first, first + 1, first + 2, first + 3},
+                          .box = {kEdges, kEdges + 1, kEdges + 2, kEdges + 3},
                           .heat = column},
                          {.block = lines.lines.name, .colour = kMedium, .width = 1}},
               .key = PanelKey::none,
@@ -151,8 +148,9 @@ Figure harris_map_figure(const HarrisMapResult& map) {
   figure.blocks.push_back(map_block(map, length));
   figure.columns = 2;
   const MatrixRM& at_rest = map.peak_to_peak[length];
-  figure.panels = {map_panel(map, at_rest, 3, "peak-to-peak transmission error", "Peak to peak (µm)", figure),
-                   cusp_panel(map, starts, figure)};
+  figure.panels = {
+      map_panel(map, at_rest, kPeakToPeak, "peak-to-peak transmission error", "Peak to peak (µm)", figure),
+      cusp_panel(map, starts, figure)};
   FigureBlock ridge{"best relief", {"relief [µm]", "torque [N m]"}, {}};
   for (Index t = 0; t < map.torque.size(); ++t)
     ridge.rows.push_back({best_relief(map.relief, at_rest.row(t)) * kMicro, map.torque[t]});
@@ -173,7 +171,7 @@ Figure harris_map_figure(const HarrisMapResult& map) {
   figure.panels[0].key = PanelKey::below;
   if (!map.dynamic_rms.empty())
     figure.panels.push_back(
-        map_panel(map, map.dynamic_rms[length], 7, "RMS at the worst speed", "RMS (µm)", figure));
+        map_panel(map, map.dynamic_rms[length], kDynamicRms, "RMS at the worst speed", "RMS (µm)", figure));
   return figure;
 }
 

@@ -22,8 +22,8 @@ struct StaticChanges {
   Eigen::VectorXd peak_to_peak_change;    // (entry) 1, relative, of the transmission error
   // (entry) 1, relative, of the largest pressure inside a flank; empty: not known, or no contact stays inside
   Eigen::VectorXd pressure_change;
-  MatrixRM
-      harmonic_change;  // (entry, harmonic 1..) 1, five as far as the positions resolve them, of the transmission error, over its first harmonic
+  // (entry, harmonic 1..) 1, of the transmission error, over its first harmonic; five, or what the positions resolve
+  MatrixRM harmonic_change;
   // (entry) 1, relative, of the largest root stress of both gears of a mesh: the change that is larger; empty: not known
   Eigen::VectorXd root_stress_change = {};
   // (entry) 1, relative, of K_Hbeta of the reference pair at mesh phase 0; empty: of one slice over the face

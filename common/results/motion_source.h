@@ -16,8 +16,8 @@ struct MotionSource : MotionParameters {
   System layout;              // with the inertias and masses that were used
   Eigen::VectorXd drive;      // (body) N m: torque of its drive; 0 where none gives a torque
   double axis_frequency = 0;  // Hz, of a train: see axis_frequency() of dynamics/system_coordinates.h
-  std::vector<std::string> mesh_names,
-      body_names;  // (mesh) "sun-planet1", the driving and the driven body; (body)
+  // (mesh) "sun-planet1", names of the driving and the driven body; (body)
+  std::vector<std::string> mesh_names, body_names;
 
   bool of_train() const { return layout.load == System::Load::drives; }
   Eigen::Index meshes() const { return static_cast<Eigen::Index>(layout.meshes.size()); }

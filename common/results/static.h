@@ -159,8 +159,8 @@ struct StaticResult : GearPairParameters {
 // static.h5: meshes, bodies and what they have in common. Frame of a train: that of the carriers, which do not turn in it. A pair has one
 // mesh and the bodies driver and driven.
 struct SystemStaticResult {
-  SystemStaticParameters
-      settings;  // of a train with the inertias and masses of the bodies where the scene gives none
+  // Inertias and masses of the layout of a train that the scene leaves out are those of the bodies.
+  SystemStaticParameters settings;
   std::vector<BodyParameters> drawing;  // [gear] of settings.body
   bool of_train() const { return settings.layout.load == System::Load::drives; }
   std::vector<std::string> mesh_names, body_names;  // "sun-planet1"; bodies

@@ -75,9 +75,9 @@ double of_root_stress(const Outcome& to, const Outcome& from) {
 StaticChanges changes(const AlternativeList& others, const Outcomes& reference) {
   const auto count = static_cast<Eigen::Index>(others.size());
   const auto all = [&](const auto& known) { return std::all_of(reference.begin(), reference.end(), known); };
-  const bool pressure = all([](const Outcome&o) { return o.pressure > 0; }),
-             root_stress = all([](const Outcome&o) { return o.root_stress.size() > 0; }),
-             load_factor = all([](const Outcome&o) { return o.load_factor > 0; });
+  const bool pressure = all([](const auto&o) { return o.pressure > 0; }),
+             root_stress = all([](const auto&o) { return o.root_stress.size() > 0; }),
+             load_factor = all([](const auto&o) { return o.load_factor > 0; });
   StaticChanges result;
   result.order.setZero(count);
   result.mean_stiffness_change.resize(count);
@@ -117,13 +117,14 @@ struct RestSettings {
   double zone_factor = 1;
 };
 
-// Gears at rest, solved in other ways than the settings say; solve: the meshes.
+// Gears at rest, solved in other ways than the settings say.
 struct Alternatives {
   const std::vector<ReducedBody>& bodies;
   RestSettings settings;
   std::function<SystemStaticResult(const std::vector<ReducedBody>&, const RestSettings&)> solve;
-  std::function<StaticResult(const StaticResult&)> next_width_of = {};  // of pairs
-  std::vector<size_t> loaded = {};                                      // meshes that carry a load
+  // The next level over the face beside the given one; trains have none.
+  std::function<StaticResult(const StaticResult&)> next_width_of = {};
+  std::vector<size_t> loaded = {};  // meshes that carry a load
 
   bool one_slice() const { return settings.fidelity.width == WidthModel::one; }
   bool strips() const { return one_slice() && settings.fidelity.contact == ContactModel::strips; }

@@ -37,14 +37,7 @@ struct Both {
     pair.time.min_sample_rate = 0;
     pair.reference_torque = 150;
     Scene scene;
-    for (const char* name : {"pinion", "wheel"}) {
-      SceneGear gear;
-      gear.name = name;
-      gear.design = paper_gear();
-      gear.material = paper_steel();
-      gear.total_inertia = 0.0148;
-      scene.gears.push_back(gear);
-    }
+    scene.gears = {paper_scene_gear("pinion"), paper_scene_gear("wheel")};
     scene.meshes.resize(1);
     scene.meshes[0].spec = paper_statics(64).mesh;
     scene.drives = {{"pinion", System::DriveKind::torque, 150, 0},
@@ -271,14 +264,7 @@ TEST_CASE("a pair as a train: its error budget is that of the pair, and names it
 
 TEST_CASE("three gears in line: changes of the error budget are the largest of both meshes") {
   Scene scene;
-  for (const char* name : {"first", "idler", "last"}) {
-    SceneGear gear;
-    gear.name = name;
-    gear.design = paper_gear();
-    gear.material = paper_steel();
-    gear.total_inertia = 0.0148;
-    scene.gears.push_back(gear);
-  }
+  for (const char* name : {"first", "idler", "last"}) scene.gears.push_back(paper_scene_gear(name));
   scene.meshes.resize(2);
   for (size_t m = 0; m < 2; ++m) {
     scene.meshes[m].spec = paper_statics(16).mesh;

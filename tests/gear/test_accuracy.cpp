@@ -19,14 +19,7 @@ constexpr double kDigits = 1e-9;  // settings are chosen to ten digits
 
 Scene paper_scene(double accepted) {
   Scene scene;
-  for (const char* name : {"pinion", "wheel"}) {
-    SceneGear gear;
-    gear.name = name;
-    gear.design = paper_gear();
-    gear.material = paper_steel();
-    gear.total_inertia = 0.0148;
-    scene.gears.push_back(gear);
-  }
+  scene.gears = {paper_scene_gear("pinion"), paper_scene_gear("wheel")};
   scene.meshes.resize(1);
   scene.mesh() = paper_statics(8).mesh;
   scene.operation = {{600, 4000, 20}, {100}};
