@@ -16,7 +16,7 @@ $(stress_benches): bench-stress-of-%: $(B)/bin/whine-bench-stress out/%/params/s
 bench-stress: $(stress_benches) ## root stress of two pairs at one position beside CalculiX, which `deps-bench` installs (SCENE: of its pair)
 
 .PHONY: bench-width
-bench-width: $(B)/bin/whine-bench-width ## beside CalculiX, which `deps-bench` installs: bodies over the face width, spur and helical, and the load over the face of a misaligned pair
+bench-width: $(B)/bin/whine-bench-width ## beside CalculiX, which `deps-bench` installs: bodies over the face width and their root stress, spur and helical, and the load over the face of a misaligned pair
 	@$< data/scenes/parker2000-misaligned.toml
 
 .PHONY: bench-levels

@@ -38,8 +38,8 @@ struct ArtifactKind {
 
 inline constexpr std::tuple kArtifactKinds{
     ArtifactKind<SectorGrid>{"mesh", 1, "mesh.h5", "mesh"},
-    ArtifactKind<ReducedBody>{"body", 6, "body.h5", "body"},
-    ArtifactKind<SystemStaticResult>{"static", 12, "static.h5", "static"},
+    ArtifactKind<ReducedBody>{"body", 7, "body.h5", "body"},
+    ArtifactKind<SystemStaticResult>{"static", 13, "static.h5", "static"},
     ArtifactKind<ErrorBudgetResult>{"error_budget", 7, "error_budget.h5", "error_budget"},
     ArtifactKind<LoadedResult>{"loaded", 3, "loaded_<phase>.h5", "loaded_*"},
     ArtifactKind<ImpactResult>{"impact", 5, "impact.h5", "impact"},

@@ -82,6 +82,11 @@ void describe_width(Codec& c, ReducedBody& a) {
   c(w.helix, "/width/helix", "m-1", kSigned, "",
     "turn (rad) of the section per length along the axis, of a right-hand gear above 0");
   for (const char* axis : {"width_position", "loaded_width_position"}) c.axis(axis, points * all);
+  const auto stations = static_cast<Eigen::Index>(a.root_angle.size());
+  c.axis("root_width_position", stations * all);
+  c(w.root_stress, "/width/root_stress", "Pa m N-1", kStressPerForce,
+    "root_offset root_width_position loaded_width_position",
+    "stress across the helix along the driving flank's root per normal force on a unit of face width, between Legendre polynomials over the width; of the teeth of /root_stress/per_force");
   c(w.flexibility, "/width/flexibility", "m2 N-1", kFlexibility,
     "width_offset width_position loaded_width_position",
     "inward normal displacement per normal force on a unit of face width, between Legendre polynomials over the width at the points of the flank table, of the teeth from the loaded one on counter-clockwise; of the loaded tooth less the plane flexibility");

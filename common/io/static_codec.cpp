@@ -300,23 +300,53 @@ void describe_reference_contact(Codec& c, ReferenceContact& a) {
   c(a.approach, at + "approach", "m", kLength, "", "transmission error at this phase with strips");
 }
 
-// A member of FaceLoad, [phase] (pair, slice) of each mesh, as [phase] (mesh, pair and slice).
-void describe_slices(Codec& c, SystemStaticResult& a, std::vector<MatrixRM> FaceLoad::*of, const Dataset& d) {
+// What of a mesh is [phase] (pair, place over the face), as [phase] (mesh, pair and place).
+template <class Of>
+void describe_over_face(Codec& c, SystemStaticResult& a, Of&& of, const Dataset& d) {
   const auto count = static_cast<Index>(a.mesh.size());
-  std::vector<MatrixRM> values(a.mesh.empty() ? 0 : (a.mesh[0].face.*of).size());
+  std::vector<MatrixRM> values(a.mesh.empty() ? 0 : of(a.mesh[0]).size());
   for (size_t i = 0; i < values.size(); ++i) {
-    values[i].resize(count, (a.mesh[0].face.*of)[i].size());
+    values[i].resize(count, of(a.mesh[0])[i].size());
     for (Index m = 0; m < count; ++m)
-      values[i].row(m) = (a.mesh[static_cast<size_t>(m)].face.*of)[i].reshaped<Eigen::RowMajor>().transpose();
+      values[i].row(m) =
+          of(a.mesh[static_cast<size_t>(m)])[i].template reshaped<Eigen::RowMajor>().transpose();
   }
   c.dataset(d, &values);
   for (Index m = 0; c.in() && m < count; ++m) {
     StaticResult& mesh = a.mesh[static_cast<size_t>(m)];
-    std::vector<MatrixRM>& to = mesh.face.*of;
+    std::vector<MatrixRM>& to = of(mesh);
     to.clear();
     for (const MatrixRM& from : values)
       to.emplace_back(from.row(m).reshaped<Eigen::RowMajor>(mesh.pair.size(), Eigen::AutoSize));
   }
+}
+
+// Of bodies in three dimensions.
+void describe_face_roots(Codec& c, SystemStaticResult& all) {
+  OverMeshes over(c, all);
+  if (!c.optional("/root_load_factor", !all.mesh.empty() && all.mesh[0].face.root_load_factor.size() > 0))
+    return;
+  for (size_t g = 0; g < kSides; ++g) {
+    const std::string station = text(kSideOf[g], "_station");
+    over(
+        [g](StaticResult & s) -> auto& { return s.face.root_position[g]; },
+        text("/face_root_position/", kSideOf[g]), "m", kLength, station + " mesh",
+        "places over the face of a gear, from the middle of the common face as face_position");
+    describe_over_face(
+        c, all, [g](StaticResult & s) -> auto& { return s.face.root_stress[g]; },
+        {text("/face_root_stress/", kSideOf[g]), "Pa",
+         "largest stress across the helix along the root beside the loaded flank of each pair's tooth, over the face, tension positive",
+         "mesh_phase mesh tooth_pair " + station, kStress, "sum of width/root_stress of body.h5 times load"});
+  }
+  over(
+      [](StaticResult & s) -> auto& { return s.face.root_load_factor; }, "/root_load_factor", "1", kPositive,
+      kMeshSide,
+      "largest root stress over the face over its mean on the common face, of the tooth of root_stress_max",
+      "K_Fbeta");
+  over(
+      [](StaticResult & s) -> auto& { return s.face.root_stress_error; }, "/root_stress_error", "Pa", kStress,
+      kMeshSide,
+      "what root_stress_max changes by with half as many points more and with polynomials of two degrees less");
 }
 
 // In slices over the face.
@@ -324,17 +354,18 @@ void describe_face(Codec& c, SystemStaticResult& all) {
   OverMeshes over(c, all);
   if (!c.optional("/line_load", !all.mesh.empty() && !all.mesh[0].face.none())) return;
   const char* const slices = "mesh_phase mesh tooth_pair slice";
-  describe_slices(c, all, &FaceLoad::line_load,
-                  {"/line_load", "N m-1",
-                   "normal force of each tooth pair per length of face, at the slices along its contact line",
-                   slices, kStiff});
-  describe_slices(
-      c, all, &FaceLoad::position,
+  describe_over_face(
+      c, all, [](StaticResult & s) -> auto& { return s.face.line_load; },
+      {"/line_load", "N m-1",
+       "normal force of each tooth pair per length of face, at the slices along its contact line", slices,
+       kStiff});
+  describe_over_face(
+      c, all, [](StaticResult & s) -> auto& { return s.face.position; },
       {"/face_position", "m",
        "place of each slice along the axes, from the middle of the common face towards the viewer who sees the driver turn counter-clockwise",
        slices, kLength});
-  describe_slices(
-      c, all, &FaceLoad::width,
+  describe_over_face(
+      c, all, [](StaticResult & s) -> auto& { return s.face.width; },
       {"/slice_width", "m",
        "length of face that a slice stands for: weights of Gauss points on the contact line; 0: the pair does not touch",
        slices, kSize, "tooth_load = sum of line_load slice_width"});
@@ -358,6 +389,7 @@ void describe_face(Codec& c, SystemStaticResult& all) {
   number(
       &FaceLoad::load_factor_error, "/face_load_factor_error", "1", kPositive,
       "what face_load_factor changes by with half as many points more and, on bodies in three dimensions, with polynomials of two degrees less");
+  describe_face_roots(c, all);
   int degree = all.mesh.empty() ? 0 : all.mesh[0].face.degree;
   c(degree, "/width_degree", "1", {0, kLargestDegree}, "",
     "degree of the polynomials over the face that bodies in three dimensions take part with; 0 of slices");

@@ -88,7 +88,7 @@ const std::vector<Row>& rows() {
       {"residual-signal", {train_in_slices}, "all teeth have one table"},
       {"teeth",
        {pair_in_slices, train_in_slices, pair_of_bodies},
-       "root stress and ISO 6336 are of spur gears under even load"},
+       "load sharing, ISO 6336 and root stress in motion are of spur gears under even load; reports and static.h5 of bodies in three dimensions have the root stress over the face"},
       {"error-budget", {differing, cracked}, "errors at rest are of teeth that are all alike"},
       {"teeth", {unlike_pair}, "load sharing and error budget are of intact, equal teeth"},
       {"impact branches fig05-branches fig07-branches multipliers fold-curves harris-map jump-map lumped width",

@@ -101,7 +101,7 @@ KeyList keys(BodyDiscretisation& b) {
 KeyList keys(WidthDiscretisation& w) {
   KeyList k("discretisation");
   k.add(&w.degree, "width_degree", kNone, "0", {1, 24, false, "a body of degree 0 is the plane one; 0 stands for that", true}, "degree of the polynomials over the face width by which a body has a third dimension, its material in plane strain; 0: a plane body, or with width = \"body\" what holds smooth loads to 0.1 %: 8 up to a width of 10 modules, 12 up to 15, beyond them 0.8 widths in modules, at most 24. Contact takes P <= sqrt(b / 2a) of them");
-  k.add(&w.section_size, "section_element_mm", kMillimetre, "module / 3", {0, 100, true}, "element size of the section that the third dimension is computed on, apart from element_mm: it hardly changes the result; of width_degree alone");
+  k.add(&w.section_size, "section_element_mm", kMillimetre, "module / 3", {0, 100, true}, "element size of the section that the third dimension is computed on, 0.4 of it on the roots, apart from element_mm: it hardly changes the result; of width_degree alone");
   return k;
 }
 

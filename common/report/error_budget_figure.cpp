@@ -52,7 +52,7 @@ std::vector<Judged> judged_of(const StaticChanges& c) {
                    kGreys.at(static_cast<size_t>(n)), c.harmonic_change.col(n)});
   for (const Judged& one : {Judged{"flank_pressure [%]", "flank pressure", kGreen, c.pressure_change},
                             Judged{"root_stress [%]", "root stress", kPurple, c.root_stress_change},
-                            Judged{"load_factor [%]", "K_{Hβ}", kPurple, c.load_factor_change}})
+                            Judged{"load_factor [%]", "K_{Hβ}", kOrange, c.load_factor_change}})
     if (one.change.size() > 0) out.push_back(one);
   return out;
 }
@@ -80,6 +80,7 @@ Figure error_budget_figure(const ErrorBudgetResult& budget) {
     const bool errors = changes == &budget.refinement;
     FigureBlock block{name, {"entry [1]"}, {}, "", "", true};
     const std::vector<Judged> judged = judged_of(*changes);
+    const double step = std::min(0.1, 0.9 / static_cast<double>(judged.size()));
     for (size_t k = 0; k < judged.size(); ++k) {
       block.columns.push_back(judged[k].column);
       panel.curves.push_back(
@@ -88,8 +89,9 @@ Figure error_budget_figure(const ErrorBudgetResult& budget) {
            .style = PanelStyle::bars,
            .colour = judged[k].colour,
            .label = errors ? judged[k].label : "",
-           .width = 0.095,
-           .shift = 0.1 * (static_cast<double>(k) - 4) + 1 + static_cast<double>(panel.x.names.size())});
+           .width = 0.95 * step,
+           .shift = step * (static_cast<double>(k) - 0.5 * (static_cast<double>(judged.size()) - 1)) + 1 +
+                    static_cast<double>(panel.x.names.size())});
     }
     std::string rest = changes->entry;
     for (Eigen::Index i = 0; i < changes->mean_stiffness_change.size(); ++i) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/units.h"
 #include "gear/contact_lines.h"
 
 namespace whine {
@@ -122,6 +123,46 @@ Panel flank_panel(const StaticResult& s, const GearPair& pair, const std::string
           .label = "Line load (N/mm)", .from = 0, .to = largest > 0 ? largest * kNewtonPerMillimetre : 1}};
 }
 
+// Of a gear at each place over its face: the largest root stress of all phases and teeth, all of it and the inner 90 %.
+void add_roots(const StaticResult& s, size_t g, const std::string& row, Panel& panel, Figure& figure) {
+  const FaceLoad& face = s.face;
+  const Eigen::VectorXd& z = face.root_position[g];
+  Eigen::VectorXd most = Eigen::VectorXd::Zero(z.size());
+  for (const MatrixRM& phase : face.root_stress[g])
+    most = most.cwiseMax(phase.colwise().maxCoeff().transpose());
+  const std::vector<std::string> columns{"face [mm]", "root_stress [MPa]"};
+  FigureBlock whole{text("root", row, " ", g + 1), columns, {}, "root stress" + row, s.mesh.gear[g]},
+      inner{text("inner root", row, " ", g + 1), columns, {}};
+  const double middle = 0.5 * (z[0] + z[z.size() - 1]), half = kClearOfCorners * (z[z.size() - 1] - middle);
+  for (Index k = 0; k < z.size(); ++k) {
+    whole.rows.push_back({z[k] * kMilli, most[k] * kInMegapascals});
+    if (std::abs(z[k] - middle) <= half * (1 + 1e-9)) inner.rows.push_back(whole.rows.back());
+  }
+  const auto i = static_cast<Index>(g);
+  panel.curves.push_back({.block = whole.name, .colour = curve_colour(g), .width = 1.4, .dash = 2});
+  panel.curves.push_back(
+      {.block = inner.name,
+       .colour = curve_colour(g),
+       .label = text(short_name(s.mesh.gear[g]), ": ", rounded(s.root_stress_max[i] * kInMegapascals, 1),
+                     " ± ", shown(face.root_stress_error[i] * kInMegapascals, 1), " MPa, K_{Fβ} ",
+                     rounded(face.root_load_factor[i], 2)),
+       .width = g == 0 ? 4.4 : 2.2});
+  figure.blocks.push_back(std::move(whole));
+  figure.blocks.push_back(std::move(inner));
+}
+
+Panel roots_panel(const StaticResult& s, const std::string& row, Figure& figure) {
+  Panel panel{
+      .heading = "root stress across the helix, largest of all mesh phases; broken: the ends of the face",
+      .x = {.label = "Along the face, from its middle (mm)"},
+      .y = {.label = "Root stress (MPa)", .from_zero = true},
+      .key = PanelKey::below,
+      .height = 300,
+      .wide = true};
+  for (size_t g = 0; g < kSides; ++g) add_roots(s, g, row, panel, figure);
+  return panel;
+}
+
 // Of each [[mesh]] the one with the largest line load; of those that are alike but for the phases that are computed, the first.
 std::vector<size_t> shown_meshes(const SystemStaticResult& all) {
   constexpr double kClearly = 1.01;
@@ -169,6 +210,7 @@ Figure flank_load_figure(const SystemStaticResult& all) {
           without_markup(name) + text(", ", rounded(s.torque, 1), " N m: ") + factor;
     figure.panels.push_back(
         pairs_panel(s, row, train ? "line load of " + name : "line load at mesh phase 0", figure));
+    if (s.face.root_load_factor.size() > 0) figure.panels.push_back(roots_panel(s, row, figure));
   }
   // One scale for all flanks.
   double most = 0;

@@ -213,7 +213,13 @@ std::string root_refinement_table(const ErrorBudgetResult& b) {
 
 std::string budget_table(const ErrorBudgetResult& b) {
   html::Rows rows;
-  const bool over_face = b.fidelity.width != WidthModel::one;
+  const bool over_face = b.fidelity.width != WidthModel::one,
+             roots = !over_face || b.refinement.root_stress_change.size() > 0;
+  std::vector<std::string> columns{
+      "", "change", "mean stiffness (%)", "peak to peak (%)", "harmonic 1 (%)", "flank pressure (%)"};
+  if (over_face) columns.emplace_back("K_Hβ (%)");
+  if (roots) columns.emplace_back("root stress (%)");
+  columns.emplace_back("order");
   const auto add = [&](const StaticChanges& changes, const std::string& what) {
     std::string rest = changes.entry;
     for (Index i = 0; i < changes.mean_stiffness_change.size(); ++i) {
@@ -228,7 +234,8 @@ std::string budget_table(const ErrorBudgetResult& b) {
         rows.back().push_back(i < change.size() ? percent(change[i]) : "–");
       };
       known(changes.pressure_change);
-      known(over_face ? changes.load_factor_change : changes.root_stress_change);
+      if (over_face) known(changes.load_factor_change);
+      if (roots) known(changes.root_stress_change);
       rows.back().push_back(i < changes.order.size() && changes.order[i] > 0 ? fixed(changes.order[i], 1)
                                                                              : "–");
       rest = comma == std::string::npos ? "" : rest.substr(comma + 2);
@@ -239,9 +246,7 @@ std::string budget_table(const ErrorBudgetResult& b) {
   return html::table(
              "What each refinement alone changes in the statics at " + torque_words(b.torque) +
                  ". With an order p the error is the change over 1 - 2^-p, else the change itself. Another model is no error of this one and in no sum.",
-             {"", "change", "mean stiffness (%)", "peak to peak (%)", "harmonic 1 (%)", "flank pressure (%)",
-              over_face ? "K_Hβ (%)" : "root stress (%)", "order"},
-             rows) +
+             columns, rows) +
          root_refinement_table(b) +
          (b.choice_missing.empty() ? "" : html::paragraph("Not computed: " + b.choice_missing + "."));
 }

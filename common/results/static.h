@@ -73,6 +73,9 @@ struct ReferenceContact {
   double approach = 0;         // m: the transmission error
 };
 
+// Share of the face, and of the path of contact, in which largest line loads and root stresses are read.
+inline constexpr double kClearOfCorners = 0.9;
+
 // Load over the face of a mesh in slices along its contact lines (system/face_contact.h); empty of one slice. z: m, from the middle of the
 // common face towards the viewer who sees the driver turn counter-clockwise.
 struct FaceLoad {
@@ -89,6 +92,13 @@ struct FaceLoad {
   int degree = 0;  // of the polynomials over the face, on bodies in three dimensions; 0 of slices
   // m2 N-1: least eigenvalue of local and body compliance between line loads, of all phases; above 0
   double least_eigenvalue = 0;
+  // Of bodies in three dimensions, else empty; z from the middle of the common face, over each gear's own. [gear] (station) m; [gear][phase]
+  // (pair, station) Pa: largest stress across the helix along the root beside the loaded flank, tension positive.
+  std::array<Eigen::VectorXd, 2> root_position;
+  std::array<std::vector<MatrixRM>, 2> root_stress;
+  // (gear) 1, K_Fbeta: largest over the face over the mean on the common face, of the tooth with the largest root stress. Pa: what that
+  // stress changes by with half as many points more and with two degrees less.
+  Eigen::VectorXd root_load_factor, root_stress_error;
   // Of all phases in the inner 90 % of face and path, N m-1 and m: largest line load, half-width of the widest contact.
   double line_load_max = 0, half_width_max = 0;
 
@@ -117,7 +127,7 @@ struct StaticResult : GearPairParameters {
   // (phase, pair) Pa, m: of contacts that stay inside the flank, of helical gears in the inner 90 % of face and path; 0 elsewhere
   MatrixRM contact_pressure, contact_half_width;
   // [gear] (phase, pair) Pa: largest tangential stress along the root beside the loaded flank of each pair's tooth, tension
-  // positive, under the loads of this mesh
+  // positive, under the loads of this mesh; of bodies in three dimensions across the helix, the largest over the face
   std::array<MatrixRM, 2> root_stress;
   Eigen::VectorXd root_stress_max;  // (gear) Pa: largest of these
   Eigen::VectorXd

@@ -23,6 +23,9 @@ struct WidthTables {
   // each point the polynomials 0 .. P. Offset 0: dC_ij = C_ij - delta_ij share C2, C2 the plane strain flexibility of the transverse
   // section on the same mesh, so that dC is smooth and holds no near field.
   std::vector<MatrixRM> flexibility;
+  // [offset + largest] (root degree + 1, flank degree + 1) Pa m N-1: stress across the helix at the driving root's points (root_position of the
+  // body), sigma(z) = sum_i P_i(z) sigma_i, of the tooth `offset` counter-clockwise of the loaded one.
+  std::vector<MatrixRM> root_stress;
 };
 
 }  // namespace whine

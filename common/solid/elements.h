@@ -69,6 +69,12 @@ SectionSystem assemble_section(const MatrixRM& node_position, const MatrixRMi& e
                                const Material& material, double helix, const Eigen::VectorXi& number,
                                int count);
 
+// Readings of displacements sum_j P_j(z) U_j of a prism, their polynomials over the face width those of base/legendre.h: coefficient i of
+// a reading is sum over j of (delta_ij value + slope int P_i P_j' dz)^T U_j. The transpose of one without slopes is a force.
+struct FaceFunctional {
+  SparseReal value, slope;  // (3 node, functional), unknowns x y z of each node; no columns: no slopes
+};
+
 // Least Jacobian determinant over corners and Gauss points of all elements, over the element's mean. 1; > 0
 // is needed.
 double least_jacobian(const MatrixRM& node_position, const MatrixRMi& element_node);

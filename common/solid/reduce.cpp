@@ -332,11 +332,10 @@ void store_compliance(const Reduction& r, const FlankLoads& loads, Harmonics& ha
 
 // m: size of the elements on the root that its stress is read from: that of the mesh, or less. Where the tangent turns by more
 // than 0.4 from one element to the next the root of a deep tooth is 2 % off with the load low on the flank.
-double element_for_root_stress(const SectorGrid& mesh) {
+double element_for_root_stress(const GearDesign& design, double size) {
   constexpr double kSharp = 0.25, kTurn = 0.4;  // modules, rad
-  const double radius = least_root_radius(ToothGeometry(mesh.design)),
-               size = mesh.discretisation.element_size;
-  return radius < kSharp * mesh.design.module ? std::min(kTurn * radius, size) : size;
+  const double radius = least_root_radius(ToothGeometry(design));
+  return radius < kSharp * design.module ? std::min(kTurn * radius, size) : size;
 }
 
 void store_root_stress(const Reduction& r, const FlankLoads& loads,
@@ -418,7 +417,9 @@ ReducedBody reduce(const SectorGrid& mesh, const Material& material, int modes) 
   Fields fields(mesh, body);
   store_modes(r, kept, fields, body);
   store_compliance(r, loads, harmonics, body);
-  if (const double element = element_for_root_stress(mesh); element < mesh.discretisation.element_size)
+  if (const double size = mesh.discretisation.element_size,
+      element = element_for_root_stress(mesh.design, size);
+      element < size)
     store_finer_root_stress(mesh, material, element, body);
   else
     store_root_stress(r, loads, harmonics.root_stress, body);
@@ -444,8 +445,11 @@ void add_width(const WidthDiscretisation& width, ReducedBody& body) {
   GearDesign intact = body.design;
   intact.crack = {};
   body.discretisation.width = width;
+  // With elements of a third of a module the root stress is 1.3 % too large, with 2/15 of it 0.1 %.
+  constexpr double kOnRoot = 0.4;
+  const double root = element_for_root_stress(intact, kOnRoot * width.section_size);
   body.width =
-      make_width_tables(make_sector_mesh(intact, {.element_size = width.section_size}), body.material,
+      make_width_tables(make_sector_mesh(intact, {.element_size = width.section_size}, root), body.material,
                         helix_twist(intact), width.degree, body.flank_position, body.offsets);
 }
 
@@ -453,7 +457,7 @@ double refine_root_stress(const SectorGrid& mesh, double share, ReducedBody& bod
   if (!(share > 0 && share < 1))
     fail(Failure::input, "elements on the root of ", share,
          " times their size; give a share between 0 and 1");
-  const double element = share * element_for_root_stress(mesh);
+  const double element = share * element_for_root_stress(mesh.design, mesh.discretisation.element_size);
   store_finer_root_stress(mesh, body.material, element, body);
   return element;
 }

@@ -116,15 +116,6 @@ struct RootReader::Side {
   std::vector<int> node;  // 2, or 3: start, end, middle; from the flank on
 };
 
-// The strain along the root at one place of a side: e_t = sum over k of slope[k] tangent . u_k.
-struct RootReader::Strain {
-  double arc_length = 0;  // m from the flank
-  double weight = 0;      // m: share of the arc length, up to a factor
-  Vec2 tangent = Vec2::Zero();
-  std::vector<int> node;
-  std::vector<double> slope;  // m-1
-};
-
 // The root of the driving flank.
 struct RootReader::Curve {
   std::vector<Side> side;
@@ -221,7 +212,6 @@ RootReader::RootReader(const SectorGrid& mesh, const Material& material, Roots r
       points_(root_points(tooth_, points)),
       moduli_(plane_strain_equivalent(material)) {
   const GaussRule fine = gauss_rule(6);
-  std::vector<Strain> strains;
   double length = 0, mouth = 0;
   const Curve root = curve();
   for (size_t k = 0; k < root.side.size(); ++k) {
@@ -244,25 +234,30 @@ RootReader::RootReader(const SectorGrid& mesh, const Material& material, Roots r
     for (const double a : best.point) {
       const SideShape shape = side_shape(side.node.size(), a);
       const Vec2 d = along(a);
-      Strain strain{length + length_to(a), d.norm(), d.normalized(), side.node, {}};
-      for (size_t k = 0; k < side.node.size(); ++k) strain.slope.push_back(shape.slope[k] / d.norm());
-      strains.push_back(std::move(strain));
+      Strain strain{length + length_to(a), d.norm(), Vec2::Zero(), d.normalized(), side.node, {}, {}};
+      for (size_t k = 0; k < side.node.size(); ++k) {
+        strain.place += shape.value[k] * Vec2(mesh.node_position.row(side.node[k]));
+        strain.value.push_back(shape.value[k]);
+        strain.slope.push_back(shape.slope[k] / d.norm());
+      }
+      strains_.push_back(std::move(strain));
     }
     length += length_to(1);
   }
   parted_ = mouth > 0;
-  const Eigen::MatrixXd fitting = fit(strains, length, mouth);
+  fitting_ = fit(strains_, length, mouth);
   const double modulus = moduli_.youngs_modulus / (1 - moduli_.poisson_ratio * moduli_.poisson_ratio);  // E'
   std::map<int, int> image;
   std::vector<Eigen::Triplet<double>> entries;
   for (int i = 0; i < points; ++i)
-    for (size_t g = 0; g < strains.size(); ++g) {
-      const Strain& s = strains[g];
+    for (size_t g = 0; g < strains_.size(); ++g) {
+      const Strain& s = strains_[g];
       for (size_t k = 0; k < s.node.size(); ++k) {
         const int node = s.node[k];
         if (sides_ == 2 && !image.contains(node)) image[node] = mirror_node(mesh, node);
         for (int c = 0; c < 2; ++c) {
-          const double value = fitting(i, static_cast<Eigen::Index>(g)) * modulus * s.slope[k] * s.tangent[c];
+          const double value =
+              fitting_(i, static_cast<Eigen::Index>(g)) * modulus * s.slope[k] * s.tangent[c];
           entries.emplace_back(i, 2 * node + c, value);
           if (sides_ == 2) entries.emplace_back(points + i, 2 * image.at(node) + c, c == 0 ? -value : value);
         }
@@ -270,6 +265,39 @@ RootReader::RootReader(const SectorGrid& mesh, const Material& material, Roots r
     }
   stress_.resize(sides_ * points, 2 * mesh.node_position.rows());
   stress_.setFromTriplets(entries.begin(), entries.end());
+}
+
+FaceFunctional RootReader::over_face(double helix) const {
+  const double nu = moduli_.poisson_ratio, modulus = moduli_.youngs_modulus / (1 - nu * nu);  // E'
+  std::vector<Eigen::Triplet<double>> values, slopes;
+  for (size_t g = 0; g < strains_.size(); ++g) {
+    const Strain& s = strains_[g];
+    // Tangents along the root and the helix; with l = |h|^2 and m = t . h, p = (t - m / l h) / |t - m / l h|.
+    const Eigen::Vector3d t(s.tangent.x(), s.tangent.y(), 0), h(-helix * s.place.y(), helix * s.place.x(), 1);
+    const double l = h.squaredNorm(), m = t.dot(h), square = 1 - m * m / l;
+    // sigma_p = a . u,s + b . u,z, u,z along the helix: e_ss = t . u,s, 2 e_sz = h . u,s + t . u,z, e_zz = h . u,z.
+    const Eigen::Vector3d a = modulus / square * (t - m / l * h),
+                          b = modulus / square * (m * m / (l * l) * h - m / l * t) + modulus * nu / l * h;
+    // u,z = du/dz + helix z x u in turned axes.
+    const Eigen::Vector3d turned = helix * Eigen::Vector3d(b.y(), -b.x(), 0);
+    for (size_t k = 0; k < s.node.size(); ++k) {
+      const Eigen::Vector3d value = s.slope[k] * a + s.value[k] * turned, slope = s.value[k] * b;
+      for (Eigen::Index i = 0; i < fitting_.rows(); ++i) {
+        const double share = fitting_(i, static_cast<Eigen::Index>(g));
+        for (int c = 0; c < 3; ++c) {
+          const int row = 3 * s.node[k] + c;
+          if (value[c] != 0) values.emplace_back(row, static_cast<int>(i), share * value[c]);
+          if (slope[c] != 0) slopes.emplace_back(row, static_cast<int>(i), share * slope[c]);
+        }
+      }
+    }
+  }
+  FaceFunctional out;
+  out.value.resize(3 * mesh_.node_position.rows(), fitting_.rows());
+  out.value.setFromTriplets(values.begin(), values.end());
+  out.slope.resize(out.value.rows(), out.value.cols());
+  out.slope.setFromTriplets(slopes.begin(), slopes.end());
+  return out;
 }
 
 MatrixRM RootReader::near_field(const FlankLoads& loads, const Eigen::VectorXd& xi) const {

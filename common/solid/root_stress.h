@@ -7,6 +7,10 @@
 // polynomials of degree 8 or less along the root: that evens out what elements at the corner of three blocks, in the middle of
 // the fillet, are off by (6 % beside it with elements of 0.8 mm at a module of 3 mm, with changing sign).
 //
+// Over the face width of a prism that turns with z by helix z, the free surface has two tangents: t along the root and h along the helix,
+// (-helix y, helix x, 1) in turned axes. Read is the stress across the helix, along p = t less its part along h, that of a spur gear along t:
+//   sigma_p = E' (e_p + nu e_h),   e_p = p . grad u . p,   e_h = h . grad u . h.
+//
 // In a loaded tooth with the near field subtracted the nodes hold w = u - u_hs (solid/flank_loads.h). What u_hs adds is in closed
 // form, with s_n and s_t its stresses normal to and along the root: sigma_t = E' e_t(w) + s_t - nu / (1 - nu) s_n (moduli of plane
 // strain).
@@ -50,13 +54,23 @@ class RootReader {
              int points = kRootPoints);
   // (root, 2 node) Pa m-1: of displacements of the nodes.
   const SparseReal& stress() const { return stress_; }
+  // The same over the face width, of the driving root of a sector whose sections turn by helix (rad m-1) in elements without half-planes:
+  // (3 node, root) Pa m-1 and Pa. The material in plane strain.
+  FaceFunctional over_face(double helix) const;
   // (root, load) Pa N-1: what the half-planes of `loads` at roll angles xi (rad) add in the loaded tooth, whose nodes hold
   // what holds_rest says.
   MatrixRM near_field(const FlankLoads& loads, const Eigen::VectorXd& xi) const;
 
  private:
   struct Side;
-  struct Strain;
+  // The strain along the root at one place of a side: e_t = sum over k of slope[k] tangent . u_k.
+  struct Strain {
+    double arc_length = 0;  // m from the flank
+    double weight = 0;      // m: share of the arc length, up to a factor
+    Vec2 place = Vec2::Zero(), tangent = Vec2::Zero();
+    std::vector<int> node;
+    std::vector<double> value, slope;  // 1, m-1
+  };
   struct Curve;
   Curve curve() const;
   // (root, strain) 1
@@ -67,6 +81,8 @@ class RootReader {
   ToothGeometry tooth_;
   RootPoints points_;
   PlaneModuli moduli_;
+  std::vector<Strain> strains_;
+  Eigen::MatrixXd fitting_;  // (root, strain) 1
   SparseReal stress_;
 };
 

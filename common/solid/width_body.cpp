@@ -14,6 +14,7 @@
 #include "solid/elements.h"
 #include "solid/factor.h"
 #include "solid/flank_loads.h"
+#include "solid/root_stress.h"
 #include "solid/width_tables.h"
 
 namespace whine {
@@ -37,12 +38,25 @@ std::vector<std::vector<Shape3d>> families(int degree, bool helical) {
 
 // The sector's section: free nodes in their order of elimination, those of the clockwise edge and then those of the other last.
 struct Section {
-  Section(const SectorGrid& mesh, const Material& material, double helix, const SparseReal& functional);
+  Section(const SectorGrid& mesh, const Material& material, double helix, const FaceFunctional& functional);
 
   Eigen::Index nodes = 0, edge = 0;  // free ones; those of one edge
   SectionSystem stiffness;
-  SparseReal load;  // (3 nodes, functional)
+  FaceFunctional load;
 };
+
+// The rows of nodes that have a number, in the order of the numbers.
+SparseReal of_nodes(const SparseReal& functional, const Eigen::VectorXi& number, Eigen::Index nodes) {
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<size_t>(functional.nonZeros()));
+  for (int k = 0; k < functional.outerSize(); ++k)
+    for (SparseReal::InnerIterator it(functional, k); it; ++it)
+      if (const int node = number[it.row() / 3]; node >= 0)
+        entries.emplace_back(3 * node + static_cast<int>(it.row() % 3), k, it.value());
+  SparseReal out(3 * nodes, functional.cols());
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
 
 // Adjacent nodes of elements: (node, node) of those that have a number.
 SparseReal adjacent_nodes(const MatrixRMi& element_node, const Eigen::VectorXi& number, int count) {
@@ -58,7 +72,7 @@ SparseReal adjacent_nodes(const MatrixRMi& element_node, const Eigen::VectorXi& 
 }
 
 Section::Section(const SectorGrid& mesh, const Material& material, double helix,
-                 const SparseReal& functional) {
+                 const FaceFunctional& functional) {
   Eigen::VectorXi number = Eigen::VectorXi::Zero(mesh.node_position.rows());
   for (const int node : mesh.bore_node) number[node] = -1;
   std::vector<std::pair<int, int>> sides;  // free pairs: clockwise edge, the other
@@ -86,15 +100,7 @@ Section::Section(const SectorGrid& mesh, const Material& material, double helix,
   }
   stiffness = assemble_section(mesh.node_position, mesh.element_node, material, helix, number,
                                static_cast<int>(nodes));
-
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(static_cast<size_t>(functional.nonZeros()));
-  for (int k = 0; k < functional.outerSize(); ++k)
-    for (SparseReal::InnerIterator it(functional, k); it; ++it)
-      if (const int node = number[it.row() / 3]; node >= 0)
-        entries.emplace_back(3 * node + static_cast<int>(it.row() % 3), k, it.value());
-  load.resize(3 * nodes, functional.cols());
-  load.setFromTriplets(entries.begin(), entries.end());
+  load = {of_nodes(functional.value, number, nodes), of_nodes(functional.slope, number, nodes)};
 }
 
 // Upper triangle of the stiffness of a family of shapes, (node shape, node shape).
@@ -165,22 +171,34 @@ SparseReal turn_to_centre(const std::vector<Shape3d>& family, Eigen::Index edge_
   return turn;
 }
 
+// (node shape, functional polynomial): the functionals times the polynomials of the family's loads.
+Eigen::MatrixXd shape_forces(const FaceFunctional& of, Eigen::Index nodes, const std::vector<Shape3d>& family,
+                             const std::vector<int>& polynomial, double width) {
+  const Eigen::Index shapes = static_cast<Eigen::Index>(family.size()),
+                     loads = static_cast<Eigen::Index>(polynomial.size());
+  Eigen::MatrixXd force = Eigen::MatrixXd::Zero(nodes * shapes, of.value.cols() * loads);
+  const auto add = [&](const SparseReal& functional, auto&& factor) {
+    for (Eigen::Index p = 0; p < functional.cols(); ++p)
+      for (SparseReal::InnerIterator it(functional, p); it; ++it)
+        for (Eigen::Index q = 0; q < shapes; ++q)
+          if (const Shape3d& shape = family[static_cast<size_t>(q)]; shape.component == it.row() % 3)
+            for (Eigen::Index l = 0; l < loads; ++l)
+              force(it.row() / 3 * shapes + q, p * loads + l) +=
+                  it.value() * factor(polynomial[static_cast<size_t>(l)], shape.polynomial);
+  };
+  add(of.value, [](int i, int j) { return i == j ? 1.0 : 0.0; });
+  add(of.slope, [width](int i, int j) { return value_times_slope(i, j, width); });
+  return force;
+}
+
 SectorEdge condense_family(const Section& section, const std::vector<Shape3d>& family, const SectorGrid& mesh,
                            const std::string& what) {
-  const Eigen::Index shapes = static_cast<Eigen::Index>(family.size()), points = section.load.cols();
+  const Eigen::Index shapes = static_cast<Eigen::Index>(family.size());
   const double width = mesh.design.face_width;
   SectorEdge edge;
   for (const Shape3d& shape : family)
     if (shape.component == 0) edge.polynomial.push_back(shape.polynomial);
-  const Eigen::Index loads = static_cast<Eigen::Index>(edge.polynomial.size());
-  Eigen::MatrixXd force = Eigen::MatrixXd::Zero(section.nodes * shapes, points * loads);
-  for (Eigen::Index p = 0; p < points; ++p)
-    for (SparseReal::InnerIterator it(section.load, p); it; ++it)
-      for (Eigen::Index q = 0; q < shapes; ++q)
-        for (Eigen::Index l = 0; l < loads; ++l)
-          if (const Shape3d& shape = family[static_cast<size_t>(q)];
-              shape.component == it.row() % 3 && shape.polynomial == edge.polynomial[static_cast<size_t>(l)])
-            force(it.row() / 3 * shapes + q, p * loads + l) = it.value();
+  const Eigen::MatrixXd force = shape_forces(section.load, section.nodes, family, edge.polynomial, width);
   const Eigen::Index size = section.edge * shapes;
   CondensedSystem c = condensed_system(family_stiffness(section, family, width), 2 * size, force, what);
 
@@ -269,7 +287,7 @@ SparseReal inward_normal(const SectorGrid& section, double helix, const Eigen::V
 }
 
 std::vector<MatrixRM> width_flexibility(const SectorGrid& section, const Material& material, double helix,
-                                        int degree, const SparseReal& functional, int offsets) {
+                                        int degree, const FaceFunctional& functional, int offsets) {
   if (degree < 0 || degree > kLargestDegree)
     fail(Failure::input, "polynomials over the face width of degree ", degree, ", which must be 0 to ",
          kLargestDegree);
@@ -278,7 +296,7 @@ std::vector<MatrixRM> width_flexibility(const SectorGrid& section, const Materia
         Failure::input,
         "width = \"body\" of a ring on an elastic support: nothing holds it along its axis; leave the stiffnesses of its rim out, or use width = \"slices\"");
   const Section sector(section, material, helix, functional);
-  const Eigen::Index points = functional.cols(), all = degree + 1;
+  const Eigen::Index points = functional.value.cols(), all = degree + 1;
   std::vector<MatrixRM> tables(static_cast<size_t>(offsets) + 1, MatrixRM::Zero(points * all, points * all));
   for (const auto& family : families(degree, helix != 0)) {
     if (family[0].component == 2) continue;  // no functional in the section moves it
@@ -294,17 +312,47 @@ std::vector<MatrixRM> width_flexibility(const SectorGrid& section, const Materia
   return tables;
 }
 
+namespace {
+
+// The functionals of both, one beside the other.
+FaceFunctional joined(const FaceFunctional& a, const FaceFunctional& b) {
+  const auto beside = [&](const SparseReal& left, const SparseReal& right) {
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(static_cast<size_t>(left.nonZeros() + right.nonZeros()));
+    for (const auto& [part, from] : {std::pair{&left, Eigen::Index{0}}, {&right, a.value.cols()}})
+      for (int k = 0; k < part->outerSize(); ++k)
+        for (SparseReal::InnerIterator it(*part, k); it; ++it)
+          entries.emplace_back(static_cast<int>(it.row()), static_cast<int>(from) + k, it.value());
+    SparseReal out(a.value.rows(), a.value.cols() + b.value.cols());
+    out.setFromTriplets(entries.begin(), entries.end());
+    return out;
+  };
+  return {beside(a.value, b.value), beside(a.slope, b.slope)};
+}
+
+}  // namespace
+
 WidthTables make_width_tables(const SectorGrid& section, const Material& material, double helix, int degree,
                               const Eigen::VectorXd& flank_position, int offsets) {
-  const SparseReal normal = inward_normal(section, helix, flank_position);
-  WidthTables tables{degree, section.design.face_width, helix, flank_position,
-                     width_flexibility(section, material, helix, degree, normal, offsets)};
+  const Eigen::Index all = degree + 1, flank = flank_position.size() * all;
+  Material solid = material;
+  solid.plane_stress = false;
+  FaceFunctional functional = RootReader(section, solid, Roots::driving).over_face(helix);
+  const Eigen::Index root = functional.value.cols() * all;
+  functional = joined({inward_normal(section, helix, flank_position), {}}, functional);
+  WidthTables tables{degree, section.design.face_width, helix, flank_position, {}, {}};
+  for (const MatrixRM& table : width_flexibility(section, material, helix, degree, functional, offsets)) {
+    tables.flexibility.push_back(table.topLeftCorner(flank, flank));
+    // Of the tooth counter-clockwise of the loaded one, and by symmetry of that clockwise of it.
+    tables.root_stress.push_back(table.bottomLeftCorner(root, flank));
+    if (tables.flexibility.size() > 1)
+      tables.root_stress.insert(tables.root_stress.begin(), table.topRightCorner(flank, root).transpose());
+  }
   const MatrixRM plane =
-      width_flexibility(section, material, 0, 0, inward_normal(section, 0, flank_position), 0)[0];
+      width_flexibility(section, material, 0, 0, {inward_normal(section, 0, flank_position), {}}, 0)[0];
   const Eigen::VectorXd share =
       plane_share(ToothGeometry(section.design).base_radius(), helix, flank_position);
   MatrixRM& own = tables.flexibility[0];
-  const Eigen::Index all = degree + 1;
   for (Eigen::Index a = 0; a < plane.rows(); ++a)
     for (Eigen::Index b = 0; b < plane.cols(); ++b)
       own.block(a * all, b * all, all, all).diagonal().array() -=

@@ -22,14 +22,15 @@ WidthTables cut_to_degree(const WidthTables& tables, int degree) {
   if (degree == tables.degree) return tables;
   WidthTables out = tables;
   out.degree = degree;
-  const Eigen::Index points = tables.flank_position.size(), all = tables.degree + 1, own = degree + 1;
-  for (size_t k = 0; k < tables.flexibility.size(); ++k) {
-    out.flexibility[k].resize(points * own, points * own);
-    for (Eigen::Index a = 0; a < points; ++a)
-      for (Eigen::Index b = 0; b < points; ++b)
-        out.flexibility[k].block(a * own, b * own, own, own) =
-            tables.flexibility[k].block(a * all, b * all, own, own);
-  }
+  const Eigen::Index all = tables.degree + 1, own = degree + 1;
+  for (std::vector<MatrixRM>* list : {&out.flexibility, &out.root_stress})
+    for (MatrixRM& table : *list) {
+      const MatrixRM whole = table;
+      table.resize(whole.rows() / all * own, whole.cols() / all * own);
+      for (Eigen::Index a = 0; a < whole.rows() / all; ++a)
+        for (Eigen::Index b = 0; b < whole.cols() / all; ++b)
+          table.block(a * own, b * own, own, own) = whole.block(a * all, b * all, own, own);
+    }
   return out;
 }
 

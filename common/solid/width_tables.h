@@ -42,6 +42,12 @@ class WidthKernel {
   // m2 N-1: c at two roll angles of the same tooth.
   double completion(double xi_read, double xi_load) const;
 
+  // (root degree + 1, flank degree + 1) Pa m N-1: stress at the root of the tooth `tooth_offset` counter-clockwise of the loaded one.
+  const MatrixRM& root_stress(int tooth_offset) const {
+    const int place = tooth_offset + offsets();
+    return tables_.root_stress[static_cast<size_t>(place)];
+  }
+
   // (flank degree + 1) m^-1/2: load on or reading of the point (xi, z) as functional of the tables, z in m.
   Eigen::VectorXd point(double xi, double z) const;
   // m N-1: displacement of the points of `read` on the tooth `tooth_offset` counter-clockwise under unit forces at those of `load` (columns:

@@ -303,13 +303,14 @@ VectorXd root_stress_of(const SystemStaticResult& rest, const std::vector<std::s
   return out.size() > 0 && out.minCoeff() > 0 ? out : VectorXd();
 }
 
-// With the elements on the roots once, half, a quarter and an eighth as large; none without root stress.
+// With the elements on the roots once, half, a quarter and an eighth as large; none without root stress. Of bodies in three dimensions,
+// whose roots are refined with their sections, none.
 RootRefinement root_levels(const Alternatives& gears, const SystemStaticResult& present,
                            const std::vector<std::string>& names) {
   constexpr int kLevels = 4;
   RootRefinement out;
   const VectorXd stress = root_stress_of(present, names);
-  if (stress.size() == 0) return out;
+  if (stress.size() == 0 || gears.settings.fidelity.width == WidthModel::body) return out;
   out.element_size.resize(kLevels);
   out.stress.resize(kLevels, stress.size());
   out.stress.row(0) = stress.transpose();

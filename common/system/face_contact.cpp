@@ -8,6 +8,7 @@
 #include "gear/face_width.h"
 #include "gear/helix.h"
 #include "model/capabilities.h"
+#include "results/static.h"
 #include "solid/elements.h"
 
 namespace whine {
@@ -116,10 +117,9 @@ FaceContact FaceContact::with(int points, int degree) const {
 }
 
 bool FaceContact::inside(double path, double z) const {
-  constexpr double kInside = 0.9;
   const double middle = 0.5 * (gears_.path_start() + gears_.path_end()),
-               reach = 0.5 * kInside * (gears_.path_end() - gears_.path_start());
-  return std::abs(z) <= 0.5 * kInside * gears_.face_width() && std::abs(path - middle) <= reach;
+               reach = 0.5 * kClearOfCorners * (gears_.path_end() - gears_.path_start());
+  return std::abs(z) <= 0.5 * kClearOfCorners * gears_.face_width() && std::abs(path - middle) <= reach;
 }
 
 // Of a spur pair all pairs in reach, tip edges off the line of action too: every section is at the same place of its path.

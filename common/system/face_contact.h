@@ -76,6 +76,9 @@ class FaceContact {
   double depth() const { return depth_; }  // m
   // Of the polynomials over the face width: the larger one of both gears, 0 of slices.
   int degree() const { return kernel_[0] ? std::max(kernel_[0]->degree(), kernel_[1]->degree()) : 0; }
+  // Of gear g, nullptr of slices; m: the middle of the common face from that of gear g.
+  const WidthKernel* kernel(size_t g) const { return kernel_[g].get(); }
+  double middle(size_t g) const { return middle_[g]; }
   // The same contact with this number of points, and with polynomials to `degree` at most.
   FaceContact with(int points, int degree) const;
   // The spur pair of the transverse section, under even load.

@@ -28,14 +28,16 @@ double least_eigenvalue(const FacePoints& points, const std::vector<HertzLine>& 
 
 }  // namespace
 
-FaceRecord::FaceRecord(const FaceContact& contact) : contact_(&contact) {
+FaceRecord::FaceRecord(const FaceContact& contact) : contact_(&contact), roots_(contact) {
   face_.least_eigenvalue = std::numeric_limits<double>::infinity();
 }
 
-void FaceRecord::take(Index row, const FacePoints& points, const std::vector<HertzLine>& law,
+void FaceRecord::take(Index row, const FaceMesh& mesh, const std::vector<HertzLine>& law,
                       const Eigen::Ref<const VectorXd>& force, const Eigen::Ref<const MatrixXd>& compliance) {
+  const FacePoints& points = mesh.points;
   rows_.resize(std::max(rows_.size(), static_cast<size_t>(row) + 1));
-  rows_[static_cast<size_t>(row)] = {points, force};
+  rows_[static_cast<size_t>(row)] = {points, force, {}};
+  if (roots_.known()) rows_[static_cast<size_t>(row)].load = roots_.loads(mesh, force);
   face_.least_eigenvalue = std::min(face_.least_eigenvalue, least_eigenvalue(points, law, force, compliance));
   const GearPair& gears = contact_->gears();
   for (Index q = 0; q < points.size(); ++q) {
@@ -72,10 +74,39 @@ void FaceRecord::finish(StaticResult& result) const {
       face.contact_line_length[static_cast<Index>(i)] += at.length() / cosine;
     }
   }
+  if (roots_.known()) finish_roots(result);
   face.overlap_ratio = gears.overlap_ratio();
   face.axial_force = helical_forces(gears, result.torque).axial;
   face.degree = contact_->degree();
   if (result.torque > 0) result.loss_factor = lost_ / (static_cast<double>(rows_.size()) * result.torque);
+}
+
+void FaceRecord::finish_roots(StaticResult& result) const {
+  FaceLoad& face = result.face;
+  const Index phases = static_cast<Index>(rows_.size()), pairs = result.pair.size();
+  for (VectorXd* v : {&result.root_stress_max, &result.root_stress_angle, &result.root_stress_phase,
+                      &face.root_load_factor, &face.root_stress_error})
+    v->setZero(kSides);
+  for (int g = 0; g < kSides; ++g) {
+    const auto side = static_cast<size_t>(g);
+    face.root_position[side] = roots_.position(side);
+    face.root_stress[side].assign(rows_.size(), MatrixRM::Zero(pairs, kFaceStations));
+    result.root_stress[side] = MatrixRM::Zero(phases, pairs);
+    for (Index i = 0; i < phases; ++i) {
+      const Row& row = rows_[static_cast<size_t>(i)];
+      for (Index k = 0; k < pairs; ++k) {
+        const RootOverFace tooth = roots_.of_tooth(side, result.pair[k], row.points.line, row.load[side]);
+        face.root_stress[side][static_cast<size_t>(i)].row(k) = tooth.stress.transpose();
+        result.root_stress[side](i, k) = tooth.most.stress;
+        if (tooth.most.stress <= result.root_stress_max[g]) continue;
+        result.root_stress_max[g] = tooth.most.stress;
+        result.root_stress_angle[g] = tooth.most.angle;
+        result.root_stress_phase[g] =
+            result.mesh_phase[i] - std::floor(result.mesh_phase[i]) + result.pair[k];
+        face.root_load_factor[g] = roots_.load_factor(side, tooth);
+      }
+    }
+  }
 }
 
 double load_factor(const FaceContact& contact, const FacePoints& points, double phase,

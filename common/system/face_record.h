@@ -4,6 +4,7 @@
 
 #include "results/static.h"
 #include "system/face_contact.h"
+#include "system/face_root_stress.h"
 
 namespace whine {
 
@@ -12,21 +13,24 @@ class FaceRecord {
   // contact is kept by reference.
   explicit FaceRecord(const FaceContact& contact);
   // Position `row`; force: (point) N; compliance: (point, point) m N-1, of all but the laws.
-  void take(Eigen::Index row, const FacePoints& points, const std::vector<HertzLine>& law,
+  void take(Eigen::Index row, const FaceMesh& mesh, const std::vector<HertzLine>& law,
             const Eigen::Ref<const Eigen::VectorXd>& force,
             const Eigen::Ref<const Eigen::MatrixXd>& compliance);
   // Positions are taken again from the first one on.
   void restart() { *this = FaceRecord(*contact_); }
-  // Fills `face` but for the load factor, and the loss factor, of a result with its torque and pairs. Throws Error(numerical) where the
+  // Fills `face` but for the load factor and errors, loss factor and root stresses of a result with its torque, pairs and phases. Throws Error(numerical) where the
   // compliance is not positive definite.
   void finish(StaticResult& result) const;
 
  private:
   struct Row {
     FacePoints points;
-    Eigen::VectorXd force;  // (point) N
+    Eigen::VectorXd force;                // (point) N
+    std::array<Eigen::MatrixXd, 2> load;  // [gear] (functional, line) of the roots
   };
+  void finish_roots(StaticResult& result) const;
   const FaceContact* contact_;
+  FaceRootStresses roots_;
   std::vector<Row> rows_;
   FaceLoad face_;
   double lost_ = 0;  // N m rad-1, over all positions

@@ -88,7 +88,8 @@ void MeshRecord::take(const RestStep& step, const SystemSolution& solution, cons
   const SystemPosition& position = statics.position();
   const FacePoints& points = position.mesh[m].face->points;
   const auto strips = position.strips_of(m);
-  face_->take(i, points, position.mesh[m].law, e.p(strips), statics.compliance()(strips, strips));
+  face_->take(i, *position.mesh[m].face, position.mesh[m].law, e.p(strips),
+              statics.compliance()(strips, strips));
   for (const ContactLine& line : points.line) {
     lowest_ = std::min(lowest_, line.pair);
     highest_ = std::max(highest_, line.pair);

@@ -111,15 +111,48 @@ std::vector<double> load_factors(const SystemModel& system, int strips) {
   return out;
 }
 
-// Load factors, and what they change by with half as many points more and on bodies with two degrees less.
+// [mesh] (gear) Pa: of the tooth whose root stress is the largest, at its phase in `of`; empty where it is not known.
+std::vector<Eigen::VectorXd> largest_root_stresses(const SystemModel& system, int strips,
+                                                   const std::vector<StaticResult>& of) {
+  constexpr double kFar = kWidening * kWidening;
+  SystemStatics statics(system, ContactModel::line, static_zones(system, strips, 1, kFar));
+  std::vector<Eigen::VectorXd> out(of.size());
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(static_cast<Index>(system.layout.bodies.size()));
+  for (size_t m = 0; m < of.size(); ++m) {
+    const FaceRootStresses roots(*system.face[m]);
+    if (!roots.known()) continue;
+    out[m].resize(kSides);
+    for (int g = 0; g < kSides; ++g) {
+      const double place = of[m].root_stress_phase[g] - system.layout.meshes[m].phase;
+      const SystemSolution& at = statics.solve(place - std::floor(place), 0, start);
+      start = at.equilibrium.x;
+      const SystemPosition& position = statics.position();
+      const FaceMesh& face = *position.mesh[m].face;
+      const int pair = static_cast<int>(std::lround(of[m].root_stress_phase[g] - position.mesh[m].phase));
+      const auto side = static_cast<size_t>(g);
+      out[m][g] = roots
+                      .of_tooth(side, pair, face.points.line,
+                                roots.loads(face, at.equilibrium.p(position.strips_of(m)))[side])
+                      .most.stress;
+    }
+  }
+  return out;
+}
+
+// Load factors, and what they and the largest root stresses change by with half as many points more and on bodies with two degrees less.
 void take_load_factors(const SystemModel& system, int strips, SystemStaticResult& out) {
   const int points = system.face[0]->points(), degree = system.face[0]->degree();
   const std::vector<double> factor = load_factors(system, strips);
   for (size_t m = 0; m < factor.size(); ++m) out.mesh[m].face.load_factor = factor[m];
   const auto add_change = [&](int other_points, int other_degree) {
-    const std::vector<double> other = load_factors(with_points(system, other_points, other_degree), strips);
-    for (size_t m = 0; m < factor.size(); ++m)
+    const SystemModel changed = with_points(system, other_points, other_degree);
+    const std::vector<double> other = load_factors(changed, strips);
+    const std::vector<Eigen::VectorXd> stress = largest_root_stresses(changed, strips, out.mesh);
+    for (size_t m = 0; m < factor.size(); ++m) {
       out.mesh[m].face.load_factor_error += std::abs(other[m] - factor[m]);
+      if (stress[m].size() > 0)
+        out.mesh[m].face.root_stress_error += (stress[m] - out.mesh[m].root_stress_max).cwiseAbs();
+    }
   };
   add_change(points + points / 2, degree);
   if (degree > 0) add_change(points, degree - 2);

@@ -6,6 +6,20 @@
 
 namespace whine {
 
+RootStress largest_along(const Eigen::Ref<const Eigen::VectorXd>& stress, const Eigen::VectorXd& angle,
+                         int of) {
+  Eigen::Index top = 0;
+  RootStress out{stress.maxCoeff(&top), of, angle[top]};
+  if (top == 0 || top + 1 == stress.size()) return out;
+  const double left = out.stress - stress[top - 1], right = out.stress - stress[top + 1];
+  if (left + right > 0) {
+    const double move = 0.5 * (left - right) / (left + right);  // points, towards the larger neighbour
+    out.stress += (left - right) * (left - right) / (8 * (left + right));
+    out.angle += std::abs(move) * (angle[top + (move > 0 ? 1 : -1)] - out.angle);
+  }
+  return out;
+}
+
 RootStresses::RootStresses(const GearMeshModel& model, std::vector<double> phases)
     : model_(model), phases_(std::move(phases)), known_(true) {
   for (size_t g = 0; g < kSides; ++g) {
@@ -53,17 +67,7 @@ RootStress RootStresses::of_tooth(int g, size_t phase, int of, const Eigen::Vect
                                                          model_.tooth_at_crack(g, numbers[k] - period));
     if (crack.size() > 0) along_ += load[k] * (crack * at.weights);
   }
-  Eigen::Index top = 0;
-  RootStress out{along_.maxCoeff(&top), of, body.root_angle[top]};
-  if (top > 0 && top + 1 < along_.size()) {
-    const double left = out.stress - along_[top - 1], right = out.stress - along_[top + 1];
-    if (left + right > 0) {
-      const double move = 0.5 * (left - right) / (left + right);  // points, towards the larger neighbour
-      out.stress += (left - right) * (left - right) / (8 * (left + right));
-      out.angle += std::abs(move) * (body.root_angle[top + (move > 0 ? 1 : -1)] - out.angle);
-    }
-  }
-  return out;
+  return largest_along(along_, body.root_angle, of);
 }
 
 RootStress RootStresses::largest(int g, size_t phase, const Eigen::VectorXi& numbers,

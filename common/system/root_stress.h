@@ -19,14 +19,18 @@ struct RootStress {
   double angle = 0;   // rad: of the root's tangent there against the centre line
 };
 
+// Of the tooth in pair `of`: the largest of the stresses (root) Pa at points with these angles (root) rad, by a parabola through the three
+// points about it.
+RootStress largest_along(const Eigen::Ref<const Eigen::VectorXd>& stress, const Eigen::VectorXd& angle,
+                         int of);
+
 class RootStresses {
  public:
   // model is kept by reference. phases: mesh phases (0 to 1) by whose index loads are given.
   RootStresses(const GearMeshModel& model, std::vector<double> phases);
   // False for bodies without tables; then nothing else may be asked.
   bool known() const { return known_; }
-  // Of gear g beside the loaded flank: of the tooth in pair `of`; load: (pair) N of the pairs `numbers`. Parabola through the
-  // three points about the largest. period: of a cracked gear, for the teeth that are in mesh in it.
+  // Of gear g beside the loaded flank: of the tooth in pair `of`; load: (pair) N of the pairs `numbers`. period: of a cracked gear, for the teeth that are in mesh in it.
   RootStress of_tooth(int g, size_t phase, int of, const Eigen::VectorXi& numbers,
                       const Eigen::Ref<const Eigen::VectorXd>& load, int period = 0);
   // Of the teeth that carry load; 0 where none does. Neighbours without load are not looked at.

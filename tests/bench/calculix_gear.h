@@ -61,6 +61,7 @@ class CalculixGear {
   const GearMesh& mesh() const { return mesh_; }
   const std::vector<double>& level() const { return level_; }  // m
   std::size_t nodes() const { return place_.size(); }
+  const Eigen::Vector3d& place(int node) const { return place_[static_cast<std::size_t>(node) - 1]; }  // m
   int number(std::size_t tag, std::size_t level) const { return number_.at({tag, level}); }
 
   // Of axes that turn with the helix, and of those of the section at z.
@@ -109,9 +110,13 @@ class CalculixGear {
     return out;
   }
 
-  // (i, j) of f_i^T K^-1 f_j, nodal vectors f of forces or readings (1) and K the stiffness that CalculiX stores: m N-1. It is factored here, once,
-  // where ccx would do so for each load. Throws Error(numerical) if the files are not those of this gear.
+  // (i, j) of f_i^T K^-1 f_j, nodal vectors f of forces or readings (1) and K the stiffness that CalculiX stores: m N-1.
   Eigen::MatrixXd flexibility(const std::vector<Vectors>& functional) {
+    return responses(functional, functional);
+  }
+  // (reading, force) of r_i^T K^-1 f_j. K is factored here, once, where ccx would do so for each load. Throws Error(numerical) if the files are
+  // not those of this gear.
+  Eigen::MatrixXd responses(const std::vector<Vectors>& force, const std::vector<Vectors>& reading) {
     const CalculixFolder folder;
     std::ofstream out(folder.file("gear.inp"));
     write_model(out);
@@ -134,15 +139,23 @@ class CalculixGear {
     }
     Eigen::SparseMatrix<double> stiffness(size, size);
     stiffness.setFromTriplets(entries.begin(), entries.end());
-    Eigen::MatrixXd right = Eigen::MatrixXd::Zero(size, static_cast<Eigen::Index>(functional.size()));
-    for (std::size_t k = 0; k < functional.size(); ++k)
-      for (const auto& [of, value] : functional[k])
-        for (int c = 0; c < 3; ++c)
-          if (value[c] != 0) right(unknown.at({of, c + 1}), static_cast<Eigen::Index>(k)) = value[c];
+    const auto each = [&](const std::vector<Vectors>& of, const auto& take) {
+      for (std::size_t k = 0; k < of.size(); ++k)
+        for (const auto& [at, value] : of[k])
+          for (int c = 0; c < 3; ++c)
+            if (value[c] != 0) take(static_cast<Eigen::Index>(k), unknown.at({at, c + 1}), value[c]);
+    };
+    Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(size, static_cast<Eigen::Index>(force.size()));
+    each(force, [&](Eigen::Index k, Eigen::Index row, double value) { moved(row, k) = value; });
     Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Upper> factor(stiffness);
     if (factor.info() != Eigen::Success)
       fail(Failure::numerical, "the stiffness in ", folder.file("gear.sti"), " is not positive definite");
-    return 1e-3 * right.transpose() * factor.solve(right);
+    moved = factor.solve(moved).eval();
+    Eigen::MatrixXd read = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(reading.size()), moved.cols());
+    each(reading, [&](Eigen::Index k, Eigen::Index row, double value) {
+      read.row(k) += 1e-3 * value * moved.row(row);
+    });
+    return read;
   }
   double seconds() const { return usage_.seconds; }  // CPU of ccx
 

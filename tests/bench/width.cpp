@@ -21,6 +21,7 @@
 #include "base/tool.h"
 #include "bench/calculix_gear.h"
 #include "bench/width_contact.h"
+#include "bench/width_roots.h"
 #include "solid/flank_loads.h"
 #include "solid/flank_table.h"
 #include "solid/mesher.h"
@@ -103,7 +104,7 @@ class ByPolynomials {
       }
     SparseReal functional(normal.rows(), 3 * points);
     functional.setFromTriplets(entries.begin(), entries.end());
-    table_ = width_flexibility(section, gear.material, gear.twist, degree, functional, 1);
+    table_ = width_flexibility(section, gear.material, gear.twist, degree, {functional, {}}, 1);
   }
 
   Reading read(const Load& load) const {
@@ -228,6 +229,7 @@ GearDesign gear_of(int teeth, double beta, double width, double bore) {
 }
 
 constexpr double kFactorLimit = 0.02;  // of K_Hbeta
+constexpr double kRootLimit = 0.02;    // of the largest root stress
 
 // 30 teeth with 20 degrees of helix, so short that at the pitch point one pair alone touches: transverse contact ratio 1.2, overlap ratio 0.7.
 Scene short_helical_pair() {
@@ -274,6 +276,17 @@ void body(int argc, char** argv) {
   worst = std::max(worst, compare("18 teeth, 20 deg", {gear_of(18, 20, 20e-3, 12e-3)}, {{8, 4}}));
   worst = std::max(worst, compare("gear of parker2000-helical-1_0", {gear_of(50, 21.780650, 25.4e-3, 40e-3)},
                                   {{8, 2}, {12, 4}}));
+  double root = 0;
+  const std::vector<std::pair<const char*, RootsOverFace::Load>> loads{{kLoads[0].name, kLoads[0].at},
+                                                                       {kLoads[1].name, kLoads[1].at}};
+  for (const double beta : {0.0, 20.0}) {
+    const Case gear{gear_of(18, beta, 20e-3, 12e-3)};
+    root = std::max(root, compare_roots(beta > 0 ? "18 teeth, 20 deg" : "18 teeth, spur", gear.design,
+                                        gear.material, 8, loads));
+  }
+  if (root > kRootLimit)
+    fail(Failure::numerical, "root stresses differ from CalculiX's by ", 100 * root,
+         " % of the largest within 90 % of the face, at most ", 100 * kRootLimit, " % is allowed");
   if (worst > kLimit)
     fail(Failure::numerical, "displacements differ from CalculiX's by ", 100 * worst,
          " % of the largest, at most ", 100 * kLimit, " % is allowed");

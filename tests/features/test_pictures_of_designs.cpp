@@ -451,8 +451,21 @@ TEST_CASE("pictures of the load over the face: no text is cut or lies on other t
   settings.fidelity.width = WidthModel::slices;
   settings.mesh.misalignment = 15e-6;
   const ReducedBody& body = paper_body(40e-3, 1.2e-3, 1);
-  const SystemStaticResult pair = pair_at_rest(body, body, settings, 600);
+  SystemStaticResult pair = pair_at_rest(body, body, settings, 600);
   check(flank_load_figure(pair), "flank-load");
+  // With root stresses as bodies in three dimensions have them.
+  StaticResult& mesh = pair.mesh[0];
+  mesh.root_stress_max = Eigen::Vector2d(438.2e6, 379.1e6);
+  mesh.face.root_load_factor = Eigen::Vector2d(1.803, 1.276);
+  mesh.face.root_stress_error = Eigen::Vector2d(15e6, 3.2e6);
+  for (size_t g = 0; g < kSides; ++g) {
+    const Eigen::VectorXd z = Eigen::VectorXd::LinSpaced(41, -20e-3, g == 0 ? 20e-3 : 24e-3);
+    mesh.face.root_position[g] = z;
+    const Eigen::VectorXd stress = mesh.root_stress_max[static_cast<Eigen::Index>(g)] *
+                                   (1 + z.array() * 40 - 1e3 * z.array().square()) / 1.5;
+    mesh.face.root_stress[g].assign(8, stress.transpose().replicate(mesh.pair.size(), 1));
+  }
+  check(flank_load_figure(pair), "flank-load-roots");
   // Told as a train with two [[mesh]]: a row each.
   SystemStaticResult train = pair;
   train.mesh.push_back(pair.mesh[0]);

@@ -440,13 +440,19 @@ StaticParameters on_bodies(int positions, int points, double distance = 0.150) {
   return settings;
 }
 
-// Largest difference of two results over the period: transmission errors over the mean, line loads over the largest.
+// Largest difference of two results over the period: transmission errors over the mean, line loads and root stresses over the largest.
 struct Apart {
-  double error, load;
+  double error, load, root;
 };
 Apart apart(const StaticResult& a, const StaticResult& b, bool mirrored) {
   Apart out{(a.transmission_error - b.transmission_error).cwiseAbs().maxCoeff() / a.transmission_error.mean(),
-            0};
+            0, 0};
+  for (size_t g = 0; g < kSides; ++g)
+    for (size_t i = 0; i < a.face.root_stress[g].size(); ++i) {
+      const MatrixRM &here = a.face.root_stress[g][i], &there = b.face.root_stress[g][i];
+      const MatrixRM other = mirrored ? MatrixRM(there.rowwise().reverse()) : there;
+      out.root = std::max(out.root, (here - other).cwiseAbs().maxCoeff() / a.root_stress_max.maxCoeff());
+    }
   for (size_t i = 0; i < a.face.line_load.size(); ++i) {
     const MatrixRM other = mirrored ? MatrixRM(b.face.line_load[i].rowwise().reverse()) : b.face.line_load[i];
     out.load = std::max(out.load, (a.face.line_load[i] - other).cwiseAbs().maxCoeff() / a.face.line_load_max);
@@ -465,9 +471,12 @@ TEST_CASE(
   const StaticResult here = static_transmission(right, left, settings, 150);
   settings.mesh.misalignment = -4e-6;
   const Apart mirrored = apart(here, static_transmission(left, right, settings, 150), true);
-  MESSAGE("other hand: transmission error off by " << mirrored.error << ", line loads by " << mirrored.load);
+  MESSAGE("other hand: transmission error off by " << mirrored.error << ", line loads by " << mirrored.load
+                                                   << ", root stresses by " << mirrored.root);
   CHECK(mirrored.error < 1e-11);
   CHECK(mirrored.load < 1e-9);
+  CHECK(here.root_stress_max.minCoeff() > 0);
+  CHECK(mirrored.root < 1e-9);
   CHECK(here.face.degree == 4);
   CHECK(here.face.least_eigenvalue > 0);
   CHECK(here.least_gap >= -1e-12);
