@@ -324,7 +324,8 @@ void describe_over_face(Codec& c, SystemStaticResult& a, Of&& of, const Dataset&
 // Of bodies in three dimensions.
 void describe_face_roots(Codec& c, SystemStaticResult& all) {
   OverMeshes over(c, all);
-  if (!c.optional("/root_load_factor", !all.mesh.empty() && all.mesh[0].face.root_load_factor.size() > 0))
+  if (!c.optional("/face_load_factor_root",
+                  !all.mesh.empty() && all.mesh[0].face.load_factor_root.size() > 0))
     return;
   for (size_t g = 0; g < kSides; ++g) {
     const std::string station = text(kSideOf[g], "_station");
@@ -339,8 +340,8 @@ void describe_face_roots(Codec& c, SystemStaticResult& all) {
          "mesh_phase mesh tooth_pair " + station, kStress, "sum of width/root_stress of body.h5 times load"});
   }
   over(
-      [](StaticResult & s) -> auto& { return s.face.root_load_factor; }, "/root_load_factor", "1", kPositive,
-      kMeshSide,
+      [](StaticResult & s) -> auto& { return s.face.load_factor_root; }, "/face_load_factor_root", "1",
+      kPositive, kMeshSide,
       "largest root stress over the face over its mean on the common face, of the tooth of root_stress_max",
       "K_Fbeta");
   over(

@@ -140,13 +140,13 @@ void add_roots(const StaticResult& s, size_t g, const std::string& row, Panel& p
   }
   const auto i = static_cast<Index>(g);
   panel.curves.push_back({.block = whole.name, .colour = curve_colour(g), .width = 1.4, .dash = 2});
-  panel.curves.push_back(
-      {.block = inner.name,
-       .colour = curve_colour(g),
-       .label = text(short_name(s.mesh.gear[g]), ": ", rounded(s.root_stress_max[i] * kInMegapascals, 1),
-                     " ± ", shown(face.root_stress_error[i] * kInMegapascals, 1), " MPa, K_{Fβ} ",
-                     rounded(face.root_load_factor[i], 2)),
-       .width = g == 0 ? 4.4 : 2.2});
+  panel.curves.push_back({.block = inner.name,
+                          .colour = curve_colour(g),
+                          .label = text(without_markup(short_name(s.mesh.gear[g])), ": ",
+                                        rounded(s.root_stress_max[i] * kInMegapascals, 1), " ± ",
+                                        shown(face.root_stress_error[i] * kInMegapascals, 1), " MPa, K_{Fβ} ",
+                                        rounded(face.load_factor_root[i], 2)),
+                          .width = g == 0 ? 4.4 : 2.2});
   figure.blocks.push_back(std::move(whole));
   figure.blocks.push_back(std::move(inner));
 }
@@ -210,7 +210,7 @@ Figure flank_load_figure(const SystemStaticResult& all) {
           without_markup(name) + text(", ", rounded(s.torque, 1), " N m: ") + factor;
     figure.panels.push_back(
         pairs_panel(s, row, train ? "line load of " + name : "line load at mesh phase 0", figure));
-    if (s.face.root_load_factor.size() > 0) figure.panels.push_back(roots_panel(s, row, figure));
+    if (s.face.load_factor_root.size() > 0) figure.panels.push_back(roots_panel(s, row, figure));
   }
   // One scale for all flanks.
   double most = 0;

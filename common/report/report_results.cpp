@@ -135,10 +135,10 @@ void add_face_at_rest(const StaticResult& s, Adder add) {
       significant(s.face.load_factor_error, 1));
   add("largest line load at rest, inner 90 % of face and path", "N/mm",
       fixed(s.face.line_load_max * 1e-3, 1));
-  for (Index g = 0; g < s.face.root_load_factor.size(); ++g) {
+  for (Index g = 0; g < s.face.load_factor_root.size(); ++g) {
     const std::string& gear = s.mesh.gear[static_cast<size_t>(g)];
     add("root stress of " + gear + " over its mean over the face (K_Fβ), largest at rest", "1",
-        fixed(s.face.root_load_factor[g], 3));
+        fixed(s.face.load_factor_root[g], 3));
     add("error of that stress, by points along the line and degree over the face", "MPa",
         significant(s.face.root_stress_error[g] * 1e-6, 1));
   }

@@ -98,7 +98,7 @@ struct FaceLoad {
   std::array<std::vector<MatrixRM>, 2> root_stress;
   // (gear) 1, K_Fbeta: largest over the face over the mean on the common face, of the tooth with the largest root stress. Pa: what that
   // stress changes by with half as many points more and with two degrees less.
-  Eigen::VectorXd root_load_factor, root_stress_error;
+  Eigen::VectorXd load_factor_root, root_stress_error;
   // Of all phases in the inner 90 % of face and path, N m-1 and m: largest line load, half-width of the widest contact.
   double line_load_max = 0, half_width_max = 0;
 

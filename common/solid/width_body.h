@@ -23,8 +23,8 @@ SparseReal inward_normal(const SectorGrid& section, double helix, const Eigen::V
 
 // C between functionals times polynomials: [offset] (functional degree + 1, functional degree + 1) m2 N-1, the reading of functional i
 // times P_k on the tooth `offset` counter-clockwise of that on which functional j times P_l is the force, per unit of it (N m-1).
-// functional: of a spur gear values without z and slopes of z alone, others are not looked at. section: the gear's own mesh for this. helix: rad m-1, kappa = tan(beta_b) / r_b, > 0 for a right-hand gear; the plane state of the material has no
-// meaning here. Throws Error(input) for a degree outside 0 .. kLargestDegree and for a ring on an elastic support, Error(numerical) if a
+// functional: of a spur gear values without z and slopes of z alone, others are not looked at. section: the gear's own mesh for this.
+// helix: rad m-1, kappa = tan(beta_b) / r_b, > 0 for a right-hand gear; the plane state of the material has no meaning here. Throws Error(input) for a degree outside 0 .. kLargestDegree and for a ring on an elastic support, Error(numerical) if a
 // factorisation fails.
 std::vector<MatrixRM> width_flexibility(const SectorGrid& section, const Material& material, double helix,
                                         int degree, const FaceFunctional& functional, int offsets);

@@ -85,7 +85,7 @@ void FaceRecord::finish_roots(StaticResult& result) const {
   FaceLoad& face = result.face;
   const Index phases = static_cast<Index>(rows_.size()), pairs = result.pair.size();
   for (VectorXd* v : {&result.root_stress_max, &result.root_stress_angle, &result.root_stress_phase,
-                      &face.root_load_factor, &face.root_stress_error})
+                      &face.load_factor_root, &face.root_stress_error})
     v->setZero(kSides);
   for (int g = 0; g < kSides; ++g) {
     const auto side = static_cast<size_t>(g);
@@ -103,7 +103,7 @@ void FaceRecord::finish_roots(StaticResult& result) const {
         result.root_stress_angle[g] = tooth.most.angle;
         result.root_stress_phase[g] =
             result.mesh_phase[i] - std::floor(result.mesh_phase[i]) + result.pair[k];
-        face.root_load_factor[g] = roots_.load_factor(side, tooth);
+        face.load_factor_root[g] = roots_.load_factor(side, tooth);
       }
     }
   }

@@ -18,8 +18,8 @@ class FaceRecord {
             const Eigen::Ref<const Eigen::MatrixXd>& compliance);
   // Positions are taken again from the first one on.
   void restart() { *this = FaceRecord(*contact_); }
-  // Fills `face` but for the load factor and errors, loss factor and root stresses of a result with its torque, pairs and phases. Throws Error(numerical) where the
-  // compliance is not positive definite.
+  // Fills `face` but for the load factor and errors, loss factor and root stresses of a result with its torque, pairs and phases. Throws
+  // Error(numerical) where the compliance is not positive definite.
   void finish(StaticResult& result) const;
 
  private:

@@ -30,7 +30,8 @@ class RootStresses {
   RootStresses(const GearMeshModel& model, std::vector<double> phases);
   // False for bodies without tables; then nothing else may be asked.
   bool known() const { return known_; }
-  // Of gear g beside the loaded flank: of the tooth in pair `of`; load: (pair) N of the pairs `numbers`. period: of a cracked gear, for the teeth that are in mesh in it.
+  // Of gear g beside the loaded flank: of the tooth in pair `of`; load: (pair) N of the pairs `numbers`. period: of a cracked gear, for the
+  // teeth that are in mesh in it.
   RootStress of_tooth(int g, size_t phase, int of, const Eigen::VectorXi& numbers,
                       const Eigen::Ref<const Eigen::VectorXd>& load, int period = 0);
   // Of the teeth that carry load; 0 where none does. Neighbours without load are not looked at.

@@ -456,7 +456,7 @@ TEST_CASE("pictures of the load over the face: no text is cut or lies on other t
   // With root stresses as bodies in three dimensions have them.
   StaticResult& mesh = pair.mesh[0];
   mesh.root_stress_max = Eigen::Vector2d(438.2e6, 379.1e6);
-  mesh.face.root_load_factor = Eigen::Vector2d(1.803, 1.276);
+  mesh.face.load_factor_root = Eigen::Vector2d(1.803, 1.276);
   mesh.face.root_stress_error = Eigen::Vector2d(15e6, 3.2e6);
   for (size_t g = 0; g < kSides; ++g) {
     const Eigen::VectorXd z = Eigen::VectorXd::LinSpaced(41, -20e-3, g == 0 ? 20e-3 : 24e-3);
